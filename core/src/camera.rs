@@ -1,0 +1,9 @@
+//! From spectra to a camera's signals, and from signals to the diagram.
+
+pub mod locus;
+pub mod rendering;
+pub mod white_balance;
+
+pub use locus::{LocusEvaluator, LocusMethod};
+pub use rendering::{NoRendering, Rendering, Way};
+pub use white_balance::White;

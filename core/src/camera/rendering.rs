@@ -1,0 +1,217 @@
+//! How one sensor's signals become numbers on the diagram and colors on a screen.
+
+use super::White;
+use crate::colorimetry::adaptation::bradford;
+use crate::colorimetry::rgb::{XYZ_FROM_SRGB, srgb_from_xyz, srgb_white};
+use crate::colorimetry::{Lab, Xyz, lab::lab_from_xyz};
+use crate::math::dot::dot;
+use crate::math::least_squares::{FitError, matrix_keeping};
+use crate::object::PatchSet;
+use crate::spectral::grid::COUNT;
+use crate::spectral::{GridSpectrum, Primaries, Sensor};
+use glam::{DMat3, DVec3};
+
+/// The way from signals to the diagram.
+#[derive(Clone, Copy, Debug)]
+pub enum Way<'a> {
+    /// Eq 13 for cameras and RGB observers alike; CIE observers directly.
+    Paper,
+    /// CIE observers directly; all else by a 3×3 matrix fitted to a reference observer over training reflectances.
+    Observer {
+        /// The XYZ observer that is fitted to.
+        reference: &'a Sensor,
+        /// The reflectances that are fitted over; never the displayed ones.
+        training: &'a PatchSet,
+    },
+}
+
+/// Why a sensor cannot be shown under a light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum NoRendering {
+    /// A channel does not respond to the light: white balance would divide by nothing.
+    #[error("channel {} does not respond to this light, so white cannot be balanced; choose another light", channel + 1)]
+    BlindToLight {
+        /// The channel, 0 to 2.
+        channel: usize,
+    },
+    /// Cone fundamentals are no RGB, so Eq 13 says nothing about them.
+    #[error("Eq 13 takes RGB, not cone signals; set To diagram to Observer")]
+    ConesNeedObserver,
+    /// The reference of a fit must count in XYZ.
+    #[error("the reference observer must be a CIE XYZ observer")]
+    Reference,
+    /// The fit to the reference observer has no answer.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+}
+
+/// Below this share of the unsigned integral a balance is refused: it would be made of cancellation.
+const BLIND: f64 = 1e-6;
+
+/// Everything between a sensor's raw integrals and its places on the diagram, fixed for one light, white and way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rendering {
+    /// What a perfect white takes: Eq 11's s.
+    pub white: DVec3,
+    /// What `∫ C_c S L dλ` is divided by: `∫ C_c L dλ` (Eq 16), for tristimulus values that of Y. Divided, not multiplied with
+    /// the reciprocal, so that a perfect white takes `white` exactly.
+    pub white_integrals: DVec3,
+    /// Factors that turn `∫ C_c E dλ` of a glowing body into signals (Eq 15), the same along a locus.
+    pub locus_gain: DVec3,
+    /// XYZ from signals.
+    pub xyz_from_signals: DMat3,
+    /// Linear sRGB from XYZ, for swatches.
+    pub srgb_from_xyz: DMat3,
+    /// The white that L*a*b* is relative to.
+    pub lab_white: Xyz,
+    /// Whether the signals are RGB (cameras, RGB observers) or already tristimulus values or cones.
+    pub is_rgb: bool,
+    /// The smallest share that is left of a white integral after cancellation; below 0.01 the balance is fragile.
+    pub conditioning: f64,
+}
+
+impl Rendering {
+    /// Prepares a sensor for a light, a white and a way to the diagram.
+    pub fn new(sensor: &Sensor, light: &GridSpectrum, white: White, way: Way<'_>) -> Result<Self, NoRendering> {
+        match (way, sensor.primaries()) {
+            (_, Primaries::Xyz) => direct(sensor, light),
+            (Way::Paper, Primaries::Cones) => Err(NoRendering::ConesNeedObserver),
+            (Way::Paper, Primaries::Camera | Primaries::Rgb) => paper(sensor, light, white),
+            (Way::Observer { reference, training }, _) => fitted(sensor, light, white, reference, training),
+        }
+    }
+
+    /// Signals of a reflectance from its raw integrals `∫ C_c S L dλ`.
+    pub fn patch_signals(&self, raw: [f64; 3]) -> DVec3 {
+        self.white * (DVec3::from_array(raw) / self.white_integrals)
+    }
+
+    /// XYZ of signals; Y = 1 for a perfect white.
+    pub fn xyz(&self, signals: DVec3) -> Xyz {
+        Xyz::from_vector(self.xyz_from_signals * signals)
+    }
+
+    /// Linear sRGB of XYZ; may be outside 0 to 1.
+    pub fn linear_srgb(&self, xyz: Xyz) -> [f64; 3] {
+        (self.srgb_from_xyz * xyz.to_vector()).to_array()
+    }
+
+    /// L*a*b* of XYZ.
+    pub fn lab(&self, xyz: Xyz) -> Option<Lab> {
+        lab_from_xyz(xyz, self.lab_white)
+    }
+}
+
+/// `∫ C_c L dλ` of one channel, checked against blindness, with the share left of the unsigned integral.
+fn white_integral(sensor: &Sensor, light: &GridSpectrum, channel: usize) -> Result<(f64, f64), NoRendering> {
+    let weighted = sensor.weighted(channel);
+    let integral = dot(weighted, light.values());
+    let unsigned: f64 = weighted.iter().zip(light.values()).map(|(c, l)| (c * l).abs()).sum();
+    // Written so that an unsigned integral of zero is refused too.
+    let share = (integral / unsigned).abs();
+    if share >= BLIND && unsigned.is_normal() { Ok((integral, share)) } else { Err(NoRendering::BlindToLight { channel }) }
+}
+
+/// The same for the three channels, with the smallest share.
+fn white_integrals(sensor: &Sensor, light: &GridSpectrum) -> Result<(DVec3, f64), NoRendering> {
+    let (r, of_r) = white_integral(sensor, light, 0)?;
+    let (g, of_g) = white_integral(sensor, light, 1)?;
+    let (b, of_b) = white_integral(sensor, light, 2)?;
+    Ok((DVec3::new(r, g, b), of_r.min(of_g).min(of_b)))
+}
+
+/// A CIE observer: tristimulus values with Y = 1 for a perfect white under the light.
+fn direct(sensor: &Sensor, light: &GridSpectrum) -> Result<Rendering, NoRendering> {
+    // Only Y divides: light that the other two do not see, such as deep red, is no reason to refuse.
+    let (y, conditioning) = white_integral(sensor, light, 1)?;
+    let integrals = DVec3::from_array(sensor.integrate(light.values()));
+    let divisor = DVec3::splat(y);
+    let white = Xyz::from_vector(integrals / divisor);
+    Ok(Rendering {
+        white: DVec3::ONE,
+        white_integrals: divisor,
+        locus_gain: divisor.recip(),
+        xyz_from_signals: DMat3::IDENTITY,
+        srgb_from_xyz: screen_from(white),
+        lab_white: white,
+        is_rgb: false,
+        conditioning,
+    })
+}
+
+/// Eq 15, 16 and 13: loci balanced to equal energy, patches to the light, both through M.
+fn paper(sensor: &Sensor, light: &GridSpectrum, White(white): White) -> Result<Rendering, NoRendering> {
+    let (integrals, conditioning) = white_integrals(sensor, light)?;
+    let equal_energy = GridSpectrum::constant(1.0);
+    let (flat, _) = white_integrals(sensor, &equal_energy)?;
+    let s = DVec3::from_array(white);
+    Ok(Rendering {
+        white: s,
+        white_integrals: integrals,
+        locus_gain: s / flat,
+        xyz_from_signals: XYZ_FROM_SRGB,
+        srgb_from_xyz: srgb_from_xyz(),
+        lab_white: srgb_white(),
+        is_rgb: true,
+        conditioning,
+    })
+}
+
+/// A sensor through the 3×3 matrix that best predicts the reference observer over the training reflectances and keeps white.
+///
+/// The matrix belongs to the balanced signals, so the white chosen for the balance moves RGB but not XYZ.
+fn fitted(
+    sensor: &Sensor,
+    light: &GridSpectrum,
+    White(white): White,
+    reference: &Sensor,
+    training: &PatchSet,
+) -> Result<Rendering, NoRendering> {
+    if reference.primaries() != Primaries::Xyz {
+        return Err(NoRendering::Reference);
+    }
+    let target = direct(reference, light)?;
+    let (integrals, conditioning) = white_integrals(sensor, light)?;
+    let of_sensor = under_light(sensor, light);
+    let of_reference = under_light(reference, light);
+    let (mut samples, mut targets) = (Vec::new(), Vec::new());
+    for patch in training.patches() {
+        let values = patch.grid.values();
+        samples.push(raw(&of_sensor, values) / integrals);
+        targets.push(raw(&of_reference, values) / target.white_integrals);
+    }
+    let s = DVec3::from_array(white);
+    let unity = matrix_keeping(&samples, &targets, DVec3::ONE, target.lab_white.to_vector())?;
+    Ok(Rendering {
+        white: s,
+        white_integrals: integrals,
+        locus_gain: s / integrals,
+        xyz_from_signals: unity * DMat3::from_diagonal(s.recip()),
+        srgb_from_xyz: target.srgb_from_xyz,
+        lab_white: target.lab_white,
+        is_rgb: matches!(sensor.primaries(), Primaries::Camera | Primaries::Rgb),
+        conditioning,
+    })
+}
+
+/// Linear sRGB from XYZ under a scene white: Bradford to D65, then the inverse of M.
+fn screen_from(white: Xyz) -> DMat3 {
+    // A white that cannot be adapted (a saturated light with a negative response) is shown unadapted.
+    let adapted = bradford(white, srgb_white()).unwrap_or(DMat3::IDENTITY);
+    srgb_from_xyz() * adapted
+}
+
+/// A sensor's three weighted curves times a light, on the grid: the vectors that every patch is multiplied with.
+pub fn under_light(sensor: &Sensor, light: &GridSpectrum) -> [Box<[f64; COUNT]>; 3] {
+    [0, 1, 2].map(|channel| {
+        let mut product = Box::new(*sensor.weighted(channel));
+        product.iter_mut().zip(light.values()).for_each(|(c, l)| *c *= l);
+        product
+    })
+}
+
+/// `∫ C_c S L dλ` for each channel, from the products of [`under_light`].
+pub fn raw(under_light: &[Box<[f64; COUNT]>; 3], reflectance: &[f64; COUNT]) -> DVec3 {
+    let [r, g, b] = under_light;
+    DVec3::new(dot(r.as_slice(), reflectance), dot(g.as_slice(), reflectance), dot(b.as_slice(), reflectance))
+}

@@ -1,0 +1,12 @@
+//! Colors as numbers: tristimulus values, chromaticities, Lab, differences, adaptation, RGB spaces, diagram curves.
+
+pub mod adaptation;
+pub mod diagram;
+pub mod difference;
+pub mod lab;
+pub mod rgb;
+pub mod tristimulus;
+
+pub use difference::{delta_e_1976, delta_e_2000};
+pub use lab::Lab;
+pub use tristimulus::{UvPrime, Uv60, Xy, Xyz};

@@ -1,0 +1,41 @@
+//! Chromascope's computation: how digital cameras render color, from spectra.
+//!
+//! Light × surface × sensor, wavelength by wavelength. A camera's three spectral sensitivities are not the eye's, so its
+//! colors differ from what an observer sees, in ways that can be computed. This crate does that and nothing else: same input,
+//! same output. It opens no file, reads no clock, environment or locale, and knows nothing of windows.
+//!
+//! ```text
+//! table, spectral::dataset   bytes → curves with units
+//! spectral                   curves → the 1 nm grid, with what was assumed
+//! light · object · camera    L, S, C
+//! camera::rendering          ∫ C S L dλ → balanced RGB → XYZ           Eq 11, 13, 16
+//! camera::locus              ∫ C E(T) dλ                                Eq 14, 15
+//! colorimetry                XYZ → xy, u′v′, L*a*b*, ΔE, sRGB
+//! query                      each of these as a question with all it depends on
+//! figure                     answers as axes, curves and points; SVG
+//! ```
+//!
+//! # Conventions
+//!
+//! - Wavelengths in nanometers, temperatures in kelvins, reflectances as fractions, Y = 1 for a perfect white.
+//! - Integrals over 380–780 nm at 1 nm by the trapezoid rule ([`spectral::grid`]).
+//! - Sensitivities per unit energy. Negative values are kept until a color is encoded for a screen.
+//! - "No chromaticity" is a value, never NaN. Past its constructors the crate is total.
+//! - One number type, `f64`; matrices are `glam`'s, named result-from-argument.
+//!
+//! # Out of scope
+//!
+//! Fluorescence, polarization, noise, lenses, ICC profiles.
+//!
+#![doc = include_str!("sources.md")]
+
+pub mod camera;
+pub mod colorimetry;
+pub mod figure;
+pub mod light;
+pub mod math;
+pub mod object;
+pub mod query;
+pub mod spectral;
+pub mod table;
+pub mod units;

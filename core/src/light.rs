@@ -1,0 +1,7 @@
+//! Lights: black bodies and daylight by formula; measured ones are plain spectra.
+
+pub mod daylight;
+pub mod planckian;
+
+pub use daylight::{DaylightBasis, DaylightError};
+pub use planckian::RadiationConstants;

@@ -1,0 +1,62 @@
+//! What is looked at: named reflectances.
+
+use crate::spectral::{Dataset, GridSpectrum, Quantity, SpectralDistribution};
+use std::hash::{Hash, Hasher};
+
+/// One reflectance with its name, measured and on the grid.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Patch {
+    /// Its name, such as `orange yellow`.
+    pub name: String,
+    /// As measured.
+    pub measured: SpectralDistribution,
+    /// On the standard grid.
+    pub grid: GridSpectrum,
+}
+
+impl Hash for Patch {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.name.hash(state);
+        self.measured.hash(state);
+    }
+}
+
+/// A set of reflectances: a chart, training data, materials.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct PatchSet {
+    patches: Vec<Patch>,
+}
+
+/// The five patches that the paper shows, C1 to C5, by their ColorChecker names.
+pub const PAPER_FIVE: [&str; 5] = ["red", "green", "blue", "white", "orange yellow"];
+
+impl PatchSet {
+    /// Brings named reflectances (1 for a perfect white) onto the grid.
+    pub fn new(reflectances: impl IntoIterator<Item = (String, SpectralDistribution)>) -> Self {
+        let patches = reflectances
+            .into_iter()
+            .map(|(name, measured)| {
+                let grid = GridSpectrum::resample(&measured, Quantity::Reflectance);
+                Patch { name, measured, grid }
+            })
+            .collect();
+        Self { patches }
+    }
+
+    /// All columns of a data set.
+    pub fn from_dataset(dataset: &Dataset) -> Self {
+        Self::new(dataset.header.columns.iter().cloned().zip(dataset.curves.iter().cloned()))
+    }
+
+    /// The patches in order.
+    pub fn patches(&self) -> &[Patch] {
+        &self.patches
+    }
+
+    /// Those with the given names, in the order of the names; names that the set does not have are left out.
+    #[must_use]
+    pub fn subset(&self, names: &[&str]) -> Self {
+        let found = names.iter().filter_map(|name| self.patches.iter().find(|patch| patch.name == *name));
+        Self { patches: found.cloned().collect() }
+    }
+}

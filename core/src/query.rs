@@ -1,0 +1,45 @@
+//! What can be asked: each question a value that holds everything its answer depends on.
+//!
+//! Equality of questions is the whole rule of invalidation: no flags, no revisions. A program that keeps answers
+//! (`Results` in the app) and one that does not ([`Direct`], for the command line and tests) ask in the same words.
+
+pub mod compare;
+pub mod loci;
+pub mod patches;
+pub mod shared;
+
+pub use compare::{Metric, NoDifference};
+pub use loci::{Locus, LocusOf, LocusPoint, MonochromaticOf, RadiatorSignals, SpectralLocusOf, Temperatures};
+pub use patches::{PatchColor, PatchColorsOf, RenderingOf, WayOf};
+pub use shared::Shared;
+
+use std::hash::Hash;
+use std::sync::Arc;
+
+/// A question: a value with everything its answer depends on.
+pub trait Query: Clone + Eq + Hash + 'static {
+    /// What comes back.
+    type Answer: 'static;
+
+    /// A name for counters.
+    const NAME: &'static str;
+
+    /// Computes the answer, asking others on the way.
+    fn answer(&self, ask: &impl Ask) -> Self::Answer;
+}
+
+/// Somebody who answers questions.
+pub trait Ask {
+    /// The answer to a question, computed or remembered.
+    fn ask<Q: Query>(&self, query: &Q) -> Arc<Q::Answer>;
+}
+
+/// Answers every question by computing it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Direct;
+
+impl Ask for Direct {
+    fn ask<Q: Query>(&self, query: &Q) -> Arc<Q::Answer> {
+        Arc::new(query.answer(self))
+    }
+}

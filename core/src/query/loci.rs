@@ -1,0 +1,191 @@
+//! Questions about black bodies and monochromatic light through a sensor.
+
+use super::{Ask, Query, RenderingOf, Shared};
+use crate::camera::{LocusEvaluator, LocusMethod, NoRendering};
+use crate::colorimetry::diagram::{SpectralPoint, spectral_locus};
+use crate::colorimetry::{UvPrime, Xy, Xyz};
+use crate::light::RadiationConstants;
+use crate::spectral::Sensor;
+use crate::spectral::grid::{COUNT, wavelength_nm};
+use crate::units::Kelvin;
+use glam::DVec3;
+
+/// Which temperatures a locus goes through.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Temperatures {
+    /// Evenly in 1/T from the first to the last, both included.
+    Range {
+        /// The first temperature.
+        from: Kelvin,
+        /// The last temperature.
+        to: Kelvin,
+        /// How many; one gives the first alone.
+        count: usize,
+    },
+    /// These, in this order.
+    List(Vec<Kelvin>),
+}
+
+impl Temperatures {
+    /// The temperatures one by one.
+    pub fn to_vec(&self) -> Vec<Kelvin> {
+        match self {
+            Self::List(list) => list.clone(),
+            Self::Range { from, to, count } => (0..*count).filter_map(|index| between(*from, *to, index, *count)).collect(),
+        }
+    }
+}
+
+/// Temperature `index` of `count`, evenly in 1/T; the ends exactly.
+fn between(from: Kelvin, to: Kelvin, index: usize, count: usize) -> Option<Kelvin> {
+    match index {
+        0 => Some(from),
+        _ if index + 1 == count => Some(to),
+        _ => {
+            let t = index as f64 / (count - 1) as f64;
+            Kelvin::from_mired(from.mired() + t * (to.mired() - from.mired())).ok()
+        }
+    }
+}
+
+/// What does a sensor record of black bodies, before any balance? Independent of light, white and way.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct RadiatorSignals {
+    /// The camera or observer.
+    pub sensor: Shared<Sensor>,
+    /// The temperatures.
+    pub temperatures: Temperatures,
+    /// The constants of Planck's law.
+    pub constants: RadiationConstants,
+}
+
+/// Raw integrals along a locus, each up to a positive factor of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawLocus {
+    /// Temperature and the three integrals.
+    pub points: Vec<(Kelvin, [f64; 3])>,
+    /// How they were computed, with the error checked.
+    pub method: LocusMethod,
+}
+
+impl Query for RadiatorSignals {
+    type Answer = RawLocus;
+    const NAME: &'static str = "radiator signals";
+
+    fn answer(&self, _: &impl Ask) -> RawLocus {
+        let evaluator = LocusEvaluator::new(&self.sensor, self.constants);
+        let points = self.temperatures.to_vec().into_iter().map(|t| (t, evaluator.raw(t))).collect();
+        RawLocus { points, method: evaluator.method() }
+    }
+}
+
+/// One black body on a locus.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocusPoint {
+    /// Its temperature.
+    pub temperature: Kelvin,
+    /// Its tristimulus values, up to a positive factor.
+    pub xyz: Xyz,
+    /// Its chromaticity, or none where the signals sum to nothing.
+    pub xy: Option<Xy>,
+    /// The same in the 1976 diagram.
+    pub uv: Option<UvPrime>,
+}
+
+/// A Planckian locus through a sensor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Locus {
+    /// Its points, in the order asked for.
+    pub points: Vec<LocusPoint>,
+    /// How they were computed, with the error checked.
+    pub method: LocusMethod,
+}
+
+impl Locus {
+    /// The length of the locus in xy, the paper's "dynamic range": the sum of straight steps, gaps skipped.
+    pub fn length_xy(&self) -> f64 {
+        let steps = self.points.windows(2);
+        steps.filter_map(|pair| Some(pair[0].xy?.distance(pair[1].xy?))).sum()
+    }
+}
+
+/// Where does a sensor see black bodies (Eq 15)?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct LocusOf {
+    /// The sensor and its way to the diagram.
+    pub rendering: RenderingOf,
+    /// The temperatures.
+    pub temperatures: Temperatures,
+    /// The constants of Planck's law.
+    pub constants: RadiationConstants,
+}
+
+impl Query for LocusOf {
+    type Answer = Result<Locus, NoRendering>;
+    const NAME: &'static str = "locus";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let rendering = ask.ask(&self.rendering);
+        let rendering = (*rendering).as_ref().map_err(|&e| e)?;
+        let signals = ask.ask(&RadiatorSignals {
+            sensor: self.rendering.sensor.clone(),
+            temperatures: self.temperatures.clone(),
+            constants: self.constants,
+        });
+        let points = signals.points.iter().map(|&(temperature, raw)| {
+            let xyz = rendering.xyz(DVec3::from_array(raw) * rendering.locus_gain);
+            LocusPoint { temperature, xyz, xy: xyz.chromaticity(), uv: xyz.uv_prime() }
+        });
+        Ok(Locus { points: points.collect(), method: signals.method })
+    }
+}
+
+/// Where does a sensor see monochromatic light? What no matrix can mend shows here at once.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct MonochromaticOf {
+    /// The sensor and its way to the diagram.
+    pub rendering: RenderingOf,
+}
+
+impl Query for MonochromaticOf {
+    type Answer = Result<Vec<SpectralPoint>, NoRendering>;
+    const NAME: &'static str = "monochromatic light";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let rendering = ask.ask(&self.rendering);
+        let rendering = (*rendering).as_ref().map_err(|&e| e)?;
+        let sensor = &self.rendering.sensor;
+        let strongest = (0..COUNT).map(|i| magnitude(sensor.at_index(i))).fold(0.0, f64::max);
+        let points = (0..COUNT).filter_map(|index| {
+            let signals = sensor.at_index(index);
+            // Where a camera hardly responds its chromaticity is noise of the measurement, not color.
+            if magnitude(signals) < 1e-3 * strongest {
+                return None;
+            }
+            let xy = rendering.xyz(DVec3::from_array(signals) * rendering.locus_gain).chromaticity()?;
+            Some(SpectralPoint { wavelength_nm: wavelength_nm(index), xy })
+        });
+        Ok(points.collect())
+    }
+}
+
+/// The largest of three magnitudes.
+fn magnitude(v: [f64; 3]) -> f64 {
+    v.iter().fold(0.0, |m, x| x.abs().max(m))
+}
+
+/// Where does an XYZ observer see monochromatic light: the diagram's outline?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SpectralLocusOf {
+    /// The observer.
+    pub observer: Shared<Sensor>,
+}
+
+impl Query for SpectralLocusOf {
+    type Answer = Vec<SpectralPoint>;
+    const NAME: &'static str = "spectral locus";
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        spectral_locus(&self.observer)
+    }
+}

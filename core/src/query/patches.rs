@@ -1,0 +1,103 @@
+//! Questions about reflectances under a light, through a sensor.
+
+use super::{Ask, Query, Shared};
+use crate::camera::rendering::{raw, under_light};
+use crate::camera::{NoRendering, Rendering, Way, White};
+use crate::colorimetry::rgb::{EncodedSrgb, encode_srgb};
+use crate::colorimetry::{Lab, UvPrime, Xy, Xyz};
+use crate::object::PatchSet;
+use crate::spectral::{GridSpectrum, Sensor};
+
+/// The way to the diagram, holding what it needs.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum WayOf {
+    /// Eq 13.
+    Paper,
+    /// A 3×3 matrix fitted to a reference observer.
+    Observer {
+        /// The observer.
+        reference: Shared<Sensor>,
+        /// The training reflectances.
+        training: Shared<PatchSet>,
+    },
+}
+
+/// How are a sensor's signals brought to the diagram?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct RenderingOf {
+    /// The camera or observer.
+    pub sensor: Shared<Sensor>,
+    /// The light on the scene.
+    pub light: Shared<GridSpectrum>,
+    /// The color a perfect white is to take.
+    pub white: White,
+    /// The way to the diagram.
+    pub way: WayOf,
+}
+
+impl Query for RenderingOf {
+    type Answer = Result<Rendering, NoRendering>;
+    const NAME: &'static str = "rendering";
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        let way = match &self.way {
+            WayOf::Paper => Way::Paper,
+            WayOf::Observer { reference, training } => Way::Observer { reference, training },
+        };
+        Rendering::new(&self.sensor, &self.light, self.white, way)
+    }
+}
+
+/// One patch through one sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PatchColor {
+    /// Balanced RGB (Eq 16 with Eq 11); none for observers that count in XYZ or cones.
+    pub rgb: Option<[f64; 3]>,
+    /// Tristimulus values, Y = 1 for a perfect white.
+    pub xyz: Xyz,
+    /// Chromaticity, or none for a signal that sums to nothing.
+    pub xy: Option<Xy>,
+    /// The same in the 1976 diagram.
+    pub uv: Option<UvPrime>,
+    /// L*a*b* relative to the rendering's white.
+    pub lab: Option<Lab>,
+    /// Linear sRGB, unclipped.
+    pub linear: [f64; 3],
+    /// The color on a screen.
+    pub srgb: EncodedSrgb,
+}
+
+/// What colors do patches take through a sensor (Eq 16)?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct PatchColorsOf {
+    /// The sensor and its way to the diagram.
+    pub rendering: RenderingOf,
+    /// The patches.
+    pub patches: Shared<PatchSet>,
+}
+
+impl Query for PatchColorsOf {
+    type Answer = Result<Vec<PatchColor>, NoRendering>;
+    const NAME: &'static str = "patch colors";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let rendering = ask.ask(&self.rendering);
+        let rendering = (*rendering).as_ref().map_err(|&e| e)?;
+        let product = under_light(&self.rendering.sensor, &self.rendering.light);
+        let colors = self.patches.patches().iter().map(|patch| {
+            let signals = rendering.patch_signals(raw(&product, patch.grid.values()).to_array());
+            let xyz = rendering.xyz(signals);
+            let linear = rendering.linear_srgb(xyz);
+            PatchColor {
+                rgb: rendering.is_rgb.then(|| signals.to_array()),
+                xyz,
+                xy: xyz.chromaticity(),
+                uv: xyz.uv_prime(),
+                lab: rendering.lab(xyz),
+                linear,
+                srgb: encode_srgb(linear),
+            }
+        });
+        Ok(colors.collect())
+    }
+}

@@ -1,0 +1,14 @@
+//! Spectra: samples over wavelength, the grid everything is integrated on, and what was assumed on the way there.
+//!
+//! A [`SpectralDistribution`] is what was measured. A [`GridSpectrum`] is the same on the standard grid (380–780 nm at
+//! 1 nm), with the ranges where nothing was measured. A [`Sensor`] is three sensitivities ready to integrate.
+
+pub mod dataset;
+pub mod distribution;
+pub mod grid;
+pub mod sensor;
+
+pub use dataset::{Dataset, DatasetError, Header};
+pub use distribution::{DistributionError, SpectralDistribution};
+pub use grid::{Assumed, GridSpectrum, Quantity};
+pub use sensor::{Primaries, Response, Sensor, SensorError};

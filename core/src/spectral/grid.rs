@@ -1,0 +1,144 @@
+//! The grid everything is integrated on, and how a measured spectrum gets there.
+//!
+//! Convention: 380–780 nm at 1 nm, trapezoid, in the range that the sensitivities cover. Uniform tables of smooth
+//! quantities with steps of 5 nm or more by Sprague's interpolation (CIE 167:2005), all else and every light linearly
+//! (which is the definition of the daylight illuminants). See `Quantity` for what holds beyond the data.
+
+use crate::math::interpolation::{Sprague, linear};
+use crate::spectral::SpectralDistribution;
+use std::hash::{Hash, Hasher};
+
+/// The first wavelength of the grid, in nanometers.
+pub const FIRST_NM: f64 = 380.0;
+/// The last wavelength of the grid, in nanometers.
+pub const LAST_NM: f64 = 780.0;
+/// The spacing of the grid, in nanometers.
+pub const STEP_NM: f64 = 1.0;
+/// How many wavelengths the grid has.
+pub const COUNT: usize = 401;
+
+/// The wavelength of grid sample `index`, in nanometers.
+pub fn wavelength_nm(index: usize) -> f64 {
+    FIRST_NM + index as f64 * STEP_NM
+}
+
+/// What a spectrum is of; it decides how the table is interpolated and what holds beyond it.
+///
+/// | quantity | steps ≥ 5 nm | negatives after interpolation | beyond the table |
+/// |---|---|---|---|
+/// | light | linear | kept as measured | end value held, marked |
+/// | reflectance | Sprague | set to zero | end value held, marked |
+/// | camera sensitivity | Sprague | set to zero | zero |
+/// | color matching function | Sprague | kept | zero |
+///
+/// Matching functions keep their negative lobes: clamping them moves a Planckian locus by 0.008 in xy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// Spectral power of a light, in any unit.
+    Light,
+    /// A reflectance factor or transmittance.
+    Reflectance,
+    /// A camera channel's sensitivity.
+    CameraSensitivity,
+    /// A color matching function or cone fundamental.
+    MatchingFunction,
+}
+
+impl Quantity {
+    /// Whether the quantity cannot be negative.
+    fn clamps(self) -> bool {
+        matches!(self, Self::Reflectance | Self::CameraSensitivity)
+    }
+
+    /// Whether nothing is taken to be there beyond the table.
+    fn ends_in_zero(self) -> bool {
+        matches!(self, Self::CameraSensitivity | Self::MatchingFunction)
+    }
+}
+
+/// Where a spectrum on the grid was not measured: its end values hold there (sensitivities: zero).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Assumed {
+    /// The first measured wavelength in nanometers, if the grid begins before it.
+    pub below_nm: Option<f64>,
+    /// The last measured wavelength in nanometers, if the grid goes on beyond it.
+    pub above_nm: Option<f64>,
+}
+
+impl Assumed {
+    /// Whether the whole grid was measured.
+    pub fn nothing(self) -> bool {
+        self.below_nm.is_none() && self.above_nm.is_none()
+    }
+}
+
+/// A spectrum on the standard grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GridSpectrum {
+    values: Box<[f64; COUNT]>,
+    assumed: Assumed,
+}
+
+impl Eq for GridSpectrum {}
+
+impl Hash for GridSpectrum {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.values.iter().for_each(|v| v.to_bits().hash(state));
+    }
+}
+
+impl GridSpectrum {
+    /// Brings a measured spectrum onto the grid by the convention of its quantity.
+    ///
+    /// Error against a 1 nm table for smooth spectra: below 5e-7 of an integral at 5 nm, 2e-4 at 10 nm.
+    pub fn resample(spectrum: &SpectralDistribution, quantity: Quantity) -> Self {
+        let [first, last] = spectrum.range_nm();
+        let smooth = spectrum
+            .uniform_step_nm()
+            .filter(|&step| step >= 5.0 && quantity != Quantity::Light)
+            .and_then(|step| Sprague::new(first, step, spectrum.values()));
+        let mut values = Box::new([0.0; COUNT]);
+        for (index, value) in values.iter_mut().enumerate() {
+            let x = wavelength_nm(index);
+            if quantity.ends_in_zero() && !(first..=last).contains(&x) {
+                continue;
+            }
+            let y = match &smooth {
+                Some(sprague) => sprague.at(x),
+                None => linear(spectrum.wavelengths_nm(), spectrum.values(), x),
+            };
+            *value = if quantity.clamps() { y.max(0.0) } else { y };
+        }
+        let assumed = Assumed {
+            below_nm: (first > FIRST_NM).then_some(first),
+            above_nm: (last < LAST_NM).then_some(last),
+        };
+        Self { values, assumed }
+    }
+
+    /// The spectrum that has this value everywhere: equal energy, or a perfect white.
+    pub fn constant(value: f64) -> Self {
+        Self::from_fn(|_| value)
+    }
+
+    /// A spectrum given by a formula of the wavelength in nanometers; values that are not finite become zero.
+    pub fn from_fn(f: impl Fn(f64) -> f64) -> Self {
+        let mut values = Box::new([0.0; COUNT]);
+        for (index, value) in values.iter_mut().enumerate() {
+            let y = f(wavelength_nm(index));
+            // Negative zero equals zero but hashes otherwise.
+            *value = if y.is_finite() { y + 0.0 } else { 0.0 };
+        }
+        Self { values, assumed: Assumed::default() }
+    }
+
+    /// The values at 380, 381, …, 780 nm.
+    pub fn values(&self) -> &[f64; COUNT] {
+        &self.values
+    }
+
+    /// Where these values were assumed, not measured.
+    pub fn assumed(&self) -> Assumed {
+        self.assumed
+    }
+}

@@ -1,0 +1,181 @@
+//! Spectral tables from text: bytes in, curves with units and provenance out.
+//!
+//! [`read`] takes the bytes of a file and returns [`Table`]: curves over wavelength in nanometers, the [`Role`] they
+//! seem to play, and a [`Reading`] that tells what was decided on the way and how sure each decision is. Anything
+//! decided can be overruled through [`ReadOptions`] by reading again.
+//!
+//! What is read: numbers in columns (wavelengths down the first column, or across a header row), separated by commas,
+//! semicolons, tabs or spaces; points or commas as decimal marks; UTF-8, UTF-16 or Windows-1252; any line ends;
+//! comments (`# key: value`), headers, units in headers, gaps (`NaN`, `---`, empty), any order of wavelengths.
+//!
+//! What is not read: binary files, XML, JSON, JCAMP-DX and CGATS. They are recognized by content and named in the error.
+//!
+//! Reading is total: it does not panic, takes time proportional to the input, and needs at most 16 bytes a sample
+//! beside the text. The limits are [`MAX_BYTES`], [`MAX_CURVES`] and [`MAX_SAMPLES`].
+//!
+//! ```
+//! use chromascope_core::table::{read, ReadOptions, Role};
+//!
+//! let leaf = read("nm;Reflectance (%)\n400;5,5\n410;6,0\n".as_bytes(), &ReadOptions::default())?;
+//! assert_eq!(leaf.role.value, Role::Reflectance);
+//! assert_eq!(leaf.curves[0].wavelengths_nm, [400.0, 410.0]);
+//! assert_eq!(leaf.curves[0].values, [0.055, 0.06]);
+//! # Ok::<(), chromascope_core::table::ReadError>(())
+//! ```
+//!
+//! The way of a file: `text` (bytes to text), `family` (refuse what another reader must take), `sniff` (which
+//! separators, where the numbers begin), `header` (names, units, comments), `columns` or `wide` (text to numbers),
+//! `wavelengths` (unit, order, repeats), `scale` (role, percent), and here the curves. A reader for another family of
+//! files is a small file beside `columns`: it fills the same `Grid`, and all after it is shared.
+
+mod columns;
+mod dialect;
+mod error;
+mod family;
+mod grid;
+mod header;
+mod reading;
+mod scale;
+mod sniff;
+mod text;
+mod trial;
+mod warning;
+mod wavelengths;
+mod wide;
+mod words;
+
+pub use dialect::{DecimalMark, Delimiter};
+pub use error::ReadError;
+pub use family::Family;
+pub use reading::{Certainty, Decided, Decision, Dropped, DroppedRow, Encoding, Orientation, Reader, Reading, Steps};
+pub use scale::Role;
+pub use text::{BinaryKind, MAX_BYTES};
+pub use warning::{LineList, Warning};
+pub use wavelengths::WavelengthUnit;
+
+use grid::Grid;
+
+/// The most curves one table may hold.
+pub const MAX_CURVES: usize = 100_000;
+
+/// The most samples (curves times wavelengths) one table may hold.
+pub const MAX_SAMPLES: usize = 20_000_000;
+
+/// What the caller fixes before reading; `None` leaves the decision to the content.
+///
+/// The default decides everything from the content.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ReadOptions {
+    /// What stands between two cells.
+    pub delimiter: Option<Delimiter>,
+    /// What stands before the fraction of a number.
+    pub decimal_mark: Option<DecimalMark>,
+    /// Whether wavelengths run down a column or across a row.
+    pub orientation: Option<Orientation>,
+    /// The unit of the wavelengths as written.
+    pub wavelength_unit: Option<WavelengthUnit>,
+    /// Whether reflectances are written in percent. Illuminants and sensitivities are never scaled.
+    pub percent: Option<bool>,
+    /// What the curves are.
+    pub role: Option<Role>,
+}
+
+/// One curve: values over wavelength, in the order of wavelength.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// The name from the header, the title of the file, or `Column 2` and `Row 1`.
+    pub name: String,
+    /// Whether the name is from the file; where it is not, the name of the file may say more.
+    pub named: bool,
+    /// Wavelengths in nanometers: finite, strictly ascending, at least two.
+    pub wavelengths_nm: Vec<f64>,
+    /// Values, one for each wavelength: finite; percent are already divided by 100.
+    pub values: Vec<f64>,
+    /// How many wavelengths of the table have no value in this curve. They are left out, not filled.
+    pub missing: usize,
+}
+
+/// What a file was understood to hold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// The curves, in the order of the file; at least one.
+    pub curves: Vec<Curve>,
+    /// What the curves are.
+    pub role: Decided<Role>,
+    /// How the bytes were understood.
+    pub reading: Reading,
+    /// What should be looked at before the curves are trusted.
+    pub warnings: Vec<Warning>,
+}
+
+impl Table {
+    /// Every decision made on reading, the role first, ready to be listed for a person.
+    pub fn decisions(&self) -> Vec<Decision> {
+        let mut all = vec![Decision::new("Role", &self.role)];
+        all.extend(self.reading.decisions());
+        all
+    }
+}
+
+/// Reads the bytes of a file as spectral curves.
+///
+/// The same bytes and options always give the same table. Nothing is decided by a file name.
+pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Table, ReadError> {
+    let (text, encoding) = text::decode(bytes)?;
+    family::refuse(&text)?;
+    let layout = sniff::sniff(&text, options)?;
+    let mut warnings = layout.warnings.clone();
+    let grid = match layout.orientation.value {
+        Orientation::Down => columns::read(&text, &layout, &mut warnings)?,
+        Orientation::Across => wide::read(&text, &layout, &mut warnings)?,
+    };
+    finish(grid, layout, encoding, options, warnings)
+}
+
+/// What all readers share: units, order, role, scale, curves.
+fn finish(
+    mut grid: Grid,
+    layout: sniff::Layout,
+    encoding: Encoding,
+    options: &ReadOptions,
+    mut warnings: Vec<Warning>,
+) -> Result<Table, ReadError> {
+    if grid.wavelengths.len() < 2 {
+        return Err(ReadError::TooFewSamples { line: grid.line(0).max(layout.first_line) });
+    }
+    let wavelength_unit = wavelengths::unit(&grid, options)?;
+    wavelengths::to_nanometers(&mut grid, wavelength_unit.value)?;
+    let descending = wavelengths::sort(&mut grid, &mut warnings)?;
+    let range_nm = [grid.wavelengths[0], grid.wavelengths[grid.wavelengths.len() - 1]];
+    let step_nm = Steps::of(&grid.wavelengths);
+    let scale = scale::decide(&grid, options);
+    scale::divide(&mut grid, &scale);
+    let rows = grid.rows;
+    let header = std::mem::take(&mut grid.header);
+    let dropped_rows = std::mem::take(&mut grid.dropped);
+    let curves = grid.into_curves(&mut warnings);
+    if curves.is_empty() {
+        return Err(ReadError::TooFewSamples { line: layout.first_line });
+    }
+    let camera_columns = scale::camera_columns(scale.role.value, &curves);
+    scale::warn(&scale, &curves, &mut warnings);
+    let reading = Reading {
+        reader: Reader::Table,
+        encoding,
+        delimiter: layout.delimiter,
+        decimal_mark: layout.decimal_mark,
+        orientation: layout.orientation,
+        wavelength_unit,
+        percent: scale.percent,
+        header: header.comments,
+        header_line: header.line,
+        first_data_line: layout.first_line,
+        rows,
+        dropped_rows,
+        descending,
+        range_nm,
+        step_nm,
+        camera_columns,
+    };
+    Ok(Table { curves, role: scale.role, reading, warnings })
+}

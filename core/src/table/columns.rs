@@ -1,0 +1,223 @@
+//! Reads tables whose wavelengths run down a column.
+
+use super::dialect::{Cell, Dialect};
+use super::grid::{Grid, RawCurve};
+use super::header::{self, Header};
+use super::sniff::Layout;
+use super::text::{Lines, comment, excerpt};
+use super::warning::{LineList, Warning};
+use super::{Dropped, DroppedRow, MAX_CURVES, MAX_SAMPLES, ReadError, WavelengthUnit, words};
+
+/// Reads the rows of a layout.
+pub(super) fn read(text: &str, layout: &Layout, warnings: &mut Vec<Warning>) -> Result<Grid, ReadError> {
+    let header = header::read(text, layout);
+    let mut columns = Columns::new(layout, wavelength_column(&header));
+    for (number, line) in Lines::new(text).skip(layout.first_line - 1) {
+        if !line.trim_ascii().is_empty() && comment(line).is_none() {
+            columns.take(number, line)?;
+        }
+    }
+    if let Some(broken) = columns.broken.take() {
+        // A row that begins like a row is a row gone wrong; anything else is text below the table.
+        if broken.begins_with_number {
+            return Err(broken.error);
+        }
+        warnings.push(Warning::TextBelow { line: broken.line });
+    }
+    columns.into_grid(header, warnings)
+}
+
+/// The column that the header names as that of the wavelengths, if it names one.
+fn wavelength_column(header: &Header) -> Option<usize> {
+    header.names.iter().position(|name| words::names_wavelengths(name))
+}
+
+/// A line inside the table that is no row.
+struct Broken {
+    line: usize,
+    begins_with_number: bool,
+    has_numbers: bool,
+    /// Rows of numbers below it that do not fit this table.
+    others: usize,
+    error: ReadError,
+}
+
+/// The numbers of the rows so far, by column.
+struct Columns {
+    dialect: Dialect,
+    /// Rows must have this many cells; a row with more must not have been preceded by one with fewer.
+    width: usize,
+    fewest_cells: usize,
+    cells: Vec<Vec<f64>>,
+    lines: Vec<usize>,
+    row: Vec<f64>,
+    named: Option<usize>,
+    label_unit: Option<WavelengthUnit>,
+    broken: Option<Broken>,
+}
+
+/// What a line turned out to be.
+enum Row {
+    Blank,
+    Numbers { cells: usize, filled: usize },
+    Broken(Broken),
+}
+
+impl Columns {
+    fn new(layout: &Layout, named: Option<usize>) -> Self {
+        Self {
+            dialect: layout.dialect(),
+            width: layout.width,
+            fewest_cells: usize::MAX,
+            cells: vec![Vec::new(); layout.width.min(MAX_CURVES + 1)],
+            lines: Vec::new(),
+            row: Vec::with_capacity(layout.width.min(MAX_CURVES + 2)),
+            named,
+            label_unit: None,
+            broken: None,
+        }
+    }
+
+    fn take(&mut self, number: usize, line: &str) -> Result<(), ReadError> {
+        match self.parse(number, line) {
+            Row::Blank => Ok(()),
+            Row::Broken(broken) => {
+                self.broken.get_or_insert(broken);
+                Ok(())
+            }
+            Row::Numbers { cells, filled } => match self.broken.take() {
+                None => self.push(number, cells, filled),
+                Some(mut broken) if cells != self.width && filled != self.width => {
+                    broken.others += usize::from(cells > 1);
+                    let second = broken.others > 1;
+                    self.broken = Some(broken);
+                    if second { Err(ReadError::SecondTable { line: number }) } else { Ok(()) }
+                }
+                Some(broken) if !broken.has_numbers && self.restarts() => Err(ReadError::SecondTable { line: number }),
+                Some(broken) => Err(broken.error),
+            },
+        }
+    }
+
+    /// Parses a line into `row`.
+    fn parse(&mut self, number: usize, line: &str) -> Row {
+        self.row.clear();
+        let (mut cells, mut filled, mut numbers) = (0, 0, 0);
+        for cell in self.dialect.cells(line).take(MAX_CURVES + 2) {
+            let value = match self.dialect.parse(cell) {
+                Cell::Number(value) => value,
+                Cell::Gap => f64::NAN,
+                Cell::Text => match self.dialect.parse_label(cell).filter(|_| cells == self.named.unwrap_or(0)) {
+                    Some((value, unit)) if self.label_unit.is_none_or(|known| known == unit) => {
+                        self.label_unit = Some(unit);
+                        value
+                    }
+                    _ => return Row::Broken(self.broken(number, line, cells, cell)),
+                },
+            };
+            cells += 1;
+            numbers += usize::from(!value.is_nan());
+            filled = if cell.is_empty() { filled } else { cells };
+            self.row.push(value);
+        }
+        if numbers == 0 { Row::Blank } else { Row::Numbers { cells, filled } }
+    }
+
+    fn broken(&self, line: usize, text: &str, column: usize, cell: &str) -> Broken {
+        let error = ReadError::NotANumber { line, column: column + 1, text: excerpt(cell) };
+        let mut cells = self.dialect.cells(text).take(MAX_CURVES + 2);
+        let begins_with_number = self.row.first().is_some_and(|value| !value.is_nan());
+        let has_numbers = cells.any(|cell| matches!(self.dialect.parse(cell), Cell::Number(_)));
+        Broken { line, begins_with_number, has_numbers, others: 0, error }
+    }
+
+    /// Whether the row just parsed goes back over wavelengths that were there before.
+    fn restarts(&self) -> bool {
+        let wavelengths = &self.cells[self.named.unwrap_or(0).min(self.cells.len() - 1)];
+        let (Some(&first), Some(&last)) = (wavelengths.first(), wavelengths.last()) else { return false };
+        self.row.get(self.named.unwrap_or(0)).is_some_and(|&value| (value - last) * (last - first) <= 0.0)
+    }
+
+    fn push(&mut self, number: usize, cells: usize, filled: usize) -> Result<(), ReadError> {
+        let rows = self.lines.len();
+        if filled > self.width {
+            if rows > 0 && self.fewest_cells < filled {
+                return Err(ReadError::UnevenRow { line: number, found: filled, expected: self.width });
+            }
+            self.width = filled;
+        }
+        if cells < self.width {
+            return Err(ReadError::UnevenRow { line: number, found: cells, expected: self.width });
+        }
+        if self.width > MAX_CURVES + 1 {
+            return Err(ReadError::TooManyCurves { line: number });
+        }
+        if (rows + 1) * (self.width - 1) > MAX_SAMPLES {
+            return Err(ReadError::TooManySamples { line: number });
+        }
+        while self.cells.len() < self.width {
+            self.cells.push(vec![f64::NAN; rows]);
+        }
+        self.fewest_cells = self.fewest_cells.min(cells);
+        for (column, value) in self.cells.iter_mut().zip(&self.row) {
+            column.push(*value);
+        }
+        self.lines.push(number);
+        Ok(())
+    }
+
+    fn into_grid(mut self, header: Header, warnings: &mut Vec<Warning>) -> Result<Grid, ReadError> {
+        let empty = |column: &Vec<f64>| column.iter().all(|value| value.is_nan());
+        let at = self.named.filter(|&at| at < self.cells.len());
+        let at = at.or_else(|| self.cells.iter().position(|column| !empty(column))).unwrap_or(0);
+        if self.cells[..at].iter().any(|column| !empty(column)) {
+            warnings.push(Warning::SkippedColumns { wavelength_column: at + 1 });
+        }
+        let values = self.cells.split_off(at + 1);
+        let wavelengths = self.cells.pop().unwrap_or_default();
+        refuse_second_wavelengths(&header, at, &wavelengths, &values)?;
+        let only = values.len() == 1;
+        let curves = values.into_iter().enumerate().map(|(i, values)| {
+            let column = at + 1 + i;
+            let title = header.comment("title").filter(|_| only);
+            let given = header.name(column).or(title);
+            let name = given.map_or_else(|| format!("Column {}", column + 1), str::to_owned);
+            RawCurve { name, named: given.is_some(), label: header.label(column), values }
+        });
+        let curves = curves.collect();
+        let rows = self.lines.len();
+        let (lines, label_unit) = (self.lines, self.label_unit);
+        let mut grid = Grid { wavelengths, lines, curves, header, label_unit, rows, dropped: Vec::new() };
+        drop_without_wavelength(&mut grid, warnings);
+        Ok(grid)
+    }
+}
+
+/// Pairs of columns, each with its own wavelengths, must not be read as curves over the first.
+fn refuse_second_wavelengths(
+    header: &Header,
+    at: usize,
+    wavelengths: &[f64],
+    values: &[Vec<f64>],
+) -> Result<(), ReadError> {
+    for (i, column) in values.iter().enumerate() {
+        let named = header.name(at + 1 + i).is_some_and(|name| name.to_lowercase().starts_with("wavelength"));
+        if named || (wavelengths.len() > 1 && column == wavelengths) {
+            return Err(ReadError::SecondWavelengthColumn { column: at + 2 + i });
+        }
+    }
+    Ok(())
+}
+
+fn drop_without_wavelength(grid: &mut Grid, warnings: &mut Vec<Warning>) {
+    let marked: Vec<bool> = grid.wavelengths.iter().map(|value| value.is_nan()).collect();
+    let mut list = LineList::default();
+    for (line, _) in grid.lines.iter().zip(&marked).filter(|(_, marked)| **marked) {
+        list.add(*line);
+        grid.dropped.push(DroppedRow { line: *line, why: Dropped::NoWavelength });
+    }
+    if !list.is_empty() {
+        grid.remove(&marked);
+        warnings.push(Warning::NoWavelength { lines: list });
+    }
+}

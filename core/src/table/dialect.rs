@@ -1,0 +1,235 @@
+//! How a line of numbers is written: what separates cells, what marks fractions, what stands for a gap.
+
+use std::fmt;
+
+use super::wavelengths::WavelengthUnit;
+
+/// What stands between two cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Delimiter {
+    /// `380,0.05`
+    Comma,
+    /// `380,5, 0,05`: a comma with a space after it, where commas alone mark fractions.
+    CommaSpace,
+    /// `380;0.05`
+    Semicolon,
+    /// One tab character.
+    Tab,
+    /// Any run of spaces and tabs.
+    Spaces,
+}
+
+impl fmt::Display for Delimiter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Comma => "comma separated",
+            Self::CommaSpace => "separated by comma and space",
+            Self::Semicolon => "semicolon separated",
+            Self::Tab => "tab separated",
+            Self::Spaces => "separated by spaces",
+        })
+    }
+}
+
+/// What stands before the fraction of a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum DecimalMark {
+    /// `0.05`
+    Point,
+    /// `0,05`
+    Comma,
+}
+
+impl fmt::Display for DecimalMark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Point => "decimal points",
+            Self::Comma => "decimal commas",
+        })
+    }
+}
+
+/// What one cell holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Cell {
+    Number(f64),
+    Gap,
+    Text,
+}
+
+/// A delimiter and a decimal mark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Dialect {
+    pub(super) delimiter: Delimiter,
+    pub(super) mark: DecimalMark,
+}
+
+/// The value that many instruments write for "not measured".
+const NOT_MEASURED: f64 = -9999.0;
+
+const GAPS: [&str; 13] =
+    ["na", "n/a", "n.a.", "null", "none", "nan", "-", "*", "#n/a", "#div/0!", "#value!", "#num!", "#ref!"];
+
+impl Dialect {
+    /// The cells of a line, trimmed and without the quotes around them.
+    pub(super) fn cells(self, line: &str) -> Cells<'_> {
+        let rest = if self.delimiter == Delimiter::Spaces { line.trim_ascii() } else { line };
+        let spaces_only = self.delimiter == Delimiter::Spaces && rest.is_empty();
+        Cells { rest: (!spaces_only).then_some(rest), delimiter: self.delimiter, quotes: line.contains('"') }
+    }
+
+    /// What a cell holds.
+    pub(super) fn parse(self, cell: &str) -> Cell {
+        match self.number(cell) {
+            Some(NOT_MEASURED) => Cell::Gap,
+            Some(value) if value.is_finite() => Cell::Number(value),
+            Some(_) if cell.bytes().any(|b| b.is_ascii_digit()) => Cell::Text, // 1e999 is a mistake, not a gap
+            Some(_) => Cell::Gap,
+            None => self.parse_rare(cell),
+        }
+    }
+
+    fn number(self, cell: &str) -> Option<f64> {
+        match self.mark {
+            DecimalMark::Point => cell.parse().ok(),
+            DecimalMark::Comma => parse_decimal_comma(cell),
+        }
+    }
+
+    #[cold]
+    fn parse_rare(self, cell: &str) -> Cell {
+        let cell = cell.trim();
+        if is_gap(cell) {
+            return Cell::Gap;
+        }
+        // The typographic minus, as word processors write it.
+        match cell.strip_prefix('\u{2212}').and_then(|rest| self.number(rest)) {
+            Some(value) if value.is_finite() && value.is_sign_positive() => Cell::Number(-value),
+            _ => Cell::Text,
+        }
+    }
+
+    /// A wavelength that carries its unit, such as `380nm` or `380 [nm]`.
+    pub(super) fn parse_label(self, cell: &str) -> Option<(f64, WavelengthUnit)> {
+        let split = cell.find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | ',')))?;
+        let (number, unit) = cell.split_at(split);
+        let unit = unit.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+        let value = self.number(number).filter(|value| value.is_finite())?;
+        Some((value, WavelengthUnit::from_symbol(unit)?))
+    }
+
+    /// Whether a number is written with this dialect's decimal mark.
+    pub(super) fn has_mark(self, cell: &str) -> bool {
+        cell.contains(match self.mark {
+            DecimalMark::Point => '.',
+            DecimalMark::Comma => ',',
+        })
+    }
+}
+
+fn parse_decimal_comma(cell: &str) -> Option<f64> {
+    const LONGEST: usize = 64;
+    let bytes = cell.as_bytes();
+    // `380,` is a number and a separator, not a number with an empty fraction.
+    if bytes.len() > LONGEST || bytes.last() == Some(&b',') || bytes.contains(&b'.') {
+        return None;
+    }
+    let mut buffer = [0; LONGEST];
+    for (to, &from) in buffer.iter_mut().zip(bytes) {
+        *to = if from == b',' { b'.' } else { from };
+    }
+    std::str::from_utf8(&buffer[..bytes.len()]).ok()?.parse().ok()
+}
+
+fn is_gap(cell: &str) -> bool {
+    const LONGEST: usize = 16;
+    if cell.is_empty() || cell.bytes().all(|b| b == b'-') {
+        return true;
+    }
+    // Few cells get here in a sound file, but a hostile one is nothing else.
+    if cell.len() > LONGEST || !cell.starts_with(['n', 'N', '#', '*', '1', '-', '+']) {
+        return false;
+    }
+    let lower = cell.to_ascii_lowercase();
+    // What C runtimes on Windows print for not-a-number and infinity.
+    GAPS.contains(&lower.as_str()) || lower.trim_start_matches(['-', '+']).starts_with("1.#")
+}
+
+/// Iterator over the cells of a line; made by [`Dialect::cells`].
+#[derive(Debug, Clone)]
+pub(super) struct Cells<'a> {
+    rest: Option<&'a str>,
+    delimiter: Delimiter,
+    quotes: bool,
+}
+
+impl<'a> Iterator for Cells<'a> {
+    type Item = &'a str;
+
+    fn next(&mut self) -> Option<&'a str> {
+        let rest = self.rest?;
+        if self.quotes
+            && let Some(cell) = self.quoted(rest)
+        {
+            return Some(cell);
+        }
+        let Some((end, width)) = self.delimiter.find(rest) else {
+            self.rest = None;
+            return Some(rest.trim_ascii());
+        };
+        self.rest = Some(&rest[end + width..]);
+        if self.delimiter == Delimiter::Spaces {
+            self.rest = Some(rest[end..].trim_ascii_start());
+        }
+        Some(rest[..end].trim_ascii())
+    }
+}
+
+impl<'a> Cells<'a> {
+    /// A cell in quotes, if the quotes are closed where a cell ends. Some instruments open quotes they never close:
+    /// then the rest of the line is taken as it stands, which also keeps this linear.
+    fn quoted(&mut self, rest: &'a str) -> Option<&'a str> {
+        let inner = rest.trim_ascii_start().strip_prefix('"')?;
+        let bytes = inner.as_bytes();
+        let mut at = 0;
+        while at < bytes.len() && (bytes[at] != b'"' || bytes.get(at + 1) == Some(&b'"')) {
+            at += if bytes[at] == b'"' { 2 } else { 1 };
+        }
+        let after = inner.get(at + 1..).unwrap_or("");
+        let tail =
+            if self.delimiter == Delimiter::Tab { after.trim_start_matches(' ') } else { after.trim_ascii_start() };
+        let closed = at < bytes.len()
+            && (tail.is_empty()
+                || self.delimiter.find(tail).is_some_and(|(end, _)| end == 0)
+                || self.ends_by_space(after));
+        if !closed {
+            self.quotes = false;
+            return None;
+        }
+        self.rest = match (self.delimiter, self.delimiter.find(tail)) {
+            _ if tail.is_empty() => None,
+            (Delimiter::Spaces, _) => Some(tail),
+            (_, Some((_, width))) => Some(&tail[width..]),
+            (_, None) => None,
+        };
+        Some(inner[..at].trim_ascii())
+    }
+
+    fn ends_by_space(&self, after: &str) -> bool {
+        self.delimiter == Delimiter::Spaces && after.starts_with([' ', '\t'])
+    }
+}
+
+impl Delimiter {
+    /// Where the next delimiter begins and how many bytes it takes.
+    fn find(self, text: &str) -> Option<(usize, usize)> {
+        let byte = |wanted: u8| text.as_bytes().iter().position(|&b| b == wanted).map(|at| (at, 1));
+        match self {
+            Self::Comma => byte(b','),
+            Self::Semicolon => byte(b';'),
+            Self::Tab => byte(b'\t'),
+            Self::CommaSpace => text.find(", ").map(|at| (at, 2)),
+            Self::Spaces => text.as_bytes().iter().position(u8::is_ascii_whitespace).map(|at| (at, 1)),
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! Why a file could not be read.
+
+use super::{BinaryKind, Family, MAX_CURVES, MAX_SAMPLES};
+
+/// Why a file could not be read: where, what, and what helps. Lines and columns count from 1.
+///
+/// The application adds the name of the file.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The file is over [`MAX_BYTES`](super::MAX_BYTES).
+    #[error("the file has {megabytes} MB, the limit is {limit} MB: split it into smaller files")]
+    TooLarge {
+        /// Size of the file, rounded up.
+        megabytes: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// The file is binary.
+    #[error("this is {kind}, not text: export the measurement as text or CSV")]
+    Binary {
+        /// What it is.
+        kind: BinaryKind,
+    },
+    /// The file is text of a family that no reader takes yet.
+    #[error("line 1: this is {family}, not a table of numbers: export the measurement as text or CSV")]
+    Unsupported {
+        /// What it is.
+        family: Family,
+    },
+    /// Nothing but white space.
+    #[error("the file is empty: expected a wavelength and at least one value in each line")]
+    Empty,
+    /// No line holds two numbers, or the chosen separators fit no line.
+    #[error("no rows of numbers were found: expected a wavelength and at least one value in each line")]
+    NoNumbers,
+    /// Every line holds one number only.
+    #[error("line {line}: only one number in each line: expected a wavelength and at least one value")]
+    OneColumn {
+        /// The first such line.
+        line: usize,
+    },
+    /// Text where a number must be.
+    #[error("line {line}: no number in column {column} (\"{text}\"): correct it, or leave it empty if it is missing")]
+    NotANumber {
+        /// The line.
+        line: usize,
+        /// The column.
+        column: usize,
+        /// What stands there, shortened.
+        text: String,
+    },
+    /// A row has another number of columns than the rows before it.
+    #[error("line {line}: {found} columns where {expected} are expected: write NaN for a missing value")]
+    UnevenRow {
+        /// The line.
+        line: usize,
+        /// Columns in this line.
+        found: usize,
+        /// Columns in the rest.
+        expected: usize,
+    },
+    /// Another table follows the first.
+    #[error("line {line}: a second table begins here: put each table into a file of its own")]
+    SecondTable {
+        /// The first row of the second table.
+        line: usize,
+    },
+    /// Commas separate the cells and mark the fractions.
+    #[error("line {line}: commas both separate numbers and mark fractions: export with semicolons or decimal points")]
+    AmbiguousCommas {
+        /// The line that shows it.
+        line: usize,
+    },
+    /// More than one column of wavelengths.
+    #[error("column {column} holds wavelengths too: put each pair of columns into a file of its own")]
+    SecondWavelengthColumn {
+        /// The column.
+        column: usize,
+    },
+    /// The header gives wave numbers or frequencies.
+    #[error("line {line}: the header gives wave numbers or frequencies: convert them to wavelengths in nm")]
+    NotWavelengths {
+        /// The header line.
+        line: usize,
+    },
+    /// Only one sample, or no curve with two.
+    #[error("line {line}: a curve needs values at two wavelengths or more: check the columns")]
+    TooFewSamples {
+        /// The line where the numbers begin.
+        line: usize,
+    },
+    /// A wavelength that no instrument for light measures.
+    #[error("line {line}: wavelength {wavelength_nm} nm is outside 100 to 20000 nm: check the unit and the column")]
+    WavelengthOutOfRange {
+        /// The line.
+        line: usize,
+        /// The wavelength in the unit decided on.
+        wavelength_nm: f64,
+    },
+    /// One wavelength twice with different values.
+    #[error("line {line}: wavelength {wavelength_nm} nm again with other values than in line {first_line}: keep one")]
+    RepeatedWavelength {
+        /// The later line.
+        line: usize,
+        /// The earlier line.
+        first_line: usize,
+        /// The wavelength.
+        wavelength_nm: f64,
+    },
+    /// More than [`MAX_CURVES`] curves.
+    #[error("line {line}: more than {MAX_CURVES} curves: split the file")]
+    TooManyCurves {
+        /// The line where the limit is passed.
+        line: usize,
+    },
+    /// More than [`MAX_SAMPLES`] samples.
+    #[error("line {line}: more than {MAX_SAMPLES} samples: split the file")]
+    TooManySamples {
+        /// The line where the limit is passed.
+        line: usize,
+    },
+}
+
+impl ReadError {
+    /// The line the error is about, from 1; `None` where it concerns the whole file.
+    pub fn line(&self) -> Option<usize> {
+        match *self {
+            Self::TooLarge { .. }
+            | Self::Binary { .. }
+            | Self::Empty
+            | Self::NoNumbers
+            | Self::SecondWavelengthColumn { .. } => None,
+            Self::Unsupported { .. } => Some(1),
+            Self::OneColumn { line }
+            | Self::NotANumber { line, .. }
+            | Self::UnevenRow { line, .. }
+            | Self::SecondTable { line }
+            | Self::AmbiguousCommas { line }
+            | Self::NotWavelengths { line }
+            | Self::TooFewSamples { line }
+            | Self::WavelengthOutOfRange { line, .. }
+            | Self::RepeatedWavelength { line, .. }
+            | Self::TooManyCurves { line }
+            | Self::TooManySamples { line } => Some(line),
+        }
+    }
+
+    /// The column the error is about, from 1, where known.
+    pub fn column(&self) -> Option<usize> {
+        match *self {
+            Self::NotANumber { column, .. } | Self::SecondWavelengthColumn { column } => Some(column),
+            _ => None,
+        }
+    }
+}

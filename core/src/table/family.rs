@@ -1,0 +1,69 @@
+//! File families that are text but no table of numbers. Each becomes a reader of its own; until then it is named.
+
+use std::fmt;
+
+use super::ReadError;
+
+/// A family of text files that the table reader must not guess at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Family {
+    /// XML, such as TM-27 or `CxF`.
+    Xml,
+    /// JSON, with or without comments.
+    Json,
+    /// JCAMP-DX.
+    Jcamp,
+    /// CGATS and its relatives, as Argyll and X-Rite write them.
+    Cgats,
+}
+
+impl fmt::Display for Family {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Xml => "XML",
+            Self::Json => "JSON",
+            Self::Jcamp => "JCAMP-DX",
+            Self::Cgats => "CGATS",
+        })
+    }
+}
+
+/// How much of the text is looked at for the marks of a family.
+const LOOK: usize = 64 << 10;
+
+/// An error if the text belongs to a family that has no reader yet.
+pub(super) fn refuse(text: &str) -> Result<(), ReadError> {
+    match recognize(text) {
+        Some(family) => Err(ReadError::Unsupported { family }),
+        None => Ok(()),
+    }
+}
+
+fn recognize(text: &str) -> Option<Family> {
+    let start = text.trim_start();
+    if start.starts_with("<?xml") || (start.starts_with('<') && start.trim_end().ends_with('>')) {
+        return Some(Family::Xml);
+    }
+    if start.starts_with("##") && start[..floor(start)].contains("DATA TYPE=") || start.starts_with("##TITLE=") {
+        return Some(Family::Jcamp);
+    }
+    if start.starts_with(['{', '[']) && start.trim_end().ends_with(['}', ']']) || commented_json(start) {
+        return Some(Family::Json);
+    }
+    let cgats = text[..floor(text)].lines().any(|line| line.trim() == "BEGIN_DATA_FORMAT");
+    cgats.then_some(Family::Cgats)
+}
+
+fn commented_json(start: &str) -> bool {
+    start.starts_with("//")
+        && start
+            .lines()
+            .map(str::trim)
+            .find(|l| !l.is_empty() && !l.starts_with("//"))
+            .is_some_and(|l| l.starts_with('{'))
+}
+
+/// The end of the part that is looked at, on a character boundary.
+fn floor(text: &str) -> usize {
+    text.floor_char_boundary(LOOK)
+}

@@ -1,0 +1,136 @@
+//! What every reader fills: wavelengths as written, and the values of each curve beside them.
+
+use super::header::Header;
+use super::warning::{LineList, Warning};
+use super::{Curve, DroppedRow, WavelengthUnit};
+
+/// Numbers as they stand in the file, before units, order and scale are settled.
+#[derive(Debug, Default)]
+pub(super) struct Grid {
+    /// Wavelengths, finite.
+    pub(super) wavelengths: Vec<f64>,
+    /// The line of each wavelength; a single one if all stand in the same line.
+    pub(super) lines: Vec<usize>,
+    /// The curves; each has one value (NaN for a gap) for each wavelength.
+    pub(super) curves: Vec<RawCurve>,
+    /// What stands above the numbers.
+    pub(super) header: Header,
+    /// The unit, if it stands beside each wavelength.
+    pub(super) label_unit: Option<WavelengthUnit>,
+    /// Rows of numbers in the file.
+    pub(super) rows: usize,
+    /// Rows left out.
+    pub(super) dropped: Vec<DroppedRow>,
+}
+
+/// A curve as it stands in the file.
+#[derive(Debug, Default)]
+pub(super) struct RawCurve {
+    pub(super) name: String,
+    /// Whether the name is from the file.
+    pub(super) named: bool,
+    /// All that the header says about this curve: its name and its unit.
+    pub(super) label: String,
+    pub(super) values: Vec<f64>,
+}
+
+impl Grid {
+    /// The line of a wavelength.
+    pub(super) fn line(&self, index: usize) -> usize {
+        self.lines.get(index).or(self.lines.last()).copied().unwrap_or(1)
+    }
+
+    /// Puts the samples in the given order, a permutation of their indices.
+    pub(super) fn reorder(&mut self, order: &[usize]) {
+        if self.lines.len() == order.len() {
+            self.lines = order.iter().map(|&i| self.lines[i]).collect();
+        }
+        self.wavelengths = order.iter().map(|&i| self.wavelengths[i]).collect();
+        for curve in &mut self.curves {
+            curve.values = order.iter().map(|&i| curve.values[i]).collect();
+        }
+    }
+
+    /// Whether two samples hold the same values in every curve, gaps counting as equal.
+    pub(super) fn same_values(&self, a: usize, b: usize) -> bool {
+        self.curves.iter().all(|curve| {
+            let (a, b) = (curve.values[a], curve.values[b]);
+            a == b || (a.is_nan() && b.is_nan())
+        })
+    }
+
+    /// Removes the marked samples.
+    pub(super) fn remove(&mut self, marked: &[bool]) {
+        if self.lines.len() == marked.len() {
+            retain(&mut self.lines, marked);
+        }
+        retain(&mut self.wavelengths, marked);
+        for curve in &mut self.curves {
+            retain(&mut curve.values, marked);
+        }
+    }
+
+    /// The curves without their gaps. A curve of fewer than two values is left
+    /// out; it is worth a warning only if it has a name or a value.
+    pub(super) fn into_curves(self, warnings: &mut Vec<Warning>) -> Vec<Curve> {
+        let mut gaps = vec![0_u32; self.wavelengths.len()];
+        let mut curves = Vec::new();
+        let (mut empty, mut first_empty) = (0, None);
+        for raw in self.curves {
+            let missing = raw.values.iter().filter(|value| value.is_nan()).count();
+            let left = raw.values.len() - missing;
+            if left < 2 {
+                if left > 0 || !raw.label.is_empty() {
+                    empty += 1;
+                    first_empty.get_or_insert(raw.name);
+                }
+                continue;
+            }
+            for (count, value) in gaps.iter_mut().zip(&raw.values) {
+                *count += u32::from(value.is_nan());
+            }
+            curves.push(curve(raw, &self.wavelengths, missing));
+        }
+        warn_gaps(&gaps, &self.lines, warnings);
+        if let Some(first) = first_empty {
+            warnings.push(Warning::EmptyCurves { count: empty, first });
+        }
+        curves
+    }
+}
+
+fn curve(raw: RawCurve, wavelengths: &[f64], missing: usize) -> Curve {
+    let RawCurve { name, named, mut values, .. } = raw;
+    if missing == 0 {
+        values.shrink_to_fit();
+        return Curve { name, named, wavelengths_nm: wavelengths.to_vec(), values, missing };
+    }
+    let present = wavelengths.iter().zip(&values).filter(|(_, value)| !value.is_nan());
+    let wavelengths_nm = present.map(|(wavelength, _)| *wavelength).collect();
+    values.retain(|value| !value.is_nan());
+    Curve { name, named, wavelengths_nm, values, missing }
+}
+
+fn warn_gaps(gaps: &[u32], lines: &[usize], warnings: &mut Vec<Warning>) {
+    let cells: usize = gaps.iter().map(|&count| count as usize).sum();
+    if cells == 0 {
+        return;
+    }
+    // Curves in rows: their reader alone knows the lines of the gaps, and has told them.
+    if lines.len() != gaps.len() {
+        return;
+    }
+    let with_gaps = gaps.iter().zip(lines).filter(|(count, _)| **count > 0);
+    let mut gap_lines: Vec<usize> = with_gaps.map(|(_, line)| *line).collect();
+    gap_lines.sort_unstable();
+    let mut list = LineList::default();
+    for line in gap_lines {
+        list.add(line);
+    }
+    warnings.push(Warning::Gaps { cells, lines: list });
+}
+
+fn retain<T>(items: &mut Vec<T>, marked: &[bool]) {
+    let mut marks = marked.iter();
+    items.retain(|_| !marks.next().copied().unwrap_or(false));
+}

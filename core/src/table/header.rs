@@ -1,0 +1,202 @@
+//! What stands above the numbers: comments, names of columns, units.
+
+use super::dialect::{Cell, Delimiter, Dialect};
+use super::reading::Orientation;
+use super::scale::Role;
+use super::sniff::Layout;
+use super::text::{Lines, comment};
+use super::words::{self, XUnit};
+use super::{MAX_CURVES, WavelengthUnit};
+
+/// How many comments are kept; more is not a header.
+const MAX_COMMENTS: usize = 1000;
+
+/// How far above the numbers the names and the units may stand, in lines with text.
+const NEAR: usize = 3;
+
+/// What was found above the numbers.
+#[derive(Debug, Default)]
+pub(super) struct Header {
+    pub(super) comments: Vec<(String, String)>,
+    /// The line that names the columns.
+    pub(super) line: Option<usize>,
+    /// The cells of that line.
+    pub(super) names: Vec<String>,
+    /// The cells of a line of units below the names.
+    pub(super) units: Vec<String>,
+    /// The unit of the wavelengths and the line that gives it.
+    pub(super) x_unit: Option<(usize, XUnit)>,
+    /// Percent or not, as a line about all values says, and that line.
+    pub(super) percent: Option<(usize, bool)>,
+    /// What a comment or a unit line says the values are.
+    pub(super) role: Option<(usize, Role)>,
+    /// What free text mentions; only good for a guess.
+    pub(super) mentioned: Option<(usize, Role)>,
+}
+
+impl Header {
+    /// The name of a column, if the header gives one.
+    pub(super) fn name(&self, column: usize) -> Option<&str> {
+        self.names.get(column).map(String::as_str).filter(|name| !name.is_empty())
+    }
+
+    /// All that the header says about a column.
+    pub(super) fn label(&self, column: usize) -> String {
+        let unit = self.units.get(column).map_or("", String::as_str);
+        format!("{} {unit}", self.name(column).unwrap_or_default()).trim().to_owned()
+    }
+
+    /// The value of a comment.
+    pub(super) fn comment(&self, key: &str) -> Option<&str> {
+        self.comments.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, value)| value.as_str())
+    }
+}
+
+/// Reads what stands above the numbers of a layout.
+pub(super) fn read(text: &str, layout: &Layout) -> Header {
+    let mut header = Header::default();
+    let mut near: Vec<(usize, &str)> = Vec::with_capacity(NEAR + 1);
+    for (number, line) in Lines::new(text).take_while(|(number, _)| *number < layout.header_end()) {
+        if line.trim().is_empty() {
+            continue;
+        }
+        let body = comment(line);
+        if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
+            header.take_comment(number, key.trim(), value.trim());
+            continue;
+        }
+        header.take_prose(number, body.unwrap_or(line));
+        near.push((number, line));
+        if near.len() > NEAR {
+            near.remove(0);
+        }
+    }
+    if layout.orientation.value == Orientation::Down {
+        header.take_names(&near, layout);
+    }
+    header
+}
+
+impl Header {
+    fn take_comment(&mut self, line: usize, key: &str, value: &str) {
+        let lower = key.to_ascii_lowercase();
+        if matches!(lower.as_str(), "unit" | "units" | "quantity" | "y unit" | "yunit") {
+            self.take_value_unit(line, value);
+            self.role = words::role(value).map(|role| (line, role)).or(self.role);
+        }
+        if matches!(lower.as_str(), "response" | "title" | "description") {
+            self.mentioned = self.mentioned.or_else(|| words::role(value).map(|role| (line, role)));
+        }
+        // `wavelength_unit`, `x unit` and the like; a plain `unit` is that of the values.
+        let about_x = words::x_unit_in_prose(&format!("{} {value}", lower.replace('_', " ")));
+        if let Some(unit) = about_x.filter(|_| lower.starts_with(['w', 'x'])) {
+            self.x_unit = Some((line, unit));
+        }
+        if self.comments.len() < MAX_COMMENTS {
+            self.comments.push((key.to_owned(), value.to_owned()));
+        }
+    }
+
+    fn take_value_unit(&mut self, line: usize, text: &str) {
+        if words::says_percent(text) {
+            self.percent = Some((line, true));
+        } else if words::says_fraction(text) && self.percent.is_none() {
+            self.percent = Some((line, false));
+        }
+    }
+
+    fn take_prose(&mut self, line: usize, text: &str) {
+        if let Some(unit) = words::x_unit_in_prose(text) {
+            self.x_unit = Some((line, unit));
+        }
+        let start = text.trim_start().as_bytes();
+        let about_y = start.get(..6).is_some_and(|start| start.eq_ignore_ascii_case(b"y unit"))
+            || start.get(..5).is_some_and(|start| start.eq_ignore_ascii_case(b"yunit"));
+        if about_y {
+            self.take_value_unit(line, text);
+            self.role = words::role(text).map(|role| (line, role)).or(self.role);
+        }
+        self.mentioned = words::role(text).map(|role| (line, role)).or(self.mentioned);
+    }
+
+    /// The names, and units below them, from the lines just above the numbers.
+    fn take_names(&mut self, near: &[(usize, &str)], layout: &Layout) {
+        for &(number, line) in near.iter().rev() {
+            let is_comment = comment(line).is_some();
+            let cells = split(layout.dialect(), comment(line).unwrap_or(line));
+            let exact = is_comment || layout.delimiter.value == Delimiter::Spaces;
+            if cells.len() < 2 || (exact && cells.len() != layout.width) {
+                let unit_alone = cells.len() == 1 && self.units.is_empty() && is_unit(&cells[0]);
+                if unit_alone {
+                    self.x_unit = words::x_unit(&cells[0]).map(|unit| (number, unit));
+                }
+                self.take_joined(number, line);
+                return;
+            }
+            if is_key_and_value(layout, &cells) {
+                return;
+            }
+            if self.units.is_empty() && is_unit_row(&cells) {
+                self.take_unit_cell(number, &cells);
+                self.units = cells;
+                continue;
+            }
+            if self.units.is_empty() {
+                self.take_unit_cell(number, &cells);
+            }
+            self.names = cells;
+            self.line = Some(number);
+            return;
+        }
+    }
+
+    /// Names that do not split into the columns of the table still say something about it as a whole.
+    fn take_joined(&mut self, number: usize, line: &str) {
+        if words::names_wavelengths(line) && self.percent.is_none() {
+            self.line = self.line.or(Some(number));
+            if words::says_percent(line) {
+                self.percent = Some((number, true));
+            }
+            self.role = words::role(line).map(|role| (number, role)).or(self.role);
+        }
+    }
+
+    fn take_unit_cell(&mut self, number: usize, cells: &[String]) {
+        let wavelength = cells.iter().find(|cell| words::names_wavelengths(cell)).or(cells.first());
+        if let Some(unit) = wavelength.and_then(|cell| words::x_unit(cell)) {
+            self.x_unit = Some((number, unit));
+        }
+    }
+}
+
+/// Whether a line above two columns is a setting of the instrument, such as `LUX 695`, and no pair of names.
+fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
+    let numeric = |cell: &String| matches!(layout.dialect().parse(cell), Cell::Number(_));
+    layout.width == 2 && cells.len() == 2 && numeric(&cells[1]) && !words::names_wavelengths(&cells[0])
+}
+
+/// The cells of a header line, unescaped, without empty ones at the end.
+pub(super) fn split(dialect: Dialect, line: &str) -> Vec<String> {
+    let mut cells: Vec<String> =
+        dialect.cells(line).take(MAX_CURVES + 1).map(|cell| cell.replace("\"\"", "\"")).collect();
+    while cells.last().is_some_and(String::is_empty) {
+        cells.pop();
+    }
+    cells
+}
+
+fn is_unit(cell: &str) -> bool {
+    let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+    WavelengthUnit::from_symbol(bare).is_some() || words::x_unit(bare) == Some(XUnit::Other)
+}
+
+fn is_unit_row(cells: &[String]) -> bool {
+    let bracketed = cells.iter().filter(|cell| cell.starts_with(['[', '('])).count();
+    bracketed * 2 >= cells.len() || (is_unit(&cells[0]) && cells[1..].iter().all(|cell| looks_like_unit(cell)))
+}
+
+fn looks_like_unit(cell: &str) -> bool {
+    cell.is_empty()
+        || cell.contains(['%', '/'])
+        || matches!(cell.to_ascii_lowercase().as_str(), "a.u." | "counts" | "1" | "-")
+}

@@ -1,0 +1,264 @@
+//! Provenance: what was decided on reading a file, how sure it is, and why.
+
+use std::fmt;
+
+use super::{DecimalMark, Delimiter, WavelengthUnit};
+
+/// How sure a decision is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Certainty {
+    /// The file says so, or leaves no other way to read it.
+    Certain,
+    /// The content suggests it; a person should look.
+    Guess,
+    /// The caller asked for it.
+    Chosen,
+}
+
+impl fmt::Display for Certainty {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Certain => "certain",
+            Self::Guess => "a guess",
+            Self::Chosen => "chosen",
+        })
+    }
+}
+
+/// A value with how sure it is and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decided<T> {
+    /// What was decided.
+    pub value: T,
+    /// How sure it is.
+    pub certainty: Certainty,
+    /// The evidence, as the first half of a sentence: "Values reach 98".
+    pub why: String,
+}
+
+impl<T> Decided<T> {
+    pub(super) fn certain(value: T, why: impl Into<String>) -> Self {
+        Self { value, certainty: Certainty::Certain, why: why.into() }
+    }
+
+    pub(super) fn guess(value: T, why: impl Into<String>) -> Self {
+        Self { value, certainty: Certainty::Guess, why: why.into() }
+    }
+
+    pub(super) fn chosen(value: T) -> Self {
+        Self { value, certainty: Certainty::Chosen, why: "Chosen by hand".to_owned() }
+    }
+
+    /// The caller's choice if there is one, else what `decide` finds.
+    pub(super) fn or_chosen(choice: Option<T>, decide: impl FnOnce() -> Self) -> Self {
+        choice.map_or_else(decide, Self::chosen)
+    }
+}
+
+/// One decision as text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Decision {
+    /// What it is about: "Decimal mark".
+    pub what: &'static str,
+    /// What was decided: "decimal commas".
+    pub value: String,
+    /// How sure it is.
+    pub certainty: Certainty,
+    /// The evidence: "Cells such as 0,05".
+    pub why: String,
+}
+
+impl Decision {
+    pub(super) fn new<T: fmt::Display>(what: &'static str, decided: &Decided<T>) -> Self {
+        Self { what, value: decided.value.to_string(), certainty: decided.certainty, why: decided.why.clone() }
+    }
+}
+
+impl fmt::Display for Decision {
+    /// One sentence: "Values reach 98: read as percent."
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: read as {}.", self.why, self.value)
+    }
+}
+
+/// The encoding of the bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Encoding {
+    /// UTF-8, of which ASCII is a part.
+    Utf8,
+    /// UTF-16, low byte first, with a byte order mark.
+    Utf16Le,
+    /// UTF-16, high byte first, with a byte order mark.
+    Utf16Be,
+    /// Windows-1252, which holds Latin-1: taken for all that is not UTF-8.
+    Windows1252,
+}
+
+impl fmt::Display for Encoding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Utf8 => "UTF-8",
+            Self::Utf16Le => "UTF-16 LE",
+            Self::Utf16Be => "UTF-16 BE",
+            Self::Windows1252 => "Windows-1252",
+        })
+    }
+}
+
+/// Where the wavelengths stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Orientation {
+    /// Down a column; every other column is a curve.
+    Down,
+    /// Across a header row; every row is a curve.
+    Across,
+}
+
+impl fmt::Display for Orientation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Down => "wavelengths down a column",
+            Self::Across => "wavelengths across a row",
+        })
+    }
+}
+
+/// Which reader took the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Reader {
+    /// The general reader of numbers in rows and columns.
+    Table,
+}
+
+impl fmt::Display for Reader {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Table => "table of numbers",
+        })
+    }
+}
+
+/// Why a row is in no curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Dropped {
+    /// It has values but no wavelength.
+    NoWavelength,
+    /// It repeats an earlier row exactly.
+    Repeated,
+}
+
+impl fmt::Display for Dropped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NoWavelength => "no wavelength",
+            Self::Repeated => "the same as an earlier row",
+        })
+    }
+}
+
+/// A row that is in no curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DroppedRow {
+    /// Its line, from 1.
+    pub line: usize,
+    /// Why.
+    pub why: Dropped,
+}
+
+/// The distances between neighboring wavelengths, in nanometers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steps {
+    /// The smallest.
+    pub min: f64,
+    /// The median.
+    pub median: f64,
+    /// The largest.
+    pub max: f64,
+}
+
+impl Steps {
+    /// The steps of ascending wavelengths, of which there are at least two.
+    pub(super) fn of(wavelengths_nm: &[f64]) -> Self {
+        let mut steps: Vec<f64> = wavelengths_nm.windows(2).map(|pair| clean(pair[1] - pair[0])).collect();
+        steps.sort_unstable_by(f64::total_cmp);
+        let at = |i: usize| steps.get(i).copied().unwrap_or(0.0);
+        Self { min: at(0), median: at(steps.len() / 2), max: at(steps.len().saturating_sub(1)) }
+    }
+}
+
+/// A length in nanometers rounded to 1e-9: the noise of decimal fractions goes, nothing measurable does.
+pub(super) fn clean(nm: f64) -> f64 {
+    const PER_NM: f64 = 1e9;
+    let rounded = (nm * PER_NM).round() / PER_NM;
+    if rounded.is_finite() { rounded } else { nm }
+}
+
+/// How a file was understood, from its bytes to its units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Which reader took the file.
+    pub reader: Reader,
+    /// The encoding of the bytes.
+    pub encoding: Encoding,
+    /// What stands between cells.
+    pub delimiter: Decided<Delimiter>,
+    /// What stands before fractions.
+    pub decimal_mark: Decided<DecimalMark>,
+    /// Where the wavelengths stand.
+    pub orientation: Decided<Orientation>,
+    /// The unit of the wavelengths as written.
+    pub wavelength_unit: Decided<WavelengthUnit>,
+    /// Whether the values (or the columns the header marks) were percent and are divided by 100.
+    pub percent: Decided<bool>,
+    /// The comments above the table, `# key: value`, in order; the first thousand.
+    pub header: Vec<(String, String)>,
+    /// The line with the names of the columns.
+    pub header_line: Option<usize>,
+    /// The line where the numbers begin.
+    pub first_data_line: usize,
+    /// Rows of numbers, those dropped among them.
+    pub rows: usize,
+    /// Rows that are in no curve.
+    pub dropped_rows: Vec<DroppedRow>,
+    /// Whether the wavelengths came in descending order.
+    pub descending: bool,
+    /// The first and the last wavelength, in nanometers.
+    pub range_nm: [f64; 2],
+    /// The distances between wavelengths.
+    pub step_nm: Steps,
+    /// For camera sensitivities, which curves are red, green and blue.
+    pub camera_columns: Option<[usize; 3]>,
+}
+
+impl Reading {
+    /// Every decision, in the order in which they were made.
+    pub fn decisions(&self) -> Vec<Decision> {
+        let scale = Decided {
+            value: if self.percent.value { "percent" } else { "plain numbers, not percent" },
+            certainty: self.percent.certainty,
+            why: self.percent.why.clone(),
+        };
+        vec![
+            Decision::new("Encoding", &Decided::certain(self.encoding, self.encoding_evidence())),
+            Decision::new("Separator", &self.delimiter),
+            Decision::new("Decimal mark", &self.decimal_mark),
+            Decision::new("Orientation", &self.orientation),
+            Decision::new("Wavelengths", &self.wavelength_unit),
+            Decision::new("Values", &scale),
+        ]
+    }
+
+    /// The value of a comment, such as `title`, whatever the case of its key.
+    pub fn comment(&self, key: &str) -> Option<&str> {
+        self.header.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, value)| value.as_str())
+    }
+
+    fn encoding_evidence(&self) -> &'static str {
+        match self.encoding {
+            Encoding::Utf8 => "The bytes are valid UTF-8",
+            Encoding::Utf16Le | Encoding::Utf16Be => "The byte order mark says so",
+            Encoding::Windows1252 => "The bytes are not UTF-8",
+        }
+    }
+}

@@ -1,0 +1,293 @@
+//! What curves are, and whether their values are percent.
+
+use std::fmt;
+
+use super::grid::Grid;
+use super::warning::Warning;
+use super::words::{self, Channel};
+use super::{Curve, Decided, ReadOptions};
+
+/// What the curves of a table are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// Sensitivities of a camera, or color matching functions.
+    Camera,
+    /// Reflectances, or transmittances of filters: fractions of one.
+    Reflectance,
+    /// Spectral power of lights, in any unit.
+    Illuminant,
+}
+
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Camera => "camera sensitivities",
+            Self::Reflectance => "reflectances",
+            Self::Illuminant => "illuminants",
+        })
+    }
+}
+
+/// The role, the scale, and the curves that are divided by 100.
+#[derive(Debug)]
+pub(super) struct Scale {
+    pub(super) role: Decided<Role>,
+    pub(super) percent: Decided<bool>,
+    divided: Divided,
+}
+
+#[derive(Debug, PartialEq)]
+enum Divided {
+    None,
+    All,
+    /// Only the curves whose own header says percent.
+    Headed,
+}
+
+/// Where reflectances are judged: outside, instruments are noisy.
+const VISIBLE_NM: std::ops::RangeInclusive<f64> = 400.0..=700.0;
+
+/// Largest and median values, where they are judged.
+#[derive(Debug)]
+struct Span {
+    min: f64,
+    median: f64,
+    max: f64,
+}
+
+impl Span {
+    /// Of all curves: in the visible range, or everywhere if nothing is there.
+    fn of(grid: &Grid) -> Self {
+        let visible = |w: &f64| VISIBLE_NM.contains(w);
+        let all = !grid.wavelengths.iter().any(visible);
+        let stride = (grid.wavelengths.len() * grid.curves.len() / MEDIAN_SAMPLE).max(1);
+        let (mut min, mut max, mut seen) = (f64::INFINITY, f64::NEG_INFINITY, 0_usize);
+        let mut sample = Vec::new();
+        for curve in &grid.curves {
+            for (w, &value) in grid.wavelengths.iter().zip(&curve.values) {
+                if value.is_nan() || !(all || visible(w)) {
+                    continue;
+                }
+                (min, max) = (min.min(value), max.max(value));
+                if seen.is_multiple_of(stride) {
+                    sample.push(value);
+                }
+                seen += 1;
+            }
+        }
+        sample.sort_unstable_by(f64::total_cmp);
+        let median = sample.get(sample.len() / 2).copied().unwrap_or(0.0);
+        Self { min, median, max }
+    }
+
+    /// The range of reflectances in percent. Up to 130, because glossy and fluorescent samples pass 100.
+    fn percent(&self) -> bool {
+        self.median > 2.0 && self.max <= 130.0
+    }
+
+    fn evidence(&self) -> String {
+        format!("Values reach {}", short(self.max))
+    }
+}
+
+/// Values that are enough for a median that is only compared with 2.
+const MEDIAN_SAMPLE: usize = 65_536;
+
+/// A number with at most four significant digits, for people.
+fn short(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return "0".to_owned();
+    }
+    let digits = 3 - value.abs().log10().floor() as i32;
+    if (-8..=12).contains(&digits) {
+        let scale = 10_f64.powi(digits.max(0));
+        format!("{}", (value * scale).round() / scale)
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+/// Decides what the curves are and whether they are percent.
+pub(super) fn decide(grid: &Grid, options: &ReadOptions) -> Scale {
+    let span = Span::of(grid);
+    let role = Decided::or_chosen(options.role, || {
+        role_from_header(grid)
+            .or_else(|| role_from_hints(grid, options))
+            .unwrap_or_else(|| role_from_values(grid, &span))
+    });
+    let (percent, divided) = percent(grid, options, role.value, &span);
+    Scale { role, percent, divided }
+}
+
+fn role_from_header(grid: &Grid) -> Option<Decided<Role>> {
+    if let Some((line, role)) = grid.header.role {
+        return Some(Decided::certain(role, format!("Line {line} says so")));
+    }
+    let mut named = grid.curves.iter().filter_map(|curve| Some((words::role(&curve.label)?, &curve.name)));
+    if let Some((role, name)) = named.next() {
+        let why = format!("A column is named “{name}”");
+        let agree = named.all(|(other, _)| other == role);
+        return Some(if agree { Decided::certain(role, why) } else { Decided::guess(role, why) });
+    }
+    let names: Vec<&str> = grid.curves.iter().map(|curve| curve.label.as_str()).collect();
+    let (_, letters) = channels(&names)?;
+    Some(if letters {
+        Decided::certain(Role::Camera, format!("The columns are named {}", names.join(", ")))
+    } else {
+        Decided::guess(Role::Camera, format!("The columns are named {}", names.join(", ")))
+    })
+}
+
+fn role_from_hints(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
+    if options.percent == Some(true) {
+        return Some(Decided::guess(Role::Reflectance, "Percent was chosen"));
+    }
+    let headed = grid.curves.iter().any(|curve| words::says_percent(&curve.label));
+    if headed || matches!(grid.header.percent, Some((_, true))) {
+        return Some(Decided::guess(Role::Reflectance, "The header says percent"));
+    }
+    let (line, role) = grid.header.mentioned?;
+    Some(Decided::guess(role, format!("Line {line} mentions it")))
+}
+
+fn role_from_values(grid: &Grid, span: &Span) -> Decided<Role> {
+    // Lights scaled the usual way are exactly 100 at 560 nm.
+    const ANCHOR: (f64, f64) = (560.0, 100.0);
+    // Reflectances in percent without a header: the noise of a white tile, but not the peak of a light.
+    const PERCENT_MAX: f64 = 106.0;
+    if bells(grid).is_some() {
+        return Decided::guess(Role::Camera, "Three bells, one in each third of the visible range");
+    }
+    let at = grid.wavelengths.iter().position(|&w| w == ANCHOR.0);
+    let anchored = at.is_some_and(|i| grid.curves.iter().all(|curve| curve.values[i] == ANCHOR.1));
+    let fraction = span.min >= -0.2 && span.max <= 1.2 && span.max > 0.0;
+    if fraction || (span.percent() && span.max <= PERCENT_MAX && !anchored) {
+        Decided::guess(Role::Reflectance, span.evidence())
+    } else if anchored {
+        Decided::guess(Role::Illuminant, "Values are 100 at 560 nm")
+    } else {
+        Decided::guess(Role::Illuminant, span.evidence())
+    }
+}
+
+fn percent(grid: &Grid, options: &ReadOptions, role: Role, span: &Span) -> (Decided<bool>, Divided) {
+    if role != Role::Reflectance {
+        return (Decided::certain(false, "Only reflectances are scaled"), Divided::None);
+    }
+    let all = |percent: bool| if percent { Divided::All } else { Divided::None };
+    if let Some(chosen) = options.percent {
+        return (Decided::chosen(chosen), all(chosen));
+    }
+    if let Some((line, percent)) = grid.header.percent {
+        return (Decided::certain(percent, format!("Line {line} says so")), all(percent));
+    }
+    let headed = grid.curves.iter().filter(|curve| words::says_percent(&curve.label)).count();
+    if headed > 0 {
+        let whole = headed == grid.curves.len();
+        let why =
+            if whole { "The columns are headed percent" } else { "Some columns are headed percent, and only they" };
+        return (Decided::certain(true, why), if whole { Divided::All } else { Divided::Headed });
+    }
+    let percent = span.percent();
+    (Decided::guess(percent, span.evidence()), all(percent))
+}
+
+/// Divides what is percent by 100.
+pub(super) fn divide(grid: &mut Grid, scale: &Scale) {
+    for curve in &mut grid.curves {
+        let divided = match scale.divided {
+            Divided::None => false,
+            Divided::All => true,
+            Divided::Headed => words::says_percent(&curve.label),
+        };
+        if divided {
+            curve.values.iter_mut().for_each(|value| *value /= 100.0);
+        }
+    }
+}
+
+/// Warns of reflectances that cannot be.
+pub(super) fn warn(scale: &Scale, curves: &[Curve], warnings: &mut Vec<Warning>) {
+    const LARGEST: f64 = 2.0;
+    if scale.role.value != Role::Reflectance {
+        return;
+    }
+    let max = |curve: &Curve| {
+        let visible = curve.wavelengths_nm.iter().zip(&curve.values).filter(|(w, _)| VISIBLE_NM.contains(w));
+        visible.map(|(_, value)| *value).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let mut bright = curves.iter().map(|curve| (curve, max(curve))).filter(|(_, max)| *max > LARGEST);
+    if let Some((curve, max)) = bright.next() {
+        warnings.push(Warning::NotReflectances { count: 1 + bright.count(), first: curve.name.clone(), max });
+    }
+}
+
+/// Which of three or four names are red, green and blue, and whether all are letters. A fourth curve may be beside
+/// them, such as an infrared or a clear channel.
+fn channels(names: &[&str]) -> Option<([usize; 3], bool)> {
+    if !(3..=4).contains(&names.len()) {
+        return None;
+    }
+    let mut found: [Option<usize>; 3] = [None; 3];
+    let mut letters = true;
+    for (index, name) in names.iter().enumerate() {
+        let channel = match words::channel(name) {
+            Some(Channel::Letter(channel)) => channel,
+            Some(Channel::Word(channel)) => {
+                letters = false;
+                channel
+            }
+            None => continue,
+        };
+        if found[channel].replace(index).is_some() {
+            return None;
+        }
+    }
+    Some(([found[0]?, found[1]?, found[2]?], letters))
+}
+
+/// Which curves of a camera are red, green and blue: by name, or by where three curves peak.
+pub(super) fn camera_columns(role: Role, curves: &[Curve]) -> Option<[usize; 3]> {
+    if role != Role::Camera {
+        return None;
+    }
+    let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).take(5).collect();
+    channels(&names).map(|(columns, _)| columns).or_else(|| by_peak(curves))
+}
+
+fn by_peak(curves: &[Curve]) -> Option<[usize; 3]> {
+    if curves.len() != 3 {
+        return None;
+    }
+    let mut order: Vec<(f64, usize)> =
+        curves.iter().enumerate().map(|(i, curve)| (peak(&curve.wavelengths_nm, &curve.values).0, i)).collect();
+    order.sort_by(|a, b| b.0.total_cmp(&a.0));
+    Some([order[0].1, order[1].1, order[2].1])
+}
+
+/// Where a curve is largest, and how large.
+fn peak(wavelengths: &[f64], values: &[f64]) -> (f64, f64) {
+    let start = (f64::NAN, f64::NEG_INFINITY);
+    wavelengths.iter().zip(values).fold(start, |best, (&w, &value)| if value > best.1 { (w, value) } else { best })
+}
+
+/// Whether exactly three curves look like the channels of a camera: small at both ends, with peaks in order.
+fn bells(grid: &Grid) -> Option<()> {
+    const ENDS: f64 = 0.3;
+    const PEAKS_NM: [std::ops::RangeInclusive<f64>; 3] = [410.0..=500.0, 500.0..=580.0, 570.0..=680.0];
+    if grid.curves.len() != 3 || grid.wavelengths.len() < 8 {
+        return None;
+    }
+    let mut peaks = Vec::with_capacity(3);
+    for curve in &grid.curves {
+        let (at, max) = peak(&grid.wavelengths, &curve.values);
+        let ends = [curve.values.first()?, curve.values.last()?];
+        if max <= 0.0 || ends.iter().any(|&&end| end.is_nan() || end > ENDS * max) {
+            return None;
+        }
+        peaks.push(at);
+    }
+    peaks.sort_by(f64::total_cmp);
+    let in_place = peaks.iter().zip(&PEAKS_NM).all(|(peak, range)| range.contains(peak));
+    (in_place && peaks[1] - peaks[0] > 20.0 && peaks[2] - peaks[1] > 20.0).then_some(())
+}

@@ -1,0 +1,235 @@
+//! Decides how a text is laid out: separators, decimal mark, orientation, and the line where the numbers begin.
+
+use super::dialect::{DecimalMark, Delimiter, Dialect};
+use super::text::{Lines, comment};
+use super::trial::{Across, Shape, Trial};
+use super::warning::Warning;
+use super::{Decided, Orientation, ReadError, ReadOptions};
+
+/// How a text is laid out.
+#[derive(Debug)]
+pub(super) struct Layout {
+    pub(super) delimiter: Decided<Delimiter>,
+    pub(super) decimal_mark: Decided<DecimalMark>,
+    pub(super) orientation: Decided<Orientation>,
+    /// The first line of values.
+    pub(super) first_line: usize,
+    /// Columns, as far as seen.
+    pub(super) width: usize,
+    /// The header of wavelengths, if they run across.
+    pub(super) across: Option<Across>,
+    pub(super) warnings: Vec<Warning>,
+}
+
+impl Layout {
+    pub(super) fn dialect(&self) -> Dialect {
+        Dialect { delimiter: self.delimiter.value, mark: self.decimal_mark.value }
+    }
+
+    /// The line before which comments and names stand.
+    pub(super) fn header_end(&self) -> usize {
+        self.across.as_ref().map_or(self.first_line, |across| across.line)
+    }
+}
+
+/// Lines that are tried before deciding, if enough of them are rows of numbers.
+const SAMPLE_LINES: usize = 200;
+const SAMPLE_ROWS: usize = 8;
+/// The same for very long lines, in bytes.
+const SAMPLE_BYTES: usize = 1 << 20;
+const SAMPLE_ROWS_LONG: usize = 3;
+
+/// All ways to split a line; where several fit equally, the first is taken.
+const CANDIDATES: [(Delimiter, DecimalMark); 9] = [
+    (Delimiter::Semicolon, DecimalMark::Point),
+    (Delimiter::Semicolon, DecimalMark::Comma),
+    (Delimiter::Tab, DecimalMark::Point),
+    (Delimiter::Tab, DecimalMark::Comma),
+    (Delimiter::CommaSpace, DecimalMark::Comma),
+    (Delimiter::Comma, DecimalMark::Point),
+    (Delimiter::Comma, DecimalMark::Comma),
+    (Delimiter::Spaces, DecimalMark::Point),
+    (Delimiter::Spaces, DecimalMark::Comma),
+];
+
+/// Decides the layout from the beginning of a text, as far as it takes to find the numbers.
+pub(super) fn sniff(text: &str, options: &ReadOptions) -> Result<Layout, ReadError> {
+    let trials = try_all(text, options);
+    let Some(best) = choose(&trials, options) else {
+        let single = trials.iter().find(|trial| trial.single >= 2);
+        return Err(single.map_or(ReadError::NoNumbers, |trial| ReadError::OneColumn { line: trial.single_line }));
+    };
+    let orientation = Decided::or_chosen(options.orientation, || orientation(best));
+    if orientation.value == Orientation::Across {
+        return lay_across(text, options, best, orientation);
+    }
+    if best.best.rows == 0 {
+        return Err(ReadError::NoNumbers);
+    }
+    lay_down(text, options, best, orientation)
+}
+
+fn try_all(text: &str, options: &ReadOptions) -> Vec<Trial> {
+    let wanted = |(delimiter, mark): &(Delimiter, DecimalMark)| {
+        options.delimiter.is_none_or(|chosen| chosen == *delimiter)
+            && options.decimal_mark.is_none_or(|chosen| chosen == *mark)
+    };
+    let dialects = CANDIDATES.iter().filter(|candidate| wanted(candidate));
+    let mut trials: Vec<Trial> = dialects.map(|&(delimiter, mark)| Trial::new(Dialect { delimiter, mark })).collect();
+    let (mut lines, mut bytes) = (0, 0);
+    for (number, line) in content(text) {
+        for trial in &mut trials {
+            trial.take(number, line);
+        }
+        lines += 1;
+        bytes += line.len();
+        let rows = trials.iter().map(|trial| trial.rows(options.orientation)).max().unwrap_or(0);
+        if (lines >= SAMPLE_LINES && rows >= SAMPLE_ROWS) || (bytes >= SAMPLE_BYTES && rows >= SAMPLE_ROWS_LONG) {
+            break;
+        }
+    }
+    trials
+}
+
+/// The lines that are neither blank nor comments.
+fn content(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    Lines::new(text).filter(|(_, line)| !line.trim_ascii().is_empty() && comment(line).is_none())
+}
+
+/// The trial that understands most rows, then the one in best order, then the first.
+fn choose<'a>(trials: &'a [Trial], options: &ReadOptions) -> Option<&'a Trial> {
+    let mut best: Option<&Trial> = None;
+    for trial in trials {
+        let Dialect { delimiter, mark } = trial.dialect;
+        let commas_twice = matches!(delimiter, Delimiter::Comma | Delimiter::CommaSpace) && mark == DecimalMark::Comma;
+        // Both uses of the comma are believed only where one is seen that does not separate.
+        let unproven = commas_twice && trial.marks == 0 && options.delimiter.is_none();
+        let rank = |trial: &Trial| (trial.rows(options.orientation), trial.best.steady());
+        if rank(trial).0 > 0 && !unproven && best.is_none_or(|best| rank(trial) > rank(best)) {
+            best = Some(trial);
+        }
+    }
+    best
+}
+
+fn orientation(trial: &Trial) -> Decided<Orientation> {
+    let rows = trial.best.rows;
+    let down = trial.best.looks_like_wavelengths();
+    match trial.across.as_ref().filter(|across| across.rows > 0) {
+        Some(across) if !down && across.rows + 1 >= rows => {
+            Decided::certain(Orientation::Across, format!("Line {} holds {} wavelengths", across.line, across.count))
+        }
+        Some(_) => Decided::guess(Orientation::Down, "The first numbers of the rows are in order"),
+        None => Decided::certain(Orientation::Down, "No line holds wavelengths side by side"),
+    }
+}
+
+fn lay_across(
+    text: &str,
+    options: &ReadOptions,
+    trial: &Trial,
+    orientation: Decided<Orientation>,
+) -> Result<Layout, ReadError> {
+    let across = trial.across.clone().filter(|across| across.rows > 0).ok_or(ReadError::NoNumbers)?;
+    let evidence = format!("A header of {} wavelengths with {} rows below it", across.count, across.rows);
+    Ok(Layout {
+        delimiter: Decided::or_chosen(options.delimiter, || Decided::certain(trial.dialect.delimiter, evidence)),
+        decimal_mark: decimal_mark(text, options, trial, across.line),
+        orientation,
+        first_line: across.first_row,
+        width: across.width(),
+        across: Some(across),
+        warnings: Vec::new(),
+    })
+}
+
+fn lay_down(
+    text: &str,
+    options: &ReadOptions,
+    trial: &Trial,
+    orientation: Decided<Orientation>,
+) -> Result<Layout, ReadError> {
+    let run = &trial.best;
+    let (delimiter, mark) = (trial.dialect.delimiter, trial.dialect.mark);
+    let why = format!("Rows of {} numbers", run.filled);
+    let commas_only = (delimiter, mark) == (Delimiter::Comma, DecimalMark::Point)
+        && trial.marks == 0
+        && run.filled > 2
+        && options.delimiter.is_none();
+    let mut warnings = Vec::new();
+    if commas_only {
+        if let Some(line) = trial.padded_line {
+            return Err(ReadError::AmbiguousCommas { line });
+        }
+        warnings.push(Warning::CommasOnly);
+    }
+    let decide = || if commas_only { Decided::guess(delimiter, why) } else { Decided::certain(delimiter, why) };
+    Ok(Layout {
+        delimiter: Decided::or_chosen(options.delimiter, decide),
+        decimal_mark: decimal_mark(text, options, trial, run.line),
+        orientation,
+        first_line: first_line(text, trial, &mut warnings),
+        width: run.filled,
+        across: None,
+        warnings,
+    })
+}
+
+/// The decimal mark; where the sample holds whole numbers only, the first mark after it decides.
+fn decimal_mark(text: &str, options: &ReadOptions, trial: &Trial, from: usize) -> Decided<DecimalMark> {
+    Decided::or_chosen(options.decimal_mark, || {
+        let Dialect { delimiter, mark } = trial.dialect;
+        if trial.marks > 0 {
+            let why = match mark {
+                DecimalMark::Point => "Fractions stand after points",
+                DecimalMark::Comma => "Fractions stand after commas",
+            };
+            return Decided::certain(mark, why);
+        }
+        let later = Lines::new(text)
+            .skip(from.saturating_sub(1))
+            .filter(|(_, line)| line.trim_ascii_start().starts_with(|c: char| c.is_ascii_digit()))
+            .find_map(|(_, line)| line.bytes().find(|b| matches!(b, b'.' | b',')));
+        match later {
+            Some(b',') if delimiter != Delimiter::Comma => {
+                Decided::certain(DecimalMark::Comma, "Fractions stand after commas")
+            }
+            Some(b'.') => Decided::certain(DecimalMark::Point, "Fractions stand after points"),
+            _ => Decided::guess(mark, "No number has a fraction"),
+        }
+    })
+}
+
+/// The first line of the table: where the rows of numbers begin, even if a broken row soon interrupts them, so that
+/// the reader sees the broken row. Lone numbers further up that do not continue the table are left out.
+fn first_line(text: &str, trial: &Trial, warnings: &mut Vec<Warning>) -> usize {
+    let run = &trial.best;
+    let step = (run.last - run.first) / run.rows.max(2).saturating_sub(1) as f64;
+    let mut fragment: Option<(usize, usize)> = None; // first line, rows
+    let mut stray = None;
+    for (number, line) in content(text).take_while(|(number, _)| *number < run.line) {
+        let shape = Shape::of(trial.dialect, line);
+        if !shape.is_row() {
+            continue;
+        }
+        let steps_away = shape.first.map_or(f64::NAN, |first| (run.first - first) / step);
+        let near = steps_away > 0.0 && steps_away <= 4.0 * (run.line - number) as f64;
+        let same = shape.fits(run.cells, run.filled);
+        match &mut fragment {
+            Some((_, rows)) if same => *rows += 1,
+            Some(_) => {}
+            None if near => return number,
+            None if same => fragment = Some((number, 1)),
+            None => stray = stray.or(Some(number)),
+        }
+    }
+    match fragment {
+        Some((line, 2..)) => return line,
+        Some((line, _)) => stray = stray.map_or(Some(line), |other: usize| Some(other.min(line))),
+        None => {}
+    }
+    if let Some(line) = stray {
+        warnings.push(Warning::NumbersAbove { line });
+    }
+    run.line
+}

@@ -1,0 +1,132 @@
+//! Bytes to text: limits, binary files, encodings, line ends.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use encoding_rs::{UTF_16BE, UTF_16LE, WINDOWS_1252};
+
+use super::{Encoding, ReadError};
+
+/// The most bytes a file may have: 64 MiB. Spectra of a whole session of measurements are far below.
+pub const MAX_BYTES: usize = 64 << 20;
+
+/// A kind of binary file that is recognized by its first bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum BinaryKind {
+    /// A ZIP container, such as an Excel workbook (`.xlsx`).
+    Zip,
+    /// An OLE2 container, such as an old Excel workbook (`.xls`).
+    Ole2,
+    /// A PNG image.
+    Png,
+    /// A JPEG image.
+    Jpeg,
+    /// A PDF document.
+    Pdf,
+    /// A gzip archive.
+    Gzip,
+    /// A measurement in `AvaSoft` 8's own format.
+    AvaSoft8,
+}
+
+impl fmt::Display for BinaryKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Zip => "a ZIP container (such as .xlsx)",
+            Self::Ole2 => "an OLE2 container (such as an old .xls)",
+            Self::Png => "a PNG image",
+            Self::Jpeg => "a JPEG image",
+            Self::Pdf => "a PDF document",
+            Self::Gzip => "a gzip archive",
+            Self::AvaSoft8 => "an AvaSoft 8 binary measurement (AVS8x)",
+        })
+    }
+}
+
+const MAGIC: [(&[u8], BinaryKind); 7] = [
+    (b"PK\x03\x04", BinaryKind::Zip),
+    (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", BinaryKind::Ole2),
+    (b"\x89PNG", BinaryKind::Png),
+    (b"\xFF\xD8\xFF", BinaryKind::Jpeg),
+    (b"%PDF", BinaryKind::Pdf),
+    (b"\x1F\x8B", BinaryKind::Gzip),
+    (b"AVS8", BinaryKind::AvaSoft8),
+];
+
+/// The text of a file and the encoding it was in. NUL padding, which some instruments write, is removed.
+pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
+    if bytes.len() > MAX_BYTES {
+        return Err(ReadError::TooLarge { megabytes: bytes.len().div_ceil(1 << 20), limit: MAX_BYTES >> 20 });
+    }
+    if let Some((_, kind)) = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)) {
+        return Err(ReadError::Binary { kind: *kind });
+    }
+    let (text, encoding) = decode_any(bytes);
+    let text = if text.contains('\0') { Cow::Owned(text.replace('\0', "")) } else { text };
+    if text.trim().is_empty() {
+        return Err(ReadError::Empty);
+    }
+    Ok((text, encoding))
+}
+
+fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
+    if let Some(rest) = bytes.strip_prefix(b"\xFF\xFE") {
+        return (UTF_16LE.decode_without_bom_handling(rest).0, Encoding::Utf16Le);
+    }
+    if let Some(rest) = bytes.strip_prefix(b"\xFE\xFF") {
+        return (UTF_16BE.decode_without_bom_handling(rest).0, Encoding::Utf16Be);
+    }
+    let rest = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    match std::str::from_utf8(rest) {
+        Ok(text) => (Cow::Borrowed(text), Encoding::Utf8),
+        Err(_) => (WINDOWS_1252.decode_without_bom_handling(rest).0, Encoding::Windows1252),
+    }
+}
+
+/// The lines of a text with their numbers from 1. `\n`, `\r\n` and a lone `\r` each end a line.
+#[derive(Debug, Clone)]
+pub(super) struct Lines<'a> {
+    rest: &'a str,
+    number: usize,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(text: &'a str) -> Self {
+        Self { rest: text, number: 0 }
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = (usize, &'a str);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.rest.is_empty() {
+            return None;
+        }
+        self.number += 1;
+        let bytes = self.rest.as_bytes();
+        let Some(end) = bytes.iter().position(|&b| b == b'\n' || b == b'\r') else {
+            return Some((self.number, std::mem::take(&mut self.rest)));
+        };
+        let line = &self.rest[..end];
+        let ending = if bytes[end..].starts_with(b"\r\n") { 2 } else { 1 };
+        self.rest = &self.rest[end + ending..];
+        Some((self.number, line))
+    }
+}
+
+/// The text of a comment line (`# …`), or `None`. A line that begins with a spreadsheet's error cell is no comment.
+pub(super) fn comment(line: &str) -> Option<&str> {
+    let rest = line.trim_start().strip_prefix('#')?;
+    let error_cell = ["N/A", "DIV/0!", "NUM!", "VALUE!", "REF!", "NAME?"].iter().any(|cell| rest.starts_with(cell));
+    (!error_cell).then(|| rest.trim())
+}
+
+/// At most the first 40 characters of a piece of text, for messages.
+pub(super) fn excerpt(text: &str) -> String {
+    const LIMIT: usize = 40;
+    match text.char_indices().nth(LIMIT) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}

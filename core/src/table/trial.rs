@@ -1,0 +1,267 @@
+//! One way to split lines into cells, tried on the beginning of a file.
+
+use super::dialect::{Cell, Dialect};
+use super::wavelengths::plausible;
+use super::{MAX_CURVES, Orientation};
+
+/// The fewest wavelengths across a row that are taken for a header.
+const FEWEST_ACROSS: usize = 5;
+
+/// What a line looks like when split in one way.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Shape {
+    /// All cells, and all but empty ones at the end.
+    pub(super) cells: usize,
+    pub(super) filled: usize,
+    pub(super) numbers: usize,
+    /// The first number.
+    pub(super) first: Option<f64>,
+    /// Whether any cell is text (a wavelength with its unit in the first cell is a number).
+    pub(super) text: bool,
+    /// Cells with this dialect's decimal mark.
+    marks: usize,
+    /// Whether a cell after the first is written like `05`, as only digits after a decimal mark are.
+    padded: bool,
+    /// Cells up to and including the last that is text.
+    text_until: usize,
+    tail: Tail,
+}
+
+/// The numbers that end a line without interruption: what a header of wavelengths looks like.
+#[derive(Debug, Clone, Default)]
+struct Tail {
+    start: usize,
+    count: usize,
+    last: f64,
+    rises: usize,
+    falls: usize,
+    min: f64,
+    max: f64,
+    fractions: bool,
+    interrupted: bool,
+}
+
+impl Tail {
+    fn push(&mut self, index: usize, value: f64) {
+        if self.interrupted || self.count == 0 {
+            *self = Self { start: index, count: 1, last: value, min: value, max: value, ..Self::default() };
+        } else {
+            self.count += 1;
+            self.rises += usize::from(value > self.last);
+            self.falls += usize::from(value < self.last);
+            self.min = self.min.min(value);
+            self.max = self.max.max(value);
+            self.last = value;
+        }
+        self.fractions |= value.fract() != 0.0;
+    }
+
+    fn steady(&self) -> bool {
+        self.rises.max(self.falls) + 1 == self.count
+    }
+}
+
+impl Shape {
+    pub(super) fn of(dialect: Dialect, line: &str) -> Self {
+        let mut shape = Self::default();
+        for (index, cell) in dialect.cells(line).take(MAX_CURVES + 2).enumerate() {
+            shape.cells += 1;
+            if !cell.is_empty() {
+                shape.filled = index + 1;
+            }
+            match dialect.parse(cell) {
+                Cell::Number(value) => shape.number(index, value, dialect.has_mark(cell), cell),
+                Cell::Gap => shape.tail.interrupted = true,
+                Cell::Text => shape.label_or_text(index, dialect, cell),
+            }
+        }
+        shape
+    }
+
+    fn label_or_text(&mut self, index: usize, dialect: Dialect, cell: &str) {
+        self.text |= index > 0;
+        if let Some((value, _)) = dialect.parse_label(cell) {
+            self.number(index, value, dialect.has_mark(cell), "");
+            return;
+        }
+        self.text = true;
+        self.text_until = index + 1;
+        self.tail = Tail { start: index + 1, ..Tail::default() };
+    }
+
+    fn number(&mut self, index: usize, value: f64, marked: bool, cell: &str) {
+        self.numbers += 1;
+        self.first = self.first.or(Some(value));
+        self.marks += usize::from(marked);
+        let bytes = cell.as_bytes();
+        self.padded |= index > 0 && bytes.len() > 1 && bytes[0] == b'0' && bytes.iter().all(u8::is_ascii_digit);
+        self.tail.push(index, value);
+    }
+
+    /// Whether the line is a row of numbers.
+    pub(super) fn is_row(&self) -> bool {
+        !self.text && self.numbers > 0 && self.filled > 1
+    }
+
+    /// Whether two rows can stand in one table.
+    pub(super) fn fits(&self, cells: usize, filled: usize) -> bool {
+        self.cells == cells || self.filled == filled
+    }
+}
+
+/// Rows of numbers in one block.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Run {
+    pub(super) line: usize,
+    pub(super) rows: usize,
+    pub(super) cells: usize,
+    pub(super) filled: usize,
+    /// The first numbers of the first and the last row.
+    pub(super) first: f64,
+    pub(super) last: f64,
+    rises: usize,
+    falls: usize,
+    min: f64,
+    max: f64,
+    fractions: bool,
+}
+
+impl Run {
+    /// How many rows go on in the main direction.
+    pub(super) fn steady(&self) -> usize {
+        self.rises.max(self.falls)
+    }
+
+    /// Whether the first numbers look like wavelengths down a column.
+    pub(super) fn looks_like_wavelengths(&self) -> bool {
+        self.rows >= 3 && self.steady() + 1 == self.rows && plausible(self.min, self.max, self.fractions)
+    }
+
+    fn push(&mut self, line: usize, shape: &Shape) {
+        let value = shape.first.unwrap_or(self.last);
+        if self.rows == 0 {
+            *self = Self { line, first: value, last: value, min: value, max: value, ..Self::default() };
+        }
+        self.rises += usize::from(value > self.last);
+        self.falls += usize::from(value < self.last);
+        self.min = self.min.min(value);
+        self.max = self.max.max(value);
+        self.fractions |= value.fract() != 0.0;
+        self.rows += 1;
+        self.last = value;
+        self.cells = shape.cells;
+        self.filled = self.filled.max(shape.filled);
+    }
+}
+
+/// A header of wavelengths across a line, and the rows that fit below it.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Across {
+    pub(super) line: usize,
+    /// The first column of wavelengths, and how many there are.
+    pub(super) start: usize,
+    pub(super) count: usize,
+    pub(super) first_row: usize,
+    pub(super) rows: usize,
+    ended: bool,
+}
+
+impl Across {
+    /// The columns up to the last wavelength.
+    pub(super) fn width(&self) -> usize {
+        self.start + self.count
+    }
+}
+
+/// A dialect and what it makes of the lines so far.
+#[derive(Debug, Clone)]
+pub(super) struct Trial {
+    pub(super) dialect: Dialect,
+    run: Run,
+    pub(super) best: Run,
+    pub(super) across: Option<Across>,
+    across_tested: bool,
+    /// Cells with the decimal mark, in rows of numbers.
+    pub(super) marks: usize,
+    /// The first row with a cell like `05`.
+    pub(super) padded_line: Option<usize>,
+    /// Lines of a single number: how many, and the first.
+    pub(super) single: usize,
+    pub(super) single_line: usize,
+}
+
+impl Trial {
+    pub(super) fn new(dialect: Dialect) -> Self {
+        Self {
+            dialect,
+            run: Run::default(),
+            best: Run::default(),
+            across: None,
+            across_tested: false,
+            marks: 0,
+            padded_line: None,
+            single: 0,
+            single_line: 0,
+        }
+    }
+
+    /// Takes in one line that is neither blank nor a comment.
+    pub(super) fn take(&mut self, number: usize, line: &str) {
+        let shape = Shape::of(self.dialect, line);
+        self.take_across(number, &shape);
+        if shape.is_row() {
+            if self.run.rows > 0 && !shape.fits(self.run.cells, self.run.filled) {
+                self.run = Run::default();
+            }
+            self.run.push(number, &shape);
+            self.marks += shape.marks;
+            if shape.padded {
+                self.padded_line = self.padded_line.or(Some(number));
+            }
+            if (self.run.rows, self.run.steady()) > (self.best.rows, self.best.steady()) {
+                self.best = self.run.clone();
+            }
+            return;
+        }
+        self.run = Run::default();
+        if shape.numbers == 1 && shape.filled == 1 {
+            self.single += 1;
+            self.single_line = if self.single == 1 { number } else { self.single_line };
+        }
+    }
+
+    fn take_across(&mut self, number: usize, shape: &Shape) {
+        let tail = &shape.tail;
+        if !self.across_tested && shape.numbers >= FEWEST_ACROSS {
+            self.across_tested = true;
+            let header = tail.count >= FEWEST_ACROSS && tail.steady() && plausible(tail.min, tail.max, tail.fractions);
+            if header {
+                let Tail { start, count, .. } = *tail;
+                self.across = Some(Across { line: number, start, count, ..Across::default() });
+            }
+        } else if let Some(across) = self.across.as_mut().filter(|across| !across.ended) {
+            let numeric = shape.text_until <= across.start && shape.numbers > 0;
+            if numeric && shape.cells > across.start && shape.filled <= across.width() {
+                across.first_row = if across.rows == 0 { number } else { across.first_row };
+                across.rows += 1;
+                self.marks += shape.marks;
+            } else {
+                across.ended = true;
+            }
+        }
+    }
+
+    /// Rows that this dialect understands in an orientation, or in the better; a header of wavelengths counts as one.
+    pub(super) fn rows(&self, orientation: Option<Orientation>) -> usize {
+        match orientation {
+            Some(Orientation::Down) => self.best.rows,
+            Some(Orientation::Across) => self.across_rows(),
+            None => self.best.rows.max(self.across_rows()),
+        }
+    }
+
+    /// Rows below a header of wavelengths and the header itself, or none.
+    pub(super) fn across_rows(&self) -> usize {
+        self.across.as_ref().filter(|across| across.rows > 0).map_or(0, |across| across.rows + 1)
+    }
+}

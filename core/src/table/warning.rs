@@ -1,0 +1,144 @@
+//! What should be looked at before the curves of a file are trusted.
+
+use std::fmt;
+
+/// Line numbers, of which the first few are kept.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct LineList {
+    first: Vec<usize>,
+    count: usize,
+}
+
+impl LineList {
+    /// How many line numbers are kept; a message with more is not read anyway.
+    const KEPT: usize = 6;
+
+    /// Adds a line; a line added twice in a row counts once.
+    pub(super) fn add(&mut self, line: usize) {
+        if self.first.last() == Some(&line) {
+            return;
+        }
+        self.count += 1;
+        if self.first.len() < Self::KEPT {
+            self.first.push(line);
+        }
+    }
+
+    /// The first lines, ascending.
+    pub fn first(&self) -> &[usize] {
+        &self.first
+    }
+
+    /// How many lines there are in all.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there is no line.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+}
+
+impl fmt::Display for LineList {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(if self.count == 1 { "line " } else { "lines " })?;
+        for (i, line) in self.first.iter().enumerate() {
+            write!(f, "{}{line}", if i == 0 { "" } else { ", " })?;
+        }
+        match self.count - self.first.len() {
+            0 => Ok(()),
+            more => write!(f, " and {more} more"),
+        }
+    }
+}
+
+/// Something a person should know about a file that was read all the same.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// Cells without a value: left out of their curves.
+    Gaps {
+        /// How many cells.
+        cells: usize,
+        /// Where.
+        lines: LineList,
+    },
+    /// Curves with fewer than two values: left out.
+    EmptyCurves {
+        /// How many.
+        count: usize,
+        /// The name of the first.
+        first: String,
+    },
+    /// Columns before the wavelengths, such as a pixel number: left out.
+    SkippedColumns {
+        /// The column of the wavelengths, from 1.
+        wavelength_column: usize,
+    },
+    /// Rows were neither ascending nor descending: sorted.
+    Sorted {
+        /// The first line out of order.
+        line: usize,
+    },
+    /// Rows that repeat an earlier row exactly: counted once.
+    RepeatedRows {
+        /// Where.
+        lines: LineList,
+    },
+    /// Rows without a wavelength: left out.
+    NoWavelength {
+        /// Where.
+        lines: LineList,
+    },
+    /// Numbers above the table that belong to no row.
+    NumbersAbove {
+        /// Where.
+        line: usize,
+    },
+    /// Text after the table: left out.
+    TextBelow {
+        /// Its first line.
+        line: usize,
+    },
+    /// No number has a decimal point, so the separating commas might be decimal marks.
+    CommasOnly,
+    /// Curves read as reflectances that reach values no reflectance has.
+    NotReflectances {
+        /// How many.
+        count: usize,
+        /// The name of the first.
+        first: String,
+        /// Its largest value.
+        max: f64,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Gaps { cells, lines } => write!(f, "{cells} missing values, {lines}: left out"),
+            Self::EmptyCurves { count: 1, first } => write!(f, "“{first}” has fewer than two values: left out"),
+            Self::EmptyCurves { count, first } => {
+                write!(f, "{count} curves with fewer than two values, the first “{first}”: left out")
+            }
+            Self::SkippedColumns { wavelength_column } => {
+                write!(f, "Wavelengths stand in column {wavelength_column}: the columns before it are left out")
+            }
+            Self::Sorted { line } => write!(f, "line {line}: wavelengths out of order: sorted"),
+            Self::RepeatedRows { lines } => write!(f, "{lines}: the same as an earlier row: counted once"),
+            Self::NoWavelength { lines } => write!(f, "{lines}: no wavelength: left out"),
+            Self::NumbersAbove { line } => write!(f, "line {line}: numbers above the table: left out"),
+            Self::TextBelow { line } => write!(f, "line {line}: text after the table: left out"),
+            Self::CommasOnly => {
+                f.write_str("No number has a decimal point: if the commas mark fractions, the columns are wrong")
+            }
+            Self::NotReflectances { count: 1, first, max } => {
+                write!(f, "“{first}” reaches {max}, more than a reflectance can")
+            }
+            Self::NotReflectances { count, first, max } => {
+                write!(f, "{count} curves reach more than a reflectance can, the first “{first}” {max}")
+            }
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! The program in its window: takes in events, carries out commands, shows panes.
+
+mod commands;
+mod path_prompt;
+mod startup;
+
+use egui::{Align2, CentralPanel, CursorIcon, Event, Frame, Panel, Rect, Sense, Ui};
+
+use crate::catalog::Catalog;
+use crate::command::{Command, key_bindings};
+use crate::document::history::History;
+use crate::files::Files;
+use crate::panes::{self, PaneContext};
+use crate::results::Results;
+use crate::scene::Scene;
+use crate::theme::{self, Theme};
+use crate::view::{SavedView, View};
+use crate::workspaces::{Arrangement, PaneKind, Splitter, arrange};
+
+pub use startup::{WindowError, run};
+
+/// Key of the layout in the window's own storage.
+const LAYOUT_KEY: &str = "layout";
+
+/// The program's state.
+pub struct ChromascopeApp {
+    history: History,
+    catalog: Catalog,
+    results: Results,
+    view: View,
+    files: Files,
+    commands: Vec<Command>,
+    arrangement: Arrangement,
+    first_frame: Option<std::time::Instant>,
+}
+
+impl ChromascopeApp {
+    /// Starts with a document, in a context that is given the program's looks.
+    pub fn new(ctx: &egui::Context, history: History, saved: SavedView, mut files: Files) -> Self {
+        theme::apply(ctx);
+        files.wake(ctx);
+        Self {
+            history,
+            catalog: Catalog::built_in(),
+            results: Results::default(),
+            view: View { saved, ..View::default() },
+            files,
+            commands: Vec::new(),
+            arrangement: Arrangement::default(),
+            first_frame: None,
+        }
+    }
+
+    /// The document and its steps.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// What is looked at.
+    pub fn view(&self) -> &View {
+        &self.view
+    }
+
+    /// The same, for tests to set up.
+    pub fn view_mut(&mut self) -> &mut View {
+        &mut self.view
+    }
+
+    /// The answers known, with their counters.
+    pub fn results(&self) -> &Results {
+        &self.results
+    }
+
+    /// Has something done in the next frame.
+    pub fn push(&mut self, command: impl Into<Command>) {
+        self.commands.push(command.into());
+    }
+
+    /// Says when the first frame was complete, counted from `start`.
+    pub fn report_first_frame(&mut self, start: std::time::Instant) {
+        self.first_frame = Some(start);
+    }
+
+    /// Keys, clipboard and dropped files become commands.
+    fn take_input(&mut self, ctx: &egui::Context) {
+        let typing = ctx.text_edit_focused();
+        let focused = self.view.focused.unwrap_or(PaneKind::Chromaticity);
+        for binding in key_bindings(focused) {
+            if binding.rests_while_typing && (typing || ctx.egui_wants_keyboard_input()) {
+                continue;
+            }
+            if ctx.input_mut(|input| input.consume_shortcut(&binding.shortcut)) {
+                self.commands.push(binding.command);
+            }
+        }
+        self.view.blink = !typing && ctx.input(|input| input.key_down(egui::Key::B) && input.modifiers.is_none());
+        let events = ctx.input(|input| input.events.clone());
+        for event in events {
+            match event {
+                Event::Paste(text) if !typing => self.commands.push(Command::Paste(text)),
+                Event::Copy if !typing && !self.something_is_marked(ctx) => self.commands.push(Command::CopyNumbers(focused)),
+                _ => {}
+            }
+        }
+        if ctx.input(|input| !input.pointer.any_down()) {
+            self.history.end_gesture();
+        }
+    }
+
+    /// Whether text is marked somewhere, which is what Ctrl+C would then mean.
+    #[expect(clippy::unused_self, reason = "belongs to the program's state as soon as text can be marked")]
+    fn something_is_marked(&self, _ctx: &egui::Context) -> bool {
+        false
+    }
+
+    /// The bars and panes of one frame.
+    fn show(&mut self, ui: &mut Ui) {
+        let theme = Theme::of(ui.visuals()).with_surround(self.view.saved.surround);
+        let Self { history, catalog, results, view, commands, arrangement, files, .. } = self;
+        let scene = Scene { document: history.document(), catalog, results };
+        let mut context = PaneContext { scene, theme, view, commands };
+        let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
+            let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
+            let frame = Frame::NONE.fill(theme.panel);
+            panel.exact_size(height).resizable(false).frame(frame).show_separator_line(true).show(ui, |ui| ui.max_rect()).inner
+        };
+        let menu = bar(ui, "menu", 30.0, true);
+        let conditions = bar(ui, "conditions", 48.0, true);
+        let status = bar(ui, "status", 24.0, false);
+        let area = CentralPanel::default().frame(Frame::NONE.fill(theme.panel)).show(ui, |ui| ui.max_rect()).inner;
+        panes::menu::show(ui, menu, history, &mut context);
+        panes::scene_bar::show(ui, conditions, &mut context);
+        let saved = &context.view.saved;
+        *arrangement = arrange(
+            saved.workspace,
+            &saved.layout,
+            area,
+            arrangement.narrow,
+            context.view.maximized,
+            context.view.inspector_over,
+        );
+        for (pane, rect) in arrangement.panes.clone() {
+            panes::show(ui, pane, rect, &mut context);
+        }
+        for (splitter, rect) in arrangement.splitters.clone() {
+            drag_border(ui, splitter, rect, area, &mut context);
+        }
+        if let Some((pane, rect)) = arrangement.over {
+            let layer = egui::Area::new(egui::Id::unique("inspector over")).fixed_pos(rect.min).order(egui::Order::Foreground);
+            layer.show(ui.ctx(), |ui| {
+                ui.set_min_size(rect.size());
+                panes::show(ui, pane, rect, &mut context);
+                ui.painter().rect_stroke(rect, 0.0, egui::Stroke::new(1.0, theme.line), egui::StrokeKind::Inside);
+            });
+        }
+        panes::status_bar::show(ui, status, arrangement, &mut context);
+        panes::help::show(ui, history, &mut context);
+        path_prompt::show(ui, files);
+        drop_veil(ui, theme);
+    }
+}
+
+/// A border between panes, which can be dragged and, with a double click, put back.
+fn drag_border(ui: &mut Ui, splitter: Splitter, rect: Rect, area: Rect, context: &mut PaneContext<'_>) {
+    let upright = rect.height() > rect.width();
+    let response = ui.interact(rect.expand(2.0), ui.scope_id().with(("border", splitter)), Sense::click_and_drag());
+    let middle = rect.center();
+    let stroke = egui::Stroke::new(1.0, if response.hovered() || response.dragged() { context.theme.weak } else { context.theme.line });
+    if upright {
+        ui.painter().vline(middle.x.round() + 0.5, rect.y_range(), stroke);
+    } else {
+        ui.painter().hline(rect.x_range(), middle.y.round() + 0.5, stroke);
+    }
+    let layout = &mut context.view.saved.layout;
+    if response.double_clicked() {
+        let fresh = crate::workspaces::Layout::default();
+        match splitter {
+            Splitter::Library => layout.library_width = None,
+            Splitter::Right => layout.right_width = None,
+            Splitter::Center => layout.lower_share = fresh.lower_share,
+            Splitter::RightRows => layout.right_lower_share = fresh.right_lower_share,
+        }
+    } else if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+        layout.drag(splitter, at, area);
+    }
+    response.on_hover_and_drag_cursor(if upright { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical });
+}
+
+/// While files hang over the window: where they may fall.
+fn drop_veil(ui: &Ui, theme: Theme) {
+    if ui.input(|input| input.raw.hovered_files.is_empty()) {
+        return;
+    }
+    let screen = ui.ctx().content_rect();
+    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop veil"));
+    let painter = ui.ctx().layer_painter(layer);
+    painter.rect_filled(screen, 0.0, theme.panel.gamma_multiply(0.85));
+    painter.rect_stroke(screen.shrink(12.0), 4.0, egui::Stroke::new(2.0, theme.text), egui::StrokeKind::Inside);
+    let font = egui::FontId::proportional(theme::HEADING);
+    painter.text(screen.center(), Align2::CENTER_CENTER, "Drop to open", font, theme.text);
+}
+
+impl eframe::App for ChromascopeApp {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.results.end_frame();
+        self.take_files(ctx);
+        self.take_input(ctx);
+        self.carry_out(ctx);
+        self.autosave(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.show(ui);
+        self.view.reset_plots = false;
+        let hovered = self.view.next_hovered.take();
+        if hovered != self.view.hovered {
+            self.view.hovered = hovered;
+            // What is under the pointer is marked in panes that were already drawn.
+            ui.ctx().request_repaint();
+        }
+        if !self.commands.is_empty() {
+            ui.ctx().request_repaint();
+        }
+        if let Some(start) = self.first_frame.take() {
+            log::info!("first frame after {} ms", start.elapsed().as_millis());
+        }
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, LAYOUT_KEY, &self.view.saved);
+        self.files.save_document(self.history.document());
+    }
+}

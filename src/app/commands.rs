@@ -1,0 +1,213 @@
+//! Carrying out commands.
+
+use egui::ViewportCommand;
+
+use super::ChromascopeApp;
+use crate::action::{Action, CompareAction, OwnAction};
+use crate::catalog::Kind;
+use crate::command::{Command, Format};
+use crate::export;
+use crate::files::{FileEvent, SaveRequest};
+use crate::panes;
+use crate::scene::Scene;
+use crate::theme::Theme;
+use crate::view::SavedView;
+use crate::workspaces::{Layout, PaneKind};
+
+/// Pixels per point in saved and copied pictures.
+const PICTURE_SCALE: f32 = 2.0;
+
+impl ChromascopeApp {
+    /// Dropped files, finished dialogs, reads and writes.
+    pub(super) fn take_files(&mut self, ctx: &egui::Context) {
+        let dropped = ctx.input(|input| input.raw.dropped_files.clone());
+        for file in dropped {
+            self.files.open_dropped(&file);
+        }
+        for event in self.files.poll() {
+            match event {
+                FileEvent::Read { sets, message, guessed, paths } => {
+                    for path in paths {
+                        self.view.remember_file(path);
+                    }
+                    let change = guessed.then(|| sets.first().map(|set| set.name.clone())).flatten();
+                    self.history.apply(&Action::Own(OwnAction::Import(sets)));
+                    self.history.end_gesture();
+                    self.view.say(message);
+                    self.view.status.change = change;
+                }
+                FileEvent::Said(message) => self.view.say(message),
+                FileEvent::Failed(message) => self.view.fail(message),
+            }
+        }
+    }
+
+    /// Does what keys, menus and panes asked for.
+    pub(super) fn carry_out(&mut self, ctx: &egui::Context) {
+        for command in std::mem::take(&mut self.commands) {
+            self.carry_out_one(ctx, command);
+        }
+    }
+
+    fn carry_out_one(&mut self, ctx: &egui::Context, command: Command) {
+        match command {
+            Command::Do(action) => self.history.apply(&action),
+            Command::Undo => self.history.undo(),
+            Command::Redo => self.history.redo(),
+            Command::Open => self.files.ask_to_open(),
+            Command::OpenPath(path) => self.files.open(path),
+            Command::Paste(text) => self.files.open_pasted(text),
+            Command::Export(pane, format) => self.export(pane, format),
+            Command::CopyPicture(pane) => self.copy_picture(ctx, pane),
+            Command::CopyNumbers(pane) => self.copy_numbers(ctx, pane),
+            Command::Show(workspace) => {
+                self.view.saved.workspace = workspace;
+                self.view.maximized = None;
+            }
+            Command::Maximize(pane) => {
+                self.view.maximized = if self.view.maximized == Some(pane) { None } else { Some(pane) };
+            }
+            Command::TogglePane(pane) => self.toggle_pane(pane),
+            Command::ToggleInspector => self.toggle_inspector(),
+            Command::ResetView => self.view.reset_plots = true,
+            Command::ResetLayout => {
+                self.view.saved.layout = Layout::default();
+                self.view.saved.tables = SavedView::default().tables;
+                self.view.maximized = None;
+            }
+            Command::SetTheme(preference) => ctx.set_theme(preference),
+            Command::SetSurround(surround) => self.view.saved.surround = surround,
+            Command::Help(page) => self.view.help = Some(page),
+            Command::FocusSearch => {
+                self.view.saved.layout.library = true;
+                self.view.maximized = None;
+                self.view.focus_search = true;
+            }
+            Command::FindAnything => self.view.palette = Some(String::new()),
+            Command::FocusTemperature => self.view.focus_temperature = true,
+            Command::ToggleSource(index) => self.toggle_source(index),
+            Command::Pin => self.pin(),
+            Command::ToggleDifference => self.view.saved.difference_bars ^= true,
+            Command::Escape => self.escape(),
+            Command::NextPane => self.next_pane(),
+            Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+        }
+    }
+
+    fn toggle_pane(&mut self, pane: PaneKind) {
+        let workspace = self.view.saved.workspace;
+        self.view.saved.layout.toggle(workspace, pane);
+        self.view.maximized = None;
+    }
+
+    /// In a narrow window the inspector lies over the rest; else it has its place.
+    fn toggle_inspector(&mut self) {
+        if self.arrangement.narrow {
+            self.view.inspector_over ^= true;
+        } else {
+            self.toggle_pane(PaneKind::Inspector);
+        }
+    }
+
+    fn toggle_source(&mut self, index: usize) {
+        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
+        if let Some(source) = scene.sources().into_iter().nth(index) {
+            let action = CompareAction::SetVisible(source.kind, source.name, !source.visible);
+            self.history.apply(&Action::Compare(action));
+        }
+    }
+
+    fn pin(&mut self) {
+        let Some(thing) = self.view.selected.clone() else {
+            self.view.say("Select something first: click a point, a swatch or a curve.");
+            return;
+        };
+        match self.view.pinned.iter().position(|pinned| *pinned == thing) {
+            Some(index) => {
+                self.view.pinned.remove(index);
+            }
+            None => self.view.pinned.push(thing),
+        }
+    }
+
+    /// One step back: palette, help, overlay, selection, pins, maximized pane, message.
+    fn escape(&mut self) {
+        let view = &mut self.view;
+        if view.palette.take().is_some() || view.help.take().is_some() || view.reading.take().is_some() {
+            return;
+        }
+        if std::mem::take(&mut view.inspector_over) || view.selected.take().is_some() {
+            return;
+        }
+        if !std::mem::take(&mut view.pinned).is_empty() || view.maximized.take().is_some() {
+            return;
+        }
+        view.status = crate::view::Status::default();
+    }
+
+    fn next_pane(&mut self) {
+        let shown: Vec<PaneKind> = self.arrangement.panes.iter().map(|(pane, _)| *pane).collect();
+        let now = self.view.focused.and_then(|focused| shown.iter().position(|pane| *pane == focused));
+        let next = now.map_or(0, |index| (index + 1) % shown.len().max(1));
+        self.view.focused = shown.get(next).copied();
+        if let Some(pane) = self.view.focused {
+            self.view.say(format!("{} (F fills the window, Ctrl+E exports)", pane.title()));
+        }
+    }
+
+    /// The pane's figure as on screen, or a message that it has none.
+    fn figure(&mut self, pane: PaneKind) -> Option<chromascope_core::figure::Figure> {
+        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
+        let figure = panes::figure(pane, &scene, &self.view);
+        if figure.is_none() {
+            self.view.fail(format!("{} has no figure to export; choose Chromaticity, Swatches or Spectra.", pane.title()));
+        }
+        figure
+    }
+
+    fn export(&mut self, pane: PaneKind, format: Format) {
+        let Some(figure) = self.figure(pane) else { return };
+        let svg = || export::svg(&figure, &Theme::LIGHT, export::Paper::default());
+        let bytes = match format {
+            Format::Svg => Ok(svg().into_bytes()),
+            Format::Csv => Ok(figure.table.to_csv().into_bytes()),
+            Format::Png => export::png(&svg(), PICTURE_SCALE).and_then(|picture| export::png_file(&picture)),
+        };
+        match bytes {
+            Ok(bytes) => {
+                let name = format!("{}.{}", pane.title().to_lowercase(), format.extension());
+                self.files.ask_to_save(SaveRequest { name, extension: format.extension(), bytes });
+            }
+            Err(error) => self.view.fail(error.to_string()),
+        }
+    }
+
+    fn copy_picture(&mut self, ctx: &egui::Context, pane: PaneKind) {
+        let Some(figure) = self.figure(pane) else { return };
+        match export::png(&export::svg(&figure, &Theme::LIGHT, export::Paper::default()), PICTURE_SCALE) {
+            Ok(picture) => {
+                let size = [picture.width() as usize, picture.height() as usize];
+                ctx.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, picture.as_raw()));
+                self.view.say(format!("{}: picture copied.", pane.title()));
+            }
+            Err(error) => self.view.fail(error.to_string()),
+        }
+    }
+
+    fn copy_numbers(&mut self, ctx: &egui::Context, pane: PaneKind) {
+        if let Some(figure) = self.figure(pane) {
+            ctx.copy_text(figure.table.to_tsv());
+            self.view.say(format!("{}: {} rows of numbers copied.", pane.title(), figure.table.rows.len()));
+        }
+    }
+
+    /// Keeps the document on disk shortly after it changed, so that nothing is lost.
+    pub(super) fn autosave(&mut self, ctx: &egui::Context) {
+        self.files.autosave(self.history.document(), ctx);
+    }
+
+    /// Whether a set of this kind and name is on the list.
+    pub fn compares(&self, kind: Kind, name: &str) -> bool {
+        self.history.document().compared(kind, name).is_some()
+    }
+}

@@ -1,0 +1,40 @@
+//! A path to type, where the system has no file dialog.
+
+use egui::{Align2, Key, TextEdit, Ui, Vec2, Window};
+
+use crate::files::Files;
+
+/// Shows the question, if one is open.
+pub(super) fn show(ui: &Ui, files: &mut Files) {
+    let Some(prompt) = files.prompt_mut() else { return };
+    let saving = prompt.save.is_some();
+    let (mut done, mut open) = (false, true);
+    Window::new(if saving { "Save as" } else { "Open" })
+        .id(egui::Id::unique("path prompt"))
+        .open(&mut open)
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 96.0))
+        .show(ui.ctx(), |ui| {
+            ui.label(if saving {
+                "No file dialog here. Type a path."
+            } else {
+                "No file dialog here. Type a path, or drop the file."
+            });
+            ui.horizontal(|ui| {
+                let field = ui.add(TextEdit::singleline(&mut prompt.text).desired_width(360.0));
+                field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Path"));
+                if ui.memory(|memory| memory.focused().is_none()) {
+                    field.request_focus();
+                }
+                let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+                done = ui.button(if saving { "Save" } else { "Open" }).clicked() || entered;
+            });
+            ui.small("For dialogs install a desktop portal or the package zenity.");
+        });
+    if ui.input(|input| input.key_pressed(Key::Escape)) || !open {
+        *files.prompt_mut() = None;
+    } else if done {
+        files.take_prompt();
+    }
+}

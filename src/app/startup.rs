@@ -1,0 +1,86 @@
+//! Opening the window, or saying why it cannot open.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use eframe::{NativeOptions, egui::ViewportBuilder};
+
+use super::{ChromascopeApp, LAYOUT_KEY};
+use crate::document::history::History;
+use crate::files::Files;
+use crate::view::SavedView;
+
+/// The program's name in the system: folders, window class.
+pub const APP_ID: &str = "chromascope";
+
+/// Why the window did not open.
+#[derive(Debug, thiserror::Error)]
+pub enum WindowError {
+    /// There is no screen to open it on.
+    #[error(
+        "no display: neither DISPLAY nor WAYLAND_DISPLAY is set.\n\
+         Without a window, `chromascope locus`, `chromascope patches` and `chromascope list` give the same numbers.\n\
+         For a window without a screen, install the Debian package xvfb and run `xvfb-run chromascope`."
+    )]
+    NoDisplay,
+    /// The system refused.
+    #[error(
+        "the window could not be opened: {0}.\n\
+         It needs X11 (Debian packages libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0 libgl1) or Wayland \
+         (libwayland-client0 libwayland-egl1 libxkbcommon0 libegl1), and libgl1-mesa-dri.\n\
+         Without a window, `chromascope locus`, `chromascope patches` and `chromascope list` give the same numbers."
+    )]
+    Refused(#[from] eframe::Error),
+}
+
+/// Opens the window with these files. Returns when it is closed.
+pub fn run(files: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
+    let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    if cfg!(target_os = "linux") && !set("DISPLAY") && !set("WAYLAND_DISPLAY") {
+        return Err(WindowError::NoDisplay);
+    }
+    let viewport = ViewportBuilder::default()
+        .with_title("Chromascope")
+        .with_app_id(APP_ID)
+        .with_inner_size([1280.0, 800.0])
+        .with_min_inner_size([900.0, 600.0])
+        .with_drag_and_drop(true)
+        .with_icon(icon());
+    let mut options = NativeOptions { viewport, persist_window: true, ..NativeOptions::default() };
+    prefer_x11(&mut options);
+    eframe::run_native(
+        APP_ID,
+        options,
+        Box::new(move |cc| {
+            let saved: SavedView = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY)).unwrap_or_default();
+            let mut kept = Files::new(eframe::storage_dir(APP_ID));
+            let history = History::new(kept.kept_document());
+            let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);
+            app.report_first_frame(start);
+            for file in files {
+                app.push(crate::command::Command::OpenPath(file));
+            }
+            Ok(Box::new(app))
+        }),
+    )?;
+    Ok(())
+}
+
+/// The window's icon; a plain one if the file in the program were damaged.
+fn icon() -> egui::IconData {
+    eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon.png")).unwrap_or_default()
+}
+
+/// Under Wayland the window library delivers no dropped files; where X11 is there too, it is taken.
+#[cfg(target_os = "linux")]
+fn prefer_x11(options: &mut NativeOptions) {
+    use winit::platform::x11::EventLoopBuilderExtX11 as _;
+    if std::env::var_os("DISPLAY").is_some_and(|value| !value.is_empty()) {
+        options.event_loop_builder = Some(Box::new(|builder| {
+            builder.with_x11();
+        }));
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn prefer_x11(_: &mut NativeOptions) {}

@@ -1,0 +1,182 @@
+//! The data sets there are: built in, and the user's own.
+//!
+//! The index is made of headers alone; a set's figures are parsed when a question first asks for them
+//! ([`load`]), and kept by whoever keeps answers.
+
+pub mod import;
+pub mod load;
+pub mod names;
+
+use chromascope_core::query::Shared;
+use chromascope_core::spectral::{Dataset, Header};
+use include_dir::{Dir, include_dir};
+
+use crate::document::own::{OwnRole, OwnSet};
+
+/// The data files in the program.
+static ASSETS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets");
+
+/// What a data set is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// A camera's spectral sensitivities.
+    Camera,
+    /// An observer's color matching functions or cone fundamentals.
+    Observer,
+    /// A set of patches.
+    Chart,
+    /// A light.
+    Illuminant,
+    /// Single reflectances.
+    Material,
+}
+
+impl Kind {
+    /// All kinds in the order they are listed.
+    pub const ALL: [Self; 5] = [Self::Camera, Self::Observer, Self::Chart, Self::Illuminant, Self::Material];
+
+    /// The plural, as shown and as the command line takes it.
+    pub const fn plural(self) -> &'static str {
+        match self {
+            Self::Camera => "cameras",
+            Self::Observer => "observers",
+            Self::Chart => "charts",
+            Self::Illuminant => "illuminants",
+            Self::Material => "materials",
+        }
+    }
+
+    /// One of them.
+    pub const fn singular(self) -> &'static str {
+        match self {
+            Self::Camera => "camera",
+            Self::Observer => "observer",
+            Self::Chart => "chart",
+            Self::Illuminant => "illuminant",
+            Self::Material => "material",
+        }
+    }
+}
+
+/// Where a set's figures are: a file of the program, or a set of the user's, held by value.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// A built-in file; `column` for files that hold several sets.
+    BuiltIn {
+        /// Its path below `assets`.
+        path: &'static str,
+        /// The value column, if the file holds several sets.
+        column: Option<usize>,
+    },
+    /// One of the user's sets.
+    Own(Shared<OwnSet>),
+}
+
+/// One data set in the index.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// What it is of.
+    pub kind: Kind,
+    /// Its name, unique within its kind.
+    pub name: String,
+    /// A shorter name for narrow places; the name itself if there is none.
+    pub short: String,
+    /// A gloss shown after the name.
+    pub also: Option<String>,
+    /// Where its figures are.
+    pub place: Place,
+    /// The facts about a built-in set.
+    pub header: Option<Header>,
+}
+
+impl Entry {
+    /// Whether the user brought it.
+    pub fn is_own(&self) -> bool {
+        matches!(self.place, Place::Own(_))
+    }
+
+    /// An entry for one of the user's sets.
+    pub fn from_own(set: &Shared<OwnSet>) -> Self {
+        let kind = match set.role {
+            OwnRole::Camera => Kind::Camera,
+            OwnRole::Reflectance => Kind::Chart,
+            OwnRole::Illuminant => Kind::Illuminant,
+        };
+        let name = set.name.clone();
+        Self { kind, short: name.clone(), name, also: Some("yours".to_owned()), place: Place::Own(set.clone()), header: None }
+    }
+}
+
+/// The built-in sets.
+#[derive(Clone, Debug)]
+pub struct Catalog {
+    entries: Vec<Entry>,
+}
+
+impl Catalog {
+    /// Reads the headers of all built-in files; their figures are not looked at.
+    pub fn built_in() -> Self {
+        let mut entries = Vec::new();
+        for kind in Kind::ALL {
+            for file in ASSETS.get_dir(kind.plural()).into_iter().flat_map(Dir::files) {
+                let Some((path, header)) = file.path().to_str().zip(file.contents_utf8().and_then(header_of)) else {
+                    continue;
+                };
+                add_entries(&mut entries, kind, path, &header);
+            }
+        }
+        entries.sort_by_cached_key(|e| (e.kind, names::sort_key(&e.name)));
+        Self { entries }
+    }
+
+    /// All sets, by kind and then by name.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// The sets of one kind, by name.
+    pub fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Entry> {
+        self.entries.iter().filter(move |entry| entry.kind == kind)
+    }
+
+    /// The set of exactly this name.
+    pub fn get(&self, kind: Kind, name: &str) -> Option<&Entry> {
+        self.of_kind(kind).find(|entry| entry.name == name)
+    }
+}
+
+/// The text of a built-in file.
+pub fn asset_text(path: &str) -> Option<&'static str> {
+    ASSETS.get_file(path).and_then(|file| file.contents_utf8())
+}
+
+/// The licence texts and notices in the program: file name and text.
+pub fn licenses() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let files = ASSETS.get_dir("licenses").into_iter().flat_map(Dir::files);
+    files.filter_map(|file| Some((file.path().file_name()?.to_str()?, file.contents_utf8()?)))
+}
+
+fn header_of(text: &'static str) -> Option<Header> {
+    Dataset::read_header(text).ok()
+}
+
+/// A file is one set, or, with several value columns of lights or materials, as many.
+fn add_entries(entries: &mut Vec<Entry>, kind: Kind, path: &'static str, header: &Header) {
+    // Coefficients from which daylight of any temperature is made; no light themselves.
+    if path == load::DAYLIGHT_BASIS {
+        return;
+    }
+    let many = matches!(kind, Kind::Illuminant | Kind::Material) && header.columns.len() > 1;
+    let names: Vec<(String, Option<usize>)> = if many {
+        header.columns.iter().enumerate().map(|(column, name)| (name.clone(), Some(column))).collect()
+    } else {
+        vec![(header.title.clone(), None)]
+    };
+    for (name, column) in names {
+        let short = header.short.clone().filter(|_| column.is_none()).unwrap_or_else(|| name.clone());
+        let also = header.also.clone().or_else(|| column.map(|_| header.title.clone()));
+        let place = Place::BuiltIn { path, column };
+        entries.push(Entry { kind, name, short, also, place, header: Some(header.clone()) });
+    }
+}

@@ -1,0 +1,190 @@
+//! Questions that bring a set's figures into the form the core computes with.
+
+use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants, planckian::black_body};
+use chromascope_core::object::PatchSet;
+use chromascope_core::query::{Ask, Query, Shared};
+use chromascope_core::spectral::{
+    Dataset, DatasetError, DistributionError, GridSpectrum, Primaries, Quantity, Sensor, SensorError, SpectralDistribution,
+};
+use chromascope_core::units::Kelvin;
+
+use super::{Place, asset_text};
+
+
+/// The daylight basis among the built-in files.
+pub const DAYLIGHT_BASIS: &str = "illuminants/cie_daylight_basis.csv";
+
+/// Why a set's figures cannot be computed with.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LoadError {
+    /// A built-in file is missing from the program.
+    #[error("{0} is missing from this build")]
+    Missing(&'static str),
+    /// A built-in file is damaged.
+    #[error("{path}: {error}")]
+    Damaged {
+        /// The file.
+        path: &'static str,
+        /// What is wrong.
+        error: DatasetError,
+    },
+    /// A sensor needs three curves.
+    #[error("{found} curves, but a camera needs three: red, green and blue")]
+    NotThree {
+        /// How many there are.
+        found: usize,
+    },
+    /// A light needs a curve.
+    #[error("it has no curve")]
+    NoCurve,
+    /// The curves make no sensor.
+    #[error(transparent)]
+    Sensor(#[from] SensorError),
+    /// The user's settings make a spectrum that cannot be.
+    #[error(transparent)]
+    Spectrum(#[from] DistributionError),
+    /// There is no daylight of that temperature.
+    #[error(transparent)]
+    Daylight(#[from] DaylightError),
+}
+
+/// A built-in file, parsed.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct FileOf(pub &'static str);
+
+impl Query for FileOf {
+    type Answer = Result<Dataset, LoadError>;
+    const NAME: &'static str = "data file";
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        let text = asset_text(self.0).ok_or(LoadError::Missing(self.0))?;
+        Dataset::read(text).map_err(|error| LoadError::Damaged { path: self.0, error })
+    }
+}
+
+/// A set's curves with their names, as measured.
+fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
+    match place {
+        Place::BuiltIn { path, column } => {
+            let file = ask.ask(&FileOf(path));
+            let file = (*file).as_ref().map_err(Clone::clone)?;
+            let named = file.header.columns.iter().cloned().zip(file.curves.iter().cloned());
+            Ok(named.enumerate().filter(|(index, _)| column.is_none_or(|c| c == *index)).map(|(_, curve)| curve).collect())
+        }
+        Place::Own(set) => Ok(set.curves_in_nm()?),
+    }
+}
+
+/// A camera or an observer.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SensorOf(pub Place);
+
+impl Query for SensorOf {
+    type Answer = Result<Shared<Sensor>, LoadError>;
+    const NAME: &'static str = "sensor";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let named = curves(&self.0, ask)?;
+        let (primaries, response) = match &self.0 {
+            Place::BuiltIn { path, .. } => {
+                let file = ask.ask(&FileOf(path));
+                let header = &(*file).as_ref().map_err(Clone::clone)?.header;
+                (primaries_of(&header.columns), header.response())
+            }
+            Place::Own(set) => (Primaries::Camera, set.response()),
+        };
+        let found = named.len();
+        let three: [SpectralDistribution; 3] = named
+            .into_iter()
+            .map(|(_, curve)| curve)
+            .collect::<Vec<_>>()
+            .try_into()
+            .map_err(|_| LoadError::NotThree { found })?;
+        Ok(Shared::new(Sensor::new(primaries, three, response)?))
+    }
+}
+
+/// In what a file's columns count.
+fn primaries_of(columns: &[String]) -> Primaries {
+    match columns.first().map(String::as_str) {
+        Some("x_bar") => Primaries::Xyz,
+        Some("r_bar") => Primaries::Rgb,
+        Some("l_bar") => Primaries::Cones,
+        _ => Primaries::Camera,
+    }
+}
+
+/// A light as measured and on the grid.
+#[derive(Clone, Debug)]
+pub struct LoadedLight {
+    /// As measured, or as the formula gives it.
+    pub measured: SpectralDistribution,
+    /// On the grid.
+    pub grid: Shared<GridSpectrum>,
+}
+
+impl LoadedLight {
+    fn new(measured: SpectralDistribution) -> Self {
+        let grid = Shared::new(GridSpectrum::resample(&measured, Quantity::Light));
+        Self { measured, grid }
+    }
+}
+
+/// Which light.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum LightOf {
+    /// A data set.
+    Set(Place),
+    /// A black body.
+    BlackBody(Kelvin),
+    /// CIE daylight.
+    Daylight(Kelvin),
+}
+
+impl Query for LightOf {
+    type Answer = Result<LoadedLight, LoadError>;
+    const NAME: &'static str = "light";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        match self {
+            Self::Set(place) => {
+                let (_, measured) = curves(place, ask)?.into_iter().next().ok_or(LoadError::NoCurve)?;
+                Ok(LoadedLight::new(measured))
+            }
+            Self::BlackBody(temperature) => {
+                let grid = black_body(*temperature, RadiationConstants::Paper);
+                let nm = (0..grid.values().len()).map(chromascope_core::spectral::grid::wavelength_nm).collect();
+                Ok(LoadedLight::new(SpectralDistribution::new(nm, grid.values().to_vec())?))
+            }
+            Self::Daylight(temperature) => {
+                let file = ask.ask(&FileOf(DAYLIGHT_BASIS));
+                let basis = DaylightBasis::new((*file).as_ref().map_err(Clone::clone)?)?;
+                Ok(LoadedLight::new(basis.light(*temperature)?))
+            }
+        }
+    }
+}
+
+/// A chart, or single reflectances; with names, only those patches in that order.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct PatchesOf {
+    /// The set.
+    pub place: Place,
+    /// The patches wanted; none for all.
+    pub names: Option<&'static [&'static str]>,
+}
+
+impl Query for PatchesOf {
+    type Answer = Result<Shared<PatchSet>, LoadError>;
+    const NAME: &'static str = "patches";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let mut named = curves(&self.place, ask)?;
+        if let Some(names) = self.names {
+            // Only what is shown is resampled.
+            named = names.iter().filter_map(|name| named.iter().find(|(n, _)| n == name).cloned()).collect();
+        }
+        Ok(Shared::new(PatchSet::new(named)))
+    }
+}
+

@@ -1,0 +1,169 @@
+//! Everything that can be done from a menu, a key or a button, in one list.
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+use crate::action::Action;
+use crate::theme::Surround;
+use crate::view::HelpPage;
+use crate::workspaces::{PaneKind, Workspace};
+
+/// Something to do at the start of the next frame.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Change the document.
+    Do(Action),
+    /// Take the last step back.
+    Undo,
+    /// Bring it again.
+    Redo,
+    /// Ask for files to open.
+    Open,
+    /// Open a file of the given path.
+    OpenPath(std::path::PathBuf),
+    /// Read text as if it were a file.
+    Paste(String),
+    /// Save a pane's figure or numbers.
+    Export(PaneKind, Format),
+    /// Put a pane's picture on the clipboard.
+    CopyPicture(PaneKind),
+    /// Put a pane's numbers on the clipboard.
+    CopyNumbers(PaneKind),
+    /// Show another workspace.
+    Show(Workspace),
+    /// Let a pane fill the window, or no longer.
+    Maximize(PaneKind),
+    /// Show a pane, or hide it.
+    TogglePane(PaneKind),
+    /// The inspector, beside or over the rest.
+    ToggleInspector,
+    /// Let plots show their own ranges.
+    ResetView,
+    /// All panes back to their places.
+    ResetLayout,
+    /// Light or dark.
+    SetTheme(egui::ThemePreference),
+    /// The gray around swatches.
+    SetSurround(Surround),
+    /// Open a page of help.
+    Help(HelpPage),
+    /// Search the library.
+    FocusSearch,
+    /// Open the palette of commands.
+    FindAnything,
+    /// Type a temperature.
+    FocusTemperature,
+    /// Show or hide the source of this place in the list, from 0.
+    ToggleSource(usize),
+    /// Keep the selection, or let it go.
+    Pin,
+    /// Show or hide the bars of differences.
+    ToggleDifference,
+    /// Let go, one thing at a time.
+    Escape,
+    /// Go to the next pane.
+    NextPane,
+    /// End the program.
+    Quit,
+}
+
+/// A form to save in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// Vector graphics.
+    Svg,
+    /// Pixels.
+    Png,
+    /// Numbers.
+    Csv,
+}
+
+impl Format {
+    /// The ending of its files.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+            Self::Csv => "csv",
+        }
+    }
+}
+
+impl From<Action> for Command {
+    fn from(action: Action) -> Self {
+        Self::Do(action)
+    }
+}
+
+/// A key and what it does. One table makes the keys, the menus' hints and the page of help.
+pub struct KeyBinding {
+    /// The key.
+    pub shortcut: KeyboardShortcut,
+    /// What it does.
+    pub command: Command,
+    /// In words.
+    pub words: &'static str,
+    /// Whether it rests while text is typed.
+    pub rests_while_typing: bool,
+}
+
+/// Ctrl (on a Mac, Command) and a key.
+const fn ctrl(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::COMMAND, key)
+}
+
+const fn plain(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::NONE, key)
+}
+
+const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+
+/// All keys. `focused` is the pane that exports and maximizing mean.
+pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
+    let with_ctrl = |key, command, words| KeyBinding { shortcut: ctrl(key), command, words, rests_while_typing: false };
+    let letter = |key, command, words| KeyBinding { shortcut: plain(key), command, words, rests_while_typing: true };
+    let shifted = |key, command, words| KeyBinding {
+        shortcut: KeyboardShortcut::new(CTRL_SHIFT, key),
+        command,
+        words,
+        rests_while_typing: false,
+    };
+    let mut keys = vec![
+        // The longer combination first: egui's Ctrl+Z would also take Ctrl+Shift+Z.
+        shifted(Key::Z, Command::Redo, "Redo"),
+        shifted(Key::C, Command::CopyPicture(focused), "Copy the pane's picture"),
+        with_ctrl(Key::O, Command::Open, "Open files"),
+        with_ctrl(Key::E, Command::Export(focused, Format::Svg), "Export the pane's figure"),
+        with_ctrl(Key::Z, Command::Undo, "Undo"),
+        with_ctrl(Key::Y, Command::Redo, "Redo"),
+        with_ctrl(Key::F, Command::FocusSearch, "Search the library"),
+        with_ctrl(Key::K, Command::FindAnything, "Find anything"),
+    ];
+    let numbers = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
+    for (workspace, key) in Workspace::ALL.into_iter().zip(numbers) {
+        keys.push(with_ctrl(key, Command::Show(workspace), "Workspace"));
+    }
+    keys.extend([
+        letter(Key::F, Command::Maximize(focused), "Maximize the pane"),
+        letter(Key::L, Command::TogglePane(PaneKind::Library), "Library"),
+        letter(Key::I, Command::ToggleInspector, "Inspector"),
+        letter(Key::T, Command::FocusTemperature, "Type a temperature"),
+        letter(Key::P, Command::Pin, "Pin the selection"),
+        letter(Key::D, Command::ToggleDifference, "Difference bars"),
+        letter(Key::Home, Command::ResetView, "Reset the view"),
+    ]);
+    for (index, key) in numbers.into_iter().enumerate() {
+        keys.push(letter(key, Command::ToggleSource(index), "Show or hide a source"));
+    }
+    let always = |key, command, words| KeyBinding { shortcut: plain(key), command, words, rests_while_typing: false };
+    keys.extend([
+        always(Key::F1, Command::Help(HelpPage::Keyboard), "All keys"),
+        always(Key::F6, Command::NextPane, "Next pane"),
+        always(Key::Escape, Command::Escape, "Back"),
+    ]);
+    keys
+}
+
+/// The key of a command, if it has one.
+pub fn shortcut_of(command: &Command, focused: PaneKind) -> Option<KeyboardShortcut> {
+    key_bindings(focused).into_iter().find(|binding| binding.command == *command).map(|binding| binding.shortcut)
+}

@@ -1,0 +1,289 @@
+//! Ground state: what is compared, under what. Saved; knows no window.
+//!
+//! Everything that can be computed from it and the data sets is not in here. The JSON it is saved as is the session file:
+//! versioned, unknown fields kept, the user's own data by value.
+
+pub mod history;
+pub mod own;
+pub mod session;
+
+use crate::catalog::Kind;
+use own::OwnSet;
+use chromascope_core::query::{Metric, Shared};
+use serde::{Deserialize, Serialize};
+
+/// The version of the saved form that this program writes.
+pub const VERSION: u32 = 1;
+
+/// What is compared, under which light, with what settings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Document {
+    /// Which program wrote it: `chromascope`.
+    pub format: String,
+    /// The version of this form.
+    pub version: u32,
+    /// The cameras and observers on show, in the order of the list. The truth is among them.
+    pub compared: Vec<Compared>,
+    /// The observer that the others are compared to.
+    pub truth: String,
+    /// The light on the scene.
+    pub light: Light,
+    /// Marks the loci; the light's own temperature where that has one. In kelvins.
+    pub temperature_k: f64,
+    /// The patches.
+    pub chart: String,
+    /// How many of them.
+    pub subset: Subset,
+    /// The color a perfect white is to take.
+    pub white: WhiteChoice,
+    /// The way from signals to the diagram.
+    pub way: WayChoice,
+    /// The measure of difference.
+    pub difference: DifferenceChoice,
+    /// The diagram's coordinates.
+    pub diagram: Diagram,
+    /// What the diagram shows besides.
+    pub overlays: Overlays,
+    /// The user's own sets, by value.
+    #[serde(with = "own::list")]
+    pub own: Vec<Shared<OwnSet>>,
+    /// What a newer version wrote and this one does not know.
+    #[serde(flatten)]
+    pub unknown: serde_json::Map<String, serde_json::Value>,
+}
+
+/// A camera or observer on show.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Compared {
+    /// Its name in the catalog.
+    pub name: String,
+    /// Camera or observer.
+    pub kind: Kind,
+    /// Its place in the palette, kept while it is compared.
+    pub slot: u8,
+    /// Whether its curves are drawn.
+    #[serde(default = "yes")]
+    pub visible: bool,
+    /// What the user calls it, if not its name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// The light on the scene.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Light {
+    /// A data set.
+    Set(String),
+    /// A black body of the document's temperature.
+    BlackBody,
+    /// CIE daylight of the document's temperature.
+    Daylight,
+}
+
+/// How many patches of a chart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Subset {
+    /// The paper's five, where the chart has them.
+    #[default]
+    Five,
+    /// All.
+    All,
+}
+
+/// The color a perfect white is to take (Eq 11).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WhiteChoice {
+    /// 1 : 1 : 1, the paper's experiments 1 and 2.
+    #[default]
+    Unity,
+    /// The color of a light in the catalog.
+    Light(String),
+    /// CIE daylight of a temperature in kelvins.
+    Daylight(f64),
+    /// A black body of a temperature in kelvins.
+    BlackBody(f64),
+}
+
+/// The way from signals to the diagram.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WayChoice {
+    /// Eq 13.
+    #[default]
+    Paper,
+    /// A matrix fitted to this observer.
+    Observer(String),
+}
+
+/// The measure of difference.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DifferenceChoice {
+    /// ΔE*00.
+    #[default]
+    DeltaE2000,
+    /// ΔE*ab.
+    DeltaE1976,
+    /// Δu′v′.
+    UvPrime,
+    /// Δxy.
+    Xy,
+}
+
+impl DifferenceChoice {
+    /// All of them, in the order they are listed.
+    pub const ALL: [Self; 4] = [Self::DeltaE2000, Self::DeltaE1976, Self::UvPrime, Self::Xy];
+
+    /// The core's measure.
+    pub const fn metric(self) -> Metric {
+        match self {
+            Self::DeltaE2000 => Metric::DeltaE2000,
+            Self::DeltaE1976 => Metric::DeltaE1976,
+            Self::UvPrime => Metric::UvPrime,
+            Self::Xy => Metric::Xy,
+        }
+    }
+
+    /// The symbol.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::DeltaE2000 => "ΔE*00",
+            Self::DeltaE1976 => "ΔE*ab",
+            Self::UvPrime => "Δu′v′",
+            Self::Xy => "Δxy",
+        }
+    }
+
+    /// A difference that fills a bar: one that nobody overlooks.
+    pub const fn full_bar(self) -> f64 {
+        match self {
+            Self::DeltaE2000 | Self::DeltaE1976 => 20.0,
+            Self::UvPrime => 0.1,
+            Self::Xy => 0.15,
+        }
+    }
+}
+
+/// The diagram's coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Diagram {
+    /// CIE 1931 x, y.
+    #[default]
+    Xy,
+    /// CIE 1976 u′, v′.
+    UvPrime,
+}
+
+/// What the diagram shows besides loci and patches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+#[expect(clippy::struct_excessive_bools, reason = "independent switches of one menu")]
+pub struct Overlays {
+    /// Planckian loci.
+    pub loci: bool,
+    /// Patches with their tails.
+    pub patches: bool,
+    /// Each camera's response to monochromatic light.
+    pub camera_spectral_loci: bool,
+    /// The daylight locus.
+    pub daylight: bool,
+    /// The outline of sRGB.
+    pub srgb: bool,
+    /// The outline of DCI-P3.
+    pub dci_p3: bool,
+    /// The outline of Rec. 2020.
+    pub rec2020: bool,
+}
+
+impl Default for Overlays {
+    fn default() -> Self {
+        Self {
+            loci: true,
+            patches: true,
+            camera_spectral_loci: false,
+            daylight: false,
+            srgb: false,
+            dci_p3: false,
+            rec2020: false,
+        }
+    }
+}
+
+/// The name of the paper's ground truth.
+pub const TRUTH: &str = "Stiles & Burch 1955 2°";
+/// The observer that matrices are fitted to unless the user says otherwise.
+pub const REFERENCE: &str = "CIE 1931 2°";
+/// The chart on show unless the user says otherwise.
+pub const CHART: &str = "ColorChecker 24 (Ohta 1997)";
+/// The reflectances that matrices are fitted over.
+pub const TRAINING: &str = "Training reflectances (190)";
+/// The light on the scene unless the user says otherwise.
+pub const LIGHT: &str = "E";
+/// The sources of the first screen with their kind, in order.
+pub const FIRST_SOURCES: [(&str, Kind); 5] = [
+    (TRUTH, Kind::Observer),
+    ("Canon EOS 10D", Kind::Camera),
+    ("Nikon D70", Kind::Camera),
+    ("Kodak DCS200", Kind::Camera),
+    (REFERENCE, Kind::Observer),
+];
+/// The temperatures of a locus unless the user says otherwise, in kelvins.
+pub const LOCUS_RANGE_K: [f64; 2] = [1000.0, 20_000.0];
+
+impl Default for Document {
+    /// The paper's first two experiments.
+    fn default() -> Self {
+        let mut document = Self {
+            format: "chromascope".to_owned(),
+            version: VERSION,
+            compared: Vec::new(),
+            truth: TRUTH.to_owned(),
+            light: Light::Set(LIGHT.to_owned()),
+            temperature_k: 5500.0,
+            chart: CHART.to_owned(),
+            subset: Subset::Five,
+            white: WhiteChoice::Unity,
+            way: WayChoice::Paper,
+            difference: DifferenceChoice::DeltaE2000,
+            diagram: Diagram::Xy,
+            overlays: Overlays::default(),
+            own: Vec::new(),
+            unknown: serde_json::Map::new(),
+        };
+        for (name, kind) in FIRST_SOURCES {
+            document.compare(name, kind);
+        }
+        document
+    }
+}
+
+impl Document {
+    /// Puts a source on show, in the first free place of the palette.
+    pub fn compare(&mut self, name: &str, kind: Kind) {
+        if self.compared.iter().any(|c| c.kind == kind && c.name == name) {
+            return;
+        }
+        let taken = |slot: u8| self.compared.iter().any(|c| c.kind == kind && c.slot == slot);
+        let slot = (0..u8::MAX).find(|&slot| !taken(slot)).unwrap_or(u8::MAX);
+        self.compared.push(Compared { name: name.to_owned(), kind, slot, visible: true, label: None });
+    }
+
+    /// The source of this name on show.
+    pub fn compared(&self, kind: Kind, name: &str) -> Option<&Compared> {
+        self.compared.iter().find(|c| c.kind == kind && c.name == name)
+    }
+
+    /// Whether a source is the truth.
+    pub fn is_truth(&self, compared: &Compared) -> bool {
+        compared.kind == Kind::Observer && compared.name == self.truth
+    }
+}

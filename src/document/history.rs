@@ -1,0 +1,89 @@
+//! Undo: the previous documents.
+
+use super::Document;
+use crate::action::Action;
+
+/// How many steps are kept.
+const DEPTH: usize = 200;
+
+/// One step: what was done, and the document before (undo) or after it (redo).
+#[derive(Clone, Debug)]
+struct Step {
+    name: String,
+    document: Document,
+    /// What later changes of the same gesture must be to belong to this step.
+    action: Action,
+}
+
+/// The document with the steps that led to it.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    document: Document,
+    undo: Vec<Step>,
+    redo: Vec<Step>,
+    /// Whether a gesture (a drag) is going on, whose changes are one step.
+    gesture: bool,
+}
+
+impl History {
+    /// Starts from a document.
+    pub fn new(document: Document) -> Self {
+        Self { document, ..Self::default() }
+    }
+
+    /// The document now.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// Carries out an action. A change that changes nothing is no step.
+    pub fn apply(&mut self, action: &Action) {
+        let before = self.document.clone();
+        action.apply(&mut self.document);
+        if before == self.document {
+            return;
+        }
+        self.redo.clear();
+        let continues = self.gesture && self.undo.last().is_some_and(|step| step.action.is_same_gesture(action));
+        if !continues {
+            self.undo.push(Step { name: action.name(), document: before, action: action.clone() });
+            if self.undo.len() > DEPTH {
+                self.undo.remove(0);
+            }
+        }
+        self.gesture = true;
+    }
+
+    /// The pointer was released, or nothing was dragged: what comes is a new step.
+    pub fn end_gesture(&mut self) {
+        self.gesture = false;
+    }
+
+    /// The step that undo would take back.
+    pub fn undo_name(&self) -> Option<&str> {
+        self.undo.last().map(|step| step.name.as_str())
+    }
+
+    /// The step that redo would bring back.
+    pub fn redo_name(&self) -> Option<&str> {
+        self.redo.last().map(|step| step.name.as_str())
+    }
+
+    /// Takes the last step back.
+    pub fn undo(&mut self) {
+        if let Some(step) = self.undo.pop() {
+            let after = std::mem::replace(&mut self.document, step.document);
+            self.redo.push(Step { name: step.name, document: after, action: step.action });
+        }
+        self.gesture = false;
+    }
+
+    /// Brings the last step taken back again.
+    pub fn redo(&mut self) {
+        if let Some(step) = self.redo.pop() {
+            let before = std::mem::replace(&mut self.document, step.document);
+            self.undo.push(Step { name: step.name, document: before, action: step.action });
+        }
+        self.gesture = false;
+    }
+}

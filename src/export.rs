@@ -1,0 +1,133 @@
+//! Figures out of the program: SVG from the figure, PNG from that SVG, both in the bundled fonts.
+
+use std::sync::{Arc, LazyLock};
+
+use chromascope_core::figure::{Figure, Image, svg};
+use image::{
+    ExtendedColorType, ImageEncoder as _, RgbaImage,
+    codecs::png::{CompressionType, FilterType, PngEncoder},
+};
+use resvg::{tiny_skia, usvg};
+
+use crate::theme::{self, Theme};
+
+/// The longest side of a picture in pixels.
+pub const MAX_SIDE: u32 = 16_384;
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// The SVG could not be read.
+    #[error("the figure could not be drawn: {0}")]
+    Svg(#[from] usvg::Error),
+    /// The picture would be too large, or have no pixel.
+    #[error("a picture of {width} × {height} pixels cannot be made; the longest side is {MAX_SIDE}")]
+    Size {
+        /// Its width in pixels.
+        width: u32,
+        /// Its height in pixels.
+        height: u32,
+    },
+    /// The picture could not be encoded.
+    #[error("the picture could not be encoded: {0}")]
+    Encode(#[from] image::ImageError),
+}
+
+/// How a figure is set on paper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Paper {
+    /// Width in millimeters; `None` takes the figure's own points.
+    pub width_mm: Option<f64>,
+    /// Factor on text, relative to the figure.
+    pub text_scale: f64,
+    /// Factor on lines and markers, relative to the figure.
+    pub line_scale: f64,
+}
+
+impl Default for Paper {
+    fn default() -> Self {
+        Self { width_mm: None, text_scale: 1.0, line_scale: 1.0 }
+    }
+}
+
+/// The figure as SVG. Figures for paper take [`Theme::LIGHT`].
+pub fn svg(figure: &Figure, theme: &Theme, paper: Paper) -> String {
+    let Paper { width_mm, text_scale, line_scale } = paper;
+    let style = svg::SvgStyle::new(theme::FONT_FAMILY, theme::MONO_FAMILY, &data_uri);
+    svg::write(figure, theme, &svg::SvgStyle { width_mm, text_scale, line_scale, ..style })
+}
+
+/// The SVG as a picture with `scale` pixels per point (1/72 inch).
+pub fn png(svg: &str, scale: f32) -> Result<RgbaImage, ExportError> {
+    let tree = usvg::Tree::from_str(svg, &options())?;
+    let size = tree.size();
+    let [width, height] = [size.width(), size.height()].map(|side| (side * scale).ceil() as u32);
+    let too_large = || ExportError::Size { width, height };
+    if width > MAX_SIDE || height > MAX_SIDE {
+        return Err(too_large());
+    }
+    let mut pixels = tiny_skia::Pixmap::new(width, height).ok_or_else(too_large)?;
+    resvg::render(&tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    let straight = pixels.pixels().iter().flat_map(|pixel| {
+        let color = pixel.demultiply();
+        [color.red(), color.green(), color.blue(), color.alpha()]
+    });
+    RgbaImage::from_raw(width, height, straight.collect()).ok_or_else(too_large)
+}
+
+/// The bytes of a PNG file.
+pub fn png_file(picture: &RgbaImage) -> Result<Vec<u8>, ExportError> {
+    Ok(encoded(picture.as_raw(), picture.width(), picture.height())?)
+}
+
+fn encoded(rgba: &[u8], width: u32, height: u32) -> Result<Vec<u8>, image::ImageError> {
+    let mut file = Vec::new();
+    PngEncoder::new_with_quality(&mut file, CompressionType::Default, FilterType::Adaptive).write_image(
+        rgba,
+        width,
+        height,
+        ExtendedColorType::Rgba8,
+    )?;
+    Ok(file)
+}
+
+/// The bundled fonts and no others, one pixel per point, and nothing read from disk.
+fn options() -> usvg::Options<'static> {
+    static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
+        let mut fonts = usvg::fontdb::Database::new();
+        fonts.load_font_data(theme::FONT.to_vec());
+        fonts.load_font_data(theme::MONO_FONT.to_vec());
+        Arc::new(fonts)
+    });
+    usvg::Options {
+        dpi: 72.0,
+        font_family: theme::FONT_FAMILY.to_owned(),
+        fontdb: Arc::clone(&FONTS),
+        image_href_resolver: usvg::ImageHrefResolver {
+            resolve_string: Box::new(|_, _| None),
+            ..usvg::ImageHrefResolver::default()
+        },
+        ..usvg::Options::default()
+    }
+}
+
+fn data_uri(image: &Image) -> Option<String> {
+    let (width, height) = (u32::try_from(image.width).ok()?, u32::try_from(image.height).ok()?);
+    let file = encoded(&image.rgba, width, height).ok()?;
+    Some(format!("data:image/png;base64,{}", base64(&file)))
+}
+
+/// Base 64 (RFC 4648, section 4).
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let at = |i: usize| u32::from(three.get(i).copied().unwrap_or(0));
+        let bits = at(0) << 16 | at(1) << 8 | at(2);
+        for i in 0..4 {
+            let digit = DIGITS[(bits >> (18 - 6 * i) & 63) as usize];
+            out.push(if i <= three.len() { char::from(digit) } else { '=' });
+        }
+    }
+    out
+}

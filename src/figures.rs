@@ -1,0 +1,6 @@
+//! The scene as figures: the same value is drawn on screen, saved as SVG and PNG, and written as numbers.
+
+pub mod chromaticity;
+pub mod spectra;
+pub mod strip;
+pub mod swatches;

@@ -1,0 +1,119 @@
+//! Keeping the document between runs, and when the program breaks.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::write_atomically;
+use crate::document::{Document, session};
+
+/// A document is written this long after its last change.
+const REST: Duration = Duration::from_secs(2);
+/// The file it is kept in.
+const FILE: &str = "document.json";
+
+/// What the panic hook saves: the last document seen, and where.
+static LAST: Mutex<Option<(PathBuf, Document)>> = Mutex::new(None);
+
+/// Writes the document to the program's folder.
+#[derive(Debug)]
+pub(super) struct Keeper {
+    file: Option<PathBuf>,
+    seen: Option<Document>,
+    saved: Option<Document>,
+    changed: Instant,
+}
+
+impl Keeper {
+    pub(super) fn new(folder: Option<PathBuf>) -> Self {
+        Self { file: folder.map(|folder| folder.join(FILE)), seen: None, saved: None, changed: Instant::now() }
+    }
+
+    /// The document kept, or the first screen; with a sentence where one was there and could not be read.
+    pub(super) fn load(&mut self) -> (Document, Option<String>) {
+        let Some(text) = self.file.as_ref().and_then(|file| fs::read_to_string(file).ok()) else {
+            return (Document::default(), None);
+        };
+        match session::from_json(&text) {
+            Ok(document) => {
+                self.saved = Some(document.clone());
+                (document, None)
+            }
+            Err(error) => (Document::default(), Some(self.set_aside(&error.to_string()))),
+        }
+    }
+
+    /// A kept document that cannot be read is not overwritten.
+    fn set_aside(&self, why: &str) -> String {
+        let file = self.file.clone().unwrap_or_default();
+        let aside = file.with_extension("unreadable.json");
+        match fs::rename(&file, &aside) {
+            Ok(()) => format!("What was kept of the last run cannot be read ({why}). It is now {}.", aside.display()),
+            Err(error) => format!("What was kept of the last run cannot be read ({why}; {error})."),
+        }
+    }
+
+    /// Notes a change, and writes it when the document has come to rest.
+    pub(super) fn watch(&mut self, document: &Document, ctx: &egui::Context) -> Result<(), String> {
+        let Some(file) = &self.file else { return Ok(()) };
+        if self.seen.as_ref() != Some(document) {
+            // The first sight of a document that was just loaded is no change.
+            let fresh = self.seen.is_none() && self.saved.as_ref().is_none_or(|saved| saved == document);
+            if fresh {
+                self.saved = Some(document.clone());
+            }
+            self.seen = Some(document.clone());
+            self.changed = Instant::now();
+            *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some((file.clone(), document.clone()));
+        }
+        if self.saved.as_ref() == Some(document) {
+            return Ok(());
+        }
+        let rested = self.changed.elapsed();
+        if rested < REST {
+            ctx.request_repaint_after(REST - rested);
+            return Ok(());
+        }
+        self.save(document)
+    }
+
+    /// Writes the document now, unless it is as it was written.
+    pub(super) fn save(&mut self, document: &Document) -> Result<(), String> {
+        let Some(file) = self.file.clone() else { return Ok(()) };
+        if self.saved.as_ref() == Some(document) {
+            return Ok(());
+        }
+        // Failing again and again would only fill the log.
+        self.saved = Some(document.clone());
+        write(&file, document)
+    }
+}
+
+fn write(file: &Path, document: &Document) -> Result<(), String> {
+    let json = session::to_json(document).map_err(|error| error.to_string())?;
+    if let Some(folder) = file.parent() {
+        fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    write_atomically(file, json.as_bytes()).map_err(|error| format!("{}: {error}", file.display()))
+}
+
+/// Saves the last document seen, for a program that is about to end. Returns where, if it could.
+pub fn panic_saves() -> Option<PathBuf> {
+    // Never waits: the thread that holds the lock may be the one that broke.
+    let last = LAST.try_lock().ok()?.clone();
+    let (file, document) = last?;
+    write(&file, &document).ok()?;
+    Some(file)
+}
+
+/// Before a panic is reported, the document is saved.
+pub fn install_panic_hook() {
+    let report = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        if let Some(file) = panic_saves() {
+            log::error!("the document was saved to {}", file.display());
+        }
+        report(info);
+    }));
+}

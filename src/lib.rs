@@ -1,0 +1,29 @@
+//! Chromascope's window and command line, as a library for its tests.
+//!
+//! ```text
+//! catalog + document   ground state: data sets, and what is compared under what
+//!        │ scene       names become data, choices become questions
+//!        ▼
+//!     results          answers, the only cache
+//!        │ figures     answers become figures
+//!        ▼
+//!     panes, cli       show them, and push commands, which change the document
+//! ```
+
+pub mod action;
+pub mod app;
+pub mod catalog;
+pub mod command;
+pub mod document;
+pub mod export;
+pub mod figures;
+pub mod files;
+pub mod paint;
+pub mod panes;
+pub mod results;
+pub mod scene;
+pub mod theme;
+pub mod thing;
+pub mod view;
+pub mod widgets;
+pub mod workspaces;

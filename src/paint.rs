@@ -1,0 +1,232 @@
+//! Figures on screen: panels drawn with egui, plots that zoom and pan, hit tests, legend keys.
+//!
+//! [`plot`] leaves zoom, pan and their memory to `egui_plot` and draws everything inside and around it itself, from the
+//! same geometry as the SVG. [`board`] draws a panel whose units are points.
+
+mod decoration;
+mod hit;
+mod marks;
+mod texture;
+mod triangles;
+
+use chromascope_core::figure::{Axis, LegendEntry, Panel, Projection, Ticks, fit_equal};
+use egui::{Align2, Id, Painter, Pos2, Rect, Response, Sense, Ui, Vec2};
+use egui_plot::{Plot, PlotUi};
+
+use crate::theme::Theme;
+use chromascope_core::figure::Tag;
+pub use hit::{Hit, nearest};
+
+/// How a mark stands out, or does not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Emphasis {
+    /// As it is.
+    #[default]
+    Normal,
+    /// Under the pointer, in this pane or another: thicker rim, thin ring.
+    Hovered,
+    /// Chosen: ring around points, casing around lines.
+    Selected,
+    /// Something else is chosen.
+    Faded,
+}
+
+/// Which emphasis marks have.
+pub type EmphasisOf<'a> = &'a dyn Fn(Tag) -> Emphasis;
+
+/// How a panel is shown.
+#[derive(Clone, Copy)]
+pub struct PlotOptions<'a> {
+    /// Whether the user can zoom (wheel, pinch) and pan (drag). A double click shows the panel's ranges again.
+    pub zoomable: bool,
+    /// Shows the panel's ranges again now.
+    pub reset: bool,
+    /// Plots with the same id share their horizontal range.
+    pub link_x: Option<Id>,
+    /// The emphasis of each mark.
+    pub emphasis: EmphasisOf<'a>,
+}
+
+impl Default for PlotOptions<'_> {
+    fn default() -> Self {
+        Self { zoomable: true, reset: false, link_x: None, emphasis: &|_| Emphasis::Normal }
+    }
+}
+
+/// What came of showing a panel.
+#[derive(Debug, Clone)]
+pub struct PlotOutput {
+    /// Clicks, drags and the pointer inside the plot.
+    pub response: Response,
+    /// Where data are on screen.
+    pub view: View,
+    /// The pointer in data units.
+    pub hovered: Option<[f64; 2]>,
+}
+
+/// A rectangle of the screen with the data it shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// The plot, without tick labels.
+    pub rect: Rect,
+    /// Values at the left and right ends.
+    pub x: [f64; 2],
+    /// Values at the bottom and top ends.
+    pub y: [f64; 2],
+}
+
+impl View {
+    /// Where a data point is on screen. Points far outside are held near the screen: egui's numbers are `f32`.
+    pub fn at(&self, point: [f64; 2]) -> Pos2 {
+        let far = 1e5;
+        let u = (point[0] - self.x[0]) / (self.x[1] - self.x[0]) * f64::from(self.rect.width());
+        let v = (point[1] - self.y[0]) / (self.y[1] - self.y[0]) * f64::from(self.rect.height());
+        let offset = Vec2::new(u.clamp(-far, far) as f32, -v.clamp(-far, far) as f32);
+        self.rect.left_bottom() + offset
+    }
+
+    /// The data point at a place on screen.
+    pub fn value(&self, at: Pos2) -> [f64; 2] {
+        let u = f64::from((at.x - self.rect.left()) / self.rect.width().max(1.0));
+        let v = f64::from((self.rect.bottom() - at.y) / self.rect.height().max(1.0));
+        [self.x[0] + u * (self.x[1] - self.x[0]), self.y[0] + v * (self.y[1] - self.y[0])]
+    }
+}
+
+/// Shows a panel with axes in exactly `rect`, tick labels included.
+pub fn plot(ui: &mut Ui, id: Id, panel: &Panel, theme: &Theme, rect: Rect, options: PlotOptions<'_>) -> PlotOutput {
+    let inner = plot_rect(panel, rect);
+    let (x, y) = shown_ranges(panel, inner);
+    let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inner));
+    let mut plot = Plot::new(id)
+        .id(id)
+        .width(inner.width())
+        .height(inner.height())
+        .show_axes(false)
+        .show_grid(false)
+        .show_background(false)
+        .show_x(false)
+        .show_y(false)
+        .allow_zoom(options.zoomable)
+        .allow_drag(options.zoomable)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_double_click_reset(options.zoomable)
+        .default_x_bounds(x[0].min(x[1]), x[0].max(x[1]))
+        .default_y_bounds(y[0].min(y[1]), y[0].max(y[1]))
+        // Until the user zooms, these bounds are taken anew in each frame: they follow panel and window.
+        .auto_bounds(true)
+        .set_margin_fraction(Vec2::ZERO)
+        .invert_x(x[0] > x[1])
+        .invert_y(y[0] > y[1]);
+    if panel.equal_aspect {
+        plot = plot.data_aspect(1.0);
+    }
+    if let Some(group) = options.link_x {
+        plot = plot.link_axis(group, [true, false]);
+    }
+    if options.reset {
+        plot = plot.reset();
+    }
+    let span = [(x[1] - x[0]).abs(), (y[1] - y[0]).abs()];
+    let shown = plot.show(&mut child, |plot| {
+        if options.zoomable {
+            zoom_by_wheel(plot, span);
+        }
+    });
+    let bounds = shown.transform.bounds();
+    let directed = |axis: usize, range: [f64; 2]| {
+        let ends = [bounds.min()[axis], bounds.max()[axis]];
+        if range[0] > range[1] { [ends[1], ends[0]] } else { ends }
+    };
+    let view = View { rect: inner, x: directed(0, x), y: directed(1, y) };
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    decoration::panel(&painter, panel, &view, rect, theme, options.emphasis);
+    let response = named(shown.response, panel);
+    let hovered = response.hover_pos().filter(|at| inner.contains(*at)).map(|at| view.value(at));
+    PlotOutput { response, view, hovered }
+}
+
+fn named(response: Response, panel: &Panel) -> Response {
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, panel.name.clone()));
+    response
+}
+
+/// The plot inside the box that also holds the tick labels.
+fn plot_rect(panel: &Panel, rect: Rect) -> Rect {
+    let room = |axis: &Axis, points: f64| match axis.ticks {
+        Ticks::None => 0.0,
+        Ticks::Auto | Ticks::At(_) => points as f32,
+    };
+    let left = room(&panel.y, Projection::LEFT);
+    let bottom = room(&panel.x, Projection::BOTTOM);
+    let max = Pos2::new(rect.right() - 1.0, rect.bottom() - bottom.max(1.0));
+    Rect::from_min_max(rect.min + Vec2::new(left.max(1.0), 1.0), max.max(rect.min + Vec2::splat(2.0)))
+}
+
+/// The ranges that fill the plot, all the panel asks for within.
+fn shown_ranges(panel: &Panel, inner: Rect) -> ([f64; 2], [f64; 2]) {
+    if panel.equal_aspect {
+        let size = [f64::from(inner.width()), f64::from(inner.height())];
+        fit_equal(panel.x.range, panel.y.range, size)
+    } else {
+        (panel.x.proper_range(), panel.y.proper_range())
+    }
+}
+
+/// The wheel zooms around the pointer, from 1/100000 to 20 times the panel's own ranges.
+fn zoom_by_wheel(plot: &mut PlotUi<'_>, span: [f64; 2]) {
+    let scroll = plot.ctx().input(|input| input.smooth_scroll_delta().y);
+    if scroll == 0.0 || !plot.response().contains_pointer() {
+        return;
+    }
+    let factor = (0.005 * scroll).exp();
+    let shown = plot.plot_bounds();
+    let relative = (shown.width() / span[0]).max(shown.height() / span[1]) / f64::from(factor);
+    if (1e-5..20.0).contains(&relative) {
+        plot.zoom_bounds_around_hovered(Vec2::splat(factor));
+    }
+}
+
+/// Shows a panel without axes: its units are points from the upper left corner of `rect`, where its ranges begin.
+/// Senses clicks and the pointer.
+pub fn board(ui: &mut Ui, id: Id, panel: &Panel, theme: &Theme, rect: Rect, emphasis: EmphasisOf<'_>) -> PlotOutput {
+    let size = [f64::from(rect.width()), f64::from(rect.height())];
+    let view = View { rect, x: [0.0, size[0]], y: [size[1], 0.0] };
+    let response = named(ui.interact(rect, id, Sense::click()), panel);
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    decoration::panel(&painter, panel, &view, rect, theme, emphasis);
+    let hovered = response.hover_pos().map(|at| view.value(at));
+    PlotOutput { response, view, hovered }
+}
+
+/// Draws a whole panel that neither moves nor senses, such as an overview, in exactly `rect`.
+pub fn still(painter: &Painter, panel: &Panel, theme: &Theme, rect: Rect) -> View {
+    let inner = plot_rect(panel, rect);
+    let (x, y) = shown_ranges(panel, inner);
+    let view = View { rect: inner, x, y };
+    let painter = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
+    decoration::panel(&painter, panel, &view, rect, theme, &|_| Emphasis::Normal);
+    view
+}
+
+/// Draws the key of a source, line and marker, across the middle of `rect`.
+pub fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Theme) {
+    marks::key(painter, rect, entry, theme);
+}
+
+/// Draws a piece of text with a halo in the given ground.
+pub fn text(
+    painter: &Painter,
+    at: Pos2,
+    align: Align2,
+    text: &str,
+    size: chromascope_core::figure::TextSize,
+    ink: chromascope_core::figure::Ink,
+    theme: &Theme,
+) -> Rect {
+    let galley = painter.layout_no_wrap(text.to_owned(), crate::theme::font(size), theme.ink(ink));
+    let place = align.anchor_size(at, galley.size());
+    painter.galley(place.min, galley, theme.ink(ink));
+    place
+}

@@ -1,0 +1,277 @@
+//! Marks as egui shapes.
+
+use chromascope_core::figure::{
+    Anchor, Ink, InkRole, LegendEntry, Mark, Marker, MarkerOutline, Rgb, Shape as Form, Stroke as Pen, TextSize,
+    finite_runs,
+};
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, epaint::PathStroke};
+
+use super::{Emphasis, View, texture, triangles};
+use crate::theme::{self, Theme};
+
+/// What drawing a mark needs to know.
+struct Brush<'a> {
+    painter: &'a Painter,
+    view: &'a View,
+    theme: &'a Theme,
+    emphasis: Emphasis,
+}
+
+/// Draws one mark.
+pub(super) fn mark(painter: &Painter, mark: &Mark, view: &View, theme: &Theme, emphasis: Emphasis) {
+    let brush = Brush { painter, view, theme, emphasis };
+    match &mark.shape {
+        Form::Line { points, closed } => brush.line(mark, points, *closed),
+        Form::Gradient { points } => brush.gradient(mark, points),
+        Form::Points { points, marker, radius } => {
+            for point in finite_runs(points).flatten() {
+                brush.point(mark, view.at(*point), *marker, *radius as f32);
+            }
+        }
+        Form::Text { at, text: words, anchor, offset, size, ink } => {
+            if at.iter().all(|v| v.is_finite()) {
+                let at = view.at(*at) + Vec2::new(offset[0] as f32, offset[1] as f32);
+                let style = TextStyle { anchor: *anchor, size: *size, ink: *ink, halo: mark.halo };
+                text(painter, at, words, style, theme);
+            }
+        }
+        Form::Rect { min, max } => brush.rect(mark, *min, *max),
+        Form::Polygon { points } => brush.polygon(mark, points),
+        Form::Image { min, max, image } => {
+            if [min, max].iter().all(|p| p.iter().all(|v| v.is_finite())) {
+                texture::draw(painter, brush.box_of(*min, *max), image);
+            }
+        }
+        Form::Segments { segments } => {
+            for pen in brush.pens(mark) {
+                for ends in segments.iter().filter(|s| s.as_flattened().iter().all(|v| v.is_finite())) {
+                    brush.path(&ends.map(|p| view.at(p)), false, pen);
+                }
+            }
+        }
+    }
+}
+
+impl Brush<'_> {
+    fn color(&self, ink: Ink) -> Color32 {
+        let fade = if self.emphasis == Emphasis::Faded { theme::FADED } else { 1.0 };
+        self.theme.ink(ink.faded(fade))
+    }
+
+    fn box_of(&self, a: [f64; 2], b: [f64; 2]) -> Rect {
+        Rect::from_two_pos(self.view.at(a), self.view.at(b))
+    }
+
+    /// The lines to draw over each other: casing, halo, line.
+    fn pens(&self, mark: &Mark) -> Vec<Pen> {
+        let wider = if self.emphasis == Emphasis::Hovered { 1.0 } else { 0.0 };
+        let line = mark.stroke.map(|pen| Pen { width: pen.width + wider, ..pen });
+        let width = line.map_or(0.0, |pen| pen.width);
+        let casing = (self.emphasis == Emphasis::Selected).then(|| Pen::solid(InkRole::Text, width + 4.0 * Mark::HALO));
+        let cased = casing.map(|_| InkRole::Plot.into());
+        // A halo would cut holes into others while its own line is hardly seen.
+        let halo = mark.halo.filter(|_| self.emphasis != Emphasis::Faded).or(cased);
+        let halo = halo.map(|ink| Pen::solid(ink, width + 2.0 * Mark::HALO));
+        [casing, halo, line].into_iter().flatten().collect()
+    }
+
+    fn line(&self, mark: &Mark, points: &[[f64; 2]], closed: bool) {
+        for pen in self.pens(mark) {
+            for run in finite_runs(points) {
+                let placed: Vec<Pos2> = run.iter().map(|p| self.view.at(*p)).collect();
+                self.path(&placed, closed && run.len() == points.len(), pen);
+            }
+        }
+    }
+
+    fn path(&self, points: &[Pos2], closed: bool, pen: Pen) {
+        let stroke = Stroke::new(pen.width as f32, self.color(pen.ink));
+        if let Some(dashes) = pen.dash.pattern(pen.width) {
+            let mut path = points.to_vec();
+            path.extend(points.first().filter(|_| closed));
+            self.dashes(&path, stroke, dashes.map(|length| length as f32));
+        } else if closed {
+            self.painter.add(Shape::closed_line(points.to_vec(), PathStroke::from(stroke)));
+        } else {
+            self.painter.add(Shape::line(points.to_vec(), PathStroke::from(stroke)));
+        }
+    }
+
+    /// Only what is near the plot is dashed: a line zoomed into may be miles long.
+    fn dashes(&self, path: &[Pos2], stroke: Stroke, [dash, gap]: [f32; 2]) {
+        let near = self.view.rect.expand(20.0);
+        for run in
+            path.windows(2).map(|ends| clipped(ends[0], ends[1], near)).collect::<Vec<_>>().split(Option::is_none)
+        {
+            let mut points: Vec<Pos2> = run.iter().flatten().map(|ends| ends[0]).collect();
+            points.extend(run.iter().flatten().last().map(|ends| ends[1]));
+            if points.len() > 1 {
+                self.painter.extend(Shape::dashed_line(&points, stroke, dash, gap));
+            }
+        }
+    }
+
+    fn gradient(&self, mark: &Mark, points: &[([f64; 2], Rgb)]) {
+        let pen = mark.stroke.unwrap_or(Pen::solid(InkRole::Text, 2.0));
+        let finite = |p: &([f64; 2], Rgb)| p.0.iter().all(|v| v.is_finite());
+        for run in points.split(|p| !finite(p)) {
+            let mut start = 0;
+            while start + 1 < run.len() {
+                let color = run[start].1;
+                let same = run[start + 1..].iter().take_while(|p| p.1 == color).count();
+                let end = (start + same.max(1) + 1).min(run.len());
+                let placed: Vec<Pos2> = run[start..end].iter().map(|p| self.view.at(p.0)).collect();
+                let ink = Ink { role: InkRole::Rgb(color), alpha: pen.ink.alpha };
+                self.path(&placed, false, Pen { ink, ..pen });
+                start = end - 1;
+            }
+        }
+    }
+
+    fn point(&self, mark: &Mark, at: Pos2, marker: Marker, radius: f32) {
+        let wider = if self.emphasis == Emphasis::Hovered { 1.0 } else { 0.0 };
+        let rim = mark.stroke.map(|pen| Pen { width: pen.width + wider, ..pen });
+        let fill = mark.fill.map_or(Color32::TRANSPARENT, |ink| self.color(ink));
+        let rim_stroke = rim.map_or(Stroke::NONE, |pen| Stroke::new(pen.width as f32, self.color(pen.ink)));
+        if let Some(halo) = mark.halo.filter(|_| self.emphasis != Emphasis::Faded) {
+            let color = self.theme.ink(halo);
+            let width = rim_stroke.width + 2.0 * Mark::HALO as f32;
+            outline(self.painter, at, marker, radius, color, Stroke::new(width, color));
+        }
+        outline(self.painter, at, marker, radius, fill, rim_stroke);
+        let ring = match self.emphasis {
+            Emphasis::Hovered => Some(Stroke::new(1.0, self.theme.text)),
+            Emphasis::Selected => Some(Stroke::new(2.0, self.theme.text)),
+            Emphasis::Normal | Emphasis::Faded => None,
+        };
+        if let Some(stroke) = ring {
+            self.painter.circle_stroke(at, 2.0 * radius, stroke);
+        }
+    }
+
+    /// Rectangles are swatches: they never fade, and are framed in black and white when chosen.
+    fn rect(&self, mark: &Mark, min: [f64; 2], max: [f64; 2]) {
+        if ![min, max].as_flattened().iter().all(|v| v.is_finite()) {
+            return;
+        }
+        let rect = self.box_of(min, max);
+        let fill = mark.fill.map_or(Color32::TRANSPARENT, |ink| self.theme.ink(ink));
+        let stroke = mark.stroke.map_or(Stroke::NONE, |pen| Stroke::new(pen.width as f32, self.theme.ink(pen.ink)));
+        self.painter.rect(rect, 0.0, fill, stroke, StrokeKind::Middle);
+        match self.emphasis {
+            Emphasis::Selected => {
+                let frame = |by: f32, color| {
+                    let stroke = Stroke::new(1.5, color);
+                    self.painter.rect_stroke(rect.shrink(by), 0.0, stroke, StrokeKind::Inside);
+                };
+                frame(0.0, Color32::BLACK);
+                frame(1.5, Color32::WHITE);
+            }
+            Emphasis::Hovered => {
+                let stroke = Stroke::new(1.0, self.theme.surround.label());
+                self.painter.rect_stroke(rect, 0.0, stroke, StrokeKind::Outside);
+            }
+            Emphasis::Normal | Emphasis::Faded => {}
+        }
+    }
+
+    fn polygon(&self, mark: &Mark, points: &[[f64; 2]]) {
+        let placed: Vec<Pos2> = finite_runs(points).flatten().map(|p| self.view.at(*p)).collect();
+        if let Some(ink) = mark.fill {
+            triangles::fill(self.painter, &placed, self.color(ink));
+        }
+        for pen in self.pens(mark) {
+            self.path(&placed, true, pen);
+        }
+    }
+}
+
+/// The part of a straight line inside a rectangle (Liang and Barsky 1984).
+fn clipped(a: Pos2, b: Pos2, rect: Rect) -> Option<[Pos2; 2]> {
+    let d = b - a;
+    let (mut from, mut to) = (0.0_f32, 1.0_f32);
+    for (step, room) in
+        [(-d.x, a.x - rect.left()), (d.x, rect.right() - a.x), (-d.y, a.y - rect.top()), (d.y, rect.bottom() - a.y)]
+    {
+        if step == 0.0 {
+            if room < 0.0 {
+                return None;
+            }
+        } else if step < 0.0 {
+            from = from.max(room / step);
+        } else {
+            to = to.min(room / step);
+        }
+    }
+    (from < to).then(|| [a + from * d, a + to * d])
+}
+
+/// Draws a marker.
+fn outline(painter: &Painter, at: Pos2, marker: Marker, radius: f32, fill: Color32, rim: Stroke) {
+    let place = |p: &[f64; 2]| at + radius * Vec2::new(p[0] as f32, p[1] as f32);
+    match marker.outline() {
+        MarkerOutline::Disk(size) => {
+            painter.circle(at, radius * size as f32, fill, rim);
+        }
+        MarkerOutline::Area(corners) => {
+            let corners = corners.iter().map(place).collect();
+            painter.add(Shape::convex_polygon(corners, fill, PathStroke::from(rim)));
+        }
+        MarkerOutline::Strokes(lines) => {
+            let rim = if rim.width > 0.0 { rim } else { Stroke::new(2.0, fill) };
+            for line in lines {
+                painter.line_segment([place(&line[0]), place(&line[1])], rim);
+            }
+        }
+    }
+}
+
+/// Draws a legend key.
+pub(super) fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Theme) {
+    let middle = rect.center();
+    let view = View { rect, x: [0.0, 1.0], y: [0.0, 1.0] };
+    let brush = Brush { painter, view: &view, theme, emphasis: Emphasis::Normal };
+    if let Some(pen) = entry.stroke {
+        brush.path(&[rect.left_center(), rect.right_center()], false, pen);
+    }
+    if let Some(marker) = entry.marker {
+        let ink = entry.stroke.map(|pen| pen.ink).or(entry.fill).unwrap_or(InkRole::Text.into());
+        let ground = painter.ctx().global_style().visuals.panel_fill;
+        let fill = entry.fill.map_or(ground, |ink| theme.ink(ink));
+        let rim = Stroke::new(2.0, theme.ink(ink));
+        let radius = 5.0;
+        outline(painter, middle, marker, radius, ground, Stroke::new(2.0 + 3.0, ground));
+        outline(painter, middle, marker, radius, fill, rim);
+    }
+}
+
+/// How a line of text is drawn.
+#[derive(Clone, Copy)]
+pub(super) struct TextStyle {
+    pub(super) anchor: Anchor,
+    pub(super) size: TextSize,
+    pub(super) ink: Ink,
+    pub(super) halo: Option<Ink>,
+}
+
+/// Draws a line of text.
+pub(super) fn text(painter: &Painter, at: Pos2, words: &str, style: TextStyle, theme: &Theme) {
+    text_inside(painter, at, words, style, theme, Rect::EVERYTHING);
+}
+
+/// Draws a line of text, moved as far as needed to stay inside `bounds`.
+pub(super) fn text_inside(painter: &Painter, at: Pos2, words: &str, style: TextStyle, theme: &Theme, bounds: Rect) {
+    let color = theme.ink(style.ink);
+    let galley = painter.layout_no_wrap(words.to_owned(), theme::font(style.size), color);
+    let size = galley.size();
+    let min = at - size * Vec2::new(style.anchor.0 as f32, style.anchor.1 as f32);
+    let min = min.min(bounds.max - size).max(bounds.min);
+    if let Some(halo) = style.halo {
+        let ground = theme.ink(halo);
+        for (x, y) in [(-1, -1), (0, -1), (1, -1), (-1, 0), (1, 0), (-1, 1), (0, 1), (1, 1)] {
+            let shift = 1.25 * Vec2::new(x as f32, y as f32);
+            painter.galley_with_override_text_color(min + shift, galley.clone(), ground);
+        }
+    }
+    painter.galley(min, galley, color);
+}

@@ -1,0 +1,60 @@
+//! The panes: each reads the document, asks for answers, and says what is to be done. None knows another.
+
+pub mod chromaticity;
+pub mod help;
+pub mod inspector;
+pub mod library;
+pub mod menu;
+pub mod scene_bar;
+pub mod spectra;
+pub mod status_bar;
+pub mod swatches;
+
+use chromascope_core::figure::Figure;
+use egui::{Rect, Ui};
+
+use crate::command::Command;
+use crate::scene::Scene;
+use crate::theme::Theme;
+use crate::view::View;
+use crate::workspaces::PaneKind;
+
+/// What a pane is given.
+pub struct PaneContext<'a> {
+    /// The document, the data sets and the answers.
+    pub scene: Scene<'a>,
+    /// The colors.
+    pub theme: Theme,
+    /// What is looked at and how.
+    pub view: &'a mut View,
+    /// What is to be done when the frame is over.
+    pub commands: &'a mut Vec<Command>,
+}
+
+impl PaneContext<'_> {
+    /// Has something done when the frame is over.
+    pub fn push(&mut self, command: impl Into<Command>) {
+        self.commands.push(command.into());
+    }
+}
+
+/// Shows a pane in exactly its rectangle.
+pub fn show(ui: &mut Ui, pane: PaneKind, rect: Rect, context: &mut PaneContext<'_>) {
+    match pane {
+        PaneKind::Library => library::show(ui, rect, context),
+        PaneKind::Chromaticity => chromaticity::show(ui, rect, context),
+        PaneKind::Swatches => swatches::show(ui, rect, context),
+        PaneKind::Spectra => spectra::show(ui, rect, context),
+        PaneKind::Inspector => inspector::show(ui, rect, context),
+    }
+}
+
+/// A pane's figure as it would be saved: the same as on screen, with its numbers. None for panes without one.
+pub fn figure(pane: PaneKind, scene: &Scene<'_>, view: &View) -> Option<Figure> {
+    match pane {
+        PaneKind::Chromaticity => Some(crate::figures::chromaticity::figure(scene, view)),
+        PaneKind::Swatches => Some(crate::figures::swatches::figure(scene, view)),
+        PaneKind::Spectra => Some(crate::figures::spectra::figure(scene, view)),
+        PaneKind::Library | PaneKind::Inspector => None,
+    }
+}

@@ -1,0 +1,290 @@
+//! Help pages and the palette that finds anything.
+
+use egui::{Align2, Grid, Key, RichText, ScrollArea, TextEdit, Ui, Vec2, Window};
+
+use super::PaneContext;
+use crate::action::{Action, CompareAction, SceneAction};
+use crate::catalog::{Entry, Kind, licenses, names};
+use crate::command::{Command, key_bindings};
+use crate::document::Light;
+use crate::document::history::History;
+use crate::theme::{ROW, UNIT};
+use crate::view::HelpPage;
+use crate::workspaces::{PaneKind, Workspace};
+
+/// The sentence that says what the window is about.
+pub const WHAT_YOU_SEE: &str = "A camera's sensors are not the eye's, so it records other colors than a person sees. Here is how \
+                                far off each one is.";
+
+/// Shows what is open.
+pub fn show(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
+    if let Some(page) = context.view.help {
+        show_page(ui, page, context);
+    }
+    if context.view.palette.is_some() {
+        palette(ui, history, context);
+    }
+}
+
+fn title(page: HelpPage) -> &'static str {
+    match page {
+        HelpPage::WhatYouSee => "What you see",
+        HelpPage::Keyboard => "Keyboard",
+        HelpPage::Data => "Data and sources",
+        HelpPage::Equations => "Equations",
+        HelpPage::About => "About Chromascope",
+    }
+}
+
+fn show_page(ui: &Ui, page: HelpPage, context: &mut PaneContext<'_>) {
+    let mut open = true;
+    let screen = ui.ctx().content_rect();
+    let size = Vec2::new(620.0_f32.min(screen.width() - 40.0), 520.0_f32.min(screen.height() - 80.0));
+    Window::new(title(page))
+        .id(egui::Id::unique("help"))
+        .open(&mut open)
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_CENTER, Vec2::ZERO)
+        .fixed_size(size)
+        .show(ui.ctx(), |ui| {
+            ui.horizontal_wrapped(|ui| {
+                use HelpPage::{About, Data, Equations, Keyboard, WhatYouSee};
+                for other in [WhatYouSee, Keyboard, Data, Equations, About] {
+                    if ui.selectable_label(other == page, title(other)).clicked() {
+                        context.view.help = Some(other);
+                    }
+                }
+            });
+            ui.separator();
+            ScrollArea::vertical().id_salt(title(page)).auto_shrink(false).show(ui, |ui| match page {
+                HelpPage::WhatYouSee => what_you_see(ui),
+                HelpPage::Keyboard => keyboard(ui, context),
+                HelpPage::Data => data(ui, context),
+                HelpPage::Equations => equations(ui),
+                HelpPage::About => about(ui),
+            });
+        });
+    if !open {
+        context.view.help = None;
+    }
+}
+
+fn what_you_see(ui: &mut Ui) {
+    for paragraph in [
+        WHAT_YOU_SEE,
+        "Chromaticity. The thick line is what the observer chosen as Truth sees as a glowing body cools from 20000 K (blue) to \
+         1000 K (red); thinner lines are what each camera records. Points are the patches of a chart; a tail leads from a \
+         camera's point to the truth's. The strip below shows each camera's distance from the truth over temperature; drag in \
+         it to set the temperature.",
+        "Swatches. The same patches as colors: the left half as the truth sees them, the right half as the camera records \
+         them. The bar below a swatch is the difference. A notched corner marks a color that the screen cannot show.",
+        "Spectra. The light, the reflectances and the sensitivities that all of this is computed from. Dotted parts were not \
+         measured: the last value is held.",
+        "To diagram: Paper. Camera and RGB observer signals, balanced so that a flat spectrum is 1 : 1 : 1, go through the \
+         matrix of Eq 13; equal energy falls on D65 (0.3127, 0.3290). CIE observers are drawn directly, with equal energy at \
+         (1/3, 1/3), so they differ from the others by construction and have no distance to the truth.",
+        "To diagram: Observer. CIE observers directly; all others through a 3×3 matrix, fitted to the named observer over 190 \
+         training reflectances under the chosen light so that white stays white. Then everything can be compared.",
+        "Hover to read, click to keep, Esc to let go. Drop files anywhere, or paste numbers: spectra and camera sensitivities \
+         as text, with any delimiter. What was decided on reading is shown and can be changed.",
+    ] {
+        ui.label(paragraph);
+        ui.add_space(2.0 * UNIT);
+    }
+}
+
+fn keyboard(ui: &mut Ui, context: &PaneContext<'_>) {
+    let focused = context.view.focused.unwrap_or(PaneKind::Chromaticity);
+    let mut rows: Vec<(String, String)> = Vec::new();
+    for binding in key_bindings(focused) {
+        let words = match binding.command {
+            Command::Show(workspace) => format!("Workspace {}", workspace.title()),
+            Command::ToggleSource(0) => "Show or hide the first source (2 to 9: the others)".to_owned(),
+            Command::ToggleSource(_) => continue,
+            _ => binding.words.to_owned(),
+        };
+        rows.push((ui.ctx().format_shortcut(&binding.shortcut), words));
+    }
+    for (key, words) in [
+        ("Ctrl+C", "Copy the pane's numbers"),
+        ("Ctrl+V", "Read the clipboard as data"),
+        ("B, held", "The truth in place of every camera"),
+        ("Ctrl +, Ctrl −, Ctrl 0", "Larger, smaller, normal size"),
+        ("Tab, Shift+Tab", "Next, previous control"),
+        ("Arrows in the strip", "Temperature"),
+        ("Ctrl+Q", "Quit"),
+    ] {
+        rows.push((key.to_owned(), words.to_owned()));
+    }
+    ui.label("Letters rest while you type.");
+    Grid::new("keys").num_columns(2).spacing([6.0 * UNIT, UNIT]).show(ui, |ui| {
+        for (key, words) in rows {
+            ui.monospace(key);
+            ui.label(words);
+            ui.end_row();
+        }
+    });
+}
+
+fn data(ui: &mut Ui, context: &PaneContext<'_>) {
+    ui.label("Every built-in table with its source and terms. Hover a name in the Library for its notes.");
+    let mut shown = std::collections::BTreeSet::new();
+    for kind in Kind::ALL {
+        ui.add_space(2.0 * UNIT);
+        ui.heading(kind.plural());
+        for header in context.scene.catalog.of_kind(kind).filter_map(|entry| entry.header.as_ref()) {
+            if shown.insert((kind, header.title.clone())) {
+                ui.label(RichText::new(&header.title).strong());
+                ui.label(RichText::new(&header.source).small());
+                ui.label(RichText::new(&header.license).small().color(context.theme.weak));
+            }
+        }
+    }
+}
+
+fn equations(ui: &mut Ui) {
+    for (number, formula, words) in [
+        ("Eq 11", "s_c = κ_c m dω ∫ C_c L dλ", "White balance: the color s that a perfect white under the light is to take."),
+        (
+            "Eq 13",
+            "X = 0.4124 R + 0.3576 G + 0.1805 B\nY = 0.2126 R + 0.7152 G + 0.0722 B\nZ = 0.0193 R + 0.1192 G + 0.9505 B",
+            "From RGB to XYZ; then x = X / (X + Y + Z), y = Y / (X + Y + Z).",
+        ),
+        (
+            "Eq 14",
+            "E(λ, T) = c₁ / (λ⁵ (exp(c₂ / (λ T)) − 1))",
+            "Planck's law, with the paper's constants c₁ = 3.74183e−16 W m², c₂ = 1.4388e−2 m K.",
+        ),
+        ("Eq 15", "I_c(T) = s_c ∫ C_c E dλ / ∫ C_c dλ", "A black body through a camera, balanced to equal energy."),
+        ("Eq 16", "I_c = s_c ∫ C_c S L dλ / ∫ C_c L dλ", "A patch through a camera, balanced to the light."),
+        (
+            "Observer",
+            "XYZ = M (I / s),  M minimizes Σ |M I − XYZ|² with M white = white",
+            "Over the 190 training reflectances under the light; the same matrix along a locus.",
+        ),
+        (
+            "Integrals",
+            "∫ f dλ = Σ f(λ_i),  380 … 780 nm at 1 nm, half weight at the ends",
+            "Tables with even steps of 5 nm or more by Sprague's interpolation, lights linearly. Sensitivities are zero outside \
+             their table; reflectances and lights hold their end value, dotted.",
+        ),
+    ] {
+        ui.label(RichText::new(number).strong());
+        ui.monospace(formula);
+        ui.label(words);
+        ui.add_space(2.0 * UNIT);
+    }
+    ui.label(
+        "Equation numbers are those of C. P. Huynh and A. Robles-Kelly, “Comparative Colorimetric Simulation and Evaluation of \
+         Digital Cameras Using Spectroscopy Data”, 2007.",
+    );
+}
+
+fn about(ui: &mut Ui) {
+    ui.heading(concat!("Chromascope ", env!("CARGO_PKG_VERSION")));
+    ui.label(env!("CARGO_PKG_DESCRIPTION"));
+    ui.label("Free software under the MIT or the Apache-2.0 license, as you choose. Data and fonts have terms of their own:");
+    ui.add_space(UNIT);
+    for (name, text) in licenses() {
+        ui.collapsing(name, |ui| {
+            ui.label(RichText::new(text).small());
+        });
+    }
+}
+
+/// One thing that the palette finds.
+struct Found {
+    words: String,
+    note: String,
+    command: Command,
+}
+
+/// A field and what matches it. Enter takes the first, arrows and Tab go on.
+fn palette(ui: &Ui, history: &History, context: &mut PaneContext<'_>) {
+    let Some(mut typed) = context.view.palette.take() else { return };
+    let mut chosen = None;
+    let screen = ui.ctx().content_rect();
+    let window = Window::new("Find anything")
+        .id(egui::Id::unique("palette"))
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 84.0))
+        .fixed_size(Vec2::new(520.0_f32.min(screen.width() - 40.0), 360.0));
+    window.show(ui.ctx(), |ui| {
+        let hint = "A command, a camera, a light, a chart…";
+        let field = TextEdit::singleline(&mut typed).hint_text(hint).desired_width(f32::INFINITY);
+        let field = ui.add(field);
+        field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Find anything"));
+        if !field.has_focus() && !field.lost_focus() && ui.memory(|memory| memory.focused().is_none()) {
+            field.request_focus();
+        }
+        let found = find(&typed, history, context);
+        if field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
+            chosen = found.first().map(|found| found.command.clone());
+        }
+        if found.is_empty() {
+            ui.label("No match.");
+        }
+        ScrollArea::vertical().auto_shrink([false, true]).show_rows(ui, ROW, found.len(), |ui, rows| {
+            for found in &found[rows] {
+                let button = egui::Button::new(&found.words).shortcut_text(&found.note).frame_when_inactive(false);
+                if ui.add_sized([ui.available_width(), ROW], button).clicked() {
+                    chosen = Some(found.command.clone());
+                }
+            }
+        });
+    });
+    match chosen {
+        Some(command) => context.push(command),
+        None => context.view.palette = Some(typed),
+    }
+}
+
+fn find(typed: &str, history: &History, context: &PaneContext<'_>) -> Vec<Found> {
+    let wanted: Vec<String> = typed.split_whitespace().map(names::folded).collect();
+    let matches = |words: &str| {
+        let words = names::folded(words);
+        wanted.iter().all(|word| words.contains(word))
+    };
+    let focused = context.view.focused.unwrap_or(PaneKind::Chromaticity);
+    let mut found: Vec<Found> = key_bindings(focused)
+        .into_iter()
+        .filter(|binding| !matches!(binding.command, Command::ToggleSource(_) | Command::FindAnything | Command::Escape))
+        .filter(|binding| binding.command != Command::Undo || history.undo_name().is_some())
+        .map(|binding| Found {
+            words: match binding.command {
+                Command::Show(workspace) => format!("Workspace {}", Workspace::title(workspace)),
+                _ => binding.words.to_owned(),
+            },
+            note: context_note(&binding.shortcut),
+            command: binding.command,
+        })
+        .filter(|found| matches(&found.words))
+        .collect();
+    for kind in Kind::ALL {
+        let entries = context.scene.entries(kind).filter(|entry| names::matches_search(entry, typed));
+        found.extend(entries.map(|entry| entry_found(kind, &entry)));
+    }
+    found
+}
+
+fn context_note(shortcut: &egui::KeyboardShortcut) -> String {
+    shortcut.format(&egui::ModifierNames::NAMES, cfg!(target_os = "macos"))
+}
+
+/// What choosing a data set does.
+fn entry_found(kind: Kind, entry: &Entry) -> Found {
+    let name = entry.name.clone();
+    let action = match kind {
+        Kind::Camera | Kind::Observer => Action::Compare(CompareAction::Add(kind, name)),
+        Kind::Chart | Kind::Material => Action::Scene(SceneAction::SetChart(name)),
+        Kind::Illuminant => Action::Scene(SceneAction::SetLight(Light::Set(name))),
+    };
+    let verb = match kind {
+        Kind::Camera | Kind::Observer => "compare",
+        Kind::Chart | Kind::Material => "as patches",
+        Kind::Illuminant => "as light",
+    };
+    Found { words: entry.name.clone(), note: format!("{}, {verb}", kind.singular()), command: Command::Do(action) }
+}

@@ -1,0 +1,198 @@
+//! Menus, tabs of the workspaces, undo and redo, the way to find anything.
+
+use egui::{Align, Button, Layout, Rect, Ui, UiBuilder, Vec2};
+
+use super::PaneContext;
+use crate::action::{Action, SceneAction};
+use crate::command::{Command, Format, shortcut_of};
+use crate::document::DifferenceChoice;
+use crate::document::history::History;
+use crate::theme::{ROW, Surround, UNIT};
+use crate::view::HelpPage;
+use crate::workspaces::{PaneKind, Workspace};
+
+/// Shows the bar in its rectangle.
+pub fn show(ui: &mut Ui, rect: Rect, history: &History, context: &mut PaneContext<'_>) {
+    let layout = Layout::left_to_right(Align::Center);
+    let inner = rect.shrink2(Vec2::new(UNIT, 0.0));
+    let mut bar = ui.new_child(UiBuilder::new().id_salt("menu bar").max_rect(inner).layout(layout));
+    egui::MenuBar::new().ui(&mut bar, |ui| {
+        ui.menu_button("File", |ui| file(ui, context));
+        ui.menu_button("Edit", |ui| edit(ui, history, context));
+        ui.menu_button("View", |ui| view(ui, context));
+        ui.menu_button("Help", |ui| help(ui, context));
+        ui.add_space(3.0 * UNIT);
+        tabs(ui, rect, context);
+    });
+    let to_left = Layout::right_to_left(Align::Center);
+    let mut right = ui.new_child(UiBuilder::new().id_salt("menu right").max_rect(inner).layout(to_left));
+    let find = Button::new("Find anything").shortcut_text("Ctrl+K");
+    if right.add(find).on_hover_text("Find a command or a data set by name").clicked() {
+        context.push(Command::FindAnything);
+    }
+    step_button(&mut right, true, history.redo_name(), context);
+    step_button(&mut right, false, history.undo_name(), context);
+}
+
+/// The tabs, the shown one marked by a line above it.
+fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let theme = context.theme;
+    for workspace in Workspace::ALL {
+        let on = context.view.saved.workspace == workspace;
+        let fill = if on { theme.control } else { theme.panel };
+        let response = ui.add(Button::selectable(on, workspace.title()).fill(fill).min_size(Vec2::new(72.0, rect.height())));
+        if on {
+            ui.painter().hline(response.rect.x_range(), rect.top() + 1.0, egui::Stroke::new(2.0, theme.text));
+        }
+        if response.clicked() {
+            context.push(Command::Show(workspace));
+        }
+    }
+}
+
+/// An arrow back or forward, named after its step.
+fn step_button(ui: &mut Ui, forward: bool, step: Option<&str>, context: &mut PaneContext<'_>) {
+    let (arrow, word, command) = if forward { ("→", "Redo", Command::Redo) } else { ("←", "Undo", Command::Undo) };
+    let button = Button::new(arrow).frame(false).min_size(Vec2::splat(ROW));
+    let response = ui.add_enabled(step.is_some(), button);
+    let name = step.map_or_else(|| format!("Nothing to {}", word.to_lowercase()), |step| format!("{word}: {step}"));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, step.is_some(), &name));
+    if response.on_hover_text(&name).on_disabled_hover_text(&name).clicked() {
+        context.push(command);
+    }
+}
+
+/// A line of a menu with its key.
+fn item(ui: &mut Ui, words: &str, command: Command, context: &mut PaneContext<'_>) {
+    enabled_item(ui, true, words, command, context);
+}
+
+fn enabled_item(ui: &mut Ui, enabled: bool, words: &str, command: Command, context: &mut PaneContext<'_>) {
+    let mut button = Button::new(words);
+    if let Some(shortcut) = shortcut_of(&command, focused(context)) {
+        button = button.shortcut_text(ui.ctx().format_shortcut(&shortcut));
+    }
+    if ui.add_enabled(enabled, button).clicked() {
+        context.push(command);
+        ui.close();
+    }
+}
+
+fn focused(context: &PaneContext<'_>) -> PaneKind {
+    context.view.focused.unwrap_or(PaneKind::Chromaticity)
+}
+
+/// The pane whose figure is meant: the focused one if it has a figure.
+fn pictured(context: &PaneContext<'_>) -> PaneKind {
+    match focused(context) {
+        PaneKind::Library | PaneKind::Inspector => PaneKind::Chromaticity,
+        pane => pane,
+    }
+}
+
+fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    item(ui, "Open…", Command::Open, context);
+    let recent = context.view.saved.recent.clone();
+    if !recent.is_empty() {
+        ui.menu_button("Open recent", |ui| {
+            for path in recent {
+                let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+                if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+                    context.push(Command::OpenPath(path));
+                    ui.close();
+                }
+            }
+        });
+    }
+    if ui.add(Button::new("Paste data").shortcut_text("Ctrl+V")).clicked() {
+        ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste);
+        ui.close();
+    }
+    ui.separator();
+    let pane = pictured(context);
+    item(ui, &format!("Export {} as SVG…", pane.title()), Command::Export(pane, Format::Svg), context);
+    item(ui, &format!("Export {} as PNG…", pane.title()), Command::Export(pane, Format::Png), context);
+    item(ui, &format!("Export numbers of {}…", pane.title()), Command::Export(pane, Format::Csv), context);
+    ui.separator();
+    if ui.add(Button::new("Quit").shortcut_text("Ctrl+Q")).clicked() {
+        context.push(Command::Quit);
+    }
+}
+
+fn edit(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
+    let named = |word: &str, step: Option<&str>| step.map_or_else(|| word.to_owned(), |step| format!("{word} ({step})"));
+    enabled_item(ui, history.undo_name().is_some(), &named("Undo", history.undo_name()), Command::Undo, context);
+    enabled_item(ui, history.redo_name().is_some(), &named("Redo", history.redo_name()), Command::Redo, context);
+    ui.separator();
+    let pane = pictured(context);
+    if ui.add(Button::new(format!("Copy numbers of {}", pane.title())).shortcut_text("Ctrl+C")).clicked() {
+        context.push(Command::CopyNumbers(pane));
+        ui.close();
+    }
+    item(ui, &format!("Copy picture of {}", pane.title()), Command::CopyPicture(pane), context);
+    ui.separator();
+    item(ui, "Pin the selection", Command::Pin, context);
+    item(ui, "Find anything…", Command::FindAnything, context);
+    item(ui, "Reset to the first screen", Command::Do(Action::Reset), context);
+}
+
+fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let workspace = context.view.saved.workspace;
+    for pane in PaneKind::ALL {
+        let shown = context.view.saved.layout.shows(workspace, pane);
+        let words = format!("{} {}", if shown { "✓" } else { " " }, pane.title());
+        item(ui, &words, Command::TogglePane(pane), context);
+    }
+    ui.separator();
+    let pane = focused(context);
+    item(ui, &format!("Maximize {}", pane.title()), Command::Maximize(pane), context);
+    item(ui, "Reset view", Command::ResetView, context);
+    item(ui, "Reset layout", Command::ResetLayout, context);
+    ui.separator();
+    ui.menu_button("Difference", |ui| {
+        let now = context.scene.document.difference;
+        for difference in DifferenceChoice::ALL {
+            if ui.radio(now == difference, difference.symbol()).clicked() {
+                context.push(Action::Scene(SceneAction::SetDifference(difference)));
+                ui.close();
+            }
+        }
+        ui.separator();
+        item(ui, "Bars under swatches", Command::ToggleDifference, context);
+    });
+    ui.menu_button("Theme", |ui| {
+        let now = ui.ctx().options(|options| options.theme_preference);
+        for (preference, words) in [
+            (egui::ThemePreference::System, "As the system"),
+            (egui::ThemePreference::Dark, "Dark"),
+            (egui::ThemePreference::Light, "Light"),
+        ] {
+            if ui.radio(now == preference, words).clicked() {
+                context.push(Command::SetTheme(preference));
+                ui.close();
+            }
+        }
+    });
+    ui.menu_button("Surround of swatches", |ui| {
+        for (surround, words) in
+            [(Surround::Middle, "Middle gray, L* 50"), (Surround::Dark, "Dark gray"), (Surround::Light, "Light gray")]
+        {
+            if ui.radio(context.view.saved.surround == surround, words).clicked() {
+                context.push(Command::SetSurround(surround));
+                ui.close();
+            }
+        }
+    });
+}
+
+fn help(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    for (page, words) in [
+        (HelpPage::WhatYouSee, "What you see"),
+        (HelpPage::Keyboard, "Keyboard"),
+        (HelpPage::Data, "Data and sources"),
+        (HelpPage::Equations, "Equations"),
+        (HelpPage::About, "About Chromascope"),
+    ] {
+        item(ui, words, Command::Help(page), context);
+    }
+}

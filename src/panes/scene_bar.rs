@@ -1,0 +1,235 @@
+//! All conditions in one bar: truth, light, temperature, patches, white, way to the diagram, difference.
+
+use egui::{Align, ComboBox, DragValue, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
+
+use super::PaneContext;
+use crate::action::{Action, CompareAction, SceneAction};
+use crate::catalog::Kind;
+use crate::document::{DifferenceChoice, Light, Subset, WayChoice, WhiteChoice};
+use crate::theme::{ROW, UNIT};
+
+/// Temperatures of the slider, in mired from hot to cold; the slider runs like the strip, cold at the left.
+const MIRED: [f64; 2] = [50.0, 1000.0];
+/// Below this width the difference is chosen in the View menu.
+const WITH_DIFFERENCE: f32 = 1100.0;
+
+/// Shows the bar in its rectangle.
+pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let wide = rect.width() >= WITH_DIFFERENCE;
+    let slider = if wide { 166.0 } else { 84.0 };
+    let inner = rect.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    let layout = Layout::left_to_right(Align::Min);
+    let mut bar = ui.new_child(UiBuilder::new().id_salt("scene bar").max_rect(inner).layout(layout));
+    bar.set_clip_rect(rect.intersect(ui.clip_rect()));
+    bar.spacing_mut().item_spacing.x = 3.0 * UNIT;
+    let compact = if wide { 1.0 } else { 0.78 };
+    field(&mut bar, "Truth", 200.0 * compact, context, truth);
+    field(&mut bar, "Light", 148.0 * compact, context, light);
+    field(&mut bar, temperature_caption(context), slider + 74.0, context, |ui, context| temperature(ui, slider, context));
+    field(&mut bar, "Patches", 196.0 * compact, context, patches);
+    field(&mut bar, "White", 108.0 * compact, context, white);
+    field(&mut bar, "To diagram", 146.0 * compact, context, way);
+    if wide {
+        field(&mut bar, "Difference", 90.0, context, difference);
+    }
+}
+
+/// A caption above a control of a fixed width, so that nothing moves when a value changes.
+fn field(
+    ui: &mut Ui,
+    caption: &str,
+    width: f32,
+    context: &mut PaneContext<'_>,
+    control: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
+) {
+    let (rect, _) = ui.allocate_exact_size(Vec2::new(width, ui.available_height()), Sense::hover());
+    let top = Rect::from_min_size(rect.min + Vec2::new(0.0, 2.0), Vec2::new(width + 2.0 * UNIT, 14.0));
+    let mut head = ui.new_child(UiBuilder::new().id_salt((caption, "head")).max_rect(top));
+    head.label(RichText::new(caption).small().color(context.theme.weak));
+    let below = Rect::from_min_size(rect.min + Vec2::new(0.0, 18.0), Vec2::new(width, ROW));
+    let layout = Layout::left_to_right(Align::Center);
+    let mut body = ui.new_child(UiBuilder::new().id_salt(caption).max_rect(below).layout(layout));
+    body.spacing_mut().item_spacing.x = UNIT;
+    control(&mut body, context);
+}
+
+/// A list to choose from, as wide as its field, with a name for those who cannot see the caption.
+fn choice(ui: &mut Ui, name: &str, hint: &str, shown: &str, list: impl FnOnce(&mut Ui)) {
+    let width = ui.available_width();
+    let combo = ComboBox::from_id_salt(name).width(width).truncate().selected_text(shown);
+    let response = combo.show_ui(ui, list).response;
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, format!("{name}: {shown}")));
+    response.on_hover_text(format!("{hint}\nNow: {shown}"));
+}
+
+fn truth(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let now = context.scene.document.truth.clone();
+    // A name that is cut tells two observers apart less well than a short one.
+    let entry = context.scene.entry(Kind::Observer, &now).ok().filter(|_| ui.available_width() < 180.0);
+    let shown = entry.map_or_else(|| now.clone(), |entry| entry.short);
+    choice(ui, "Truth", "The observer that all others are compared to.", &shown, |ui| {
+        for entry in context.scene.entries(Kind::Observer) {
+            if ui.selectable_label(entry.name == now, &entry.name).clicked() {
+                context.push(Action::Compare(CompareAction::SetTruth(entry.name)));
+            }
+        }
+    });
+}
+
+fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let now = context.scene.document.light.clone();
+    let shown = match &now {
+        Light::Set(name) if name == "E" => "E, equal energy".to_owned(),
+        Light::Set(name) => name.clone(),
+        Light::BlackBody => "Black body".to_owned(),
+        Light::Daylight => "Daylight".to_owned(),
+    };
+    choice(ui, "Light", "The light on the scene. Black body and Daylight follow the temperature.", &shown, |ui| {
+        let mut offer = |ui: &mut Ui, light: Light, words: &str| {
+            if ui.selectable_label(now == light, words).clicked() {
+                context.commands.push(Action::Scene(SceneAction::SetLight(light)).into());
+            }
+        };
+        offer(ui, Light::BlackBody, "Black body of the temperature");
+        offer(ui, Light::Daylight, "Daylight of the temperature, 4000–20000 K");
+        ui.separator();
+        for entry in context.scene.entries(Kind::Illuminant) {
+            let words = entry.also.as_ref().map_or_else(|| entry.name.clone(), |also| format!("{}, {also}", entry.name));
+            offer(ui, Light::Set(entry.name), &words);
+        }
+    });
+}
+
+/// What the temperature is of.
+fn temperature_caption(context: &PaneContext<'_>) -> &'static str {
+    match context.scene.document.light {
+        Light::Set(_) => "Temperature (marks the loci)",
+        Light::BlackBody => "Temperature (of the light)",
+        Light::Daylight => "Temperature (of daylight)",
+    }
+}
+
+fn temperature(ui: &mut Ui, slider_width: f32, context: &mut PaneContext<'_>) {
+    let now = context.scene.document.temperature_k;
+    let mut set = None;
+    let mut mired = 1e6 / now;
+    ui.spacing_mut().slider_width = slider_width - UNIT;
+    let slider = Slider::new(&mut mired, MIRED[1]..=MIRED[0]).show_value(false).step_by(0.0);
+    let slider = ui.add(slider);
+    slider.widget_info(|| egui::WidgetInfo::slider(true, now, "Temperature, evenly in mired"));
+    if slider.changed() {
+        let kelvin = 1e6 / mired;
+        // To ten kelvins: what a drag can mean, and what can be read.
+        set = Some((kelvin / 10.0).round() * 10.0);
+    }
+    slider.on_hover_text("Drag: evenly in mired (10⁶/T), as in the strip below the diagram");
+    let mut kelvin = now;
+    let field = DragValue::new(&mut kelvin)
+        .range(crate::document::LOCUS_RANGE_K[0]..=crate::document::LOCUS_RANGE_K[1])
+        .speed(10.0)
+        .fixed_decimals(0)
+        .suffix(" K");
+    let field = ui.add_sized([66.0, ROW], field);
+    field.widget_info(|| egui::WidgetInfo::slider(true, now, "Temperature in kelvins"));
+    if std::mem::take(&mut context.view.focus_temperature) {
+        field.request_focus();
+    }
+    if field.changed() {
+        set = Some(kelvin);
+    }
+    field.on_hover_text("Temperature in kelvins: drag, or click and type (T)");
+    if let Some(kelvin) = set.filter(|kelvin| *kelvin != now) {
+        context.push(Action::Scene(SceneAction::SetTemperature(kelvin)));
+    }
+}
+
+fn patches(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let document = context.scene.document;
+    let now = document.chart.clone();
+    let five = document.subset == Subset::Five && context.scene.has_five();
+    let short = context.scene.chart_entry(&now).map_or_else(|_| now.clone(), |entry| entry.short);
+    let shown = if five { format!("Five of {short}") } else { short };
+    choice(ui, "Patches", "The reflectances shown: charts, skin, leaves, yours.", &shown, |ui| {
+        for kind in [Kind::Chart, Kind::Material] {
+            for entry in context.scene.entries(kind) {
+                if ui.selectable_label(entry.name == now, &entry.name).clicked() {
+                    context.push(Action::Scene(SceneAction::SetChart(entry.name)));
+                }
+            }
+            ui.separator();
+        }
+        if context.scene.has_five() {
+            let mut on = five;
+            if ui.checkbox(&mut on, "Only the paper's five").changed() {
+                let subset = if on { Subset::Five } else { Subset::All };
+                context.push(Action::Scene(SceneAction::SetSubset(subset)));
+            }
+        }
+    });
+}
+
+fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let now = context.scene.document.white.clone();
+    let shown = match &now {
+        WhiteChoice::Unity => "Unity".to_owned(),
+        WhiteChoice::Light(name) => name.clone(),
+        WhiteChoice::Daylight(kelvin) => format!("Daylight {kelvin:.0} K"),
+        WhiteChoice::BlackBody(kelvin) => format!("Black body {kelvin:.0} K"),
+    };
+    let hint = "The color that a perfect white under the light is to take (Eq 11). Through Observer it moves RGB only: the \
+                matrix belongs to the balanced signals.";
+    choice(ui, "White", hint, &shown, |ui| {
+        let mut offer = |ui: &mut Ui, white: WhiteChoice, words: &str| {
+            if ui.selectable_label(now == white, words).clicked() {
+                context.commands.push(Action::Scene(SceneAction::SetWhite(white)).into());
+            }
+        };
+        let kelvin = context.scene.document.temperature_k;
+        offer(ui, WhiteChoice::Unity, "Unity, 1 : 1 : 1 (the paper's experiments 1 and 2)");
+        offer(ui, WhiteChoice::Daylight(kelvin.max(4000.0)), &format!("Daylight {:.0} K", kelvin.max(4000.0)));
+        offer(ui, WhiteChoice::BlackBody(kelvin), &format!("Black body {kelvin:.0} K"));
+        ui.separator();
+        for entry in context.scene.entries(Kind::Illuminant) {
+            offer(ui, WhiteChoice::Light(entry.name.clone()), &entry.name);
+        }
+    });
+}
+
+fn way(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let now = context.scene.document.way.clone();
+    let shown = match &now {
+        WayChoice::Paper => "Paper (Eq 13)".to_owned(),
+        WayChoice::Observer(name) => format!("Observer: {name}"),
+    };
+    let hint = "How signals come to the diagram. Paper: camera and RGB observer signals through the matrix of Eq 13, CIE \
+                observers directly. Observer: all through a 3×3 matrix fitted to a CIE observer over 190 training \
+                reflectances under the light.";
+    choice(ui, "To diagram", hint, &shown, |ui| {
+        if ui.selectable_label(now == WayChoice::Paper, "Paper (Eq 13)").clicked() {
+            context.push(Action::Scene(SceneAction::SetWay(WayChoice::Paper)));
+        }
+        ui.separator();
+        for entry in context.scene.entries(Kind::Observer).filter(is_xyz) {
+            let way = WayChoice::Observer(entry.name.clone());
+            if ui.selectable_label(now == way, format!("Observer, fitted to {}", entry.name)).clicked() {
+                context.push(Action::Scene(SceneAction::SetWay(way)));
+            }
+        }
+    });
+}
+
+/// Whether an observer counts in XYZ, by its column heads alone: nothing is parsed for a menu.
+fn is_xyz(entry: &crate::catalog::Entry) -> bool {
+    entry.header.as_ref().is_some_and(|header| header.columns.first().is_some_and(|head| head == "x_bar"))
+}
+
+fn difference(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let now = context.scene.document.difference;
+    choice(ui, "Difference", "The measure of difference from the truth.", now.symbol(), |ui| {
+        for difference in DifferenceChoice::ALL {
+            if ui.selectable_label(now == difference, difference.symbol()).clicked() {
+                context.push(Action::Scene(SceneAction::SetDifference(difference)));
+            }
+        }
+    });
+}

@@ -1,0 +1,130 @@
+//! What has been computed: the only cache. A question that equals one asked before is not computed again.
+
+use std::any::{Any, TypeId};
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use chromascope_core::query::{Ask, Query};
+
+/// Answers that were not asked for in this many frames are let go.
+const FRAMES_KEPT: u64 = 240;
+
+/// Counters of one kind of question.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Count {
+    /// Answers that were remembered.
+    pub hits: u64,
+    /// Answers that were computed.
+    pub misses: u64,
+    /// Time spent computing, questions asked on the way included.
+    pub time: Duration,
+}
+
+/// One kind of question's answers.
+struct Answers<Q: Query> {
+    known: HashMap<Q, Known<Q::Answer>>,
+}
+
+struct Known<A> {
+    answer: Arc<A>,
+    asked: u64,
+}
+
+/// Lets go of old answers, whatever their type.
+trait Forget {
+    fn forget(&mut self, before: u64);
+    fn as_any(&mut self) -> &mut dyn Any;
+}
+
+impl<Q: Query> Forget for Answers<Q> {
+    fn forget(&mut self, before: u64) {
+        self.known.retain(|_, known| known.asked >= before);
+    }
+
+    fn as_any(&mut self) -> &mut dyn Any {
+        self
+    }
+}
+
+/// Remembers answers, on the thread of the window.
+#[derive(Default)]
+pub struct Results {
+    answers: RefCell<HashMap<TypeId, Box<dyn Forget>>>,
+    counts: RefCell<BTreeMap<&'static str, Count>>,
+    frame: Cell<u64>,
+    frame_time: Cell<Duration>,
+    last_work: Cell<Duration>,
+    depth: Cell<u32>,
+}
+
+impl Results {
+    /// Closes a frame's book: what was not asked for in a long while is let go.
+    pub fn end_frame(&self) {
+        let frame = self.frame.get() + 1;
+        self.frame.set(frame);
+        if self.frame_time.get() > Duration::ZERO {
+            self.last_work.set(self.frame_time.replace(Duration::ZERO));
+        }
+        if frame.is_multiple_of(FRAMES_KEPT) {
+            let before = frame.saturating_sub(FRAMES_KEPT);
+            self.answers.borrow_mut().values_mut().for_each(|answers| answers.forget(before));
+        }
+    }
+
+    /// The time that the last frame that computed anything spent computing.
+    pub fn last_work(&self) -> Duration {
+        self.last_work.get()
+    }
+
+    /// Hits, misses and time of each kind of question since the start.
+    pub fn counts(&self) -> BTreeMap<&'static str, Count> {
+        self.counts.borrow().clone()
+    }
+
+    fn remembered<Q: Query>(&self, query: &Q) -> Option<Arc<Q::Answer>> {
+        let mut all = self.answers.borrow_mut();
+        let answers = all.get_mut(&TypeId::of::<Q>())?.as_any().downcast_mut::<Answers<Q>>()?;
+        let known = answers.known.get_mut(query)?;
+        known.asked = self.frame.get();
+        Some(Arc::clone(&known.answer))
+    }
+
+    fn remember<Q: Query>(&self, query: &Q, answer: &Arc<Q::Answer>) {
+        let mut all = self.answers.borrow_mut();
+        let slot = all.entry(TypeId::of::<Q>()).or_insert_with(|| Box::new(Answers::<Q> { known: HashMap::new() }));
+        if let Some(answers) = slot.as_any().downcast_mut::<Answers<Q>>() {
+            let known = Known { answer: Arc::clone(answer), asked: self.frame.get() };
+            answers.known.insert(query.clone(), known);
+        }
+    }
+
+    fn count(&self, name: &'static str, change: impl FnOnce(&mut Count)) {
+        change(self.counts.borrow_mut().entry(name).or_default());
+    }
+}
+
+impl Ask for Results {
+    fn ask<Q: Query>(&self, query: &Q) -> Arc<Q::Answer> {
+        if let Some(answer) = self.remembered(query) {
+            self.count(Q::NAME, |count| count.hits += 1);
+            return answer;
+        }
+        let start = Instant::now();
+        self.depth.set(self.depth.get() + 1);
+        // No cell is borrowed here: the answer may ask further questions.
+        let answer = Arc::new(query.answer(self));
+        self.depth.set(self.depth.get() - 1);
+        let time = start.elapsed();
+        self.count(Q::NAME, |count| {
+            count.misses += 1;
+            count.time += time;
+        });
+        if self.depth.get() == 0 {
+            self.frame_time.set(self.frame_time.get() + time);
+        }
+        self.remember(query, &answer);
+        answer
+    }
+}

@@ -1,0 +1,333 @@
+//! The document as questions: names become data, choices become queries, failures become sentences.
+//!
+//! Panes, exports and the command line all ask through here, so that they cannot disagree.
+
+use std::sync::Arc;
+
+use chromascope_core::camera::{NoRendering, White};
+use chromascope_core::colorimetry::diagram::SpectralPoint;
+use chromascope_core::figure::{InkRole, Marker};
+use chromascope_core::light::{DaylightError, RadiationConstants, daylight};
+use chromascope_core::object::{PAPER_FIVE, PatchSet};
+use chromascope_core::query::{
+    Ask, Locus, LocusOf, MonochromaticOf, NoDifference, PatchColor, PatchColorsOf, RenderingOf, Shared, SpectralLocusOf,
+    Temperatures, WayOf, compare,
+};
+use chromascope_core::spectral::Sensor;
+use chromascope_core::units::{Kelvin, NotPositive};
+
+use crate::catalog::load::{LightOf, LoadError, LoadedLight, PatchesOf, SensorOf};
+use crate::catalog::{Catalog, Entry, Kind};
+use crate::document::{Compared, Document, LOCUS_RANGE_K, Light, REFERENCE, Subset, TRAINING, WayChoice, WhiteChoice};
+use crate::results::Results;
+
+/// How many points a locus on screen has.
+pub const LOCUS_POINTS: usize = 200;
+
+/// Why something of the scene cannot be shown.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    /// A name that no set has, as in a session from elsewhere.
+    #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.singular())]
+    NoSet {
+        /// What was looked for.
+        kind: Kind,
+        /// Its name.
+        name: String,
+    },
+    /// A set that cannot be computed with.
+    #[error("{name}: {error}")]
+    Load {
+        /// Its name.
+        name: String,
+        /// Why.
+        error: LoadError,
+    },
+    /// A sensor that cannot be shown under this light.
+    #[error("{name}: {error}")]
+    Rendering {
+        /// Its name.
+        name: String,
+        /// Why.
+        error: NoRendering,
+    },
+    /// A white that has no color.
+    #[error("the white \"{0}\" has no color; choose another")]
+    White(String),
+    /// A daylight that is not defined.
+    #[error(transparent)]
+    Daylight(#[from] DaylightError),
+    /// A temperature that is none.
+    #[error(transparent)]
+    Temperature(#[from] NotPositive),
+}
+
+/// How a source is drawn and called, everywhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// Camera or observer.
+    pub kind: Kind,
+    /// Its name in the catalog.
+    pub name: String,
+    /// What it is called on screen.
+    pub label: String,
+    /// Its color's role.
+    pub role: InkRole,
+    /// Its marker.
+    pub marker: Marker,
+    /// The width of its lines in points.
+    pub width: f64,
+    /// Whether it is the truth.
+    pub is_truth: bool,
+    /// Whether the user brought it.
+    pub is_own: bool,
+    /// Whether its curves are drawn.
+    pub visible: bool,
+}
+
+/// The document, the data sets and the answers, read together.
+#[derive(Clone, Copy)]
+pub struct Scene<'a> {
+    /// Ground state.
+    pub document: &'a Document,
+    /// The built-in sets.
+    pub catalog: &'a Catalog,
+    /// The answers known.
+    pub results: &'a Results,
+}
+
+impl<'a> Scene<'a> {
+    /// The sets of a kind, the user's own first.
+    pub fn entries(&self, kind: Kind) -> impl Iterator<Item = Entry> + 'a {
+        let own = self.document.own.iter().map(Entry::from_own).filter(move |entry| entry.kind == kind);
+        own.chain(self.catalog.of_kind(kind).cloned())
+    }
+
+    /// The set of this name; the user's own win.
+    pub fn entry(&self, kind: Kind, name: &str) -> Result<Entry, SceneError> {
+        let own = self.document.own.iter().filter(|set| set.name == name).map(Entry::from_own).find(|e| e.kind == kind);
+        own.or_else(|| self.catalog.get(kind, name).cloned())
+            .ok_or_else(|| SceneError::NoSet { kind, name: name.to_owned() })
+    }
+
+    /// The chart or, failing that, the material set of this name.
+    pub fn chart_entry(&self, name: &str) -> Result<Entry, SceneError> {
+        self.entry(Kind::Chart, name).or_else(|e| self.entry(Kind::Material, name).map_err(|_| e))
+    }
+
+    /// A camera's or observer's sensitivities.
+    pub fn sensor(&self, kind: Kind, name: &str) -> Result<Shared<Sensor>, SceneError> {
+        let entry = self.entry(kind, name)?;
+        let answer = self.results.ask(&SensorOf(entry.place));
+        (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
+    }
+
+    /// The temperature that marks the loci.
+    pub fn temperature(&self) -> Result<Kelvin, SceneError> {
+        Ok(Kelvin::new(self.document.temperature_k)?)
+    }
+
+    /// The light on the scene.
+    pub fn light(&self) -> Result<LoadedLight, SceneError> {
+        let (of, name) = match &self.document.light {
+            Light::Set(name) => (LightOf::Set(self.entry(Kind::Illuminant, name)?.place), name.as_str()),
+            Light::BlackBody => (LightOf::BlackBody(self.temperature()?), "black body"),
+            Light::Daylight => (LightOf::Daylight(self.temperature()?), "daylight"),
+        };
+        self.loaded(&of, name)
+    }
+
+    fn loaded(&self, of: &LightOf, name: &str) -> Result<LoadedLight, SceneError> {
+        let answer = self.results.ask(of);
+        (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
+    }
+
+    /// The name of the light with its temperature.
+    pub fn light_name(&self) -> String {
+        match &self.document.light {
+            Light::Set(name) => name.clone(),
+            Light::BlackBody => format!("black body {:.0} K", self.document.temperature_k),
+            Light::Daylight => format!("daylight {:.0} K", self.document.temperature_k),
+        }
+    }
+
+    /// The patches on show.
+    pub fn patches(&self) -> Result<Shared<PatchSet>, SceneError> {
+        let five = self.document.subset == Subset::Five && self.has_five();
+        self.patch_set(&self.document.chart, five.then_some(PAPER_FIVE.as_slice()))
+    }
+
+    /// Whether the chart has the paper's five patches and more.
+    pub fn has_five(&self) -> bool {
+        self.chart_entry(&self.document.chart).ok().and_then(|entry| entry.header).is_some_and(|header| {
+            header.columns.len() > PAPER_FIVE.len() && PAPER_FIVE.iter().all(|name| header.columns.iter().any(|c| c == name))
+        })
+    }
+
+    fn patch_set(&self, name: &str, names: Option<&'static [&'static str]>) -> Result<Shared<PatchSet>, SceneError> {
+        let place = self.chart_entry(name)?.place;
+        let answer = self.results.ask(&PatchesOf { place, names });
+        (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
+    }
+
+    /// The color that a perfect white is to take.
+    pub fn white(&self) -> Result<White, SceneError> {
+        match &self.document.white {
+            WhiteChoice::Unity => Ok(White::UNITY),
+            WhiteChoice::Light(name) => {
+                let light = self.loaded(&LightOf::Set(self.entry(Kind::Illuminant, name)?.place), name)?;
+                self.white_of(&light, name)
+            }
+            WhiteChoice::Daylight(kelvin) => {
+                let xy = daylight::chromaticity(Kelvin::new(*kelvin)?)?;
+                White::from_chromaticity(xy).ok_or_else(|| SceneError::White(format!("daylight {kelvin} K")))
+            }
+            WhiteChoice::BlackBody(kelvin) => {
+                let light = self.loaded(&LightOf::BlackBody(Kelvin::new(*kelvin)?), "black body")?;
+                self.white_of(&light, &format!("black body {kelvin} K"))
+            }
+        }
+    }
+
+    fn white_of(&self, light: &LoadedLight, name: &str) -> Result<White, SceneError> {
+        let observer = self.sensor(Kind::Observer, REFERENCE)?;
+        White::from_light(&light.grid, &observer).ok_or_else(|| SceneError::White(name.to_owned()))
+    }
+
+    /// The way to the diagram with what it needs.
+    pub fn way(&self) -> Result<WayOf, SceneError> {
+        match &self.document.way {
+            WayChoice::Paper => Ok(WayOf::Paper),
+            WayChoice::Observer(reference) => Ok(WayOf::Observer {
+                reference: self.sensor(Kind::Observer, reference)?,
+                training: self.patch_set(TRAINING, None)?,
+            }),
+        }
+    }
+
+    /// The question of how a source's signals come to the diagram.
+    pub fn rendering_of(&self, kind: Kind, name: &str) -> Result<RenderingOf, SceneError> {
+        Ok(RenderingOf {
+            sensor: self.sensor(kind, name)?,
+            light: self.light()?.grid,
+            white: self.white()?,
+            way: self.way()?,
+        })
+    }
+
+    /// The temperatures of the loci on show.
+    pub fn locus_temperatures() -> Result<Temperatures, SceneError> {
+        let [from, to] = LOCUS_RANGE_K;
+        Ok(Temperatures::Range { from: Kelvin::new(from)?, to: Kelvin::new(to)?, count: LOCUS_POINTS })
+    }
+
+    /// A source's Planckian locus at the given temperatures.
+    pub fn locus_at(&self, kind: Kind, name: &str, temperatures: Temperatures) -> Result<Arc<Locus>, SceneError> {
+        let rendering = self.rendering_of(kind, name)?;
+        let query = LocusOf { rendering, temperatures, constants: RadiationConstants::Paper };
+        let answer = self.results.ask(&query);
+        match &*answer {
+            // One copy of 200 points against a second layer of shared ownership in every caller.
+            Ok(locus) => Ok(Arc::new(locus.clone())),
+            Err(error) => Err(SceneError::Rendering { name: name.to_owned(), error: *error }),
+        }
+    }
+
+    /// A source's Planckian locus over the range on show.
+    pub fn locus(&self, kind: Kind, name: &str) -> Result<Arc<Locus>, SceneError> {
+        self.locus_at(kind, name, Self::locus_temperatures()?)
+    }
+
+    /// A source's locus at the marked temperature alone.
+    pub fn locus_mark(&self, kind: Kind, name: &str) -> Result<Arc<Locus>, SceneError> {
+        self.locus_at(kind, name, Temperatures::List(vec![self.temperature()?]))
+    }
+
+    /// The patches on show through a source.
+    pub fn patch_colors(&self, kind: Kind, name: &str) -> Result<Vec<PatchColor>, SceneError> {
+        let query = PatchColorsOf { rendering: self.rendering_of(kind, name)?, patches: self.patches()? };
+        let answer = self.results.ask(&query);
+        (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
+    }
+
+    /// A source's response to monochromatic light.
+    pub fn monochromatic(&self, kind: Kind, name: &str) -> Result<Vec<SpectralPoint>, SceneError> {
+        let answer = self.results.ask(&MonochromaticOf { rendering: self.rendering_of(kind, name)? });
+        (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
+    }
+
+    /// The outline of the diagram: monochromatic light for CIE 1931.
+    pub fn outline(&self) -> Result<Arc<Vec<SpectralPoint>>, SceneError> {
+        Ok(self.results.ask(&SpectralLocusOf { observer: self.sensor(Kind::Observer, REFERENCE)? }))
+    }
+
+    /// Whether a source may be compared with the truth on this way to the diagram.
+    pub fn comparable(&self, kind: Kind, name: &str) -> Result<Result<(), NoDifference>, SceneError> {
+        if self.document.way != WayChoice::Paper {
+            return Ok(Ok(()));
+        }
+        let truth = self.sensor(Kind::Observer, &self.document.truth)?;
+        let sensor = self.sensor(kind, name)?;
+        Ok(compare::comparable_by_paper(truth.primaries(), sensor.primaries()))
+    }
+
+    /// The difference of each patch from the truth, by the measure chosen; or why there is none.
+    pub fn differences(&self, kind: Kind, name: &str) -> Result<Vec<Result<f64, NoDifference>>, SceneError> {
+        let comparable = self.comparable(kind, name)?;
+        let truth = self.patch_colors(Kind::Observer, &self.document.truth)?;
+        let own = self.patch_colors(kind, name)?;
+        let metric = self.document.difference.metric();
+        let pairs = truth.iter().zip(&own);
+        Ok(pairs.map(|(a, b)| comparable.and_then(|()| compare::patch_difference(metric, a, b))).collect())
+    }
+
+    /// The compared sources with how they are drawn, the truth first, hidden ones included.
+    pub fn sources(&self) -> Vec<Source> {
+        let mut observers = 0_u8;
+        let mut sources: Vec<Source> = self.document.compared.iter().map(|c| self.source(c, &mut observers)).collect();
+        sources.sort_by_key(|source| !source.is_truth);
+        sources
+    }
+
+    /// How one source is drawn. Observers beside the truth are told apart by markers alone.
+    fn source(&self, compared: &Compared, observers: &mut u8) -> Source {
+        let entry = self.entry(compared.kind, &compared.name).ok();
+        let short = entry.as_ref().map_or_else(|| compared.name.clone(), |entry| entry.short.clone());
+        let is_truth = self.document.is_truth(compared);
+        let (role, marker, width) = match compared.kind {
+            _ if is_truth => (InkRole::Truth, Marker::Plus, 4.0),
+            Kind::Observer => {
+                *observers += 1;
+                (InkRole::Observer, if *observers % 2 == 1 { Marker::Cross } else { Marker::Asterisk }, 1.5)
+            }
+            _ => (InkRole::Source(compared.slot % 8), slot_marker(compared.slot), 2.0),
+        };
+        Source {
+            kind: compared.kind,
+            name: compared.name.clone(),
+            label: compared.label.clone().unwrap_or(short),
+            role,
+            marker,
+            width,
+            is_truth,
+            is_own: entry.is_some_and(|entry| entry.is_own()),
+            visible: compared.visible,
+        }
+    }
+}
+
+/// The marker of a camera's slot; the ninth takes color 1 with marker 5, so that no two look the same before the seventeenth.
+fn slot_marker(slot: u8) -> Marker {
+    const MARKERS: [Marker; 8] = [
+        Marker::Circle,
+        Marker::Square,
+        Marker::TriangleUp,
+        Marker::Diamond,
+        Marker::TriangleDown,
+        Marker::Hexagon,
+        Marker::TriangleRight,
+        Marker::TriangleLeft,
+    ];
+    let slot = usize::from(slot);
+    MARKERS[(slot + slot / 8 * 4) % 8]
+}

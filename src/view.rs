@@ -1,0 +1,229 @@
+//! What is looked at and how: selection, panes, layout. Not part of the document, no steps of undo.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use crate::paint::Emphasis;
+use crate::theme::Surround;
+use crate::thing::{Standing, Thing, Things};
+use crate::workspaces::{Layout, PaneKind, Workspace};
+use chromascope_core::figure::Tag;
+
+/// What is looked at and how.
+#[derive(Debug, Default)]
+pub struct View {
+    /// What is kept between runs.
+    pub saved: SavedView,
+    /// Under the pointer now, in any pane.
+    pub hovered: Option<Thing>,
+    /// Under the pointer in the frame that is being made; becomes `hovered` at its end.
+    pub next_hovered: Option<Thing>,
+    /// Chosen by a click.
+    pub selected: Option<Thing>,
+    /// Kept beside each other, A, B, …
+    pub pinned: Vec<Thing>,
+    /// What is typed into the library's search.
+    pub search: String,
+    /// The pane that fills the window.
+    pub maximized: Option<PaneKind>,
+    /// The pane that keys and exports mean.
+    pub focused: Option<PaneKind>,
+    /// Whether the inspector lies over the center of a narrow window.
+    pub inspector_over: bool,
+    /// Plots show their own ranges again in this frame.
+    pub reset_plots: bool,
+    /// The truth stands in for every camera while B is held.
+    pub blink: bool,
+    /// The search field takes the keyboard in this frame.
+    pub focus_search: bool,
+    /// The temperature field takes the keyboard in this frame.
+    pub focus_temperature: bool,
+    /// The page of help that is open.
+    pub help: Option<HelpPage>,
+    /// The palette of commands, with what is typed into it, while open.
+    pub palette: Option<String>,
+    /// The own set whose reading is being looked at, by name.
+    pub reading: Option<String>,
+    /// The last message.
+    pub status: Status,
+}
+
+/// The part of the view that is kept between runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct SavedView {
+    /// The workspace.
+    pub workspace: Workspace,
+    /// Sizes and places of panes.
+    pub layout: Layout,
+    /// Panes that show their numbers instead of their picture.
+    pub tables: BTreeSet<PaneKind>,
+    /// The gray around swatches.
+    pub surround: Surround,
+    /// Whether the diagram fits the data or shows all.
+    pub diagram_fit: DiagramFit,
+    /// Whether swatches stand in rows or as charts.
+    pub swatch_layout: SwatchLayout,
+    /// How the truth stands within a swatch.
+    pub swatch_style: SwatchStyle,
+    /// Whether curves lie over each other or each source has its own plot.
+    pub spectra_layout: SpectraLayout,
+    /// Whether the bars of differences are shown.
+    pub difference_bars: bool,
+    /// Groups of the library that are folded.
+    pub folded: BTreeSet<String>,
+    /// Files opened lately, the newest first.
+    pub recent: Vec<PathBuf>,
+}
+
+impl Default for SavedView {
+    fn default() -> Self {
+        Self {
+            workspace: Workspace::default(),
+            layout: Layout::default(),
+            tables: BTreeSet::new(),
+            surround: Surround::default(),
+            diagram_fit: DiagramFit::default(),
+            swatch_layout: SwatchLayout::default(),
+            swatch_style: SwatchStyle::default(),
+            spectra_layout: SpectraLayout::default(),
+            difference_bars: true,
+            folded: ["observers", "charts", "illuminants", "materials"].map(str::to_owned).into(),
+            recent: Vec::new(),
+        }
+    }
+}
+
+/// What part of the diagram is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum DiagramFit {
+    /// What holds the data.
+    #[default]
+    Data,
+    /// The whole spectral locus.
+    Whole,
+}
+
+/// How swatches are arranged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SwatchLayout {
+    /// Five patches in rows, more as charts.
+    #[default]
+    Auto,
+    /// A row for each source.
+    Rows,
+    /// A chart for each source.
+    Charts,
+}
+
+/// How the truth stands within a swatch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SwatchStyle {
+    /// Left half truth, right half source.
+    #[default]
+    Split,
+    /// The truth inside the source's swatch.
+    Inset,
+    /// The source alone.
+    Whole,
+}
+
+/// How spectra are arranged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SpectraLayout {
+    /// All sources in one plot.
+    #[default]
+    Overlay,
+    /// A plot for each source.
+    Each,
+}
+
+/// A page of help.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HelpPage {
+    /// What the window shows.
+    WhatYouSee,
+    /// All keys.
+    Keyboard,
+    /// Where every figure is from.
+    Data,
+    /// The equations.
+    Equations,
+    /// Version and terms.
+    About,
+}
+
+/// A message at the foot of the window.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Status {
+    /// What it says; empty for the standing invitation.
+    pub text: String,
+    /// How grave it is.
+    pub weight: Weight,
+    /// The own set that `[Change]` leads to.
+    pub change: Option<String>,
+}
+
+/// How grave a message is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Weight {
+    /// Something to know.
+    #[default]
+    Note,
+    /// Something to look at.
+    Warning,
+    /// Something failed; nothing was changed.
+    Error,
+}
+
+impl View {
+    /// Says something at the foot of the window.
+    pub fn say(&mut self, text: impl Into<String>) {
+        self.status = Status { text: text.into(), weight: Weight::Note, change: None };
+    }
+
+    /// Says that something failed.
+    pub fn fail(&mut self, text: impl Into<String>) {
+        self.status = Status { text: text.into(), weight: Weight::Error, change: None };
+    }
+
+    /// Puts a file at the head of those opened lately.
+    pub fn remember_file(&mut self, path: PathBuf) {
+        let recent = &mut self.saved.recent;
+        recent.retain(|known| *known != path);
+        recent.insert(0, path);
+        recent.truncate(10);
+    }
+
+    /// The pointer is on a thing.
+    pub fn hover(&mut self, thing: Option<&Thing>) {
+        if let Some(thing) = thing {
+            self.next_hovered = Some(thing.clone());
+        }
+    }
+
+    /// A thing was clicked: it is chosen, or let go if it was.
+    pub fn click(&mut self, thing: Option<&Thing>) {
+        self.selected = if self.selected.as_ref() == thing { None } else { thing.cloned() };
+    }
+
+    /// How a drawn thing stands out.
+    pub fn emphasis(&self, drawn: &Thing, truth: &str) -> Emphasis {
+        let standing = |of: &Option<Thing>| of.as_ref().map(|thing| thing.standing_of(drawn, truth));
+        let pinned = self.pinned.iter().any(|thing| thing == drawn);
+        match (standing(&self.hovered), standing(&self.selected)) {
+            (_, Some(Standing::Same)) => Emphasis::Selected,
+            (Some(Standing::Same), _) => Emphasis::Hovered,
+            _ if pinned => Emphasis::Selected,
+            (_, Some(Standing::Apart)) => Emphasis::Faded,
+            _ => Emphasis::Normal,
+        }
+    }
+
+    /// How a figure's tagged mark stands out.
+    pub fn emphasis_of(&self, things: &Things, tag: Tag, truth: &str) -> Emphasis {
+        things.get(tag).map_or(Emphasis::Normal, |thing| self.emphasis(thing, truth))
+    }
+}

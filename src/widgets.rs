@@ -1,0 +1,256 @@
+//! Parts that more than one pane uses.
+
+use chromascope_core::figure::{Cell, LegendEntry, Stroke, Table};
+use egui::{Align, Button, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
+use egui_extras::{Column, TableBuilder};
+
+use crate::command::{Command, Format};
+use crate::paint;
+use crate::panes::PaneContext;
+use crate::scene::Source;
+use crate::theme::{ROW, Theme, UNIT};
+use crate::workspaces::PaneKind;
+
+/// The height of a pane's header.
+pub const HEADER: f32 = 32.0;
+
+/// Draws a pane's frame and header and returns the rectangle below it. `switches` adds the pane's own controls.
+pub fn pane(
+    ui: &mut Ui,
+    kind: PaneKind,
+    rect: Rect,
+    context: &mut PaneContext<'_>,
+    switches: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
+) -> Rect {
+    ui.painter().rect_filled(rect, 0.0, context.theme.panel);
+    if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at))) {
+        context.view.focused = Some(kind);
+    }
+    let header = Rect::from_min_size(rect.min, Vec2::new(rect.width(), HEADER)).shrink2(Vec2::new(2.0 * UNIT, UNIT));
+    let layout = Layout::left_to_right(Align::Center);
+    let mut bar = ui.new_child(UiBuilder::new().id_salt(("header", kind)).max_rect(header).layout(layout));
+    bar.set_clip_rect(header.expand(2.0).intersect(ui.clip_rect()));
+    title_menu(&mut bar, kind, context);
+    // The buttons on the right are laid out first, so that a narrow pane cuts switches, never the way to close it.
+    let buttons_width = 4.0 * ROW + 3.0 * UNIT;
+    let room = Rect::from_min_max(bar.cursor().min, egui::pos2(header.right() - buttons_width, header.bottom()));
+    let mut left = ui.new_child(UiBuilder::new().id_salt(("switches", kind)).max_rect(room).layout(layout));
+    left.set_clip_rect(room.expand(2.0).intersect(ui.clip_rect()));
+    switches(&mut left, context);
+    let right = Rect::from_min_max(egui::pos2(header.right() - buttons_width, header.top()), header.max);
+    let to_left = Layout::right_to_left(Align::Center);
+    let mut buttons = ui.new_child(UiBuilder::new().id_salt(("buttons", kind)).max_rect(right).layout(to_left));
+    header_buttons(&mut buttons, kind, context);
+    Rect::from_min_max(egui::pos2(rect.left(), rect.top() + HEADER), rect.max)
+}
+
+/// The title, which opens a menu of what may stand here instead.
+fn title_menu(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
+    let workspace = context.view.saved.workspace;
+    ui.menu_button(kind.title(), |ui| {
+        ui.label(RichText::new("Show here").small().color(context.theme.weak));
+        for other in PaneKind::CHANGEABLE {
+            if ui.selectable_label(other == kind, other.title()).clicked() {
+                context.view.saved.layout.replace(workspace, kind, other);
+                ui.close();
+            }
+        }
+    })
+    .response
+    .on_hover_text("Show another pane here");
+}
+
+/// Table, export, maximize, close.
+fn header_buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
+    let maximized = context.view.maximized == Some(kind);
+    if icon_button(ui, Icon::Close, &format!("Close {}", kind.title())).clicked() {
+        context.push(if maximized { Command::Maximize(kind) } else { Command::TogglePane(kind) });
+    }
+    let words = if maximized { "Restore" } else { "Maximize" };
+    if icon_button(ui, Icon::Maximize, &format!("{words} {} (F)", kind.title())).clicked() {
+        context.push(Command::Maximize(kind));
+    }
+    if kind == PaneKind::Inspector {
+        return;
+    }
+    export_menu(ui, kind, context);
+    let shown = context.view.saved.tables.contains(&kind);
+    let words = if shown { "Picture instead of numbers" } else { "Numbers instead of the picture" };
+    if icon_button(ui, Icon::Table { on: shown }, &format!("{words}: {}", kind.title())).clicked() {
+        if shown {
+            context.view.saved.tables.remove(&kind);
+        } else {
+            context.view.saved.tables.insert(kind);
+        }
+    }
+}
+
+fn export_menu(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
+    let response = icon_button(ui, Icon::Export, &format!("Export {}", kind.title()));
+    egui::Popup::menu(&response).show(|ui| {
+        for (words, command) in [
+            ("Figure as SVG…", Command::Export(kind, Format::Svg)),
+            ("Figure as PNG…", Command::Export(kind, Format::Png)),
+            ("Numbers as CSV…", Command::Export(kind, Format::Csv)),
+            ("Copy picture", Command::CopyPicture(kind)),
+            ("Copy numbers", Command::CopyNumbers(kind)),
+        ] {
+            if ui.button(words).clicked() {
+                context.push(command);
+                ui.close();
+            }
+        }
+    });
+}
+
+/// Small pictures drawn with lines, so that no font needs them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Icon {
+    /// A grid.
+    Table {
+        /// Whether numbers are shown.
+        on: bool,
+    },
+    /// An arrow out of a tray.
+    Export,
+    /// Two arrows apart.
+    Maximize,
+    /// A cross.
+    Close,
+}
+
+/// A button with a small picture and a name for those who cannot see it.
+pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+    let theme = Theme::of(ui.visuals());
+    let on = icon == (Icon::Table { on: true });
+    if response.hovered() || response.has_focus() || on {
+        let fill = if response.hovered() { theme.hover } else { theme.control };
+        ui.painter().rect(rect, 3.0, fill, focus_rim(&response, &theme), egui::StrokeKind::Inside);
+    }
+    let color = if response.hovered() || on { theme.text } else { theme.weak };
+    let stroke = egui::Stroke::new(1.2, color);
+    let at = |x: f32, y: f32| rect.center() + Vec2::new(x, y);
+    let line = |a: egui::Pos2, b: egui::Pos2| {
+        ui.painter().line_segment([a, b], stroke);
+    };
+    match icon {
+        Icon::Table { .. } => {
+            let frame = Rect::from_center_size(rect.center(), Vec2::new(12.0, 10.0));
+            ui.painter().rect_stroke(frame, 1.0, stroke, egui::StrokeKind::Middle);
+            line(at(-6.0, -1.5), at(6.0, -1.5));
+            line(at(-6.0, 2.0), at(6.0, 2.0));
+            line(at(-1.0, -5.0), at(-1.0, 5.0));
+        }
+        Icon::Export => {
+            line(at(0.0, -6.0), at(0.0, 2.0));
+            line(at(-3.0, -3.0), at(0.0, -6.0));
+            line(at(3.0, -3.0), at(0.0, -6.0));
+            for pair in [[(-5.0, 0.0), (-5.0, 5.0)], [(-5.0, 5.0), (5.0, 5.0)], [(5.0, 5.0), (5.0, 0.0)]] {
+                line(at(pair[0].0, pair[0].1), at(pair[1].0, pair[1].1));
+            }
+        }
+        Icon::Maximize => {
+            line(at(-5.0, 5.0), at(5.0, -5.0));
+            for corner in [1.0, -1.0] {
+                line(at(5.0 * corner, -5.0 * corner), at(1.0 * corner, -5.0 * corner));
+                line(at(5.0 * corner, -5.0 * corner), at(5.0 * corner, -1.0 * corner));
+            }
+        }
+        Icon::Close => {
+            line(at(-4.0, -4.0), at(4.0, 4.0));
+            line(at(-4.0, 4.0), at(4.0, -4.0));
+        }
+    }
+    response.on_hover_text(name)
+}
+
+/// The rim of what the keyboard is on.
+pub fn focus_rim(response: &Response, theme: &Theme) -> egui::Stroke {
+    if response.has_focus() { egui::Stroke::new(1.5, theme.text) } else { egui::Stroke::NONE }
+}
+
+/// A switch of a few words of which one is on. Returns the one clicked.
+pub fn segmented<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], current: T) -> Option<T> {
+    let mut clicked = None;
+    for &(choice, words, hint) in choices {
+        let on = choice == current;
+        let theme = Theme::of(ui.visuals());
+        let fill = if on { theme.hover } else { theme.panel };
+        let button = Button::new(words).fill(fill).selected(on).frame_when_inactive(on);
+        if ui.add(button).on_hover_text(hint).clicked() && !on {
+            clicked = Some(choice);
+        }
+    }
+    clicked
+}
+
+/// A source's key: its line and marker.
+pub fn legend_entry(source: &Source) -> LegendEntry {
+    LegendEntry {
+        name: source.label.clone(),
+        stroke: Some(Stroke::solid(source.role, source.width)),
+        marker: Some(source.marker),
+        fill: None,
+    }
+}
+
+/// Draws a source's key in a small rectangle.
+pub fn source_key(ui: &mut Ui, source: &Source, theme: &Theme) -> Response {
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(26.0, ROW), Sense::hover());
+    paint::key(ui.painter(), rect, &legend_entry(source), theme);
+    response
+}
+
+/// Numbers in rows, for screen readers and for those who want them.
+pub fn data_table(ui: &mut Ui, rect: Rect, id: &str, table: &Table) {
+    let mut child = ui.new_child(UiBuilder::new().id_salt(id).max_rect(rect.shrink2(Vec2::new(2.0 * UNIT, 0.0))));
+    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    egui::ScrollArea::horizontal().id_salt((id, "across")).auto_shrink(false).show(&mut child, |ui| {
+        TableBuilder::new(ui)
+            .id_salt((id, "table"))
+            .striped(false)
+            .vscroll(true)
+            .auto_shrink(false)
+            .columns(Column::auto().at_least(72.0).clip(false), table.columns.len().max(1))
+            .header(ROW, |mut header| {
+                for name in &table.columns {
+                    header.col(|ui| {
+                        ui.label(RichText::new(name).small());
+                    });
+                }
+            })
+            .body(|body| {
+                body.rows(ROW - 4.0, table.rows.len(), |mut row| {
+                    for cell in &table.rows[row.index()] {
+                        row.col(|ui| {
+                            ui.monospace(cell_text(cell));
+                        });
+                    }
+                });
+            });
+    });
+}
+
+/// A cell for reading: six significant digits.
+fn cell_text(cell: &Cell) -> String {
+    match cell {
+        Cell::Empty => "–".to_owned(),
+        Cell::Text(text) => text.clone(),
+        Cell::Number(value) => number(*value),
+    }
+}
+
+/// A number for reading: six significant digits at most, a true minus sign.
+pub fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    let text = if value == 0.0 || (1e-4..1e6).contains(&magnitude) {
+        let decimals = if magnitude >= 1.0 { 5_usize.saturating_sub(magnitude.log10() as usize) } else { 5 };
+        let fixed = format!("{value:.decimals$}");
+        if fixed.contains('.') { fixed.trim_end_matches('0').trim_end_matches('.').to_owned() } else { fixed }
+    } else {
+        format!("{value:.4e}")
+    };
+    text.replace('-', "−")
+}

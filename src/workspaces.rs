@@ -1,0 +1,265 @@
+//! Which panes stand where: tables of splits, no docking.
+
+use egui::{Pos2, Rect, Vec2};
+use serde::{Deserialize, Serialize};
+
+/// A pane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum PaneKind {
+    /// What is compared, and all data sets.
+    Library,
+    /// The diagram.
+    Chromaticity,
+    /// The patches as colors.
+    Swatches,
+    /// Light, patches, sensitivities.
+    Spectra,
+    /// The key, or the selection.
+    Inspector,
+}
+
+impl PaneKind {
+    /// All panes.
+    pub const ALL: [Self; 5] = [Self::Library, Self::Chromaticity, Self::Swatches, Self::Spectra, Self::Inspector];
+    /// The panes that stand in the workspaces' changeable places.
+    pub const CHANGEABLE: [Self; 4] = [Self::Chromaticity, Self::Swatches, Self::Spectra, Self::Inspector];
+
+    /// Its title.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Library => "Library",
+            Self::Chromaticity => "Chromaticity",
+            Self::Swatches => "Swatches",
+            Self::Spectra => "Spectra",
+            Self::Inspector => "Inspector",
+        }
+    }
+}
+
+/// A fixed arrangement of panes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Workspace {
+    /// The diagram over swatches, inspector over spectra.
+    #[default]
+    Compare,
+    /// Large spectra.
+    Spectra,
+}
+
+impl Workspace {
+    /// All workspaces, in the order of their tabs and keys.
+    pub const ALL: [Self; 2] = [Self::Compare, Self::Spectra];
+
+    /// The tab's title.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Compare => "Compare",
+            Self::Spectra => "Spectra",
+        }
+    }
+}
+
+/// A border that can be dragged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Splitter {
+    /// Right of the library.
+    Library,
+    /// Left of the right column.
+    Right,
+    /// Between the panes of the center.
+    Center,
+    /// Between the panes of the right column.
+    RightRows,
+}
+
+/// Sizes and places, kept between runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Layout {
+    /// Width of the library in points; none for the window's own choice.
+    pub library_width: Option<f32>,
+    /// Width of the right column in points; none for the window's own choice.
+    pub right_width: Option<f32>,
+    /// Height of the center's lower pane as a share.
+    pub lower_share: f32,
+    /// Height of the right column's lower pane as a share.
+    pub right_lower_share: f32,
+    /// Whether the library is shown.
+    pub library: bool,
+    /// Compare: center upper, center lower, right upper, right lower.
+    pub compare: [Option<PaneKind>; 4],
+    /// Spectra: center upper, center lower, right upper, right lower.
+    pub spectra: [Option<PaneKind>; 4],
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        Self {
+            library_width: None,
+            right_width: None,
+            lower_share: 0.31,
+            right_lower_share: 0.5,
+            library: true,
+            compare: [
+                Some(PaneKind::Chromaticity),
+                Some(PaneKind::Swatches),
+                Some(PaneKind::Inspector),
+                Some(PaneKind::Spectra),
+            ],
+            spectra: [Some(PaneKind::Spectra), None, Some(PaneKind::Inspector), None],
+        }
+    }
+}
+
+impl Layout {
+    /// The panes of a workspace's four places.
+    pub fn places(&self, workspace: Workspace) -> &[Option<PaneKind>; 4] {
+        match workspace {
+            Workspace::Compare => &self.compare,
+            Workspace::Spectra => &self.spectra,
+        }
+    }
+
+    /// The same, to change.
+    pub fn places_mut(&mut self, workspace: Workspace) -> &mut [Option<PaneKind>; 4] {
+        match workspace {
+            Workspace::Compare => &mut self.compare,
+            Workspace::Spectra => &mut self.spectra,
+        }
+    }
+
+    /// Whether a workspace shows a pane.
+    pub fn shows(&self, workspace: Workspace, pane: PaneKind) -> bool {
+        if pane == PaneKind::Library { self.library } else { self.places(workspace).contains(&Some(pane)) }
+    }
+
+    /// Shows or hides a pane; shown, it takes its own place, else the first free one, else the last.
+    pub fn toggle(&mut self, workspace: Workspace, pane: PaneKind) {
+        if pane == PaneKind::Library {
+            self.library = !self.library;
+            return;
+        }
+        let home = Self::default().places(workspace).iter().position(|p| *p == Some(pane));
+        let places = self.places_mut(workspace);
+        if let Some(shown) = places.iter_mut().find(|p| **p == Some(pane)) {
+            *shown = None;
+            return;
+        }
+        let free = home.filter(|&h| places[h].is_none()).or_else(|| places.iter().position(Option::is_none));
+        places[free.unwrap_or(3)] = Some(pane);
+    }
+
+    /// Puts a pane into the place of another; one that was shown elsewhere changes places.
+    pub fn replace(&mut self, workspace: Workspace, old: PaneKind, new: PaneKind) {
+        let places = self.places_mut(workspace);
+        for place in places.iter_mut() {
+            if *place == Some(old) {
+                *place = Some(new);
+            } else if *place == Some(new) {
+                *place = Some(old);
+            }
+        }
+    }
+}
+
+/// Where everything stands.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Arrangement {
+    /// Panes with their rectangles.
+    pub panes: Vec<(PaneKind, Rect)>,
+    /// Borders with theirs.
+    pub splitters: Vec<(Splitter, Rect)>,
+    /// A pane that lies over the others.
+    pub over: Option<(PaneKind, Rect)>,
+    /// Whether the right column was left out for want of width.
+    pub narrow: bool,
+}
+
+/// Below this width the right column is left out.
+const NARROW: f32 = 1100.0;
+/// Once left out, it returns only this much above.
+const HYSTERESIS: f32 = 40.0;
+/// Above this width the columns grow.
+const LARGE: f32 = 1800.0;
+/// Width of a border.
+const GAP: f32 = 4.0;
+
+/// Arranges a workspace in an area. `was_narrow` keeps a window at the limit from flickering.
+pub fn arrange(
+    workspace: Workspace,
+    layout: &Layout,
+    area: Rect,
+    was_narrow: bool,
+    maximized: Option<PaneKind>,
+    inspector_over: bool,
+) -> Arrangement {
+    if let Some(pane) = maximized {
+        return Arrangement { panes: vec![(pane, area)], narrow: was_narrow, ..Arrangement::default() };
+    }
+    let narrow = area.width() < if was_narrow { NARROW + HYSTERESIS } else { NARROW };
+    let large = area.width() > LARGE;
+    let mut made = Arrangement { narrow, ..Arrangement::default() };
+    let mut rest = area;
+    if layout.library {
+        let width = layout.library_width.unwrap_or(if large { 280.0 } else { 216.0 }).clamp(160.0, 360.0);
+        let (left, border, right) = cut_x(rest, width);
+        made.panes.push((PaneKind::Library, left));
+        made.splitters.push((Splitter::Library, border));
+        rest = right;
+    }
+    let [upper, lower, right_upper, right_lower] = *layout.places(workspace);
+    if !narrow && (right_upper.is_some() || right_lower.is_some()) {
+        let width = layout.right_width.unwrap_or(if large { 560.0 } else { 316.0 }).clamp(200.0, 720.0);
+        let (center, border, right) = cut_x(rest, (rest.width() - width - GAP).max(200.0));
+        made.splitters.push((Splitter::Right, border));
+        stack(&mut made, right, [right_upper, right_lower], layout.right_lower_share, Splitter::RightRows);
+        rest = center;
+    }
+    stack(&mut made, rest, [upper, lower], layout.lower_share, Splitter::Center);
+    if narrow && inspector_over {
+        let width = 316.0_f32.min(rest.width());
+        let min = Pos2::new(rest.right() - width, rest.top());
+        made.over = Some((PaneKind::Inspector, Rect::from_min_max(min, rest.max)));
+    }
+    made
+}
+
+/// One pane above the other, or the one there is.
+fn stack(made: &mut Arrangement, area: Rect, panes: [Option<PaneKind>; 2], lower_share: f32, splitter: Splitter) {
+    match panes {
+        [Some(upper), Some(lower)] => {
+            let height = (area.height() * lower_share.clamp(0.15, 0.85)).round();
+            let cut = area.bottom() - height;
+            made.panes.push((upper, Rect::from_min_max(area.min, Pos2::new(area.right(), cut - GAP))));
+            made.splitters.push((splitter, Rect::from_min_max(Pos2::new(area.left(), cut - GAP), Pos2::new(area.right(), cut))));
+            made.panes.push((lower, Rect::from_min_max(Pos2::new(area.left(), cut), area.max)));
+        }
+        [Some(one), None] | [None, Some(one)] => made.panes.push((one, area)),
+        [None, None] => {}
+    }
+}
+
+fn cut_x(area: Rect, width: f32) -> (Rect, Rect, Rect) {
+    let x = (area.left() + width).round();
+    (
+        Rect::from_min_max(area.min, Pos2::new(x, area.bottom())),
+        Rect::from_min_size(Pos2::new(x, area.top()), Vec2::new(GAP, area.height())),
+        Rect::from_min_max(Pos2::new(x + GAP, area.top()), area.max),
+    )
+}
+
+impl Layout {
+    /// Moves a border to the pointer.
+    pub fn drag(&mut self, splitter: Splitter, pointer: Pos2, area: Rect) {
+        match splitter {
+            Splitter::Library => self.library_width = Some((pointer.x - area.left()).clamp(160.0, 360.0)),
+            Splitter::Right => self.right_width = Some((area.right() - pointer.x).clamp(200.0, 720.0)),
+            Splitter::Center => self.lower_share = share(pointer, area),
+            Splitter::RightRows => self.right_lower_share = share(pointer, area),
+        }
+    }
+}
+
+fn share(pointer: Pos2, area: Rect) -> f32 {
+    ((area.bottom() - pointer.y) / area.height().max(1.0)).clamp(0.15, 0.85)
+}

@@ -1,0 +1,726 @@
+//! The rules of the architecture that no type holds: who may use whom, who may touch what, how long things may be.
+//!
+//! Read from the source text, with test modules, comments and strings blanked out. Each check takes a path and a text,
+//! so that the tests at the end can plant what it must find.
+
+use std::{
+    collections::BTreeSet,
+    fmt, fs,
+    path::{Path, PathBuf},
+};
+
+/// What a module of the core may use beside itself.
+const CORE_LAYERS: &[(&str, &[&str])] = &[
+    ("units", &["math"]),
+    ("math", &["units"]),
+    ("table", &["units", "math", "spectral"]),
+    ("spectral", &["units", "math", "table"]),
+    ("colorimetry", &["units", "math", "spectral"]),
+    ("light", &["units", "math", "table", "spectral", "colorimetry"]),
+    ("object", &["units", "math", "table", "spectral", "colorimetry", "light"]),
+    ("camera", &["units", "math", "table", "spectral", "colorimetry", "light", "object"]),
+    ("reflectance", &["units", "math", "table", "spectral", "colorimetry", "light", "object"]),
+    ("scene", &["units", "math", "table", "spectral", "colorimetry", "light", "object", "camera", "reflectance"]),
+    (
+        "render",
+        &["units", "math", "table", "spectral", "colorimetry", "light", "object", "camera", "reflectance", "scene"],
+    ),
+    ("figure", &["units", "math", "colorimetry"]),
+    (
+        "query",
+        &[
+            "units",
+            "math",
+            "table",
+            "spectral",
+            "colorimetry",
+            "light",
+            "object",
+            "camera",
+            "reflectance",
+            "scene",
+            "render",
+            "figure",
+        ],
+    ),
+];
+
+/// What the core never names: the same input is to give the same output.
+const NOT_IN_THE_CORE: &[&str] =
+    &["egui", "eframe", "std::env", "std::fs", "std::net", "std::process", "std::thread", "std::time"];
+
+/// Modules of the app that hold and change what is compared, without a window.
+const WITHOUT_WINDOW: &[&str] = &["action", "catalog", "document", "results"];
+const WINDOW: &[&str] = &["ecolor", "eframe", "egui", "egui_extras", "egui_plot", "emath", "epaint"];
+
+/// Modules of the app that may make colors, and that may touch the disk.
+const MAKES_COLORS: &[&str] = &["paint", "theme"];
+const TOUCHES_DISK: &[&str] = &["catalog", "cli", "export", "files", "main"];
+const DISK: &[&str] = &["std::fs", "tempfile"];
+
+const FILE_LINES: usize = 600;
+const CORE_FUNCTION_LINES: usize = 80;
+const APP_FUNCTION_LINES: usize = 120;
+
+#[test]
+fn core_modules_use_only_what_is_above_them() {
+    hold(sources("core/src").iter().flat_map(|(path, text)| core_layers(path, text)));
+}
+
+#[test]
+fn app_modules_keep_to_their_part() {
+    let sources = sources("src");
+    let panes: BTreeSet<String> = sources
+        .iter()
+        .map(|(path, _)| module(path))
+        .filter(|module| module.len() > 1 && module[0] == "panes")
+        .map(|module| module[1].clone())
+        .collect();
+    hold(sources.iter().flat_map(|(path, text)| app_layers(path, text, &panes)));
+}
+
+#[test]
+fn files_and_functions_stay_short() {
+    for folder in ["core/src", "core/benches", "src", "tests"] {
+        hold(sources(folder).iter().flat_map(|(path, text)| budgets(path, text)));
+    }
+}
+
+#[test]
+fn no_file_names_a_place_outside_the_repository() {
+    let mut found = Vec::new();
+    walk(&root(), &mut |path| {
+        if let Ok(text) = fs::read_to_string(root().join(path)) {
+            found.extend(outside_places(path, &text));
+        }
+    });
+    hold(found);
+}
+
+/// A broken rule, and where.
+#[derive(Debug, PartialEq)]
+struct Violation {
+    file: String,
+    line: usize,
+    rule: String,
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: {}", self.file, self.line, self.rule)
+    }
+}
+
+#[track_caller]
+fn hold(violations: impl IntoIterator<Item = Violation>) {
+    let lines: Vec<String> = violations.into_iter().map(|found| found.to_string()).collect();
+    assert!(lines.is_empty(), "{} broken:\n{}\n", lines.len(), lines.join("\n"));
+}
+
+// ---- The rules ----
+
+fn core_layers(file: &str, text: &str) -> Vec<Violation> {
+    let own = module(file);
+    let mut found = Report::new(file);
+    let layer = |name: &String| CORE_LAYERS.iter().find(|(layer, _)| layer == name);
+    let above = own.first().map(|own| (own, layer(own)));
+    if let Some((own, None)) = above {
+        found.push(1, format!("`{own}` has no layer: give it one in tests/app/architecture.rs"));
+    }
+    for path in paths(&own, &code(text)) {
+        if let Some(name) = NOT_IN_THE_CORE.iter().find(|name| path.starts_with(name)) {
+            found.push(path.line, format!("the core never uses `{name}`"));
+        }
+        let (Some((own, Some((_, above)))), Some(used)) = (above, path.names.get(1)) else {
+            continue;
+        };
+        if path.names[0] != "crate" || used == own || above.contains(&used.as_str()) {
+            continue;
+        }
+        let rule = if layer(used).is_some() {
+            format!("`{own}` may not use `{used}`, only {}", above.join(", "))
+        } else {
+            format!("`crate::{used}` names no module of the core: write the path through its module")
+        };
+        found.push(path.line, rule);
+    }
+    found.violations
+}
+
+fn app_layers(file: &str, text: &str, panes: &BTreeSet<String>) -> Vec<Violation> {
+    let own = module(file);
+    let own: Vec<&str> = own.iter().map(String::as_str).collect();
+    let top = own.first().copied().unwrap_or(if file.ends_with("main.rs") { "main" } else { "lib" });
+    let mut found = Report::new(file);
+    for path in paths(&module(file), &code(text)) {
+        let names: Vec<&str> = path.names.iter().map(String::as_str).collect();
+        if WITHOUT_WINDOW.contains(&top) && WINDOW.contains(&names[0]) {
+            found.push(path.line, format!("`{top}` knows no window: it may not use `{}`", names[0]));
+        }
+        if let (["panes", pane, ..], ["crate", "panes", used, ..]) = (&own[..], &names[..])
+            && used != pane
+            && (*used == "*" || panes.contains(*used))
+        {
+            found.push(path.line, format!("panes do not use each other: `{pane}` uses `{used}`"));
+        }
+        if !MAKES_COLORS.contains(&top)
+            && let Some(made) = names.windows(2).find_map(|pair| made_color(pair[0], pair[1]))
+        {
+            found.push(path.line, format!("only `paint` and `theme` make colors: `{made}`"));
+        }
+        if !TOUCHES_DISK.contains(&top)
+            && let Some(disk) = DISK.iter().find(|disk| path.starts_with(disk))
+        {
+            let rule = "only `files`, `catalog`, `export` and the command line touch the disk";
+            found.push(path.line, format!("{rule}: `{disk}`"));
+        }
+    }
+    found.violations
+}
+
+/// A path that ends in a color of its own, such as `Color32::RED` or `Color32::from_rgb`.
+fn made_color(kind: &str, name: &str) -> Option<String> {
+    let constructor = name.starts_with("from_") || name == "new";
+    let constant = name != "TRANSPARENT" && name.chars().all(|c| c.is_ascii_uppercase() || c == '_');
+    let made = match kind {
+        "Color32" => constructor || constant,
+        "Hsva" | "Rgba" => constructor,
+        _ => false,
+    };
+    made.then(|| format!("{kind}::{name}"))
+}
+
+fn budgets(file: &str, text: &str) -> Vec<Violation> {
+    let mut found = Report::new(file);
+    if file.ends_with("/mod.rs") {
+        found.push(1, "a module is `x.rs` beside `x/`, never `mod.rs`".to_owned());
+    }
+    if file.starts_with("tests/") {
+        return found.violations;
+    }
+    let kept = code(text);
+    let tests = kept.skipped_lines;
+    let lines = text.lines().count() - tests;
+    if lines > FILE_LINES {
+        found.push(FILE_LINES, format!("{lines} lines without tests, at most {FILE_LINES}"));
+    }
+    let limit = if file.starts_with("core/") { CORE_FUNCTION_LINES } else { APP_FUNCTION_LINES };
+    for (name, line, length) in functions(&kept) {
+        if length > limit {
+            found.push(line, format!("`{name}` has {length} lines, at most {limit}"));
+        }
+    }
+    found.violations
+}
+
+fn outside_places(file: &str, text: &str) -> Vec<Violation> {
+    // In parts, so that this file does not name them.
+    let [slash, library, shared, work] = ["/", ".library", "../shared", "work/"];
+    let mut found = Report::new(file);
+    for (at, line) in text.lines().enumerate() {
+        let absolute =
+            |(start, _): (usize, &str)| !line[..start].ends_with(|c: char| c.is_alphanumeric() || "._-~".contains(c));
+        let named = [
+            line.match_indices(&[slash, work].concat()).any(absolute),
+            line.contains(&[slash, library].concat()) || line.contains(&[library, slash].concat()),
+            line.contains(&[shared, slash].concat()),
+        ];
+        if named.contains(&true) {
+            found.push(at + 1, "names a place outside the repository".to_owned());
+        }
+    }
+    found.violations
+}
+
+struct Report {
+    file: String,
+    violations: Vec<Violation>,
+}
+
+impl Report {
+    fn new(file: &str) -> Self {
+        Self { file: file.to_owned(), violations: Vec::new() }
+    }
+
+    fn push(&mut self, line: usize, rule: String) {
+        let violation = Violation { file: self.file.clone(), line, rule };
+        if !self.violations.contains(&violation) {
+            self.violations.push(violation);
+        }
+    }
+}
+
+// ---- Files ----
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The Rust files below a folder of the repository, each with its path from the root and its text.
+fn sources(folder: &str) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    walk(&root().join(folder), &mut |path| {
+        if Path::new(path).extension().is_some_and(|extension| extension == "rs") {
+            let text = fs::read_to_string(root().join(path)).expect("source is UTF-8");
+            found.push((path.to_owned(), text));
+        }
+    });
+    found
+}
+
+/// Calls with the path from the root, written with `/`, of every file but git's and what building makes.
+fn walk(folder: &Path, visit: &mut impl FnMut(&str)) {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
+    let mut entries: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    entries.sort();
+    for path in entries {
+        if ["target", ".git"].iter().any(|skipped| path.ends_with(skipped)) {
+            continue;
+        }
+        if path.is_dir() {
+            walk(&path, visit);
+        } else if let Ok(path) = path.strip_prefix(root()) {
+            visit(&path.to_string_lossy().replace('\\', "/"));
+        }
+    }
+}
+
+/// The module that a file is: `core/src/light/planck.rs` is `light::planck`. Empty for the root of a crate.
+fn module(file: &str) -> Vec<String> {
+    let below = file.split_once("src/").map_or(file, |(_, below)| below);
+    let below = below.strip_suffix(".rs").unwrap_or(below);
+    let names: Vec<String> = below.split('/').map(str::to_owned).collect();
+    if ["lib", "main"].contains(&below) { Vec::new() } else { names }
+}
+
+// ---- Rust text ----
+
+/// A file as words (names and numbers) and single signs, each with its line. Without comments, test modules, and what
+/// is inside quotes.
+struct Code {
+    tokens: Vec<(String, usize)>,
+    /// Lines of test modules.
+    skipped_lines: usize,
+}
+
+fn code(text: &str) -> Code {
+    let mut tokens = tokens(&blanked(text));
+    let mut skipped_lines = 0;
+    let test = ["#", "[", "cfg", "(", "test", ")", "]"];
+    let mut at = 0;
+    while at < tokens.len() {
+        let is = |at: usize, word: &str| tokens.get(at).is_some_and(|(token, _)| token == word);
+        let mut start = at + test.len();
+        if !test.iter().enumerate().all(|(offset, word)| is(at + offset, word)) {
+            at += 1;
+            continue;
+        }
+        while is(start, "#") {
+            start = closing(&tokens, start + 1) + 1;
+        }
+        if is(start, "mod") && is(start + 2, "{") {
+            let end = closing(&tokens, start + 2);
+            skipped_lines += tokens[end].1 - tokens[at].1 + 1;
+            tokens.drain(at..=end);
+        } else {
+            at = start;
+        }
+    }
+    Code { tokens, skipped_lines }
+}
+
+/// Comments and everything between quotes as spaces; lines stay where they are.
+fn blanked(text: &str) -> String {
+    let chars: Vec<char> = text.chars().collect();
+    let mut kept = chars.clone();
+    let mut at = 0;
+    let mut previous = ' ';
+    while at < chars.len() {
+        let word = previous.is_alphanumeric() || previous == '_';
+        let end = match chars[at] {
+            '/' if chars.get(at + 1) == Some(&'/') => line_end(&chars, at),
+            '/' if chars.get(at + 1) == Some(&'*') => comment_end(&chars, at),
+            '"' => string_end(&chars, at),
+            'r' | 'b' | 'c' if !word => raw_string_end(&chars, at).unwrap_or(at),
+            '\'' => char_end(&chars, at).unwrap_or(at),
+            _ => at,
+        };
+        if end == at {
+            previous = chars[at];
+            at += 1;
+            continue;
+        }
+        let end = end.min(chars.len());
+        for sign in &mut kept[at..end] {
+            if *sign != '\n' {
+                *sign = ' ';
+            }
+        }
+        previous = ' ';
+        at = end;
+    }
+    kept.into_iter().collect()
+}
+
+fn line_end(chars: &[char], start: usize) -> usize {
+    chars[start..].iter().position(|c| *c == '\n').map_or(chars.len(), |length| start + length)
+}
+
+fn comment_end(chars: &[char], start: usize) -> usize {
+    let mut depth = 0;
+    let mut at = start;
+    while at < chars.len() {
+        match (chars[at], chars.get(at + 1)) {
+            ('/', Some('*')) => (depth, at) = (depth + 1, at + 2),
+            ('*', Some('/')) => (depth, at) = (depth - 1, at + 2),
+            _ => at += 1,
+        }
+        if depth == 0 {
+            return at;
+        }
+    }
+    at
+}
+
+fn string_end(chars: &[char], start: usize) -> usize {
+    let mut at = start + 1;
+    while at < chars.len() && chars[at] != '"' {
+        at += if chars[at] == '\\' { 2 } else { 1 };
+    }
+    at + 1
+}
+
+/// The end of `r"…"`, `r#"…"#` and their kind, or nothing if the letter begins something else.
+fn raw_string_end(chars: &[char], start: usize) -> Option<usize> {
+    let mut at = start;
+    if chars[at] != 'r' {
+        at += 1;
+    }
+    if chars.get(at) != Some(&'r') {
+        return None;
+    }
+    let hashes = chars[at + 1..].iter().take_while(|c| **c == '#').count();
+    let open = at + 1 + hashes;
+    if chars.get(open) != Some(&'"') {
+        return None;
+    }
+    let close: Vec<char> = ['"'].into_iter().chain(std::iter::repeat_n('#', hashes)).collect();
+    let length = chars[open + 1..].windows(close.len()).position(|window| window == close);
+    Some(length.map_or(chars.len(), |length| open + 1 + length + close.len()))
+}
+
+/// The end of `'x'` or `'\n'`, or nothing for a lifetime.
+fn char_end(chars: &[char], start: usize) -> Option<usize> {
+    if chars.get(start + 1) == Some(&'\\') {
+        let close = chars[start + 3..].iter().position(|c| *c == '\'')?;
+        return Some(start + 3 + close + 1);
+    }
+    (chars.get(start + 2) == Some(&'\'')).then_some(start + 3)
+}
+
+fn tokens(text: &str) -> Vec<(String, usize)> {
+    let mut tokens = Vec::new();
+    for (line, text) in text.lines().enumerate() {
+        let mut word = String::new();
+        for sign in text.chars().chain([' ']) {
+            if sign.is_alphanumeric() || sign == '_' {
+                word.push(sign);
+                continue;
+            }
+            if !word.is_empty() {
+                tokens.push((std::mem::take(&mut word), line + 1));
+            }
+            if !sign.is_whitespace() {
+                tokens.push((sign.to_string(), line + 1));
+            }
+        }
+    }
+    tokens
+}
+
+/// Where the bracket at `open` is closed.
+fn closing(tokens: &[(String, usize)], open: usize) -> usize {
+    let mut depth = 0;
+    for (at, (token, _)) in tokens.iter().enumerate().skip(open) {
+        match token.as_str() {
+            "(" | "[" | "{" => depth += 1,
+            ")" | "]" | "}" => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return at;
+        }
+    }
+    tokens.len() - 1
+}
+
+/// A path as written out from the root of a crate, `a::b::c`.
+struct UsedPath {
+    names: Vec<String>,
+    line: usize,
+}
+
+impl UsedPath {
+    fn starts_with(&self, path: &str) -> bool {
+        let mut names = self.names.iter();
+        path.split("::").all(|name| names.next().is_some_and(|own| own == name))
+    }
+}
+
+/// Every path in the code, whether imported or written where it is used; groups taken apart, `self` and `super`
+/// resolved against the module.
+fn paths(module: &[String], code: &Code) -> Vec<UsedPath> {
+    let mut found = Vec::new();
+    let mut inline: Vec<(String, usize)> = Vec::new();
+    let tokens = &code.tokens;
+    let mut at = 0;
+    while at < tokens.len() {
+        inline.retain(|(_, end)| *end > at);
+        let word = tokens[at].0.as_str();
+        if word == "mod" && tokens.get(at + 2).is_some_and(|(token, _)| token == "{") {
+            inline.push((tokens[at + 1].0.clone(), closing(tokens, at + 2)));
+            at += 3;
+            continue;
+        }
+        let import = word == "use" && tokens.get(at + 1).is_some_and(|(token, _)| token != "<");
+        let start = if import { at + 1 } else { at };
+        if import || (is_word(word) && joined(tokens, at + 1)) {
+            let inline: Vec<String> = inline.iter().map(|(name, _)| name.clone()).collect();
+            let here = [module, &inline].concat();
+            let mut written = Vec::new();
+            at = tree(tokens, start, &[], import, &mut written).max(at + 1);
+            found.extend(written.into_iter().filter_map(|path| resolved(&here, path)));
+        } else {
+            at += 1;
+        }
+    }
+    found
+}
+
+fn is_word(token: &str) -> bool {
+    token.starts_with(|c: char| c.is_alphabetic() || c == '_')
+}
+
+fn joined(tokens: &[(String, usize)], at: usize) -> bool {
+    tokens.len() > at + 2 && tokens[at].0 == ":" && tokens[at + 1].0 == ":"
+}
+
+/// Reads a path, or in an import a tree of them, and returns where it ends.
+fn tree(
+    tokens: &[(String, usize)],
+    mut at: usize,
+    before: &[String],
+    import: bool,
+    found: &mut Vec<UsedPath>,
+) -> usize {
+    let mut names = before.to_vec();
+    let line = tokens[at].1;
+    if joined(tokens, at) {
+        at += 2;
+    }
+    while at < tokens.len() {
+        match tokens[at].0.as_str() {
+            "{" if import => {
+                let end = closing(tokens, at);
+                at += 1;
+                while at < end {
+                    at = if tokens[at].0 == "," { at + 1 } else { tree(tokens, at, &names, import, found).max(at + 1) };
+                }
+                return end + 1;
+            }
+            "*" if import => names.push("*".to_owned()),
+            word if is_word(word) => names.push(word.to_owned()),
+            _ => break,
+        }
+        at += 1;
+        if !joined(tokens, at) {
+            break;
+        }
+        at += 2;
+    }
+    if tokens.get(at).is_some_and(|(token, _)| import && token == "as") {
+        at += 2;
+    }
+    found.push(UsedPath { names, line });
+    at
+}
+
+/// With `self` and `super` replaced by what they stand for, below `crate`.
+fn resolved(here: &[String], path: UsedPath) -> Option<UsedPath> {
+    let relative = ["self", "super"].contains(&path.names.first()?.as_str());
+    if !relative {
+        return Some(path);
+    }
+    let mut names = here.to_vec();
+    names.insert(0, "crate".to_owned());
+    for name in path.names {
+        match name.as_str() {
+            "self" => {}
+            "super" => {
+                names.pop();
+            }
+            _ => names.push(name),
+        }
+    }
+    Some(UsedPath { names, line: path.line })
+}
+
+/// Name, first line and number of lines of every function with a body.
+fn functions(code: &Code) -> Vec<(String, usize, usize)> {
+    let mut found = Vec::new();
+    for (at, pair) in code.tokens.windows(2).enumerate() {
+        if pair[0].0 != "fn" || !is_word(&pair[1].0) {
+            continue;
+        }
+        let mut open = at;
+        while open < code.tokens.len() {
+            match code.tokens[open].0.as_str() {
+                "(" | "[" => open = closing(&code.tokens, open),
+                "{" | ";" => break,
+                _ => {}
+            }
+            open += 1;
+        }
+        if code.tokens.get(open).is_some_and(|(token, _)| token == "{") {
+            let end = closing(&code.tokens, open);
+            found.push((pair[1].0.clone(), pair[0].1, code.tokens[end].1 - pair[0].1 + 1));
+        }
+    }
+    found
+}
+
+// ---- The rules find what they are for ----
+
+fn found(violations: &[Violation]) -> Vec<String> {
+    violations.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn a_module_that_looks_down_is_found() {
+    let text = "//! Uses crate::camera and std::fs, says this comment.
+use crate::{
+    math::{self, dot::dot},
+    spectral::Sensor as S, light::{planckian as p, Daylight},
+};
+use super::camera::Response;
+const TEXT: &str = \"crate::object::X\"; // crate::object::X
+fn f<'a>(c: char) -> super::super::object::Object { if c == '\"' { crate::units::Kelvin::new() } else { self::g() } }
+pub use crate::*;
+use crate::Xyz;
+#[cfg(test)]
+mod tests { use crate::query::Ask; }
+mod inner { use super::super::super::scene::Mesh; }
+";
+    let rule = "may not use";
+    let only = "only units, math, spectral";
+    let expected = [
+        format!("core/src/colorimetry/lab.rs:4: `colorimetry` {rule} `light`, {only}"),
+        format!("core/src/colorimetry/lab.rs:8: `colorimetry` {rule} `object`, {only}"),
+        "core/src/colorimetry/lab.rs:9: `crate::*` names no module of the core: write the path through its module"
+            .to_owned(),
+        "core/src/colorimetry/lab.rs:10: `crate::Xyz` names no module of the core: write the path through its module"
+            .to_owned(),
+        format!("core/src/colorimetry/lab.rs:13: `colorimetry` {rule} `scene`, {only}"),
+    ];
+    assert_eq!(found(&core_layers("core/src/colorimetry/lab.rs", text)), expected);
+    let expected = ["core/src/colorimetry.rs:1: `colorimetry` may not use `camera`, only units, math, spectral"];
+    assert_eq!(found(&core_layers("core/src/colorimetry.rs", "use super::camera::Response;")), expected);
+    assert_eq!(found(&core_layers("core/src/lib.rs", "pub mod camera; pub use crate::camera::Way;")), [""; 0]);
+    let unknown = core_layers("core/src/shiny.rs", "");
+    assert!(unknown[0].rule.contains("`shiny` has no layer"));
+}
+
+#[test]
+fn a_core_that_looks_outside_is_found() {
+    let text = "use std::{
+    fmt,
+    time::Instant,
+};
+fn f() { ::std::fs::read(\"x\"); let _: std::thread::JoinHandle<()>; }
+use egui;
+";
+    let expected = [
+        "core/src/math.rs:3: the core never uses `std::time`",
+        "core/src/math.rs:5: the core never uses `std::fs`",
+        "core/src/math.rs:5: the core never uses `std::thread`",
+        "core/src/math.rs:6: the core never uses `egui`",
+    ];
+    assert_eq!(found(&core_layers("core/src/math.rs", text)), expected);
+}
+
+#[test]
+fn app_modules_out_of_their_part_are_found() {
+    let panes = ["spectra", "swatches"].map(str::to_owned).into();
+    let check = |file: &str, text: &str| {
+        let found = app_layers(file, text, &panes);
+        found.into_iter().map(|found| (found.line, found.rule)).collect::<Vec<_>>()
+    };
+    let lines = |file: &str, text: &str| check(file, text).into_iter().map(|(line, _)| line).collect::<Vec<_>>();
+
+    let window = "use serde::Serialize;\nuse egui::Vec2;\nfn f(_: &eframe::Frame) {}";
+    assert_eq!(lines("src/document/state.rs", window), [2, 3]);
+    assert_eq!(lines("src/results.rs", window), [2, 3]);
+    assert_eq!(lines("src/app.rs", window), [0; 0]);
+
+    let pane = "use super::swatches::Grid;\nuse crate::panes::{Pane, spectra::Axis};\nuse crate::panes::*;";
+    assert_eq!(lines("src/panes/spectra.rs", pane), [1, 3]);
+    assert_eq!(lines("src/panes/swatches.rs", pane), [2, 3]);
+    assert_eq!(lines("src/panes.rs", pane), [0; 0]);
+
+    let colors = "fn f() { Color32::from_rgb(1, 2, 3) }\nlet c = egui::Color32::WHITE;\nColor32::TRANSPARENT;\nimage::Rgba([1]);\necolor::Hsva::new(1.0);\nColor32::default()";
+    assert_eq!(lines("src/widgets/strip.rs", colors), [1, 2, 5]);
+    assert_eq!(lines("src/theme.rs", colors), [0; 0]);
+    assert_eq!(lines("src/paint/image.rs", colors), [0; 0]);
+
+    let disk = "use std::{io, fs};\nfs::read(\"x\");\nstd::fs::write(\"x\", \"y\");";
+    assert_eq!(lines("src/app.rs", disk), [1, 3]);
+    assert_eq!(lines("src/lib.rs", disk), [1, 3]);
+    for allowed in ["src/files.rs", "src/catalog/own.rs", "src/export.rs", "src/cli/locus.rs", "src/main.rs"] {
+        assert_eq!(lines(allowed, disk), [0; 0]);
+    }
+    let rule = &check("src/app.rs", disk)[0].1;
+    assert_eq!(rule, "only `files`, `catalog`, `export` and the command line touch the disk: `std::fs`");
+}
+
+#[test]
+fn what_has_grown_too_long_is_found() {
+    let function = |lines: usize| {
+        let body = "    let brace = ('{', \"{\", r#\"}\"{\"#, b'{'); // {\n".repeat(lines - 2);
+        format!("/* fn no() {{ /* */ */\nfn long<const N: usize>(_: [u8; {{ 3 }}]) -> u8 {{\n{body}}}\nfn short();\n")
+    };
+    assert_eq!(budgets("core/src/math.rs", &function(80)), []);
+    let expected = ["core/src/math.rs:2: `long` has 81 lines, at most 80"];
+    assert_eq!(found(&budgets("core/src/math.rs", &function(81))), expected);
+    assert_eq!(budgets("src/app.rs", &function(120)), []);
+    assert_eq!(found(&budgets("src/app.rs", &function(121))), ["src/app.rs:2: `long` has 121 lines, at most 120"]);
+
+    let tests = format!("#[cfg(test)]\n#[allow(clippy::x)]\nmod tests {{\n{}}}\n", function(300));
+    let file = |lines: usize| format!("{}{tests}", "const X: u8 = 1;\n".repeat(lines));
+    assert_eq!(budgets("src/app.rs", &file(600)), []);
+    assert_eq!(found(&budgets("src/app.rs", &file(601))), ["src/app.rs:600: 601 lines without tests, at most 600"]);
+    assert_eq!(budgets("tests/app/x.rs", &file(601)), []);
+    assert_eq!(budgets("tests/app/mod.rs", "").len(), 1);
+}
+
+#[test]
+fn a_place_outside_the_repository_is_found() {
+    let [slash, library, shared, work] = ["/", ".library", "../shared", "work/"];
+    for bad in [
+        format!("`{slash}{work}main`"),
+        format!("see {shared}/data"),
+        format!("the{slash}{library}"),
+        format!("{library}/search"),
+    ] {
+        assert_eq!(
+            found(&outside_places("README.md", &format!("fine\n{bad}\n"))),
+            ["README.md:2: names a place outside the repository"]
+        );
+    }
+    for fine in
+        [format!("https://example.org{slash}{work}2007"), format!("state{library}.names()"), format!("frame{work}")]
+    {
+        assert_eq!(outside_places("README.md", &fine), []);
+    }
+}

@@ -1,0 +1,16 @@
+//! The core against independent references: published tables, 50-digit arithmetic, laws, and a second way of computing.
+//!
+//! Reads the program's own data under `assets` and the figures under `tests/core/reference`; each of those says in its
+//! first lines what made it.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should say so by failing")]
+
+mod camera;
+mod colorimetry;
+mod figure;
+mod light;
+mod math;
+mod paper;
+mod query;
+mod spectral;
+mod support;
+mod table;
