@@ -13,6 +13,7 @@
 pub mod action;
 pub mod app;
 pub mod catalog;
+pub mod cli;
 pub mod command;
 pub mod document;
 pub mod export;

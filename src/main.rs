@@ -1,14 +1,22 @@
 //! Chromascope: arguments, logging, window.
 
 use std::process::ExitCode;
+use std::time::Instant;
+
+use chromascope::{app, cli, files};
 
 fn main() -> ExitCode {
-    let start = std::time::Instant::now();
-    env_logger::init();
-    match chromascope::app::run(Vec::new(), start) {
+    let start = Instant::now();
+    let opened = match cli::run(std::env::args_os()) {
+        cli::Outcome::Done(code) => return ExitCode::from(code),
+        cli::Outcome::Window(files) => files,
+    };
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn")).init();
+    files::install_panic_hook();
+    match app::run(opened, start) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            log::error!("{error}");
+            cli::say(&format!("chromascope: {error}\n"));
             ExitCode::FAILURE
         }
     }

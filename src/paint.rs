@@ -9,12 +9,11 @@ mod marks;
 mod texture;
 mod triangles;
 
-use chromascope_core::figure::{Axis, LegendEntry, Panel, Projection, Ticks, fit_equal};
-use egui::{Align2, Id, Painter, Pos2, Rect, Response, Sense, Ui, Vec2};
+use chromascope_core::figure::{Axis, LegendEntry, Panel, Projection, Tag, Ticks, fit_equal};
+use egui::{Id, Painter, Pos2, Rect, Response, Sense, Ui, Vec2};
 use egui_plot::{Plot, PlotUi};
 
 use crate::theme::Theme;
-use chromascope_core::figure::Tag;
 pub use hit::{Hit, nearest};
 
 /// How a mark stands out, or does not.
@@ -213,20 +212,4 @@ pub fn still(painter: &Painter, panel: &Panel, theme: &Theme, rect: Rect) -> Vie
 /// Draws the key of a source, line and marker, across the middle of `rect`.
 pub fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Theme) {
     marks::key(painter, rect, entry, theme);
-}
-
-/// Draws a piece of text with a halo in the given ground.
-pub fn text(
-    painter: &Painter,
-    at: Pos2,
-    align: Align2,
-    text: &str,
-    size: chromascope_core::figure::TextSize,
-    ink: chromascope_core::figure::Ink,
-    theme: &Theme,
-) -> Rect {
-    let galley = painter.layout_no_wrap(text.to_owned(), crate::theme::font(size), theme.ink(ink));
-    let place = align.anchor_size(at, galley.size());
-    painter.galley(place.min, galley, theme.ink(ink));
-    place
 }

@@ -27,7 +27,7 @@ pub struct PatchSet {
     patches: Vec<Patch>,
 }
 
-/// The five patches that the paper shows, C1 to C5, by their ColorChecker names.
+/// The five patches that the paper shows, C1 to C5, by their `ColorChecker` names.
 pub const PAPER_FIVE: [&str; 5] = ["red", "green", "blue", "white", "orange yellow"];
 
 impl PatchSet {

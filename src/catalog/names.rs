@@ -66,8 +66,12 @@ pub fn find<'a>(entries: impl Iterator<Item = &'a Entry>, kind: &'static str, na
     if let Some(entry) = entries.iter().find(|e| exact(&e.name)).or_else(|| entries.iter().find(|e| exact(&e.short))) {
         return Ok(entry);
     }
-    let parts: Vec<&&Entry> =
+    let mut parts: Vec<&&Entry> =
         entries.iter().filter(|e| !wanted.is_empty() && folded(&e.name).contains(&wanted)).collect();
+    if parts.is_empty() && !wanted.is_empty() {
+        // Words with others between them: "ColorChecker Ohta 1997".
+        parts = entries.iter().filter(|e| matches_search(e, name)).collect();
+    }
     match parts.as_slice() {
         [one] => Ok(one),
         [] => Err(NameError::Unknown { kind, name: name.to_owned(), nearest: nearest(&entries, &wanted) }),

@@ -14,8 +14,8 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 
 use crate::support::{
-    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, assert_xy, cases, chart, kelvin, light, reference, sensor,
-    sensors, training,
+    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, assert_xy, cases, chart, kelvin, light, reference,
+    sensor, sensors, training,
 };
 
 const PAPER: RadiationConstants = RadiationConstants::Paper;
@@ -97,7 +97,8 @@ fn the_locus_is_continuous_where_the_method_changes() {
     for (name, sensor) in everyone() {
         let evaluator = LocusEvaluator::new(&sensor, PAPER);
         for edge in [1000.0, 1e6] {
-            let [a, b] = [edge * (1.0 - 1e-13), edge * (1.0 + 1e-13)].map(|t| DVec3::from_array(evaluator.raw(kelvin(t))));
+            let [a, b] =
+                [edge * (1.0 - 1e-13), edge * (1.0 + 1e-13)].map(|t| DVec3::from_array(evaluator.raw(kelvin(t))));
             let jump = (a / a.abs().max_element() - b / b.abs().max_element()).abs().max_element();
             assert!(jump < 1e-11, "{name} jumps by {jump} at {edge} K");
         }
@@ -158,7 +159,8 @@ fn the_balance_moves_rgb_but_not_what_a_fitted_matrix_makes_of_it() {
     let at = |white: White| {
         let rendering = Rendering::new(&camera, &light, white, way).unwrap();
         let under = under_light(&camera, &light);
-        let signals = chart.patches().iter().map(|patch| rendering.patch_signals(raw(&under, patch.grid.values()).to_array()));
+        let signals =
+            chart.patches().iter().map(|patch| rendering.patch_signals(raw(&under, patch.grid.values()).to_array()));
         signals.map(|rgb| (rgb, rendering.xyz(rgb).to_vector())).collect::<Vec<_>>()
     };
     for ((rgb, xyz), (other_rgb, other_xyz)) in at(White::UNITY).iter().zip(at(White([1.5, 1.0, 0.4]))) {
@@ -186,7 +188,8 @@ fn a_sensor_that_is_a_matrix_of_the_observer_is_the_observer() {
     let (reference, training) = (sensor("observers/cie_2015_2deg.csv"), training());
     let (cones, light, chart) = (sensor(CONES), light("illuminants/d65.csv"), chart());
     let fitted =
-        Rendering::new(&cones, &light, White::UNITY, Way::Observer { reference: &reference, training: &training }).unwrap();
+        Rendering::new(&cones, &light, White::UNITY, Way::Observer { reference: &reference, training: &training })
+            .unwrap();
     let direct = Rendering::new(&reference, &light, White::UNITY, Way::Paper).unwrap();
     for patch in chart.patches() {
         let signals = |sensor: &Sensor| raw(&under_light(sensor, &light), patch.grid.values()).to_array();
@@ -270,7 +273,8 @@ fn what_eq_13_does_not_cover_is_refused() {
     let way = Way::Observer { reference: &xyz, training: &nothing };
     assert_eq!(Rendering::new(&camera, &e, White::UNITY, way), Err(NoRendering::Fit(FitError::Dependent)));
     let one_channel = camera.curves()[1].clone();
-    let gray = Sensor::new(Primaries::Camera, [one_channel.clone(), one_channel.clone(), one_channel], Response::PerEnergy);
+    let gray =
+        Sensor::new(Primaries::Camera, [one_channel.clone(), one_channel.clone(), one_channel], Response::PerEnergy);
     let way = Way::Observer { reference: &xyz, training: &training };
     assert_eq!(Rendering::new(&gray.unwrap(), &e, White::UNITY, way), Err(NoRendering::Fit(FitError::Dependent)));
 }

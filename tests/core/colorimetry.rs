@@ -4,7 +4,8 @@ use chromascope_core::colorimetry::adaptation::bradford;
 use chromascope_core::colorimetry::diagram::{area_color, spectral_locus, wavelength_color};
 use chromascope_core::colorimetry::lab::lab_from_xyz;
 use chromascope_core::colorimetry::rgb::{
-    GAMUTS, SRGB_FROM_XYZ_PUBLISHED, XYZ_FROM_SRGB, encode_srgb, srgb_from_xyz, srgb_inverse_transfer, srgb_transfer, srgb_white,
+    GAMUTS, SRGB_FROM_XYZ_PUBLISHED, XYZ_FROM_SRGB, encode_srgb, srgb_from_xyz, srgb_inverse_transfer, srgb_transfer,
+    srgb_white,
 };
 use chromascope_core::colorimetry::{Lab, UvPrime, Xy, Xyz, delta_e_1976, delta_e_2000};
 use glam::{DMat3, DVec3};
@@ -98,15 +99,19 @@ fn lab_gives_published_and_exact_values() {
 #[test]
 fn bradford_has_the_published_matrices() {
     // Lindbloom, Chromatic Adaptation: A → D65 and D65 → D50, from whites of ASTM E308.
-    let (a, d65, d50) = (Xyz::new(1.0985, 1.0, 0.35585), Xyz::new(0.95047, 1.0, 1.08883), Xyz::new(0.96422, 1.0, 0.82521));
+    let (a, d65, d50) =
+        (Xyz::new(1.0985, 1.0, 0.35585), Xyz::new(0.95047, 1.0, 1.08883), Xyz::new(0.96422, 1.0, 0.82521));
     let rows = |m: [[f64; 3]; 3]| DMat3::from_cols_array_2d(&m).transpose();
     let a_to_d65 = rows([
         [0.844_696_5, -0.117_922_5, 0.394_810_8],
         [-0.136_630_3, 1.104_122_6, 0.129_171_8],
         [0.079_848_9, -0.134_899_9, 3.192_400_9],
     ]);
-    let d65_to_d50 =
-        rows([[1.047_811_2, 0.022_886_6, -0.050_127_0], [0.029_542_4, 0.990_484_4, -0.017_049_1], [-0.009_234_5, 0.015_043_6, 0.752_131_6]]);
+    let d65_to_d50 = rows([
+        [1.047_811_2, 0.022_886_6, -0.050_127_0],
+        [0.029_542_4, 0.990_484_4, -0.017_049_1],
+        [-0.009_234_5, 0.015_043_6, 0.752_131_6],
+    ]);
     for (from, to, published, what) in [(a, d65, a_to_d65, "A to D65"), (d65, d50, d65_to_d50, "D65 to D50")] {
         let matrix = bradford(from, to).unwrap();
         let off = (matrix - published).to_cols_array().into_iter().fold(0.0_f64, |m, v| m.max(v.abs()));

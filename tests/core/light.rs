@@ -4,8 +4,8 @@ use chromascope_core::colorimetry::Xyz;
 use chromascope_core::light::daylight::chromaticity;
 use chromascope_core::light::planckian::{black_body, exitance, relative_exitance};
 use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants};
-use chromascope_core::spectral::{GridSpectrum, Quantity};
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
+use chromascope_core::spectral::{GridSpectrum, Quantity};
 use chromascope_core::units::{Kelvin, Nanometers};
 use proptest::prelude::*;
 

@@ -183,11 +183,7 @@ fn problem() -> (Vec<DVec3>, Vec<DVec3>) {
     (0..40)
         .map(|k| {
             let k = f64::from(k);
-            let a = DVec3::new(
-                0.5 + 0.4 * k.sin(),
-                0.45 + 0.3 * (1.7 * k).cos(),
-                0.55 + 0.35 * (2.3 * k + 1.0).sin(),
-            );
+            let a = DVec3::new(0.5 + 0.4 * k.sin(), 0.45 + 0.3 * (1.7 * k).cos(), 0.55 + 0.35 * (2.3 * k + 1.0).sin());
             let b = DVec3::new(
                 0.5 + 0.3 * (k + 0.2).sin(),
                 0.5 + 0.35 * (1.6 * k).cos(),

@@ -13,8 +13,8 @@ use chromascope_core::spectral::{Sensor, SpectralDistribution};
 use glam::DVec3;
 
 use crate::support::{
-    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, assert_xy, by_paper, chart, dataset, kelvin, light, reference, sensor,
-    sensors,
+    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, assert_xy, by_paper, chart, dataset, kelvin, light,
+    reference, sensor, sensors,
 };
 
 const D70_AMPAS: &str = "cameras/nikon_d70_a_m_p_a_s.csv";
@@ -116,9 +116,11 @@ fn every_camera_of_the_library_agrees_best_around_daylight() {
 
 #[test]
 fn canon_and_nikon_are_nearer_than_the_kodak_over_the_whole_range() {
-    for (camera, mean, at_1000, at_20000) in
-        [(CANON_10D, "0.021", "0.017", "0.028"), (NIKON_D70, "0.021", "0.032", "0.024"), (DCS200, "0.081", "0.193", "0.060")]
-    {
+    for (camera, mean, at_1000, at_20000) in [
+        (CANON_10D, "0.021", "0.017", "0.028"),
+        (NIKON_D70, "0.021", "0.032", "0.024"),
+        (DCS200, "0.081", "0.193", "0.060"),
+    ] {
         let distances = Distances::named(camera);
         assert_within_3_percent(camera, distances.mean(1000.0, 20000.0), mean);
         assert_within_3_percent(camera, distances.d[0], at_1000);
@@ -129,8 +131,7 @@ fn canon_and_nikon_are_nearer_than_the_kodak_over_the_whole_range() {
 #[test]
 fn the_kodak_is_nearer_than_the_canon_only_in_a_narrow_band() {
     let (kodak, canon) = (Distances::named(DCS200), Distances::named(CANON_10D));
-    let nearer: Vec<f64> =
-        (0..kodak.t.len()).filter(|&i| kodak.d[i] < canon.d[i]).map(|i| kodak.t[i]).collect();
+    let nearer: Vec<f64> = (0..kodak.t.len()).filter(|&i| kodak.d[i] < canon.d[i]).map(|i| kodak.t[i]).collect();
     let (first, last) = (nearer[0], nearer[nearer.len() - 1]);
     assert!(nearer.windows(2).all(|pair| pair[1] / pair[0] < 1.0016), "one band");
     assert_near("from", first, 5605.0, 10.0);

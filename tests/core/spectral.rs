@@ -77,9 +77,10 @@ fn beyond_the_table_ends_hold_or_nothing_is_there() {
     let spectrum = table(400.0, 10.0, &[0.5; 31]);
     for quantity in ALL {
         let grid = GridSpectrum::resample(&spectrum, quantity);
-        let beyond =
-            if matches!(quantity, Quantity::Light | Quantity::Reflectance) { 0.5 } else { 0.0 };
-        for (nm, expected) in [(380.0, beyond), (399.0, beyond), (400.0, 0.5), (700.0, 0.5), (701.0, beyond), (780.0, beyond)] {
+        let beyond = if matches!(quantity, Quantity::Light | Quantity::Reflectance) { 0.5 } else { 0.0 };
+        for (nm, expected) in
+            [(380.0, beyond), (399.0, beyond), (400.0, 0.5), (700.0, 0.5), (701.0, beyond), (780.0, beyond)]
+        {
             assert_near(&format!("{quantity:?} {nm} nm"), at(&grid, nm), expected, 1e-15);
         }
         assert_eq!(grid.assumed().below_nm, Some(400.0));
@@ -150,7 +151,8 @@ fn integrals_are_trapezoids_over_the_support() {
 #[test]
 fn per_photon_curves_become_per_energy() {
     let curve = table(400.0, 10.0, &[1.0; 31]);
-    let make = |response| Sensor::new(Primaries::Camera, [curve.clone(), curve.clone(), curve.clone()], response).unwrap();
+    let make =
+        |response| Sensor::new(Primaries::Camera, [curve.clone(), curve.clone(), curve.clone()], response).unwrap();
     let photon = make(Response::PerPhoton);
     for index in 20..=320 {
         assert_near("λ / 550", photon.at_index(index)[0], wavelength_nm(index) / 550.0, 1e-12);
@@ -190,7 +192,10 @@ fn hostile_samples_make_no_spectrum() {
         assert!(matches!(new(vec![400.0, 500.0], vec![1.0, bad]), Err(DistributionError::Value { index: 1, .. })));
     }
     for bad in [f64::NAN, f64::INFINITY, 400.0, 399.0, 0.0, -1.0] {
-        assert!(matches!(new(vec![400.0, bad], vec![1.0, 1.0]), Err(DistributionError::Order { index: 1, .. })), "{bad}");
+        assert!(
+            matches!(new(vec![400.0, bad], vec![1.0, 1.0]), Err(DistributionError::Order { index: 1, .. })),
+            "{bad}"
+        );
     }
     assert!(matches!(new(vec![0.0], vec![1.0]), Err(DistributionError::Order { index: 0, .. })));
     let one = new(vec![555.0], vec![2.0]).unwrap();

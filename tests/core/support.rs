@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::PathBuf;
 
+use chromascope_core::camera::White;
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::object::PatchSet;
 use chromascope_core::query::{RenderingOf, Shared, WayOf};
-use chromascope_core::camera::White;
 use chromascope_core::spectral::{Dataset, GridSpectrum, Primaries, Quantity, Sensor};
 use chromascope_core::units::Kelvin;
 use proptest::prelude::ProptestConfig;

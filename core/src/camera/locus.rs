@@ -24,7 +24,7 @@ pub enum LocusMethod {
     Nodes {
         /// The nodes of the largest channel.
         count: usize,
-        /// The largest error seen in the checks, relative to the largest channel's unsigned integral.
+        /// The largest error seen in the checks, relative to the largest of the three signals.
         error: f64,
     },
     /// The 1 nm sum itself.
@@ -56,7 +56,7 @@ pub struct LocusEvaluator<'a> {
 }
 
 impl<'a> LocusEvaluator<'a> {
-    /// The error aimed at, relative to the largest channel's unsigned integral.
+    /// The error aimed at, relative to the largest of the three signals.
     pub const TARGET: f64 = 1e-13;
 
     /// Makes the rules for a sensor and checks them. Costs about 0.3 ms.
@@ -153,7 +153,7 @@ impl<'a> LocusEvaluator<'a> {
         Channel { exponents: nodes.iter().map(|nm| c2 / nm).collect(), weights }
     }
 
-    /// The largest error of candidate rules against the sum, relative to the unsigned sum of the largest channel.
+    /// The largest error of candidate rules against the sum, relative to the largest of the three signals.
     fn check(&self, channels: &[Channel; 3]) -> f64 {
         let mut worst = 0.0_f64;
         for kelvin in CHECKS_K {

@@ -109,7 +109,11 @@ fn white_integral(sensor: &Sensor, light: &GridSpectrum, channel: usize) -> Resu
     let unsigned: f64 = weighted.iter().zip(light.values()).map(|(c, l)| (c * l).abs()).sum();
     // Written so that an unsigned integral of zero is refused too.
     let share = (integral / unsigned).abs();
-    if share >= BLIND && unsigned.is_normal() { Ok((integral, share)) } else { Err(NoRendering::BlindToLight { channel }) }
+    if share >= BLIND && unsigned.is_normal() {
+        Ok((integral, share))
+    } else {
+        Err(NoRendering::BlindToLight { channel })
+    }
 }
 
 /// The same for the three channels, with the smallest share.
@@ -170,8 +174,8 @@ fn fitted(
     if reference.primaries() != Primaries::Xyz {
         return Err(NoRendering::Reference);
     }
-    let target = direct(reference, light)?;
     let (integrals, conditioning) = white_integrals(sensor, light)?;
+    let target = direct(reference, light)?;
     let of_sensor = under_light(sensor, light);
     let of_reference = under_light(reference, light);
     let (mut samples, mut targets) = (Vec::new(), Vec::new());

@@ -17,7 +17,7 @@ pub fn delta_e_1976(a: Lab, b: Lab) -> f64 {
 /// their side, and achromatic colors have hue 0. Symmetric; zero only for equal colors.
 pub fn delta_e_2000(first: Lab, second: Lab) -> f64 {
     let (first, second) = (bounded(first), bounded(second));
-    let chroma = (first.a.hypot(first.b) + second.a.hypot(second.b)) / 2.0;
+    let chroma = f64::midpoint(first.a.hypot(first.b), second.a.hypot(second.b));
     let g = 0.5 * (1.0 - seventh_power_share(chroma).sqrt());
     let [(c1, h1), (c2, h2)] = [first, second].map(|lab| {
         let a = (1.0 + g) * lab.a;
@@ -28,8 +28,8 @@ pub fn delta_e_2000(first: Lab, second: Lab) -> f64 {
     let dh_degrees = hue_difference(c1, h1, c2, h2);
     let dh = 2.0 * (c1 * c2).sqrt() * (dh_degrees / 2.0).to_radians().sin();
 
-    let l = (first.l + second.l) / 2.0;
-    let c = (c1 + c2) / 2.0;
+    let l = f64::midpoint(first.l, second.l);
+    let c = f64::midpoint(c1, c2);
     let h = mean_hue(c1, h1, c2, h2);
     let t = 1.0 - 0.17 * cos_degrees(h - 30.0) + 0.24 * cos_degrees(2.0 * h) + 0.32 * cos_degrees(3.0 * h + 6.0)
         - 0.20 * cos_degrees(4.0 * h - 63.0);
@@ -82,7 +82,7 @@ fn mean_hue(c1: f64, h1: f64, c2: f64, h2: f64) -> f64 {
     } else if (h1 - h2).abs() <= 180.0 {
         sum / 2.0
     } else if sum < 360.0 {
-        (sum + 360.0) / 2.0
+        f64::midpoint(sum, 360.0)
     } else {
         (sum - 360.0) / 2.0
     }

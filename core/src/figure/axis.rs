@@ -160,8 +160,8 @@ pub fn auto_ticks(range: [f64; 2], length: f64) -> Vec<Tick> {
     let [start, end] = proper(range);
     let (low, high) = (start.min(end), start.max(end));
     let length = if length.is_finite() { length.max(1.0) } else { 1.0 };
-    // Below this the doubles between low and high are too few to count in.
-    let finest = (low.abs().max(high.abs()) * 1e-14).max(f64::MIN_POSITIVE * 1e16);
+    // Below this labels have more digits than anyone reads, and doubles soon too few.
+    let finest = (low.abs().max(high.abs()) * 1e-10).max(f64::MIN_POSITIVE * 1e16);
     let mut step = Step::at_least(((high - low) * MIN_LABEL_SPACING / length).max(finest));
     let mut values = step.multiples(low, high);
     for _ in 0..60 {

@@ -29,7 +29,7 @@ pub fn gauss_rule(points: &[f64], masses: &[f64], count: usize) -> Rule {
     // A rule on [-1, 1]: the recurrence is better scaled than in nanometers.
     let low = support.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
     let high = support.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
-    let (center, half) = ((low + high) / 2.0, (high - low) / 2.0);
+    let (center, half) = (f64::midpoint(low, high), (high - low) / 2.0);
     let x: Vec<f64> = support.iter().map(|p| (p.0 - center) / half).collect();
     let start: Vec<f64> = support.iter().map(|p| (p.1 / total).sqrt()).collect();
     let (mut diagonal, mut off) = lanczos(&x, &start, count);
@@ -88,7 +88,9 @@ fn lanczos(x: &[f64], start: &[f64], count: usize) -> (Vec<f64>, Vec<f64>) {
             break;
         }
         off.push(norm);
-        next.iter_mut().for_each(|value| *value /= norm);
+        for value in &mut next {
+            *value /= norm;
+        }
         basis.push(next);
     }
     (diagonal, off)

@@ -52,11 +52,12 @@ pub fn matrix_keeping(samples: &[DVec3], targets: &[DVec3], white: DVec3, image:
 /// Scales a column to unit length and returns the length it had.
 fn normalize(column: &mut [f64], scale: f64) -> Result<f64, FitError> {
     let norm = column.iter().map(|v| v * v).sum::<f64>().sqrt();
-    // Written so that NaN is refused too.
-    if !(norm > 1e-10 * scale) {
+    if norm.is_nan() || norm <= 1e-10 * scale {
         return Err(FitError::Dependent);
     }
-    column.iter_mut().for_each(|v| *v /= norm);
+    for value in column.iter_mut() {
+        *value /= norm;
+    }
     Ok(norm)
 }
 

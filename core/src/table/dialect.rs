@@ -90,10 +90,14 @@ impl Dialect {
     }
 
     fn number(self, cell: &str) -> Option<f64> {
-        match self.mark {
+        let mark = match self.mark {
+            DecimalMark::Point => b'.',
+            DecimalMark::Comma => b',',
+        };
+        parse_plain(cell.as_bytes(), mark).or_else(|| match self.mark {
             DecimalMark::Point => cell.parse().ok(),
             DecimalMark::Comma => parse_decimal_comma(cell),
-        }
+        })
     }
 
     #[cold]
@@ -125,6 +129,35 @@ impl Dialect {
             DecimalMark::Comma => ',',
         })
     }
+}
+
+/// Numbers as most are, digits with at most one mark among them, several times faster than the general way. Exact: a
+/// whole number below 2^53 divided by a power of ten below 10^22 is rounded once (W. D. Clinger 1990).
+fn parse_plain(cell: &[u8], mark: u8) -> Option<f64> {
+    const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+    let (negative, digits) = match cell {
+        [b'-', rest @ ..] => (true, rest),
+        rest => (false, rest),
+    };
+    // One mark and at most 15 digits, so that the whole number stays below 2^53.
+    if digits.len() > POWERS.len() || !digits.last()?.is_ascii_digit() {
+        return None;
+    }
+    let (mut whole, mut fraction) = (0_u64, None);
+    for (index, &byte) in digits.iter().enumerate() {
+        if byte.is_ascii_digit() {
+            whole = whole * 10 + u64::from(byte - b'0');
+        } else if byte == mark && fraction.is_none() {
+            fraction = Some(digits.len() - 1 - index);
+        } else {
+            return None;
+        }
+    }
+    if fraction.is_none() && digits.len() == POWERS.len() {
+        return None;
+    }
+    let value = whole as f64 / POWERS[fraction.unwrap_or(0)];
+    Some(if negative { -value } else { value })
 }
 
 fn parse_decimal_comma(cell: &str) -> Option<f64> {

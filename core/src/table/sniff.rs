@@ -39,6 +39,9 @@ const SAMPLE_ROWS: usize = 8;
 const SAMPLE_BYTES: usize = 1 << 20;
 const SAMPLE_ROWS_LONG: usize = 3;
 
+/// What stands above the numbers must end before this many bytes, so that hostile text is given up soon.
+const LONGEST_HEADER: usize = 4 << 20;
+
 /// All ways to split a line; where several fit equally, the first is taken.
 const CANDIDATES: [(Delimiter, DecimalMark); 9] = [
     (Delimiter::Semicolon, DecimalMark::Point),
@@ -84,7 +87,12 @@ fn try_all(text: &str, options: &ReadOptions) -> Vec<Trial> {
         lines += 1;
         bytes += line.len();
         let rows = trials.iter().map(|trial| trial.rows(options.orientation)).max().unwrap_or(0);
-        if (lines >= SAMPLE_LINES && rows >= SAMPLE_ROWS) || (bytes >= SAMPLE_BYTES && rows >= SAMPLE_ROWS_LONG) {
+        let enough = match rows {
+            SAMPLE_ROWS.. => lines >= SAMPLE_LINES || bytes >= SAMPLE_BYTES,
+            SAMPLE_ROWS_LONG.. => bytes >= SAMPLE_BYTES,
+            _ => bytes >= LONGEST_HEADER,
+        };
+        if enough {
             break;
         }
     }

@@ -100,7 +100,7 @@ impl Shape {
 
     /// Whether the line is a row of numbers.
     pub(super) fn is_row(&self) -> bool {
-        !self.text && self.numbers > 0 && self.filled > 1
+        !self.text && self.numbers > 0 && self.cells > 1
     }
 
     /// Whether two rows can stand in one table.

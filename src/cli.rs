@@ -1,0 +1,114 @@
+//! The same answers without a window: `locus`, `patches`, `list`.
+//!
+//! Arguments become a [`Document`](crate::document::Document) and are answered through [`Scene`](crate::scene::Scene), as in the
+//! window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
+
+mod arguments;
+mod request;
+mod tables;
+
+use std::ffi::OsString;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use clap::{CommandFactory as _, FromArgMatches as _};
+
+use arguments::{Arguments, Subcommand};
+
+/// What the command line asks for.
+pub enum Outcome {
+    /// A window with these files.
+    Window(Vec<PathBuf>),
+    /// It is done; end with this code.
+    Done(u8),
+}
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// A name means no set.
+    #[error(transparent)]
+    Name(#[from] crate::catalog::names::NameError),
+    /// A file could not be read.
+    #[error("{}", .0)]
+    File(String),
+    /// The scene cannot be computed.
+    #[error(transparent)]
+    Scene(#[from] crate::scene::SceneError),
+    /// An argument that means nothing.
+    #[error("{argument}: {reason}")]
+    Argument {
+        /// Which.
+        argument: &'static str,
+        /// Why, with what would do.
+        reason: String,
+    },
+    /// The output could not be written.
+    #[error("cannot write {}: {error}", path.display())]
+    Output {
+        /// Where.
+        path: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+}
+
+/// Reads the arguments; runs a command if they name one.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
+    let matches = match Arguments::command().try_get_matches_from(arguments) {
+        Ok(matches) => matches,
+        Err(error) => return Outcome::Done(explain(&error)),
+    };
+    let parsed = match Arguments::from_arg_matches(&matches) {
+        Ok(parsed) => parsed,
+        Err(error) => return Outcome::Done(explain(&error)),
+    };
+    let (Some(subcommand), Some((_, matches))) = (parsed.subcommand, matches.subcommand()) else {
+        return Outcome::Window(parsed.files);
+    };
+    let result = match subcommand {
+        Subcommand::Locus(arguments) => {
+            tables::locus(&arguments, matches).and_then(|text| put(&text, arguments.common.out.as_deref()))
+        }
+        Subcommand::Patches(arguments) => {
+            tables::patches(&arguments, matches).and_then(|text| put(&text, arguments.common.out.as_deref()))
+        }
+        Subcommand::List { kind } => put(&tables::list(kind), None),
+    };
+    Outcome::Done(match result {
+        Ok(()) => 0,
+        Err(error) => {
+            say(&format!("chromascope: {error}\n"));
+            1
+        }
+    })
+}
+
+/// Prints help, the version or a complaint about the arguments where it belongs.
+fn explain(error: &clap::Error) -> u8 {
+    // Nothing can be said when the terminal is gone.
+    let _gone = error.print();
+    u8::try_from(error.exit_code()).unwrap_or(2)
+}
+
+/// Says something on standard error.
+pub fn say(text: &str) {
+    let _gone = io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// Writes a table to a file, whole or not at all, or to standard output.
+fn put(text: &str, out: Option<&Path>) -> Result<(), CliError> {
+    match out.filter(|path| *path != Path::new("-")) {
+        Some(path) => crate::files::write_atomically(path, text.as_bytes())
+            .map_err(|error| CliError::Output { path: path.to_owned(), error }),
+        None => {
+            let mut stdout = io::stdout().lock();
+            match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+                // Whoever read it has seen enough, as `head` does.
+                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+                Err(error) => Err(CliError::Output { path: PathBuf::from("standard output"), error }),
+                Ok(()) => Ok(()),
+            }
+        }
+    }
+}

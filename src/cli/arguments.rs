@@ -1,0 +1,121 @@
+//! What can be said on the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, ValueEnum};
+
+/// See, measure and explain how digital cameras render color, from spectra.
+///
+/// Without a command, opens the window with the given files.
+#[derive(Debug, Parser)]
+#[command(name = "chromascope", version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
+pub struct Arguments {
+    /// Spectra or camera sensitivities to open in the window: CSV, TSV or text
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// What to compute without a window
+    #[command(subcommand)]
+    pub subcommand: Option<Subcommand>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  chromascope leaf.csv
+  chromascope locus --camera \"Nikon D70\" --observer \"CIE 1931 2°\" --temperatures 2856,5500,6504
+  chromascope patches --camera \"Canon EOS 10D\" --illuminant D55 --transform observer --out patches.csv
+  chromascope list cameras
+
+Names are those of `chromascope list`, case and punctuation aside; a part will do where only one name has it.";
+
+/// What can be computed without a window.
+#[derive(Debug, clap::Subcommand)]
+pub enum Subcommand {
+    /// Planckian loci as CSV: source,temperature_k,x,y,u_prime,v_prime
+    Locus(LocusArguments),
+    /// Chart patches as CSV: source,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y
+    Patches(PatchesArguments),
+    /// The names of the built-in data sets, one a line
+    List {
+        /// Which; all if left out
+        kind: Option<ListKind>,
+    },
+}
+
+/// What both tables take.
+#[derive(Debug, Args)]
+pub struct CommonArguments {
+    /// An observer; may be repeated. Without any source, those of the first screen
+    #[arg(long, value_name = "NAME")]
+    pub observer: Vec<String>,
+    /// A camera, or a file with three sensitivities; may be repeated
+    #[arg(long, value_name = "NAME|FILE")]
+    pub camera: Vec<String>,
+    /// The way to the diagram: Eq 13 for cameras and RGB observers, or a matrix fitted to an observer
+    #[arg(long, value_enum, default_value_t = Transform::Paper)]
+    pub transform: Transform,
+    /// The observer fitted to, with `--transform observer` [default: CIE 1931 2°]
+    #[arg(long, value_name = "OBSERVER")]
+    pub reference: Option<String>,
+    /// The light: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: E]
+    #[arg(long, value_name = "NAME|FILE")]
+    pub illuminant: Option<String>,
+    /// Where to write; `-` or nothing for standard output
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+/// What `locus` takes.
+#[derive(Debug, Args)]
+pub struct LocusArguments {
+    #[command(flatten)]
+    pub common: CommonArguments,
+    /// The first temperature in kelvins [default: 1000]
+    #[arg(long, value_name = "K", conflicts_with = "temperatures")]
+    pub from: Option<f64>,
+    /// The last temperature in kelvins [default: 20000]
+    #[arg(long, value_name = "K", conflicts_with = "temperatures")]
+    pub to: Option<f64>,
+    /// How many temperatures, evenly in 1/T [default: 200]
+    #[arg(long, value_name = "N", conflicts_with = "temperatures", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pub count: Option<u32>,
+    /// These temperatures in kelvins, in this order
+    #[arg(long, value_name = "a,b,c", value_delimiter = ',')]
+    pub temperatures: Vec<f64>,
+}
+
+/// What `patches` takes.
+#[derive(Debug, Args)]
+pub struct PatchesArguments {
+    #[command(flatten)]
+    pub common: CommonArguments,
+    /// A chart, a material, or a file with reflectances [default: ColorChecker 24 (Ohta 1997)]
+    #[arg(long, value_name = "NAME|FILE")]
+    pub chart: Option<String>,
+    /// The color a perfect white is to take: `unity`, a light's name, `daylight:K` or `blackbody:K`
+    #[arg(long, value_name = "WHITE", default_value = "unity")]
+    pub white: String,
+}
+
+/// The way to the diagram.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Transform {
+    /// Eq 13
+    Paper,
+    /// A matrix fitted to an observer
+    Observer,
+}
+
+/// A kind of data sets to list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ListKind {
+    /// Camera sensitivities
+    Cameras,
+    /// Color matching functions
+    Observers,
+    /// Sets of patches
+    Charts,
+    /// Lights
+    Illuminants,
+    /// Single reflectances
+    Materials,
+}

@@ -1,0 +1,176 @@
+//! From arguments to a document: names and files become what is compared, under what.
+
+use std::fs;
+use std::path::Path;
+
+use chromascope_core::query::Shared;
+use chromascope_core::units::Kelvin;
+use clap::ArgMatches;
+
+use super::CliError;
+use super::arguments::{CommonArguments, Transform};
+use crate::catalog::import::import;
+use crate::catalog::names::find;
+use crate::catalog::{Catalog, Entry, Kind};
+use crate::document::own::{OwnRole, OwnSet};
+use crate::document::{Document, FIRST_SOURCES, Light, REFERENCE, Subset, WayChoice, WhiteChoice};
+
+/// The name of the paper's five patches as a chart of their own.
+pub const FIVE: &str = "ColorChecker five";
+
+/// A document made of arguments, and the sources in the order they were named.
+pub struct Request {
+    /// What is compared, under what.
+    pub document: Document,
+    /// The built-in sets.
+    pub catalog: Catalog,
+    /// The sources asked for.
+    pub sources: Vec<(Kind, String)>,
+}
+
+impl Request {
+    /// From what both tables take. `matches` knows in which order sources were named.
+    pub fn new(arguments: &CommonArguments, matches: &ArgMatches) -> Result<Self, CliError> {
+        let document = Document { compared: Vec::new(), ..Document::default() };
+        let mut request = Self { document, catalog: Catalog::built_in(), sources: Vec::new() };
+        request.sources = request.named_sources(arguments, matches)?;
+        if request.sources.is_empty() {
+            request.sources = FIRST_SOURCES.map(|(name, kind)| (kind, name.to_owned())).to_vec();
+        }
+        request.set_way(arguments)?;
+        if let Some(illuminant) = &arguments.illuminant {
+            request.set_light(illuminant)?;
+        }
+        Ok(request)
+    }
+
+    fn named_sources(&mut self, arguments: &CommonArguments, matches: &ArgMatches) -> Result<Vec<(Kind, String)>, CliError> {
+        let places = |id: &str| matches.indices_of(id).into_iter().flatten().collect::<Vec<usize>>();
+        let observers = places("observer").into_iter().zip(&arguments.observer).map(|(at, name)| (at, Kind::Observer, name));
+        let cameras = places("camera").into_iter().zip(&arguments.camera).map(|(at, name)| (at, Kind::Camera, name));
+        let mut named: Vec<_> = observers.chain(cameras).collect();
+        named.sort_by_key(|(at, ..)| *at);
+        named
+            .into_iter()
+            .map(|(_, kind, name)| {
+                let found = if kind == Kind::Camera && is_file(name) {
+                    self.open(name, OwnRole::Camera)?.name.clone()
+                } else {
+                    self.name(&[kind], name)?
+                };
+                Ok((kind, found))
+            })
+            .collect()
+    }
+
+    fn set_way(&mut self, arguments: &CommonArguments) -> Result<(), CliError> {
+        self.document.way = match (arguments.transform, &arguments.reference) {
+            (Transform::Paper, None) => WayChoice::Paper,
+            (Transform::Paper, Some(_)) => {
+                let reason = "only a fit has a reference; add --transform observer".to_owned();
+                return Err(CliError::Argument { argument: "--reference", reason });
+            }
+            (Transform::Observer, None) => WayChoice::Observer(REFERENCE.to_owned()),
+            (Transform::Observer, Some(name)) => WayChoice::Observer(self.name(&[Kind::Observer], name)?),
+        };
+        Ok(())
+    }
+
+    fn set_light(&mut self, illuminant: &str) -> Result<(), CliError> {
+        if let Some((light, kelvin)) = radiator("--illuminant", illuminant)? {
+            self.document.light = if light == Radiator::Daylight { Light::Daylight } else { Light::BlackBody };
+            self.document.temperature_k = kelvin;
+            return Ok(());
+        }
+        let name = if is_file(illuminant) {
+            let set = self.open(illuminant, OwnRole::Illuminant)?;
+            if set.curves.len() != 1 {
+                let reason = format!("{illuminant} holds {} curves, but a light is one; keep the one meant", set.curves.len());
+                return Err(CliError::Argument { argument: "--illuminant", reason });
+            }
+            set.name.clone()
+        } else {
+            self.name(&[Kind::Illuminant], illuminant)?
+        };
+        self.document.light = Light::Set(name);
+        Ok(())
+    }
+
+    /// Chooses the patches.
+    pub fn set_chart(&mut self, chart: Option<&str>) -> Result<(), CliError> {
+        self.document.subset = Subset::All;
+        let Some(chart) = chart else { return Ok(()) };
+        if crate::catalog::names::folded(chart) == crate::catalog::names::folded(FIVE) {
+            self.document.subset = Subset::Five;
+        } else if is_file(chart) {
+            self.document.chart = self.open(chart, OwnRole::Reflectance)?.name.clone();
+        } else {
+            self.document.chart = self.name(&[Kind::Chart, Kind::Material], chart)?;
+        }
+        Ok(())
+    }
+
+    /// Chooses the white.
+    pub fn set_white(&mut self, white: &str) -> Result<(), CliError> {
+        self.document.white = match radiator("--white", white)? {
+            Some((Radiator::Daylight, kelvin)) => WhiteChoice::Daylight(kelvin),
+            Some((Radiator::BlackBody, kelvin)) => WhiteChoice::BlackBody(kelvin),
+            None if white.eq_ignore_ascii_case("unity") => WhiteChoice::Unity,
+            None => WhiteChoice::Light(self.name(&[Kind::Illuminant], white)?),
+        };
+        Ok(())
+    }
+
+    /// The catalog's name for what was typed.
+    fn name(&self, kinds: &[Kind], typed: &str) -> Result<String, CliError> {
+        let entries = kinds.iter().flat_map(|kind| self.catalog.of_kind(*kind));
+        let singular = kinds.first().map_or("set", |kind| kind.singular());
+        Ok(find(entries, singular, typed)?.name.clone())
+    }
+
+    /// Reads a file as a set of the document's own, under a name that no other set has.
+    fn open(&mut self, path: &str, role: OwnRole) -> Result<Shared<OwnSet>, CliError> {
+        let bytes = fs::read(path).map_err(|error| CliError::File(format!("{path}: {error}")))?;
+        let imported = import(path, &bytes, Some(role)).map_err(|error| CliError::File(format!("{path}: {error}")))?;
+        let mut set = imported.set;
+        let kind = Entry::from_own(&Shared::new(set.clone())).kind;
+        let taken = |name: &str| self.catalog.get(kind, name).is_some() || self.document.own.iter().any(|own| own.name == name);
+        if taken(&set.name) {
+            set.name = format!("{} ({path})", set.name);
+        }
+        let set = Shared::new(set);
+        self.document.own.push(set.clone());
+        Ok(set)
+    }
+}
+
+/// A light that is a formula of temperature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Radiator {
+    Daylight,
+    BlackBody,
+}
+
+/// `daylight:K` and `blackbody:K`.
+fn radiator(argument: &'static str, text: &str) -> Result<Option<(Radiator, f64)>, CliError> {
+    let Some((name, kelvin)) = text.split_once(':') else { return Ok(None) };
+    let radiator = match name.trim().to_ascii_lowercase().as_str() {
+        "daylight" => Radiator::Daylight,
+        "blackbody" | "black-body" => Radiator::BlackBody,
+        _ => return Ok(None),
+    };
+    let number = kelvin.trim().trim_end_matches(['K', 'k']).trim();
+    match number.parse::<f64>().ok().and_then(|kelvin| Kelvin::new(kelvin).ok()) {
+        Some(kelvin) => Ok(Some((radiator, kelvin.get()))),
+        None => Err(CliError::Argument { argument, reason: format!("\"{kelvin}\" is no temperature; write {name}:5500") }),
+    }
+}
+
+/// Whether an argument means a file and not a name.
+fn is_file(argument: &str) -> bool {
+    let path = Path::new(argument);
+    let ends_as_file = path.extension().is_some_and(|ending| {
+        ["csv", "txt", "tsv", "dat"].iter().any(|known| ending.eq_ignore_ascii_case(known))
+    });
+    path.is_file() || ends_as_file || argument.contains(['/', '\\'])
+}
