@@ -4,7 +4,9 @@ use chromascope_core::query::Shared;
 
 use crate::catalog::{Entry, Kind};
 use crate::document::own::OwnSet;
-use crate::document::{Diagram, DifferenceChoice, Document, LOCUS_RANGE_K, Light, Overlays, Subset, WayChoice, WhiteChoice};
+use crate::document::{
+    Diagram, DifferenceChoice, Document, LOCUS_RANGE_K, Light, Overlays, Subset, WayChoice, WhiteChoice,
+};
 
 /// A change of the document.
 #[derive(Clone, Debug, PartialEq)]
@@ -229,13 +231,14 @@ impl OwnAction {
 
 /// A name that no other own set has.
 fn free_name(document: &Document, wanted: &str, except: Option<usize>) -> String {
-    let taken = |name: &str| {
-        document.own.iter().enumerate().any(|(index, set)| Some(index) != except && set.name == name)
-    };
+    let taken =
+        |name: &str| document.own.iter().enumerate().any(|(index, set)| Some(index) != except && set.name == name);
     if !taken(wanted) {
         return wanted.to_owned();
     }
-    (2..).map(|n| format!("{wanted} ({n})")).find(|name| !taken(name)).unwrap_or_else(|| wanted.to_owned())
+    // Among one more names than there are sets, one is free.
+    let numbers = 2..=document.own.len() + 2;
+    numbers.map(|n| format!("{wanted} ({n})")).find(|name| !taken(name)).unwrap_or_else(|| wanted.to_owned())
 }
 
 /// Shows what was just opened: a camera in the list, a chart as the patches, a light as the light.

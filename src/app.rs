@@ -98,7 +98,9 @@ impl ChromascopeApp {
         for event in events {
             match event {
                 Event::Paste(text) if !typing => self.commands.push(Command::Paste(text)),
-                Event::Copy if !typing && !self.something_is_marked(ctx) => self.commands.push(Command::CopyNumbers(focused)),
+                Event::Copy if !typing && !self.something_is_marked(ctx) => {
+                    self.commands.push(Command::CopyNumbers(focused))
+                }
                 _ => {}
             }
         }
@@ -122,7 +124,13 @@ impl ChromascopeApp {
         let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
             let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
             let frame = Frame::NONE.fill(theme.panel);
-            panel.exact_size(height).resizable(false).frame(frame).show_separator_line(true).show(ui, |ui| ui.max_rect()).inner
+            panel
+                .exact_size(height)
+                .resizable(false)
+                .frame(frame)
+                .show_separator_line(true)
+                .show(ui, |ui| ui.max_rect())
+                .inner
         };
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", 48.0, true);
@@ -146,7 +154,8 @@ impl ChromascopeApp {
             drag_border(ui, splitter, rect, area, &mut context);
         }
         if let Some((pane, rect)) = arrangement.over {
-            let layer = egui::Area::new(egui::Id::unique("inspector over")).fixed_pos(rect.min).order(egui::Order::Foreground);
+            let layer =
+                egui::Area::new(egui::Id::unique("inspector over")).fixed_pos(rect.min).order(egui::Order::Foreground);
             layer.show(ui.ctx(), |ui| {
                 ui.set_min_size(rect.size());
                 panes::show(ui, pane, rect, &mut context);
@@ -165,7 +174,10 @@ fn drag_border(ui: &mut Ui, splitter: Splitter, rect: Rect, area: Rect, context:
     let upright = rect.height() > rect.width();
     let response = ui.interact(rect.expand(2.0), ui.scope_id().with(("border", splitter)), Sense::click_and_drag());
     let middle = rect.center();
-    let stroke = egui::Stroke::new(1.0, if response.hovered() || response.dragged() { context.theme.weak } else { context.theme.line });
+    let stroke = egui::Stroke::new(
+        1.0,
+        if response.hovered() || response.dragged() { context.theme.weak } else { context.theme.line },
+    );
     if upright {
         ui.painter().vline(middle.x.round() + 0.5, rect.y_range(), stroke);
     } else {

@@ -104,7 +104,14 @@ impl Entry {
             OwnRole::Illuminant => Kind::Illuminant,
         };
         let name = set.name.clone();
-        Self { kind, short: name.clone(), name, also: Some("yours".to_owned()), place: Place::Own(set.clone()), header: None }
+        Self {
+            kind,
+            short: name.clone(),
+            name,
+            also: Some("yours".to_owned()),
+            place: Place::Own(set.clone()),
+            header: None,
+        }
     }
 }
 

@@ -98,17 +98,15 @@ pub fn say(text: &str) {
 
 /// Writes a table to a file, whole or not at all, or to standard output.
 fn put(text: &str, out: Option<&Path>) -> Result<(), CliError> {
-    match out.filter(|path| *path != Path::new("-")) {
-        Some(path) => crate::files::write_atomically(path, text.as_bytes())
-            .map_err(|error| CliError::Output { path: path.to_owned(), error }),
-        None => {
-            let mut stdout = io::stdout().lock();
-            match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-                // Whoever read it has seen enough, as `head` does.
-                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-                Err(error) => Err(CliError::Output { path: PathBuf::from("standard output"), error }),
-                Ok(()) => Ok(()),
-            }
-        }
+    if let Some(path) = out.filter(|path| *path != Path::new("-")) {
+        let failed = |error| CliError::Output { path: path.to_owned(), error };
+        return crate::files::write_atomically(path, text.as_bytes()).map_err(failed);
+    }
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        // Whoever read it has seen enough, as `head` does.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => Err(CliError::Output { path: PathBuf::from("standard output"), error }),
+        Ok(()) => Ok(()),
     }
 }

@@ -8,8 +8,8 @@ pub mod own;
 pub mod session;
 
 use crate::catalog::Kind;
-use own::OwnSet;
 use chromascope_core::query::{Metric, Shared};
+use own::OwnSet;
 use serde::{Deserialize, Serialize};
 
 /// The version of the saved form that this program writes.

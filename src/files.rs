@@ -107,10 +107,7 @@ impl Files {
             .set_title("Open spectra or camera sensitivities")
             .add_filter("Text and CSV", &ENDINGS)
             .add_filter("All files", &["*"]);
-        self.in_dialog(move || match dialog.pick_files() {
-            Some(paths) => Some(Note::ToOpen(paths)),
-            None => None,
-        }, None);
+        self.in_dialog(move || dialog.pick_files().map(Note::ToOpen), None);
     }
 
     /// Asks where to save.
@@ -260,7 +257,9 @@ fn read_files(paths: Vec<PathBuf>) -> FileEvent {
             Err(message) => failures.push(message),
         }
     }
-    failures.iter().for_each(|failure| log::warn!("{failure}"));
+    for failure in &failures {
+        log::warn!("{failure}");
+    }
     if sets.is_empty() {
         return FileEvent::Failed(failures.join("  "));
     }
@@ -281,7 +280,10 @@ pub fn read_file(path: &Path) -> Result<Imported, String> {
     let size = fs::metadata(path).map_err(failed)?.len();
     if size > MAX_BYTES as u64 {
         let limit = MAX_BYTES / 1_000_000;
-        return Err(format!("{name}: {} MB, but the limit is {limit} MB; split it. Nothing was changed.", size / 1_000_000));
+        return Err(format!(
+            "{name}: {} MB, but the limit is {limit} MB; split it. Nothing was changed.",
+            size / 1_000_000
+        ));
     }
     let bytes = fs::read(path).map_err(failed)?;
     import(&name, &bytes, None).map_err(|error| unread(&name, &error))

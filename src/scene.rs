@@ -10,8 +10,8 @@ use chromascope_core::figure::{InkRole, Marker};
 use chromascope_core::light::{DaylightError, RadiationConstants, daylight};
 use chromascope_core::object::{PAPER_FIVE, PatchSet};
 use chromascope_core::query::{
-    Ask, Locus, LocusOf, MonochromaticOf, NoDifference, PatchColor, PatchColorsOf, RenderingOf, Shared, SpectralLocusOf,
-    Temperatures, WayOf, compare,
+    Ask, Locus, LocusOf, MonochromaticOf, NoDifference, PatchColor, PatchColorsOf, RenderingOf, Shared,
+    SpectralLocusOf, Temperatures, WayOf, compare,
 };
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::{Kelvin, NotPositive};
@@ -160,7 +160,8 @@ impl<'a> Scene<'a> {
     /// Whether the chart has the paper's five patches and more.
     pub fn has_five(&self) -> bool {
         self.chart_entry(&self.document.chart).ok().and_then(|entry| entry.header).is_some_and(|header| {
-            header.columns.len() > PAPER_FIVE.len() && PAPER_FIVE.iter().all(|name| header.columns.iter().any(|c| c == name))
+            header.columns.len() > PAPER_FIVE.len()
+                && PAPER_FIVE.iter().all(|name| header.columns.iter().any(|c| c == name))
         })
     }
 

@@ -71,7 +71,6 @@ impl Thing {
         let same_source = |a: Option<&SourceId>, b: Option<&SourceId>| a.is_none() || b.is_none() || a == b;
         match (self, drawn) {
             (Self::Light, Self::Light) => Standing::Same,
-            (Self::Light, _) | (_, Self::Light) => Standing::Apart,
             (Self::Patch { source: a, patch: p }, Self::Patch { source: b, patch: q }) if p == q => {
                 if same_source(a.as_ref(), b.as_ref()) {
                     Standing::Same
@@ -81,8 +80,9 @@ impl Thing {
                     Standing::Apart
                 }
             }
-            (Self::Patch { .. }, Self::Patch { .. }) => Standing::Apart,
-            (Self::Patch { source: None, .. }, _) | (_, Self::Patch { source: None, .. }) => Standing::Apart,
+            (Self::Light | Self::Patch { source: None, .. }, _)
+            | (_, Self::Light | Self::Patch { source: None, .. })
+            | (Self::Patch { .. }, Self::Patch { .. }) => Standing::Apart,
             _ if self.source() == drawn.source() => Standing::Same,
             _ if is_truth(drawn.source()) => Standing::Beside,
             _ => Standing::Apart,

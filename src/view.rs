@@ -13,6 +13,7 @@ use chromascope_core::figure::Tag;
 
 /// What is looked at and how.
 #[derive(Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "independent one-frame requests and switches")]
 pub struct View {
     /// What is kept between runs.
     pub saved: SavedView,

@@ -23,7 +23,8 @@ pub fn pane(
     switches: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
 ) -> Rect {
     ui.painter().rect_filled(rect, 0.0, context.theme.panel);
-    if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at))) {
+    if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at)))
+    {
         context.view.focused = Some(kind);
     }
     let header = Rect::from_min_size(rect.min, Vec2::new(rect.width(), HEADER)).shrink2(Vec2::new(2.0 * UNIT, UNIT));
@@ -155,7 +156,7 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
             line(at(-5.0, 5.0), at(5.0, -5.0));
             for corner in [1.0, -1.0] {
                 line(at(5.0 * corner, -5.0 * corner), at(1.0 * corner, -5.0 * corner));
-                line(at(5.0 * corner, -5.0 * corner), at(5.0 * corner, -1.0 * corner));
+                line(at(5.0 * corner, -5.0 * corner), at(5.0 * corner, -corner));
             }
         }
         Icon::Close => {

@@ -231,7 +231,8 @@ fn stack(made: &mut Arrangement, area: Rect, panes: [Option<PaneKind>; 2], lower
             let height = (area.height() * lower_share.clamp(0.15, 0.85)).round();
             let cut = area.bottom() - height;
             made.panes.push((upper, Rect::from_min_max(area.min, Pos2::new(area.right(), cut - GAP))));
-            made.splitters.push((splitter, Rect::from_min_max(Pos2::new(area.left(), cut - GAP), Pos2::new(area.right(), cut))));
+            made.splitters
+                .push((splitter, Rect::from_min_max(Pos2::new(area.left(), cut - GAP), Pos2::new(area.right(), cut))));
             made.panes.push((lower, Rect::from_min_max(Pos2::new(area.left(), cut), area.max)));
         }
         [Some(one), None] | [None, Some(one)] => made.panes.push((one, area)),

@@ -9,4 +9,4 @@ pub mod tristimulus;
 
 pub use difference::{delta_e_1976, delta_e_2000};
 pub use lab::Lab;
-pub use tristimulus::{UvPrime, Uv60, Xy, Xyz};
+pub use tristimulus::{Uv60, UvPrime, Xy, Xyz};

@@ -160,7 +160,8 @@ impl ChromascopeApp {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let figure = panes::figure(pane, &scene, &self.view);
         if figure.is_none() {
-            self.view.fail(format!("{} has no figure to export; choose Chromaticity, Swatches or Spectra.", pane.title()));
+            self.view
+                .fail(format!("{} has no figure to export; choose Chromaticity, Swatches or Spectra.", pane.title()));
         }
         figure
     }

@@ -11,7 +11,7 @@ use crate::files::Files;
 use crate::view::SavedView;
 
 /// The program's name in the system: folders, window class.
-pub const APP_ID: &str = "chromascope";
+const APP_ID: &str = "chromascope";
 
 /// Why the window did not open.
 #[derive(Debug, thiserror::Error)]

@@ -47,7 +47,8 @@ fn summary(table: &Table) -> String {
 
 fn own_set(file: &str, table: Table) -> OwnSet {
     let name = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty()).map(str::to_owned);
-    let stem = || Path::new(file).file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned());
+    let stem =
+        || Path::new(file).file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned());
     let unit = match table.reading.wavelength_unit.value {
         WavelengthUnit::Nanometer => OwnUnit::Nanometers,
         WavelengthUnit::Micrometer => OwnUnit::Micrometers,

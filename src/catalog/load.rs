@@ -4,12 +4,12 @@ use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants, 
 use chromascope_core::object::PatchSet;
 use chromascope_core::query::{Ask, Query, Shared};
 use chromascope_core::spectral::{
-    Dataset, DatasetError, DistributionError, GridSpectrum, Primaries, Quantity, Sensor, SensorError, SpectralDistribution,
+    Dataset, DatasetError, DistributionError, GridSpectrum, Primaries, Quantity, Sensor, SensorError,
+    SpectralDistribution,
 };
 use chromascope_core::units::Kelvin;
 
 use super::{Place, asset_text};
-
 
 /// The daylight basis among the built-in files.
 pub const DAYLIGHT_BASIS: &str = "illuminants/cie_daylight_basis.csv";
@@ -69,7 +69,11 @@ fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribu
             let file = ask.ask(&FileOf(path));
             let file = (*file).as_ref().map_err(Clone::clone)?;
             let named = file.header.columns.iter().cloned().zip(file.curves.iter().cloned());
-            Ok(named.enumerate().filter(|(index, _)| column.is_none_or(|c| c == *index)).map(|(_, curve)| curve).collect())
+            Ok(named
+                .enumerate()
+                .filter(|(index, _)| column.is_none_or(|c| c == *index))
+                .map(|(_, curve)| curve)
+                .collect())
         }
         Place::Own(set) => Ok(set.curves_in_nm()?),
     }
@@ -187,4 +191,3 @@ impl Query for PatchesOf {
         Ok(Shared::new(PatchSet::new(named)))
     }
 }
-

@@ -59,7 +59,11 @@ pub fn matches_search(entry: &Entry, search: &str) -> bool {
 }
 
 /// The entry that a name means: the exact name (case and punctuation aside), else the only one that contains it.
-pub fn find<'a>(entries: impl Iterator<Item = &'a Entry>, kind: &'static str, name: &str) -> Result<&'a Entry, NameError> {
+pub fn find<'a>(
+    entries: impl Iterator<Item = &'a Entry>,
+    kind: &'static str,
+    name: &str,
+) -> Result<&'a Entry, NameError> {
     let entries: Vec<&Entry> = entries.collect();
     let wanted = folded(name);
     let exact = |text: &str| folded(text) == wanted;

@@ -9,13 +9,13 @@ use clap::{Args, Parser, ValueEnum};
 /// Without a command, opens the window with the given files.
 #[derive(Debug, Parser)]
 #[command(name = "chromascope", version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
-pub struct Arguments {
+pub(super) struct Arguments {
     /// Spectra or camera sensitivities to open in the window: CSV, TSV or text
     #[arg(value_name = "FILE")]
-    pub files: Vec<PathBuf>,
+    pub(super) files: Vec<PathBuf>,
     /// What to compute without a window
     #[command(subcommand)]
-    pub subcommand: Option<Subcommand>,
+    pub(super) subcommand: Option<Subcommand>,
 }
 
 const EXAMPLES: &str = "\
@@ -29,10 +29,10 @@ Names are those of `chromascope list`, case and punctuation aside; a part will d
 
 /// What can be computed without a window.
 #[derive(Debug, clap::Subcommand)]
-pub enum Subcommand {
-    /// Planckian loci as CSV: source,temperature_k,x,y,u_prime,v_prime
+pub(super) enum Subcommand {
+    /// Planckian loci as CSV: `source,temperature_k,x,y,u_prime,v_prime`
     Locus(LocusArguments),
-    /// Chart patches as CSV: source,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y
+    /// Chart patches as CSV: `source,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y`
     Patches(PatchesArguments),
     /// The names of the built-in data sets, one a line
     List {
@@ -43,62 +43,62 @@ pub enum Subcommand {
 
 /// What both tables take.
 #[derive(Debug, Args)]
-pub struct CommonArguments {
+pub(super) struct CommonArguments {
     /// An observer; may be repeated. Without any source, those of the first screen
     #[arg(long, value_name = "NAME")]
-    pub observer: Vec<String>,
+    pub(super) observer: Vec<String>,
     /// A camera, or a file with three sensitivities; may be repeated
     #[arg(long, value_name = "NAME|FILE")]
-    pub camera: Vec<String>,
+    pub(super) camera: Vec<String>,
     /// The way to the diagram: Eq 13 for cameras and RGB observers, or a matrix fitted to an observer
     #[arg(long, value_enum, default_value_t = Transform::Paper)]
-    pub transform: Transform,
+    pub(super) transform: Transform,
     /// The observer fitted to, with `--transform observer` [default: CIE 1931 2°]
     #[arg(long, value_name = "OBSERVER")]
-    pub reference: Option<String>,
+    pub(super) reference: Option<String>,
     /// The light: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: E]
     #[arg(long, value_name = "NAME|FILE")]
-    pub illuminant: Option<String>,
+    pub(super) illuminant: Option<String>,
     /// Where to write; `-` or nothing for standard output
     #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
 }
 
 /// What `locus` takes.
 #[derive(Debug, Args)]
-pub struct LocusArguments {
+pub(super) struct LocusArguments {
     #[command(flatten)]
-    pub common: CommonArguments,
+    pub(super) common: CommonArguments,
     /// The first temperature in kelvins [default: 1000]
     #[arg(long, value_name = "K", conflicts_with = "temperatures")]
-    pub from: Option<f64>,
+    pub(super) from: Option<f64>,
     /// The last temperature in kelvins [default: 20000]
     #[arg(long, value_name = "K", conflicts_with = "temperatures")]
-    pub to: Option<f64>,
+    pub(super) to: Option<f64>,
     /// How many temperatures, evenly in 1/T [default: 200]
     #[arg(long, value_name = "N", conflicts_with = "temperatures", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
-    pub count: Option<u32>,
+    pub(super) count: Option<u32>,
     /// These temperatures in kelvins, in this order
     #[arg(long, value_name = "a,b,c", value_delimiter = ',')]
-    pub temperatures: Vec<f64>,
+    pub(super) temperatures: Vec<f64>,
 }
 
 /// What `patches` takes.
 #[derive(Debug, Args)]
-pub struct PatchesArguments {
+pub(super) struct PatchesArguments {
     #[command(flatten)]
-    pub common: CommonArguments,
+    pub(super) common: CommonArguments,
     /// A chart, a material, or a file with reflectances [default: ColorChecker 24 (Ohta 1997)]
     #[arg(long, value_name = "NAME|FILE")]
-    pub chart: Option<String>,
+    pub(super) chart: Option<String>,
     /// The color a perfect white is to take: `unity`, a light's name, `daylight:K` or `blackbody:K`
     #[arg(long, value_name = "WHITE", default_value = "unity")]
-    pub white: String,
+    pub(super) white: String,
 }
 
 /// The way to the diagram.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Transform {
+pub(super) enum Transform {
     /// Eq 13
     Paper,
     /// A matrix fitted to an observer
@@ -107,7 +107,7 @@ pub enum Transform {
 
 /// A kind of data sets to list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ListKind {
+pub(super) enum ListKind {
     /// Camera sensitivities
     Cameras,
     /// Color matching functions

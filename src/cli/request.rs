@@ -16,21 +16,21 @@ use crate::document::own::{OwnRole, OwnSet};
 use crate::document::{Document, FIRST_SOURCES, Light, REFERENCE, Subset, WayChoice, WhiteChoice};
 
 /// The name of the paper's five patches as a chart of their own.
-pub const FIVE: &str = "ColorChecker five";
+pub(super) const FIVE: &str = "ColorChecker five";
 
 /// A document made of arguments, and the sources in the order they were named.
-pub struct Request {
+pub(super) struct Request {
     /// What is compared, under what.
-    pub document: Document,
+    pub(super) document: Document,
     /// The built-in sets.
-    pub catalog: Catalog,
+    pub(super) catalog: Catalog,
     /// The sources asked for.
-    pub sources: Vec<(Kind, String)>,
+    pub(super) sources: Vec<(Kind, String)>,
 }
 
 impl Request {
     /// From what both tables take. `matches` knows in which order sources were named.
-    pub fn new(arguments: &CommonArguments, matches: &ArgMatches) -> Result<Self, CliError> {
+    pub(super) fn new(arguments: &CommonArguments, matches: &ArgMatches) -> Result<Self, CliError> {
         let document = Document { compared: Vec::new(), ..Document::default() };
         let mut request = Self { document, catalog: Catalog::built_in(), sources: Vec::new() };
         request.sources = request.named_sources(arguments, matches)?;
@@ -44,9 +44,14 @@ impl Request {
         Ok(request)
     }
 
-    fn named_sources(&mut self, arguments: &CommonArguments, matches: &ArgMatches) -> Result<Vec<(Kind, String)>, CliError> {
+    fn named_sources(
+        &mut self,
+        arguments: &CommonArguments,
+        matches: &ArgMatches,
+    ) -> Result<Vec<(Kind, String)>, CliError> {
         let places = |id: &str| matches.indices_of(id).into_iter().flatten().collect::<Vec<usize>>();
-        let observers = places("observer").into_iter().zip(&arguments.observer).map(|(at, name)| (at, Kind::Observer, name));
+        let observers =
+            places("observer").into_iter().zip(&arguments.observer).map(|(at, name)| (at, Kind::Observer, name));
         let cameras = places("camera").into_iter().zip(&arguments.camera).map(|(at, name)| (at, Kind::Camera, name));
         let mut named: Vec<_> = observers.chain(cameras).collect();
         named.sort_by_key(|(at, ..)| *at);
@@ -85,7 +90,8 @@ impl Request {
         let name = if is_file(illuminant) {
             let set = self.open(illuminant, OwnRole::Illuminant)?;
             if set.curves.len() != 1 {
-                let reason = format!("{illuminant} holds {} curves, but a light is one; keep the one meant", set.curves.len());
+                let reason =
+                    format!("{illuminant} holds {} curves, but a light is one; keep the one meant", set.curves.len());
                 return Err(CliError::Argument { argument: "--illuminant", reason });
             }
             set.name.clone()
@@ -97,13 +103,14 @@ impl Request {
     }
 
     /// Chooses the patches.
-    pub fn set_chart(&mut self, chart: Option<&str>) -> Result<(), CliError> {
+    pub(super) fn set_chart(&mut self, chart: Option<&str>) -> Result<(), CliError> {
         self.document.subset = Subset::All;
         let Some(chart) = chart else { return Ok(()) };
         if crate::catalog::names::folded(chart) == crate::catalog::names::folded(FIVE) {
             self.document.subset = Subset::Five;
         } else if is_file(chart) {
-            self.document.chart = self.open(chart, OwnRole::Reflectance)?.name.clone();
+            let set = self.open(chart, OwnRole::Reflectance)?;
+            self.document.chart.clone_from(&set.name);
         } else {
             self.document.chart = self.name(&[Kind::Chart, Kind::Material], chart)?;
         }
@@ -111,7 +118,7 @@ impl Request {
     }
 
     /// Chooses the white.
-    pub fn set_white(&mut self, white: &str) -> Result<(), CliError> {
+    pub(super) fn set_white(&mut self, white: &str) -> Result<(), CliError> {
         self.document.white = match radiator("--white", white)? {
             Some((Radiator::Daylight, kelvin)) => WhiteChoice::Daylight(kelvin),
             Some((Radiator::BlackBody, kelvin)) => WhiteChoice::BlackBody(kelvin),
@@ -134,7 +141,8 @@ impl Request {
         let imported = import(path, &bytes, Some(role)).map_err(|error| CliError::File(format!("{path}: {error}")))?;
         let mut set = imported.set;
         let kind = Entry::from_own(&Shared::new(set.clone())).kind;
-        let taken = |name: &str| self.catalog.get(kind, name).is_some() || self.document.own.iter().any(|own| own.name == name);
+        let taken =
+            |name: &str| self.catalog.get(kind, name).is_some() || self.document.own.iter().any(|own| own.name == name);
         if taken(&set.name) {
             set.name = format!("{} ({path})", set.name);
         }
@@ -162,15 +170,17 @@ fn radiator(argument: &'static str, text: &str) -> Result<Option<(Radiator, f64)
     let number = kelvin.trim().trim_end_matches(['K', 'k']).trim();
     match number.parse::<f64>().ok().and_then(|kelvin| Kelvin::new(kelvin).ok()) {
         Some(kelvin) => Ok(Some((radiator, kelvin.get()))),
-        None => Err(CliError::Argument { argument, reason: format!("\"{kelvin}\" is no temperature; write {name}:5500") }),
+        None => {
+            Err(CliError::Argument { argument, reason: format!("\"{kelvin}\" is no temperature; write {name}:5500") })
+        }
     }
 }
 
 /// Whether an argument means a file and not a name.
 fn is_file(argument: &str) -> bool {
     let path = Path::new(argument);
-    let ends_as_file = path.extension().is_some_and(|ending| {
-        ["csv", "txt", "tsv", "dat"].iter().any(|known| ending.eq_ignore_ascii_case(known))
-    });
+    let ends_as_file = path
+        .extension()
+        .is_some_and(|ending| ["csv", "txt", "tsv", "dat"].iter().any(|known| ending.eq_ignore_ascii_case(known)));
     path.is_file() || ends_as_file || argument.contains(['/', '\\'])
 }

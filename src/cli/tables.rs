@@ -15,7 +15,7 @@ use crate::results::Results;
 use crate::scene::{LOCUS_POINTS, Scene};
 
 /// Loci, a row for each source and temperature.
-pub fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<String, CliError> {
+pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<String, CliError> {
     let temperatures = temperatures(arguments)?;
     let request = Request::new(&arguments.common, matches)?;
     let results = Results::default();
@@ -50,7 +50,7 @@ fn temperatures(arguments: &LocusArguments) -> Result<Temperatures, CliError> {
 }
 
 /// Patches, a row for each source and patch.
-pub fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<String, CliError> {
+pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<String, CliError> {
     let mut request = Request::new(&arguments.common, matches)?;
     request.set_chart(arguments.chart.as_deref())?;
     request.set_white(&arguments.white)?;
@@ -71,14 +71,15 @@ pub fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<Str
 }
 
 /// The names of the built-in sets.
-pub fn list(kind: Option<ListKind>) -> String {
+pub(super) fn list(kind: Option<ListKind>) -> String {
     let catalog = Catalog::built_in();
     let names = |kind: Kind| -> String {
         let mut names: Vec<&str> = catalog.of_kind(kind).map(|entry| entry.name.as_str()).collect();
         if kind == Kind::Chart {
             names.push(FIVE);
         }
-        names.into_iter().map(|name| format!("{name}\n")).collect()
+        names.push("");
+        names.join("\n")
     };
     match kind {
         Some(ListKind::Cameras) => names(Kind::Camera),

@@ -97,7 +97,8 @@ impl Eq for OwnSet {}
 
 impl Hash for OwnSet {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        (&self.name, &self.file, self.role, self.read_as, self.unit, self.percent, self.per_photon, self.channels).hash(state);
+        (&self.name, &self.file, self.role, self.read_as, self.unit, self.percent, self.per_photon, self.channels)
+            .hash(state);
         for curve in &self.curves {
             curve.name.hash(state);
             curve.wavelengths.iter().chain(&curve.values).for_each(|v| v.to_bits().hash(state));
@@ -144,7 +145,10 @@ pub(super) mod list {
     use super::{OwnSet, Shared};
     use serde::{Deserialize, Deserializer, Serializer};
 
-    pub(in super::super) fn serialize<S: Serializer>(sets: &[Shared<OwnSet>], serializer: S) -> Result<S::Ok, S::Error> {
+    pub(in super::super) fn serialize<S: Serializer>(
+        sets: &[Shared<OwnSet>],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(sets.iter().map(|set| &**set))
     }
 

@@ -1,8 +1,8 @@
 //! Stub.
 
-use chromascope_core::figure::Figure;
 use crate::scene::Scene;
 use crate::view::View;
+use chromascope_core::figure::Figure;
 
 /// The figure.
 pub fn figure(_scene: &Scene<'_>, _view: &View) -> Figure {

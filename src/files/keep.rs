@@ -72,7 +72,7 @@ impl Keeper {
         }
         let rested = self.changed.elapsed();
         if rested < REST {
-            ctx.request_repaint_after(REST - rested);
+            ctx.request_repaint_after(REST.saturating_sub(rested));
             return Ok(());
         }
         self.save(document)

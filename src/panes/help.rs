@@ -145,7 +145,11 @@ fn data(ui: &mut Ui, context: &PaneContext<'_>) {
 
 fn equations(ui: &mut Ui) {
     for (number, formula, words) in [
-        ("Eq 11", "s_c = κ_c m dω ∫ C_c L dλ", "White balance: the color s that a perfect white under the light is to take."),
+        (
+            "Eq 11",
+            "s_c = κ_c m dω ∫ C_c L dλ",
+            "White balance: the color s that a perfect white under the light is to take.",
+        ),
         (
             "Eq 13",
             "X = 0.4124 R + 0.3576 G + 0.1805 B\nY = 0.2126 R + 0.7152 G + 0.0722 B\nZ = 0.0193 R + 0.1192 G + 0.9505 B",
@@ -184,7 +188,9 @@ fn equations(ui: &mut Ui) {
 fn about(ui: &mut Ui) {
     ui.heading(concat!("Chromascope ", env!("CARGO_PKG_VERSION")));
     ui.label(env!("CARGO_PKG_DESCRIPTION"));
-    ui.label("Free software under the MIT or the Apache-2.0 license, as you choose. Data and fonts have terms of their own:");
+    ui.label(
+        "Free software under the MIT or the Apache-2.0 license, as you choose. Data and fonts have terms of their own:",
+    );
     ui.add_space(UNIT);
     for (name, text) in licenses() {
         ui.collapsing(name, |ui| {
@@ -250,14 +256,16 @@ fn find(typed: &str, history: &History, context: &PaneContext<'_>) -> Vec<Found>
     let focused = context.view.focused.unwrap_or(PaneKind::Chromaticity);
     let mut found: Vec<Found> = key_bindings(focused)
         .into_iter()
-        .filter(|binding| !matches!(binding.command, Command::ToggleSource(_) | Command::FindAnything | Command::Escape))
+        .filter(|binding| {
+            !matches!(binding.command, Command::ToggleSource(_) | Command::FindAnything | Command::Escape)
+        })
         .filter(|binding| binding.command != Command::Undo || history.undo_name().is_some())
         .map(|binding| Found {
             words: match binding.command {
                 Command::Show(workspace) => format!("Workspace {}", Workspace::title(workspace)),
                 _ => binding.words.to_owned(),
             },
-            note: context_note(&binding.shortcut),
+            note: key_name(binding.shortcut),
             command: binding.command,
         })
         .filter(|found| matches(&found.words))
@@ -269,7 +277,7 @@ fn find(typed: &str, history: &History, context: &PaneContext<'_>) -> Vec<Found>
     found
 }
 
-fn context_note(shortcut: &egui::KeyboardShortcut) -> String {
+fn key_name(shortcut: egui::KeyboardShortcut) -> String {
     shortcut.format(&egui::ModifierNames::NAMES, cfg!(target_os = "macos"))
 }
 

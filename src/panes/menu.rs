@@ -40,7 +40,8 @@ fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     for workspace in Workspace::ALL {
         let on = context.view.saved.workspace == workspace;
         let fill = if on { theme.control } else { theme.panel };
-        let response = ui.add(Button::selectable(on, workspace.title()).fill(fill).min_size(Vec2::new(72.0, rect.height())));
+        let response =
+            ui.add(Button::selectable(on, workspace.title()).fill(fill).min_size(Vec2::new(72.0, rect.height())));
         if on {
             ui.painter().hline(response.rect.x_range(), rect.top() + 1.0, egui::Stroke::new(2.0, theme.text));
         }
@@ -120,7 +121,8 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 fn edit(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
-    let named = |word: &str, step: Option<&str>| step.map_or_else(|| word.to_owned(), |step| format!("{word} ({step})"));
+    let named =
+        |word: &str, step: Option<&str>| step.map_or_else(|| word.to_owned(), |step| format!("{word} ({step})"));
     enabled_item(ui, history.undo_name().is_some(), &named("Undo", history.undo_name()), Command::Undo, context);
     enabled_item(ui, history.redo_name().is_some(), &named("Redo", history.redo_name()), Command::Redo, context);
     ui.separator();

@@ -25,7 +25,9 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let compact = if wide { 1.0 } else { 0.78 };
     field(&mut bar, "Truth", 200.0 * compact, context, truth);
     field(&mut bar, "Light", 148.0 * compact, context, light);
-    field(&mut bar, temperature_caption(context), slider + 74.0, context, |ui, context| temperature(ui, slider, context));
+    field(&mut bar, temperature_caption(context), slider + 74.0, context, |ui, context| {
+        temperature(ui, slider, context)
+    });
     field(&mut bar, "Patches", 196.0 * compact, context, patches);
     field(&mut bar, "White", 108.0 * compact, context, white);
     field(&mut bar, "To diagram", 146.0 * compact, context, way);
@@ -94,7 +96,8 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
         offer(ui, Light::Daylight, "Daylight of the temperature, 4000–20000 K");
         ui.separator();
         for entry in context.scene.entries(Kind::Illuminant) {
-            let words = entry.also.as_ref().map_or_else(|| entry.name.clone(), |also| format!("{}, {also}", entry.name));
+            let words =
+                entry.also.as_ref().map_or_else(|| entry.name.clone(), |also| format!("{}, {also}", entry.name));
             offer(ui, Light::Set(entry.name), &words);
         }
     });

@@ -1,5 +1,6 @@
 mod architecture;
-mod theme;
-mod figure;
 mod cpu_renderer;
-#[test] fn t(){}
+mod figure;
+mod theme;
+#[test]
+fn t() {}

@@ -251,7 +251,7 @@ proptest! {
 
     #[test]
     fn coordinates_of_any_size_give_finite_numbers_or_none(x in any_finite(), y in any_finite()) {
-        let finite = |v: Option<DVec3>| v.is_none_or(|v| v.is_finite());
+        let finite = |v: Option<DVec3>| v.is_none_or(DVec3::is_finite);
         let xy = Xy { x, y };
         prop_assert!(finite(xy.with_unit_luminance().map(Xyz::to_vector)));
         prop_assert!(finite(xy.uv_prime().map(|uv| DVec3::new(uv.u, uv.v, 0.0))));

@@ -119,7 +119,7 @@ fn basis() -> DaylightBasis {
 #[test]
 fn daylight_lies_where_the_cie_says() {
     // colour-science 0.4, CCT_to_xy_CIE_D, its documented example.
-    assert_xy("D65", chromaticity(kelvin(6504.389_383_05)).unwrap(), [0.312_707_7, 0.329_112_8], 1e-7);
+    assert_xy("D65", chromaticity(kelvin(6_504.389_383_05)).unwrap(), [0.312_707_7, 0.329_112_8], 1e-7);
     // CIE 15:2004, Table T.3, five decimals; the tables' own temperatures are 1.4388/1.4380 of their names. The tabulated
     // whites are sums over the spectra, whose y the formula misses by 1.1e-4; so the spectra are what must hit them, as far as
     // a sum that begins at 380 nm can.
@@ -134,7 +134,7 @@ fn daylight_lies_where_the_cie_says() {
         assert_xy("white", Xyz::new(big_x, big_y, big_z).chromaticity().unwrap(), [x, y], 8e-5);
     }
     // The two branches meet at 7000 K to the digits of their coefficients.
-    let (below, above) = (chromaticity(kelvin(7000.0)).unwrap(), chromaticity(kelvin(7000.000_001)).unwrap());
+    let (below, above) = (chromaticity(kelvin(7000.0)).unwrap(), chromaticity(kelvin(7_000.000_001)).unwrap());
     assert!(below.distance(above) < 1e-5);
 }
 

@@ -3,6 +3,7 @@
 //! Reads the program's own data under `assets` and the figures under `tests/core/reference`; each of those says in its
 //! first lines what made it.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should say so by failing")]
+#![allow(clippy::disallowed_methods, reason = "the tests read the data that the core is given")]
 
 mod camera;
 mod colorimetry;

@@ -62,7 +62,7 @@ impl Distances {
         let inside: Vec<f64> =
             self.t.iter().zip(&self.d).filter(|(t, _)| (from..=to).contains(*t)).map(|(_, d)| *d).collect();
         let n = inside.len();
-        (inside.iter().sum::<f64>() - (inside[0] + inside[n - 1]) / 2.0) / (n - 1) as f64
+        (inside.iter().sum::<f64>() - f64::midpoint(inside[0], inside[n - 1])) / (n - 1) as f64
     }
 
     fn best_around_daylight(&self) -> bool {
@@ -75,7 +75,7 @@ impl Distances {
 fn assert_within_3_percent(what: &str, value: f64, printed: &str) {
     // Half of the last printed digit is the reference's own.
     let decimals = printed.split_once('.').map_or(0, |(_, digits)| digits.len());
-    let half = 0.5 * 0.1_f64.powi(decimals as i32);
+    let half = 0.5 / 10.0_f64.powf(decimals as f64);
     let expected: f64 = printed.parse().unwrap();
     assert_near(what, value, expected, 0.03 * expected + half);
 }

@@ -35,7 +35,9 @@ fn shared_values_are_equal_when_their_contents_are() {
     let same = first.clone();
     let anew = Shared::new(sensor(CANON_10D));
     let other = Shared::new(sensor(DCS200));
-    assert!(first == same && first == anew && anew == first && first != other);
+    assert_eq!(first, same);
+    assert_eq!(first, anew);
+    assert_ne!(first, other);
     assert_eq!(hash(&first), hash(&anew));
     assert_eq!(first.integrals(), anew.integrals());
 }

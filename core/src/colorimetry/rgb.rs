@@ -92,5 +92,8 @@ pub struct Gamut {
 pub const GAMUTS: [Gamut; 3] = [
     Gamut { name: "sRGB", primaries: [Xy { x: 0.64, y: 0.33 }, Xy { x: 0.30, y: 0.60 }, Xy { x: 0.15, y: 0.06 }] },
     Gamut { name: "DCI-P3", primaries: [Xy { x: 0.68, y: 0.32 }, Xy { x: 0.265, y: 0.69 }, Xy { x: 0.15, y: 0.06 }] },
-    Gamut { name: "Rec. 2020", primaries: [Xy { x: 0.708, y: 0.292 }, Xy { x: 0.17, y: 0.797 }, Xy { x: 0.131, y: 0.046 }] },
+    Gamut {
+        name: "Rec. 2020",
+        primaries: [Xy { x: 0.708, y: 0.292 }, Xy { x: 0.17, y: 0.797 }, Xy { x: 0.131, y: 0.046 }],
+    },
 ];

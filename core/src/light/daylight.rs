@@ -24,8 +24,7 @@ pub struct DaylightBasis {
 impl DaylightBasis {
     /// Takes the data set with the columns S0, S1 and S2.
     pub fn new(dataset: &Dataset) -> Result<Self, DaylightError> {
-        let curves: [SpectralDistribution; 3] =
-            dataset.curves.clone().try_into().map_err(|_| DaylightError::Basis)?;
+        let curves: [SpectralDistribution; 3] = dataset.curves.clone().try_into().map_err(|_| DaylightError::Basis)?;
         Ok(Self { curves })
     }
 

@@ -68,7 +68,12 @@ pub fn exitance(wavelength: crate::units::Nanometers, temperature: Kelvin, const
 /// E(λ,T) / E(λ₀,T) = exp(−(x − x₀)) · expm1(−x₀) / expm1(−x) · (λ₀/λ)⁵,   x = c₂/(λT)
 /// ```
 /// For wavelengths up to the anchor the exponential is at most 1. Checked from 1 K to 10¹⁵ K.
-pub fn relative_exitance(wavelength_nm: f64, anchor_nm: f64, temperature: Kelvin, constants: RadiationConstants) -> f64 {
+pub fn relative_exitance(
+    wavelength_nm: f64,
+    anchor_nm: f64,
+    temperature: Kelvin,
+    constants: RadiationConstants,
+) -> f64 {
     // Capped so that temperatures far below any body's stay finite too.
     let scale = (constants.second() * 1e9 / temperature.get()).min(1e300);
     let (x, x0) = (scale / wavelength_nm, scale / anchor_nm);

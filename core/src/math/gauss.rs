@@ -21,7 +21,8 @@ pub struct Rule {
 /// eigenvalues of the Jacobi matrix. A measure with fewer than `count` points of mass is returned as it is, which is exact.
 /// Negative or zero masses are left out. Weights are positive, nodes lie inside the support.
 pub fn gauss_rule(points: &[f64], masses: &[f64], count: usize) -> Rule {
-    let support: Vec<(f64, f64)> = points.iter().copied().zip(masses.iter().copied()).filter(|&(_, m)| m > 0.0).collect();
+    let support: Vec<(f64, f64)> =
+        points.iter().copied().zip(masses.iter().copied()).filter(|&(_, m)| m > 0.0).collect();
     if support.len() <= count {
         return Rule { nodes: support.iter().map(|p| p.0).collect(), weights: support.iter().map(|p| p.1).collect() };
     }
@@ -34,7 +35,8 @@ pub fn gauss_rule(points: &[f64], masses: &[f64], count: usize) -> Rule {
     let start: Vec<f64> = support.iter().map(|p| (p.1 / total).sqrt()).collect();
     let (mut diagonal, mut off) = lanczos(&x, &start, count);
     let first = tridiagonal_eigen(&mut diagonal, &mut off);
-    let mut pairs: Vec<(f64, f64)> = diagonal.iter().zip(&first).map(|(&d, &f)| (d * half + center, f * f * total)).collect();
+    let mut pairs: Vec<(f64, f64)> =
+        diagonal.iter().zip(&first).map(|(&d, &f)| (d * half + center, f * f * total)).collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     Rule { nodes: pairs.iter().map(|p| p.0).collect(), weights: pairs.iter().map(|p| p.1).collect() }
 }

@@ -22,10 +22,8 @@ pub fn linear(abscissae: &[f64], ordinates: &[f64], x: f64) -> f64 {
 }
 
 /// Weights (times 209) that extend a table by two samples before its start; mirrored, after its end (CIE 167:2005).
-const EXTENSION: [[f64; 6]; 2] = [
-    [884.0, -1960.0, 3033.0, -2648.0, 1080.0, -180.0],
-    [508.0, -540.0, 488.0, -367.0, 144.0, -24.0],
-];
+const EXTENSION: [[f64; 6]; 2] =
+    [[884.0, -1960.0, 3033.0, -2648.0, 1080.0, -180.0], [508.0, -540.0, 488.0, -367.0, 144.0, -24.0]];
 
 /// Polynomial coefficients (times 24) of t¹ … t⁵ from six neighboring samples (Sprague 1880, CIE 167:2005).
 const QUINTIC: [[f64; 6]; 5] = [
@@ -75,7 +73,11 @@ impl Sprague {
     pub fn at(&self, x: f64) -> f64 {
         let last = self.padded.len() - 5;
         let position = ((x - self.start) / self.step).clamp(0.0, last as f64);
-        let cell = (position.floor() as usize).min(last - 1);
+        let cell = position.floor() as usize;
+        if cell == last {
+            // The polynomial gives the last sample but for rounding, which would turn a zero into a faint signal.
+            return self.padded[last + 2];
+        }
         let t = position - cell as f64;
         let neighbors = &self.padded[cell..cell + 6];
         let coefficient = |row: &[f64; 6]| -> f64 { (0..6).map(|j| row[j] * neighbors[j]).sum::<f64>() / 24.0 };

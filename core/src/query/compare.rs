@@ -61,7 +61,10 @@ pub fn locus_distance_uv(a: &LocusPoint, b: &LocusPoint) -> Result<f64, NoDiffer
     distance(a.uv, b.uv, UvPrime::distance)
 }
 
-fn lab_pair(a: &PatchColor, b: &PatchColor) -> Result<(crate::colorimetry::Lab, crate::colorimetry::Lab), NoDifference> {
+fn lab_pair(
+    a: &PatchColor,
+    b: &PatchColor,
+) -> Result<(crate::colorimetry::Lab, crate::colorimetry::Lab), NoDifference> {
     a.lab.zip(b.lab).ok_or(NoDifference::NoLab)
 }
 

@@ -31,7 +31,9 @@ impl Temperatures {
     pub fn to_vec(&self) -> Vec<Kelvin> {
         match self {
             Self::List(list) => list.clone(),
-            Self::Range { from, to, count } => (0..*count).filter_map(|index| between(*from, *to, index, *count)).collect(),
+            Self::Range { from, to, count } => {
+                (0..*count).filter_map(|index| between(*from, *to, index, *count)).collect()
+            }
         }
     }
 }

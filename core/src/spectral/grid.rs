@@ -109,10 +109,8 @@ impl GridSpectrum {
             };
             *value = if quantity.clamps() { y.max(0.0) } else { y };
         }
-        let assumed = Assumed {
-            below_nm: (first > FIRST_NM).then_some(first),
-            above_nm: (last < LAST_NM).then_some(last),
-        };
+        let assumed =
+            Assumed { below_nm: (first > FIRST_NM).then_some(first), above_nm: (last < LAST_NM).then_some(last) };
         Self { values, assumed }
     }
 

@@ -88,7 +88,11 @@ impl Hash for Sensor {
 
 impl Sensor {
     /// Takes the three curves as measured, in the order of [`Primaries::channels`].
-    pub fn new(primaries: Primaries, curves: [SpectralDistribution; 3], response: Response) -> Result<Self, SensorError> {
+    pub fn new(
+        primaries: Primaries,
+        curves: [SpectralDistribution; 3],
+        response: Response,
+    ) -> Result<Self, SensorError> {
         let curves = if response == Response::PerPhoton {
             let [a, b, c] = &curves;
             // The scale is free; 550 nm keeps numbers near those of the table.

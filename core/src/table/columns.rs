@@ -6,7 +6,7 @@ use super::header::{self, Header};
 use super::sniff::Layout;
 use super::text::{Lines, comment, excerpt};
 use super::warning::{LineList, Warning};
-use super::{Dropped, DroppedRow, MAX_CURVES, MAX_SAMPLES, ReadError, WavelengthUnit, words};
+use super::{Dropped, MAX_CURVES, MAX_SAMPLES, ReadError, WavelengthUnit, words};
 
 /// Reads the rows of a layout.
 pub(super) fn read(text: &str, layout: &Layout, warnings: &mut Vec<Warning>) -> Result<Grid, ReadError> {
@@ -14,6 +14,9 @@ pub(super) fn read(text: &str, layout: &Layout, warnings: &mut Vec<Warning>) -> 
     let mut columns = Columns::new(layout, wavelength_column(&header));
     for (number, line) in Lines::new(text).skip(layout.first_line - 1) {
         if !line.trim_ascii().is_empty() && comment(line).is_none() {
+            if columns.lines.is_empty() {
+                columns.expected_rows = text.len() / (line.len() + 1) + 1;
+            }
             columns.take(number, line)?;
         }
     }
@@ -51,6 +54,7 @@ struct Columns {
     cells: Vec<Vec<f64>>,
     lines: Vec<usize>,
     row: Vec<f64>,
+    expected_rows: usize,
     named: Option<usize>,
     label_unit: Option<WavelengthUnit>,
     broken: Option<Broken>,
@@ -72,6 +76,7 @@ impl Columns {
             cells: vec![Vec::new(); layout.width.min(MAX_CURVES + 1)],
             lines: Vec::new(),
             row: Vec::with_capacity(layout.width.min(MAX_CURVES + 2)),
+            expected_rows: 0,
             named,
             label_unit: None,
             broken: None,
@@ -155,6 +160,9 @@ impl Columns {
         if (rows + 1) * (self.width - 1) > MAX_SAMPLES {
             return Err(ReadError::TooManySamples { line: number });
         }
+        if rows == 0 {
+            self.reserve();
+        }
         while self.cells.len() < self.width {
             self.cells.push(vec![f64::NAN; rows]);
         }
@@ -164,6 +172,15 @@ impl Columns {
         }
         self.lines.push(number);
         Ok(())
+    }
+
+    /// Makes room for the rows still to come if they are as long as the first.
+    fn reserve(&mut self) {
+        let rows = self.expected_rows.min(MAX_SAMPLES / self.width.max(1));
+        for column in &mut self.cells {
+            column.reserve_exact(rows);
+        }
+        self.lines.reserve_exact(rows);
     }
 
     fn into_grid(mut self, header: Header, warnings: &mut Vec<Warning>) -> Result<Grid, ReadError> {
@@ -212,9 +229,9 @@ fn refuse_second_wavelengths(
 fn drop_without_wavelength(grid: &mut Grid, warnings: &mut Vec<Warning>) {
     let marked: Vec<bool> = grid.wavelengths.iter().map(|value| value.is_nan()).collect();
     let mut list = LineList::default();
-    for (line, _) in grid.lines.iter().zip(&marked).filter(|(_, marked)| **marked) {
-        list.add(*line);
-        grid.dropped.push(DroppedRow { line: *line, why: Dropped::NoWavelength });
+    for (index, _) in marked.iter().enumerate().filter(|(_, marked)| **marked) {
+        list.add(grid.line(index));
+        grid.drop_row(grid.line(index), Dropped::NoWavelength);
     }
     if !list.is_empty() {
         grid.remove(&marked);

@@ -75,10 +75,11 @@ impl Dialect {
     pub(super) fn cells(self, line: &str) -> Cells<'_> {
         let rest = if self.delimiter == Delimiter::Spaces { line.trim_ascii() } else { line };
         let spaces_only = self.delimiter == Delimiter::Spaces && rest.is_empty();
-        Cells { rest: (!spaces_only).then_some(rest), delimiter: self.delimiter, quotes: line.contains('"') }
+        Cells { rest: (!spaces_only).then_some(rest), delimiter: self.delimiter, quotes: true }
     }
 
     /// What a cell holds.
+    #[inline]
     pub(super) fn parse(self, cell: &str) -> Cell {
         match self.number(cell) {
             Some(NOT_MEASURED) => Cell::Gap,
@@ -89,6 +90,7 @@ impl Dialect {
         }
     }
 
+    #[inline]
     fn number(self, cell: &str) -> Option<f64> {
         let mark = match self.mark {
             DecimalMark::Point => b'.',
@@ -199,9 +201,11 @@ pub(super) struct Cells<'a> {
 impl<'a> Iterator for Cells<'a> {
     type Item = &'a str;
 
+    #[inline]
     fn next(&mut self) -> Option<&'a str> {
         let rest = self.rest?;
         if self.quotes
+            && rest.trim_start_matches(' ').starts_with('"')
             && let Some(cell) = self.quoted(rest)
         {
             return Some(cell);
@@ -210,10 +214,8 @@ impl<'a> Iterator for Cells<'a> {
             self.rest = None;
             return Some(rest.trim_ascii());
         };
-        self.rest = Some(&rest[end + width..]);
-        if self.delimiter == Delimiter::Spaces {
-            self.rest = Some(rest[end..].trim_ascii_start());
-        }
+        let after = &rest[end + width..];
+        self.rest = Some(if self.delimiter == Delimiter::Spaces { after.trim_ascii_start() } else { after });
         Some(rest[..end].trim_ascii())
     }
 }
@@ -222,7 +224,7 @@ impl<'a> Cells<'a> {
     /// A cell in quotes, if the quotes are closed where a cell ends. Some instruments open quotes they never close:
     /// then the rest of the line is taken as it stands, which also keeps this linear.
     fn quoted(&mut self, rest: &'a str) -> Option<&'a str> {
-        let inner = rest.trim_ascii_start().strip_prefix('"')?;
+        let inner = rest.trim_start_matches(' ').strip_prefix('"')?;
         let bytes = inner.as_bytes();
         let mut at = 0;
         while at < bytes.len() && (bytes[at] != b'"' || bytes.get(at + 1) == Some(&b'"')) {
@@ -255,14 +257,15 @@ impl<'a> Cells<'a> {
 
 impl Delimiter {
     /// Where the next delimiter begins and how many bytes it takes.
+    #[inline]
     fn find(self, text: &str) -> Option<(usize, usize)> {
-        let byte = |wanted: u8| text.as_bytes().iter().position(|&b| b == wanted).map(|at| (at, 1));
-        match self {
-            Self::Comma => byte(b','),
-            Self::Semicolon => byte(b';'),
-            Self::Tab => byte(b'\t'),
-            Self::CommaSpace => text.find(", ").map(|at| (at, 2)),
-            Self::Spaces => text.as_bytes().iter().position(u8::is_ascii_whitespace).map(|at| (at, 1)),
-        }
+        let wanted = match self {
+            Self::Comma => b',',
+            Self::Semicolon => b';',
+            Self::Tab => b'\t',
+            Self::CommaSpace => return text.find(", ").map(|at| (at, 2)),
+            Self::Spaces => return text.bytes().position(|b| b.is_ascii_whitespace()).map(|at| (at, 1)),
+        };
+        text.bytes().position(|b| b == wanted).map(|at| (at, 1))
     }
 }

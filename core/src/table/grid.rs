@@ -2,7 +2,10 @@
 
 use super::header::Header;
 use super::warning::{LineList, Warning};
-use super::{Curve, DroppedRow, WavelengthUnit};
+use super::{Curve, Dropped, DroppedRow, WavelengthUnit};
+
+/// How many dropped rows are listed; nobody reads more.
+const MAX_DROPPED: usize = 1000;
 
 /// Numbers as they stand in the file, before units, order and scale are settled.
 #[derive(Debug, Default)]
@@ -57,6 +60,13 @@ impl Grid {
             let (a, b) = (curve.values[a], curve.values[b]);
             a == b || (a.is_nan() && b.is_nan())
         })
+    }
+
+    /// Notes a row as left out.
+    pub(super) fn drop_row(&mut self, line: usize, why: Dropped) {
+        if self.dropped.len() < MAX_DROPPED {
+            self.dropped.push(DroppedRow { line, why });
+        }
     }
 
     /// Removes the marked samples.

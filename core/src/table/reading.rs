@@ -219,7 +219,7 @@ pub struct Reading {
     pub first_data_line: usize,
     /// Rows of numbers, those dropped among them.
     pub rows: usize,
-    /// Rows that are in no curve.
+    /// Rows that are in no curve; the first thousand.
     pub dropped_rows: Vec<DroppedRow>,
     /// Whether the wavelengths came in descending order.
     pub descending: bool,

@@ -217,16 +217,18 @@ fn first_line(text: &str, trial: &Trial, warnings: &mut Vec<Warning>) -> usize {
     let mut stray = None;
     for (number, line) in content(text).take_while(|(number, _)| *number < run.line) {
         let shape = Shape::of(trial.dialect, line);
+        let steps_away = shape.first.map_or(f64::NAN, |first| (run.first - first) / step);
+        let near = steps_away > 0.0 && steps_away <= 4.0 * (run.line - number) as f64;
+        if near && shape.leads {
+            return number;
+        }
         if !shape.is_row() {
             continue;
         }
-        let steps_away = shape.first.map_or(f64::NAN, |first| (run.first - first) / step);
-        let near = steps_away > 0.0 && steps_away <= 4.0 * (run.line - number) as f64;
         let same = shape.fits(run.cells, run.filled);
         match &mut fragment {
             Some((_, rows)) if same => *rows += 1,
             Some(_) => {}
-            None if near => return number,
             None if same => fragment = Some((number, 1)),
             None => stray = stray.or(Some(number)),
         }

@@ -7,6 +7,9 @@ use super::{MAX_CURVES, Orientation};
 /// The fewest wavelengths across a row that are taken for a header.
 const FEWEST_ACROSS: usize = 5;
 
+/// Lines that may not fit below such a header before it is taken for none: the reader then tells what is wrong with them.
+const MISSES: usize = 3;
+
 /// What a line looks like when split in one way.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Shape {
@@ -16,6 +19,8 @@ pub(super) struct Shape {
     pub(super) numbers: usize,
     /// The first number.
     pub(super) first: Option<f64>,
+    /// Whether that is the first cell.
+    pub(super) leads: bool,
     /// Whether any cell is text (a wavelength with its unit in the first cell is a number).
     pub(super) text: bool,
     /// Cells with this dialect's decimal mark.
@@ -92,6 +97,7 @@ impl Shape {
     fn number(&mut self, index: usize, value: f64, marked: bool, cell: &str) {
         self.numbers += 1;
         self.first = self.first.or(Some(value));
+        self.leads |= index == 0;
         self.marks += usize::from(marked);
         let bytes = cell.as_bytes();
         self.padded |= index > 0 && bytes.len() > 1 && bytes[0] == b'0' && bytes.iter().all(u8::is_ascii_digit);
@@ -163,7 +169,7 @@ pub(super) struct Across {
     pub(super) count: usize,
     pub(super) first_row: usize,
     pub(super) rows: usize,
-    ended: bool,
+    misses: usize,
 }
 
 impl Across {
@@ -239,14 +245,14 @@ impl Trial {
                 let Tail { start, count, .. } = *tail;
                 self.across = Some(Across { line: number, start, count, ..Across::default() });
             }
-        } else if let Some(across) = self.across.as_mut().filter(|across| !across.ended) {
+        } else if let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) {
             let numeric = shape.text_until <= across.start && shape.numbers > 0;
             if numeric && shape.cells > across.start && shape.filled <= across.width() {
                 across.first_row = if across.rows == 0 { number } else { across.first_row };
                 across.rows += 1;
                 self.marks += shape.marks;
             } else {
-                across.ended = true;
+                across.misses += 1;
             }
         }
     }

@@ -6,7 +6,7 @@ use super::grid::Grid;
 use super::reading::clean;
 use super::warning::{LineList, Warning};
 use super::words::XUnit;
-use super::{Decided, Dropped, DroppedRow, ReadError, ReadOptions};
+use super::{Decided, Dropped, ReadError, ReadOptions};
 
 /// The unit in which wavelengths are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -161,7 +161,7 @@ fn merge_repeats(grid: &mut Grid, warnings: &mut Vec<Warning>) -> Result<(), Rea
         let mut list = LineList::default();
         for &line in &lines {
             list.add(line);
-            grid.dropped.push(DroppedRow { line, why: Dropped::Repeated });
+            grid.drop_row(line, Dropped::Repeated);
         }
         warnings.push(Warning::RepeatedRows { lines: list });
     }
