@@ -47,6 +47,8 @@ pub struct View {
     pub palette: Option<String>,
     /// The own set whose reading is being looked at, by name.
     pub reading: Option<String>,
+    /// Times are not shown: for pictures that are compared.
+    pub fixed_clock: bool,
     /// The last message.
     pub status: Status,
 }

@@ -5,5 +5,5 @@ pub mod rendering;
 pub mod white_balance;
 
 pub use locus::{LocusEvaluator, LocusMethod};
-pub use rendering::{NoRendering, Rendering, Way};
+pub use rendering::{FitTargets, NoRendering, Rendering, Way};
 pub use white_balance::White;

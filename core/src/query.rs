@@ -10,7 +10,7 @@ pub mod shared;
 
 pub use compare::{Metric, NoDifference};
 pub use loci::{Locus, LocusOf, LocusPoint, MonochromaticOf, RadiatorSignals, SpectralLocusOf, Temperatures};
-pub use patches::{PatchColor, PatchColorsOf, RenderingOf, WayOf};
+pub use patches::{FitTargetsOf, PatchColor, PatchColorsOf, RenderingOf, WayOf};
 pub use shared::Shared;
 
 use std::hash::Hash;

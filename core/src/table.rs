@@ -10,8 +10,8 @@
 //!
 //! What is not read: binary files, XML, JSON, JCAMP-DX and CGATS. They are recognized by content and named in the error.
 //!
-//! Reading is total: it does not panic, takes time proportional to the input, and needs at most 16 bytes a sample
-//! beside the text. The limits are [`MAX_BYTES`], [`MAX_CURVES`] and [`MAX_SAMPLES`].
+//! Reading is total: it does not panic, takes time proportional to the input, and needs a few times its memory, most of it
+//! the samples themselves (16 bytes each). The limits are [`MAX_BYTES`], [`MAX_CURVES`] and [`MAX_SAMPLES`].
 //!
 //! ```
 //! use chromascope_core::table::{read, ReadOptions, Role};

@@ -1,3 +1,4 @@
+mod screenshots;
 mod architecture;
 mod cpu_renderer;
 mod figure;

@@ -1,6 +1,6 @@
 //! Numerical tools: against the standard library, published nodes, 50-digit solutions, and what they promise to be exact for.
 
-use chromascope_core::math::dot::dot;
+use chromascope_core::math::dot::{dot, dot_each};
 use chromascope_core::math::exp::exp;
 use chromascope_core::math::gauss::{Rule, gauss_rule, interpolatory_rule};
 use chromascope_core::math::interpolation::{Sprague, linear};
@@ -38,6 +38,13 @@ proptest! {
         let unsigned: f64 = a.iter().zip(&b).map(|(x, y): (&f64, &f64)| (x * y).abs()).sum();
         prop_assert!((dot(&a, &b) - plain).abs() <= 450.0 * f64::EPSILON * unsigned);
         prop_assert_eq!(dot(&a, &b), dot(&b, &a));
+    }
+
+    #[test]
+    fn three_dots_at_once_are_three_dots(a in vec(-1.0..1.0, 401), b in vec(-1.0..1.0, 401), x in vec(-1.0..1.0, 401)) {
+        let array = |v: &[f64]| -> [f64; 401] { v.try_into().unwrap() };
+        let (a, b, x) = (array(&a), array(&b), array(&x));
+        prop_assert_eq!(dot_each([&a, &b, &x], &x), [dot(&a, &x), dot(&b, &x), dot(&x, &x)]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use chromascope_core::camera::{NoRendering, White};
+use chromascope_core::camera::{NoRendering, Rendering, Way, White};
 use chromascope_core::colorimetry::Xyz;
 use chromascope_core::colorimetry::rgb::{XYZ_FROM_SRGB, encode_srgb, srgb_white};
 use chromascope_core::light::RadiationConstants;
@@ -151,6 +151,22 @@ fn patch_colors_are_eq_16_and_13_written_out() {
             assert_near("L*", color.lab.unwrap().l, lab.l, 1e-11);
         }
     }
+}
+
+#[test]
+fn fitted_renderings_share_their_targets_and_nothing_else_changes() {
+    let (reference, training) = (Shared::new(sensor(CIE_1931)), Shared::new(training()));
+    let light = Shared::new(light("illuminants/a.csv"));
+    let by_hand = Way::Observer { reference: &reference, training: &training };
+    for path in [CANON_10D, TRUTH, CIE_1931] {
+        let way = WayOf::Observer { reference: reference.clone(), training: training.clone() };
+        let query = RenderingOf { sensor: Shared::new(sensor(path)), light: light.clone(), white: White::UNITY, way };
+        assert_eq!(*Direct.ask(&query), Rendering::new(&query.sensor, &light, White::UNITY, by_hand), "{path}");
+    }
+    let dark = Shared::new(GridSpectrum::constant(0.0));
+    let way = WayOf::Observer { reference: reference.clone(), training: training.clone() };
+    let query = RenderingOf { sensor: Shared::new(sensor(CANON_10D)), light: dark, white: White::UNITY, way };
+    assert_eq!(*Direct.ask(&query), Err(NoRendering::BlindToLight { channel: 0 }));
 }
 
 #[test]

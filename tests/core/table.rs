@@ -1,1 +1,737 @@
-//! table
+//! Tables from text: every layout and trap in files built byte for byte, every error, hostile input, round trips.
+
+#![allow(clippy::format_push_string, reason = "files are written as they read")]
+
+use chromascope_core::table::{
+    BinaryKind, Certainty, Curve, DecimalMark, Delimiter, Dropped, Encoding, Family, MAX_BYTES, Orientation, ReadError,
+    ReadOptions, Role, Table, Warning, WavelengthUnit, read,
+};
+use proptest::prelude::*;
+
+fn ok(text: &str) -> Table {
+    ok_bytes(text.as_bytes())
+}
+
+fn ok_bytes(bytes: &[u8]) -> Table {
+    read(bytes, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn error(text: &str) -> ReadError {
+    match read(text.as_bytes(), &ReadOptions::default()) {
+        Err(error) => error,
+        Ok(table) => panic!("read as {table:?}"),
+    }
+}
+
+fn samples(curve: &Curve) -> Vec<(f64, f64)> {
+    curve.wavelengths_nm.iter().copied().zip(curve.values.iter().copied()).collect()
+}
+
+fn names(table: &Table) -> Vec<&str> {
+    table.curves.iter().map(|curve| curve.name.as_str()).collect()
+}
+
+/// The three samples that the layouts below write in different ways.
+const THREE: [(f64, f64); 3] = [(380.0, 0.05), (385.5, 0.25), (390.0, 0.5)];
+
+#[track_caller]
+fn reads_three(text: &str, delimiter: Delimiter, mark: DecimalMark) {
+    let table = ok(text);
+    assert_eq!(samples(&table.curves[0]), THREE, "{text:?}");
+    assert_eq!(table.reading.delimiter.value, delimiter, "{text:?}");
+    assert_eq!(table.reading.decimal_mark.value, mark, "{text:?}");
+}
+
+#[test]
+fn every_separator_with_every_decimal_mark() {
+    use {DecimalMark as Mark, Delimiter as By};
+    reads_three("380,0.05\n385.5,0.25\n390,0.5\n", By::Comma, Mark::Point);
+    reads_three("380;0.05\n385.5;0.25\n390;0.5\n", By::Semicolon, Mark::Point);
+    reads_three("380,0;0,05\n385,5;0,25\n390,0;0,5\n", By::Semicolon, Mark::Comma);
+    reads_three("380\t0.05\n385.5\t0.25\n390\t0.5\n", By::Tab, Mark::Point);
+    reads_three("380\t0,05\n385,5\t0,25\n390\t0,5\n", By::Tab, Mark::Comma);
+    reads_three("  380 0.05\n  385.5   0.25\n  390 \t 0.5 \n", By::Spaces, Mark::Point);
+    reads_three("380 0,05\n385,5  0,25\n390 0,5\n", By::Spaces, Mark::Comma);
+    reads_three("380,0, 0,05\n385,5, 0,25\n390,0, 0,5\n", By::CommaSpace, Mark::Comma);
+    reads_three("\"380\",\"0,05\"\n\"385,5\",\"0,25\"\n\"390\",\"0,5\"\n", By::Comma, Mark::Comma);
+    reads_three("380, 0.05\n385.5, 0.25\n390, 0.5\n", By::Comma, Mark::Point);
+    reads_three("380 ; 0.05 \n385.5; 0.25 \n390 ;  0.5 \n", By::Semicolon, Mark::Point);
+}
+
+#[test]
+fn a_decimal_comma_that_comes_late_still_counts() {
+    let mut text = String::from("nm;a\n");
+    for i in 0..300 {
+        text += &format!("{};0\n", 380 + i);
+    }
+    text += "680,5;0,25\n";
+    let table = ok(&text);
+    assert_eq!(samples(&table.curves[0]).last(), Some(&(680.5, 0.25)));
+    assert_eq!(table.reading.decimal_mark.value, DecimalMark::Comma);
+    assert_eq!(table.reading.decimal_mark.certainty, Certainty::Certain);
+}
+
+#[test]
+fn forms_of_numbers() {
+    let table = ok("400\t1,3742E02\n401\t-1.5\n".replace('.', ",").as_str());
+    assert_eq!(table.curves[0].values, [137.42, -1.5]);
+    let table = ok("339.00  1.0000E-003\n340.00  -7.7101E+001\n341.00 .5\n342.00 +5.\n343 \u{2212}2\n");
+    assert_eq!(table.curves[0].values, [0.001, -77.101, 0.5, 5.0, -2.0]);
+    let table = ok("1.8792E2\t18.995E0\n1.8839E2\t33.852E0\n");
+    assert_eq!(table.curves[0].wavelengths_nm, [187.92, 188.39]);
+    let long = ok("400,0.123456789012345678\n401,12345678901234567890\n");
+    assert_eq!(long.curves[0].values, [0.123_456_789_012_345_68, 12_345_678_901_234_567_890.0]);
+}
+
+#[test]
+fn headers_name_curves() {
+    let table = ok("wavelength_nm,dark skin,\"sky, blue\",\"a \"\"b\"\"\"\n380,0.1,0.2,0.3\n390,0.2,0.3,0.4\n");
+    assert_eq!(names(&table), ["dark skin", "sky, blue", "a \"b\""]);
+    assert_eq!(table.reading.header_line, Some(1));
+    assert_eq!((table.reading.first_data_line, table.reading.rows), (2, 2));
+    assert!(table.curves.iter().all(|curve| curve.named));
+    let bare = ok("380,0.1\n390,0.2\n");
+    assert_eq!((names(&bare), bare.curves[0].named, bare.reading.header_line), (vec!["Column 2"], false, None));
+    let numeric = ok("wavelength,1,2,3\n380,0.1,0.2,0.3\n390,0.2,0.3,0.4\n");
+    assert_eq!(names(&numeric), ["1", "2", "3"]);
+    let blank_between = ok(
+        "Wave   ;Sample   ;Reflectance\r\n[nm]   ;[counts] ;[%]\r\n\r\n 300.00;   -6.893;52.5\r\n 301.00;   -7.474; 0.0\r\n",
+    );
+    assert_eq!(names(&blank_between), ["Sample", "Reflectance"]);
+    assert_eq!(blank_between.reading.header_line, Some(1));
+    let commented = ok("# wavelength, red one, green one\n380,0.1,0.2\n390,0.2,0.3\n");
+    assert_eq!(names(&commented), ["red one", "green one"]);
+    let unnamed = ok("bark,leaf\n380,0.1,0.2\n390,0.2,0.3\n");
+    assert_eq!(names(&unnamed), ["bark", "leaf"]);
+    let setting = ok("LUX\t695.1\nIRR\t2.6\n380nm\t0.03\n381nm\t0.04\n");
+    assert_eq!(names(&setting), ["Column 2"]);
+}
+
+#[test]
+fn comments_are_kept() {
+    let text = "# title: Nikon D70\n# quantity: relative spectral sensitivity\n# unit: 1\n# response: per energy\n\
+                # note: one: two\nwavelength_nm,R,G,B\n380,0.1,0.2,0.3\n# in between\n390,0.2,0.3,0.4\n";
+    let table = ok(text);
+    let header = &table.reading.header;
+    assert_eq!(header[0], ("title".to_owned(), "Nikon D70".to_owned()));
+    assert_eq!(table.reading.comment("Quantity"), Some("relative spectral sensitivity"));
+    assert_eq!(table.reading.comment("response"), Some("per energy"));
+    assert_eq!(table.reading.comment("note"), Some("one: two"));
+    assert_eq!(table.reading.comment("license"), None);
+    assert_eq!((table.role.value, table.role.certainty), (Role::Camera, Certainty::Certain));
+    assert_eq!(table.reading.camera_columns, Some([0, 1, 2]));
+    assert_eq!(table.reading.rows, 2);
+    let one = ok("# title: My leaf\n380,0.1\n390,0.2\n");
+    assert_eq!(names(&one), ["My leaf"]);
+    let tool = ok("#Model:D70\n#Maker:Nikon\n400,0.1,0.2,0.3\n410,0.1,0.2,0.3\n");
+    assert_eq!(tool.reading.comment("model"), Some("D70"));
+}
+
+#[test]
+fn encodings() {
+    let text = "Wellenlänge (µm);Licht\n0,4;1,5\n0,5;2,5\n";
+    let utf8 = ok(text);
+    assert_eq!(utf8.reading.encoding, Encoding::Utf8);
+    let latin: Vec<u8> = text.chars().map(|c| u8::try_from(u32::from(c)).unwrap()).collect();
+    let bom: Vec<u8> = [b"\xEF\xBB\xBF", text.as_bytes()].concat();
+    let le: Vec<u8> = [0xFEFF].into_iter().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect();
+    let be: Vec<u8> = [0xFEFF].into_iter().chain(text.encode_utf16()).flat_map(u16::to_be_bytes).collect();
+    let bare: Vec<u8> = "400,1\n401,2\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for (bytes, encoding) in
+        [(latin, Encoding::Windows1252), (bom, Encoding::Utf8), (le, Encoding::Utf16Le), (be, Encoding::Utf16Be)]
+    {
+        let table = ok_bytes(&bytes);
+        assert_eq!(table.reading.encoding, encoding);
+        assert_eq!(table.curves, utf8.curves);
+        assert_eq!(table.reading.wavelength_unit.certainty, Certainty::Certain);
+    }
+    assert_eq!(utf8.curves[0].wavelengths_nm, [400.0, 500.0]);
+    assert_eq!(samples(&ok_bytes(&bare).curves[0]), [(400.0, 1.0), (401.0, 2.0)]);
+}
+
+#[test]
+fn padding_line_ends_and_unbalanced_quotes() {
+    let padded = b"name: 1305084U1\0\0\0\0\0\r\n\r\nWave;Ref\r\n[nm];[counts]\r\n275.27;768.6\r\n275.87;790.3\r\n";
+    let table = ok_bytes(padded);
+    assert_eq!(samples(&table.curves[0]), [(275.27, 768.6), (275.87, 790.3)]);
+    assert_eq!((names(&table), table.reading.first_data_line), (vec!["Ref"], 5));
+    for text in ["380 1\r381 2\r382 3", "380 1\r\n381 2\r382 3\n", "\n380 1\n\r381 2\r\r\n382 3\r\n\r\n"] {
+        assert_eq!(samples(&ok(text).curves[0]), [(380.0, 1.0), (381.0, 2.0), (382.0, 3.0)], "{text:?}");
+    }
+    let quote = ok("\" File: Some\\Path\n\" TRANS->  Wave:734.22nm  Pix:1050\n 339.00  1.0\n 339.50  2.0\n");
+    assert_eq!(samples(&quote.curves[0]), [(339.0, 1.0), (339.5, 2.0)]);
+    let open = ok("\"nm,\"a\n380,1\n381,2\n");
+    assert_eq!(names(&open), ["\"a"]);
+}
+
+#[test]
+fn wavelength_units() {
+    use {Certainty as Sure, WavelengthUnit as Unit};
+    for (text, unit, certainty) in [
+        ("nm,a\n400,1\n500,2\n", Unit::Nanometer, Sure::Certain),
+        ("Wavelength (micrometers),a\n0.4,1\n0.5,2\n", Unit::Micrometer, Sure::Certain),
+        ("lambda [um],a\n0.4,1\n0.5,2\n", Unit::Micrometer, Sure::Certain),
+        ("X Units:  Wavelength (micrometers)\n\n0.4,1\n0.5,2\n", Unit::Micrometer, Sure::Certain),
+        ("# wavelength_unit: um\n0.4,1\n0.5,2\n", Unit::Micrometer, Sure::Certain),
+        ("0.4µm,1\n0.5 µm,2\n", Unit::Micrometer, Sure::Certain),
+        ("400nm,1\n500 [nm],2\n", Unit::Nanometer, Sure::Certain),
+        ("Wavelength (Å),a\n4000,1\n5000,2\n", Unit::Angstrom, Sure::Certain),
+        ("0.4,1\n0.5,2\n", Unit::Micrometer, Sure::Guess),
+        ("4000,1\n5000,2\n", Unit::Angstrom, Sure::Guess),
+        ("400,1\n500,2\n", Unit::Nanometer, Sure::Guess),
+    ] {
+        let table = ok(text);
+        assert_eq!(table.curves[0].wavelengths_nm, [400.0, 500.0], "{text:?}");
+        let decided = &table.reading.wavelength_unit;
+        assert_eq!((decided.value, decided.certainty), (unit, certainty), "{text:?}");
+    }
+    let options = ReadOptions { wavelength_unit: Some(Unit::Nanometer), ..ReadOptions::default() };
+    let chosen = read(b"4000,1\n5000,2\n", &options).unwrap();
+    assert_eq!(chosen.reading.range_nm, [4000.0, 5000.0]);
+    assert_eq!(chosen.reading.wavelength_unit.certainty, Sure::Chosen);
+}
+
+#[test]
+fn percent_and_fractions() {
+    use Certainty as Sure;
+    for (text, percent, certainty) in [
+        ("nm,Reflectance (%)\n400,5\n500,50\n", true, Sure::Certain),
+        ("nm,Reflectance\n400,5\n500,50\n", true, Sure::Guess),
+        ("nm,Reflectance\n400,0.05\n500,0.5\n", false, Sure::Guess),
+        ("# unit: percent\n400,5\n500,50\n", true, Sure::Certain),
+        ("# quantity: reflectance\n# unit: 1\n400,0.05\n500,0.5\n", false, Sure::Certain),
+        ("Y Units:  Reflectance (percent)\n400 5\n500 50\n", true, Sure::Certain),
+        ("400,5\n500,50\n", true, Sure::Guess),
+        ("Wavelength (nm) Reflectance (%)\n400 5\n500 50\n", true, Sure::Certain),
+        ("400,0.05\n500,0.5\n", false, Sure::Guess),
+    ] {
+        let table = ok(text);
+        assert_eq!(table.role.value, Role::Reflectance, "{text:?}");
+        assert_eq!(table.curves[0].values, [0.05, 0.5], "{text:?}");
+        let decided = &table.reading.percent;
+        assert_eq!((decided.value, decided.certainty), (percent, certainty), "{text:?}");
+    }
+    let said: Vec<String> = ok("400,5\n500,98\n").decisions().iter().map(ToString::to_string).collect();
+    assert!(said.contains(&"Values reach 98: read as percent.".to_owned()), "{said:?}");
+}
+
+#[test]
+fn percent_in_one_column_scales_only_that() {
+    let table = ok("Wave;Sample;Reflectance\n[nm];[counts];[%]\n400;700;40\n401;800;50\n");
+    assert_eq!(table.curves[0].values, [700.0, 800.0]);
+    assert_eq!(table.curves[1].values, [0.4, 0.5]);
+    let expected = Warning::NotReflectances { count: 1, first: "Sample".to_owned(), max: 800.0 };
+    assert_eq!(table.warnings, [expected]);
+}
+
+#[test]
+fn illuminants_and_sensitivities_are_never_scaled() {
+    let options = |role| ReadOptions { role: Some(role), percent: Some(true), ..ReadOptions::default() };
+    for role in [Role::Illuminant, Role::Camera] {
+        let table = read(b"400,5\n500,50\n", &options(role)).unwrap();
+        assert_eq!((table.curves[0].values.as_slice(), table.reading.percent.value), ([5.0, 50.0].as_slice(), false));
+        assert_eq!(table.role.certainty, Certainty::Chosen);
+    }
+    let table = read(b"400,5\n500,50\n", &options(Role::Reflectance)).unwrap();
+    assert_eq!(table.curves[0].values, [0.05, 0.5]);
+    assert_eq!(table.reading.percent.certainty, Certainty::Chosen);
+    let flipped = ReadOptions { percent: Some(false), ..ReadOptions::default() };
+    assert_eq!(read(b"400,5\n500,50\n", &flipped).unwrap().curves[0].values, [5.0, 50.0]);
+    assert_eq!(ok("nm,QE R %,QE G %,QE B %\n400,5,6,7\n500,50,51,52\n").curves[0].values, [5.0, 50.0]);
+}
+
+#[test]
+fn roles() {
+    use {Certainty as Sure, Role as Is};
+    let bells = |order: [f64; 3]| {
+        let mut text = String::from("nm;p;q;s\n");
+        for i in 0..=40 {
+            let w = 380.0 + 10.0 * f64::from(i);
+            let [a, b, c] = order.map(|center| (-((w - center) / 40.0).powi(2)).exp());
+            text += &format!("{w};{a:.6};{b:.6};{c:.6}\n");
+        }
+        text
+    };
+    for (text, role, certainty) in [
+        ("nm,R,G,B\n400,1,2,3\n500,2,3,4\n".to_owned(), Is::Camera, Sure::Certain),
+        ("nm,red,green,blue\n400,1,2,3\n500,2,3,4\n".to_owned(), Is::Camera, Sure::Guess),
+        ("nm,x,y,z\n400,1,2,3\n500,2,3,4\n".to_owned(), Is::Camera, Sure::Certain),
+        (bells([600.0, 540.0, 450.0]), Is::Camera, Sure::Guess),
+        ("# quantity: spectral irradiance\n400,0.1\n500,0.2\n".to_owned(), Is::Illuminant, Sure::Certain),
+        ("CCT\t5198\n400\t0.1\n500\t0.2\n".to_owned(), Is::Illuminant, Sure::Guess),
+        ("400,63\n560,105.3\n600,124\n".to_owned(), Is::Illuminant, Sure::Guess),
+        ("400,49\n560,100\n600,97\n".to_owned(), Is::Illuminant, Sure::Guess),
+        ("nm,leaf,bark\n400,0.1,0.2\n500,0.9,1.1\n".to_owned(), Is::Reflectance, Sure::Guess),
+    ] {
+        let table = ok(&text);
+        assert_eq!((table.role.value, table.role.certainty), (role, certainty), "{text:?}");
+    }
+    assert_eq!(ok(&bells([450.0, 600.0, 540.0])).reading.camera_columns, Some([1, 2, 0]));
+    assert_eq!(ok("nm,B,G,R,IR\n400,1,2,3,4\n500,2,3,4,5\n").reading.camera_columns, Some([2, 1, 0]));
+}
+
+#[test]
+fn order_of_rows() {
+    let ascending = ok("380,1\n390,2\n410,3\n");
+    let descending = ok("410,3\n390,2\n380,1\n");
+    assert_eq!(ascending.curves, descending.curves);
+    assert!(descending.reading.descending && !ascending.reading.descending);
+    assert!(descending.warnings.is_empty());
+    let steps = ascending.reading.step_nm;
+    assert_eq!((steps.min, steps.median, steps.max, ascending.reading.range_nm), (10.0, 20.0, 20.0, [380.0, 410.0]));
+    let mixed = ok("nm,a\n380,1\n410,3\n390,2\n");
+    assert_eq!(mixed.curves[0].values, ascending.curves[0].values);
+    assert_eq!(mixed.warnings, [Warning::Sorted { line: 4 }]);
+}
+
+#[test]
+fn exact_repeats_count_once() {
+    let table = ok("380,1,\n390,2,7\n390,2,7\n400,300,8\n400,300,8\n");
+    assert_eq!(samples(&table.curves[0]), [(380.0, 1.0), (390.0, 2.0), (400.0, 300.0)]);
+    let dropped: Vec<(usize, Dropped)> = table.reading.dropped_rows.iter().map(|row| (row.line, row.why)).collect();
+    assert_eq!(dropped, [(3, Dropped::Repeated), (5, Dropped::Repeated)]);
+    assert_eq!(table.reading.rows, 5);
+}
+
+#[test]
+fn gaps_are_left_out_and_counted() {
+    for gap in [
+        "", " ", "NaN", "nan", "---", "-", "N/A", "n/a", "-9999", "-9999.0", "-1.#IND", "1.#INF", "1.#QNAN", "#DIV/0!",
+        "#N/A", "null", "inf",
+    ] {
+        let table = ok(&format!("nm,a,b\n380,1.5,{gap}\n390,{gap},6\n400,300,7\n410,4,8\n"));
+        assert_eq!(samples(&table.curves[0]), [(380.0, 1.5), (400.0, 300.0), (410.0, 4.0)], "{gap}");
+        assert_eq!(samples(&table.curves[1]), [(390.0, 6.0), (400.0, 7.0), (410.0, 8.0)], "{gap}");
+        assert_eq!((table.curves[0].missing, table.curves[1].missing), (1, 1));
+        assert_eq!(table.warnings.len(), 1);
+        assert_eq!(table.warnings[0].to_string(), "2 missing values, lines 2, 3: left out");
+    }
+    let trailing = ok("nm,a,b,\n380,1.5,5,\n390,2,,\n400,3,7,\n");
+    assert_eq!(names(&trailing), ["a", "b"]);
+    let wavelength = ok("nm,a\n380,1.5\n,2\n400,3\n");
+    assert_eq!(wavelength.reading.dropped_rows[0].why, Dropped::NoWavelength);
+    assert_eq!(wavelength.warnings[0].to_string(), "line 3: no wavelength: left out");
+    let empty = ok("nm,a,b\n380,1.5,\n390,2,\n");
+    assert_eq!(empty.warnings, [Warning::EmptyCurves { count: 1, first: "b".to_owned() }]);
+    let blank_rows = ok("380,1.5\n,\n390,2\n,\n");
+    assert_eq!((blank_rows.curves[0].missing, blank_rows.reading.rows), (0, 2));
+}
+
+#[test]
+fn text_around_the_table() {
+    let table = ok("Begin\nGain 3 4\n\n380\t1\n390\t2\n>>>>>End<<<<<\nPeak\t390\n");
+    assert_eq!(samples(&table.curves[0]), [(380.0, 1.0), (390.0, 2.0)]);
+    assert_eq!(table.warnings, [Warning::TextBelow { line: 6 }]);
+    let above = ok("1023 4\nname\nx\n380 1\n390 2\n400 2\n");
+    assert_eq!((above.reading.rows, above.warnings), (3, vec![Warning::NumbersAbove { line: 1 }]));
+    let long = "key: some words\n".repeat(500);
+    assert_eq!(ok(&format!("{long}380 1\n390 2\n")).reading.first_data_line, 501);
+}
+
+#[test]
+fn wavelengths_in_another_column() {
+    let table = ok("Pixel,Wavelength,Processed,Raw\n0,247.94,24.5,835\n1,248.45,54.5,850\n2,248.96,76.1,858\n");
+    assert_eq!(names(&table), ["Processed", "Raw"]);
+    assert_eq!(table.reading.range_nm, [247.94, 248.96]);
+    assert_eq!(table.warnings, [Warning::SkippedColumns { wavelength_column: 2 }]);
+    let indented = ok("\t380\t1\n\t390\t2\n");
+    assert_eq!(samples(&indented.curves[0]), [(380.0, 1.0), (390.0, 2.0)]);
+}
+
+#[test]
+fn wavelengths_across() {
+    let named = "wavelength\t380\t385\t390\t395\t400\n1\t0.1\t0.2\t0.3\t0.4\t0.5\n2\t0.2\t0.3\t\t0.5\t0.6\n3\t0\t0\t0\t0\t0.1\n";
+    let table = ok(named);
+    assert_eq!(table.reading.orientation.value, Orientation::Across);
+    assert_eq!(names(&table), ["1", "2", "3"]);
+    assert_eq!(table.curves[0].wavelengths_nm, [380.0, 385.0, 390.0, 395.0, 400.0]);
+    assert_eq!(samples(&table.curves[1]), [(380.0, 0.2), (385.0, 0.3), (395.0, 0.5), (400.0, 0.6)]);
+    assert_eq!((table.curves[1].missing, table.reading.rows, table.reading.header_line), (1, 3, Some(1)));
+    assert_eq!(table.warnings[0].to_string(), "1 missing values, line 3: left out");
+    let texts = "Date,Mode,Sample name,Wavelengths(nm),400.5,401,402,403,404\n3/8/22,Reflectance,leaf 1,,5,6,7,8,9\n";
+    let table = ok(texts);
+    assert_eq!((names(&table), table.role.value), (vec!["leaf 1"], Role::Reflectance));
+    assert_eq!(table.reading.wavelength_unit.certainty, Certainty::Certain);
+    assert_eq!(table.curves[0].values, [0.05, 0.06, 0.07, 0.08, 0.09]);
+    let matrix = ok("0,40;0,41;0,42;0,43;0,44\n0,1;0,2;0,3;0,4;0,5\n0,2;0,2;0,2;0,2;0,2\n");
+    assert_eq!((names(&matrix), matrix.reading.range_nm), (vec!["Row 1", "Row 2"], [400.0, 440.0]));
+    let labels = ok("name;440nm;430nm;420nm;410nm;400nm\na;5;4;3;2;1\n");
+    assert_eq!(labels.curves[0].wavelengths_nm, [400.0, 410.0, 420.0, 430.0, 440.0]);
+    assert!(labels.reading.descending);
+}
+
+#[test]
+fn names_that_look_like_wavelengths_do_not_turn_a_table() {
+    let text =
+        "wavelength,400,500,600,700,800\n380,0.1,0.2,0.3,0.4,0.5\n390,0.1,0.2,0.3,0.4,0.5\n400,0.1,0.2,0.3,0.4,0.5\n";
+    let table = ok(text);
+    assert_eq!(table.reading.orientation.value, Orientation::Down);
+    assert_eq!(table.reading.orientation.certainty, Certainty::Guess);
+    assert_eq!((table.curves.len(), table.reading.rows), (5, 3));
+    let options = ReadOptions { orientation: Some(Orientation::Across), ..ReadOptions::default() };
+    let turned = read(text.as_bytes(), &options).unwrap();
+    assert_eq!((names(&turned), turned.reading.range_nm), (vec!["380", "390", "400"], [400.0, 800.0]));
+}
+
+#[test]
+fn choices_overrule_the_content() {
+    let text = b"380,5 0,25\n390,5 0,5\n";
+    let options = ReadOptions {
+        delimiter: Some(Delimiter::Spaces),
+        decimal_mark: Some(DecimalMark::Comma),
+        ..ReadOptions::default()
+    };
+    let table = read(text, &options).unwrap();
+    assert_eq!(samples(&table.curves[0]), [(380.5, 0.25), (390.5, 0.5)]);
+    assert_eq!(table.reading.delimiter.certainty, Certainty::Chosen);
+    let wrong = ReadOptions { delimiter: Some(Delimiter::Semicolon), ..ReadOptions::default() };
+    assert_eq!(read(text, &wrong), Err(ReadError::NoNumbers));
+    let commas = ok("380,1,2\n390,2,3\n");
+    assert_eq!(commas.warnings, [Warning::CommasOnly]);
+    assert_eq!(commas.reading.delimiter.certainty, Certainty::Guess);
+}
+
+#[test]
+fn whole_files_that_are_no_tables() {
+    for (start, kind) in [
+        (&b"PK\x03\x04\x14"[..], BinaryKind::Zip),
+        (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", BinaryKind::Ole2),
+        (b"\x89PNG\r\n", BinaryKind::Png),
+        (b"\xFF\xD8\xFF\xE0", BinaryKind::Jpeg),
+        (b"%PDF-1.4", BinaryKind::Pdf),
+        (b"\x1F\x8B\x08", BinaryKind::Gzip),
+        (b"AVS84\x01", BinaryKind::AvaSoft8),
+    ] {
+        assert_eq!(read(start, &ReadOptions::default()), Err(ReadError::Binary { kind }));
+    }
+    for (text, family) in [
+        ("<?xml version=\"1.0\"?>\n<a>380,1</a>", Family::Xml),
+        ("{\"a\": [380, 1]}\n", Family::Json),
+        ("// a comment\n{ \"bands\": [400, 700, 10] }", Family::Json),
+        ("##TITLE= A\n##XYPOINTS= (XY..XY)\n380,1\n390,2\n", Family::Jcamp),
+        ("SPECT\n\nNUMBER_OF_SETS 1\nBEGIN_DATA_FORMAT\nSPEC_380 SPEC_390\nEND_DATA_FORMAT\n", Family::Cgats),
+    ] {
+        assert_eq!(error(text), ReadError::Unsupported { family }, "{text:?}");
+    }
+    let large = vec![b' '; MAX_BYTES + 1];
+    assert_eq!(read(&large, &ReadOptions::default()), Err(ReadError::TooLarge { megabytes: 65, limit: 64 }));
+    assert_eq!(error(" \r\n\t\0"), ReadError::Empty);
+    assert_eq!(error("Dear reader,\nthere is nothing here.\n"), ReadError::NoNumbers);
+    assert_eq!(error("@19/5/1997\n 2.5E+02\n 0.0E+00\n 2.6E+02\n"), ReadError::OneColumn { line: 2 });
+}
+
+#[test]
+fn broken_rows_are_named() {
+    let not_a_number = |line, column, text: &str| ReadError::NotANumber { line, column, text: text.to_owned() };
+    assert_eq!(error("nm,a\n380,1\n390,abc\n400,2\n410,3\n"), not_a_number(3, 2, "abc"));
+    assert_eq!(error("nm,a\n380,abc\n390,1\n400,2\n410,3\n"), not_a_number(2, 2, "abc"));
+    assert_eq!(error("nm,a\n380,1\n390,1\n400,2\n410,x\n"), not_a_number(5, 2, "x"));
+    assert_eq!(error("nm,a\n380,1\n390,1\noops\n400,2\n410,3\n"), not_a_number(4, 1, "oops"));
+    assert_eq!(error("380,1\n390,1e999\n400,2\n"), not_a_number(2, 2, "1e999"));
+    assert_eq!(error("380,1\n390,12,5x\n400,2\n"), not_a_number(2, 3, "5x"));
+    let across = "name,400,410,420,430,440\na,1,2,x,4,5\nb,1,2,3,4,5\n";
+    assert_eq!(error(across), not_a_number(2, 4, "x"));
+    assert_eq!(error("nm,a,b\n380,1,2\n390,1\n400,2,3\n"), ReadError::UnevenRow { line: 3, found: 2, expected: 3 });
+    assert_eq!(error("380,1\n390,1\n400,2,3\n410,3\n"), ReadError::UnevenRow { line: 3, found: 3, expected: 2 });
+    let across = "name,400,410,420,430,440\na,1,2,3,4,5\nb,1,2,3,4\nc,1,2,3,4,5\n";
+    assert_eq!(error(across), ReadError::UnevenRow { line: 3, found: 5, expected: 6 });
+    let message = error("nm,a\n380,1\n390,abc\n400,2\n").to_string();
+    assert!(message.starts_with("line 3: no number in column 2"), "{message}");
+}
+
+#[test]
+fn tables_that_cannot_be_told_apart() {
+    let second = ReadError::SecondTable { line: 5 };
+    assert_eq!(error("380,1\n390,2\n400,3\nagain\n380,1\n390,2\n"), second);
+    assert_eq!(error("380,1\n390,2\n400,3\nagain\n1,2,3\n2,3,4\n"), ReadError::SecondTable { line: 6 });
+    let pass = |from: u32| (0..8).map(|i| format!("{},{}\n", 380 + 10 * i, from + i)).collect::<Vec<_>>().concat();
+    assert_eq!(error(&format!("{}\n{}", pass(1), pass(5))), ReadError::SecondTable { line: 10 });
+    assert_eq!(error("380,0,0,05\n385,0,0,12\n390,0,0,2\n"), ReadError::AmbiguousCommas { line: 1 });
+    let pairs = "Wavelength (nm),%R,Wavelength (nm),%R\n380,1,380,2\n390,1,390,2\n";
+    assert_eq!(error(pairs), ReadError::SecondWavelengthColumn { column: 3 });
+    assert_eq!(error("380,0.1,380,2\n390,0.1,390,2\n"), ReadError::SecondWavelengthColumn { column: 3 });
+    assert_eq!(error("cm-1,a\n4000,1\n3990,2\n"), ReadError::NotWavelengths { line: 1 });
+}
+
+#[test]
+fn wavelengths_that_cannot_be() {
+    assert_eq!(error("nm,a\n380,1\n"), ReadError::TooFewSamples { line: 2 });
+    assert_eq!(error("nm,a\n380,\n390,\n400,1\n"), ReadError::TooFewSamples { line: 2 });
+    let outside = |line, wavelength_nm| ReadError::WavelengthOutOfRange { line, wavelength_nm };
+    assert_eq!(error("nm,a\n0,1\n1,2\n2,3\n"), outside(2, 0.0));
+    assert_eq!(error("nm,a\n0.38,1\n0.39,2\n"), outside(2, 0.38));
+    assert_eq!(error("nm,a\n380,1\n-390,2\n"), outside(3, -390.0));
+    assert_eq!(error("nm,a\n380,1\n30000,2\n"), outside(3, 30000.0));
+    let repeated = ReadError::RepeatedWavelength { line: 4, first_line: 3, wavelength_nm: 390.0 };
+    assert_eq!(error("nm,a\n380,1\n390,2\n390,3\n400,2\n"), repeated);
+    assert_eq!(error("nm,a\n400,2\n390,2\n390,3\n380,1\n"), repeated);
+}
+
+#[test]
+fn limits() {
+    let wide = format!("380{}\n390{}\n", ",1.5".repeat(100_001), ",1.5".repeat(100_001));
+    assert_eq!(error(&wide), ReadError::TooManyCurves { line: 1 });
+    let many = format!("name,400,410,420,430,440\n{}", "a,1,2,3,4,5\n".repeat(100_001));
+    assert_eq!(error(&many), ReadError::TooManyCurves { line: 100_002 });
+    let row = ",1".repeat(50_000);
+    let tall: Vec<String> = (0..401).map(|i| format!("{}{row}\n", 380 + i)).collect();
+    assert_eq!(error(&tall.concat()), ReadError::TooManySamples { line: 401 });
+}
+
+#[test]
+fn errors_know_their_place() {
+    for text in ["", "nothing", "380,1\n390,x\n400,1\n", "nm,a\n0,1\n1,2\n", "{}", "380,1\n", "2\n3\n"] {
+        let error = error(text);
+        let message = error.to_string();
+        assert_eq!(error.line().is_some(), message.starts_with("line "), "{message}");
+        if let Some(column) = error.column() {
+            assert!(message.contains(&format!("column {column}")), "{message}");
+        }
+    }
+}
+
+#[test]
+fn hostile_shapes_are_quick() {
+    let million = 1_000_000;
+    for bytes in [
+        b"\"".repeat(million),
+        b"\"a,".repeat(million),
+        b"1,".repeat(million),
+        b"\n".repeat(million),
+        b"\r".repeat(million),
+        b"#a:b\n".repeat(million),
+        b"400,1\n".repeat(million),
+        b"nm,%\n".repeat(million),
+        b",,,\n".repeat(million),
+        [b"\"\"\"x", "\"\"\",".as_bytes()].concat().repeat(million),
+        b"1 2;3,4\t5\n".repeat(million),
+    ] {
+        let _ = read(&bytes, &ReadOptions::default());
+    }
+}
+
+/// What must hold of whatever is read.
+fn check(bytes: &[u8], options: &ReadOptions) {
+    let Ok(table) = read(bytes, options) else { return };
+    assert!(!table.curves.is_empty());
+    for curve in &table.curves {
+        assert!(curve.wavelengths_nm.len() >= 2 && curve.wavelengths_nm.len() == curve.values.len());
+        assert!(curve.wavelengths_nm.windows(2).all(|pair| pair[0] < pair[1]));
+        assert!(curve.wavelengths_nm.iter().all(|w| (100.0..=20_000.0).contains(w)));
+        assert!(curve.values.iter().all(|value| value.is_finite()));
+    }
+    let reading = &table.reading;
+    assert!(reading.first_data_line > 0 && reading.rows > 0);
+    assert!(reading.step_nm.min > 0.0 && reading.step_nm.max >= reading.step_nm.median);
+    assert!(reading.camera_columns.is_none_or(|columns| columns.iter().all(|&i| i < table.curves.len())));
+    assert!(table.decisions().iter().all(|decision| !decision.to_string().is_empty()));
+    assert_eq!(read(bytes, options).as_ref(), Ok(&table));
+}
+
+fn options() -> impl Strategy<Value = ReadOptions> {
+    use {DecimalMark as Mark, Delimiter as By, WavelengthUnit as Unit};
+    let delimiters = vec![By::Comma, By::CommaSpace, By::Semicolon, By::Tab, By::Spaces];
+    (
+        prop::option::weighted(0.2, prop::sample::select(delimiters)),
+        prop::option::weighted(0.2, prop::sample::select(vec![Mark::Point, Mark::Comma])),
+        prop::option::weighted(0.2, prop::sample::select(vec![Orientation::Down, Orientation::Across])),
+        prop::option::weighted(0.2, prop::sample::select(vec![Unit::Nanometer, Unit::Micrometer, Unit::Angstrom])),
+        prop::option::weighted(0.2, any::<bool>()),
+        prop::option::weighted(0.2, prop::sample::select(vec![Role::Camera, Role::Reflectance, Role::Illuminant])),
+    )
+        .prop_map(|(delimiter, decimal_mark, orientation, wavelength_unit, percent, role)| ReadOptions {
+            delimiter,
+            decimal_mark,
+            orientation,
+            wavelength_unit,
+            percent,
+            role,
+        })
+}
+
+/// Sound files to damage.
+const SOUND: [&str; 7] = [
+    "# title: a\n# unit: percent\nwavelength_nm,R,G,B\n380,0.1,0.2,0.3\n390,0.2,0.3,0.4\n400,,0.4,0.5\n",
+    "Wave ;Sample;Reflectance\r\n[nm] ;[counts];[%]\r\n\r\n 300,00; -6,893;52,5\r\n 301,00; -7,474; 0,0\r\n",
+    "\" File: x\n\" T->  Wave:7.2nm\n 339.00  1.0000E-003\n 339.50  1.0000E-003\n 340.00  NaN\n",
+    "wavelength\t380\t385\t390\t395\t400\n1\t0.1\t0.2\t0.3\t0.4\t0.5\n2\t0.2\t0.3\t\t0.5\t0.6\n",
+    "X Units: Wavelength (micrometers)\nY Units: Reflectance (percent)\n\n0.40\t5\t\n0.39\t6\t\n0.38\t7\t\n",
+    "Pixel,Wavelength,P\n0,380.5,1\n1,381.5,2\n>>>End\n",
+    "a,\"b, c\",400,410,420,430,440\nx,\"y \"\"z\",1,2,3,4,5\nx,y,1,2,3,4,5\n",
+];
+
+fn damaged() -> impl Strategy<Value = Vec<u8>> {
+    let piece = prop_oneof![
+        prop::collection::vec(any::<u8>(), 0..4),
+        prop::sample::select(vec![
+            ",", ";", "\t", "\"", "\n", "\r", "#", "nm", "%", "-9999", "1e999", "\0", "0.1", "38"
+        ])
+        .prop_map(|piece| piece.as_bytes().to_vec()),
+    ];
+    let edits = prop::collection::vec((any::<prop::sample::Index>(), 0..12_usize, piece), 1..6);
+    (prop::sample::select(SOUND.to_vec()), edits, any::<prop::sample::Index>(), any::<bool>()).prop_map(
+        |(text, edits, end, cut)| {
+            let mut bytes = text.as_bytes().to_vec();
+            for (at, length, piece) in edits {
+                let at = at.index(bytes.len() + 1);
+                let until = (at + length).min(bytes.len());
+                bytes.splice(at..until, piece);
+            }
+            if cut {
+                bytes.truncate(end.index(bytes.len() + 1));
+            }
+            bytes
+        },
+    )
+}
+
+/// How a table of numbers is written.
+#[derive(Debug, Clone)]
+struct Style {
+    separator: &'static str,
+    comma: bool,
+    unit: (&'static str, f64),
+    descending: bool,
+    header: bool,
+    line_end: &'static str,
+}
+
+fn style() -> impl Strategy<Value = Style> {
+    let separators =
+        vec![(",", false), (";", false), (";", true), ("\t", false), ("\t", true), ("  ", false), ("  ", true)];
+    let units = vec![("nm", 1.0), ("um", 1000.0), ("angstrom", 0.1)];
+    let ends = vec!["\n", "\r\n", "\r"];
+    (
+        prop::sample::select(separators),
+        prop::sample::select(units),
+        any::<bool>(),
+        any::<bool>(),
+        prop::sample::select(ends),
+    )
+        .prop_map(|((separator, comma), unit, descending, header, line_end)| Style {
+            separator,
+            comma,
+            unit,
+            descending,
+            header,
+            line_end,
+        })
+}
+
+impl Style {
+    /// A number of hundredths as text, exactly, in the unit of wavelengths.
+    fn wavelength(&self, hundredths: u32) -> String {
+        match self.unit.0 {
+            "um" => format!("{}.{:05}", hundredths / 100_000, hundredths % 100_000),
+            "angstrom" => format!("{}.{}", hundredths / 10, hundredths % 10),
+            _ => format!("{}.{:02}", hundredths / 100, hundredths % 100),
+        }
+    }
+
+    fn write(&self, rows: &[(u32, Vec<f64>)]) -> String {
+        let mut lines = Vec::new();
+        if self.header {
+            let names = (1..=rows[0].1.len()).map(|i| format!("c{i}"));
+            lines.push(std::iter::once(format!("wavelength_{}", self.unit.0)).chain(names).collect::<Vec<_>>());
+        }
+        let mut body: Vec<Vec<String>> = rows
+            .iter()
+            .map(|(w, values)| {
+                std::iter::once(self.wavelength(*w)).chain(values.iter().map(|v| format!("{v:?}"))).collect()
+            })
+            .collect();
+        if self.descending {
+            body.reverse();
+        }
+        lines.extend(body);
+        let mark = |cell: &String| if self.comma { cell.replace('.', ",") } else { cell.clone() };
+        let joined = lines.iter().map(|cells| cells.iter().map(mark).collect::<Vec<_>>().join(self.separator));
+        joined.collect::<Vec<_>>().join(self.line_end)
+    }
+
+    fn options(&self) -> ReadOptions {
+        let unit = match self.unit.0 {
+            "um" => WavelengthUnit::Micrometer,
+            "angstrom" => WavelengthUnit::Angstrom,
+            _ => WavelengthUnit::Nanometer,
+        };
+        ReadOptions {
+            wavelength_unit: (!self.header).then_some(unit),
+            role: Some(Role::Illuminant),
+            ..ReadOptions::default()
+        }
+    }
+}
+
+/// Two to 300 rows of one to six curves, wavelengths in hundredths of a nanometer.
+fn rows() -> impl Strategy<Value = Vec<(u32, Vec<f64>)>> {
+    let value = prop_oneof![
+        -1000.0..1000.0_f64,
+        (0..100_000_u32).prop_map(|v| f64::from(v) / 1000.0),
+        (-1e-6..1e-6_f64),
+        Just(1e300),
+    ];
+    (1..=6_usize)
+        .prop_flat_map(move |curves| {
+            prop::collection::btree_map(20_000_u32..200_000, prop::collection::vec(value.clone(), curves), 2..300)
+        })
+        .prop_map(|rows| rows.into_iter().collect())
+        // Curves that repeat their wavelengths are refused, rightly.
+        .prop_filter("a curve equals the wavelengths", |rows: &Vec<(u32, Vec<f64>)>| {
+            rows.iter().any(|(w, values)| values.iter().all(|value| *value != f64::from(*w) / 100.0))
+        })
+}
+
+proptest! {
+    #[test]
+    fn random_bytes_are_survived(bytes in prop::collection::vec(any::<u8>(), 0..400), options in options()) {
+        check(&bytes, &options);
+    }
+
+    #[test]
+    fn random_tables_of_characters_are_survived(text in "[0-9.,; \t\n\r\"#%NnaAµm:e+-]{0,300}", options in options()) {
+        check(text.as_bytes(), &options);
+    }
+
+    #[test]
+    fn damaged_files_are_survived(bytes in damaged(), options in options()) {
+        check(&bytes, &options);
+    }
+
+    #[test]
+    fn tables_round_trip_exactly(rows in rows(), style in style()) {
+        let text = style.write(&rows);
+        let table = read(text.as_bytes(), &style.options());
+        let table = table.map_err(|error| TestCaseError::fail(format!("{error}\n{text}")))?;
+        prop_assert_eq!(table.curves.len(), rows[0].1.len());
+        prop_assert_eq!(table.reading.descending, style.descending);
+        for (index, curve) in table.curves.iter().enumerate() {
+            let expected: Vec<(f64, f64)> = rows.iter().map(|(w, values)| (f64::from(*w) / 100.0, values[index])).collect();
+            prop_assert_eq!(samples(curve), expected);
+        }
+    }
+
+    #[test]
+    fn tables_across_round_trip_exactly(rows in rows().prop_filter("a header needs five", |rows| rows.len() >= 5)) {
+        let header = rows.iter().map(|(w, _)| format!("{}", f64::from(*w) / 100.0)).collect::<Vec<_>>().join(",");
+        let mut text = format!("name,{header}\n");
+        for index in 0..rows[0].1.len() {
+            text += &format!("curve {index}");
+            for (_, values) in &rows {
+                text += &format!(",{:?}", values[index]);
+            }
+            text += "\n";
+        }
+        let options = ReadOptions {
+            role: Some(Role::Illuminant),
+            wavelength_unit: Some(WavelengthUnit::Nanometer),
+            ..ReadOptions::default()
+        };
+        let table = read(text.as_bytes(), &options).map_err(|error| TestCaseError::fail(format!("{error}\n{text}")))?;
+        for (index, curve) in table.curves.iter().enumerate() {
+            let expected: Vec<(f64, f64)> = rows.iter().map(|(w, values)| (f64::from(*w) / 100.0, values[index])).collect();
+            prop_assert_eq!(samples(curve), expected);
+            prop_assert_eq!(&curve.name, &format!("curve {index}"));
+        }
+    }
+}

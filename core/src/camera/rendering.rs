@@ -4,7 +4,7 @@ use super::White;
 use crate::colorimetry::adaptation::bradford;
 use crate::colorimetry::rgb::{XYZ_FROM_SRGB, srgb_from_xyz, srgb_white};
 use crate::colorimetry::{Lab, Xyz, lab::lab_from_xyz};
-use crate::math::dot::dot;
+use crate::math::dot::{dot, dot_each};
 use crate::math::least_squares::{FitError, matrix_keeping};
 use crate::object::PatchSet;
 use crate::spectral::grid::COUNT;
@@ -40,6 +40,9 @@ pub enum NoRendering {
     /// The reference of a fit must count in XYZ.
     #[error("the reference observer must be a CIE XYZ observer")]
     Reference,
+    /// The color that white is to take leaves a channel at zero, which no matrix can undo.
+    #[error("the chosen white leaves a channel at zero; choose another white")]
+    NoWhite,
     /// The fit to the reference observer has no answer.
     #[error(transparent)]
     Fit(#[from] FitError),
@@ -77,7 +80,24 @@ impl Rendering {
             (_, Primaries::Xyz) => direct(sensor, light),
             (Way::Paper, Primaries::Cones) => Err(NoRendering::ConesNeedObserver),
             (Way::Paper, Primaries::Camera | Primaries::Rgb) => paper(sensor, light, white),
-            (Way::Observer { reference, training }, _) => fitted(sensor, light, white, reference, training),
+            (Way::Observer { reference, training }, _) => {
+                let targets = FitTargets::new(reference, light, training);
+                fitted(sensor, light, white, training, targets.as_ref().map_err(|&e| e))
+            }
+        }
+    }
+
+    /// The same as [`Rendering::new`] on the way by an observer, with the part made already that other sensors share.
+    pub fn by_targets(
+        sensor: &Sensor,
+        light: &GridSpectrum,
+        white: White,
+        training: &PatchSet,
+        targets: Result<&FitTargets, NoRendering>,
+    ) -> Result<Self, NoRendering> {
+        match sensor.primaries() {
+            Primaries::Xyz => direct(sensor, light),
+            Primaries::Camera | Primaries::Rgb | Primaries::Cones => fitted(sensor, light, white, training, targets),
         }
     }
 
@@ -161,6 +181,27 @@ fn paper(sensor: &Sensor, light: &GridSpectrum, White(white): White) -> Result<R
     })
 }
 
+/// What a reference observer sees of the training reflectances under a light: the part of a fit that all sensors share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitTargets {
+    reference: Rendering,
+    targets: Vec<DVec3>,
+}
+
+impl FitTargets {
+    /// Prepares the targets; the reference must count in XYZ and see the light.
+    pub fn new(reference: &Sensor, light: &GridSpectrum, training: &PatchSet) -> Result<Self, NoRendering> {
+        if reference.primaries() != Primaries::Xyz {
+            return Err(NoRendering::Reference);
+        }
+        let rendering = direct(reference, light)?;
+        let product = under_light(reference, light);
+        let targets =
+            training.patches().iter().map(|patch| raw(&product, patch.grid.values()) / rendering.white_integrals);
+        Ok(Self { targets: targets.collect(), reference: rendering })
+    }
+}
+
 /// A sensor through the 3×3 matrix that best predicts the reference observer over the training reflectances and keeps white.
 ///
 /// The matrix belongs to the balanced signals, so the white chosen for the balance moves RGB but not XYZ.
@@ -168,31 +209,27 @@ fn fitted(
     sensor: &Sensor,
     light: &GridSpectrum,
     White(white): White,
-    reference: &Sensor,
     training: &PatchSet,
+    targets: Result<&FitTargets, NoRendering>,
 ) -> Result<Rendering, NoRendering> {
-    if reference.primaries() != Primaries::Xyz {
-        return Err(NoRendering::Reference);
-    }
+    // The sensor first: a light that neither sees is the sensor's own trouble.
     let (integrals, conditioning) = white_integrals(sensor, light)?;
-    let target = direct(reference, light)?;
-    let of_sensor = under_light(sensor, light);
-    let of_reference = under_light(reference, light);
-    let (mut samples, mut targets) = (Vec::new(), Vec::new());
-    for patch in training.patches() {
-        let values = patch.grid.values();
-        samples.push(raw(&of_sensor, values) / integrals);
-        targets.push(raw(&of_reference, values) / target.white_integrals);
-    }
+    let FitTargets { reference, targets } = targets?;
+    let product = under_light(sensor, light);
+    let samples: Vec<DVec3> =
+        training.patches().iter().map(|patch| raw(&product, patch.grid.values()) / integrals).collect();
     let s = DVec3::from_array(white);
-    let unity = matrix_keeping(&samples, &targets, DVec3::ONE, target.lab_white.to_vector())?;
+    if s.abs().min_element() == 0.0 {
+        return Err(NoRendering::NoWhite);
+    }
+    let unity = matrix_keeping(&samples, targets, DVec3::ONE, reference.lab_white.to_vector())?;
     Ok(Rendering {
         white: s,
         white_integrals: integrals,
         locus_gain: s / integrals,
         xyz_from_signals: unity * DMat3::from_diagonal(s.recip()),
-        srgb_from_xyz: target.srgb_from_xyz,
-        lab_white: target.lab_white,
+        srgb_from_xyz: reference.srgb_from_xyz,
+        lab_white: reference.lab_white,
         is_rgb: matches!(sensor.primaries(), Primaries::Camera | Primaries::Rgb),
         conditioning,
     })
@@ -217,5 +254,5 @@ pub fn under_light(sensor: &Sensor, light: &GridSpectrum) -> [Box<[f64; COUNT]>;
 /// `∫ C_c S L dλ` for each channel, from the products of [`under_light`].
 pub fn raw(under_light: &[Box<[f64; COUNT]>; 3], reflectance: &[f64; COUNT]) -> DVec3 {
     let [r, g, b] = under_light;
-    DVec3::new(dot(r.as_slice(), reflectance), dot(g.as_slice(), reflectance), dot(b.as_slice(), reflectance))
+    DVec3::from_array(dot_each([r, g, b], reflectance))
 }

@@ -53,7 +53,7 @@ const BOLTZMANN: f64 = 1.380_649e-23;
 /// use chromascope_core::light::{RadiationConstants, planckian::exitance};
 /// use chromascope_core::units::{Kelvin, Nanometers};
 /// let e = exitance(Nanometers::new(555.0)?, Kelvin::new(5500.0)?, RadiationConstants::Paper);
-/// assert!((e / 6.414e13 - 1.0).abs() < 1e-3);
+/// assert!((e / 6.433_997e13 - 1.0).abs() < 1e-6);
 /// # Ok::<(), chromascope_core::units::NotPositive>(())
 /// ```
 pub fn exitance(wavelength: crate::units::Nanometers, temperature: Kelvin, constants: RadiationConstants) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::{Ask, Query, Shared};
 use crate::camera::rendering::{raw, under_light};
-use crate::camera::{NoRendering, Rendering, Way, White};
+use crate::camera::{FitTargets, NoRendering, Rendering, Way, White};
 use crate::colorimetry::rgb::{EncodedSrgb, encode_srgb};
 use crate::colorimetry::{Lab, UvPrime, Xy, Xyz};
 use crate::object::PatchSet;
@@ -39,12 +39,36 @@ impl Query for RenderingOf {
     type Answer = Result<Rendering, NoRendering>;
     const NAME: &'static str = "rendering";
 
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        match &self.way {
+            WayOf::Paper => Rendering::new(&self.sensor, &self.light, self.white, Way::Paper),
+            WayOf::Observer { reference, training } => {
+                let (reference, training, light) = (reference.clone(), training.clone(), self.light.clone());
+                let targets = ask.ask(&FitTargetsOf { reference, light, training: training.clone() });
+                let targets = (*targets).as_ref().map_err(|&e| e);
+                Rendering::by_targets(&self.sensor, &self.light, self.white, &training, targets)
+            }
+        }
+    }
+}
+
+/// What does a reference observer see of the training reflectances? The same for every sensor that is fitted to it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct FitTargetsOf {
+    /// The observer.
+    pub reference: Shared<Sensor>,
+    /// The light on the scene.
+    pub light: Shared<GridSpectrum>,
+    /// The training reflectances.
+    pub training: Shared<PatchSet>,
+}
+
+impl Query for FitTargetsOf {
+    type Answer = Result<FitTargets, NoRendering>;
+    const NAME: &'static str = "fit targets";
+
     fn answer(&self, _: &impl Ask) -> Self::Answer {
-        let way = match &self.way {
-            WayOf::Paper => Way::Paper,
-            WayOf::Observer { reference, training } => Way::Observer { reference, training },
-        };
-        Rendering::new(&self.sensor, &self.light, self.white, way)
+        FitTargets::new(&self.reference, &self.light, &self.training)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::grid::{COUNT, FIRST_NM, GridSpectrum, LAST_NM, Quantity, wavelength_nm};
 use super::{DistributionError, SpectralDistribution};
-use crate::math::dot::dot;
+use crate::math::dot::dot_each;
 use std::hash::{Hash, Hasher};
 
 /// In what the three channels are counted.
@@ -141,7 +141,8 @@ impl Sensor {
 
     /// `∫ C_c f dλ` for each channel, with f on the grid.
     pub fn integrate(&self, spectrum: &[f64; COUNT]) -> [f64; 3] {
-        [0, 1, 2].map(|c: usize| dot(self.weighted[c].as_slice(), spectrum))
+        let [a, b, c] = &self.weighted;
+        dot_each([a, b, c], spectrum)
     }
 
     /// `C_c(λ)` at a grid sample, without quadrature weight at the ends of the support.

@@ -193,6 +193,7 @@ impl Columns {
         let values = self.cells.split_off(at + 1);
         let wavelengths = self.cells.pop().unwrap_or_default();
         refuse_second_wavelengths(&header, at, &wavelengths, &values)?;
+        warn_of_names_without_columns(&header, at + 1 + values.len(), warnings);
         let only = values.len() == 1;
         let curves = values.into_iter().enumerate().map(|(i, values)| {
             let column = at + 1 + i;
@@ -207,6 +208,14 @@ impl Columns {
         let mut grid = Grid { wavelengths, lines, curves, header, label_unit, rows, dropped: Vec::new() };
         drop_without_wavelength(&mut grid, warnings);
         Ok(grid)
+    }
+}
+
+/// A named column that is empty in every row is no column of the rows, but somebody expects it.
+fn warn_of_names_without_columns(header: &Header, width: usize, warnings: &mut Vec<Warning>) {
+    let mut names = header.names.iter().skip(width).filter(|name| !name.is_empty());
+    if let Some(first) = names.next() {
+        warnings.push(Warning::EmptyCurves { count: 1 + names.count(), first: first.clone() });
     }
 }
 

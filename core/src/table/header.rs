@@ -146,6 +146,10 @@ impl Header {
             }
             self.names = cells;
             self.line = Some(number);
+            // Some programs name only the curves.
+            if self.names.len() + 1 == layout.width && !self.names.iter().any(|name| words::names_wavelengths(name)) {
+                self.names.insert(0, String::new());
+            }
             return;
         }
     }

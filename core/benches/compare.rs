@@ -1,0 +1,46 @@
+//! What a frame waits for: time and error side by side, each against the plain 1 nm sum in the same run.
+//!
+//! `cargo bench -p chromascope-core --bench compare [-- --quick loci patches document slider]`. Times are medians over rounds in which the candidates take
+//! turns, so that a slow moment of the machine falls on all of them. Errors are against compensated sums (Neumaier), which a
+//! double cannot tell from exact ones.
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_types,
+    reason = "a bench reads the clock, the data and its arguments"
+)]
+#![allow(clippy::print_stdout, reason = "the table is what a bench is for")]
+#![allow(clippy::unwrap_used, reason = "a bench that cannot go on should say so by failing")]
+
+#[path = "compare/asker.rs"]
+mod asker;
+#[path = "compare/exact.rs"]
+mod exact;
+#[path = "compare/library.rs"]
+mod library;
+#[path = "compare/stopwatch.rs"]
+mod stopwatch;
+#[path = "compare/workloads.rs"]
+mod workloads;
+
+/// A name to ask for it by, and what to run for how many rounds.
+type Workload = (&'static str, fn(usize));
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let quick = arguments.iter().any(|argument| argument == "--quick");
+    let rounds = if quick { 5 } else { 41 };
+    let cores = std::thread::available_parallelism().map_or(0, usize::from);
+    println!("{} · {cores} cores, one used · medians of {rounds} rounds", library::processor());
+    let named: Vec<&String> = arguments.iter().filter(|argument| !argument.starts_with('-')).collect();
+    let workloads: [Workload; 4] = [
+        ("loci", workloads::loci),
+        ("patches", workloads::patches),
+        ("document", workloads::document),
+        ("slider", workloads::slider),
+    ];
+    for (name, run) in workloads {
+        if named.is_empty() || named.iter().any(|wanted| *wanted == name) {
+            run(rounds);
+        }
+    }
+}

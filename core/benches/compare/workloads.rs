@@ -1,0 +1,233 @@
+//! The pieces of work: loci, patches, the first screen, the temperature slider.
+
+use crate::asker::Remembering;
+use crate::exact::{Exact, apart, locus_point, plain};
+use crate::library::{
+    CHART, CONSTANTS, DEFAULT, TRAINING, defaults, equal_energy, patches as chart, sensor, shared, sixty, temperatures,
+    text,
+};
+use crate::stopwatch::{candidate, compare};
+use chromascope_core::camera::{LocusEvaluator, Rendering, Way, White};
+use chromascope_core::colorimetry::Xy;
+use chromascope_core::light::planckian::black_body;
+use chromascope_core::object::{PAPER_FIVE, PatchSet};
+use chromascope_core::query::{Ask, Direct, LocusOf, PatchColorsOf, RadiatorSignals, RenderingOf, Shared, WayOf};
+use chromascope_core::spectral::{GridSpectrum, Sensor};
+use chromascope_core::units::Kelvin;
+
+fn paper(sensor: &Sensor) -> Rendering {
+    Rendering::new(sensor, &equal_energy(), White::UNITY, Way::Paper).unwrap()
+}
+
+/// A locus of 500 temperatures for twelve sources.
+pub(crate) fn loci(rounds: usize) {
+    let mut sensors = defaults();
+    sensors.extend(sixty().into_iter().step_by(8).take(7));
+    let all = temperatures(500).to_vec();
+    let renderings: Vec<Rendering> = sensors.iter().map(|sensor| paper(sensor)).collect();
+    let through = |evaluators: &[LocusEvaluator<'_>]| -> Vec<Xy> {
+        let each = evaluators.iter().zip(&renderings);
+        each.flat_map(|(evaluator, rendering)| all.iter().map(|&t| locus_point(rendering, evaluator.raw(t)))).collect()
+    };
+    let exact: Vec<Xy> = sensors
+        .iter()
+        .flat_map(|sensor| {
+            let exact = Exact::new(sensor, &equal_energy(), Way::Paper);
+            all.iter().map(move |&t| exact.radiator(sensor, t)).collect::<Vec<_>>()
+        })
+        .collect();
+    let make =
+        || -> Vec<LocusEvaluator<'_>> { sensors.iter().map(|sensor| LocusEvaluator::new(sensor, CONSTANTS)).collect() };
+    let sums: Vec<_> = sensors.iter().map(|sensor| LocusEvaluator::by_sum(sensor, CONSTANTS)).collect();
+    let kept = make();
+    compare(
+        "a locus of 500 temperatures for 12 sources",
+        "max xy error",
+        rounds,
+        vec![
+            candidate("1 nm sum (baseline)", || through(&sums), |found| apart(&found, &exact)),
+            candidate("nodes, made and checked anew", || through(&make()), |found| apart(&found, &exact)),
+            candidate("nodes, already made", || through(&kept), |found| apart(&found, &exact)),
+        ],
+    );
+}
+
+/// The 24 patches through 60 sources.
+pub(crate) fn patches(rounds: usize) {
+    let (sensors, patches, light) = (sixty(), Shared::new(chart(CHART)), Shared::new(equal_energy()));
+    let renderings: Vec<RenderingOf> = sensors
+        .iter()
+        .map(|sensor| RenderingOf {
+            sensor: sensor.clone(),
+            light: light.clone(),
+            white: White::UNITY,
+            way: WayOf::Paper,
+        })
+        .collect();
+    let exact: Vec<Xy> = sensors
+        .iter()
+        .flat_map(|sensor| {
+            let exact = Exact::new(sensor, &light, Way::Paper);
+            patches.patches().iter().map(|patch| exact.patch(sensor, &light, patch.grid.values())).collect::<Vec<_>>()
+        })
+        .collect();
+    let by_sum = || -> Vec<Xy> {
+        let mut found = Vec::new();
+        for sensor in &sensors {
+            let rendering = paper(sensor);
+            for patch in patches.patches() {
+                let signals = rendering.patch_signals(plain(sensor, light.values(), patch.grid.values()).to_array());
+                found.push(rendering.xyz(signals).chromaticity().unwrap());
+            }
+        }
+        found
+    };
+    let by_query = || -> Vec<Xy> {
+        let asked =
+            renderings.iter().map(|r| Direct.ask(&PatchColorsOf { rendering: r.clone(), patches: patches.clone() }));
+        asked.flat_map(|colors| (*colors).clone().unwrap().iter().map(|c| c.xy.unwrap()).collect::<Vec<_>>()).collect()
+    };
+    compare(
+        "24 patches through 60 sources",
+        "max xy error",
+        rounds,
+        vec![
+            candidate("1 nm sum, xy only (baseline)", by_sum, |found| apart(&found, &exact)),
+            candidate("the question: RGB, xy, u'v', Lab, screen", by_query, |found| apart(&found, &exact)),
+        ],
+    );
+}
+
+/// What is asked for one screen.
+struct Screen {
+    sensors: Vec<Shared<Sensor>>,
+    patches: Shared<PatchSet>,
+    reference: Shared<Sensor>,
+    training: Shared<PatchSet>,
+}
+
+impl Screen {
+    fn new(patches: PatchSet) -> Self {
+        Self {
+            sensors: defaults(),
+            patches: Shared::new(patches),
+            reference: shared(DEFAULT[4]),
+            training: Shared::new(chart(TRAINING)),
+        }
+    }
+
+    fn way(&self, observer: bool) -> WayOf {
+        if observer {
+            WayOf::Observer { reference: self.reference.clone(), training: self.training.clone() }
+        } else {
+            WayOf::Paper
+        }
+    }
+
+    /// Every answer that the screen shows: the loci's points, then the patches', source by source.
+    fn answers(&self, ask: &impl Ask, light: GridSpectrum, observer: bool) -> Vec<Xy> {
+        let (light, way) = (Shared::new(light), self.way(observer));
+        let mut found = Vec::with_capacity(self.sensors.len() * (200 + self.patches.patches().len()));
+        for sensor in &self.sensors {
+            let rendering =
+                RenderingOf { sensor: sensor.clone(), light: light.clone(), white: White::UNITY, way: way.clone() };
+            let colors = ask.ask(&PatchColorsOf { rendering: rendering.clone(), patches: self.patches.clone() });
+            let locus = ask.ask(&LocusOf { rendering, temperatures: temperatures(200), constants: CONSTANTS });
+            found.extend((*locus).as_ref().unwrap().points.iter().map(|point| point.xy.unwrap()));
+            found.extend((*colors).as_ref().unwrap().iter().map(|color| color.xy.unwrap()));
+        }
+        found
+    }
+
+    /// The same by plain 1 nm sums, one number after the other.
+    fn by_sums(&self, light: &GridSpectrum, observer: bool) -> Vec<Xy> {
+        let mut found = Vec::new();
+        for sensor in &self.sensors {
+            let rendering = Rendering::new(sensor, light, White::UNITY, self.borrowed(observer)).unwrap();
+            let evaluator = LocusEvaluator::by_sum(sensor, CONSTANTS);
+            found.extend(temperatures(200).to_vec().into_iter().map(|t| locus_point(&rendering, evaluator.raw(t))));
+            for patch in self.patches.patches() {
+                let raw = plain(sensor, light.values(), patch.grid.values()).to_array();
+                found.push(rendering.xyz(rendering.patch_signals(raw)).chromaticity().unwrap());
+            }
+        }
+        found
+    }
+
+    /// The same by compensated sums.
+    fn exactly(&self, light: &GridSpectrum, observer: bool) -> Vec<Xy> {
+        let mut found = Vec::new();
+        for sensor in &self.sensors {
+            let exact = Exact::new(sensor, light, self.borrowed(observer));
+            found.extend(temperatures(200).to_vec().into_iter().map(|t| exact.radiator(sensor, t)));
+            found.extend(self.patches.patches().iter().map(|patch| exact.patch(sensor, light, patch.grid.values())));
+        }
+        found
+    }
+
+    fn borrowed(&self, observer: bool) -> Way<'_> {
+        if observer { Way::Observer { reference: &self.reference, training: &self.training } } else { Way::Paper }
+    }
+}
+
+/// The first screen: five sources, equal energy, 200 temperatures, five patches.
+pub(crate) fn document(rounds: usize) {
+    let screen = Screen::new(chart(CHART).subset(&PAPER_FIVE));
+    let texts: Vec<String> = DEFAULT.iter().map(|path| text(path)).collect();
+    let exact = screen.exactly(&equal_energy(), false);
+    compare(
+        "the first screen: 5 sources, 200 temperatures, 5 patches",
+        "max xy error",
+        rounds,
+        vec![
+            candidate(
+                "1 nm sums, without reading (baseline)",
+                || screen.by_sums(&equal_energy(), false),
+                |found| apart(&found, &exact),
+            ),
+            candidate(
+                "all answers, nothing known",
+                || screen.answers(&Remembering::default(), equal_energy(), false),
+                |found| apart(&found, &exact),
+            ),
+            candidate(
+                "reading five sensors and the chart",
+                || (texts.iter().map(|text| sensor(text)).collect::<Vec<_>>(), chart(CHART)),
+                |_| f64::NAN,
+            ),
+        ],
+    );
+}
+
+/// All that changes when the temperature slider moves and the light is a black body of that temperature: 24 patches and 200
+/// temperatures of five sources. What no light changes, the sensors' raw signals, is known already.
+pub(crate) fn slider(rounds: usize) {
+    let screen = Screen::new(chart(CHART));
+    for (observer, title) in [(false, "the slider moves, Paper"), (true, "the slider moves, Observer")] {
+        let light = |t: f64| black_body(Kelvin::new(t).unwrap(), CONSTANTS);
+        let asker = Remembering::default();
+        for sensor in &screen.sensors {
+            let (sensor, temperatures) = (sensor.clone(), temperatures(200));
+            asker.ask(&RadiatorSignals { sensor, temperatures, constants: CONSTANTS });
+        }
+        let known = asker.len();
+        let move_to = || {
+            asker.keep(known);
+            screen.answers(&asker, light(5500.0), observer)
+        };
+        let exact = screen.exactly(&light(5500.0), observer);
+        compare(
+            title,
+            "max xy error",
+            rounds,
+            vec![
+                candidate(
+                    "1 nm sums (baseline)",
+                    || screen.by_sums(&light(5500.0), observer),
+                    |found| apart(&found, &exact),
+                ),
+                candidate("all answers that change", move_to, |found| apart(&found, &exact)),
+            ],
+        );
+    }
+}
