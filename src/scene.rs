@@ -192,7 +192,7 @@ impl<'a> Scene<'a> {
 
     fn white_of(&self, light: &LoadedLight, name: &str) -> Result<White, SceneError> {
         let observer = self.sensor(Kind::Observer, REFERENCE)?;
-        White::from_light(&light.grid, &observer).ok_or_else(|| SceneError::White(name.to_owned()))
+        White::from_light(&light.measured, &observer).ok_or_else(|| SceneError::White(name.to_owned()))
     }
 
     /// The way to the diagram with what it needs.

@@ -1,7 +1,7 @@
-mod screenshots;
 mod architecture;
 mod cpu_renderer;
 mod figure;
+mod screenshots;
 mod theme;
 #[test]
 fn t() {}

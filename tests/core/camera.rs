@@ -14,8 +14,8 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 
 use crate::support::{
-    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, assert_xy, cases, chart, kelvin, light, reference,
-    sensor, sensors, training,
+    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, assert_xy, cases, chart, dataset, kelvin, light,
+    measured, reference, sensor, sensors, training,
 };
 
 const PAPER: RadiationConstants = RadiationConstants::Paper;
@@ -303,13 +303,13 @@ fn cie_observers_are_drawn_directly_on_either_way() {
 #[test]
 fn whites_of_lights_are_their_colors() {
     let observer = sensor(CIE_1931);
-    let white = White::from_light(&light("illuminants/d65.csv"), &observer).unwrap();
+    let white = White::from_light(&dataset("illuminants/d65.csv").curves[0], &observer).unwrap();
     for v in white.0 {
         assert_near("D65", v, 1.0, 1.5e-3);
     }
-    assert!(White::from_light(&GridSpectrum::constant(0.0), &observer).is_none());
+    assert!(White::from_light(&measured(&GridSpectrum::constant(0.0)), &observer).is_none());
     assert!(White::from_chromaticity(Xy { x: 0.3, y: 0.0 }).is_none());
-    let glow = White::from_light(&black_body(kelvin(1000.0), PAPER), &observer).unwrap();
+    let glow = White::from_light(&measured(&black_body(kelvin(1000.0), PAPER)), &observer).unwrap();
     assert!(glow.0[2] < 0.0, "a black body of 1000 K is outside sRGB");
 }
 

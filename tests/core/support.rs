@@ -109,3 +109,11 @@ pub(crate) fn assert_xy(what: &str, value: Xy, expected: [f64; 2], tolerance: f6
     assert_near(&format!("{what} x"), value.x, expected[0], tolerance);
     assert_near(&format!("{what} y"), value.y, expected[1], tolerance);
 }
+
+/// A grid spectrum as if it had been measured at 1 nm.
+pub(crate) fn measured(
+    spectrum: &chromascope_core::spectral::GridSpectrum,
+) -> chromascope_core::spectral::SpectralDistribution {
+    let nm = (0..spectrum.values().len()).map(chromascope_core::spectral::grid::wavelength_nm).collect();
+    chromascope_core::spectral::SpectralDistribution::new(nm, spectrum.values().to_vec()).unwrap()
+}

@@ -2,7 +2,8 @@
 
 use crate::colorimetry::rgb::SRGB_FROM_XYZ_PUBLISHED;
 use crate::colorimetry::{Xyz, tristimulus::Xy};
-use crate::spectral::{GridSpectrum, Sensor};
+use crate::math::interpolation::linear;
+use crate::spectral::{Sensor, SpectralDistribution};
 use std::hash::{Hash, Hasher};
 
 /// The color s that a perfect white takes, in balanced camera RGB: `I_c = s_c ∫C_c S L dλ / ∫C_c L dλ`.
@@ -36,8 +37,18 @@ impl White {
     }
 
     /// The color of a light as an XYZ observer sees it, or none where it sees nothing.
-    pub fn from_light(light: &GridSpectrum, observer: &Sensor) -> Option<Self> {
-        let [x, y, z] = observer.integrate(light.values());
+    ///
+    /// The trapezoid sum over the light's own samples, as published whites are made of 5 nm tables: between 360 and 380 nm, off
+    /// the grid, lie 3e-4 of D55's Z, which the paper's four digits show.
+    pub fn from_light(light: &SpectralDistribution, observer: &Sensor) -> Option<Self> {
+        let nm = light.wavelengths_nm();
+        let width = |i: usize| nm[(i + 1).min(nm.len() - 1)] - nm[i.saturating_sub(1)];
+        let [x, y, z] = observer.curves().each_ref().map(|curve| {
+            let [first, last] = curve.range_nm();
+            let within = (0..nm.len()).filter(|&i| (first..=last).contains(&nm[i]));
+            let matched = |i: usize| linear(curve.wavelengths_nm(), curve.values(), nm[i]);
+            within.map(|i| light.values()[i] * matched(i) * width(i)).sum::<f64>()
+        });
         (y > 0.0).then(|| Self::from_xyz(Xyz::new(x / y, 1.0, z / y)))
     }
 }
