@@ -222,6 +222,7 @@ impl eframe::App for ChromascopeApp {
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.view.point = None;
         self.show(ui);
         self.view.reset_plots = false;
         let hovered = self.view.next_hovered.take();

@@ -21,6 +21,8 @@ pub struct View {
     pub hovered: Option<Thing>,
     /// Under the pointer in the frame that is being made; becomes `hovered` at its end.
     pub next_hovered: Option<Thing>,
+    /// What the coordinates under the pointer are, where it is on no thing.
+    pub point: Option<String>,
     /// Chosen by a click.
     pub selected: Option<Thing>,
     /// Kept beside each other, A, B, …

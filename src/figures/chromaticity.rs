@@ -1,10 +1,240 @@
-//! Stub.
+//! The diagram: loci with temperature ticks, patches with tails to the truth's points, and what surrounds them.
 
-use crate::scene::Scene;
-use crate::view::View;
-use chromascope_core::figure::Figure;
+mod ground;
+mod loci;
+mod points;
 
-/// The figure.
-pub fn figure(_scene: &Scene<'_>, _view: &View) -> Figure {
-    Figure::new("stub", [400.0, 300.0])
+use chromascope_core::colorimetry::{UvPrime, Xy};
+use chromascope_core::figure::{
+    Axis, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Ticks,
+};
+
+use crate::document::{Diagram, WayChoice};
+use crate::scene::{Scene, Source};
+use crate::thing::{SourceId, Things};
+use crate::view::{DiagramFit, View};
+
+pub use points::{describe, distance_symbol};
+
+/// The diagram with what its marks stand for.
+#[derive(Clone, Debug)]
+pub struct Built {
+    /// The panel.
+    pub panel: Panel,
+    /// What its marks stand for.
+    pub things: Things,
+    /// Sources that could not be drawn, with why.
+    pub refused: Vec<String>,
+}
+
+/// What everything on the diagram is drawn with.
+struct Drawing<'a> {
+    scene: &'a Scene<'a>,
+    view: &'a View,
+    diagram: Diagram,
+    marks: Vec<Mark>,
+    things: Things,
+    refused: Vec<String>,
+    /// All that the ranges have to hold.
+    data: Vec<[f64; 2]>,
+}
+
+impl Drawing<'_> {
+    /// Where a chromaticity lies in the chosen diagram.
+    fn place(&self, xy: Xy) -> Option<[f64; 2]> {
+        match self.diagram {
+            Diagram::Xy => Some([xy.x, xy.y]),
+            Diagram::UvPrime => xy.uv_prime().map(|uv| [uv.u, uv.v]),
+        }
+    }
+
+    /// The same for a color that is known in both diagrams.
+    fn place_of(&self, xy: Option<Xy>, uv: Option<UvPrime>) -> Option<[f64; 2]> {
+        match self.diagram {
+            Diagram::Xy => xy.map(|xy| [xy.x, xy.y]),
+            Diagram::UvPrime => uv.map(|uv| [uv.u, uv.v]),
+        }
+    }
+}
+
+/// A source's identity.
+pub(crate) fn id(source: &Source) -> SourceId {
+    SourceId { kind: source.kind, name: source.name.clone() }
+}
+
+/// The names of the coordinates.
+pub const fn coordinates(diagram: Diagram) -> [&'static str; 2] {
+    match diagram {
+        Diagram::Xy => ["x", "y"],
+        Diagram::UvPrime => ["u′", "v′"],
+    }
+}
+
+/// Builds the diagram for an area of the given size.
+pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
+    let diagram = scene.document.diagram;
+    let mut drawing =
+        Drawing { scene, view, diagram, marks: Vec::new(), things: Things::default(), refused: Vec::new(), data: Vec::new() };
+    ground::add(&mut drawing);
+    let sources: Vec<Source> = scene.sources().into_iter().filter(|source| source.visible).collect();
+    if scene.document.overlays.camera_spectral_loci {
+        loci::add_monochromatic(&mut drawing, &sources);
+    }
+    if scene.document.overlays.loci {
+        loci::add(&mut drawing, &sources);
+    }
+    if scene.document.overlays.patches {
+        points::add(&mut drawing, &sources);
+    }
+    let [x_range, y_range] = ranges(&drawing, view.saved.diagram_fit);
+    let [x, y] = coordinates(diagram).map(|name| Axis::new(name, [0.0, 1.0]).with_ticks(Ticks::Auto).with_grid(true));
+    let mut panel = Panel::new("Chromaticity", Rect::from_min_size([0.0, 0.0], size), x, y);
+    panel.x.range = x_range;
+    panel.y.range = y_range;
+    panel.equal_aspect = true;
+    panel.marks = drawing.marks;
+    Built { panel, things: drawing.things, refused: drawing.refused }
+}
+
+/// What the diagram shows: the data, or all of the spectral locus.
+fn ranges(drawing: &Drawing<'_>, fit: DiagramFit) -> [[f64; 2]; 2] {
+    let whole = match drawing.diagram {
+        Diagram::Xy => [[-0.03, 0.78], [-0.03, 0.87]],
+        Diagram::UvPrime => [[-0.02, 0.65], [-0.02, 0.62]],
+    };
+    if fit == DiagramFit::Whole || drawing.data.is_empty() {
+        return whole;
+    }
+    [0, 1].map(|axis| {
+        let values = drawing.data.iter().map(|point| point[axis]);
+        let low = values.clone().fold(f64::INFINITY, f64::min);
+        let high = values.fold(f64::NEG_INFINITY, f64::max);
+        let pad = 0.08 * (high - low).max(0.05);
+        [low - pad, high + pad]
+    })
+}
+
+/// The whole diagram in small, with what is shown of it: `[x, y]` ranges.
+pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Panel {
+    let diagram = scene.document.diagram;
+    let view = View::default();
+    let mut drawing =
+        Drawing { scene, view: &view, diagram, marks: Vec::new(), things: Things::default(), refused: Vec::new(), data: Vec::new() };
+    ground::add_area(&mut drawing, 1.0);
+    let [x, y] = shown;
+    let frame = Shape::Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
+    drawing.marks.push(Mark::new(Things::NONE, "shown", frame).with_stroke(InkRole::Text, 1.5));
+    let [x, y] = ranges(&drawing, DiagramFit::Whole);
+    let mut panel = Panel::new("Overview", Rect::from_min_size([0.0, 0.0], size), Axis::hidden(x), Axis::hidden(y));
+    panel.equal_aspect = true;
+    panel.marks = drawing.marks;
+    panel
+}
+
+/// The size of a saved figure in points, with the strip below the diagram.
+const SIZE: [f64; 2] = [640.0, 480.0];
+const STRIP: f64 = 120.0;
+
+/// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
+pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
+    // What the pointer is on has no place on paper.
+    let paper = View { saved: view.saved.clone(), ..View::default() };
+    let built = build(scene, &paper, SIZE);
+    let mut figure = Figure::new("Chromaticity", SIZE);
+    figure.panels.push(built.panel);
+    if let Some(mut strip) = super::strip::build(scene, [SIZE[0], STRIP]) {
+        strip.panel.area = Rect::from_min_size([0.0, SIZE[1]], [SIZE[0], STRIP]);
+        figure.size[1] += STRIP;
+        figure.panels.push(strip.panel);
+    }
+    figure.legend = scene.sources().iter().filter(|source| source.visible).map(legend_entry).collect();
+    figure.legend_place = LegendPlace::Outside;
+    figure.caption = caption(scene);
+    figure.table = table(scene);
+    figure
+}
+
+fn legend_entry(source: &Source) -> LegendEntry {
+    LegendEntry {
+        name: if source.is_truth { format!("{} (truth)", source.label) } else { source.label.clone() },
+        stroke: Some(Stroke::solid(source.role, source.width)),
+        marker: Some(source.marker),
+        fill: None,
+    }
+}
+
+/// The conditions in a sentence.
+pub fn caption(scene: &Scene<'_>) -> String {
+    let way = match &scene.document.way {
+        WayChoice::Paper => "Paper (Eq 13), CIE observers drawn directly".to_owned(),
+        WayChoice::Observer(name) => format!("Observer, 3×3 matrices fitted to {name} over 190 training reflectances"),
+    };
+    let white = match &scene.document.white {
+        crate::document::WhiteChoice::Unity => "unity".to_owned(),
+        crate::document::WhiteChoice::Light(name) => name.clone(),
+        crate::document::WhiteChoice::Daylight(kelvin) => format!("daylight {kelvin:.0} K"),
+        crate::document::WhiteChoice::BlackBody(kelvin) => format!("black body {kelvin:.0} K"),
+    };
+    format!(
+        "Truth: {}. Light: {}. White: {white}. Patches: {}. To diagram: {way}. Loci from 1000 to 20000 K.",
+        scene.document.truth,
+        scene.light_name(),
+        scene.document.chart
+    )
+}
+
+/// All points as numbers.
+fn table(scene: &Scene<'_>) -> Table {
+    let mut table =
+        Table::new(["source", "kind", "temperature_k", "patch", "x", "y", "u_prime", "v_prime", "distance_xy", "distance_uv"]);
+    let truth_locus = scene.locus(crate::catalog::Kind::Observer, &scene.document.truth).ok();
+    for source in scene.sources().iter().filter(|source| source.visible) {
+        let comparable = matches!(scene.comparable(source.kind, &source.name), Ok(Ok(())));
+        let near = |xy: Option<Xy>, uv: Option<UvPrime>, txy: Option<Xy>, tuv: Option<UvPrime>| {
+            let xy = xy.zip(txy).filter(|_| comparable).map(|(a, b)| a.distance(b));
+            let uv = uv.zip(tuv).filter(|_| comparable).map(|(a, b)| a.distance(b));
+            [Cell::from(xy), Cell::from(uv)]
+        };
+        if let Ok(locus) = scene.locus(source.kind, &source.name) {
+            for (index, point) in locus.points.iter().enumerate() {
+                let truth = truth_locus.as_ref().and_then(|truth| truth.points.get(index));
+                let [dxy, duv] = near(point.xy, point.uv, truth.and_then(|t| t.xy), truth.and_then(|t| t.uv));
+                let temperature = Cell::from(point.temperature.get());
+                table.push(row(&source.label, "locus", temperature, Cell::Empty, point.xy, point.uv, dxy, duv));
+            }
+        }
+        let truth = scene.patch_colors(crate::catalog::Kind::Observer, &scene.document.truth).unwrap_or_default();
+        let (Ok(colors), Ok(patches)) = (scene.patch_colors(source.kind, &source.name), scene.patches()) else { continue };
+        for (index, (color, patch)) in colors.iter().zip(patches.patches()).enumerate() {
+            let truth = truth.get(index);
+            let [dxy, duv] = near(color.xy, color.uv, truth.and_then(|t| t.xy), truth.and_then(|t| t.uv));
+            table.push(row(&source.label, "patch", Cell::Empty, Cell::from(patch.name.as_str()), color.xy, color.uv, dxy, duv));
+        }
+    }
+    table
+}
+
+#[expect(clippy::too_many_arguments, reason = "a row has these columns")]
+fn row(
+    source: &str,
+    kind: &str,
+    temperature: Cell,
+    patch: Cell,
+    xy: Option<Xy>,
+    uv: Option<UvPrime>,
+    dxy: Cell,
+    duv: Cell,
+) -> [Cell; 10] {
+    [
+        Cell::from(source),
+        Cell::from(kind),
+        temperature,
+        patch,
+        Cell::from(xy.map(|p| p.x)),
+        Cell::from(xy.map(|p| p.y)),
+        Cell::from(uv.map(|p| p.u)),
+        Cell::from(uv.map(|p| p.v)),
+        dxy,
+        duv,
+    ]
 }

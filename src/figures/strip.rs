@@ -1,10 +1,91 @@
-//! Stub.
+//! Distance to the truth over temperature.
 
+use chromascope_core::figure::{Anchor, Axis, Ink, InkRole, Mark, Panel, Rect, Shape, TextSize, Ticks};
+
+use super::chromaticity::id;
+use crate::catalog::Kind;
+use crate::document::{Diagram, LOCUS_RANGE_K};
 use crate::scene::Scene;
-use crate::view::View;
-use chromascope_core::figure::Figure;
+use crate::thing::{Thing, Things};
 
-/// The figure.
-pub fn figure(_scene: &Scene<'_>, _view: &View) -> Figure {
-    Figure::new("stub", [400.0, 300.0])
+/// The strip with what its lines stand for.
+#[derive(Clone, Debug)]
+pub struct Strip {
+    /// The panel; its horizontal axis is in mired.
+    pub panel: Panel,
+    /// What its lines stand for.
+    pub things: Things,
+}
+
+/// Temperatures that are written below, in kelvins.
+const TICKS: [f64; 7] = [1000.0, 1200.0, 1500.0, 2000.0, 3000.0, 5000.0, 20_000.0];
+
+/// Builds the strip; none where no source can be compared with the truth.
+pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
+    let truth = scene.locus(Kind::Observer, &scene.document.truth).ok()?;
+    let diagram = scene.document.diagram;
+    let mut things = Things::default();
+    let mut marks = Vec::new();
+    let mut top = 0.0_f64;
+    let sources = scene.sources();
+    for source in sources.iter().filter(|source| source.visible && !source.is_truth) {
+        if !matches!(scene.comparable(source.kind, &source.name), Ok(Ok(()))) {
+            continue;
+        }
+        let Ok(locus) = scene.locus(source.kind, &source.name) else { continue };
+        let distance = |i: usize| {
+            let (a, b) = (&locus.points[i], truth.points.get(i)?);
+            match diagram {
+                Diagram::Xy => a.xy.zip(b.xy).map(|(a, b)| a.distance(b)),
+                Diagram::UvPrime => a.uv.zip(b.uv).map(|(a, b)| a.distance(b)),
+            }
+        };
+        let points: Vec<[f64; 2]> = (0..locus.points.len())
+            .map(|i| [locus.points[i].temperature.mired(), distance(i).unwrap_or(f64::NAN)])
+            .collect();
+        top = points.iter().map(|p| p[1]).filter(|d| d.is_finite()).fold(top, f64::max);
+        let tag = things.tag(Thing::Source(id(source)));
+        let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });
+        marks.push(line.with_stroke(source.role, source.width).with_halo(InkRole::Plot));
+    }
+    if marks.is_empty() {
+        return None;
+    }
+    let top = (top * 1.15).max(1e-6);
+    let kelvin = scene.document.temperature_k;
+    add_cursor(&mut marks, kelvin, top);
+    let ticks = TICKS.iter().map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0} K"))).collect();
+    let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
+    let x = Axis::new("", [cold, hot]).with_ticks(Ticks::At(ticks)).with_grid(true);
+    let y = Axis::new("", [0.0, top]).with_ticks(Ticks::At(height_ticks(top))).with_grid(true);
+    let mut panel = Panel::new("Distance to the truth over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
+    panel.note = format!("distance to truth ({}) over temperature", super::chromaticity::distance_symbol(diagram));
+    panel.marks = marks;
+    Some(Strip { panel, things })
+}
+
+/// Zero and one round number: the strip is low.
+fn height_ticks(top: f64) -> Vec<(f64, String)> {
+    let decade = 10_f64.powf(top.log10().floor());
+    let step = [5.0, 2.0, 1.0].iter().map(|k| k * decade).find(|step| *step <= top).unwrap_or(decade);
+    let decimals = usize::try_from((-step.log10().floor()).max(0.0) as i64).unwrap_or(0);
+    [0.0, step].map(|value| (value, format!("{value:.decimals$}"))).to_vec()
+}
+
+/// The line at the document's temperature, with its number on the side that has room.
+fn add_cursor(marks: &mut Vec<Mark>, kelvin: f64, top: f64) {
+    let mired = 1e6 / kelvin;
+    let line = Shape::Line { points: vec![[mired, 0.0], [mired, top]], closed: false };
+    marks.push(Mark::new(Things::NONE, "temperature", line).with_stroke(InkRole::Text, 1.5));
+    let left = mired < 200.0;
+    let (anchor, offset) = if left { (Anchor::RIGHT, -5.0) } else { (Anchor::LEFT, 5.0) };
+    let shape = Shape::Text {
+        at: [mired, top * 0.5],
+        text: format!("{kelvin:.0} K"),
+        anchor,
+        offset: [offset, 0.0],
+        size: TextSize::Body,
+        ink: Ink::new(InkRole::Text),
+    };
+    marks.push(Mark::new(Things::NONE, "temperature", shape).with_halo(InkRole::Plot));
 }

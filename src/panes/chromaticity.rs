@@ -1,7 +1,222 @@
-//! Stub.
+//! The diagram and the strip below it.
+
+use egui::{Align2, Id, Pos2, Rect, Ui, Vec2};
 
 use super::PaneContext;
-use egui::{Rect, Ui};
+use crate::action::{Action, SceneAction};
+use crate::document::Diagram;
+use crate::figures::chromaticity::{self, Built};
+use crate::figures::strip;
+use crate::paint::{self, Emphasis, PlotOptions};
+use crate::theme::UNIT;
+use crate::thing::{Thing, Things};
+use crate::view::DiagramFit;
+use crate::widgets;
+use crate::workspaces::PaneKind;
 
-/// Shows it.
-pub fn show(_ui: &mut Ui, _rect: Rect, _context: &mut PaneContext<'_>) {}
+/// How near the pointer must be, in points.
+const REACH: f32 = 10.0;
+/// The strip's height in points.
+const STRIP: f32 = 100.0;
+/// Below this height of the diagram there is no strip.
+const WITH_STRIP: f32 = 330.0;
+/// The overview's size in points.
+const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
+
+/// Shows the pane in its rectangle.
+pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, PaneKind::Chromaticity, rect, context, switches);
+    let body = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    if context.view.saved.tables.contains(&PaneKind::Chromaticity) {
+        let figure = chromaticity::figure(&context.scene, context.view);
+        widgets::data_table(ui, body, "chromaticity", &figure.table);
+        return;
+    }
+    let strip_height = if body.height() >= WITH_STRIP { STRIP } else { 0.0 };
+    let cut = body.bottom() - strip_height;
+    diagram(ui, Rect::from_min_max(body.min, Pos2::new(body.right(), cut)), context);
+    if strip_height > 0.0 {
+        show_strip(ui, Rect::from_min_max(Pos2::new(body.left(), cut + UNIT), body.max), context);
+    }
+}
+
+fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let diagrams = [
+        (Diagram::Xy, "xy", "The CIE 1931 diagram"),
+        (Diagram::UvPrime, "u′v′", "The CIE 1976 diagram, in which distances look more alike"),
+    ];
+    if let Some(diagram) = widgets::segmented(ui, &diagrams, context.scene.document.diagram) {
+        context.push(Action::Scene(SceneAction::SetDiagram(diagram)));
+    }
+    ui.add_space(UNIT);
+    let fits = [
+        (DiagramFit::Data, "Data", "What holds loci and patches"),
+        (DiagramFit::Whole, "Whole", "All of the spectral locus"),
+    ];
+    if let Some(fit) = widgets::segmented(ui, &fits, context.view.saved.diagram_fit) {
+        context.view.saved.diagram_fit = fit;
+        context.view.reset_plots = true;
+        ui.ctx().request_repaint();
+    }
+    ui.add_space(UNIT);
+    ui.menu_button("Show", |ui| overlays(ui, context)).response.on_hover_text("What the diagram shows");
+}
+
+fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let before = context.scene.document.overlays;
+    let mut overlays = before;
+    for (on, words) in [
+        (&mut overlays.loci, "Planckian loci"),
+        (&mut overlays.patches, "Patches"),
+        (&mut overlays.camera_spectral_loci, "Cameras' own spectral loci: what no matrix can mend"),
+        (&mut overlays.daylight, "Daylight locus"),
+        (&mut overlays.srgb, "sRGB"),
+        (&mut overlays.dci_p3, "DCI-P3"),
+        (&mut overlays.rec2020, "Rec. 2020"),
+    ] {
+        ui.checkbox(on, words);
+    }
+    if overlays != before {
+        context.push(Action::Scene(SceneAction::SetOverlays(overlays)));
+    }
+}
+
+fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let size = [f64::from(rect.width()), f64::from(rect.height())];
+    let built = chromaticity::build(&context.scene, context.view, size);
+    let truth = context.scene.document.truth.clone();
+    let shown = {
+        let view = &*context.view;
+        let emphasis = |tag| view.emphasis_of(&built.things, tag, &truth);
+        let options = PlotOptions { reset: view.reset_plots, emphasis: &emphasis, ..PlotOptions::default() };
+        let id = Id::unique(("chromaticity", context.scene.document.diagram));
+        paint::plot(ui, id, &built.panel, &context.theme, rect, options)
+    };
+    point_at(ui, &built, &shown, context);
+    if context.view.saved.diagram_fit == DiagramFit::Data && rect.width() > 420.0 && rect.height() > 240.0 {
+        let place = Rect::from_min_size(shown.view.rect.right_top() + Vec2::new(-OVERVIEW.x - 6.0, 6.0), OVERVIEW);
+        let size = [f64::from(OVERVIEW.x), f64::from(OVERVIEW.y)];
+        let panel = chromaticity::overview(&context.scene, [shown.view.x, shown.view.y], size);
+        paint::still(ui.painter(), &panel, &context.theme, place);
+    }
+    say_refusals(ui, shown.view.rect, &built, context);
+}
+
+/// What is under the pointer is read, and marked everywhere; a click keeps it.
+fn point_at(ui: &Ui, built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<'_>) {
+    let pointer = shown.response.hover_pos().filter(|at| shown.view.rect.contains(*at));
+    let hit = pointer.and_then(|at| paint::nearest(&built.panel, &shown.view, at, REACH));
+    let thing = hit.and_then(|hit| thing_at(context, built, &hit));
+    context.view.hover(thing.as_ref());
+    if shown.response.clicked() {
+        context.view.click(thing.as_ref());
+    }
+    if let Some(thing) = thing {
+        let lines = chromaticity::describe(&context.scene, &thing);
+        read(ui, &shown.response, &lines);
+    } else if let (Some([a, b]), Some(_)) = (shown.hovered, pointer) {
+        let [x, y] = chromaticity::coordinates(context.scene.document.diagram);
+        context.view.point = Some(format!("{x} {a:.4}  {y} {b:.4}").replace('-', "−"));
+    }
+}
+
+/// A line's thing becomes the black body nearest to the pointer.
+fn thing_at(context: &PaneContext<'_>, built: &Built, hit: &paint::Hit) -> Option<Thing> {
+    let thing = built.things.get(hit.tag)?.clone();
+    let Thing::Source(source) = &thing else { return Some(thing) };
+    let locus = context.scene.locus(source.kind, &source.name).ok()?;
+    let is_locus = built.panel.marks.get(hit.mark).is_some_and(|mark| match &mark.shape {
+        chromascope_core::figure::Shape::Line { points, .. } => points.len() == locus.points.len(),
+        _ => false,
+    });
+    match locus.points.get(hit.index).filter(|_| is_locus) {
+        Some(point) => Some(Thing::Radiator { source: source.clone(), kelvin: point.temperature.get().round() }),
+        None => Some(thing),
+    }
+}
+
+/// Lines of text at the pointer.
+fn read(ui: &Ui, response: &egui::Response, lines: &[String]) {
+    let _ = ui;
+    response.clone().on_hover_ui_at_pointer(|ui| {
+        for (index, line) in lines.iter().enumerate() {
+            if index == 0 { ui.strong(line) } else { ui.label(line) };
+        }
+    });
+}
+
+fn say_refusals(ui: &Ui, rect: Rect, built: &Built, context: &PaneContext<'_>) {
+    let theme = context.theme;
+    let font = egui::FontId::proportional(crate::theme::SMALL);
+    let painter = ui.painter().with_clip_rect(rect);
+    for (index, line) in built.refused.iter().rev().enumerate() {
+        let at = rect.left_bottom() + Vec2::new(8.0, -8.0 - 16.0 * index as f32);
+        painter.text(at, Align2::LEFT_BOTTOM, line, font.clone(), theme.warning);
+    }
+    if context.scene.sources().iter().all(|source| !source.visible) {
+        let font = egui::FontId::proportional(crate::theme::HEADING);
+        painter.text(rect.center(), Align2::CENTER_CENTER, "Tick a camera in the Library.", font, theme.text);
+    }
+}
+
+/// The strip: reads distances, and sets the temperature.
+fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let size = [f64::from(rect.width()), f64::from(rect.height())];
+    let Some(built) = strip::build(&context.scene, size) else {
+        let font = egui::FontId::proportional(crate::theme::SMALL);
+        let words = "No source here can be compared with the truth on this way to the diagram.";
+        ui.painter().text(rect.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
+        return;
+    };
+    let truth = context.scene.document.truth.clone();
+    let shown = {
+        let view = &*context.view;
+        let emphasis = |tag| match view.emphasis_of(&built.things, tag, &truth) {
+            // A line of one color needs no ring to be found again.
+            Emphasis::Hovered if tag == Things::NONE => Emphasis::Normal,
+            emphasis => emphasis,
+        };
+        let options = PlotOptions { zoomable: false, emphasis: &emphasis, ..PlotOptions::default() };
+        paint::plot(ui, Id::unique("strip"), &built.panel, &context.theme, rect, options)
+    };
+    let response = ui.interact(shown.view.rect, Id::unique("strip slider"), egui::Sense::click_and_drag());
+    let now = context.scene.document.temperature_k;
+    response.widget_info(|| egui::WidgetInfo::slider(true, now, "Temperature, over the distances"));
+    if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked()) {
+        let [mired, _] = shown.view.value(at);
+        set_temperature(1e6 / mired.clamp(50.0, 1000.0), context);
+    }
+    if response.has_focus() {
+        let step = ui.input(|input| {
+            i32::from(input.key_pressed(egui::Key::ArrowRight)) - i32::from(input.key_pressed(egui::Key::ArrowLeft))
+        });
+        if step != 0 {
+            set_temperature(1e6 / (1e6 / now - 2.0 * f64::from(step)), context);
+        }
+    }
+    if let Some(at) = response.hover_pos() {
+        let hit = paint::nearest(&built.panel, &shown.view, at, REACH);
+        let thing = hit.and_then(|hit| built.things.get(hit.tag)).cloned();
+        context.view.hover(thing.as_ref());
+        let [mired, _] = shown.view.value(at);
+        let kelvin = (1e6 / mired / 10.0).round() * 10.0;
+        let mut lines = vec![format!("{kelvin:.0} K")];
+        for source in context.scene.sources().iter().filter(|source| source.visible && !source.is_truth) {
+            let radiator = Thing::Radiator {
+                source: crate::thing::SourceId { kind: source.kind, name: source.name.clone() },
+                kelvin,
+            };
+            let told = chromaticity::describe(&context.scene, &radiator);
+            if let Some(distance) = told.iter().find(|line| line.starts_with("to the truth")) {
+                lines.push(format!("{}: {}", source.label, distance.trim_start_matches("to the truth: ")));
+            }
+        }
+        lines.push("Drag to set the temperature.".to_owned());
+        read(ui, &response, &lines);
+    }
+}
+
+fn set_temperature(kelvin: f64, context: &mut PaneContext<'_>) {
+    let kelvin = (kelvin / 10.0).round() * 10.0;
+    context.push(Action::Scene(SceneAction::SetTemperature(kelvin)));
+}

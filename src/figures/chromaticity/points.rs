@@ -1,0 +1,187 @@
+//! Patches as points, with tails from each camera's to the truth's; and what the pointer reads.
+
+use chromascope_core::colorimetry::{UvPrime, Xy};
+use chromascope_core::figure::{Anchor, Ink, InkRole, Mark, Shape, TextSize};
+use chromascope_core::query::{PatchColor, Temperatures, compare};
+use chromascope_core::units::Kelvin;
+
+use super::{Drawing, id};
+use crate::catalog::Kind;
+use crate::document::Diagram;
+use crate::scene::{Scene, Source};
+use crate::theme::{LINE_TAIL, MARKER, MARKER_SMALL};
+use crate::thing::{SourceId, Thing, Things};
+use crate::widgets::number;
+
+/// Up to this many patches markers are large and all patches named.
+const FEW: usize = 8;
+
+/// Adds the patches of all sources, the truth's on top.
+pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[Source]) {
+    let patches = match drawing.scene.patches() {
+        Ok(patches) => patches,
+        Err(error) => return drawing.refused.push(error.to_string()),
+    };
+    let names: Vec<&str> = patches.patches().iter().map(|patch| patch.name.as_str()).collect();
+    let truth = drawing.scene.patch_colors(Kind::Observer, &drawing.scene.document.truth).unwrap_or_default();
+    let few = names.len() <= FEW;
+    for source in sources.iter().rev() {
+        if drawing.view.blink && !source.is_truth {
+            continue;
+        }
+        let Ok(colors) = drawing.scene.patch_colors(source.kind, &source.name) else { continue };
+        let comparable = matches!(drawing.scene.comparable(source.kind, &source.name), Ok(Ok(())));
+        let tails = if source.is_truth || !comparable { &[] } else { truth.as_slice() };
+        add_tails(drawing, source, &names, &colors, tails);
+        add_points(drawing, source, &names, &colors, if few { MARKER } else { MARKER_SMALL });
+    }
+    add_names(drawing, &names, &truth, few);
+}
+
+fn add_tails(drawing: &mut Drawing<'_>, source: &Source, names: &[&str], colors: &[PatchColor], truth: &[PatchColor]) {
+    for ((name, color), truth) in names.iter().zip(colors).zip(truth) {
+        let (from, to) = (drawing.place_of(color.xy, color.uv), drawing.place_of(truth.xy, truth.uv));
+        let Some((from, to)) = from.zip(to) else { continue };
+        let tag = drawing.things.tag(Thing::Patch { source: Some(id(source)), patch: (*name).to_owned() });
+        let tail = Mark::new(tag, "tail", Shape::Segments { segments: vec![[from, to]] });
+        drawing.marks.push(tail.with_stroke(Ink::new(source.role).faded(0.6), LINE_TAIL));
+    }
+}
+
+fn add_points(drawing: &mut Drawing<'_>, source: &Source, names: &[&str], colors: &[PatchColor], radius: f64) {
+    for (name, color) in names.iter().zip(colors) {
+        let Some(at) = drawing.place_of(color.xy, color.uv) else { continue };
+        drawing.data.push(at);
+        let tag = drawing.things.tag(Thing::Patch { source: Some(id(source)), patch: (*name).to_owned() });
+        let shape = Shape::Points { points: vec![at], marker: source.marker, radius };
+        let mark = Mark::new(tag, format!("{} {name}", source.label), shape).with_stroke(source.role, 2.0);
+        let mark = if source.marker.has_inside() { mark.with_fill(Ink::rgb(color.srgb.bytes)) } else { mark };
+        drawing.marks.push(mark.with_halo(InkRole::Plot));
+    }
+}
+
+/// Names beside the truth's points: all if there are few, else those pointed at or chosen.
+fn add_names(drawing: &mut Drawing<'_>, names: &[&str], truth: &[PatchColor], few: bool) {
+    let places: Vec<Option<[f64; 2]>> = truth.iter().map(|color| drawing.place_of(color.xy, color.uv)).collect();
+    let known: Vec<[f64; 2]> = places.iter().flatten().copied().collect();
+    let count = known.len().max(1) as f64;
+    let center = known.iter().fold([0.0, 0.0], |sum, p| [sum[0] + p[0] / count, sum[1] + p[1] / count]);
+    let pointed = |name: &str| {
+        [&drawing.view.hovered, &drawing.view.selected]
+            .into_iter()
+            .flatten()
+            .any(|thing| thing.patch() == Some(name))
+    };
+    let mut labels = Vec::new();
+    for (name, at) in names.iter().zip(places) {
+        let Some(at) = at.filter(|_| few || pointed(name)) else { continue };
+        // Away from the middle, where the others are.
+        let up = at[1] >= center[1];
+        let right = at[0] >= center[0] - 0.02;
+        let anchor = Anchor(if right { 0.0 } else { 1.0 }, if up { 1.0 } else { 0.0 });
+        let offset = [if right { 8.0 } else { -8.0 }, if up { -6.0 } else { 6.0 }];
+        let ink = Ink::new(InkRole::Text);
+        let shape = Shape::Text { at, text: (*name).to_owned(), anchor, offset, size: TextSize::Body, ink };
+        labels.push(Mark::new(Things::NONE, *name, shape).with_halo(InkRole::Plot));
+    }
+    drawing.marks.extend(labels);
+}
+
+/// What the pointer reads on a thing: lines of text.
+pub fn describe(scene: &Scene<'_>, thing: &Thing) -> Vec<String> {
+    match thing {
+        Thing::Source(source) => describe_source(scene, source),
+        Thing::Radiator { source, kelvin } => describe_radiator(scene, source, *kelvin),
+        Thing::Patch { source: Some(source), patch } => describe_patch(scene, source, patch),
+        Thing::Patch { source: None, patch } => vec![patch.clone()],
+        Thing::Light => vec![format!("light {}", scene.light_name())],
+    }
+}
+
+fn label(scene: &Scene<'_>, id: &SourceId) -> String {
+    let found = scene.sources().into_iter().find(|source| super::id(source) == *id);
+    found.map_or_else(|| id.name.clone(), |source| source.label)
+}
+
+fn describe_source(scene: &Scene<'_>, source: &SourceId) -> Vec<String> {
+    let mut lines = vec![label(scene, source)];
+    if let Ok(locus) = scene.locus(source.kind, &source.name) {
+        lines.push(format!("locus 1000–20000 K, length {} in xy", number(round4(locus.length_xy()))));
+    }
+    lines.extend(why_apart(scene, source));
+    lines
+}
+
+/// Why a source has no distance to the truth, if so.
+fn why_apart(scene: &Scene<'_>, source: &SourceId) -> Option<String> {
+    let reason = scene.comparable(source.kind, &source.name).ok()?.err()?;
+    Some(format!(
+        "No distance to the truth: {reason}. Equal energy falls on (1/3, 1/3) for CIE observers, on D65 (0.3127, 0.3290) by Eq 13."
+    ))
+}
+
+fn describe_radiator(scene: &Scene<'_>, source: &SourceId, kelvin: f64) -> Vec<String> {
+    let mut lines = vec![format!("{}, black body {kelvin:.0} K", label(scene, source))];
+    let at = |kind: Kind, name: &str| {
+        let list = Temperatures::List(vec![Kelvin::new(kelvin).ok()?]);
+        scene.locus_at(kind, name, list).ok()?.points.first().copied()
+    };
+    let Some(point) = at(source.kind, &source.name) else { return lines };
+    lines.extend(coordinates(point.xy, point.uv));
+    if let Some(why) = why_apart(scene, source) {
+        lines.push(why);
+    } else if let Some(truth) = at(Kind::Observer, &scene.document.truth) {
+        let xy = compare::locus_distance_xy(&point, &truth);
+        let uv = compare::locus_distance_uv(&point, &truth);
+        match (xy, uv) {
+            (Ok(xy), Ok(uv)) => lines.push(format!("to the truth: Δxy {}   Δu′v′ {}", number(round4(xy)), number(round4(uv)))),
+            (Err(why), _) | (_, Err(why)) => lines.push(why.to_string()),
+        }
+    }
+    lines
+}
+
+fn describe_patch(scene: &Scene<'_>, source: &SourceId, patch: &str) -> Vec<String> {
+    let mut lines = vec![format!("{}, {patch}", label(scene, source))];
+    let index = scene.patches().ok().and_then(|set| set.patches().iter().position(|p| p.name == patch));
+    let color = index.and_then(|i| scene.patch_colors(source.kind, &source.name).ok()?.get(i).copied());
+    let Some((index, color)) = index.zip(color) else { return lines };
+    if let Some([r, g, b]) = color.rgb {
+        lines.push(format!("RGB {r:.4}  {g:.4}  {b:.4}").replace('-', "−"));
+    }
+    lines.extend(coordinates(color.xy, color.uv));
+    if let Some(lab) = color.lab {
+        lines.push(format!("L*a*b* {:.2}  {:.2}  {:.2}", lab.l, lab.a, lab.b).replace('-', "−"));
+    }
+    match scene.differences(source.kind, &source.name).ok().and_then(|all| all.get(index).copied()) {
+        Some(Ok(difference)) => {
+            lines.push(format!("{} to the truth: {}", scene.document.difference.symbol(), number(round4(difference))));
+        }
+        Some(Err(why)) => lines.push(why.to_string()),
+        None => {}
+    }
+    if color.srgb.clipped {
+        lines.push("Outside the screen's range: the color shown is clipped.".to_owned());
+    }
+    lines
+}
+
+fn coordinates(xy: Option<Xy>, uv: Option<UvPrime>) -> Vec<String> {
+    let (Some(xy), Some(uv)) = (xy, uv) else {
+        return vec!["No chromaticity: the signals sum to nothing.".to_owned()];
+    };
+    vec![format!("x {:.4}  y {:.4}   u′ {:.4}  v′ {:.4}", xy.x, xy.y, uv.u, uv.v).replace('-', "−")]
+}
+
+/// Four decimals: what a reader can use.
+fn round4(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
+}
+
+/// The symbol of a distance in the diagram.
+pub const fn distance_symbol(diagram: Diagram) -> &'static str {
+    match diagram {
+        Diagram::Xy => "Δxy",
+        Diagram::UvPrime => "Δu′v′",
+    }
+}
