@@ -41,6 +41,8 @@ pub struct View {
     pub blink: bool,
     /// The search field takes the keyboard in this frame.
     pub focus_search: bool,
+    /// A field in which Esc takes back what is typed has the keyboard.
+    pub keeps_escape: bool,
     /// The temperature field takes the keyboard in this frame.
     pub focus_temperature: bool,
     /// The page of help that is open.

@@ -1,5 +1,8 @@
 //! Parts that more than one pane uses.
 
+pub mod facts;
+pub mod lines;
+
 use chromascope_core::figure::{Cell, LegendEntry, Stroke, Table};
 use egui::{Align, Button, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
 use egui_extras::{Column, TableBuilder};
@@ -10,6 +13,10 @@ use crate::panes::PaneContext;
 use crate::scene::Source;
 use crate::theme::{ROW, Theme, UNIT};
 use crate::workspaces::PaneKind;
+
+/// The sentence that says what the window is about.
+pub const WHAT_YOU_SEE: &str = "A camera's sensors are not the eye's, so it records other colors than a person sees. Here is how \
+                                far off each one is.";
 
 /// The height of a pane's header.
 pub const HEADER: f32 = 32.0;
@@ -254,4 +261,17 @@ pub fn number(value: f64) -> String {
         format!("{value:.4e}")
     };
     text.replace('-', "−")
+}
+
+/// Lines of text at the pointer, the first one strong.
+pub fn read_at_pointer(response: &Response, lines: &[String]) {
+    response.clone().on_hover_ui_at_pointer(|ui| {
+        for (index, line) in lines.iter().enumerate() {
+            if index == 0 {
+                ui.strong(line);
+            } else {
+                ui.label(line);
+            }
+        }
+    });
 }

@@ -133,6 +133,9 @@ impl ChromascopeApp {
     /// One step back: palette, help, overlay, selection, pins, maximized pane, message.
     fn escape(&mut self) {
         let view = &mut self.view;
+        if std::mem::take(&mut view.keeps_escape) {
+            return;
+        }
         if view.palette.take().is_some() || view.help.take().is_some() || view.reading.take().is_some() {
             return;
         }

@@ -92,7 +92,7 @@ fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let id = Id::unique(("chromaticity", context.scene.document.diagram));
         paint::plot(ui, id, &built.panel, &context.theme, rect, options)
     };
-    point_at(ui, &built, &shown, context);
+    point_at(&built, &shown, context);
     if context.view.saved.diagram_fit == DiagramFit::Data && rect.width() > 420.0 && rect.height() > 240.0 {
         let place = Rect::from_min_size(shown.view.rect.right_top() + Vec2::new(-OVERVIEW.x - 6.0, 6.0), OVERVIEW);
         let size = [f64::from(OVERVIEW.x), f64::from(OVERVIEW.y)];
@@ -103,7 +103,7 @@ fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 }
 
 /// What is under the pointer is read, and marked everywhere; a click keeps it.
-fn point_at(ui: &Ui, built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<'_>) {
+fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<'_>) {
     let pointer = shown.response.hover_pos().filter(|at| shown.view.rect.contains(*at));
     let hit = pointer.and_then(|at| paint::nearest(&built.panel, &shown.view, at, REACH));
     let thing = hit.and_then(|hit| thing_at(context, built, &hit));
@@ -113,7 +113,7 @@ fn point_at(ui: &Ui, built: &Built, shown: &paint::PlotOutput, context: &mut Pan
     }
     if let Some(thing) = thing {
         let lines = chromaticity::describe(&context.scene, &thing);
-        read(ui, &shown.response, &lines);
+        widgets::read_at_pointer(&shown.response, &lines);
     } else if let (Some([a, b]), Some(_)) = (shown.hovered, pointer) {
         let [x, y] = chromaticity::coordinates(context.scene.document.diagram);
         context.view.point = Some(format!("{x} {a:.4}  {y} {b:.4}").replace('-', "−"));
@@ -133,16 +133,6 @@ fn thing_at(context: &PaneContext<'_>, built: &Built, hit: &paint::Hit) -> Optio
         Some(point) => Some(Thing::Radiator { source: source.clone(), kelvin: point.temperature.get().round() }),
         None => Some(thing),
     }
-}
-
-/// Lines of text at the pointer.
-fn read(ui: &Ui, response: &egui::Response, lines: &[String]) {
-    let _ = ui;
-    response.clone().on_hover_ui_at_pointer(|ui| {
-        for (index, line) in lines.iter().enumerate() {
-            if index == 0 { ui.strong(line) } else { ui.label(line) };
-        }
-    });
 }
 
 fn say_refusals(ui: &Ui, rect: Rect, built: &Built, context: &PaneContext<'_>) {
@@ -212,7 +202,7 @@ fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             }
         }
         lines.push("Drag to set the temperature.".to_owned());
-        read(ui, &response, &lines);
+        widgets::read_at_pointer(&response, &lines);
     }
 }
 

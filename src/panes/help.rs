@@ -10,11 +10,8 @@ use crate::document::Light;
 use crate::document::history::History;
 use crate::theme::{ROW, UNIT};
 use crate::view::HelpPage;
+use crate::widgets::WHAT_YOU_SEE;
 use crate::workspaces::{PaneKind, Workspace};
-
-/// The sentence that says what the window is about.
-pub const WHAT_YOU_SEE: &str = "A camera's sensors are not the eye's, so it records other colors than a person sees. Here is how \
-                                far off each one is.";
 
 /// Shows what is open.
 pub fn show(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {

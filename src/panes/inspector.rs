@@ -1,7 +1,181 @@
-//! Stub.
+//! The key for newcomers, or the thing that is selected or under the pointer.
+
+mod numbers;
+mod patch;
+mod pinned;
+mod radiator;
+mod reading;
+mod source;
+mod welcome;
+
+use chromascope_core::query::NoDifference;
+use chromascope_core::spectral::{Assumed, Sensor};
+use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
-use egui::{Rect, Ui};
+use crate::catalog::Kind;
+use crate::command::Command;
+use crate::document::DifferenceChoice;
+use crate::scene::{Scene, Source};
+use crate::theme::{Theme, UNIT};
+use crate::thing::{SourceId, Thing};
+use crate::widgets::facts::range_words;
+use crate::widgets::lines::fixed;
+use crate::widgets::{self, number};
+use crate::workspaces::{PaneKind, Workspace};
 
-/// Shows it.
-pub fn show(_ui: &mut Ui, _rect: Rect, _context: &mut PaneContext<'_>) {}
+/// Shows the pane in its rectangle.
+pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, PaneKind::Inspector, rect, context, |_, _| {});
+    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    let mut child = ui.new_child(UiBuilder::new().id_salt("inspector").max_rect(inner));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    ScrollArea::vertical().id_salt("inspector").auto_shrink(false).show(&mut child, |ui| {
+        ui.set_max_width(inner.width());
+        content(ui, context);
+        ui.add_space(2.0 * UNIT);
+    });
+}
+
+fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    if let Some(name) = context.view.reading.clone() {
+        // Undo may have taken the set, or its name, away.
+        if context.scene.document.own.iter().any(|set| set.name == name) {
+            reading::show(ui, &name, context);
+            return;
+        }
+        context.view.reading = None;
+    }
+    match context.view.selected.clone().or_else(|| context.view.hovered.clone()) {
+        None => welcome::show(ui, context),
+        Some(Thing::Patch { source: Some(id), patch }) => patch::one(ui, &id, &patch, context),
+        Some(Thing::Patch { source: None, patch }) => patch::across(ui, &patch, context),
+        Some(Thing::Radiator { source, kelvin }) => radiator::show(ui, &source, kelvin, context),
+        Some(Thing::Source(id)) => source::show(ui, &id, context),
+        Some(Thing::Light) => source::light(ui, context),
+    }
+    pinned::show(ui, context);
+}
+
+/// A source on show, by kind and name.
+fn source_of(scene: &Scene<'_>, id: &SourceId) -> Option<Source> {
+    scene.sources().into_iter().find(|source| source.kind == id.kind && source.name == id.name)
+}
+
+/// The source that the others are compared to.
+fn truth_id(scene: &Scene<'_>) -> SourceId {
+    SourceId { kind: Kind::Observer, name: scene.document.truth.clone() }
+}
+
+/// The key and label of a source, or its name alone if it is no longer on show.
+fn head(ui: &mut Ui, id: &SourceId, context: &PaneContext<'_>) {
+    match source_of(&context.scene, id) {
+        Some(source) => {
+            widgets::lines::key_and_label(ui, &source, &context.theme);
+        }
+        None => {
+            ui.label(&id.name);
+        }
+    }
+}
+
+/// A small line of less weight.
+fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
+    ui.label(RichText::new(words).small().color(theme.weak));
+}
+
+/// A failure, said once in its place.
+fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
+    ui.label(RichText::new(words).color(theme.error));
+}
+
+/// A difference with the decimals that its measure deserves.
+fn difference_words(measure: DifferenceChoice, value: f64) -> String {
+    match measure {
+        DifferenceChoice::DeltaE2000 | DifferenceChoice::DeltaE1976 => fixed(value, 2),
+        DifferenceChoice::UvPrime | DifferenceChoice::Xy => fixed(value, 4),
+    }
+}
+
+/// Why there is no difference, as a sentence.
+fn no_difference(reason: NoDifference) -> String {
+    format!("No difference: {reason}.")
+}
+
+/// The buttons under a selected thing. Returns whether its numbers are to be copied.
+fn buttons(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
+    let Some(selected) = context.view.selected.clone() else { return false };
+    let mut copy = false;
+    ui.add_space(UNIT);
+    ui.horizontal_wrapped(|ui| {
+        let pinned = context.view.pinned.contains(&selected);
+        let words = if pinned { "Unpin" } else { "Pin" };
+        if ui.button(words).on_hover_text("Keep it beside the next one (P)").clicked() {
+            context.push(Command::Pin);
+        }
+        copy = ui.button("Copy numbers").on_hover_text("For a spreadsheet, in full precision").clicked();
+        let there = context.view.saved.workspace == Workspace::Spectra;
+        if !there && ui.button("Show in Spectra").clicked() {
+            context.push(Command::Show(Workspace::Spectra));
+        }
+    });
+    copy
+}
+
+/// Puts numbers on the clipboard.
+fn copy_text(ui: &Ui, text: String, context: &mut PaneContext<'_>) {
+    ui.ctx().copy_text(text);
+    context.view.say("Inspector: numbers copied.");
+}
+
+/// What holds beyond the figures of a light or a reflectance.
+fn held_words(what: &str, assumed: Assumed) -> Option<String> {
+    match (assumed.below_nm, assumed.above_nm) {
+        (None, None) => None,
+        (Some(first), None) => Some(format!("{what} begins at {} nm; its first value holds before.", number(first))),
+        (None, Some(last)) => Some(format!("{what} ends at {} nm; its last value holds beyond.", number(last))),
+        (Some(first), Some(last)) => {
+            let range = range_words([first, last]);
+            Some(format!("{what} covers {range}; its end values hold outside."))
+        }
+    }
+}
+
+/// What holds beyond a sensor's figures.
+fn sensor_words(label: &str, sensor: &Sensor) -> String {
+    let ranges = sensor.curves().each_ref().map(chromascope_core::spectral::SpectralDistribution::range_nm);
+    let words = if ranges[1] == ranges[0] && ranges[2] == ranges[0] {
+        range_words(ranges[0])
+    } else {
+        let names = sensor.primaries().channels();
+        let parts = names.iter().zip(ranges).map(|(name, range)| format!("{name} {}", range_words(range)));
+        parts.collect::<Vec<_>>().join(", ")
+    };
+    format!("{label}: measured {words}; counts as zero outside.")
+}
+
+/// What was assumed about a sensor and the light.
+fn assumptions(scene: &Scene<'_>, id: &SourceId, label: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    if let Ok(sensor) = scene.sensor(id.kind, &id.name) {
+        words.push(sensor_words(label, &sensor));
+        if sensor.response() == chromascope_core::spectral::Response::Unknown {
+            words.push(format!("{label}: per energy or per photon is not stated; taken per energy."));
+        }
+    }
+    if let Ok(light) = scene.light() {
+        words.extend(held_words(&format!("Light {}", scene.light_name()), light.grid.assumed()));
+    }
+    words
+}
+
+/// Writes down what was assumed.
+fn show_assumptions(ui: &mut Ui, theme: &Theme, words: Vec<String>) {
+    if words.is_empty() {
+        return;
+    }
+    ui.add_space(UNIT);
+    for words in words {
+        note(ui, theme, words);
+    }
+}

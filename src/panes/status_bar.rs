@@ -1,7 +1,174 @@
-//! Stub.
+//! The foot of the window: the last message or what the pointer is on; at the right, how the numbers came about.
+
+use chromascope_core::camera::LocusMethod;
+use egui::{Align, Button, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
-use egui::{Rect, Ui};
+use crate::catalog::Kind;
+use crate::document::Document;
+use crate::theme::UNIT;
+use crate::thing::{SourceId, Thing};
+use crate::view::Weight;
+use crate::widgets::lines::{self, fixed};
+use crate::workspaces::{Arrangement, PaneKind};
 
-/// Shows it.
-pub fn show(_ui: &mut Ui, _rect: Rect, _arrangement: &crate::workspaces::Arrangement, _context: &mut PaneContext<'_>) {}
+/// What the bar says when there is nothing else.
+const READY: &str = "Ready. Drop a spectrum or camera file anywhere.";
+
+/// Shows the bar in its rectangle.
+pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut PaneContext<'_>) {
+    let inner = rect.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    let words = facts(arrangement, context).join("   ");
+    let width = lines::right_aligned(ui, inner, &words, TextStyle::Small, context.theme.weak);
+    let right = Rect::from_min_max(egui::pos2(inner.right() - width, inner.top()), inner.max);
+    let response = ui.interact(right, ui.scope_id().with("facts"), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
+    response.on_hover_text(
+        "How long the last change took to compute; the largest error of the loci on show, relative to the largest signal and \
+         checked against sums at 1 nm; how many cameras are computed. What is not shown is not computed.",
+    );
+    let left = Rect::from_min_max(inner.min, egui::pos2(right.left() - 4.0 * UNIT, inner.bottom()));
+    message(ui, left, context);
+}
+
+/// The left side: the message, else the thing under the pointer, else an invitation.
+fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let theme = context.theme;
+    let status = context.view.status.clone();
+    let mut rest = rect;
+    let (words, color) = if !status.text.is_empty() {
+        let color = match status.weight {
+            Weight::Note => theme.text,
+            Weight::Warning => theme.warning,
+            Weight::Error => theme.error,
+        };
+        if status.weight != Weight::Note {
+            lines::warning_mark(ui.painter(), egui::pos2(rest.left() + 7.0, rest.center().y), color);
+            rest.min.x += 5.0 * UNIT;
+        }
+        (status.text.clone(), color)
+    } else if let Some(thing) = context.view.hovered.clone() {
+        (describe(&thing, context), theme.text)
+    } else {
+        (READY.to_owned(), theme.text)
+    };
+    if let Some(name) = status.change.filter(|_| !status.text.is_empty()) {
+        rest.max.x -= 68.0;
+        let galley = egui::WidgetText::from(words.as_str()).into_galley(
+            ui,
+            Some(egui::TextWrapMode::Truncate),
+            rest.width().max(0.0),
+            TextStyle::Body,
+        );
+        let place = egui::pos2(rest.left() + galley.size().x + UNIT, rect.top() + 1.0);
+        let button = Rect::from_min_size(place, Vec2::new(64.0, rect.height() - 2.0));
+        let mut child = ui.new_child(
+            UiBuilder::new().id_salt("change").max_rect(button).layout(Layout::left_to_right(Align::Center)),
+        );
+        child.spacing_mut().button_padding.y = 0.0;
+        child.spacing_mut().interact_size.y = button.height();
+        if child.add(Button::new("Change")).on_hover_text("See what was decided on reading, and change it").clicked() {
+            context.view.reading = Some(name);
+            context.view.inspector_over = true;
+            let saved = &mut context.view.saved;
+            if !saved.layout.shows(saved.workspace, PaneKind::Inspector) {
+                saved.layout.toggle(saved.workspace, PaneKind::Inspector);
+            }
+        }
+    }
+    let cut = lines::elided(ui, rest, &words, TextStyle::Body, color);
+    let response = ui.interact(rest, ui.scope_id().with("message"), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, &words));
+    if cut {
+        response.on_hover_text(words);
+    }
+}
+
+/// A thing in one line.
+fn describe(thing: &Thing, context: &PaneContext<'_>) -> String {
+    let scene = &context.scene;
+    let label = |id: &SourceId| {
+        let sources = scene.sources();
+        let found = sources.into_iter().find(|source| source.kind == id.kind && source.name == id.name);
+        found.map_or_else(|| id.name.clone(), |source| source.label)
+    };
+    let at = |xy: Option<chromascope_core::colorimetry::Xy>| {
+        xy.map_or_else(|| "no chromaticity".to_owned(), |xy| format!("x {} y {}", fixed(xy.x, 4), fixed(xy.y, 4)))
+    };
+    match thing {
+        Thing::Light => format!("The light: {}", scene.light_name()),
+        Thing::Source(id) => {
+            let also = scene.entry(id.kind, &id.name).ok().and_then(|entry| entry.also);
+            let also = also.map_or_else(String::new, |also| format!(", {also}"));
+            format!("{} {}{also}", id.kind.singular(), id.name)
+        }
+        Thing::Patch { source: None, patch } => format!("Patch {patch}"),
+        Thing::Patch { source: Some(id), patch } => {
+            let index = scene.patches().ok().and_then(|set| set.patches().iter().position(|p| p.name == *patch));
+            let color = index.and_then(|index| scene.patch_colors(id.kind, &id.name).ok()?.get(index).copied());
+            let place = color.map_or_else(String::new, |color| format!(": {}", at(color.xy)));
+            let is_truth = id.kind == Kind::Observer && id.name == scene.document.truth;
+            let difference = index.filter(|_| !is_truth).and_then(|index| {
+                scene.differences(id.kind, &id.name).ok()?.get(index).copied().and_then(Result::ok)
+            });
+            let measure = scene.document.difference;
+            let difference = difference.map_or_else(String::new, |value| {
+                let decimals = if value_is_delta_e(scene.document) { 2 } else { 4 };
+                format!(", {} {}", measure.symbol(), fixed(value, decimals))
+            });
+            format!("{}, {patch}{place}{difference}", label(id))
+        }
+        Thing::Radiator { source, kelvin } => {
+            use chromascope_core::query::Temperatures;
+            let list = chromascope_core::units::Kelvin::new(*kelvin).map(|kelvin| Temperatures::List(vec![kelvin]));
+            let locus = list.ok().and_then(|list| scene.locus_at(source.kind, &source.name, list).ok());
+            let place = locus.and_then(|locus| locus.points.first().map(|point| at(point.xy)));
+            let place = place.map_or_else(String::new, |place| format!(": {place}"));
+            format!("{}, black body {} K{place}", label(source), fixed(*kelvin, 0))
+        }
+    }
+}
+
+fn value_is_delta_e(document: &Document) -> bool {
+    use crate::document::DifferenceChoice::{DeltaE1976, DeltaE2000};
+    matches!(document.difference, DeltaE1976 | DeltaE2000)
+}
+
+/// The right side. What no pane shows is not computed for it.
+fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
+    let scene = &context.scene;
+    let mut facts = Vec::new();
+    if !context.view.fixed_clock {
+        let milliseconds = scene.results.last_work().as_secs_f64() * 1e3;
+        facts.push(format!("updated in {} ms", fixed(milliseconds, usize::from(milliseconds < 100.0))));
+    }
+    let sources = scene.sources();
+    let shown = || sources.iter().filter(|source| source.visible);
+    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Chromaticity) && scene.document.overlays.loci {
+        let loci = shown().filter_map(|source| scene.locus(source.kind, &source.name).ok());
+        let methods: Vec<LocusMethod> = loci.map(|locus| locus.method).collect();
+        facts.extend(error_words(&methods));
+    }
+    let computed = shown().filter(|s| s.kind == Kind::Camera && scene.rendering_of(s.kind, &s.name).is_ok()).count();
+    let own = scene.document.own.iter().map(crate::catalog::Entry::from_own);
+    let all = scene.catalog.of_kind(Kind::Camera).count() + own.filter(|entry| entry.kind == Kind::Camera).count();
+    facts.push(format!("{computed} of {all} cameras computed"));
+    facts
+}
+
+/// The largest error, up to the next power of ten.
+fn error_words(methods: &[LocusMethod]) -> Option<String> {
+    let largest = methods.iter().filter_map(|method| match method {
+        LocusMethod::Nodes { error, .. } => Some(*error),
+        LocusMethod::Sum => None,
+    });
+    match largest.reduce(f64::max) {
+        Some(error) if error > 0.0 => {
+            let power = (error.log10().floor() as i32 + 1).max(-15);
+            Some(format!("error < 1e{power}").replace('-', "−"))
+        }
+        Some(_) => Some("error < 1e−15".to_owned()),
+        None if methods.is_empty() => None,
+        None => Some("1 nm sums".to_owned()),
+    }
+}

@@ -1,7 +1,96 @@
-//! Stub.
+//! Patches as colors.
+
+use egui::{Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
-use egui::{Rect, Ui};
+use crate::action::{Action, SceneAction};
+use crate::document::Subset;
+use crate::figures::{chromaticity, swatches};
+use crate::paint;
+use crate::theme::UNIT;
+use crate::view::{SwatchLayout, SwatchStyle};
+use crate::widgets;
+use crate::workspaces::PaneKind;
 
-/// Shows it.
-pub fn show(_ui: &mut Ui, _rect: Rect, _context: &mut PaneContext<'_>) {}
+/// Shows the pane in its rectangle.
+pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, PaneKind::Swatches, rect, context, switches);
+    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    if context.view.saved.tables.contains(&PaneKind::Swatches) {
+        let figure = swatches::figure(&context.scene, context.view);
+        widgets::data_table(ui, body, "swatches", &figure.table);
+        return;
+    }
+    let size = [f64::from(body.width()), f64::from(body.height())];
+    let built = swatches::build(&context.scene, context.view, size);
+    let mut child = ui.new_child(UiBuilder::new().id_salt("swatches").max_rect(body));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    child.painter().rect_filled(body, 0.0, context.theme.surround.color());
+    ScrollArea::vertical().id_salt("swatches scroll").auto_shrink(false).show(&mut child, |ui| {
+        let height = (built.height as f32).max(body.height());
+        let (area, _) = ui.allocate_exact_size(Vec2::new(body.width(), height), egui::Sense::hover());
+        board(ui, area, &built, context);
+    });
+}
+
+fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneContext<'_>) {
+    let truth = context.scene.document.truth.clone();
+    let shown = {
+        let view = &*context.view;
+        let emphasis = |tag| match view.emphasis_of(&built.things, tag, &truth) {
+            // Colors are judged by eye: none is ever dimmed.
+            paint::Emphasis::Faded => paint::Emphasis::Normal,
+            emphasis => emphasis,
+        };
+        paint::board(ui, Id::unique("swatch board"), &built.panel, &context.theme, area, &emphasis)
+    };
+    let hit = shown.response.hover_pos().and_then(|at| paint::nearest(&built.panel, &shown.view, at, 6.0));
+    let thing = hit.and_then(|hit| built.things.get(hit.tag)).cloned();
+    context.view.hover(thing.as_ref());
+    if shown.response.clicked() {
+        context.view.click(thing.as_ref());
+    }
+    if let Some(thing) = thing {
+        let lines = chromaticity::describe(&context.scene, &thing);
+        widgets::read_at_pointer(&shown.response, &lines);
+    }
+}
+
+fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let count = context.scene.patches().map_or(0, |set| set.patches().len());
+    if context.scene.has_five() {
+        let all = if context.scene.document.subset == Subset::All { count.to_string() } else { "24".to_owned() };
+        let choices = [
+            (Subset::Five, "5", "The paper's five: red, green, blue, white, orange yellow"),
+            (Subset::All, all.as_str(), "All patches of the chart"),
+        ];
+        if let Some(subset) = widgets::segmented(ui, &choices, context.scene.document.subset) {
+            context.push(Action::Scene(SceneAction::SetSubset(subset)));
+        }
+        ui.add_space(UNIT);
+    }
+    let rows = swatches::in_rows(context.view.saved.swatch_layout, count);
+    let choices = [(true, "Rows", "A row for each source"), (false, "Charts", "A chart for each source")];
+    if let Some(rows) = widgets::segmented(ui, &choices, rows) {
+        context.view.saved.swatch_layout = if rows { SwatchLayout::Rows } else { SwatchLayout::Charts };
+        ui.ctx().request_repaint();
+    }
+    ui.add_space(UNIT);
+    let choices = [
+        (SwatchStyle::Split, "Split", "Left half truth, right half source"),
+        (SwatchStyle::Inset, "Inset", "The truth inside"),
+        (SwatchStyle::Whole, "Whole", "The source alone"),
+    ];
+    if let Some(style) = widgets::segmented(ui, &choices, context.view.saved.swatch_style) {
+        context.view.saved.swatch_style = style;
+        ui.ctx().request_repaint();
+    }
+    ui.add_space(UNIT);
+    let built = swatches::build(&context.scene, context.view, [400.0, 200.0]);
+    if let Some((words, thing)) = built.worst {
+        let label = egui::Button::new(egui::RichText::new(words).color(context.theme.weak)).frame(false);
+        if ui.add(label).on_hover_text("The largest difference: click to keep it").clicked() {
+            context.view.selected = Some(thing);
+        }
+    }
+}

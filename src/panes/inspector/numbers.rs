@@ -1,0 +1,85 @@
+//! Numbers in aligned columns.
+
+use chromascope_core::query::PatchColor;
+use egui::{FontId, Rect, Sense, Ui, Vec2};
+
+use crate::theme::{MONO, SMALL, Theme};
+use crate::widgets::lines::fixed;
+
+/// Height of a row of numbers.
+const LINE: f32 = 17.0;
+/// Width of the rows' names.
+const NAMES: f32 = 40.0;
+
+/// A row: its name, how many decimals, and a number for each column.
+pub(super) struct Row {
+    /// What it is.
+    pub(super) name: &'static str,
+    /// How many decimals are shown.
+    pub(super) decimals: usize,
+    /// The numbers; none where there is none.
+    pub(super) cells: Vec<Option<f64>>,
+}
+
+/// The rows that patches have: RGB, both diagrams, L*a*b*.
+pub(super) fn of_patches(colors: &[Option<PatchColor>]) -> Vec<Row> {
+    let row = |name, decimals, take: &dyn Fn(&PatchColor) -> Option<f64>| Row {
+        name,
+        decimals,
+        cells: colors.iter().map(|color| color.as_ref().and_then(take)).collect(),
+    };
+    vec![
+        row("R", 4, &|c| c.rgb.map(|rgb| rgb[0])),
+        row("G", 4, &|c| c.rgb.map(|rgb| rgb[1])),
+        row("B", 4, &|c| c.rgb.map(|rgb| rgb[2])),
+        row("x", 4, &|c| c.xy.map(|xy| xy.x)),
+        row("y", 4, &|c| c.xy.map(|xy| xy.y)),
+        row("u′", 4, &|c| c.uv.map(|uv| uv.u)),
+        row("v′", 4, &|c| c.uv.map(|uv| uv.v)),
+        row("L*", 2, &|c| c.lab.map(|lab| lab.l)),
+        row("a*", 2, &|c| c.lab.map(|lab| lab.a)),
+        row("b*", 2, &|c| c.lab.map(|lab| lab.b)),
+    ]
+}
+
+/// Writes rows below the columns' heads, each column flush right in its width.
+pub(super) fn show(ui: &mut Ui, theme: &Theme, heads: &[String], rows: &[Row], column: f32) {
+    let width = NAMES + column * heads.len() as f32;
+    let place = |rect: Rect, index: usize| rect.left() + NAMES + column * (index + 1) as f32;
+    ui.spacing_mut().item_spacing.y = 0.0;
+    if heads.iter().any(|head| !head.is_empty()) {
+        let (rect, _) = ui.allocate_exact_size(Vec2::new(width, LINE), Sense::hover());
+        for (index, head) in heads.iter().enumerate() {
+            let at = egui::pos2(place(rect, index), rect.center().y);
+            ui.painter().text(at, egui::Align2::RIGHT_CENTER, head, FontId::proportional(SMALL), theme.weak);
+        }
+    }
+    for row in rows {
+        let (rect, response) = ui.allocate_exact_size(Vec2::new(width, LINE), Sense::hover());
+        let mono = FontId::monospace(MONO);
+        ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, row.name, mono.clone(), theme.weak);
+        let words: Vec<String> = row.cells.iter().map(|cell| cell_words(*cell, row.decimals)).collect();
+        for (index, words) in words.iter().enumerate() {
+            let at = egui::pos2(place(rect, index), rect.center().y);
+            ui.painter().text(at, egui::Align2::RIGHT_CENTER, words, mono.clone(), theme.text);
+        }
+        let spoken: Vec<String> = heads.iter().zip(&words).map(|(head, words)| format!("{head} {words}")).collect();
+        let spoken = format!("{}: {}", row.name, spoken.join(", "));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &spoken));
+    }
+    ui.spacing_mut().item_spacing.y = crate::theme::UNIT;
+}
+
+fn cell_words(cell: Option<f64>, decimals: usize) -> String {
+    cell.map_or_else(|| "–".to_owned(), |value| fixed(value, decimals))
+}
+
+/// The same for a spreadsheet, in full precision.
+pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
+    let mut text = format!("quantity\t{}\n", heads.join("\t"));
+    for row in rows {
+        let cells: Vec<String> = row.cells.iter().map(|cell| cell.map_or_else(String::new, |v| v.to_string())).collect();
+        text.push_str(&format!("{}\t{}\n", row.name, cells.join("\t")));
+    }
+    text
+}

@@ -1,0 +1,259 @@
+//! A patch through one source beside the truth, or through all.
+
+use chromascope_core::figure::InkRole;
+use chromascope_core::query::{NoDifference, PatchColor};
+use egui::text::LayoutJob;
+use egui::{FontId, Rect, Sense, TextFormat, TextStyle, Ui, Vec2};
+
+use super::{
+    assumptions, buttons, copy_text, difference_words, failure, head, held_words, no_difference, note, numbers,
+    show_assumptions, truth_id,
+};
+use crate::panes::PaneContext;
+use crate::scene::{Scene, SceneError, Source};
+use crate::theme::{HEADING, ROW, TEXT, Theme, UNIT};
+use crate::thing::{SourceId, Thing};
+use crate::widgets::{focus_rim, lines};
+
+/// Height of the pair of swatches with its surround.
+const PAIR: f32 = 56.0;
+
+/// Where a patch stands among those on show.
+pub(super) fn index_of(scene: &Scene<'_>, patch: &str) -> Option<usize> {
+    scene.patches().ok()?.patches().iter().position(|p| p.name == patch)
+}
+
+/// A patch through a source.
+pub(super) fn color_of(scene: &Scene<'_>, id: &SourceId, patch: &str) -> Result<Option<PatchColor>, SceneError> {
+    let colors = scene.patch_colors(id.kind, &id.name)?;
+    Ok(index_of(scene, patch).and_then(|index| colors.get(index).copied()))
+}
+
+/// The number a patch has in its whole chart, with its name.
+fn title(scene: &Scene<'_>, patch: &str) -> String {
+    let header = scene.chart_entry(&scene.document.chart).ok().and_then(|entry| entry.header);
+    let number = header.and_then(|header| header.columns.iter().position(|column| column == patch));
+    let number = number.or_else(|| index_of(scene, patch));
+    match number {
+        // Charts without names of their own are numbered already.
+        Some(index) if patch.parse::<u32>().is_err() => format!("Patch {} {patch}", index + 1),
+        _ => format!("Patch {patch}"),
+    }
+}
+
+/// Swatches on the surround: left the truth, right the source; one if there is no truth beside it.
+fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor>, height: f32, width: f32) {
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(width, height), Sense::hover());
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::Image, true, "Swatches: left the truth, right the source")
+    });
+    ui.painter().rect_filled(rect, 0.0, theme.surround.color());
+    let inner = rect.shrink(if height > 30.0 { 2.0 * UNIT } else { 3.0 });
+    let middle = inner.center().x;
+    let halves = [
+        Rect::from_min_max(inner.min, egui::pos2(middle, inner.bottom())),
+        Rect::from_min_max(egui::pos2(middle, inner.top()), inner.max),
+    ];
+    for (half, color) in halves.into_iter().zip([left, right.unwrap_or(left)]) {
+        ui.painter().rect_filled(half, 0.0, theme.role(InkRole::Rgb(color.srgb.bytes)));
+        if color.srgb.clipped {
+            let corner = half.right_top();
+            let notch = vec![corner, corner - Vec2::new(7.0, 0.0), corner + Vec2::new(0.0, 7.0)];
+            ui.painter().add(egui::Shape::convex_polygon(notch, theme.surround.color(), egui::Stroke::NONE));
+        }
+    }
+}
+
+/// A patch through one source.
+pub(super) fn one(ui: &mut Ui, id: &SourceId, patch: &str, context: &mut PaneContext<'_>) {
+    let (scene, theme) = (context.scene, context.theme);
+    head(ui, id, context);
+    note(ui, &theme, format!("{}, light {}", title(&scene, patch), scene.light_name()));
+    let truth = truth_id(&scene);
+    let is_truth = truth == *id;
+    let colors = color_of(&scene, id, patch).and_then(|own| Ok((own, color_of(&scene, &truth, patch)?)));
+    let (own, seen) = match colors {
+        Ok((Some(own), Some(seen))) => (own, seen),
+        Ok(_) => {
+            note(ui, &theme, "This patch is not on show now.");
+            return;
+        }
+        Err(error) => {
+            failure(ui, &theme, &error.to_string());
+            return;
+        }
+    };
+    let right = if context.view.blink || is_truth { None } else { Some(&own) };
+    let width = ui.available_width();
+    pair(ui, &theme, &seen, right, PAIR, width);
+    if own.srgb.clipped {
+        note(ui, &theme, "Notched corner: the screen cannot show this color; the numbers are whole.");
+    }
+    if !is_truth {
+        difference(ui, id, patch, context);
+    }
+    let (heads, colors) = if is_truth {
+        (vec!["truth".to_owned()], vec![Some(own)])
+    } else {
+        (vec!["truth".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
+    };
+    let rows = numbers::of_patches(&colors);
+    numbers::show(ui, &theme, &heads, &rows, 84.0);
+    if buttons(ui, context) {
+        copy_text(ui, numbers::to_tsv(&heads, &rows), context);
+    }
+    let label = super::source_of(&scene, id).map_or_else(|| id.name.clone(), |source| source.label);
+    let mut words = assumptions(&scene, id, &label);
+    if let Ok(set) = scene.patches() {
+        let found = set.patches().iter().find(|p| p.name == patch);
+        words.extend(found.and_then(|p| held_words(&format!("Patch {patch}"), p.grid.assumed())));
+    }
+    show_assumptions(ui, &theme, words);
+}
+
+/// The difference in large type with its rank, or why there is none.
+fn difference(ui: &mut Ui, id: &SourceId, patch: &str, context: &PaneContext<'_>) {
+    let (scene, theme) = (context.scene, context.theme);
+    let Ok(differences) = scene.differences(id.kind, &id.name) else { return };
+    let measure = scene.document.difference;
+    match index_of(&scene, patch).and_then(|index| differences.get(index).copied()) {
+        Some(Ok(value)) => {
+            ui.horizontal(|ui| {
+                let format = |size| TextFormat {
+                    font_id: FontId::proportional(size),
+                    color: theme.text,
+                    ..TextFormat::default()
+                };
+                let mut job = LayoutJob::default();
+                job.append(&format!("{} ", measure.symbol()), 0.0, format(TEXT));
+                job.append(&difference_words(measure, value), 0.0, format(HEADING + 2.0));
+                ui.label(job);
+                ui.add_space(UNIT);
+                if let Some(rank) = rank(value, &differences) {
+                    note(ui, &theme, rank);
+                }
+            });
+        }
+        Some(Err(reason)) => note(ui, &theme, no_difference(reason)),
+        None => {}
+    }
+}
+
+/// Where a difference stands among all of its source.
+pub(super) fn rank(value: f64, all: &[Result<f64, NoDifference>]) -> Option<String> {
+    let known: Vec<f64> = all.iter().filter_map(|d| d.ok()).collect();
+    if known.len() < 2 {
+        return None;
+    }
+    let place = known.iter().filter(|other| **other > value).count() + 1;
+    let of = known.len();
+    Some(match place {
+        1 => format!("worst of {of}"),
+        _ if place == of => format!("best of {of}"),
+        _ => format!("{} worst of {of}", ordinal(place)),
+    })
+}
+
+fn ordinal(number: usize) -> String {
+    let ending = match (number % 10, number % 100) {
+        (1, teen) if teen != 11 => "st",
+        (2, teen) if teen != 12 => "nd",
+        (3, teen) if teen != 13 => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
+}
+
+/// A patch through all sources on show.
+pub(super) fn across(ui: &mut Ui, patch: &str, context: &mut PaneContext<'_>) {
+    let (scene, theme) = (context.scene, context.theme);
+    ui.label(egui::RichText::new(title(&scene, patch)).strong());
+    note(ui, &theme, format!("{}, light {}", scene.document.chart, scene.light_name()));
+    let seen = match color_of(&scene, &truth_id(&scene), patch) {
+        Ok(Some(seen)) => seen,
+        Ok(None) => {
+            note(ui, &theme, "This patch is not on show now.");
+            return;
+        }
+        Err(error) => {
+            failure(ui, &theme, &error.to_string());
+            return;
+        }
+    };
+    note(ui, &theme, format!("left the truth, right the source; {}", scene.document.difference.symbol()));
+    for source in scene.sources().into_iter().filter(|source| source.visible) {
+        source_row(ui, &source, patch, &seen, context);
+    }
+    let mut words = Vec::new();
+    if let Ok(set) = scene.patches() {
+        let found = set.patches().iter().find(|p| p.name == patch);
+        words.extend(found.and_then(|p| held_words(&format!("Patch {patch}"), p.grid.assumed())));
+    }
+    if let Ok(light) = scene.light() {
+        words.extend(held_words(&format!("Light {}", scene.light_name()), light.grid.assumed()));
+    }
+    buttons_without_copy(ui, context);
+    show_assumptions(ui, &theme, words);
+}
+
+fn buttons_without_copy(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let scene = context.scene;
+    let selected = context.view.selected.clone();
+    if buttons(ui, context)
+        && let Some(Thing::Patch { patch, .. }) = selected
+    {
+        let shown: Vec<Source> = scene.sources().into_iter().filter(|source| source.visible).collect();
+        let heads: Vec<String> = shown.iter().map(|source| source.label.clone()).collect();
+        let color = |s: &Source| {
+            color_of(&scene, &SourceId { kind: s.kind, name: s.name.clone() }, &patch).ok().flatten()
+        };
+        let colors: Vec<_> = shown.iter().map(color).collect();
+        copy_text(ui, numbers::to_tsv(&heads, &numbers::of_patches(&colors)), context);
+    }
+}
+
+/// Key, label, swatches and difference of one source; a click selects the patch through it.
+fn source_row(ui: &mut Ui, source: &Source, patch: &str, seen: &PatchColor, context: &mut PaneContext<'_>) {
+    let (scene, theme) = (context.scene, context.theme);
+    let id = SourceId { kind: source.kind, name: source.name.clone() };
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW + UNIT), Sense::click());
+    let own = color_of(&scene, &id, patch);
+    let difference = scene.differences(id.kind, &id.name).ok().and_then(|all| {
+        let index = index_of(&scene, patch)?;
+        all.get(index).copied()
+    });
+    let (words, hint) = match (&own, difference) {
+        (Err(error), _) => ("–".to_owned(), Some(error.to_string())),
+        _ if source.is_truth => (String::new(), None),
+        (_, Some(Ok(value))) => (difference_words(scene.document.difference, value), None),
+        (_, Some(Err(reason))) => ("–".to_owned(), Some(no_difference(reason))),
+        _ => ("–".to_owned(), None),
+    };
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{}, {patch} {words}", source.label))
+    });
+    if response.hovered() || response.has_focus() {
+        let rim = focus_rim(&response, &theme);
+        ui.painter().rect(rect, 3.0, theme.control, rim, egui::StrokeKind::Inside);
+    }
+    let key = Rect::from_min_size(rect.min, Vec2::new(lines::KEY, rect.height()));
+    lines::key(ui.painter(), key, source, &theme);
+    let swatches = Rect::from_min_max(egui::pos2(rect.right() - 122.0, rect.top() + 1.0), rect.max - Vec2::new(62.0, 1.0));
+    let label = Rect::from_min_max(
+        egui::pos2(key.right() + 2.0 * UNIT, rect.top()),
+        egui::pos2(swatches.left() - UNIT, rect.bottom()),
+    );
+    lines::elided(ui, label, &source.label, TextStyle::Body, theme.text);
+    if let Ok(Some(own)) = &own {
+        let mut place = ui.new_child(egui::UiBuilder::new().id_salt(("pair", source.kind, &source.name)).max_rect(swatches));
+        pair(&mut place, &theme, seen, (!source.is_truth).then_some(own), swatches.height(), swatches.width());
+    }
+    let column = rect.shrink2(Vec2::new(UNIT, 0.0));
+    lines::right_aligned(ui, column, &words, TextStyle::Monospace, theme.text);
+    if response.clicked() {
+        context.view.selected = Some(Thing::Patch { source: Some(id), patch: patch.to_owned() });
+    }
+    if let Some(hint) = hint {
+        response.on_hover_text(hint);
+    }
+}

@@ -1,0 +1,97 @@
+//! What a newcomer needs: what the window is about, and the key.
+
+use chromascope_core::figure::{InkRole, LegendEntry, Marker, Stroke};
+use chromascope_core::spectral::Primaries;
+use egui::{Rect, RichText, Ui, Vec2};
+
+use crate::document::{WayChoice, WhiteChoice};
+use crate::paint;
+use crate::panes::PaneContext;
+use crate::theme::{Theme, UNIT};
+use crate::widgets::WHAT_YOU_SEE;
+
+/// Width of the drawn keys.
+const KEY: f32 = 26.0;
+
+/// Shows it.
+pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let theme = context.theme;
+    ui.label(RichText::new("What you see").strong());
+    ui.label(WHAT_YOU_SEE);
+    ui.add_space(UNIT);
+    let line = |role: InkRole, marker: Marker, width: f64| LegendEntry {
+        name: String::new(),
+        stroke: Some(Stroke::solid(role, width)),
+        marker: Some(marker),
+        fill: Some(role.into()),
+    };
+    let thick = line(InkRole::Truth, Marker::Plus, 4.0);
+    entry(
+        ui,
+        "thick line: what the eye sees as a glowing body cools from 20000 K (blue) to 1000 K (red)",
+        |ui, rect| paint::key(ui.painter(), rect, &thick, &theme),
+    );
+    let colored = line(InkRole::Source(0), Marker::Circle, 2.0);
+    entry(ui, "colored lines: what each camera records", |ui, rect| {
+        paint::key(ui.painter(), rect, &colored, &theme);
+    });
+    let point = line(InkRole::Source(1), Marker::Square, 1.2);
+    entry(ui, "points: chart patches; the tail leads to the eye's", |ui, rect| {
+        paint::key(ui.painter(), rect, &point, &theme);
+    });
+    entry(ui, "swatches: left the eye, right the camera; the bar is the difference", |ui, rect| {
+        swatch(ui, rect, &theme);
+    });
+    if let Some(words) = caveat(context) {
+        ui.add_space(UNIT);
+        ui.label(RichText::new(words).small().color(theme.weak));
+    }
+    ui.separator();
+    ui.label(RichText::new("Hover to read, click to keep, Esc to let go.").color(theme.weak));
+}
+
+/// A drawn key and what it stands for; the words wrap beside it.
+fn entry(ui: &mut Ui, words: &str, draw: impl FnOnce(&Ui, Rect)) {
+    ui.horizontal_top(|ui| {
+        let (rect, _) = ui.allocate_exact_size(Vec2::new(KEY, 17.0), egui::Sense::hover());
+        draw(ui, rect);
+        ui.add_space(UNIT);
+        ui.add(egui::Label::new(words).wrap());
+    });
+}
+
+/// Two halves over a bar.
+fn swatch(ui: &Ui, rect: Rect, theme: &Theme) {
+    let frame = Rect::from_center_size(rect.center(), Vec2::new(22.0, 16.0));
+    let painter = ui.painter();
+    painter.rect_filled(frame, 0.0, theme.surround.color());
+    let [left, right] = [[226, 190, 76], [214, 199, 164]].map(|rgb| theme.role(InkRole::Rgb(rgb)));
+    let half = Vec2::new(9.0, 10.0);
+    let min = frame.min + Vec2::new(2.0, 2.0);
+    painter.rect_filled(Rect::from_min_size(min, half), 0.0, left);
+    painter.rect_filled(Rect::from_min_size(min + Vec2::new(9.0, 0.0), half), 0.0, right);
+    let bar = Rect::from_min_size(min + Vec2::new(0.0, 11.0), Vec2::new(11.0, 2.0));
+    painter.rect_filled(bar, 0.0, theme.surround.label());
+}
+
+/// What to know about the settings, if they make the picture mislead.
+fn caveat(context: &PaneContext<'_>) -> Option<&'static str> {
+    let scene = &context.scene;
+    let sources = scene.sources();
+    let counts_in_xyz = |source: &crate::scene::Source| {
+        scene.sensor(source.kind, &source.name).is_ok_and(|sensor| sensor.primaries() == Primaries::Xyz)
+    };
+    let observers = || sources.iter().filter(|source| source.visible && source.kind == crate::catalog::Kind::Observer);
+    match (&scene.document.way, &scene.document.white) {
+        (WayChoice::Paper, _) if observers().any(|source| counts_in_xyz(source) && source.is_truth) => Some(
+            "A CIE observer as truth is drawn directly while cameras go through Eq 13: there is no difference to tell. Set To \
+             diagram to Observer.",
+        ),
+        (WayChoice::Paper, _) if observers().any(counts_in_xyz) => Some(
+            "CIE observers are drawn directly, not through Eq 13: their lines differ from the others by construction.",
+        ),
+        (WayChoice::Observer(_), WhiteChoice::Unity) | (WayChoice::Paper, WhiteChoice::Unity) => None,
+        (WayChoice::Observer(_), _) => Some("The chosen white moves RGB only: the fitted matrix takes it back."),
+        (WayChoice::Paper, _) => Some("All colors lean to the chosen white, the truth's too."),
+    }
+}

@@ -1,0 +1,209 @@
+//! The compared sources: the only legend.
+
+use egui::{Id, Key, Rect, Response, Sense, TextEdit, TextStyle, Ui, Vec2};
+
+use crate::action::{Action, CompareAction};
+use crate::catalog::Kind;
+use crate::panes::PaneContext;
+use crate::scene::Source;
+use crate::theme::{FADED, ROW, UNIT};
+use crate::thing::{SourceId, Thing};
+use crate::widgets::{facts, focus_rim, lines};
+use crate::workspaces::PaneKind;
+
+/// A label that is being written.
+#[derive(Clone, Default)]
+struct Renaming {
+    kind: Option<Kind>,
+    name: String,
+    text: String,
+}
+
+fn renaming_id() -> Id {
+    Id::unique("renamed source")
+}
+
+/// One source: key, label, tag, menu.
+pub(super) fn row(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
+    let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
+    let id = ui.scope_id().with(("compared", source.kind, &source.name));
+    key(ui, Rect::from_min_size(rect.min, Vec2::new(lines::KEY + UNIT, ROW)), id, source, context);
+    let dots = Rect::from_min_max(egui::pos2(rect.right() - lines::DOTS, rect.top()), rect.max);
+    let mut words = Rect::from_min_max(
+        egui::pos2(rect.left() + lines::KEY + 2.0 * UNIT, rect.top()),
+        egui::pos2(dots.left() - UNIT, rect.bottom()),
+    );
+    let renaming: Renaming = ui.data(|data| data.get_temp(renaming_id())).unwrap_or_default();
+    if renaming.kind == Some(source.kind) && renaming.name == source.name {
+        rename_field(ui, words, id, renaming, context);
+    } else {
+        words.max.x -= tag(ui, words, source, context);
+        if let Some(error) = trouble(source, context) {
+            words.max.x -= 18.0;
+            let mark = Rect::from_center_size(egui::pos2(words.right() + 9.0, rect.center().y), Vec2::splat(16.0));
+            lines::warning_mark(ui.painter(), mark.center(), context.theme.warning);
+            let response = ui.interact(mark, id.with("trouble"), Sense::hover());
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, format!("Warning: {error}")));
+            response.on_hover_text(error);
+        }
+        label(ui, words, id, source, context);
+    }
+    let menu_button = lines::dots(ui, dots, id.with("dots"), &format!("Menu of {}", source.label));
+    egui::Popup::menu(&menu_button).show(|ui| menu(ui, source, context));
+}
+
+/// The key; a click hides or shows.
+fn key(ui: &Ui, rect: Rect, id: Id, source: &Source, context: &mut PaneContext<'_>) {
+    let response = ui.interact(rect, id.with("key"), Sense::click());
+    let verb = if source.visible { "Hide" } else { "Show" };
+    let name = format!("{verb} {}", source.label);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+    if response.hovered() || response.has_focus() {
+        let rim = focus_rim(&response, &context.theme);
+        ui.painter().rect(rect, 3.0, context.theme.control, rim, egui::StrokeKind::Inside);
+        context.view.hover(Some(&thing(source)));
+    }
+    let place = Rect::from_center_size(rect.center(), Vec2::new(lines::KEY, ROW));
+    lines::key(ui.painter(), place, source, &context.theme);
+    if response.on_hover_text(name).clicked() {
+        toggle(source, context);
+    }
+}
+
+fn toggle(source: &Source, context: &mut PaneContext<'_>) {
+    let action = CompareAction::SetVisible(source.kind, source.name.clone(), !source.visible);
+    context.push(Action::Compare(action));
+}
+
+fn thing(source: &Source) -> Thing {
+    Thing::Source(SourceId { kind: source.kind, name: source.name.clone() })
+}
+
+/// What the source is besides; returns the width it takes.
+fn tag(ui: &Ui, rect: Rect, source: &Source, context: &PaneContext<'_>) -> f32 {
+    let words = match (source.is_truth, source.is_own) {
+        (true, _) => "truth",
+        (_, true) => "yours",
+        _ => return 0.0,
+    };
+    lines::right_aligned(ui, rect, words, TextStyle::Small, context.theme.weak) + UNIT
+}
+
+/// Why the source cannot be shown, if so.
+fn trouble(source: &Source, context: &PaneContext<'_>) -> Option<String> {
+    use chromascope_core::query::Ask;
+    let scene = &context.scene;
+    match scene.rendering_of(source.kind, &source.name) {
+        Ok(query) if source.visible => {
+            let answer = scene.results.ask(&query);
+            (*answer).as_ref().err().map(|error| format!("{}: {error}", source.label))
+        }
+        Ok(_) => None,
+        Err(error) => Some(error.to_string()),
+    }
+}
+
+/// The name; a click selects.
+fn label(ui: &Ui, rect: Rect, id: Id, source: &Source, context: &mut PaneContext<'_>) {
+    let thing = thing(source);
+    let selected = context.view.selected.as_ref().is_some_and(|chosen| chosen.source() == thing.source());
+    let frame = rect.expand2(Vec2::new(UNIT, 0.0));
+    let response = ui.interact(frame, id.with("label"), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, selected, &source.label));
+    let hovered = response.hovered() || context.view.hovered.as_ref() == Some(&thing);
+    if hovered {
+        ui.painter().rect_filled(frame, 3.0, context.theme.control);
+    }
+    if response.hovered() {
+        context.view.hover(Some(&thing));
+    }
+    if selected || response.has_focus() {
+        let stroke = egui::Stroke::new(1.5, context.theme.text);
+        ui.painter().rect_stroke(frame, 3.0, stroke, egui::StrokeKind::Inside);
+    }
+    let color = context.theme.text.gamma_multiply(if source.visible { 1.0 } else { FADED + 0.25 });
+    lines::elided(ui, rect, &source.label, TextStyle::Body, color);
+    if response.clicked() {
+        context.view.click(Some(&thing));
+    }
+    response.context_menu(|ui| menu(ui, source, context));
+    hint(response, source, context);
+}
+
+fn hint(response: Response, source: &Source, context: &PaneContext<'_>) {
+    let (scene, theme) = (context.scene, context.theme);
+    if let Ok(entry) = scene.entry(source.kind, &source.name) {
+        response.on_hover_ui(|ui| facts::tooltip(ui, &scene, &theme, &entry));
+    }
+}
+
+/// What can be done with a source.
+fn menu(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
+    ui.set_min_width(150.0);
+    let mut offer = |words: &str, enabled: bool| {
+        let clicked = ui.add_enabled(enabled, egui::Button::new(words).frame_when_inactive(false)).clicked();
+        if clicked {
+            ui.close();
+        }
+        clicked
+    };
+    let name = source.name.clone();
+    if source.kind == Kind::Observer && offer("Make truth", !source.is_truth) {
+        context.push(Action::Compare(CompareAction::SetTruth(name.clone())));
+    }
+    if offer("Rename…", true) {
+        let renaming = Renaming { kind: Some(source.kind), name: name.clone(), text: source.label.clone() };
+        ui.data_mut(|data| data.insert_temp(renaming_id(), renaming));
+    }
+    let mut offer = |words: &str, enabled: bool| {
+        let clicked = ui.add_enabled(enabled, egui::Button::new(words).frame_when_inactive(false)).clicked();
+        if clicked {
+            ui.close();
+        }
+        clicked
+    };
+    if offer(if source.visible { "Hide" } else { "Show" }, true) {
+        toggle(source, context);
+    }
+    if offer("Take off", !source.is_truth) {
+        context.push(Action::Compare(CompareAction::Remove(source.kind, name)));
+    }
+    if offer("Source", true) {
+        context.view.selected = Some(thing(source));
+        show_inspector(context);
+    }
+    if source.is_own && offer("Reading…", true) {
+        context.view.reading = Some(source.name.clone());
+        show_inspector(context);
+    }
+}
+
+/// Brings the inspector on, if the workspace does not show it.
+pub(super) fn show_inspector(context: &mut PaneContext<'_>) {
+    let saved = &context.view.saved;
+    if !saved.layout.shows(saved.workspace, PaneKind::Inspector) {
+        context.view.saved.layout.toggle(context.view.saved.workspace, PaneKind::Inspector);
+    }
+    // Only a narrow window looks at this.
+    context.view.inspector_over = true;
+}
+
+/// The label as a field. Enter and a click elsewhere keep it, Esc does not.
+fn rename_field(ui: &mut Ui, rect: Rect, id: Id, mut renaming: Renaming, context: &mut PaneContext<'_>) {
+    let field = TextEdit::singleline(&mut renaming.text).id(id.with("rename")).margin(egui::Margin::symmetric(4, 3));
+    let response = ui.put(rect, field);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Label of the source"));
+    context.view.keeps_escape = true;
+    if response.lost_focus() {
+        let given_up = ui.input(|input| input.key_down(Key::Escape));
+        if let Some(kind) = renaming.kind.filter(|_| !given_up) {
+            context.push(Action::Compare(CompareAction::Rename(kind, renaming.name, renaming.text)));
+        }
+        ui.data_mut(|data| data.remove::<Renaming>(renaming_id()));
+        return;
+    }
+    if !response.has_focus() {
+        response.request_focus();
+    }
+    ui.data_mut(|data| data.insert_temp(renaming_id(), renaming));
+}

@@ -1,0 +1,217 @@
+//! All data sets in folding groups.
+
+use std::borrow::Cow;
+
+use egui::{Rect, Response, ScrollArea, Sense, TextStyle, Ui, Vec2};
+
+use super::compared::show_inspector;
+use crate::action::{Action, CompareAction, OwnAction, SceneAction};
+use crate::catalog::{Entry, Kind, names};
+use crate::document::Light;
+use crate::panes::PaneContext;
+use crate::theme::{ROW, UNIT};
+use crate::widgets::{facts, focus_rim, lines};
+
+/// One row of the list.
+pub(super) enum Row<'a> {
+    /// The head of a group.
+    Group {
+        /// What it is of.
+        kind: Kind,
+        /// How many sets it has; while searching, how many match.
+        count: usize,
+        /// Whether its sets follow.
+        open: bool,
+    },
+    /// A set.
+    Set(Cow<'a, Entry>),
+}
+
+/// All rows as if the pane were endless; while searching all groups are open and hold what matches.
+pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
+    let search = context.view.search.trim();
+    let searching = !search.is_empty();
+    let (document, catalog) = (context.scene.document, context.scene.catalog);
+    let mut rows = Vec::new();
+    for kind in Kind::ALL {
+        let own = document.own.iter().map(Entry::from_own).filter(|entry| entry.kind == kind).map(Cow::Owned);
+        let all = own.chain(catalog.of_kind(kind).map(Cow::Borrowed));
+        let found: Vec<_> = all.filter(|entry| !searching || names::matches_search(entry, search)).collect();
+        if searching && found.is_empty() {
+            continue;
+        }
+        let open = searching || !context.view.saved.folded.contains(kind.plural());
+        rows.push(Row::Group { kind, count: found.len(), open });
+        if open {
+            rows.extend(found.into_iter().map(Row::Set));
+        }
+    }
+    rows
+}
+
+/// The first set of the list.
+pub(super) fn first_match<'r>(rows: &'r [Row<'_>]) -> Option<&'r Entry> {
+    rows.iter().find_map(|row| match row {
+        Row::Set(entry) => Some(entry.as_ref()),
+        Row::Group { .. } => None,
+    })
+}
+
+/// The list; only rows in sight are laid out.
+pub(super) fn list(ui: &mut Ui, rows: &[Row<'_>], context: &mut PaneContext<'_>) {
+    if rows.is_empty() {
+        ui.horizontal(|ui| {
+            ui.label("No match.");
+            if ui.button("Clear search").clicked() {
+                context.view.search.clear();
+            }
+        });
+        return;
+    }
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let area = ScrollArea::vertical().id_salt("sets").auto_shrink(false);
+    area.show_rows(ui, ROW, rows.len(), |ui, range| {
+        for row in &rows[range] {
+            match row {
+                Row::Group { kind, count, open } => group(ui, *kind, *count, *open, context),
+                Row::Set(entry) => set(ui, entry, context),
+            }
+        }
+    });
+}
+
+/// The head of a group; a click folds it.
+fn group(ui: &mut Ui, kind: Kind, count: usize, open: bool, context: &mut PaneContext<'_>) {
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::click());
+    let title = title(kind);
+    let name = format!("{title} {count}");
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::DisclosureTriangle, true, open, &name));
+    rim(ui, rect, &response, context);
+    let center = egui::pos2(rect.left() + 7.0, rect.center().y);
+    let points = if open { [(-4.0, -2.0), (4.0, -2.0), (0.0, 3.0)] } else { [(-2.0, -4.0), (3.0, 0.0), (-2.0, 4.0)] };
+    let points = points.map(|(x, y)| center + Vec2::new(x, y)).to_vec();
+    ui.painter().add(egui::Shape::convex_polygon(points, context.theme.text, egui::Stroke::NONE));
+    let words = Rect::from_min_max(rect.min + Vec2::new(4.0 * UNIT, 0.0), rect.max);
+    lines::elided(ui, words, &format!("{title}  {count}"), TextStyle::Body, context.theme.text);
+    if response.clicked() && context.view.search.trim().is_empty() {
+        let folded = &mut context.view.saved.folded;
+        if !folded.remove(kind.plural()) {
+            folded.insert(kind.plural().to_owned());
+        }
+    }
+}
+
+const fn title(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Camera => "Cameras",
+        Kind::Observer => "Observers",
+        Kind::Chart => "Charts",
+        Kind::Illuminant => "Illuminants",
+        Kind::Material => "Materials",
+    }
+}
+
+fn rim(ui: &Ui, rect: Rect, response: &Response, context: &PaneContext<'_>) {
+    if response.hovered() || response.has_focus() {
+        let fill = if response.hovered() { context.theme.control } else { context.theme.panel };
+        ui.painter().rect(rect, 3.0, fill, focus_rim(response, &context.theme), egui::StrokeKind::Inside);
+    }
+}
+
+/// Whether a set is on show, and whether that can be changed here.
+fn state(entry: &Entry, context: &PaneContext<'_>) -> (bool, bool) {
+    let document = context.scene.document;
+    match entry.kind {
+        Kind::Camera | Kind::Observer => {
+            let on = document.compared(entry.kind, &entry.name).is_some();
+            (on, entry.kind != Kind::Observer || entry.name != document.truth)
+        }
+        Kind::Chart | Kind::Material => (document.chart == entry.name, true),
+        Kind::Illuminant => (document.light == Light::Set(entry.name.clone()), true),
+    }
+}
+
+/// Puts a set to use, or a compared one off.
+pub(super) fn choose(entry: &Entry, on: bool, context: &mut PaneContext<'_>) {
+    let name = entry.name.clone();
+    context.push(match entry.kind {
+        Kind::Camera | Kind::Observer if on => Action::Compare(CompareAction::Add(entry.kind, name)),
+        Kind::Camera | Kind::Observer => Action::Compare(CompareAction::Remove(entry.kind, name)),
+        Kind::Chart | Kind::Material => Action::Scene(SceneAction::SetChart(name)),
+        Kind::Illuminant => Action::Scene(SceneAction::SetLight(Light::Set(name))),
+    });
+}
+
+/// One set.
+fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
+    let (on, enabled) = state(entry, context);
+    let ticks = matches!(entry.kind, Kind::Camera | Kind::Observer);
+    let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
+    let id = ui.scope_id().with(("set", entry.kind, &entry.name, entry.is_own()));
+    let mut row = Rect::from_min_max(rect.min + Vec2::new(3.0 * UNIT, 0.0), rect.max);
+    if entry.is_own() {
+        row.max.x -= lines::DOTS + UNIT;
+    }
+    let response = ui.interact(row, id, if enabled { Sense::click() } else { Sense::hover() });
+    let role = if ticks { egui::Role::CheckBox } else { egui::Role::RadioButton };
+    response.widget_info(|| egui::WidgetInfo::selected(role, enabled, on, &entry.name));
+    rim(ui, row, &response, context);
+    let mark = egui::pos2(row.left() + 11.0, row.center().y);
+    draw_mark(ui, mark, ticks, on, enabled, context);
+    let mut words = Rect::from_min_max(row.min + Vec2::new(6.0 * UNIT, 0.0), row.max);
+    if entry.is_own() {
+        words.max.x -= lines::right_aligned(ui, words, "yours", TextStyle::Small, context.theme.weak) + UNIT;
+        own_menu(ui, Rect::from_min_max(egui::pos2(row.right() + UNIT, row.top()), rect.max), id, entry, context);
+    }
+    let color = if enabled { context.theme.text } else { context.theme.weak };
+    let shown = if entry.kind == Kind::Illuminant && entry.name == "E" { "E, equal energy" } else { &entry.name };
+    lines::elided(ui, words, shown, TextStyle::Body, color);
+    if response.clicked() && (ticks || !on) {
+        choose(entry, !on, context);
+    }
+    let (scene, theme) = (context.scene, context.theme);
+    response.on_hover_ui(|ui| {
+        if !enabled {
+            ui.label("The truth stays; choose another truth first.");
+        }
+        facts::tooltip(ui, &scene, &theme, entry);
+    });
+}
+
+/// A box with a tick, or a ring with a point.
+fn draw_mark(ui: &Ui, at: egui::Pos2, ticks: bool, on: bool, enabled: bool, context: &PaneContext<'_>) {
+    let theme = context.theme;
+    let painter = ui.painter();
+    let color = if enabled { theme.text } else { theme.weak };
+    let rim = egui::Stroke::new(1.0, theme.hover);
+    if ticks {
+        let square = Rect::from_center_size(at, Vec2::splat(14.0));
+        painter.rect(square, 3.0, theme.control, rim, egui::StrokeKind::Inside);
+        if on {
+            let corner = |x: f32, y: f32| at + Vec2::new(x, y);
+            let tick = vec![corner(-3.5, 0.0), corner(-1.0, 3.0), corner(3.5, -3.5)];
+            painter.add(egui::Shape::line(tick, egui::Stroke::new(1.8, color)));
+        }
+    } else {
+        painter.circle(at, 7.0, theme.control, rim);
+        if on {
+            painter.circle_filled(at, 3.5, color);
+        }
+    }
+}
+
+/// What can be done with a set of the user's.
+fn own_menu(ui: &Ui, rect: Rect, id: egui::Id, entry: &Entry, context: &mut PaneContext<'_>) {
+    let button = lines::dots(ui, rect, id.with("dots"), &format!("Menu of your {}", entry.name));
+    egui::Popup::menu(&button).show(|ui| {
+        if ui.button("Reading…").clicked() {
+            context.view.reading = Some(entry.name.clone());
+            show_inspector(context);
+            ui.close();
+        }
+        if ui.button("Remove").clicked() {
+            context.push(Action::Own(OwnAction::Remove(entry.name.clone())));
+            ui.close();
+        }
+    });
+}

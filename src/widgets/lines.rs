@@ -1,0 +1,87 @@
+//! One line of text that never runs over its place, keys of sources, small marks, numbers.
+
+use chromascope_core::figure::{Ink, LegendEntry, Stroke};
+use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, TextStyle, TextWrapMode, Ui, Vec2, WidgetText};
+
+use super::focus_rim;
+use crate::paint;
+use crate::scene::Source;
+use crate::theme::{FADED, ROW, Theme};
+
+/// Width of a source's key.
+pub const KEY: f32 = 26.0;
+/// Width of the button that opens a row's menu.
+pub const DOTS: f32 = 18.0;
+
+/// Draws a line of text into a rectangle, with an ellipsis if it does not fit. Returns whether it was cut.
+pub fn elided(ui: &Ui, rect: Rect, words: &str, style: TextStyle, color: Color32) -> bool {
+    let galley = WidgetText::from(words).into_galley(ui, Some(TextWrapMode::Truncate), rect.width().max(0.0), style);
+    let at = Pos2::new(rect.left(), rect.center().y - galley.size().y / 2.0);
+    let cut = galley.elided;
+    ui.painter().galley(at, galley, color);
+    cut
+}
+
+/// Draws a line of text that ends at the right of a rectangle. Returns its width.
+pub fn right_aligned(ui: &Ui, rect: Rect, words: &str, style: TextStyle, color: Color32) -> f32 {
+    let galley = WidgetText::from(words).into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, style);
+    let size = galley.size();
+    ui.painter().galley(Pos2::new(rect.right() - size.x, rect.center().y - size.y / 2.0), galley, color);
+    size.x
+}
+
+/// Draws a source's key: filled where it is shown, hollow and pale where it is hidden, with a dot where it is the user's.
+pub fn key(painter: &Painter, rect: Rect, source: &Source, theme: &Theme) {
+    let ink = if source.visible { Ink::new(source.role) } else { Ink::new(source.role).faded(FADED) };
+    let entry = LegendEntry {
+        name: source.label.clone(),
+        stroke: Some(Stroke::solid(ink, source.width)),
+        marker: Some(source.marker),
+        fill: source.visible.then_some(ink),
+    };
+    paint::key(painter, rect, &entry, theme);
+    if source.is_own && source.visible {
+        painter.circle_filled(rect.center(), 1.8, theme.panel);
+    }
+}
+
+/// A source's key, and its label, in one line.
+pub fn key_and_label(ui: &mut Ui, source: &Source, theme: &Theme) -> Response {
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
+    key(ui.painter(), Rect::from_min_size(rect.min, Vec2::new(KEY, ROW)), source, theme);
+    let words = Rect::from_min_max(rect.min + Vec2::new(KEY + 8.0, 0.0), rect.max);
+    let cut = elided(ui, words, &source.label, TextStyle::Body, theme.text);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &source.label));
+    if cut { response.on_hover_text(&source.label) } else { response }
+}
+
+/// A small button of three dots that opens a row's menu.
+pub fn dots(ui: &Ui, rect: Rect, id: egui::Id, name: &str) -> Response {
+    let theme = Theme::of(ui.visuals());
+    let response = ui.interact(rect, id, Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect(rect, 3.0, theme.hover, focus_rim(&response, &theme), egui::StrokeKind::Inside);
+    }
+    let color = if response.hovered() { theme.text } else { theme.weak };
+    for step in [-4.0, 0.0, 4.0] {
+        ui.painter().circle_filled(rect.center() + Vec2::new(step, 0.0), 1.1, color);
+    }
+    response.on_hover_text(name)
+}
+
+/// A triangle with an exclamation mark: a form beside the color.
+pub fn warning_mark(painter: &Painter, center: Pos2, color: Color32) {
+    let at = |x: f32, y: f32| center + Vec2::new(x, y);
+    let stroke = egui::Stroke::new(1.3, color);
+    painter.add(Shape::closed_line(vec![at(0.0, -6.0), at(6.5, 5.0), at(-6.5, 5.0)], stroke));
+    painter.line_segment([at(0.0, -2.5), at(0.0, 1.5)], stroke);
+    painter.circle_filled(at(0.0, 3.3), 0.8, color);
+}
+
+/// A number with a fixed count of decimals and a true minus sign; no minus before nothing but zeros.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let is_zero = !text.bytes().any(|b| b.is_ascii_digit() && b != b'0');
+    if is_zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
+}
