@@ -1,10 +1,290 @@
-//! Stub.
+//! Light, patches and sensitivities over wavelength.
 
-use crate::scene::Scene;
-use crate::view::View;
-use chromascope_core::figure::Figure;
+use std::sync::Arc;
 
-/// The figure.
-pub fn figure(_scene: &Scene<'_>, _view: &View) -> Figure {
-    Figure::new("stub", [400.0, 300.0])
+use chromascope_core::colorimetry::diagram::wavelength_color;
+use chromascope_core::figure::{
+    Axis, Cell, Dash, Figure, Image, Ink, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Tag, Ticks,
+};
+use chromascope_core::spectral::SpectralDistribution;
+use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
+
+use super::chromaticity::{caption, id};
+use crate::catalog::Kind;
+use crate::document::{REFERENCE, Subset};
+use crate::scene::{Scene, Source};
+use crate::thing::{Thing, Things};
+use crate::view::{SpectraLayout, View};
+
+/// The panels with what their curves stand for.
+#[derive(Clone, Debug)]
+pub struct Built {
+    /// The panels, from the light down, the wavelengths written under the last.
+    pub panels: Vec<Panel>,
+    /// What the curves stand for.
+    pub things: Things,
+    /// What could not be drawn, with why.
+    pub refused: Vec<String>,
+}
+
+/// The height of the band of colors with its labels.
+const FOOT: f64 = 28.0;
+
+/// Builds the panels for an area of the given size.
+pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
+    let mut built = Built { panels: Vec::new(), things: Things::default(), refused: Vec::new() };
+    let sources: Vec<Source> = scene.sources().into_iter().filter(|source| source.visible).collect();
+    let each = view.saved.spectra_layout == SpectraLayout::Each;
+    let mut contents: Vec<(String, Vec<Mark>, [f64; 2], f64)> = Vec::new();
+    if let Some((note, marks)) = light(scene, &mut built) {
+        contents.push((note, marks, [0.0, 1.12], 0.7));
+    }
+    if let Some((note, marks, top)) = patches(scene, &mut built) {
+        contents.push((note, marks, [0.0, top], 1.3));
+    }
+    if each {
+        for source in &sources {
+            let (marks, low) = sensitivities(scene, std::slice::from_ref(source), &mut built);
+            contents.push((source.label.clone(), marks, [low, 1.1], 1.0));
+        }
+    } else if !sources.is_empty() {
+        let (marks, low) = sensitivities(scene, &sources, &mut built);
+        contents.push(("sensitivities, each to peak 1".to_owned(), marks, [low, 1.1], 1.7));
+    }
+    let weights: f64 = contents.iter().map(|content| content.3).sum();
+    let large = size[0] > 500.0;
+    let mut y = 0.0;
+    for (note, marks, range, weight) in contents {
+        let height = ((size[1] - FOOT) * weight / weights.max(1e-9)).max(24.0);
+        let area = Rect::from_min_size([0.0, y], [size[0], height - 4.0]);
+        let x = Axis::new("", [FIRST_NM, LAST_NM]).with_grid(true).with_ticks(Ticks::None);
+        let ticks = if large { Ticks::Auto } else { Ticks::None };
+        let axis = Axis::new("", range).with_ticks(ticks).with_grid(large);
+        let mut panel = Panel::new(note.clone(), area, x, axis);
+        panel.note = note;
+        panel.marks = hundreds(range);
+        panel.marks.extend(marks);
+        built.panels.push(panel);
+        y += height;
+    }
+    built.panels.push(foot(scene, Rect::from_min_size([0.0, y], [size[0], FOOT]), large));
+    built
+}
+
+/// Faint lines at the hundreds of nanometers, since the axis is written only once, and at zero.
+fn hundreds(range: [f64; 2]) -> Vec<Mark> {
+    let line = |a: [f64; 2], b: [f64; 2]| {
+        Mark::new(Things::NONE, "grid", Shape::Line { points: vec![a, b], closed: false }).with_stroke(InkRole::Grid, 1.0)
+    };
+    let mut marks: Vec<Mark> = [400.0, 500.0, 600.0, 700.0].map(|nm| line([nm, range[0]], [nm, range[1]])).into();
+    marks.push(line([FIRST_NM, 0.0], [LAST_NM, 0.0]));
+    marks
+}
+
+/// The wavelengths, written under a band of their colors.
+fn foot(scene: &Scene<'_>, area: Rect, large: bool) -> Panel {
+    let ticks = [400.0_f64, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0, 750.0];
+    let shown = ticks.iter().filter(|nm| large || (**nm / 100.0).fract() == 0.0);
+    let unit = |nm: f64| if nm == 400.0 { " nm" } else { "" };
+    let labels = shown.map(|nm| (*nm, format!("{nm:.0}{}", unit(*nm)))).collect();
+    let x = Axis::new("", [FIRST_NM, LAST_NM]).with_ticks(Ticks::At(labels));
+    // An axis without labels, but as wide as those above.
+    let y = Axis::new("", [0.0, 1.0]).with_ticks(if large { Ticks::At(Vec::new()) } else { Ticks::None });
+    let mut panel = Panel::new("wavelength", area, x, y);
+    panel.framed = false;
+    if let Ok(observer) = scene.sensor(Kind::Observer, REFERENCE) {
+        let colors = (0..COUNT).map(wavelength_nm).map(|nm| wavelength_color(&observer, nm));
+        let rgba: Vec<u8> = colors.flat_map(|[r, g, b]| [r, g, b, 255]).collect();
+        let image = Image { width: COUNT, height: 1, rgba: Arc::from(rgba) };
+        let shape = Shape::Image { min: [FIRST_NM, 0.0], max: [LAST_NM, 1.0], image };
+        panel.marks.push(Mark::new(Things::NONE, "colors of the wavelengths", shape));
+    }
+    panel
+}
+
+/// The light, to its largest value.
+fn light(scene: &Scene<'_>, built: &mut Built) -> Option<(String, Vec<Mark>)> {
+    let light = match scene.light() {
+        Ok(light) => light,
+        Err(error) => {
+            built.refused.push(error.to_string());
+            return None;
+        }
+    };
+    let tag = built.things.tag(Thing::Light);
+    let within = |nm: f64| (FIRST_NM..=LAST_NM).contains(&nm);
+    let samples = light.measured.wavelengths_nm().iter().zip(light.measured.values());
+    let peak = samples.filter(|(nm, _)| within(**nm)).map(|(_, v)| v.abs()).fold(0.0, f64::max);
+    let marks = curve(tag, "light", &light.measured, peak, InkRole::Text.into(), 2.0, true);
+    let name = if scene.light_name() == "E" { "E, equal energy".to_owned() } else { scene.light_name() };
+    Some((format!("light: {name}"), marks))
+}
+
+/// The patches, each in the color that the truth sees.
+fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<(String, Vec<Mark>, f64)> {
+    let patches = match scene.patches() {
+        Ok(patches) => patches,
+        Err(error) => {
+            built.refused.push(error.to_string());
+            return None;
+        }
+    };
+    let colors = scene.patch_colors(Kind::Observer, &scene.document.truth).unwrap_or_default();
+    let mut top = 1.0_f64;
+    let mut marks = Vec::new();
+    for (index, patch) in patches.patches().iter().enumerate() {
+        let tag = built.things.tag(Thing::Patch { source: None, patch: patch.name.clone() });
+        let ink = colors.get(index).map_or(Ink::new(InkRole::Text), |color| Ink::rgb(color.srgb.bytes));
+        top = patch.grid.values().iter().copied().fold(top, f64::max);
+        // A casing keeps a black patch apart from a black ground, and a white one from a white one.
+        let cased = curve(tag, &patch.name, &patch.measured, 1.0, ink, 1.5, true);
+        marks.extend(cased.into_iter().map(|mark| mark.with_halo(Ink::new(InkRole::Weak).faded(0.35))));
+    }
+    let five = scene.document.subset == Subset::Five && scene.has_five();
+    let note = if five { "patches: the paper's five".to_owned() } else { format!("patches: {}", scene.document.chart) };
+    Some((note, marks, top * 1.08))
+}
+
+/// Sensitivities of sources, each curve to its own peak; and how far below zero they go.
+fn sensitivities(scene: &Scene<'_>, sources: &[Source], built: &mut Built) -> (Vec<Mark>, f64) {
+    let mut marks = Vec::new();
+    let mut low = -0.04_f64;
+    for source in sources.iter().rev() {
+        let sensor = match scene.sensor(source.kind, &source.name) {
+            Ok(sensor) => sensor,
+            Err(error) => {
+                built.refused.push(error.to_string());
+                continue;
+            }
+        };
+        let tag = built.things.tag(Thing::Source(id(source)));
+        for (channel, spectrum) in sensor.primaries().channels().iter().zip(sensor.curves()) {
+            let peak = spectrum.values().iter().copied().fold(0.0, f64::max);
+            let least = spectrum.values().iter().copied().fold(0.0, f64::min);
+            low = low.min(1.1 * least / peak.max(f64::MIN_POSITIVE));
+            let name = format!("{} {channel}", source.label);
+            let width = if source.is_truth { 3.0 } else { source.width };
+            marks.extend(curve(tag, &name, spectrum, peak, source.role.into(), width, false));
+        }
+    }
+    (marks, low.max(-1.0))
+}
+
+/// A curve as measured, divided by its peak; where its end values are held beyond it, dotted.
+fn curve(tag: Tag, name: &str, spectrum: &SpectralDistribution, peak: f64, ink: Ink, width: f64, held: bool) -> Vec<Mark> {
+    let scale = if peak > 0.0 { peak } else { 1.0 };
+    let samples = spectrum.wavelengths_nm().iter().zip(spectrum.values());
+    let points: Vec<[f64; 2]> = samples
+        .filter(|(nm, _)| (FIRST_NM - 20.0..=LAST_NM + 20.0).contains(*nm))
+        .map(|(nm, value)| [*nm, value / scale])
+        .collect();
+    let ends = points.first().copied().zip(points.last().copied());
+    let line = |points: Vec<[f64; 2]>, dash: Dash| {
+        Mark::new(tag, name, Shape::Line { points, closed: false }).with_stroke(ink, width).with_dash(dash)
+    };
+    let mut marks = vec![line(points, Dash::Solid)];
+    if let Some((first, last)) = ends.filter(|_| held) {
+        if first[0] > FIRST_NM {
+            marks.push(line(vec![[FIRST_NM, first[1]], first], Dash::Dotted));
+        }
+        if last[0] < LAST_NM {
+            marks.push(line(vec![last, [LAST_NM, last[1]]], Dash::Dotted));
+        }
+    }
+    marks
+}
+
+/// The size of a saved figure in points.
+const SIZE: [f64; 2] = [640.0, 560.0];
+
+/// The figure as it is saved, with all values on the 1 nm grid.
+pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
+    let built = build(scene, view, SIZE);
+    let mut figure = Figure::new("Spectra", SIZE);
+    figure.panels = built.panels;
+    figure.legend = scene
+        .sources()
+        .iter()
+        .filter(|source| source.visible)
+        .map(|source| LegendEntry {
+            name: source.label.clone(),
+            stroke: Some(Stroke::solid(source.role, source.width)),
+            marker: None,
+            fill: None,
+        })
+        .collect();
+    figure.legend_place = LegendPlace::Outside;
+    figure.caption = format!("Dotted: beyond the data, the last value held. {}", caption(scene));
+    figure.table = table(scene);
+    figure
+}
+
+/// Everything on the grid, as it is integrated.
+fn table(scene: &Scene<'_>) -> Table {
+    let mut names = vec!["wavelength_nm".to_owned()];
+    let mut columns: Vec<Vec<f64>> = vec![(0..COUNT).map(wavelength_nm).collect()];
+    if let Ok(light) = scene.light() {
+        names.push(format!("light {}", scene.light_name()));
+        columns.push(light.grid.values().to_vec());
+    }
+    if let Ok(patches) = scene.patches() {
+        for patch in patches.patches() {
+            names.push(patch.name.clone());
+            columns.push(patch.grid.values().to_vec());
+        }
+    }
+    for source in scene.sources().iter().filter(|source| source.visible) {
+        let Ok(sensor) = scene.sensor(source.kind, &source.name) else { continue };
+        for (channel, letter) in sensor.primaries().channels().iter().enumerate() {
+            names.push(format!("{} {letter}", source.label));
+            columns.push((0..COUNT).map(|index| sensor.at_index(index)[channel]).collect());
+        }
+    }
+    let mut table = Table::new(names);
+    for index in 0..COUNT {
+        table.push(columns.iter().map(|column| Cell::from(column[index])).collect::<Vec<Cell>>());
+    }
+    table
+}
+
+/// What a thing's curves read at a wavelength: lines of text.
+pub fn describe(scene: &Scene<'_>, thing: &Thing, nm: f64) -> Vec<String> {
+    let index = ((nm - FIRST_NM).round().max(0.0) as usize).min(COUNT - 1);
+    let at = format!("{:.0} nm", wavelength_nm(index));
+    let measured = |curve: &SpectralDistribution| {
+        let [first, last] = curve.range_nm();
+        format!("measured {first}–{last} nm")
+    };
+    match thing {
+        Thing::Light => match scene.light() {
+            Ok(light) => vec![
+                format!("light {}", scene.light_name()),
+                format!("{at}: {:.4} (relative)", light.grid.values()[index]),
+                measured(&light.measured),
+            ],
+            Err(error) => vec![error.to_string()],
+        },
+        Thing::Patch { patch, .. } => {
+            let set = scene.patches().ok();
+            let found = set.as_ref().and_then(|set| set.patches().iter().find(|p| p.name == *patch));
+            found.map_or_else(Vec::new, |found| {
+                let held = if found.grid.assumed().nothing() { "" } else { "; beyond, its end value is held (dotted)" };
+                let value = found.grid.values()[index];
+                vec![patch.clone(), format!("{at}: {value:.4}"), format!("{}{held}", measured(&found.measured))]
+            })
+        }
+        Thing::Source(source) | Thing::Radiator { source, .. } => match scene.sensor(source.kind, &source.name) {
+            Ok(sensor) => {
+                let values = sensor.at_index(index);
+                let mut lines = vec![source.name.clone()];
+                for (channel, (letter, value)) in sensor.primaries().channels().iter().zip(values).enumerate() {
+                    let peak = sensor.curves()[channel].values().iter().copied().fold(0.0, f64::max);
+                    lines.push(format!("{letter} at {at}: {:.4} of its peak", value / peak).replace('-', "−"));
+                }
+                lines.push(format!("{}; zero outside", measured(&sensor.curves()[0])));
+                lines
+            }
+            Err(error) => vec![error.to_string()],
+        },
+    }
 }

@@ -1,6 +1,8 @@
 //! Patches as colors: rows or charts, each swatch beside the truth's, with a bar for the difference.
 
-use chromascope_core::figure::{Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, TextSize};
+use chromascope_core::figure::{
+    Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, TextSize, text_width,
+};
 use chromascope_core::query::PatchColor;
 
 use super::chromaticity::{caption, id};
@@ -115,7 +117,8 @@ fn worst(rows: &[Row], names: &[String]) -> Option<(String, Thing)> {
 impl Board<'_> {
     /// A row for each source, a column for each patch. Returns the height.
     fn rows(&mut self, rows: &[Row], size: [f64; 2]) -> f64 {
-        let head = 118.0;
+        let widest = rows.iter().map(|row| text_width(&row.source.label, TextSize::Body)).fold(40.0, f64::max);
+        let head = (widest + 30.0).min(0.3 * size[0]);
         let top = MARGIN + 20.0;
         let count = self.names.len().max(1) as f64;
         let width = ((size[0] - 2.0 * MARGIN - head) / count - GAP).max(6.0);

@@ -1,7 +1,121 @@
-//! Stub.
+//! Light, patches and sensitivities over one axis.
+
+use egui::{Align2, Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
-use egui::{Rect, Ui};
+use crate::figures::spectra::{self, Built};
+use crate::paint::{self, PlotOptions};
+use crate::theme::UNIT;
+use crate::view::SpectraLayout;
+use crate::widgets;
+use crate::workspaces::PaneKind;
 
-/// Shows it.
-pub fn show(_ui: &mut Ui, _rect: Rect, _context: &mut PaneContext<'_>) {}
+/// The least height of a panel before the pane scrolls.
+const LEAST: f32 = 64.0;
+/// How near the pointer must be, in points.
+const REACH: f32 = 8.0;
+
+/// Shows the pane in its rectangle.
+pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, PaneKind::Spectra, rect, context, |ui, context| {
+        let choices = [
+            (SpectraLayout::Overlay, "Overlay", "All sensitivities in one plot"),
+            (SpectraLayout::Each, "Each", "A plot for each source"),
+        ];
+        if let Some(layout) = widgets::segmented(ui, &choices, context.view.saved.spectra_layout) {
+            context.view.saved.spectra_layout = layout;
+            ui.ctx().request_repaint();
+        }
+    });
+    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
+    if context.view.saved.tables.contains(&PaneKind::Spectra) {
+        let figure = spectra::figure(&context.scene, context.view);
+        widgets::data_table(ui, body, "spectra", &figure.table);
+        return;
+    }
+    if context.scene.sources().iter().all(|source| !source.visible) {
+        let font = egui::FontId::proportional(crate::theme::TEXT);
+        let words = "Nothing to draw. Tick a camera.";
+        ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
+        return;
+    }
+    let panels = match context.view.saved.spectra_layout {
+        SpectraLayout::Overlay => 3,
+        SpectraLayout::Each => 2 + context.scene.sources().iter().filter(|source| source.visible).count(),
+    };
+    let height = body.height().max(panels as f32 * LEAST);
+    let mut child = ui.new_child(UiBuilder::new().id_salt("spectra").max_rect(body));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    ScrollArea::vertical().id_salt("spectra scroll").auto_shrink(false).show(&mut child, |ui| {
+        let (area, _) = ui.allocate_exact_size(Vec2::new(body.width(), height), egui::Sense::hover());
+        panels_in(ui, area, context);
+    });
+}
+
+fn panels_in(ui: &mut Ui, area: Rect, context: &mut PaneContext<'_>) {
+    let size = [f64::from(area.width()), f64::from(area.height())];
+    let built = spectra::build(&context.scene, context.view, size);
+    let mut cursor = None;
+    let mut plots = Vec::new();
+    for panel in &built.panels {
+        let place = Rect::from_min_max(
+            area.min + Vec2::new(panel.area.min[0] as f32, panel.area.min[1] as f32),
+            area.min + Vec2::new(panel.area.max[0] as f32, panel.area.max[1] as f32),
+        );
+        let shown = one_panel(ui, panel, place, &built, context);
+        if let Some([nm, _]) = shown.hovered {
+            cursor = Some(nm);
+        }
+        plots.push(shown.view);
+    }
+    // A hairline at the pointer's wavelength through all panels.
+    if let Some(nm) = cursor {
+        let stroke = egui::Stroke::new(1.0, context.theme.weak);
+        for view in plots {
+            let x = view.at([nm, view.y[0]]).x;
+            ui.painter().with_clip_rect(view.rect).vline(x, view.rect.y_range(), stroke);
+        }
+    }
+    let font = egui::FontId::proportional(crate::theme::SMALL);
+    for (index, line) in built.refused.iter().enumerate() {
+        let at = area.left_top() + Vec2::new(8.0, 20.0 + 16.0 * index as f32);
+        ui.painter().text(at, Align2::LEFT_TOP, line, font.clone(), context.theme.warning);
+    }
+}
+
+fn one_panel(
+    ui: &mut Ui,
+    panel: &chromascope_core::figure::Panel,
+    place: Rect,
+    built: &Built,
+    context: &mut PaneContext<'_>,
+) -> paint::PlotOutput {
+    let truth = context.scene.document.truth.clone();
+    let shown = {
+        let view = &*context.view;
+        let emphasis = |tag| view.emphasis_of(&built.things, tag, &truth);
+        let options = PlotOptions {
+            zoomable: false,
+            reset: view.reset_plots,
+            link_x: None,
+            emphasis: &emphasis,
+        };
+        paint::plot(ui, Id::unique(("spectra", &panel.name)), panel, &context.theme, place, options)
+    };
+    let hit = shown.response.hover_pos().and_then(|at| paint::nearest(panel, &shown.view, at, REACH));
+    let thing = hit.and_then(|hit| built.things.get(hit.tag)).cloned();
+    context.view.hover(thing.as_ref());
+    if shown.response.clicked() {
+        context.view.click(thing.as_ref());
+    }
+    if let Some([nm, value]) = shown.hovered {
+        match &thing {
+            Some(thing) => {
+                let lines = spectra::describe(&context.scene, thing, nm);
+                widgets::read_at_pointer(&shown.response, &lines);
+            }
+            None => context.view.point = Some(format!("{nm:.0} nm  {value:.3}").replace('-', "−")),
+        }
+    }
+    shown
+}

@@ -1,3 +1,4 @@
+mod look3;
 mod architecture;
 mod cpu_renderer;
 mod figure;

@@ -1,0 +1,92 @@
+//! A black body through a source.
+
+use chromascope_core::query::{LocusPoint, Temperatures, compare};
+use chromascope_core::units::Kelvin;
+use egui::Ui;
+
+use super::numbers::Row;
+use super::{
+    assumptions, buttons, copy_text, failure, head, no_difference, note, numbers, show_assumptions, truth_id,
+};
+use crate::document::Light;
+use crate::panes::PaneContext;
+use crate::scene::{Scene, SceneError};
+use crate::thing::SourceId;
+use crate::widgets::lines::fixed;
+
+/// One point of a source's locus.
+pub(super) fn point_of(scene: &Scene<'_>, id: &SourceId, kelvin: f64) -> Result<Option<LocusPoint>, SceneError> {
+    let temperatures = Temperatures::List(vec![Kelvin::new(kelvin)?]);
+    Ok(scene.locus_at(id.kind, &id.name, temperatures)?.points.first().copied())
+}
+
+/// The rows that points of loci have.
+pub(super) fn rows_of(points: &[Option<LocusPoint>]) -> Vec<Row> {
+    let row = |name, take: &dyn Fn(&LocusPoint) -> Option<f64>| Row {
+        name,
+        decimals: 4,
+        cells: points.iter().map(|point| point.as_ref().and_then(take)).collect(),
+    };
+    vec![
+        row("x", &|p| p.xy.map(|xy| xy.x)),
+        row("y", &|p| p.xy.map(|xy| xy.y)),
+        row("u′", &|p| p.uv.map(|uv| uv.u)),
+        row("v′", &|p| p.uv.map(|uv| uv.v)),
+    ]
+}
+
+/// Shows it.
+pub(super) fn show(ui: &mut Ui, id: &SourceId, kelvin: f64, context: &mut PaneContext<'_>) {
+    let (scene, theme) = (context.scene, context.theme);
+    head(ui, id, context);
+    note(ui, &theme, format!("black body, {} K = {} mired", fixed(kelvin, 0), fixed(1e6 / kelvin, 1)));
+    let truth = truth_id(&scene);
+    let is_truth = truth == *id;
+    let points = point_of(&scene, id, kelvin).and_then(|own| Ok((own, point_of(&scene, &truth, kelvin)?)));
+    let (own, seen) = match points {
+        Ok((Some(own), Some(seen))) => (own, seen),
+        Ok(_) => return,
+        Err(error) => {
+            failure(ui, &theme, &error.to_string());
+            return;
+        }
+    };
+    if own.xy.is_none() {
+        note(ui, &theme, "No chromaticity: the signals sum to nothing.");
+    }
+    let (heads, points) = if is_truth {
+        (vec!["truth".to_owned()], vec![Some(own)])
+    } else {
+        (vec!["truth".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
+    };
+    if !is_truth {
+        distance(ui, id, &own, &seen, context);
+    }
+    let rows = rows_of(&points);
+    numbers::show(ui, &theme, &heads, &rows, 84.0);
+    match scene.document.light {
+        Light::BlackBody => note(ui, &theme, "The light on the scene is a black body of the marked temperature."),
+        Light::Daylight => {
+            note(ui, &theme, "The light on the scene is daylight of the marked temperature; the locus is of black bodies.");
+        }
+        Light::Set(_) => {}
+    }
+    if buttons(ui, context) {
+        copy_text(ui, numbers::to_tsv(&heads, &rows), context);
+    }
+    let label = super::source_of(&scene, id).map_or_else(|| id.name.clone(), |source| source.label);
+    show_assumptions(ui, &theme, assumptions(&scene, id, &label));
+}
+
+fn distance(ui: &mut Ui, id: &SourceId, own: &LocusPoint, seen: &LocusPoint, context: &PaneContext<'_>) {
+    let comparable = context.scene.comparable(id.kind, &id.name).unwrap_or(Ok(()));
+    let xy = comparable.and_then(|()| compare::locus_distance_xy(seen, own));
+    let uv = comparable.and_then(|()| compare::locus_distance_uv(seen, own));
+    match (xy, uv) {
+        (Ok(xy), Ok(uv)) => {
+            ui.label(format!("Δxy {}   Δu′v′ {}", fixed(xy, 4), fixed(uv, 4)))
+                .on_hover_text("Distance from the truth at the same temperature");
+        }
+        (Err(reason), _) | (_, Err(reason)) => note(ui, &context.theme, no_difference(reason)),
+    }
+}

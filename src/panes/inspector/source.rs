@@ -1,0 +1,156 @@
+//! All about a camera or an observer, and about the light.
+
+use chromascope_core::query::{LocusPoint, NoDifference, compare};
+use chromascope_core::spectral::{Primaries, Sensor};
+use egui::{RichText, Ui};
+
+use super::{
+    assumptions, buttons, copy_text, difference_words, failure, head, held_words, no_difference, note, reading,
+    show_assumptions, truth_id,
+};
+use crate::catalog::{Kind, Place};
+use crate::document::{Light, REFERENCE};
+use crate::panes::PaneContext;
+use crate::scene::Scene;
+use crate::theme::UNIT;
+use crate::thing::SourceId;
+use crate::widgets::facts::{self, Fact, range_words};
+use crate::widgets::lines::fixed;
+
+/// A camera or an observer.
+pub(super) fn show(ui: &mut Ui, id: &SourceId, context: &mut PaneContext<'_>) {
+    let (scene, theme) = (context.scene, context.theme);
+    head(ui, id, context);
+    let entry = match scene.entry(id.kind, &id.name) {
+        Ok(entry) => entry,
+        Err(error) => {
+            failure(ui, &theme, &error.to_string());
+            return;
+        }
+    };
+    let also = entry.also.as_ref().map_or_else(String::new, |also| format!(", {also}"));
+    note(ui, &theme, format!("{}: {}{also}", id.kind.singular(), entry.name));
+    let mut measured = measures(&scene, id);
+    match scene.sensor(id.kind, &id.name) {
+        Ok(sensor) => measured.extend(sensor_facts(&sensor)),
+        Err(error) => failure(ui, &theme, &error.to_string()),
+    }
+    if let Err(error) = scene.patch_colors(id.kind, &id.name) {
+        failure(ui, &theme, &error.to_string());
+    }
+    facts::show(ui, &theme, &measured);
+    ui.add_space(UNIT);
+    facts::show(ui, &theme, &facts::of(&scene, &entry, false));
+    if buttons(ui, context) {
+        let all = measured.iter().map(|(caption, words)| format!("{caption}\t{words}\n"));
+        copy_text(ui, all.collect(), context);
+    }
+    let label = super::source_of(&scene, id).map_or_else(|| id.name.clone(), |source| source.label);
+    show_assumptions(ui, &theme, assumptions(&scene, id, &label));
+    if matches!(entry.place, Place::Own(_)) {
+        ui.separator();
+        reading::show(ui, &id.name, context);
+    }
+}
+
+/// What was measured, and as a response to what.
+fn sensor_facts(sensor: &Sensor) -> Vec<Fact> {
+    let names = sensor.primaries().channels();
+    let ranges = sensor.curves().iter().zip(names);
+    let ranges: Vec<String> =
+        ranges.map(|(curve, name)| format!("{name} {}", range_words(curve.range_nm()))).collect();
+    vec![("Measured", ranges.join(", "))]
+}
+
+/// How far the source is from the truth, in a few numbers.
+fn measures(scene: &Scene<'_>, id: &SourceId) -> Vec<Fact> {
+    let mut facts: Vec<Fact> = Vec::new();
+    let truth = truth_id(scene);
+    let measure = scene.document.difference;
+    if truth != *id
+        && let Ok(differences) = scene.differences(id.kind, &id.name)
+    {
+        let known: Vec<f64> = differences.iter().filter_map(|d| d.ok()).collect();
+        if let Some(Err(reason)) = differences.first() {
+            facts.push(("Difference", no_difference(*reason)));
+        } else if !known.is_empty() {
+            let mean = known.iter().sum::<f64>() / known.len() as f64;
+            let words = format!("{} {}, mean of {} patches", measure.symbol(), difference_words(measure, mean), known.len());
+            facts.push(("Difference", words));
+        }
+    }
+    let Ok(locus) = scene.locus(id.kind, &id.name) else { return facts };
+    let words = format!("{} in xy, 1000–20000 K (the paper's “dynamic range”)", fixed(locus.length_xy(), 3));
+    facts.push(("Locus length", words));
+    if truth != *id
+        && let Ok(Ok(())) = scene.comparable(id.kind, &id.name)
+        && let Ok(seen) = scene.locus(truth.kind, &truth.name)
+        && let Some((kelvin, distance)) = nearest(&seen.points, &locus.points)
+    {
+        let words = format!("at {} K, Δxy {}", fixed(kelvin, 0), fixed(distance, 4));
+        facts.push(("Nearest to the truth", words));
+    }
+    facts
+}
+
+/// Where two loci come nearest at the same temperature.
+fn nearest(a: &[LocusPoint], b: &[LocusPoint]) -> Option<(f64, f64)> {
+    let distances = a.iter().zip(b).filter_map(|(a, b)| {
+        let distance: Result<f64, NoDifference> = compare::locus_distance_xy(a, b);
+        Some((a.temperature.get(), distance.ok()?))
+    });
+    distances.min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// The light on the scene.
+pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let (scene, theme) = (context.scene, context.theme);
+    ui.label(RichText::new(format!("Light {}", scene.light_name())).strong());
+    let light = match scene.light() {
+        Ok(light) => light,
+        Err(error) => {
+            failure(ui, &theme, &error.to_string());
+            return;
+        }
+    };
+    let mut measured: Vec<Fact> = vec![("Range", range_words(light.measured.range_nm()))];
+    if let Ok(observer) = scene.sensor(Kind::Observer, REFERENCE)
+        && observer.primaries() == Primaries::Xyz
+    {
+        let [x, y, z] = observer.integrate(light.grid.values());
+        let xyz = chromascope_core::colorimetry::Xyz::new(x, y, z);
+        if let Some((xy, uv)) = xyz.chromaticity().zip(xyz.uv_prime()) {
+            let words = format!(
+                "x {} y {}, u′ {} v′ {} for {REFERENCE}",
+                fixed(xy.x, 4),
+                fixed(xy.y, 4),
+                fixed(uv.u, 4),
+                fixed(uv.v, 4)
+            );
+            measured.push(("Chromaticity", words));
+        }
+    }
+    match &scene.document.light {
+        Light::Set(name) => {
+            if let Ok(entry) = scene.entry(Kind::Illuminant, name) {
+                if let Some(also) = &entry.also {
+                    ui.label(also);
+                }
+                measured.extend(facts::of(&scene, &entry, false));
+                if entry.is_own() && ui.button("Reading…").clicked() {
+                    context.view.reading = Some(name.clone());
+                }
+            }
+        }
+        Light::BlackBody => measured.push(("Source", "Planck's law, Eq 14, with the paper's constants".to_owned())),
+        Light::Daylight => measured.push(("Source", "CIE 15: daylight from its three components".to_owned())),
+    }
+    facts::show(ui, &theme, &measured);
+    if buttons(ui, context) {
+        let rows = light.measured.wavelengths_nm().iter().zip(light.measured.values());
+        let text = rows.map(|(nm, value)| format!("{nm}\t{value}\n")).collect::<String>();
+        copy_text(ui, format!("wavelength_nm\tpower\n{text}"), context);
+    }
+    let words = held_words(&format!("Light {}", scene.light_name()), light.grid.assumed());
+    show_assumptions(ui, &theme, words.into_iter().collect());
+}
