@@ -99,7 +99,7 @@ impl ChromascopeApp {
             match event {
                 Event::Paste(text) if !typing => self.commands.push(Command::Paste(text)),
                 Event::Copy if !typing && !self.something_is_marked(ctx) => {
-                    self.commands.push(Command::CopyNumbers(focused))
+                    self.commands.push(Command::CopyNumbers(focused));
                 }
                 _ => {}
             }

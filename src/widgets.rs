@@ -3,7 +3,7 @@
 pub mod facts;
 pub mod lines;
 
-use chromascope_core::figure::{Cell, LegendEntry, Stroke, Table};
+use chromascope_core::figure::{Cell, Ink, LegendEntry, Stroke, Table};
 use egui::{Align, Button, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
 use egui_extras::{Column, TableBuilder};
 
@@ -200,7 +200,7 @@ pub fn legend_entry(source: &Source) -> LegendEntry {
         name: source.label.clone(),
         stroke: Some(Stroke::solid(source.role, source.width)),
         marker: Some(source.marker),
-        fill: None,
+        fill: source.marker.has_inside().then(|| Ink::new(source.role)),
     }
 }
 

@@ -73,8 +73,15 @@ pub const fn coordinates(diagram: Diagram) -> [&'static str; 2] {
 /// Builds the diagram for an area of the given size.
 pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
     let diagram = scene.document.diagram;
-    let mut drawing =
-        Drawing { scene, view, diagram, marks: Vec::new(), things: Things::default(), refused: Vec::new(), data: Vec::new() };
+    let mut drawing = Drawing {
+        scene,
+        view,
+        diagram,
+        marks: Vec::new(),
+        things: Things::default(),
+        refused: Vec::new(),
+        data: Vec::new(),
+    };
     ground::add(&mut drawing);
     let sources: Vec<Source> = scene.sources().into_iter().filter(|source| source.visible).collect();
     if scene.document.overlays.camera_spectral_loci {
@@ -118,8 +125,15 @@ fn ranges(drawing: &Drawing<'_>, fit: DiagramFit) -> [[f64; 2]; 2] {
 pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Panel {
     let diagram = scene.document.diagram;
     let view = View::default();
-    let mut drawing =
-        Drawing { scene, view: &view, diagram, marks: Vec::new(), things: Things::default(), refused: Vec::new(), data: Vec::new() };
+    let mut drawing = Drawing {
+        scene,
+        view: &view,
+        diagram,
+        marks: Vec::new(),
+        things: Things::default(),
+        refused: Vec::new(),
+        data: Vec::new(),
+    };
     ground::add_area(&mut drawing, 1.0);
     let [x, y] = shown;
     let frame = Shape::Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
@@ -185,8 +199,18 @@ pub fn caption(scene: &Scene<'_>) -> String {
 
 /// All points as numbers.
 fn table(scene: &Scene<'_>) -> Table {
-    let mut table =
-        Table::new(["source", "kind", "temperature_k", "patch", "x", "y", "u_prime", "v_prime", "distance_xy", "distance_uv"]);
+    let mut table = Table::new([
+        "source",
+        "kind",
+        "temperature_k",
+        "patch",
+        "x",
+        "y",
+        "u_prime",
+        "v_prime",
+        "distance_xy",
+        "distance_uv",
+    ]);
     let truth_locus = scene.locus(crate::catalog::Kind::Observer, &scene.document.truth).ok();
     for source in scene.sources().iter().filter(|source| source.visible) {
         let comparable = matches!(scene.comparable(source.kind, &source.name), Ok(Ok(())));
@@ -204,11 +228,22 @@ fn table(scene: &Scene<'_>) -> Table {
             }
         }
         let truth = scene.patch_colors(crate::catalog::Kind::Observer, &scene.document.truth).unwrap_or_default();
-        let (Ok(colors), Ok(patches)) = (scene.patch_colors(source.kind, &source.name), scene.patches()) else { continue };
+        let (Ok(colors), Ok(patches)) = (scene.patch_colors(source.kind, &source.name), scene.patches()) else {
+            continue;
+        };
         for (index, (color, patch)) in colors.iter().zip(patches.patches()).enumerate() {
             let truth = truth.get(index);
             let [dxy, duv] = near(color.xy, color.uv, truth.and_then(|t| t.xy), truth.and_then(|t| t.uv));
-            table.push(row(&source.label, "patch", Cell::Empty, Cell::from(patch.name.as_str()), color.xy, color.uv, dxy, duv));
+            table.push(row(
+                &source.label,
+                "patch",
+                Cell::Empty,
+                Cell::from(patch.name.as_str()),
+                color.xy,
+                color.uv,
+                dxy,
+                duv,
+            ));
         }
     }
     table

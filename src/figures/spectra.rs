@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use chromascope_core::colorimetry::diagram::wavelength_color;
 use chromascope_core::figure::{
-    Axis, Cell, Dash, Figure, Image, Ink, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Tag, Ticks,
+    Axis, Cell, Dash, Figure, Image, Ink, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table,
+    Tag, Ticks,
 };
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
@@ -37,7 +38,7 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
     let each = view.saved.spectra_layout == SpectraLayout::Each;
     let mut contents: Vec<(String, Vec<Mark>, [f64; 2], f64)> = Vec::new();
     if let Some((note, marks)) = light(scene, &mut built) {
-        contents.push((note, marks, [0.0, 1.12], 0.7));
+        contents.push((note, marks, [0.0, 1.45], 0.8));
     }
     if let Some((note, marks, top)) = patches(scene, &mut built) {
         contents.push((note, marks, [0.0, top], 1.3));
@@ -74,7 +75,8 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
 /// Faint lines at the hundreds of nanometers, since the axis is written only once, and at zero.
 fn hundreds(range: [f64; 2]) -> Vec<Mark> {
     let line = |a: [f64; 2], b: [f64; 2]| {
-        Mark::new(Things::NONE, "grid", Shape::Line { points: vec![a, b], closed: false }).with_stroke(InkRole::Grid, 1.0)
+        Mark::new(Things::NONE, "grid", Shape::Line { points: vec![a, b], closed: false })
+            .with_stroke(InkRole::Grid, 1.0)
     };
     let mut marks: Vec<Mark> = [400.0, 500.0, 600.0, 700.0].map(|nm| line([nm, range[0]], [nm, range[1]])).into();
     marks.push(line([FIRST_NM, 0.0], [LAST_NM, 0.0]));
@@ -171,7 +173,15 @@ fn sensitivities(scene: &Scene<'_>, sources: &[Source], built: &mut Built) -> (V
 }
 
 /// A curve as measured, divided by its peak; where its end values are held beyond it, dotted.
-fn curve(tag: Tag, name: &str, spectrum: &SpectralDistribution, peak: f64, ink: Ink, width: f64, held: bool) -> Vec<Mark> {
+fn curve(
+    tag: Tag,
+    name: &str,
+    spectrum: &SpectralDistribution,
+    peak: f64,
+    ink: Ink,
+    width: f64,
+    held: bool,
+) -> Vec<Mark> {
     let scale = if peak > 0.0 { peak } else { 1.0 };
     let samples = spectrum.wavelengths_nm().iter().zip(spectrum.values());
     let points: Vec<[f64; 2]> = samples

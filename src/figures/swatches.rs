@@ -45,11 +45,11 @@ struct Board<'a> {
 /// The gap between swatches.
 const GAP: f64 = 4.0;
 /// The margin around all.
-const MARGIN: f64 = 8.0;
+const MARGIN: f64 = 6.0;
 /// The height of the bar of a difference.
 const BAR: f64 = 3.0;
 /// The least height of a row.
-const LEAST_ROW: f64 = 24.0;
+const LEAST_ROW: f64 = 22.0;
 
 /// Whether patches stand in rows.
 pub fn in_rows(layout: SwatchLayout, count: usize) -> bool {
@@ -90,11 +90,12 @@ fn rows(scene: &Scene<'_>) -> Vec<Row> {
     let visible = scene.sources().into_iter().filter(|source| source.visible && compares(source));
     visible
         .map(|source| {
-            let colors = scene.patch_colors(source.kind, &source.name).map_err(|error| error.to_string()).map(|colors| {
-                let differences = scene.differences(source.kind, &source.name).unwrap_or_default();
-                let of = |i: usize| differences.get(i).and_then(|d| d.ok()).filter(|_| !source.is_truth);
-                colors.into_iter().enumerate().map(|(i, color)| (color, of(i))).collect()
-            });
+            let colors =
+                scene.patch_colors(source.kind, &source.name).map_err(|error| error.to_string()).map(|colors| {
+                    let differences = scene.differences(source.kind, &source.name).unwrap_or_default();
+                    let of = |i: usize| differences.get(i).and_then(|d| d.ok()).filter(|_| !source.is_truth);
+                    colors.into_iter().enumerate().map(|(i, color)| (color, of(i))).collect()
+                });
             Row { source, colors }
         })
         .collect()
@@ -119,7 +120,7 @@ impl Board<'_> {
     fn rows(&mut self, rows: &[Row], size: [f64; 2]) -> f64 {
         let widest = rows.iter().map(|row| text_width(&row.source.label, TextSize::Body)).fold(40.0, f64::max);
         let head = (widest + 30.0).min(0.3 * size[0]);
-        let top = MARGIN + 20.0;
+        let top = MARGIN + 17.0;
         let count = self.names.len().max(1) as f64;
         let width = ((size[0] - 2.0 * MARGIN - head) / count - GAP).max(6.0);
         let available = (size[1] - top - MARGIN) / rows.len().max(1) as f64;
@@ -185,7 +186,14 @@ impl Board<'_> {
     }
 
     /// One swatch: the truth's part, the source's, the bar, the notch.
-    fn swatch(&mut self, source: &Source, index: usize, color: &PatchColor, difference: Option<f64>, area: [[f64; 2]; 2]) {
+    fn swatch(
+        &mut self,
+        source: &Source,
+        index: usize,
+        color: &PatchColor,
+        difference: Option<f64>,
+        area: [[f64; 2]; 2],
+    ) {
         let [[x0, y0], [x1, y1]] = area;
         let name = self.names.get(index).cloned().unwrap_or_default();
         let tag = self.things.tag(Thing::Patch { source: Some(id(source)), patch: name.clone() });
@@ -282,7 +290,23 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
 
 fn table(scene: &Scene<'_>) -> Table {
     let mut table = Table::new([
-        "source", "patch", "r", "g", "b", "X", "Y", "Z", "x", "y", "L*", "a*", "b*", "srgb_r", "srgb_g", "srgb_b", "clipped",
+        "source",
+        "patch",
+        "r",
+        "g",
+        "b",
+        "X",
+        "Y",
+        "Z",
+        "x",
+        "y",
+        "L*",
+        "a*",
+        "b*",
+        "srgb_r",
+        "srgb_g",
+        "srgb_b",
+        "clipped",
         "difference",
     ]);
     let names: Vec<String> =

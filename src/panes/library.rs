@@ -1,6 +1,8 @@
 //! What is compared, the only legend; and all data sets, under one search.
 
-use egui::{Align, Button, Checkbox, Key, Layout, Rect, Response, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, Vec2};
+use egui::{
+    Align, Button, Checkbox, Key, Layout, Rect, Response, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, Vec2,
+};
 
 use super::PaneContext;
 use crate::action::{Action, CompareAction, OwnAction, SceneAction};
@@ -16,13 +18,14 @@ use crate::workspaces::PaneKind;
 /// A line of the list of data sets.
 enum Line {
     Group(Kind, usize, bool),
-    Set(Entry),
+    Set(Box<Entry>),
 }
 
 /// Shows the pane in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     ui.painter().rect_filled(rect, 0.0, context.theme.panel);
-    if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at))) {
+    if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at)))
+    {
         context.view.focused = Some(PaneKind::Library);
     }
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
@@ -60,8 +63,10 @@ fn source_row(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
     };
     let room = (rect.right() - row.cursor().left() - if tag.is_empty() { 4.0 } else { 44.0 }).max(20.0);
     let color = if source.visible { theme.text } else { theme.weak };
-    let name = Button::new(RichText::new(&source.label).color(color)).frame(false).truncate().min_size(Vec2::new(room, ROW));
-    let name = row.add_sized(Vec2::new(room, ROW), name);
+    let name = Button::selectable(false, (RichText::new(&source.label).color(color), egui::Atom::grow()))
+        .truncate()
+        .min_size(Vec2::new(room, ROW));
+    let name = row.allocate_ui(Vec2::new(room, ROW), |ui| ui.add(name)).inner;
     if !tag.is_empty() {
         row.label(RichText::new(tag).small().color(theme.weak));
     }
@@ -78,7 +83,13 @@ fn source_row(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
     }
     let failure = context.scene.rendering_of(source.kind, &source.name).err().map(|error| error.to_string());
     if let Some(failure) = &failure {
-        ui.painter().text(rect.right_center(), egui::Align2::RIGHT_CENTER, "!", egui::FontId::proportional(16.0), theme.warning);
+        ui.painter().text(
+            rect.right_center(),
+            egui::Align2::RIGHT_CENTER,
+            "!",
+            egui::FontId::proportional(16.0),
+            theme.warning,
+        );
         name.clone().on_hover_text(failure);
     } else {
         name.clone().on_hover_text(format!("{}. Click to keep it, right click for more.", source.name));
@@ -174,7 +185,7 @@ fn lines(context: &PaneContext<'_>) -> Vec<Line> {
         let open = !search.is_empty() || !context.view.saved.folded.contains(kind.plural());
         lines.push(Line::Group(kind, entries.len(), open));
         if open {
-            lines.extend(entries.into_iter().map(Line::Set));
+            lines.extend(entries.into_iter().map(|entry| Line::Set(Box::new(entry))));
         }
     }
     lines
@@ -243,7 +254,8 @@ fn set_row(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
         let thing = Thing::Source(SourceId { kind: entry.kind, name: entry.name.clone() });
         context.view.hover(Some(&thing));
     }
-    let response = response.on_hover_ui(|ui| about(ui, entry)).on_disabled_hover_text("The truth stays; choose another first.");
+    let response =
+        response.on_hover_ui(|ui| about(ui, entry)).on_disabled_hover_text("The truth stays; choose another first.");
     if entry.is_own() {
         response.context_menu(|ui| {
             if ui.button("How it was read…").clicked() {

@@ -25,8 +25,8 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let compact = if wide { 1.0 } else { 0.78 };
     field(&mut bar, "Truth", 200.0 * compact, context, truth);
     field(&mut bar, "Light", 148.0 * compact, context, light);
-    field(&mut bar, temperature_caption(context), slider + 74.0, context, |ui, context| {
-        temperature(ui, slider, context)
+    field(&mut bar, temperature_caption(context, wide), slider + 74.0, context, |ui, context| {
+        temperature(ui, slider, context);
     });
     field(&mut bar, "Patches", 196.0 * compact, context, patches);
     field(&mut bar, "White", 108.0 * compact, context, white);
@@ -81,7 +81,7 @@ fn truth(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.light.clone();
     let shown = match &now {
-        Light::Set(name) if name == "E" => "E, equal energy".to_owned(),
+        Light::Set(name) if name == "E" && ui.available_width() > 130.0 => "E, equal energy".to_owned(),
         Light::Set(name) => name.clone(),
         Light::BlackBody => "Black body".to_owned(),
         Light::Daylight => "Daylight".to_owned(),
@@ -104,8 +104,10 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 /// What the temperature is of.
-fn temperature_caption(context: &PaneContext<'_>) -> &'static str {
+fn temperature_caption(context: &PaneContext<'_>, wide: bool) -> &'static str {
     match context.scene.document.light {
+        Light::Set(_) if !wide => "Temperature",
+        Light::BlackBody | Light::Daylight if !wide => "Temperature of light",
         Light::Set(_) => "Temperature (marks the loci)",
         Light::BlackBody => "Temperature (of the light)",
         Light::Daylight => "Temperature (of daylight)",
@@ -201,8 +203,9 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn way(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.way.clone();
     let shown = match &now {
+        WayChoice::Paper if ui.available_width() < 130.0 => "Paper".to_owned(),
         WayChoice::Paper => "Paper (Eq 13)".to_owned(),
-        WayChoice::Observer(name) => format!("Observer: {name}"),
+        WayChoice::Observer(name) => format!("Fit {name}"),
     };
     let hint = "How signals come to the diagram. Paper: camera and RGB observer signals through the matrix of Eq 13, CIE \
                 observers directly. Observer: all through a 3×3 matrix fitted to a CIE observer over 190 training \

@@ -108,9 +108,9 @@ fn describe(thing: &Thing, context: &PaneContext<'_>) -> String {
             let color = index.and_then(|index| scene.patch_colors(id.kind, &id.name).ok()?.get(index).copied());
             let place = color.map_or_else(String::new, |color| format!(": {}", at(color.xy)));
             let is_truth = id.kind == Kind::Observer && id.name == scene.document.truth;
-            let difference = index.filter(|_| !is_truth).and_then(|index| {
-                scene.differences(id.kind, &id.name).ok()?.get(index).copied().and_then(Result::ok)
-            });
+            let difference = index
+                .filter(|_| !is_truth)
+                .and_then(|index| scene.differences(id.kind, &id.name).ok()?.get(index).copied().and_then(Result::ok));
             let measure = scene.document.difference;
             let difference = difference.map_or_else(String::new, |value| {
                 let decimals = if value_is_delta_e(scene.document) { 2 } else { 4 };

@@ -88,7 +88,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.add_space(UNIT);
     let built = swatches::build(&context.scene, context.view, [400.0, 200.0]);
     if let Some((words, thing)) = built.worst {
-        let label = egui::Button::new(egui::RichText::new(words).color(context.theme.weak)).frame(false);
+        let label = egui::Button::new(egui::RichText::new(words).color(context.theme.weak)).frame(false).truncate();
         if ui.add(label).on_hover_text("The largest difference: click to keep it").clicked() {
             context.view.selected = Some(thing);
         }

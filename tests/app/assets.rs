@@ -37,16 +37,11 @@ impl DataFile {
     }
 
     fn value(&self, key: &str) -> Option<&str> {
-        self.header
-            .iter()
-            .find(|(_, k, _)| k == key)
-            .map(|(_, _, v)| v.as_str())
+        self.header.iter().find(|(_, k, _)| k == key).map(|(_, _, v)| v.as_str())
     }
 
     fn notes_mention(&self, words: &str) -> bool {
-        self.header
-            .iter()
-            .any(|(_, key, value)| key == "note" && value.contains(words))
+        self.header.iter().any(|(_, key, value)| key == "note" && value.contains(words))
     }
 
     fn is_sensitivity(&self) -> bool {
@@ -57,11 +52,7 @@ impl DataFile {
     /// holds several sets.
     fn set_names(&self) -> Vec<String> {
         let several = matches!(self.folder, "illuminants" | "materials") && self.heads.len() > 2;
-        if several {
-            self.heads[1..].to_vec()
-        } else {
-            self.value("title").map(str::to_owned).into_iter().collect()
-        }
+        if several { self.heads[1..].to_vec() } else { self.value("title").map(str::to_owned).into_iter().collect() }
     }
 }
 
@@ -71,11 +62,8 @@ fn data_files() -> Vec<DataFile> {
 
 fn files_in(folder: &'static str) -> Vec<DataFile> {
     let directory = Path::new(ROOT).join(folder);
-    let entries =
-        fs::read_dir(&directory).unwrap_or_else(|error| panic!("{}: {error}", directory.display()));
-    let mut paths: Vec<PathBuf> = entries
-        .map(|entry| entry.expect("a readable folder").path())
-        .collect();
+    let entries = fs::read_dir(&directory).unwrap_or_else(|error| panic!("{}: {error}", directory.display()));
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
     paths.sort();
     paths.into_iter().map(|path| read(path, folder)).collect()
 }
@@ -87,33 +75,15 @@ fn read(path: PathBuf, folder: &'static str) -> DataFile {
         "{}: only CSV files belong here",
         path.display()
     );
-    let text =
-        fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    assert!(
-        !text.contains('\r'),
-        "{}: line ends must be LF",
-        path.display()
-    );
-    let mut file = DataFile {
-        path,
-        folder,
-        header: Vec::new(),
-        heads: Vec::new(),
-        rows: Vec::new(),
-    };
+    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    assert!(!text.contains('\r'), "{}: line ends must be LF", path.display());
+    let mut file = DataFile { path, folder, header: Vec::new(), heads: Vec::new(), rows: Vec::new() };
     for (index, line) in text.lines().enumerate() {
         let number = index + 1;
         if let Some(comment) = line.strip_prefix('#') {
-            assert!(
-                file.heads.is_empty(),
-                "{}: a comment after the column heads",
-                file.at(number)
-            );
-            let entry = comment
-                .strip_prefix(' ')
-                .and_then(|entry| entry.split_once(": "));
-            let (key, value) =
-                entry.unwrap_or_else(|| panic!("{}: not `# key: value`", file.at(number)));
+            assert!(file.heads.is_empty(), "{}: a comment after the column heads", file.at(number));
+            let entry = comment.strip_prefix(' ').and_then(|entry| entry.split_once(": "));
+            let (key, value) = entry.unwrap_or_else(|| panic!("{}: not `# key: value`", file.at(number)));
             file.header.push((number, key.to_owned(), value.to_owned()));
         } else {
             let fields: Vec<String> = line.split(',').map(str::to_owned).collect();
@@ -128,14 +98,8 @@ fn read(path: PathBuf, folder: &'static str) -> DataFile {
 }
 
 fn number(file: &DataFile, line: usize, field: &str) -> f64 {
-    let value: f64 = field
-        .parse()
-        .unwrap_or_else(|_| panic!("{}: `{field}` is not a number", file.at(line)));
-    assert!(
-        value.is_finite(),
-        "{}: `{field}` is not finite",
-        file.at(line)
-    );
+    let value: f64 = field.parse().unwrap_or_else(|_| panic!("{}: `{field}` is not a number", file.at(line)));
+    assert!(value.is_finite(), "{}: `{field}` is not finite", file.at(line));
     value
 }
 
@@ -143,27 +107,15 @@ fn number(file: &DataFile, line: usize, field: &str) -> f64 {
 fn headers_hold_the_required_keys_in_order() {
     for file in data_files() {
         for (key, optional) in KEYS {
-            let required = if key == "response" {
-                file.is_sensitivity()
-            } else {
-                !optional
-            };
-            assert!(
-                !required || file.value(key).is_some(),
-                "{}: no `# {key}:`",
-                file.at(1)
-            );
+            let required = if key == "response" { file.is_sensitivity() } else { !optional };
+            assert!(!required || file.value(key).is_some(), "{}: no `# {key}:`", file.at(1));
         }
         let mut last = 0;
         for (line, key, value) in &file.header {
             let place = KEYS.iter().position(|(known, _)| known == key);
             let place = place.unwrap_or_else(|| panic!("{}: unknown key `{key}`", file.at(*line)));
             let repeated = place == last && *line > 1 && key != "note";
-            assert!(
-                place >= last && !repeated,
-                "{}: `{key}` out of order or repeated",
-                file.at(*line)
-            );
+            assert!(place >= last && !repeated, "{}: `{key}` out of order or repeated", file.at(*line));
             assert!(
                 !value.trim().is_empty() && value.trim() == value,
                 "{}: `{key}` is empty or padded",
@@ -179,11 +131,7 @@ fn sensitivities_say_per_energy_or_per_photon() {
     for file in data_files() {
         match file.value("response") {
             Some(response) => {
-                assert!(
-                    file.is_sensitivity(),
-                    "{}: only observers and cameras have a response",
-                    file.at(1)
-                );
+                assert!(file.is_sensitivity(), "{}: only observers and cameras have a response", file.at(1));
                 assert!(
                     RESPONSES.contains(&response),
                     "{}: response `{response}` is none of {RESPONSES:?}",
@@ -198,21 +146,12 @@ fn sensitivities_say_per_energy_or_per_photon() {
 #[test]
 fn licenses_name_an_existing_text_or_say_that_there_is_none() {
     for file in data_files() {
-        let license = file
-            .value("license")
-            .unwrap_or_else(|| panic!("{}: no `# license:`", file.at(1)));
-        let named = license
-            .split_once("(licenses/")
-            .and_then(|(_, rest)| rest.split_once(')'))
-            .map(|(name, _)| name);
+        let license = file.value("license").unwrap_or_else(|| panic!("{}: no `# license:`", file.at(1)));
+        let named = license.split_once("(licenses/").and_then(|(_, rest)| rest.split_once(')')).map(|(name, _)| name);
         match named {
             Some(name) => {
                 let text = Path::new(ROOT).join("licenses").join(name);
-                assert!(
-                    text.is_file(),
-                    "{}: assets/licenses/{name} does not exist",
-                    file.at(1)
-                );
+                assert!(text.is_file(), "{}: assets/licenses/{name} does not exist", file.at(1));
             }
             None => assert!(
                 license.starts_with("no terms stated") || license.starts_with("public domain"),
@@ -234,35 +173,13 @@ fn tables_are_rectangular_finite_and_ascending() {
             file.at(head_line)
         );
         let distinct: BTreeSet<&String> = file.heads.iter().collect();
-        assert_eq!(
-            distinct.len(),
-            file.heads.len(),
-            "{}: two columns of one name",
-            file.at(head_line)
-        );
-        assert!(
-            file.heads.len() > 1 && file.rows.len() > 1,
-            "{}: no table",
-            file.at(head_line)
-        );
+        assert_eq!(distinct.len(), file.heads.len(), "{}: two columns of one name", file.at(head_line));
+        assert!(file.heads.len() > 1 && file.rows.len() > 1, "{}: no table", file.at(head_line));
         let mut previous = 0.0;
         for (line, fields) in &file.rows {
-            assert_eq!(
-                fields.len(),
-                file.heads.len(),
-                "{}: as many fields as column heads",
-                file.at(*line)
-            );
-            let values: Vec<f64> = fields
-                .iter()
-                .map(|field| number(&file, *line, field))
-                .collect();
-            assert!(
-                values[0] > previous,
-                "{}: wavelength {} after {previous}",
-                file.at(*line),
-                values[0]
-            );
+            assert_eq!(fields.len(), file.heads.len(), "{}: as many fields as column heads", file.at(*line));
+            let values: Vec<f64> = fields.iter().map(|field| number(&file, *line, field)).collect();
+            assert!(values[0] > previous, "{}: wavelength {} after {previous}", file.at(*line), values[0]);
             previous = values[0];
         }
     }
@@ -270,11 +187,7 @@ fn tables_are_rectangular_finite_and_ascending() {
 
 #[test]
 fn sensitivities_have_the_columns_of_their_kind() {
-    let observers = [
-        ["r_bar", "g_bar", "b_bar"],
-        ["x_bar", "y_bar", "z_bar"],
-        ["l_bar", "m_bar", "s_bar"],
-    ];
+    let observers = [["r_bar", "g_bar", "b_bar"], ["x_bar", "y_bar", "z_bar"], ["l_bar", "m_bar", "s_bar"]];
     for file in data_files().into_iter().filter(DataFile::is_sensitivity) {
         let heads: Vec<&str> = file.heads[1..].iter().map(String::as_str).collect();
         let fits = if file.folder == "cameras" {
@@ -282,34 +195,19 @@ fn sensitivities_have_the_columns_of_their_kind() {
         } else {
             observers.iter().any(|kind| heads == kind)
         };
-        assert!(
-            fits,
-            "{}: columns {heads:?}",
-            file.at(file.header.len() + 1)
-        );
+        assert!(fits, "{}: columns {heads:?}", file.at(file.header.len() + 1));
     }
 }
 
 #[test]
 fn reflectances_are_plausible() {
-    for file in data_files()
-        .into_iter()
-        .filter(|file| matches!(file.folder, "charts" | "materials"))
-    {
+    for file in data_files().into_iter().filter(|file| matches!(file.folder, "charts" | "materials")) {
         // One fluorescent sample is higher; its file has to say so.
-        let limit = if file.notes_mention("above 1.2") {
-            1.5
-        } else {
-            1.2
-        };
+        let limit = if file.notes_mention("above 1.2") { 1.5 } else { 1.2 };
         for (line, fields) in &file.rows {
             for field in &fields[1..] {
                 let value = number(&file, *line, field);
-                assert!(
-                    (0.0..=limit).contains(&value),
-                    "{}: reflectance {value} outside 0..{limit}",
-                    file.at(*line)
-                );
+                assert!((0.0..=limit).contains(&value), "{}: reflectance {value} outside 0..{limit}", file.at(*line));
             }
         }
     }
@@ -326,11 +224,7 @@ fn names_are_unique() {
         }
         // Lights and materials are picked from one list each, the other kinds by their titles.
         for name in file.set_names() {
-            let list = if matches!(file.folder, "illuminants" | "materials") {
-                "spectra"
-            } else {
-                file.folder
-            };
+            let list = if matches!(file.folder, "illuminants" | "materials") { "spectra" } else { file.folder };
             if let Some(other) = names.insert((list, name.clone()), file.at(1)) {
                 panic!("{}: set `{name}` is also in {other}", file.at(1));
             }

@@ -1,25 +1,30 @@
+use crate::screenshots::open;
 use chromascope::action::{Action, CompareAction, OwnAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::{Kind, import};
 use chromascope::thing::{SourceId, Thing};
-use crate::screenshots::open;
 use egui_kittest::Harness;
 
 fn save(h: &mut Harness<'static, ChromascopeApp>, name: &str) {
     h.run();
     h.render().unwrap().save(format!("/tmp/look3/{name}.png")).unwrap();
 }
-fn cam(n: &str) -> SourceId { SourceId { kind: Kind::Camera, name: n.into() } }
+fn cam(n: &str) -> SourceId {
+    SourceId { kind: Kind::Camera, name: n.into() }
+}
 
 #[test]
 fn look() {
     std::fs::create_dir_all("/tmp/look3").unwrap();
     let only = std::env::var("LOOK").unwrap_or_default();
     for (tname, theme) in [("dark", egui::Theme::Dark), ("light", egui::Theme::Light)] {
-        if !only.is_empty() && only != tname { continue; }
+        if !only.is_empty() && only != tname {
+            continue;
+        }
         let mut h = open([1280.0, 800.0], theme);
         save(&mut h, &format!("a_welcome_{tname}"));
-        h.state_mut().view_mut().selected = Some(Thing::Patch { source: Some(cam("Kodak DCS200")), patch: "blue".into() });
+        h.state_mut().view_mut().selected =
+            Some(Thing::Patch { source: Some(cam("Kodak DCS200")), patch: "blue".into() });
         save(&mut h, &format!("b_patch_{tname}"));
         h.state_mut().view_mut().selected = Some(Thing::Patch { source: None, patch: "orange yellow".into() });
         save(&mut h, &format!("c_across_{tname}"));
@@ -62,10 +67,20 @@ fn look() {
         h.run_steps(60);
         save(&mut h, &format!("j_small_hover_{tname}"));
         h.state_mut().view_mut().inspector_over = true;
-        for name in ["Canon EOS 5D", "Canon EOS 600D", "Nikon D850", "Sony ILCE-7M3", "ARRI D21", "Canon EOS M", "Canon EOS 5DS", "Canon EOS 100D"] {
+        for name in [
+            "Canon EOS 5D",
+            "Canon EOS 600D",
+            "Nikon D850",
+            "Sony ILCE-7M3",
+            "ARRI D21",
+            "Canon EOS M",
+            "Canon EOS 5DS",
+            "Canon EOS 100D",
+        ] {
             h.state_mut().push(Action::Compare(CompareAction::Add(Kind::Camera, name.into())));
         }
-        h.state_mut().view_mut().selected = Some(Thing::Patch { source: Some(cam("Kodak DCS200")), patch: "blue".into() });
+        h.state_mut().view_mut().selected =
+            Some(Thing::Patch { source: Some(cam("Kodak DCS200")), patch: "blue".into() });
         save(&mut h, &format!("k_small_over_{tname}"));
     }
 }

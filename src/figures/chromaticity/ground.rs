@@ -70,7 +70,9 @@ fn add_labels(drawing: &mut Drawing<'_>) {
     let Ok(outline) = drawing.scene.outline() else { return };
     let center = drawing.place(Xy { x: 1.0 / 3.0, y: 1.0 / 3.0 }).unwrap_or_default();
     for nm in [460.0, 470.0, 480.0, 490.0, 500.0, 520.0, 540.0, 560.0, 580.0, 600.0, 620.0, 700.0] {
-        let Some(at) = outline.iter().find(|p| p.wavelength_nm == nm).and_then(|p| drawing.place(p.xy)) else { continue };
+        let Some(at) = outline.iter().find(|p| p.wavelength_nm == nm).and_then(|p| drawing.place(p.xy)) else {
+            continue;
+        };
         let away = [at[0] - center[0], at[1] - center[1]];
         let length = away[0].hypot(away[1]).max(1e-9);
         let offset = [14.0 * away[0] / length, -12.0 * away[1] / length];

@@ -67,10 +67,7 @@ fn add_names(drawing: &mut Drawing<'_>, names: &[&str], truth: &[PatchColor], fe
     let count = known.len().max(1) as f64;
     let center = known.iter().fold([0.0, 0.0], |sum, p| [sum[0] + p[0] / count, sum[1] + p[1] / count]);
     let pointed = |name: &str| {
-        [&drawing.view.hovered, &drawing.view.selected]
-            .into_iter()
-            .flatten()
-            .any(|thing| thing.patch() == Some(name))
+        [&drawing.view.hovered, &drawing.view.selected].into_iter().flatten().any(|thing| thing.patch() == Some(name))
     };
     let mut labels = Vec::new();
     for (name, at) in names.iter().zip(places) {
@@ -134,7 +131,9 @@ fn describe_radiator(scene: &Scene<'_>, source: &SourceId, kelvin: f64) -> Vec<S
         let xy = compare::locus_distance_xy(&point, &truth);
         let uv = compare::locus_distance_uv(&point, &truth);
         match (xy, uv) {
-            (Ok(xy), Ok(uv)) => lines.push(format!("to the truth: Δxy {}   Δu′v′ {}", number(round4(xy)), number(round4(uv)))),
+            (Ok(xy), Ok(uv)) => {
+                lines.push(format!("to the truth: Δxy {}   Δu′v′ {}", number(round4(xy)), number(round4(uv))));
+            }
             (Err(why), _) | (_, Err(why)) => lines.push(why.to_string()),
         }
     }

@@ -78,8 +78,9 @@ fn cell_words(cell: Option<f64>, decimals: usize) -> String {
 pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
     let mut text = format!("quantity\t{}\n", heads.join("\t"));
     for row in rows {
-        let cells: Vec<String> = row.cells.iter().map(|cell| cell.map_or_else(String::new, |v| v.to_string())).collect();
-        text.push_str(&format!("{}\t{}\n", row.name, cells.join("\t")));
+        let cells: Vec<String> =
+            row.cells.iter().map(|cell| cell.map_or_else(String::new, |v| v.to_string())).collect();
+        text.push_str(&[row.name.as_ref(), "\t", &cells.join("\t"), "\n"].concat());
     }
     text
 }

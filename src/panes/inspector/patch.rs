@@ -204,9 +204,8 @@ fn buttons_without_copy(ui: &mut Ui, context: &mut PaneContext<'_>) {
     {
         let shown: Vec<Source> = scene.sources().into_iter().filter(|source| source.visible).collect();
         let heads: Vec<String> = shown.iter().map(|source| source.label.clone()).collect();
-        let color = |s: &Source| {
-            color_of(&scene, &SourceId { kind: s.kind, name: s.name.clone() }, &patch).ok().flatten()
-        };
+        let color =
+            |s: &Source| color_of(&scene, &SourceId { kind: s.kind, name: s.name.clone() }, &patch).ok().flatten();
         let colors: Vec<_> = shown.iter().map(color).collect();
         copy_text(ui, numbers::to_tsv(&heads, &numbers::of_patches(&colors)), context);
     }
@@ -238,14 +237,16 @@ fn source_row(ui: &mut Ui, source: &Source, patch: &str, seen: &PatchColor, cont
     }
     let key = Rect::from_min_size(rect.min, Vec2::new(lines::KEY, rect.height()));
     lines::key(ui.painter(), key, source, &theme);
-    let swatches = Rect::from_min_max(egui::pos2(rect.right() - 122.0, rect.top() + 1.0), rect.max - Vec2::new(62.0, 1.0));
+    let swatches =
+        Rect::from_min_max(egui::pos2(rect.right() - 122.0, rect.top() + 1.0), rect.max - Vec2::new(62.0, 1.0));
     let label = Rect::from_min_max(
         egui::pos2(key.right() + 2.0 * UNIT, rect.top()),
         egui::pos2(swatches.left() - UNIT, rect.bottom()),
     );
     lines::elided(ui, label, &source.label, TextStyle::Body, theme.text);
     if let Ok(Some(own)) = &own {
-        let mut place = ui.new_child(egui::UiBuilder::new().id_salt(("pair", source.kind, &source.name)).max_rect(swatches));
+        let mut place =
+            ui.new_child(egui::UiBuilder::new().id_salt(("pair", source.kind, &source.name)).max_rect(swatches));
         pair(&mut place, &theme, seen, (!source.is_truth).then_some(own), swatches.height(), swatches.width());
     }
     let column = rect.shrink2(Vec2::new(UNIT, 0.0));

@@ -5,9 +5,7 @@ use chromascope_core::units::Kelvin;
 use egui::Ui;
 
 use super::numbers::Row;
-use super::{
-    assumptions, buttons, copy_text, failure, head, no_difference, note, numbers, show_assumptions, truth_id,
-};
+use super::{assumptions, buttons, copy_text, failure, head, no_difference, note, numbers, show_assumptions, truth_id};
 use crate::document::Light;
 use crate::panes::PaneContext;
 use crate::scene::{Scene, SceneError};
@@ -67,7 +65,11 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, kelvin: f64, context: &mut PaneCo
     match scene.document.light {
         Light::BlackBody => note(ui, &theme, "The light on the scene is a black body of the marked temperature."),
         Light::Daylight => {
-            note(ui, &theme, "The light on the scene is daylight of the marked temperature; the locus is of black bodies.");
+            note(
+                ui,
+                &theme,
+                "The light on the scene is daylight of the marked temperature; the locus is of black bodies.",
+            );
         }
         Light::Set(_) => {}
     }

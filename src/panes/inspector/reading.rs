@@ -139,8 +139,7 @@ fn camera(ui: &mut Ui, set: &mut OwnSet) {
                     }
                 })
                 .response;
-            response
-                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, format!("{color}: {shown}")));
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, format!("{color}: {shown}")));
         });
     }
     ui.horizontal_wrapped(|ui| {

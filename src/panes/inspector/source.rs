@@ -57,8 +57,7 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, context: &mut PaneContext<'_>) {
 fn sensor_facts(sensor: &Sensor) -> Vec<Fact> {
     let names = sensor.primaries().channels();
     let ranges = sensor.curves().iter().zip(names);
-    let ranges: Vec<String> =
-        ranges.map(|(curve, name)| format!("{name} {}", range_words(curve.range_nm()))).collect();
+    let ranges: Vec<String> = ranges.map(|(curve, name)| format!("{name} {}", range_words(curve.range_nm()))).collect();
     vec![("Measured", ranges.join(", "))]
 }
 
@@ -75,7 +74,8 @@ fn measures(scene: &Scene<'_>, id: &SourceId) -> Vec<Fact> {
             facts.push(("Difference", no_difference(*reason)));
         } else if !known.is_empty() {
             let mean = known.iter().sum::<f64>() / known.len() as f64;
-            let words = format!("{} {}, mean of {} patches", measure.symbol(), difference_words(measure, mean), known.len());
+            let words =
+                format!("{} {}, mean of {} patches", measure.symbol(), difference_words(measure, mean), known.len());
             facts.push(("Difference", words));
         }
     }
@@ -148,7 +148,7 @@ pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     facts::show(ui, &theme, &measured);
     if buttons(ui, context) {
         let rows = light.measured.wavelengths_nm().iter().zip(light.measured.values());
-        let text = rows.map(|(nm, value)| format!("{nm}\t{value}\n")).collect::<String>();
+        let text = rows.map(|(nm, value)| format!("{nm}\t{value}")).collect::<Vec<_>>().join("\n");
         copy_text(ui, format!("wavelength_nm\tpower\n{text}"), context);
     }
     let words = held_words(&format!("Light {}", scene.light_name()), light.grid.assumed());
