@@ -140,7 +140,11 @@ fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<(String, Vec<Mark>, f
         top = patch.grid.values().iter().copied().fold(top, f64::max);
         // A casing keeps a black patch apart from a black ground, and a white one from a white one.
         let cased = curve(tag, &patch.name, &patch.measured, 1.0, ink, 1.5, true);
-        marks.extend(cased.into_iter().map(|mark| mark.with_halo(Ink::new(InkRole::Weak).faded(0.35))));
+        let casing = |mark: Mark| match mark.stroke {
+            Some(stroke) if stroke.dash == Dash::Solid => mark.with_halo(Ink::new(InkRole::Weak).faded(0.35)),
+            _ => mark,
+        };
+        marks.extend(cased.into_iter().map(casing));
     }
     let five = scene.document.subset == Subset::Five && scene.has_five();
     let note = if five { "patches: the paper's five".to_owned() } else { format!("patches: {}", scene.document.chart) };

@@ -80,7 +80,7 @@ pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
     for row in rows {
         let cells: Vec<String> =
             row.cells.iter().map(|cell| cell.map_or_else(String::new, |v| v.to_string())).collect();
-        text.push_str(&[row.name.as_ref(), "\t", &cells.join("\t"), "\n"].concat());
+        text.push_str(&[row.name, "\t", &cells.join("\t"), "\n"].concat());
     }
     text
 }
