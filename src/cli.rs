@@ -8,12 +8,16 @@ mod request;
 mod tables;
 
 use std::ffi::OsString;
+use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use clap::{CommandFactory as _, FromArgMatches as _};
 
 use arguments::{Arguments, Subcommand};
+use chromascope_core::camera::NoRendering;
+
+use crate::scene::SceneError;
 
 /// What the command line asks for.
 pub enum Outcome {
@@ -34,7 +38,10 @@ pub enum CliError {
     File(String),
     /// The scene cannot be computed.
     #[error(transparent)]
-    Scene(#[from] crate::scene::SceneError),
+    Scene(SceneError),
+    /// Cone fundamentals on the paper's way.
+    #[error("{0}: Eq 13 takes RGB, not cone signals; add --transform observer")]
+    Cones(String),
     /// An argument that means nothing.
     #[error("{argument}: {reason}")]
     Argument {
@@ -44,13 +51,37 @@ pub enum CliError {
         reason: String,
     },
     /// The output could not be written.
-    #[error("cannot write {}: {error}", path.display())]
+    #[error("cannot write {}: {}", path.display(), reason(error))]
     Output {
         /// Where.
         path: PathBuf,
         /// Why.
         error: io::Error,
     },
+}
+
+impl CliError {
+    /// 2 where the arguments themselves are wrong, as for those that clap refuses; 1 where data, names or disk say no.
+    fn code(&self) -> u8 {
+        if matches!(self, Self::Argument { .. }) { 2 } else { 1 }
+    }
+}
+
+impl From<SceneError> for CliError {
+    /// The scene's remedies are the window's; the one that is called otherwise here is put in this one's words.
+    fn from(error: SceneError) -> Self {
+        match error {
+            SceneError::Rendering { name, error: NoRendering::ConesNeedObserver } => Self::Cones(name),
+            other => Self::Scene(other),
+        }
+    }
+}
+
+/// The system's reason without its error number and temporary names.
+fn reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    let end = text.find(" (os error").unwrap_or(text.len());
+    text[..end].to_lowercase()
 }
 
 /// Reads the arguments; runs a command if they name one.
@@ -79,7 +110,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         Ok(()) => 0,
         Err(error) => {
             say(&format!("chromascope: {error}\n"));
-            1
+            error.code()
         }
     })
 }
@@ -98,15 +129,29 @@ pub fn say(text: &str) {
 
 /// Writes a table to a file, whole or not at all, or to standard output.
 fn put(text: &str, out: Option<&Path>) -> Result<(), CliError> {
-    if let Some(path) = out.filter(|path| *path != Path::new("-")) {
-        let failed = |error| CliError::Output { path: path.to_owned(), error };
-        return crate::files::write_atomically(path, text.as_bytes()).map_err(failed);
+    match out.filter(|path| *path != Path::new("-")) {
+        Some(path) => {
+            write_to(path, text.as_bytes()).map_err(|error| CliError::Output { path: path.to_owned(), error })
+        }
+        None => print(text),
     }
+}
+
+fn print(text: &str) -> Result<(), CliError> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         // Whoever read it has seen enough, as `head` does.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(CliError::Output { path: PathBuf::from("standard output"), error }),
         Ok(()) => Ok(()),
+    }
+}
+
+/// A file is replaced whole, behind a link if it is one; what is no file, such as a pipe or `/dev/null`, is written into.
+fn write_to(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    match fs::metadata(path) {
+        Ok(known) if known.is_file() => crate::files::write_atomically(&fs::canonicalize(path)?, bytes),
+        Ok(known) if !known.is_dir() => fs::OpenOptions::new().write(true).open(path)?.write_all(bytes),
+        _ => crate::files::write_atomically(path, bytes),
     }
 }

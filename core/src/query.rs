@@ -9,7 +9,9 @@ pub mod patches;
 pub mod shared;
 
 pub use compare::{Metric, NoDifference};
-pub use loci::{Locus, LocusOf, LocusPoint, MonochromaticOf, RadiatorSignals, SpectralLocusOf, Temperatures};
+pub use loci::{
+    Locus, LocusOf, LocusPoint, LocusRulesOf, MonochromaticOf, RadiatorSignals, SpectralLocusOf, Temperatures,
+};
 pub use patches::{FitTargetsOf, PatchColor, PatchColorsOf, RenderingOf, WayOf};
 pub use shared::Shared;
 

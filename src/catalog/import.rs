@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use chromascope_core::table::{self, Certainty, ReadError, ReadOptions, Role, Table, WavelengthUnit};
+use chromascope_core::table::{self, Certainty, ReadError, ReadOptions, Role, Table, Warning, WavelengthUnit};
 
 use crate::document::own::{OwnCurve, OwnRole, OwnSet, OwnUnit, ReadAs};
 
@@ -19,6 +19,11 @@ pub struct Imported {
 
 /// Reads a file's bytes; `file` names it. A role that is given is not guessed.
 pub fn import(file: &str, bytes: &[u8], role: Option<OwnRole>) -> Result<Imported, ReadError> {
+    Ok(import_warned(file, bytes, role)?.0)
+}
+
+/// The same, with what should be looked at before the curves are trusted; the message tells the first of it.
+pub fn import_warned(file: &str, bytes: &[u8], role: Option<OwnRole>) -> Result<(Imported, Vec<Warning>), ReadError> {
     let options = ReadOptions { role: role.map(core_role), ..ReadOptions::default() };
     let table = table::read(bytes, &options)?;
     let weighty = |what: &str| matches!(what, "Role" | "Wavelengths" | "Values");
@@ -34,7 +39,8 @@ pub fn import(file: &str, bytes: &[u8], role: Option<OwnRole>) -> Result<Importe
     if let Some(warning) = table.warnings.first() {
         message = format!("{message} {warning}");
     }
-    Ok(Imported { message, guessed: !guesses.is_empty(), set: own_set(file, table) })
+    let warnings = table.warnings.clone();
+    Ok((Imported { message, guessed: !guesses.is_empty(), set: own_set(file, table) }, warnings))
 }
 
 /// How many curves of what, over which range.

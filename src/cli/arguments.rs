@@ -27,12 +27,32 @@ Examples:
 
 Names are those of `chromascope list`, case and punctuation aside; a part will do where only one name has it.";
 
+const LOCUS_EXAMPLES: &str = "\
+Examples:
+  chromascope locus > first_screen.csv
+  chromascope locus --camera \"Nikon D70\" --camera mine.csv --from 2000 --to 10000 --count 50
+  chromascope locus --camera \"Nikon D70\" --transform observer --reference \"CIE 1964 10°\" --illuminant D65
+
+Temperatures are in kelvins, from 1 to 1e15. Rows come by source, in the order named, then by temperature.
+A place without chromaticity is left empty.";
+
+const PATCHES_EXAMPLES: &str = "\
+Examples:
+  chromascope patches --chart \"ColorChecker five\"
+  chromascope patches --camera \"Canon EOS 10D\" --illuminant A --white D55
+  chromascope patches --camera mine.csv --chart leaves.csv --illuminant daylight:6504 --out leaves_seen.csv
+
+r, g, b are after white balance, empty for CIE observers; Y is 1 for a perfect white. A file's reflectances are
+fractions or percent, its wavelengths nm or µm; what had to be guessed is said on standard error.";
+
 /// What can be computed without a window.
 #[derive(Debug, clap::Subcommand)]
 pub(super) enum Subcommand {
     /// Planckian loci as CSV: `source,temperature_k,x,y,u_prime,v_prime`
+    #[command(after_help = LOCUS_EXAMPLES)]
     Locus(LocusArguments),
     /// Chart patches as CSV: `source,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y`
+    #[command(after_help = PATCHES_EXAMPLES)]
     Patches(PatchesArguments),
     /// The names of the built-in data sets, one a line
     List {

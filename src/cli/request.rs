@@ -1,19 +1,21 @@
 //! From arguments to a document: names and files become what is compared, under what.
 
 use std::fs;
+use std::io::{self, Read as _};
 use std::path::Path;
 
 use chromascope_core::query::Shared;
+use chromascope_core::table::MAX_BYTES;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 
-use super::CliError;
 use super::arguments::{CommonArguments, Transform};
-use crate::catalog::import::import;
+use super::{CliError, reason, say};
+use crate::catalog::import::import_warned;
 use crate::catalog::names::find;
 use crate::catalog::{Catalog, Entry, Kind};
 use crate::document::own::{OwnRole, OwnSet};
-use crate::document::{Document, FIRST_SOURCES, Light, REFERENCE, Subset, WayChoice, WhiteChoice};
+use crate::document::{CHART, Document, FIRST_SOURCES, Light, REFERENCE, Subset, WayChoice, WhiteChoice};
 
 /// The name of the paper's five patches as a chart of their own.
 pub(super) const FIVE: &str = "ColorChecker five";
@@ -61,7 +63,7 @@ impl Request {
                 let found = if kind == Kind::Camera && is_file(name) {
                     self.open(name, OwnRole::Camera)?.name.clone()
                 } else {
-                    self.name(&[kind], name)?
+                    self.name(kind, name)?
                 };
                 Ok((kind, found))
             })
@@ -76,7 +78,7 @@ impl Request {
                 return Err(CliError::Argument { argument: "--reference", reason });
             }
             (Transform::Observer, None) => WayChoice::Observer(REFERENCE.to_owned()),
-            (Transform::Observer, Some(name)) => WayChoice::Observer(self.name(&[Kind::Observer], name)?),
+            (Transform::Observer, Some(name)) => WayChoice::Observer(self.name(Kind::Observer, name)?),
         };
         Ok(())
     }
@@ -88,15 +90,9 @@ impl Request {
             return Ok(());
         }
         let name = if is_file(illuminant) {
-            let set = self.open(illuminant, OwnRole::Illuminant)?;
-            if set.curves.len() != 1 {
-                let reason =
-                    format!("{illuminant} holds {} curves, but a light is one; keep the one meant", set.curves.len());
-                return Err(CliError::Argument { argument: "--illuminant", reason });
-            }
-            set.name.clone()
+            self.open(illuminant, OwnRole::Illuminant)?.name.clone()
         } else {
-            self.name(&[Kind::Illuminant], illuminant)?
+            self.name(Kind::Illuminant, illuminant)?
         };
         self.document.light = Light::Set(name);
         Ok(())
@@ -106,15 +102,28 @@ impl Request {
     pub(super) fn set_chart(&mut self, chart: Option<&str>) -> Result<(), CliError> {
         self.document.subset = Subset::All;
         let Some(chart) = chart else { return Ok(()) };
-        if crate::catalog::names::folded(chart) == crate::catalog::names::folded(FIVE) {
+        if is_file(chart) {
+            self.document.chart = self.open(chart, OwnRole::Reflectance)?.name.clone();
+            return Ok(());
+        }
+        let found = self.chart_name(chart)?;
+        if found == FIVE {
             self.document.subset = Subset::Five;
-        } else if is_file(chart) {
-            let set = self.open(chart, OwnRole::Reflectance)?;
-            self.document.chart.clone_from(&set.name);
         } else {
-            self.document.chart = self.name(&[Kind::Chart, Kind::Material], chart)?;
+            self.document.chart = found;
         }
         Ok(())
+    }
+
+    /// The name of a chart or a material, or [`FIVE`].
+    fn chart_name(&self, typed: &str) -> Result<String, CliError> {
+        let five = self.catalog.get(Kind::Chart, CHART).map(|chart| Entry {
+            name: FIVE.to_owned(),
+            short: FIVE.to_owned(),
+            ..chart.clone()
+        });
+        let sets = [Kind::Chart, Kind::Material].into_iter().flat_map(|kind| self.catalog.of_kind(kind));
+        Ok(find(sets.chain(&five), "chart", typed)?.name.clone())
     }
 
     /// Chooses the white.
@@ -123,23 +132,30 @@ impl Request {
             Some((Radiator::Daylight, kelvin)) => WhiteChoice::Daylight(kelvin),
             Some((Radiator::BlackBody, kelvin)) => WhiteChoice::BlackBody(kelvin),
             None if white.eq_ignore_ascii_case("unity") => WhiteChoice::Unity,
-            None => WhiteChoice::Light(self.name(&[Kind::Illuminant], white)?),
+            None => WhiteChoice::Light(self.name(Kind::Illuminant, white)?),
         };
         Ok(())
     }
 
     /// The catalog's name for what was typed.
-    fn name(&self, kinds: &[Kind], typed: &str) -> Result<String, CliError> {
-        let entries = kinds.iter().flat_map(|kind| self.catalog.of_kind(*kind));
-        let singular = kinds.first().map_or("set", |kind| kind.singular());
-        Ok(find(entries, singular, typed)?.name.clone())
+    fn name(&self, kind: Kind, typed: &str) -> Result<String, CliError> {
+        Ok(find(self.catalog.of_kind(kind), kind.singular(), typed)?.name.clone())
     }
 
-    /// Reads a file as a set of the document's own, under a name that no other set has.
+    /// Reads a file as a set of the document's own, under a name that no other set has; says what had to be guessed.
     fn open(&mut self, path: &str, role: OwnRole) -> Result<Shared<OwnSet>, CliError> {
-        let bytes = fs::read(path).map_err(|error| CliError::File(format!("{path}: {error}")))?;
-        let imported = import(path, &bytes, Some(role)).map_err(|error| CliError::File(format!("{path}: {error}")))?;
+        let known = self.document.own.iter().find(|own| own.file == path && own.role == role);
+        if let Some(known) = known {
+            return Ok(known.clone());
+        }
+        let bytes = read(path).map_err(|error| CliError::File(format!("{path}: {}", reason(&error))))?;
+        let (imported, warnings) =
+            import_warned(path, &bytes, Some(role)).map_err(|error| CliError::File(format!("{path}: {error}")))?;
         let mut set = imported.set;
+        check_curves(&set)?;
+        if imported.guessed || !warnings.is_empty() {
+            say(&format!("chromascope: {}\n", imported.message));
+        }
         let kind = Entry::from_own(&Shared::new(set.clone())).kind;
         let taken =
             |name: &str| self.catalog.get(kind, name).is_some() || self.document.own.iter().any(|own| own.name == name);
@@ -150,6 +166,27 @@ impl Request {
         self.document.own.push(set.clone());
         Ok(set)
     }
+}
+
+/// A file's bytes, or of an endless one as many as show that it is too large.
+fn read(path: &str) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    fs::File::open(path)?.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Whether a file holds as many curves as its use takes.
+fn check_curves(set: &OwnSet) -> Result<(), CliError> {
+    let wanted = match set.role {
+        OwnRole::Camera if set.curves.len() < 3 => "a camera takes three: red, green and blue",
+        OwnRole::Illuminant if set.curves.len() > 1 => "a light is one; keep the one meant",
+        _ => return Ok(()),
+    };
+    let count = match set.curves.len() {
+        1 => "1 curve".to_owned(),
+        n => format!("{n} curves"),
+    };
+    Err(CliError::File(format!("{}: {count}, but {wanted}", set.file)))
 }
 
 /// A light that is a formula of temperature.

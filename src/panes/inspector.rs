@@ -32,6 +32,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     child.set_clip_rect(body.intersect(ui.clip_rect()));
     ScrollArea::vertical().id_salt("inspector").auto_shrink(false).show(&mut child, |ui| {
         ui.set_max_width(inner.width());
+        ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         content(ui, context);
         ui.add_space(2.0 * UNIT);
     });
@@ -141,24 +142,22 @@ fn held_words(what: &str, assumed: Assumed) -> Option<String> {
     }
 }
 
-/// What holds beyond a sensor's figures.
-fn sensor_words(label: &str, sensor: &Sensor) -> String {
+/// The wavelengths that a sensor was measured over, once if the channels agree.
+fn measured_words(sensor: &Sensor) -> String {
     let ranges = sensor.curves().each_ref().map(chromascope_core::spectral::SpectralDistribution::range_nm);
-    let words = if ranges[1] == ranges[0] && ranges[2] == ranges[0] {
-        range_words(ranges[0])
-    } else {
-        let names = sensor.primaries().channels();
-        let parts = names.iter().zip(ranges).map(|(name, range)| format!("{name} {}", range_words(range)));
-        parts.collect::<Vec<_>>().join(", ")
-    };
-    format!("{label}: measured {words}; counts as zero outside.")
+    if ranges[1] == ranges[0] && ranges[2] == ranges[0] {
+        return range_words(ranges[0]);
+    }
+    let names = sensor.primaries().channels();
+    let parts = names.iter().zip(ranges).map(|(name, range)| format!("{name} {}", range_words(range)));
+    parts.collect::<Vec<_>>().join(", ")
 }
 
 /// What was assumed about a sensor and the light.
 fn assumptions(scene: &Scene<'_>, id: &SourceId, label: &str) -> Vec<String> {
     let mut words = Vec::new();
     if let Ok(sensor) = scene.sensor(id.kind, &id.name) {
-        words.push(sensor_words(label, &sensor));
+        words.push(format!("{label}: measured {}; counts as zero outside.", measured_words(&sensor)));
         if sensor.response() == chromascope_core::spectral::Response::Unknown {
             words.push(format!("{label}: per energy or per photon is not stated; taken per energy."));
         }

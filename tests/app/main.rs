@@ -5,7 +5,10 @@
 mod architecture;
 mod assets;
 mod cpu_renderer;
+mod exports;
 mod figure;
-mod look3;
+mod inspector;
+mod library;
+mod recompute;
 mod screenshots;
 mod theme;

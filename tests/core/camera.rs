@@ -47,7 +47,10 @@ fn nodes_miss_the_sum_by_less_than_1e_12_in_xy() {
         let (quick, sum) = (LocusEvaluator::new(&sensor, PAPER), LocusEvaluator::by_sum(&sensor, PAPER));
         assert_eq!(sum.method(), LocusMethod::Sum);
         let LocusMethod::Nodes { count, error } = quick.method() else { panic!("{name} falls back to the sum") };
-        assert!(error <= LocusEvaluator::TARGET, "{name}: {error} with {count} nodes");
+        assert!(
+            error <= LocusEvaluator::<&chromascope_core::spectral::Sensor>::TARGET,
+            "{name}: {error} with {count} nodes"
+        );
         let ways: Vec<Rendering> = [Way::Paper, observer]
             .into_iter()
             .filter_map(|way| Rendering::new(&sensor, &equal_energy, White::UNITY, way).ok())

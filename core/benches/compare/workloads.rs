@@ -25,7 +25,7 @@ pub(crate) fn loci(rounds: usize) {
     sensors.extend(sixty().into_iter().step_by(8).take(7));
     let all = temperatures(500).to_vec();
     let renderings: Vec<Rendering> = sensors.iter().map(|sensor| paper(sensor)).collect();
-    let through = |evaluators: &[LocusEvaluator<'_>]| -> Vec<Xy> {
+    let through = |evaluators: &[LocusEvaluator<&Sensor>]| -> Vec<Xy> {
         let each = evaluators.iter().zip(&renderings);
         each.flat_map(|(evaluator, rendering)| all.iter().map(|&t| locus_point(rendering, evaluator.raw(t)))).collect()
     };
@@ -36,9 +36,10 @@ pub(crate) fn loci(rounds: usize) {
             all.iter().map(move |&t| exact.radiator(sensor, t)).collect::<Vec<_>>()
         })
         .collect();
-    let make =
-        || -> Vec<LocusEvaluator<'_>> { sensors.iter().map(|sensor| LocusEvaluator::new(sensor, CONSTANTS)).collect() };
-    let sums: Vec<_> = sensors.iter().map(|sensor| LocusEvaluator::by_sum(sensor, CONSTANTS)).collect();
+    let make = || -> Vec<LocusEvaluator<&Sensor>> {
+        sensors.iter().map(|sensor| LocusEvaluator::new(&**sensor, CONSTANTS)).collect()
+    };
+    let sums: Vec<_> = sensors.iter().map(|sensor| LocusEvaluator::by_sum(&**sensor, CONSTANTS)).collect();
     let kept = make();
     compare(
         "a locus of 500 temperatures for 12 sources",
@@ -144,7 +145,7 @@ impl Screen {
         let mut found = Vec::new();
         for sensor in &self.sensors {
             let rendering = Rendering::new(sensor, light, White::UNITY, self.borrowed(observer)).unwrap();
-            let evaluator = LocusEvaluator::by_sum(sensor, CONSTANTS);
+            let evaluator = LocusEvaluator::by_sum(&**sensor, CONSTANTS);
             found.extend(temperatures(200).to_vec().into_iter().map(|t| locus_point(&rendering, evaluator.raw(t))));
             for patch in self.patches.patches() {
                 let raw = plain(sensor, light.values(), patch.grid.values()).to_array();

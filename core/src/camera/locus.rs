@@ -1,5 +1,7 @@
 //! Black bodies through a sensor (Eq 15), by a few nodes instead of 401 samples, with the error that was checked.
 
+use std::ops::Deref;
+
 use crate::light::RadiationConstants;
 use crate::math::exp::exp;
 use crate::math::gauss::{Rule, gauss_rule, interpolatory_rule};
@@ -45,13 +47,15 @@ struct Channel {
 
 /// Evaluates `∫ C_c(λ) E(λ, T) dλ` for one sensor at any temperature, up to a factor common to the three channels.
 ///
+/// Borrows the sensor (`&Sensor`) or shares it.
+///
 /// Per channel the Gauss rule of its own curve; for curves with negative lobes, which have none, the Gauss nodes of the
 /// absolute curve with interpolatory weights. The fewest nodes are taken whose error against the 1 nm sum stays below the
 /// target at nine temperatures from 1000 K to 10⁶ K; outside that range, and if no rule reaches the target, the sum itself in
 /// ratio form, which is stable for any temperature.
 #[derive(Clone, Debug)]
-pub struct LocusEvaluator<'a> {
-    sensor: &'a Sensor,
+pub struct LocusEvaluator<S> {
+    sensor: S,
     constants: RadiationConstants,
     anchor_nm: f64,
     grid: Box<[GridTerm; COUNT]>,
@@ -70,12 +74,12 @@ struct GridTerm {
     fifth: f64,
 }
 
-impl<'a> LocusEvaluator<'a> {
+impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
     /// The error aimed at, relative to the largest of the three signals.
     pub const TARGET: f64 = 1e-13;
 
     /// Makes the rules for a sensor and checks them. Costs as much as fifty sums or so.
-    pub fn new(sensor: &'a Sensor, constants: RadiationConstants) -> Self {
+    pub fn new(sensor: S, constants: RadiationConstants) -> Self {
         let mut evaluator = Self::by_sum(sensor, constants);
         let checks: Vec<(f64, [f64; 3])> =
             CHECKS_K.iter().filter_map(|&t| Some((t, evaluator.sum(Kelvin::new(t).ok()?)))).collect();
@@ -102,8 +106,8 @@ impl<'a> LocusEvaluator<'a> {
     }
 
     /// The 1 nm sum, whatever it costs: the reference.
-    pub fn by_sum(sensor: &'a Sensor, constants: RadiationConstants) -> Self {
-        let anchor_nm = last_response_nm(sensor);
+    pub fn by_sum(sensor: S, constants: RadiationConstants) -> Self {
+        let anchor_nm = last_response_nm(&sensor);
         let mut grid = Box::new([GridTerm::default(); COUNT]);
         for (index, term) in grid.iter_mut().enumerate() {
             let nm = wavelength_nm(index);

@@ -50,6 +50,24 @@ fn between(from: Kelvin, to: Kelvin, index: usize, count: usize) -> Option<Kelvi
     }
 }
 
+/// With which quadrature is a sensor's locus evaluated? Making it costs more than a hundred temperatures with it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct LocusRulesOf {
+    /// The camera or observer.
+    pub sensor: Shared<Sensor>,
+    /// The constants of Planck's law.
+    pub constants: RadiationConstants,
+}
+
+impl Query for LocusRulesOf {
+    type Answer = LocusEvaluator<Shared<Sensor>>;
+    const NAME: &'static str = "locus rules";
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        LocusEvaluator::new(self.sensor.clone(), self.constants)
+    }
+}
+
 /// What does a sensor record of black bodies, before any balance? Independent of light, white and way.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct RadiatorSignals {
@@ -74,8 +92,8 @@ impl Query for RadiatorSignals {
     type Answer = RawLocus;
     const NAME: &'static str = "radiator signals";
 
-    fn answer(&self, _: &impl Ask) -> RawLocus {
-        let evaluator = LocusEvaluator::new(&self.sensor, self.constants);
+    fn answer(&self, ask: &impl Ask) -> RawLocus {
+        let evaluator = ask.ask(&LocusRulesOf { sensor: self.sensor.clone(), constants: self.constants });
         let points = self.temperatures.to_vec().into_iter().map(|t| (t, evaluator.raw(t))).collect();
         RawLocus { points, method: evaluator.method() }
     }

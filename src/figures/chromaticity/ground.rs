@@ -78,7 +78,7 @@ fn add_labels(drawing: &mut Drawing<'_>) {
         let offset = [14.0 * away[0] / length, -12.0 * away[1] / length];
         let anchor = Anchor(if away[0] < 0.0 { 1.0 } else { 0.0 }, 0.5);
         drawing.marks.push(text(&format!("{nm:.0}"), at, anchor, [offset[0] * 0.6, offset[1]], InkRole::Weak));
-        let dot = Shape::Points { points: vec![at], marker: chromascope_core::figure::Marker::Dot, radius: 2.0 };
+        let dot = Shape::Points { points: vec![at], marker: chromascope_core::figure::Marker::Circle, radius: 1.8 };
         drawing.marks.push(Mark::new(Things::NONE, "wavelength", dot).with_fill(InkRole::Weak));
     }
 }

@@ -40,7 +40,7 @@ fn add_one(drawing: &mut Drawing<'_>, source: &Source, locus: &[LocusPoint]) {
         let Some(at) = at_temperature(drawing, source, kelvin) else { continue };
         let thing = Thing::Radiator { source: id(source), kelvin };
         let tag = drawing.things.tag(thing);
-        let dot = Shape::Points { points: vec![at], marker: Marker::Dot, radius: 1.0 + source.width * 0.6 };
+        let dot = Shape::Points { points: vec![at], marker: Marker::Circle, radius: 2.0 + source.width * 0.5 };
         drawing.marks.push(Mark::new(tag, format!("{} {kelvin:.0} K", source.label), dot).with_fill(source.role));
         if source.is_truth && (kelvin == 1000.0 || kelvin == 2000.0 || kelvin == 3000.0 || kelvin == 20_000.0) {
             drawing.marks.push(text(&format!("{kelvin:.0} K"), at, Anchor::LEFT_TOP, [6.0, 4.0], InkRole::Weak));

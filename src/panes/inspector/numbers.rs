@@ -7,7 +7,7 @@ use crate::theme::{MONO, SMALL, Theme};
 use crate::widgets::lines::fixed;
 
 /// Height of a row of numbers.
-const LINE: f32 = 17.0;
+const LINE: f32 = 15.0;
 /// Width of the rows' names.
 const NAMES: f32 = 40.0;
 
@@ -46,7 +46,7 @@ pub(super) fn of_patches(colors: &[Option<PatchColor>]) -> Vec<Row> {
 pub(super) fn show(ui: &mut Ui, theme: &Theme, heads: &[String], rows: &[Row], column: f32) {
     let width = NAMES + column * heads.len() as f32;
     let place = |rect: Rect, index: usize| rect.left() + NAMES + column * (index + 1) as f32;
-    ui.spacing_mut().item_spacing.y = 0.0;
+    let spacing = std::mem::take(&mut ui.spacing_mut().item_spacing.y);
     if heads.iter().any(|head| !head.is_empty()) {
         let (rect, _) = ui.allocate_exact_size(Vec2::new(width, LINE), Sense::hover());
         for (index, head) in heads.iter().enumerate() {
@@ -67,7 +67,7 @@ pub(super) fn show(ui: &mut Ui, theme: &Theme, heads: &[String], rows: &[Row], c
         let spoken = format!("{}: {}", row.name, spoken.join(", "));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &spoken));
     }
-    ui.spacing_mut().item_spacing.y = crate::theme::UNIT;
+    ui.spacing_mut().item_spacing.y = spacing;
 }
 
 fn cell_words(cell: Option<f64>, decimals: usize) -> String {
@@ -78,9 +78,12 @@ fn cell_words(cell: Option<f64>, decimals: usize) -> String {
 pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
     let mut text = format!("quantity\t{}\n", heads.join("\t"));
     for row in rows {
-        let cells: Vec<String> =
-            row.cells.iter().map(|cell| cell.map_or_else(String::new, |v| v.to_string())).collect();
-        text.push_str(&[row.name, "\t", &cells.join("\t"), "\n"].concat());
+        text.push_str(row.name);
+        for cell in &row.cells {
+            text.push('\t');
+            text.extend(cell.map(|value| value.to_string()));
+        }
+        text.push('\n');
     }
     text
 }

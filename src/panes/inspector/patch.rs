@@ -16,7 +16,7 @@ use crate::thing::{SourceId, Thing};
 use crate::widgets::{focus_rim, lines};
 
 /// Height of the pair of swatches with its surround.
-const PAIR: f32 = 56.0;
+const PAIR: f32 = 40.0;
 
 /// Where a patch stands among those on show.
 pub(super) fn index_of(scene: &Scene<'_>, patch: &str) -> Option<usize> {
@@ -48,7 +48,7 @@ fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor
         egui::WidgetInfo::labeled(egui::Role::Image, true, "Swatches: left the truth, right the source")
     });
     ui.painter().rect_filled(rect, 0.0, theme.surround.color());
-    let inner = rect.shrink(if height > 30.0 { 2.0 * UNIT } else { 3.0 });
+    let inner = rect.shrink(if height > 30.0 { 1.5 * UNIT } else { 3.0 });
     let middle = inner.center().x;
     let halves = [
         Rect::from_min_max(inner.min, egui::pos2(middle, inner.bottom())),
@@ -122,6 +122,7 @@ fn difference(ui: &mut Ui, id: &SourceId, patch: &str, context: &PaneContext<'_>
                 let format = |size| TextFormat {
                     font_id: FontId::proportional(size),
                     color: theme.text,
+                    valign: egui::Align::Center,
                     ..TextFormat::default()
                 };
                 let mut job = LayoutJob::default();

@@ -18,9 +18,6 @@ pub(super) fn show(ui: &mut Ui, name: &str, context: &mut PaneContext<'_>) {
     let mut changed = OwnSet::clone(&set);
     ui.label(RichText::new("Reading").strong());
     note(ui, &theme, format!("{}, {} curves", set.file, set.curves.len()));
-    for decision in &set.decisions {
-        ui.label(RichText::new(decision).small());
-    }
     ui.add_space(UNIT);
     name_field(ui, &mut changed, context);
     choices(ui, &mut changed);
@@ -41,6 +38,10 @@ pub(super) fn show(ui: &mut Ui, name: &str, context: &mut PaneContext<'_>) {
             context.push(Action::Own(OwnAction::Remove(name.to_owned())));
         }
     });
+    note(ui, &theme, "Decided on reading:");
+    for decision in &set.decisions {
+        ui.label(RichText::new(decision).small());
+    }
     if changed != *set {
         follow_name(name, &changed.name, context);
         context.push(Action::Own(OwnAction::Replace { name: name.to_owned(), with: Box::new(changed) }));
@@ -64,7 +65,11 @@ fn follow_name(old: &str, new: &str, context: &mut PaneContext<'_>) {
 }
 
 fn caption(ui: &mut Ui, words: &str) -> egui::Response {
-    ui.add_sized([76.0, ROW], egui::Label::new(RichText::new(words).small()).halign(egui::Align::Min))
+    let (rect, response) = ui.allocate_exact_size(egui::Vec2::new(76.0, ROW), egui::Sense::hover());
+    let color = ui.visuals().weak_text_color();
+    crate::widgets::lines::elided(ui, rect, words, egui::TextStyle::Small, color);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+    response
 }
 
 /// The name, taken over with Enter or when the field is left.

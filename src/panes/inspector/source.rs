@@ -1,12 +1,12 @@
 //! All about a camera or an observer, and about the light.
 
 use chromascope_core::query::{LocusPoint, NoDifference, compare};
-use chromascope_core::spectral::{Primaries, Sensor};
+use chromascope_core::spectral::Primaries;
 use egui::{RichText, Ui};
 
 use super::{
-    assumptions, buttons, copy_text, difference_words, failure, head, held_words, no_difference, note, reading,
-    show_assumptions, truth_id,
+    assumptions, buttons, copy_text, difference_words, failure, head, held_words, measured_words, no_difference, note,
+    reading, show_assumptions, truth_id,
 };
 use crate::catalog::{Kind, Place};
 use crate::document::{Light, REFERENCE};
@@ -32,7 +32,7 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, context: &mut PaneContext<'_>) {
     note(ui, &theme, format!("{}: {}{also}", id.kind.singular(), entry.name));
     let mut measured = measures(&scene, id);
     match scene.sensor(id.kind, &id.name) {
-        Ok(sensor) => measured.extend(sensor_facts(&sensor)),
+        Ok(sensor) => measured.push(("Measured", measured_words(&sensor))),
         Err(error) => failure(ui, &theme, &error.to_string()),
     }
     if let Err(error) = scene.patch_colors(id.kind, &id.name) {
@@ -51,14 +51,6 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, context: &mut PaneContext<'_>) {
         ui.separator();
         reading::show(ui, &id.name, context);
     }
-}
-
-/// What was measured, and as a response to what.
-fn sensor_facts(sensor: &Sensor) -> Vec<Fact> {
-    let names = sensor.primaries().channels();
-    let ranges = sensor.curves().iter().zip(names);
-    let ranges: Vec<String> = ranges.map(|(curve, name)| format!("{name} {}", range_words(curve.range_nm()))).collect();
-    vec![("Measured", ranges.join(", "))]
 }
 
 /// How far the source is from the truth, in a few numbers.
@@ -148,8 +140,8 @@ pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     facts::show(ui, &theme, &measured);
     if buttons(ui, context) {
         let rows = light.measured.wavelengths_nm().iter().zip(light.measured.values());
-        let text = rows.map(|(nm, value)| format!("{nm}\t{value}")).collect::<Vec<_>>().join("\n");
-        copy_text(ui, format!("wavelength_nm\tpower\n{text}"), context);
+        let lines: Vec<String> = rows.map(|(nm, value)| format!("{nm}\t{value}")).collect();
+        copy_text(ui, format!("wavelength_nm\tpower\n{}\n", lines.join("\n")), context);
     }
     let words = held_words(&format!("Light {}", scene.light_name()), light.grid.assumed());
     show_assumptions(ui, &theme, words.into_iter().collect());

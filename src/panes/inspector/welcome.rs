@@ -90,7 +90,7 @@ fn caveat(context: &PaneContext<'_>) -> Option<&'static str> {
         (WayChoice::Paper, _) if observers().any(counts_in_xyz) => Some(
             "CIE observers are drawn directly, not through Eq 13: their lines differ from the others by construction.",
         ),
-        (WayChoice::Observer(_) | WayChoice::Paper, WhiteChoice::Unity) => None,
+        (_, WhiteChoice::Unity) => None,
         (WayChoice::Observer(_), _) => Some("The chosen white moves RGB only: the fitted matrix takes it back."),
         (WayChoice::Paper, _) => Some("All colors lean to the chosen white, the truth's too."),
     }

@@ -8,7 +8,7 @@ use crate::panes::PaneContext;
 use crate::scene::Source;
 use crate::theme::{FADED, ROW, UNIT};
 use crate::thing::{SourceId, Thing};
-use crate::widgets::{facts, focus_rim, lines};
+use crate::widgets::{focus_rim, lines};
 use crate::workspaces::PaneKind;
 
 /// A label that is being written.
@@ -46,7 +46,8 @@ pub(super) fn row(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, format!("Warning: {error}")));
             response.on_hover_text(error);
         }
-        label(ui, words, id, source, context);
+        let frame = Rect::from_min_max(rect.min - Vec2::new(UNIT, 0.0), egui::pos2(dots.left() - 2.0, rect.bottom()));
+        label(ui, words, frame, id, source, context);
     }
     let menu_button = lines::dots(ui, dots, id.with("dots"), &format!("Menu of {}", source.label));
     egui::Popup::menu(&menu_button).show(|ui| menu(ui, source, context));
@@ -104,7 +105,7 @@ fn trouble(source: &Source, context: &PaneContext<'_>) -> Option<String> {
 }
 
 /// The name; a click selects.
-fn label(ui: &Ui, rect: Rect, id: Id, source: &Source, context: &mut PaneContext<'_>) {
+fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &Source, context: &mut PaneContext<'_>) {
     let thing = thing(source);
     let selected = context.view.selected.as_ref().is_some_and(|chosen| chosen.source() == thing.source());
     let frame = rect.expand2(Vec2::new(UNIT, 0.0));
@@ -119,7 +120,7 @@ fn label(ui: &Ui, rect: Rect, id: Id, source: &Source, context: &mut PaneContext
     }
     if selected || response.has_focus() {
         let stroke = egui::Stroke::new(1.5, context.theme.text);
-        ui.painter().rect_stroke(frame, 3.0, stroke, egui::StrokeKind::Inside);
+        ui.painter().rect_stroke(row, 3.0, stroke, egui::StrokeKind::Inside);
     }
     let color = context.theme.text.gamma_multiply(if source.visible { 1.0 } else { FADED + 0.25 });
     lines::elided(ui, rect, &source.label, TextStyle::Body, color);
@@ -130,52 +131,52 @@ fn label(ui: &Ui, rect: Rect, id: Id, source: &Source, context: &mut PaneContext
     hint(response, source, context);
 }
 
+/// The whole name; all else stands in the inspector after a click, where it covers nothing.
 fn hint(response: Response, source: &Source, context: &PaneContext<'_>) {
-    let (scene, theme) = (context.scene, context.theme);
-    if let Ok(entry) = scene.entry(source.kind, &source.name) {
-        response.on_hover_ui(|ui| facts::tooltip(ui, &scene, &theme, &entry));
-    }
+    let also = context.scene.entry(source.kind, &source.name).ok().and_then(|entry| entry.also);
+    response.on_hover_ui(|ui| {
+        ui.strong(&source.name);
+        if let Some(also) = also {
+            ui.label(also);
+        }
+        ui.small("Click for source, range and terms.");
+    });
 }
 
 /// What can be done with a source.
 fn menu(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
     ui.set_min_width(150.0);
-    let mut offer = |words: &str, enabled: bool| {
-        let clicked = ui.add_enabled(enabled, egui::Button::new(words).frame_when_inactive(false)).clicked();
-        if clicked {
-            ui.close();
-        }
-        clicked
-    };
     let name = source.name.clone();
-    if source.kind == Kind::Observer && offer("Make truth", !source.is_truth) {
+    if source.kind == Kind::Observer && offer(ui, "Make truth", !source.is_truth) {
         context.push(Action::Compare(CompareAction::SetTruth(name.clone())));
     }
-    if offer("Rename…", true) {
+    if offer(ui, "Rename…", true) {
         let renaming = Renaming { kind: Some(source.kind), name: name.clone(), text: source.label.clone() };
         ui.data_mut(|data| data.insert_temp(renaming_id(), renaming));
     }
-    let mut offer = |words: &str, enabled: bool| {
-        let clicked = ui.add_enabled(enabled, egui::Button::new(words).frame_when_inactive(false)).clicked();
-        if clicked {
-            ui.close();
-        }
-        clicked
-    };
-    if offer(if source.visible { "Hide" } else { "Show" }, true) {
+    if offer(ui, if source.visible { "Hide" } else { "Show" }, true) {
         toggle(source, context);
     }
-    if offer("Take off", !source.is_truth) {
+    if offer(ui, "Take off", !source.is_truth) {
         context.push(Action::Compare(CompareAction::Remove(source.kind, name)));
     }
-    if offer("Source", true) {
+    if offer(ui, "Source", true) {
         context.view.selected = Some(thing(source));
         show_inspector(context);
     }
-    if source.is_own && offer("Reading…", true) {
+    if source.is_own && offer(ui, "Reading…", true) {
         context.view.reading = Some(source.name.clone());
         show_inspector(context);
     }
+}
+
+/// An entry of the menu. Returns whether it was chosen.
+fn offer(ui: &mut Ui, words: &str, enabled: bool) -> bool {
+    let clicked = ui.add_enabled(enabled, egui::Button::new(words).frame_when_inactive(false)).clicked();
+    if clicked {
+        ui.close();
+    }
+    clicked
 }
 
 /// Brings the inspector on, if the workspace does not show it.

@@ -1,7 +1,5 @@
 //! All data sets in folding groups.
 
-use std::borrow::Cow;
-
 use egui::{Rect, Response, ScrollArea, Sense, TextStyle, Ui, Vec2};
 
 use super::compared::show_inspector;
@@ -11,6 +9,9 @@ use crate::document::Light;
 use crate::panes::PaneContext;
 use crate::theme::{ROW, UNIT};
 use crate::widgets::{facts, focus_rim, lines};
+
+/// Width that a scroll bar lies over.
+pub(super) const SCROLL_BAR: f32 = 10.0;
 
 /// One row of the list.
 pub(super) enum Row<'a> {
@@ -23,8 +24,20 @@ pub(super) enum Row<'a> {
         /// Whether its sets follow.
         open: bool,
     },
-    /// A set.
-    Set(Cow<'a, Entry>),
+    /// A set of the program's.
+    BuiltIn(&'a Entry),
+    /// A set of the user's.
+    Own(Box<Entry>),
+}
+
+impl Row<'_> {
+    fn entry(&self) -> Option<&Entry> {
+        match self {
+            Self::Group { .. } => None,
+            Self::BuiltIn(entry) => Some(entry),
+            Self::Own(entry) => Some(entry),
+        }
+    }
 }
 
 /// All rows as if the pane were endless; while searching all groups are open and hold what matches.
@@ -34,16 +47,17 @@ pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
     let (document, catalog) = (context.scene.document, context.scene.catalog);
     let mut rows = Vec::new();
     for kind in Kind::ALL {
-        let own = document.own.iter().map(Entry::from_own).filter(|entry| entry.kind == kind).map(Cow::Owned);
-        let all = own.chain(catalog.of_kind(kind).map(Cow::Borrowed));
-        let found: Vec<_> = all.filter(|entry| !searching || names::matches_search(entry, search)).collect();
+        let matches = |entry: &Entry| !searching || names::matches_search(entry, search);
+        let own = document.own.iter().map(Entry::from_own).filter(|entry| entry.kind == kind && matches(entry));
+        let built_in = catalog.of_kind(kind).filter(|entry| matches(entry)).map(Row::BuiltIn);
+        let found: Vec<Row<'a>> = own.map(|entry| Row::Own(Box::new(entry))).chain(built_in).collect();
         if searching && found.is_empty() {
             continue;
         }
         let open = searching || !context.view.saved.folded.contains(kind.plural());
         rows.push(Row::Group { kind, count: found.len(), open });
         if open {
-            rows.extend(found.into_iter().map(Row::Set));
+            rows.extend(found);
         }
     }
     rows
@@ -51,10 +65,7 @@ pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
 
 /// The first set of the list.
 pub(super) fn first_match<'r>(rows: &'r [Row<'_>]) -> Option<&'r Entry> {
-    rows.iter().find_map(|row| match row {
-        Row::Set(entry) => Some(entry.as_ref()),
-        Row::Group { .. } => None,
-    })
+    rows.iter().find_map(Row::entry)
 }
 
 /// The list; only rows in sight are laid out.
@@ -72,9 +83,10 @@ pub(super) fn list(ui: &mut Ui, rows: &[Row<'_>], context: &mut PaneContext<'_>)
     let area = ScrollArea::vertical().id_salt("sets").auto_shrink(false);
     area.show_rows(ui, ROW, rows.len(), |ui, range| {
         for row in &rows[range] {
-            match row {
-                Row::Group { kind, count, open } => group(ui, *kind, *count, *open, context),
-                Row::Set(entry) => set(ui, entry, context),
+            if let Row::Group { kind, count, open } = row {
+                group(ui, *kind, *count, *open, context);
+            } else if let Some(entry) = row.entry() {
+                set(ui, entry, context);
             }
         }
     });
@@ -148,9 +160,9 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     let ticks = matches!(entry.kind, Kind::Camera | Kind::Observer);
     let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     let id = ui.scope_id().with(("set", entry.kind, &entry.name, entry.is_own()));
-    let mut row = Rect::from_min_max(rect.min + Vec2::new(3.0 * UNIT, 0.0), rect.max);
+    let mut row = Rect::from_min_max(rect.min + Vec2::new(2.0 * UNIT, 0.0), rect.max);
     if entry.is_own() {
-        row.max.x -= lines::DOTS + UNIT;
+        row.max.x -= lines::DOTS + UNIT + SCROLL_BAR;
     }
     let response = ui.interact(row, id, if enabled { Sense::click() } else { Sense::hover() });
     let role = if ticks { egui::Role::CheckBox } else { egui::Role::RadioButton };
@@ -161,7 +173,8 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     let mut words = Rect::from_min_max(row.min + Vec2::new(6.0 * UNIT, 0.0), row.max);
     if entry.is_own() {
         words.max.x -= lines::right_aligned(ui, words, "yours", TextStyle::Small, context.theme.weak) + UNIT;
-        own_menu(ui, Rect::from_min_max(egui::pos2(row.right() + UNIT, row.top()), rect.max), id, entry, context);
+        let dots = Rect::from_min_size(egui::pos2(row.right() + UNIT, row.top()), Vec2::new(lines::DOTS, ROW));
+        own_menu(ui, dots, id, entry, context);
     }
     let color = if enabled { context.theme.text } else { context.theme.weak };
     let shown = if entry.kind == Kind::Illuminant && entry.name == "E" { "E, equal energy" } else { &entry.name };

@@ -1,0 +1,59 @@
+//! What leaves the program: each pane's figure as SVG and PNG, and its numbers.
+
+use chromascope::catalog::Catalog;
+use chromascope::document::{Document, Subset, WayChoice};
+use chromascope::export::{Paper, png, png_file, svg};
+use chromascope::panes;
+use chromascope::results::Results;
+use chromascope::scene::{LOCUS_POINTS, Scene};
+use chromascope::theme::Theme;
+use chromascope::view::View;
+use chromascope::workspaces::PaneKind;
+
+const PICTURED: [PaneKind; 3] = [PaneKind::Chromaticity, PaneKind::Swatches, PaneKind::Spectra];
+
+fn documents() -> [Document; 3] {
+    let observer = WayChoice::Observer("CIE 1931 2°".to_owned());
+    [
+        Document::default(),
+        Document { subset: Subset::All, ..Document::default() },
+        Document { subset: Subset::All, way: observer, ..Document::default() },
+    ]
+}
+
+#[test]
+fn every_figure_becomes_svg_png_and_numbers() {
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    for (index, document) in documents().iter().enumerate() {
+        let scene = Scene { document, catalog: &catalog, results: &results };
+        for pane in PICTURED {
+            let figure = panes::figure(pane, &scene, &View::default()).expect("it has a figure");
+            let text = svg(&figure, &Theme::LIGHT, Paper::default());
+            assert!(!text.contains("NaN") && !text.contains("inf"), "{pane:?}");
+            let picture = png(&text, 2.0).expect("the SVG is well formed");
+            let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}_{index}.png", pane.title()));
+            std::fs::write(path, png_file(&picture).unwrap()).unwrap();
+            let csv = figure.table.to_csv();
+            assert!(!csv.contains("NaN") && !csv.contains("inf"), "{pane:?}");
+            assert!(figure.table.rows.iter().all(|row| row.len() == figure.table.columns.len()));
+        }
+    }
+}
+
+#[test]
+fn numbers_are_those_of_the_scene() {
+    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::default());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let view = View::default();
+    let rows = |pane| panes::figure(pane, &scene, &view).unwrap().table.rows.len();
+    assert_eq!(rows(PaneKind::Chromaticity), 5 * (LOCUS_POINTS + 5), "five sources, loci and patches");
+    assert_eq!(rows(PaneKind::Swatches), 4 * 5, "CIE 1931 is left out by Paper");
+    assert_eq!(rows(PaneKind::Spectra), 401);
+}
+
+#[test]
+fn panes_without_a_figure_have_none() {
+    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::default());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    assert!(panes::figure(PaneKind::Inspector, &scene, &View::default()).is_none());
+}

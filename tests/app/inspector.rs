@@ -1,0 +1,171 @@
+//! The inspector and the foot of the window.
+
+use chromascope::action::{Action, OwnAction};
+use chromascope::app::ChromascopeApp;
+use chromascope::catalog::{Catalog, Kind, import};
+use chromascope::command::Command;
+use chromascope::document::own::OwnRole;
+use chromascope::results::Results;
+use chromascope::scene::Scene;
+use chromascope::thing::{SourceId, Thing};
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::screenshots::open;
+
+type Window = Harness<'static, ChromascopeApp>;
+
+fn window() -> Window {
+    open([1280.0, 1000.0], egui::Theme::Dark)
+}
+
+fn camera(name: &str) -> SourceId {
+    SourceId { kind: Kind::Camera, name: name.to_owned() }
+}
+
+fn patch(source: &str, name: &str) -> Thing {
+    Thing::Patch { source: Some(camera(source)), patch: name.to_owned() }
+}
+
+fn select(window: &mut Window, thing: Thing) {
+    window.state_mut().view_mut().selected = Some(thing);
+    window.run();
+}
+
+fn press(window: &mut Window, role: Role, label: &str) {
+    window.get_by_role_and_label(role, label).click();
+    window.run();
+}
+
+/// Whether something on screen says this.
+fn says(window: &Window, words: &str) -> bool {
+    let said = |text: Option<String>| text.is_some_and(|text| text.contains(words));
+    let mut found = window.query_all_by(|node| said(node.label()) || said(node.value())).peekable();
+    found.peek().is_some()
+}
+
+#[test]
+fn without_a_selection_it_says_what_is_seen() {
+    let window = window();
+    assert!(says(&window, "A camera's sensors are not the eye's"));
+    assert!(says(&window, "Hover to read, click to keep, Esc to let go."));
+    assert!(says(&window, "Ready. Drop a spectrum or camera file anywhere."));
+    assert!(says(&window, "3 of 58 cameras computed"));
+}
+
+#[test]
+fn a_patch_shows_the_difference_that_the_scene_computes() {
+    let mut window = window();
+    select(&mut window, patch("Kodak DCS200", "blue"));
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let document = window.state().history().document().clone();
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let differences = scene.differences(Kind::Camera, "Kodak DCS200").expect("the camera is there");
+    let blue = differences[2].expect("comparable");
+    assert!(says(&window, &format!("ΔE*00 {blue:.2}")));
+    assert!(says(&window, "b*: truth −40.8"), "a true minus sign");
+    assert!(says(&window, "Patch 13 blue, light E"));
+}
+
+#[test]
+fn where_there_is_no_difference_the_reason_stands() {
+    let mut window = window();
+    let source = SourceId { kind: Kind::Observer, name: "CIE 1931 2°".to_owned() };
+    select(&mut window, Thing::Patch { source: Some(source.clone()), patch: "red".to_owned() });
+    assert!(says(&window, "No difference: a CIE observer is drawn directly"));
+    select(&mut window, Thing::Radiator { source, kelvin: 5500.0 });
+    assert!(says(&window, "No difference: a CIE observer is drawn directly"));
+}
+
+#[test]
+fn every_kind_of_thing_has_its_page() {
+    let mut window = window();
+    let assumed = "Canon EOS 10D: measured 400–700 nm; counts as zero outside.";
+    for (thing, words) in [
+        (Thing::Source(camera("Canon EOS 10D")), "0.348 in xy"),
+        (Thing::Source(camera("Canon EOS 10D")), assumed),
+        (Thing::Radiator { source: camera("Nikon D70"), kelvin: 5500.0 }, "black body, 5500 K = 181.8 mired"),
+        (Thing::Patch { source: None, patch: "red".to_owned() }, "Kodak DCS200, red"),
+        (Thing::Light, "for CIE 1931 2°"),
+    ] {
+        select(&mut window, thing);
+        assert!(says(&window, words), "{words}");
+    }
+}
+
+#[test]
+fn pinned_things_stand_side_by_side() {
+    let mut window = window();
+    for source in ["Kodak DCS200", "Nikon D70"] {
+        select(&mut window, patch(source, "blue"));
+        press(&mut window, Role::Button, "Pin");
+    }
+    assert_eq!(window.state().view().pinned.len(), 2);
+    window.state_mut().view_mut().selected = None;
+    window.run();
+    assert!(says(&window, "x: truth 0.2020, A 0.2534, B "));
+    press(&mut window, Role::Button, "Unpin A");
+    assert_eq!(window.state().view().pinned, [patch("Nikon D70", "blue")]);
+}
+
+#[test]
+fn what_was_decided_on_reading_is_changed_and_undone() {
+    let mut window = window();
+    let text = "nm,leaf a,leaf b\n400,4,5\n500,9,10\n600,22,30\n700,45,50\n";
+    let mut imported =
+        import::import("leaves.csv", text.as_bytes(), Some(OwnRole::Reflectance)).expect("a table of two curves");
+    imported.set.name = "Leaves".to_owned();
+    assert!(imported.set.percent, "values to 50 are percent");
+    window.state_mut().push(Action::Own(OwnAction::Import(vec![imported.set])));
+    window.state_mut().view_mut().reading = Some("Leaves".to_owned());
+    window.run();
+    let percent = |window: &Window| window.state().history().document().own[0].percent;
+    press(&mut window, Role::CheckBox, "Values are percent");
+    assert!(!percent(&window));
+    window.state_mut().push(Command::Undo);
+    window.run();
+    assert!(percent(&window));
+    press(&mut window, Role::Button, "Light");
+    assert_eq!(window.state().history().document().own[0].role, OwnRole::Illuminant);
+    press(&mut window, Role::Button, "Done");
+    assert_eq!(window.state().view().reading, None);
+}
+
+#[test]
+fn a_set_is_renamed_and_stays_in_sight() {
+    let mut window = window();
+    let text = "nm,red,green,blue\n400,0,1,5\n500,1,8,4\n600,9,5,1\n700,5,1,0\n";
+    let mut imported =
+        import::import("zoo.csv", text.as_bytes(), Some(OwnRole::Camera)).expect("a table of three curves");
+    imported.set.name = "Zoo".to_owned();
+    window.state_mut().push(Action::Own(OwnAction::Import(vec![imported.set])));
+    window.state_mut().view_mut().reading = Some("Zoo".to_owned());
+    window.run();
+    window.get_by_role_and_label(Role::TextInput, "Name of the set").focus();
+    window.run();
+    window.key_combination_modifiers(egui::Modifiers::COMMAND, &[egui::Key::A]);
+    window.get_by_role_and_label(Role::TextInput, "Name of the set").type_text("Park");
+    window.run();
+    window.key_press(egui::Key::Enter);
+    window.run();
+    assert_eq!(window.state().view().reading.as_deref(), Some("Park"));
+    assert!(window.state().compares(Kind::Camera, "Park"));
+}
+
+#[test]
+fn the_foot_tells_what_failed_and_leads_to_what_was_guessed() {
+    let mut window = window();
+    let text = "nm,red,green,blue\n400,0,1,5\n500,1,8,4\n600,9,5,1\n700,5,1,0\n";
+    let imported = import::import("zoo.csv", text.as_bytes(), Some(OwnRole::Camera)).expect("a table of three curves");
+    let name = imported.set.name.clone();
+    window.state_mut().push(Action::Own(OwnAction::Import(vec![imported.set])));
+    window.state_mut().view_mut().say("Values reach 98: read as percent.");
+    window.state_mut().view_mut().status.change = Some(name.clone());
+    window.run();
+    press(&mut window, Role::Button, "Change");
+    assert_eq!(window.state().view().reading, Some(name));
+    window.state_mut().view_mut().fail("leaf.csv, line 14: no number in column 2.");
+    window.run();
+    assert!(says(&window, "leaf.csv, line 14"));
+}
