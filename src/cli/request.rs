@@ -103,7 +103,8 @@ impl Request {
         self.document.subset = Subset::All;
         let Some(chart) = chart else { return Ok(()) };
         if is_file(chart) {
-            self.document.chart = self.open(chart, OwnRole::Reflectance)?.name.clone();
+            let set = self.open(chart, OwnRole::Reflectance)?;
+            self.document.chart.clone_from(&set.name);
             return Ok(());
         }
         let found = self.chart_name(chart)?;

@@ -57,7 +57,6 @@ fn search_shows_matches_and_enter_ticks_the_first() {
 }
 
 #[test]
-#[ignore = "holds with library/show.rs"]
 fn escape_clears_the_search_and_keeps_the_selection() {
     let mut window = window();
     let thing = Thing::Source(SourceId { kind: Kind::Camera, name: "Nikon D70".to_owned() });
@@ -85,7 +84,6 @@ fn the_key_hides_and_the_name_selects() {
 }
 
 #[test]
-#[ignore = "holds with library/show.rs"]
 fn another_observer_becomes_the_truth() {
     let mut window = window();
     press(&mut window, Role::Button, "Menu of CIE 1931 2°");
@@ -98,7 +96,6 @@ fn another_observer_becomes_the_truth() {
 }
 
 #[test]
-#[ignore = "holds with library/show.rs"]
 fn a_label_is_renamed_in_its_place() {
     let mut window = window();
     press(&mut window, Role::Button, "Menu of Nikon D70");
@@ -132,7 +129,6 @@ fn lights_charts_and_materials_are_chosen() {
 }
 
 #[test]
-#[ignore = "holds with library/show.rs"]
 fn own_sets_come_first_and_can_be_removed() {
     let mut window = window();
     let text = "nm,red,green,blue\n400,0,1,5\n500,1,8,4\n600,9,5,1\n700,5,1,0\n";
@@ -150,7 +146,6 @@ fn own_sets_come_first_and_can_be_removed() {
 }
 
 #[test]
-#[ignore = "holds with library/show.rs"]
 fn a_source_that_cannot_be_computed_says_why() {
     let mut window = window();
     window.state_mut().view_mut().search = "cone".to_owned();

@@ -4,6 +4,7 @@
 
 mod architecture;
 mod assets;
+mod cli;
 mod cpu_renderer;
 mod exports;
 mod figure;
