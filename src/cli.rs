@@ -129,22 +129,19 @@ pub fn say(text: &str) {
 
 /// Writes a table to a file, whole or not at all, or to standard output.
 fn put(text: &str, out: Option<&Path>) -> Result<(), CliError> {
-    match out.filter(|path| *path != Path::new("-")) {
-        Some(path) => {
-            write_to(path, text.as_bytes()).map_err(|error| CliError::Output { path: path.to_owned(), error })
-        }
-        None => print(text),
+    let path = out.filter(|path| *path != Path::new("-"));
+    match path.map_or_else(|| print(text), |path| write_to(path, text.as_bytes())) {
+        // Whoever read it has seen enough, as `head` does.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => Err(CliError::Output { path: path.unwrap_or(Path::new("standard output")).to_owned(), error }),
+        Ok(()) => Ok(()),
     }
 }
 
-fn print(text: &str) -> Result<(), CliError> {
+fn print(text: &str) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-        // Whoever read it has seen enough, as `head` does.
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        Err(error) => Err(CliError::Output { path: PathBuf::from("standard output"), error }),
-        Ok(()) => Ok(()),
-    }
+    stdout.write_all(text.as_bytes())?;
+    stdout.flush()
 }
 
 /// A file is replaced whole, behind a link if it is one; what is no file, such as a pipe or `/dev/null`, is written into.

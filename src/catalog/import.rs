@@ -64,8 +64,16 @@ fn own_set(file: &str, table: Table) -> OwnSet {
     let mut decisions: Vec<String> =
         table.decisions().iter().map(|decision| format!("{} ({})", decision, decision.certainty)).collect();
     decisions.extend(table.warnings.iter().map(ToString::to_string));
+    let name = name.unwrap_or_else(stem);
+    let mut curves: Vec<OwnCurve> = Vec::with_capacity(table.curves.len());
+    let alone = table.curves.len() == 1;
+    for curve in table.curves {
+        // The file's name says more about its only curve than "Column 2" does.
+        let called = if alone && !curve.named { name.clone() } else { curve.name };
+        curves.push(OwnCurve { name: called, wavelengths: curve.wavelengths_nm, values: curve.values });
+    }
     OwnSet {
-        name: name.unwrap_or_else(stem),
+        name,
         file: file.to_owned(),
         role: own_role(table.role.value),
         read_as: ReadAs { unit, percent },
@@ -73,11 +81,7 @@ fn own_set(file: &str, table: Table) -> OwnSet {
         percent,
         per_photon: table.reading.comment("response").is_some_and(|response| response.trim() == "per photon"),
         channels: table.reading.camera_columns.unwrap_or([0, 1, 2]),
-        curves: table
-            .curves
-            .into_iter()
-            .map(|curve| OwnCurve { name: curve.name, wavelengths: curve.wavelengths_nm, values: curve.values })
-            .collect(),
+        curves,
         decisions,
     }
 }

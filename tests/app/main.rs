@@ -10,6 +10,8 @@ mod exports;
 mod figure;
 mod inspector;
 mod library;
+mod own_data;
 mod recompute;
+mod reducer;
 mod screenshots;
 mod theme;

@@ -1,0 +1,126 @@
+//! The user's own files in the window: dropped, pasted, opened; kept, undone, refused.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use chromascope::app::ChromascopeApp;
+use chromascope::command::Command;
+use chromascope::document::Document;
+use chromascope::files::{Files, write_atomically};
+use chromascope::view::Weight;
+use egui_kittest::Harness;
+
+use crate::screenshots::open;
+
+/// A file that is dropped on the window without being on disk.
+#[derive(Debug)]
+struct Dropped(PathBuf, Vec<u8>);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Ok(self.1.clone())
+    }
+}
+
+const LEAF: &str = "nm;leaf (%)\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n";
+
+/// Draws frames until something is said at the foot of the window.
+fn until_said(harness: &mut Harness<'static, ChromascopeApp>) -> (String, Weight) {
+    let start = Instant::now();
+    while harness.state().view().status.text.is_empty() {
+        assert!(start.elapsed() < Duration::from_secs(10), "nothing was said");
+        std::thread::sleep(Duration::from_millis(5));
+        harness.run_steps(1);
+    }
+    harness.run_steps(2);
+    let status = &harness.state().view().status;
+    (status.text.clone(), status.weight)
+}
+
+fn window() -> Harness<'static, ChromascopeApp> {
+    open([1280.0, 800.0], egui::Theme::Dark)
+}
+
+#[test]
+fn a_dropped_file_is_shown_and_undone() {
+    let mut harness = window();
+    let file = Dropped(PathBuf::from("leaf.csv"), LEAF.as_bytes().to_vec());
+    harness.input_mut().dropped_files.push(Arc::new(file));
+    harness.run_steps(1);
+    let (text, weight) = until_said(&mut harness);
+    assert!(text.starts_with("leaf.csv: 1 curve") && weight == Weight::Note, "{text}");
+    assert_eq!(harness.state().history().document().chart, "leaf");
+    harness.state_mut().push(Command::Undo);
+    harness.run();
+    assert_eq!(*harness.state().history().document(), Document::default());
+}
+
+#[test]
+fn pasted_numbers_are_read_as_a_file() {
+    let mut harness = window();
+    harness.event(egui::Event::Paste(LEAF.to_owned()));
+    harness.run_steps(1);
+    until_said(&mut harness);
+    let document = harness.state().history().document();
+    assert_eq!(document.own.len(), 1);
+    assert_eq!(document.own[0].curves_in_nm().unwrap()[0].1.values(), [0.05, 0.1, 0.2, 0.5]);
+}
+
+#[test]
+fn a_file_that_cannot_be_read_changes_nothing() {
+    let mut harness = window();
+    let broken = "nm,leaf\n400,0.1\n410,0.2\n420,oops\n430,0.2\n440,0.2\n";
+    harness.input_mut().dropped_files.push(Arc::new(Dropped(PathBuf::from("broken.csv"), broken.into())));
+    harness.run_steps(1);
+    let (text, weight) = until_said(&mut harness);
+    assert!(text.starts_with("broken.csv, line 4") && text.ends_with("Nothing was changed."), "{text}");
+    assert_eq!(weight, Weight::Error);
+    assert_eq!(*harness.state().history().document(), Document::default());
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let mut harness = window();
+    harness.state_mut().push(Command::OpenPath(PathBuf::from("/no/such/file.csv")));
+    harness.run_steps(2);
+    let (text, _) = until_said(&mut harness);
+    assert!(text.contains("file.csv") && text.contains("Nothing was changed."), "{text}");
+}
+
+#[test]
+fn the_document_is_kept_between_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut document = Document::default();
+    document.temperature_k = 3210.0;
+    let mut files = Files::new(Some(folder.path().to_owned()));
+    assert_eq!(files.kept_document(), Document::default(), "there is none yet");
+    files.save_document(&document);
+    assert_eq!(Files::new(Some(folder.path().to_owned())).kept_document(), document);
+}
+
+#[test]
+fn what_cannot_be_read_is_set_aside_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("document.json"), "{ broken").unwrap();
+    let mut files = Files::new(Some(folder.path().to_owned()));
+    assert_eq!(files.kept_document(), Document::default());
+    files.save_document(&Document { temperature_k: 3000.0, ..Document::default() });
+    assert_eq!(std::fs::read_to_string(folder.path().join("document.unreadable.json")).unwrap(), "{ broken");
+}
+
+#[test]
+fn files_are_written_whole_or_not_at_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("figure.svg");
+    for contents in ["first", "second"] {
+        write_atomically(&path, contents.as_bytes()).unwrap();
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), contents);
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left beside it");
+    assert!(write_atomically(&folder.path().join("no/such/folder/x"), b"x").is_err());
+}

@@ -1,0 +1,178 @@
+//! What actions do to the document, and what undo takes back.
+
+use chromascope::action::{Action, CompareAction, OwnAction, SceneAction};
+use chromascope::catalog::{Catalog, Kind};
+use chromascope::document::history::History;
+use chromascope::document::own::{OwnCurve, OwnRole, OwnSet, OwnUnit, ReadAs};
+use chromascope::document::{CHART, Document, Light, Subset, TRUTH, WhiteChoice, session};
+use chromascope::results::Results;
+use chromascope::scene::Scene;
+use chromascope_core::figure::{InkRole, Marker};
+
+/// The document after an action on the first screen, checked.
+fn check(action: Action, expect: impl Fn(&Document)) {
+    let mut document = Document::default();
+    action.apply(&mut document);
+    expect(&document);
+}
+
+fn own(name: &str, role: OwnRole) -> OwnSet {
+    let curve = |name: &str| OwnCurve {
+        name: name.to_owned(),
+        wavelengths: vec![400.0, 550.0, 700.0],
+        values: vec![0.2, 0.9, 0.4],
+    };
+    OwnSet {
+        name: name.to_owned(),
+        file: "file.csv".to_owned(),
+        role,
+        read_as: ReadAs { unit: OwnUnit::Nanometers, percent: false },
+        unit: OwnUnit::Nanometers,
+        percent: false,
+        per_photon: false,
+        channels: [0, 1, 2],
+        curves: ["r", "g", "b"].map(curve).into(),
+        decisions: Vec::new(),
+    }
+}
+
+fn import(names: &[&str], role: OwnRole) -> Action {
+    Action::Own(OwnAction::Import(names.iter().map(|name| own(name, role)).collect()))
+}
+
+#[test]
+fn the_truth_stays_and_others_go() {
+    let remove = |kind, name: &str| Action::Compare(CompareAction::Remove(kind, name.to_owned()));
+    check(remove(Kind::Observer, TRUTH), |document| assert_eq!(document.compared.len(), 5));
+    check(remove(Kind::Camera, "Nikon D70"), |document| assert_eq!(document.compared.len(), 4));
+    let truth = CompareAction::SetTruth("CIE 1964 10°".to_owned());
+    check(Action::Compare(truth), |document| {
+        assert_eq!(document.truth, "CIE 1964 10°");
+        assert!(document.compared(Kind::Observer, "CIE 1964 10°").is_some());
+    });
+}
+
+#[test]
+fn temperatures_stay_where_the_light_is_defined() {
+    let set = |kelvin| Action::Scene(SceneAction::SetTemperature(kelvin));
+    check(set(10.0), |document| assert_eq!(document.temperature_k, 1000.0));
+    check(set(1e9), |document| assert_eq!(document.temperature_k, 20_000.0));
+    check(set(f64::NAN), |document| assert_eq!(document.temperature_k, 5500.0));
+    let mut document = Document { temperature_k: 2000.0, ..Document::default() };
+    Action::Scene(SceneAction::SetLight(Light::Daylight)).apply(&mut document);
+    assert_eq!(document.temperature_k, 4000.0);
+}
+
+#[test]
+fn a_slot_is_kept_and_the_ninth_takes_color_1_with_marker_5() {
+    let mut document = Document::default();
+    let names: Vec<String> = Catalog::built_in().of_kind(Kind::Camera).map(|entry| entry.name.clone()).collect();
+    Action::Compare(CompareAction::Remove(Kind::Camera, "Canon EOS 10D".to_owned())).apply(&mut document);
+    assert_eq!(document.compared(Kind::Camera, "Nikon D70").map(|c| c.slot), Some(1));
+    for name in names.iter().take(9) {
+        Action::Compare(CompareAction::Add(Kind::Camera, name.clone())).apply(&mut document);
+    }
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let ninth = document.compared.iter().find(|c| c.kind == Kind::Camera && c.slot == 8).unwrap();
+    let source = scene.sources().into_iter().find(|source| source.name == ninth.name).unwrap();
+    assert_eq!((source.role, source.marker), (InkRole::Source(0), Marker::TriangleDown));
+}
+
+#[test]
+fn what_is_opened_is_put_to_use() {
+    check(import(&["mine"], OwnRole::Camera), |document| assert!(document.compared(Kind::Camera, "mine").is_some()));
+    check(import(&["mine"], OwnRole::Illuminant), |document| assert_eq!(document.light, Light::Set("mine".to_owned())));
+    check(import(&["mine", "mine"], OwnRole::Reflectance), |document| {
+        assert_eq!((document.chart.as_str(), document.subset), ("mine (2)", Subset::All));
+        assert_eq!(document.own.len(), 2);
+    });
+}
+
+#[test]
+fn what_is_removed_is_no_longer_used() {
+    let mut document = Document::default();
+    import(&["leaf"], OwnRole::Reflectance).apply(&mut document);
+    import(&["lamp"], OwnRole::Illuminant).apply(&mut document);
+    document.white = WhiteChoice::Light("lamp".to_owned());
+    for name in ["leaf", "lamp"] {
+        Action::Own(OwnAction::Remove(name.to_owned())).apply(&mut document);
+    }
+    assert_eq!(document, Document::default());
+}
+
+#[test]
+fn another_role_moves_a_set() {
+    let mut document = Document::default();
+    import(&["x"], OwnRole::Reflectance).apply(&mut document);
+    let with = Box::new(own("x", OwnRole::Camera));
+    Action::Own(OwnAction::Replace { name: "x".to_owned(), with }).apply(&mut document);
+    assert_eq!(document.chart, CHART);
+    assert!(document.compared(Kind::Camera, "x").is_some());
+}
+
+#[test]
+fn units_can_be_flipped_and_flipped_back() {
+    let mut set = own("leaf", OwnRole::Reflectance);
+    let before = set.curves_in_nm().unwrap();
+    set.percent = true;
+    assert_eq!(set.curves_in_nm().unwrap()[0].1.values(), [0.2 / 100.0, 0.9 / 100.0, 0.4 / 100.0]);
+    set.unit = OwnUnit::Micrometers;
+    assert_eq!(set.curves_in_nm().unwrap()[0].1.range_nm(), [400_000.0, 700_000.0]);
+    (set.percent, set.unit) = (false, OwnUnit::Nanometers);
+    assert_eq!(set.curves_in_nm().unwrap(), before, "to the bit");
+}
+
+#[test]
+fn reset_keeps_what_the_user_brought() {
+    let mut document = Document::default();
+    import(&["mine"], OwnRole::Camera).apply(&mut document);
+    Action::Reset.apply(&mut document);
+    assert_eq!((document.own.len(), document.compared.len()), (1, 5));
+}
+
+#[test]
+fn a_drag_is_one_step() {
+    let mut history = History::new(Document::default());
+    for kelvin in [5000.0, 4000.0, 3000.0] {
+        history.apply(&Action::Scene(SceneAction::SetTemperature(kelvin)));
+    }
+    history.end_gesture();
+    history.apply(&Action::Scene(SceneAction::SetTemperature(2500.0)));
+    history.undo();
+    assert_eq!(history.document().temperature_k, 3000.0);
+    history.undo();
+    assert_eq!((history.document().temperature_k, history.undo_name()), (5500.0, None));
+    history.redo();
+    assert_eq!(history.document().temperature_k, 3000.0);
+    history.apply(&Action::Scene(SceneAction::SetSubset(Subset::All)));
+    assert_eq!(history.redo_name(), None, "another way was taken");
+}
+
+#[test]
+fn nothing_changed_is_no_step() {
+    let mut history = History::new(Document::default());
+    history.apply(&Action::Scene(SceneAction::SetSubset(Subset::Five)));
+    assert_eq!(history.undo_name(), None);
+}
+
+#[test]
+fn a_session_keeps_all_even_what_it_does_not_know() {
+    let mut document = Document::default();
+    import(&["mine"], OwnRole::Camera).apply(&mut document);
+    document.unknown.insert("render".to_owned(), serde_json::json!({ "mesh": "head" }));
+    let json = session::to_json(&document).unwrap();
+    assert_eq!(session::from_json(&json).unwrap(), document);
+    assert!(session::from_json("{}").unwrap().compared.len() == 5, "missing fields have defaults");
+}
+
+#[test]
+fn other_sessions_are_refused() {
+    let refused = |json: &str| session::from_json(json).unwrap_err().to_string();
+    assert!(refused(r#"{"format":"other"}"#).contains("not a Chromascope session"));
+    assert!(refused(r#"{"version":99}"#).contains("newer Chromascope"));
+    assert!(refused("{\n  oops").contains("line 2"));
+    let spoiled = session::from_json(r#"{"temperature_k": 1e300, "truth": "CIE 1964 10°"}"#).unwrap();
+    assert_eq!(spoiled.temperature_k, 20_000.0);
+    assert!(spoiled.compared(Kind::Observer, "CIE 1964 10°").is_some());
+}
