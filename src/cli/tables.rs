@@ -87,10 +87,7 @@ pub(super) fn list(kind: Option<ListKind>) -> String {
         Some(ListKind::Charts) => names(Kind::Chart),
         Some(ListKind::Illuminants) => names(Kind::Illuminant),
         Some(ListKind::Materials) => names(Kind::Material),
-        None => {
-            let groups = Kind::ALL.map(|kind| format!("{}:\n{}", kind.plural(), names(kind)));
-            groups.join("\n")
-        }
+        None => Kind::ALL.map(names).concat(),
     }
 }
 

@@ -1,6 +1,8 @@
 //! Distance to the truth over temperature.
 
-use chromascope_core::figure::{Anchor, Axis, Ink, InkRole, Mark, Panel, Rect, Shape, TextSize, Ticks};
+use chromascope_core::figure::{
+    Anchor, Axis, Ink, InkRole, MIN_LABEL_SPACING, Mark, Panel, Rect, Shape, TextSize, Ticks,
+};
 
 use super::chromaticity::id;
 use crate::catalog::Kind;
@@ -57,19 +59,21 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     let ticks = TICKS.iter().map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0} K"))).collect();
     let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
     let x = Axis::new("", [cold, hot]).with_ticks(Ticks::At(ticks)).with_grid(true);
-    let y = Axis::new("", [0.0, top]).with_ticks(Ticks::At(height_ticks(top))).with_grid(true);
+    let y = Axis::new("", [0.0, top]).with_ticks(Ticks::At(height_ticks(top, size[1] - 28.0))).with_grid(true);
     let mut panel = Panel::new("Distance to the truth over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.note = format!("distance to truth ({}) over temperature", super::chromaticity::distance_symbol(diagram));
     panel.marks = marks;
     Some(Strip { panel, things })
 }
 
-/// Zero and one round number: the strip is low.
-fn height_ticks(top: f64) -> Vec<(f64, String)> {
+/// One round number, and zero where there is room for both: the strip is low.
+fn height_ticks(top: f64, height: f64) -> Vec<(f64, String)> {
     let decade = 10_f64.powf(top.log10().floor());
     let step = [5.0, 2.0, 1.0].iter().map(|k| k * decade).find(|step| *step <= top).unwrap_or(decade);
     let decimals = usize::try_from((-step.log10().floor()).max(0.0) as i64).unwrap_or(0);
-    [0.0, step].map(|value| (value, format!("{value:.decimals$}"))).to_vec()
+    let apart = step / top * height >= MIN_LABEL_SPACING;
+    let zero = apart.then_some(0.0);
+    zero.into_iter().chain([step]).map(|value| (value, format!("{value:.decimals$}"))).collect()
 }
 
 /// The line at the document's temperature, with its number on the side that has room.

@@ -1,5 +1,8 @@
 //! The command line, run as a person runs it, without a display.
 
+mod files;
+mod reference;
+
 use std::path::PathBuf;
 use std::process::{Command, Output};
 

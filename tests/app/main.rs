@@ -8,6 +8,7 @@ mod cli;
 mod cpu_renderer;
 mod exports;
 mod figure;
+mod import;
 mod inspector;
 mod library;
 mod own_data;

@@ -95,8 +95,7 @@ fn a_missing_file_is_named() {
 #[test]
 fn the_document_is_kept_between_runs() {
     let folder = tempfile::tempdir().unwrap();
-    let mut document = Document::default();
-    document.temperature_k = 3210.0;
+    let document = Document { temperature_k: 3210.0, ..Document::default() };
     let mut files = Files::new(Some(folder.path().to_owned()));
     assert_eq!(files.kept_document(), Document::default(), "there is none yet");
     files.save_document(&document);

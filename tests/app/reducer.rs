@@ -10,7 +10,7 @@ use chromascope::scene::Scene;
 use chromascope_core::figure::{InkRole, Marker};
 
 /// The document after an action on the first screen, checked.
-fn check(action: Action, expect: impl Fn(&Document)) {
+fn check(action: &Action, expect: impl Fn(&Document)) {
     let mut document = Document::default();
     action.apply(&mut document);
     expect(&document);
@@ -43,10 +43,10 @@ fn import(names: &[&str], role: OwnRole) -> Action {
 #[test]
 fn the_truth_stays_and_others_go() {
     let remove = |kind, name: &str| Action::Compare(CompareAction::Remove(kind, name.to_owned()));
-    check(remove(Kind::Observer, TRUTH), |document| assert_eq!(document.compared.len(), 5));
-    check(remove(Kind::Camera, "Nikon D70"), |document| assert_eq!(document.compared.len(), 4));
+    check(&remove(Kind::Observer, TRUTH), |document| assert_eq!(document.compared.len(), 5));
+    check(&remove(Kind::Camera, "Nikon D70"), |document| assert_eq!(document.compared.len(), 4));
     let truth = CompareAction::SetTruth("CIE 1964 10°".to_owned());
-    check(Action::Compare(truth), |document| {
+    check(&Action::Compare(truth), |document| {
         assert_eq!(document.truth, "CIE 1964 10°");
         assert!(document.compared(Kind::Observer, "CIE 1964 10°").is_some());
     });
@@ -55,9 +55,9 @@ fn the_truth_stays_and_others_go() {
 #[test]
 fn temperatures_stay_where_the_light_is_defined() {
     let set = |kelvin| Action::Scene(SceneAction::SetTemperature(kelvin));
-    check(set(10.0), |document| assert_eq!(document.temperature_k, 1000.0));
-    check(set(1e9), |document| assert_eq!(document.temperature_k, 20_000.0));
-    check(set(f64::NAN), |document| assert_eq!(document.temperature_k, 5500.0));
+    check(&set(10.0), |document| assert_eq!(document.temperature_k, 1000.0));
+    check(&set(1e9), |document| assert_eq!(document.temperature_k, 20_000.0));
+    check(&set(f64::NAN), |document| assert_eq!(document.temperature_k, 5500.0));
     let mut document = Document { temperature_k: 2000.0, ..Document::default() };
     Action::Scene(SceneAction::SetLight(Light::Daylight)).apply(&mut document);
     assert_eq!(document.temperature_k, 4000.0);
@@ -81,9 +81,11 @@ fn a_slot_is_kept_and_the_ninth_takes_color_1_with_marker_5() {
 
 #[test]
 fn what_is_opened_is_put_to_use() {
-    check(import(&["mine"], OwnRole::Camera), |document| assert!(document.compared(Kind::Camera, "mine").is_some()));
-    check(import(&["mine"], OwnRole::Illuminant), |document| assert_eq!(document.light, Light::Set("mine".to_owned())));
-    check(import(&["mine", "mine"], OwnRole::Reflectance), |document| {
+    check(&import(&["mine"], OwnRole::Camera), |document| assert!(document.compared(Kind::Camera, "mine").is_some()));
+    check(&import(&["mine"], OwnRole::Illuminant), |document| {
+        assert_eq!(document.light, Light::Set("mine".to_owned()));
+    });
+    check(&import(&["mine", "mine"], OwnRole::Reflectance), |document| {
         assert_eq!((document.chart.as_str(), document.subset), ("mine (2)", Subset::All));
         assert_eq!(document.own.len(), 2);
     });

@@ -7,12 +7,13 @@ use std::path::Path;
 use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Kind;
+use chromascope::command::Command;
 use chromascope::document::history::History;
-use chromascope::document::{Document, Subset, WayChoice};
+use chromascope::document::{Diagram, Document, Overlays, Subset, WayChoice};
 use chromascope::files::Files;
 use chromascope::thing::{SourceId, Thing};
-use chromascope::view::SavedView;
-use chromascope::workspaces::Workspace;
+use chromascope::view::{DiagramFit, SavedView};
+use chromascope::workspaces::{PaneKind, Workspace};
 use egui_kittest::Harness;
 
 use crate::cpu_renderer::{Cpu, compare};
@@ -81,6 +82,19 @@ fn all_patches_by_observer() {
     harness.state_mut().push(Action::Compare(camera));
     harness.run();
     check(harness, "observer_24.png");
+}
+
+#[test]
+fn whole_diagram() {
+    let mut harness = open([1280.0, 800.0], egui::Theme::Dark);
+    let overlays =
+        Overlays { camera_spectral_loci: true, daylight: true, srgb: true, rec2020: true, ..Overlays::default() };
+    for action in [SceneAction::SetDiagram(Diagram::UvPrime), SceneAction::SetOverlays(overlays)] {
+        harness.state_mut().push(Action::Scene(action));
+    }
+    harness.state_mut().view_mut().saved.diagram_fit = DiagramFit::Whole;
+    harness.state_mut().push(Command::Maximize(PaneKind::Chromaticity));
+    check(harness, "whole_diagram.png");
 }
 
 #[test]

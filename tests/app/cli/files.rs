@@ -1,0 +1,223 @@
+//! Names, files, ends of ranges, where tables go, and what a failure leaves behind.
+
+use std::io::{BufRead as _, BufReader, Read as _};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use super::{file, number, refused, run, table};
+
+fn asset(path: &str) -> String {
+    format!("{}/assets/{path}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The figures of a built-in set, without its facts.
+fn figures(path: &str) -> String {
+    let text = std::fs::read_to_string(asset(path)).unwrap();
+    text.lines().filter(|line| !line.starts_with('#')).flat_map(|line| [line, "\n"]).collect()
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+fn code(arguments: &[&str]) -> Option<i32> {
+    run(arguments).status.code()
+}
+
+#[test]
+fn ends_are_exact_whichever_way() {
+    let of = |arguments: &[&str]| -> Vec<String> {
+        let rows = table(&[&["locus", "--camera", "Nikon D70"], arguments].concat());
+        rows[1..].iter().map(|row| row[1].clone()).collect()
+    };
+    assert_eq!(of(&["--from", "2856.5", "--to", "6504", "--count", "2"]), ["2856.5", "6504"]);
+    assert_eq!(of(&["--from", "6000", "--to", "3000", "--count", "3"]), ["6000", "4000", "3000"]);
+    assert_eq!(of(&["--count", "1"]), ["1000"]);
+    assert_eq!(of(&["--from", "1", "--to", "1e15", "--count", "2"]), ["1", "1000000000000000"]);
+}
+
+#[test]
+fn exact_names_win_over_parts() {
+    let of = |name: &str| table(&["locus", "--camera", name, "--count", "1"])[1][0].clone();
+    assert_eq!(of("NIKON-D70"), "Nikon D70");
+    assert_eq!(of("d70 ampas"), "Nikon D70 (A.M.P.A.S.)");
+    refused(&["locus", "--camera", "D70"], &["could be", "Nikon D70, Nikon D70 (A.M.P.A.S.)"]);
+    let chart = |name: &str| table(&["patches", "--chart", name, "--camera", "Nikon D70"]);
+    assert_eq!(chart("five").len(), 1 + 5);
+    assert_eq!(chart("colorchecker ohta 1997"), chart("ColorChecker 24 (Ohta 1997)"));
+    assert_eq!(chart("fern")[1][1], "Fern-like bush leaf 024 (Vrhel)");
+    refused(&["patches", "--chart", "ColorChecker fve"], &["did you mean ColorChecker five"]);
+}
+
+#[test]
+fn the_default_reference_is_cie_1931() {
+    let fitted = ["locus", "--camera", "Nikon D70", "--count", "5", "--transform", "observer"];
+    let named = |name: &'static str| table(&[&fitted[..], &["--reference", name]].concat());
+    assert_eq!(table(&fitted), named("CIE 1931 2°"));
+    assert_ne!(table(&fitted), named("CIE 1964 10°"));
+}
+
+#[test]
+fn a_light_and_a_chart_from_files_are_as_built_in() {
+    let light = file("lamp.csv", &figures("illuminants/d65.csv"));
+    let chart = file("checker.csv", &figures("charts/colorchecker_24_ohta_1997.csv"));
+    let of = |arguments: &[&str]| table(&[&["patches", "--camera", "Canon EOS 10D"], arguments].concat());
+    let built_in = of(&["--illuminant", "D65"]);
+    assert_eq!(of(&["--illuminant", text(&light)]), built_in);
+    assert_eq!(of(&["--illuminant", "D65", "--chart", text(&chart)]), built_in);
+    // Its own title is taken by the built-in set, so its path tells the two apart; twice the same file is one source.
+    let path = asset("cameras/nikon_d70.csv");
+    let rows = table(&["locus", "--camera", &path, "--camera", "Nikon D70", "--camera", &path, "--count", "1"]);
+    assert_eq!(rows[1][0], format!("Nikon D70 ({path})"));
+    assert_eq!(rows[1], rows[3]);
+    assert_eq!(rows[1][1..], rows[2][1..]);
+}
+
+#[test]
+fn what_was_guessed_is_said_beside_the_table() {
+    let leaf = file("bare leaf.txt", "400 5.5\n500 10\n600 99\n700 80\n");
+    let output = run(&["patches", "--chart", text(&leaf), "--camera", "Nikon D70"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success() && said.contains("read as percent"), "{said}");
+    let rows = String::from_utf8(output.stdout).unwrap();
+    assert!(rows.lines().nth(1).unwrap().starts_with("Nikon D70,bare leaf,0."), "{rows}");
+    assert!(run(&["locus", "--camera", &asset("cameras/nikon_d70.csv")]).stderr.is_empty(), "nothing to guess");
+}
+
+#[test]
+fn fields_with_commas_are_quoted() {
+    let camera = format!("# title: Mine, \"the old one\"\n{}", figures("cameras/nikon_d70.csv"));
+    let camera = file("quoted.csv", &camera);
+    let output = String::from_utf8(run(&["locus", "--camera", text(&camera), "--count", "1"]).stdout).unwrap();
+    assert!(output.lines().nth(1).unwrap().starts_with("\"Mine, \"\"the old one\"\"\",1000,0.5"), "{output}");
+}
+
+#[test]
+fn files_that_do_not_fit_say_which_and_why() {
+    let one = file("one.csv", "nm,r\n400,1\n500,2\n600,1\n");
+    refused(&["locus", "--camera", text(&one)], &["one.csv: 1 curve", "red, green and blue"]);
+    refused(
+        &["patches", "--illuminant", &asset("cameras/nikon_d70.csv")],
+        &["nikon_d70.csv: 3 curves", "a light is one"],
+    );
+    refused(&["locus", "--camera", env!("CARGO_TARGET_TMPDIR")], &[env!("CARGO_TARGET_TMPDIR"), "directory"]);
+    refused(&["locus", "--camera", "missing.csv"], &["chromascope: missing.csv: no such file or directory\n"]);
+    #[cfg(unix)]
+    refused(&["locus", "--camera", "/dev/zero"], &["/dev/zero: the file has", "limit"]);
+}
+
+/// 2: the arguments themselves are wrong. 1: names, data or disk say no.
+#[test]
+fn exit_codes_tell_usage_from_failure() {
+    for usage in [
+        &["locus", "--bogus"][..],
+        &["locus", "--count", "2.5"],
+        &["locus", "--temperatures", "1000,warm"],
+        &["locus", "--to", "3000", "--temperatures", "3000"],
+        &["locus", "--reference", "CIE 1931 2°"],
+        &["locus", "--from", "0.5"],
+        &["locus", "--to", "inf"],
+        &["locus", "--temperatures", "nan"],
+        &["patches", "--illuminant", "blackbody:"],
+        &["patches", "--white", "daylight:-5"],
+        &["list", "lenses"],
+    ] {
+        assert_eq!(code(usage), Some(2), "{usage:?}");
+    }
+    for failure in [
+        &["locus", "--camera", "Nikn"][..],
+        &["locus", "--camera", ""],
+        &["locus", "--camera", "missing.csv"],
+        &["locus", "--observer", "CIE 2006 2° cone fundamentals"],
+        &["locus", "--transform", "observer", "--reference", "Stiles & Burch 1955 2°"],
+        &["patches", "--illuminant", "daylight:30000"],
+        &["patches", "--illuminant", "blackbody:1"],
+        &["locus", "--out", env!("CARGO_TARGET_TMPDIR")],
+    ] {
+        assert_eq!(code(failure), Some(1), "{failure:?}");
+    }
+}
+
+#[test]
+fn a_partly_wrong_request_leaves_the_file_as_it_was() {
+    let out = file("kept.csv", "as it was");
+    refused(&["locus", "--camera", "Nikon D70", "--camera", "Nikn", "--out", text(&out)], &["Nikn"]);
+    refused(&["patches", "--camera", "Nikon D70", "--chart", "missing.csv", "--out", text(&out)], &["missing.csv"]);
+    assert_eq!(std::fs::read_to_string(&out).unwrap(), "as it was");
+    let new = out.with_file_name("never.csv");
+    refused(&["locus", "--observer", "CIE 2006 2° cone fundamentals", "--out", text(&new)], &["Eq 13"]);
+    assert!(!new.exists());
+}
+
+/// A folder of a test's own, empty.
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _absent = std::fs::remove_dir_all(&path);
+    std::fs::create_dir(&path).unwrap();
+    path
+}
+
+#[cfg(unix)]
+#[test]
+fn links_stay_links_and_pipes_stay_pipes() {
+    use std::os::unix::fs::{FileTypeExt as _, symlink};
+    let folder = folder("links");
+    let (file, link, pipe) = (folder.join("file.csv"), folder.join("link.csv"), folder.join("pipe"));
+    std::fs::write(&file, "old").unwrap();
+    symlink("file.csv", &link).unwrap();
+    let arguments = ["locus", "--count", "2", "--camera", "Nikon D70", "--out"];
+    let expected = run(&[&arguments[..], &["-"]].concat()).stdout;
+    assert_eq!(code(&[&arguments[..], &[text(&link)]].concat()), Some(0));
+    assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(std::fs::read(&file).unwrap(), expected);
+
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    // Open for both, so that neither end waits for the other.
+    let mut both = std::fs::OpenOptions::new().read(true).write(true).open(&pipe).unwrap();
+    assert_eq!(code(&[&arguments[..], &[text(&pipe)]].concat()), Some(0));
+    assert!(std::fs::metadata(&pipe).unwrap().file_type().is_fifo(), "written into, not replaced");
+    let mut read = vec![0; expected.len()];
+    both.read_exact(&mut read).unwrap();
+    assert_eq!(read, expected);
+
+    let left = std::fs::read_dir(&folder).unwrap().count();
+    assert_eq!(left, 3, "nothing temporary stays");
+}
+
+#[test]
+fn a_reader_that_has_seen_enough_is_no_error() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_chromascope"))
+        .args(["locus", "--count", "3000"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut first = String::new();
+    BufReader::with_capacity(64, child.stdout.take().unwrap()).read_line(&mut first).unwrap();
+    assert_eq!(first, "source,temperature_k,x,y,u_prime,v_prime\n");
+    // The pipe holds far less than the table, and its reader is gone.
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+}
+
+#[test]
+fn lists_name_what_the_options_take() {
+    let names = |arguments: &[&str]| String::from_utf8(run(arguments).stdout).unwrap();
+    let kinds = ["cameras", "observers", "charts", "illuminants", "materials"];
+    assert_eq!(names(&["list"]), kinds.map(|kind| names(&["list", kind])).concat());
+    let option = |kind: &str, option: &str| -> Vec<String> {
+        names(&["list", kind]).lines().flat_map(|name| [option.to_owned(), name.to_owned()]).collect()
+    };
+    // Every name is taken by the option that it is listed for, as itself.
+    for (kind, argument) in [("cameras", "--camera"), ("observers", "--observer")] {
+        let names = option(kind, argument);
+        let fit = ["locus", "--transform", "observer", "--temperatures", "5000"].map(str::to_owned);
+        let arguments: Vec<&str> = fit.iter().chain(&names).map(String::as_str).collect();
+        let rows = table(&arguments);
+        assert!(rows[1..].iter().map(|row| &row[0]).eq(names.iter().skip(1).step_by(2)), "{kind}");
+        assert!(rows[1..].iter().all(|row| row[2..].iter().all(|cell| number(cell).is_finite())));
+    }
+    for name in option("illuminants", "").iter().skip(1).step_by(2) {
+        assert_eq!(code(&["locus", "--count", "1", "--camera", "Nikon D70", "--illuminant", name]), Some(0), "{name}");
+    }
+}
