@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, LazyLock};
 
+use base64::{Engine as _, prelude::BASE64_STANDARD};
 use chromascope_core::figure::{Figure, Image, svg};
 use image::{
     ExtendedColorType, ImageEncoder as _, RgbaImage,
@@ -114,20 +115,5 @@ fn options() -> usvg::Options<'static> {
 fn data_uri(image: &Image) -> Option<String> {
     let (width, height) = (u32::try_from(image.width).ok()?, u32::try_from(image.height).ok()?);
     let file = encoded(&image.rgba, width, height).ok()?;
-    Some(format!("data:image/png;base64,{}", base64(&file)))
-}
-
-/// Base 64 (RFC 4648, section 4).
-fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let at = |i: usize| u32::from(three.get(i).copied().unwrap_or(0));
-        let bits = at(0) << 16 | at(1) << 8 | at(2);
-        for i in 0..4 {
-            let digit = DIGITS[(bits >> (18 - 6 * i) & 63) as usize];
-            out.push(if i <= three.len() { char::from(digit) } else { '=' });
-        }
-    }
-    out
+    Some(format!("data:image/png;base64,{}", BASE64_STANDARD.encode(&file)))
 }

@@ -8,6 +8,7 @@ use egui::{Align, Button, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder
 use egui_extras::{Column, TableBuilder};
 
 use crate::command::{Command, Format};
+use crate::number::number;
 use crate::paint;
 use crate::panes::PaneContext;
 use crate::scene::Source;
@@ -248,19 +249,6 @@ fn cell_text(cell: &Cell) -> String {
         Cell::Text(text) => text.clone(),
         Cell::Number(value) => number(*value),
     }
-}
-
-/// A number for reading: six significant digits at most, a true minus sign.
-pub fn number(value: f64) -> String {
-    let magnitude = value.abs();
-    let text = if value == 0.0 || (1e-4..1e6).contains(&magnitude) {
-        let decimals = if magnitude >= 1.0 { 5_usize.saturating_sub(magnitude.log10() as usize) } else { 5 };
-        let fixed = format!("{value:.decimals$}");
-        if fixed.contains('.') { fixed.trim_end_matches('0').trim_end_matches('.').to_owned() } else { fixed }
-    } else {
-        format!("{value:.4e}")
-    };
-    text.replace('-', "−")
 }
 
 /// Lines of text at the pointer, the first one strong.

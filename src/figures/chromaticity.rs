@@ -173,7 +173,7 @@ fn legend_entry(source: &Source) -> LegendEntry {
         name: if source.is_truth { format!("{} (truth)", source.label) } else { source.label.clone() },
         stroke: Some(Stroke::solid(source.role, source.width)),
         marker: Some(source.marker),
-        fill: None,
+        fill: source.marker.has_inside().then(|| source.role.into()),
     }
 }
 

