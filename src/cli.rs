@@ -51,7 +51,7 @@ pub enum CliError {
         reason: String,
     },
     /// The output could not be written.
-    #[error("cannot write {}: {}", path.display(), reason(error))]
+    #[error("cannot write {}: {}", path.display(), crate::files::reason(error))]
     Output {
         /// Where.
         path: PathBuf,
@@ -75,13 +75,6 @@ impl From<SceneError> for CliError {
             other => Self::Scene(other),
         }
     }
-}
-
-/// The system's reason without its error number and temporary names.
-fn reason(error: &io::Error) -> String {
-    let text = error.to_string();
-    let end = text.find(" (os error").unwrap_or(text.len());
-    text[..end].to_lowercase()
 }
 
 /// Reads the arguments; runs a command if they name one.

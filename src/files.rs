@@ -312,7 +312,7 @@ fn save(path: &Path, bytes: &[u8]) -> FileEvent {
 }
 
 /// The system's reason without its error number.
-fn reason(error: &io::Error) -> String {
+pub fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     let end = text.find(" (os error").unwrap_or(text.len());
     text[..end].to_lowercase()

@@ -10,12 +10,13 @@ use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 
 use super::arguments::{CommonArguments, Transform};
-use super::{CliError, reason, say};
+use super::{CliError, say};
 use crate::catalog::import::import_warned;
 use crate::catalog::names::find;
 use crate::catalog::{Catalog, Entry, Kind};
 use crate::document::own::{OwnRole, OwnSet};
 use crate::document::{CHART, Document, FIRST_SOURCES, Light, REFERENCE, Subset, WayChoice, WhiteChoice};
+use crate::files::reason;
 
 /// The name of the paper's five patches as a chart of their own.
 pub(super) const FIVE: &str = "ColorChecker five";
