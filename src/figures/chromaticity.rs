@@ -57,6 +57,9 @@ impl Drawing<'_> {
     }
 }
 
+/// Coordinates that the data's fit takes in; real colors lie between 0 and 0.85.
+const NEAR: std::ops::RangeInclusive<f64> = -0.25..=1.1;
+
 /// A source's identity.
 pub(crate) fn id(source: &Source) -> SourceId {
     SourceId { kind: source.kind, name: source.name.clone() }
@@ -109,11 +112,13 @@ fn ranges(drawing: &Drawing<'_>, fit: DiagramFit) -> [[f64; 2]; 2] {
         Diagram::Xy => [[-0.03, 0.78], [-0.03, 0.87]],
         Diagram::UvPrime => [[-0.02, 0.65], [-0.02, 0.62]],
     };
-    if fit == DiagramFit::Whole || drawing.data.is_empty() {
+    // A matrix fitted under an extreme light can throw a camera's points far out; they do not shrink all others to a dot.
+    let near: Vec<[f64; 2]> = drawing.data.iter().copied().filter(|p| p.iter().all(|v| NEAR.contains(v))).collect();
+    if fit == DiagramFit::Whole || near.is_empty() {
         return whole;
     }
     [0, 1].map(|axis| {
-        let values = drawing.data.iter().map(|point| point[axis]);
+        let values = near.iter().map(|point| point[axis]);
         let low = values.clone().fold(f64::INFINITY, f64::min);
         let high = values.fold(f64::NEG_INFINITY, f64::max);
         let pad = 0.08 * (high - low).max(0.05);
@@ -177,8 +182,13 @@ fn legend_entry(source: &Source) -> LegendEntry {
     }
 }
 
-/// The conditions in a sentence.
+/// The conditions of a diagram in sentences.
 pub fn caption(scene: &Scene<'_>) -> String {
+    format!("{} Loci from 1000 to 20000 K.", conditions(scene))
+}
+
+/// The conditions in sentences.
+pub fn conditions(scene: &Scene<'_>) -> String {
     let way = match &scene.document.way {
         WayChoice::Paper => "Paper (Eq 13), CIE observers drawn directly".to_owned(),
         WayChoice::Observer(name) => format!("Observer, 3×3 matrices fitted to {name} over 190 training reflectances"),
@@ -190,7 +200,7 @@ pub fn caption(scene: &Scene<'_>) -> String {
         crate::document::WhiteChoice::BlackBody(kelvin) => format!("black body {kelvin:.0} K"),
     };
     format!(
-        "Truth: {}. Light: {}. White: {white}. Patches: {}. To diagram: {way}. Loci from 1000 to 20000 K.",
+        "Truth: {}. Light: {}. White: {white}. Patches: {}. To diagram: {way}.",
         scene.document.truth,
         scene.light_name(),
         scene.document.chart

@@ -53,7 +53,8 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     if marks.is_empty() {
         return None;
     }
-    let top = (top * 1.15).max(1e-6);
+    // A locus that goes to infinity leaves the strip; the others stay readable.
+    let top = (top * 1.15).clamp(1e-6, 0.6);
     let kelvin = scene.document.temperature_k;
     add_cursor(&mut marks, kelvin, top);
     let ticks = TICKS.iter().map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0} K"))).collect();

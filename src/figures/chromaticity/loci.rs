@@ -12,6 +12,9 @@ use crate::thing::Thing;
 /// Temperatures that are marked along a locus, in kelvins.
 const TICKS: [f64; 6] = [1000.0, 2000.0, 3000.0, 5000.0, 10_000.0, 20_000.0];
 
+/// Coordinates beyond this are not drawn.
+const FAR: f64 = 3.0;
+
 /// Adds the loci of all sources, the truth's on top.
 pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[Source]) {
     for source in sources.iter().rev() {
@@ -28,7 +31,10 @@ pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[Source]) {
 
 fn add_one(drawing: &mut Drawing<'_>, source: &Source, locus: &[LocusPoint]) {
     const GAP: [f64; 2] = [f64::NAN; 2];
-    let points: Vec<[f64; 2]> = locus.iter().map(|p| drawing.place_of(p.xy, p.uv).unwrap_or(GAP)).collect();
+    // Signals that pass through a sum of zero send the locus to infinity and back from the other side: no line leads there.
+    let shown = |at: &[f64; 2]| at.iter().all(|v| v.abs() < FAR);
+    let points: Vec<[f64; 2]> =
+        locus.iter().map(|p| drawing.place_of(p.xy, p.uv).filter(shown).unwrap_or(GAP)).collect();
     drawing.data.extend(points.iter().filter(|p| p[0].is_finite()));
     let tag = drawing.things.tag(Thing::Source(id(source)));
     if points.iter().all(|p| !p[0].is_finite()) {
