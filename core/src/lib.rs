@@ -36,6 +36,8 @@ pub mod light;
 pub mod math;
 pub mod object;
 pub mod query;
+pub mod reflectance;
+pub mod scene;
 pub mod spectral;
 pub mod table;
 pub mod units;

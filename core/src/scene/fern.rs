@@ -1,0 +1,1 @@
+//! A fern from parameters.

@@ -1,0 +1,1 @@
+//! A human head from parameters.

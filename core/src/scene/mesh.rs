@@ -1,0 +1,173 @@
+//! Triangles with a normal at each vertex.
+
+use glam::Vec3;
+use std::hash::{Hash, Hasher};
+
+/// Why vertices and triangles make no mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum MeshError {
+    /// There is nothing to see.
+    #[error("there are no triangles")]
+    Empty,
+    /// Each vertex needs one normal.
+    #[error("{positions} vertices but {normals} normals")]
+    Normals {
+        /// How many positions there are.
+        positions: usize,
+        /// How many normals there are.
+        normals: usize,
+    },
+    /// A triangle names a vertex that is not there.
+    #[error("triangle {triangle} names vertex {vertex}, which is not there")]
+    Vertex {
+        /// The triangle's index.
+        triangle: usize,
+        /// The index that is too large.
+        vertex: u32,
+    },
+    /// A position or normal is not a number or is infinite.
+    #[error("vertex {vertex} is not finite")]
+    NotFinite {
+        /// The vertex's index.
+        vertex: usize,
+    },
+}
+
+/// A box around a mesh, edges along the axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The smallest coordinates.
+    pub min: Vec3,
+    /// The largest coordinates.
+    pub max: Vec3,
+}
+
+impl Bounds {
+    /// The middle of the box.
+    pub fn center(self) -> Vec3 {
+        self.min.midpoint(self.max)
+    }
+
+    /// Half the box's diagonal: a sphere of this radius around the center holds the mesh.
+    pub fn radius(self) -> f32 {
+        (self.max - self.min).length() / 2.0
+    }
+}
+
+/// Triangles with a unit normal at each vertex, counter-clockwise seen from outside; y up, the front towards +z, in meters.
+///
+/// Past its constructors every index is in range, every number finite and every normal of unit length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    bounds: Bounds,
+}
+
+impl Eq for Mesh {}
+
+impl Hash for Mesh {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        // Equal meshes have equal counts and bounds; the rest is left to the comparison.
+        self.positions.len().hash(state);
+        self.triangles.len().hash(state);
+        for v in [self.bounds.min, self.bounds.max] {
+            // Negative zero equals zero, so it must hash as zero.
+            (v + 0.0).to_array().map(f32::to_bits).hash(state);
+        }
+    }
+}
+
+impl Mesh {
+    /// Takes vertices with their normals, which are brought to unit length (a zero normal becomes +z), and triangles.
+    pub fn new(positions: Vec<Vec3>, normals: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
+        if positions.len() != normals.len() {
+            return Err(MeshError::Normals { positions: positions.len(), normals: normals.len() });
+        }
+        check(&positions, &triangles)?;
+        if let Some(vertex) = normals.iter().position(|n| !n.is_finite()) {
+            return Err(MeshError::NotFinite { vertex });
+        }
+        let normals = normals.into_iter().map(unit).collect();
+        let bounds = bounds(&positions, &triangles);
+        Ok(Self { positions, normals, triangles, bounds })
+    }
+
+    /// Takes vertices and triangles; each vertex's normal is the mean of its triangles' by area and angle at the vertex.
+    pub fn with_smooth_normals(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
+        check(&positions, &triangles)?;
+        let normals = smooth_normals(&positions, &triangles);
+        Self::new(positions, normals, triangles)
+    }
+
+    /// The vertices.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    /// The unit normals, one for each vertex.
+    pub fn normals(&self) -> &[Vec3] {
+        &self.normals
+    }
+
+    /// The triangles, as indices of vertices.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The box around all vertices that a triangle uses.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+}
+
+/// A vector brought to unit length; +z where it has none.
+fn unit(v: Vec3) -> Vec3 {
+    // In double precision: the squares of a tiny mesh's areas underflow in single.
+    v.as_dvec3().try_normalize().map_or(Vec3::Z, |n| n.as_vec3())
+}
+
+/// The mean of the normals of the triangles around each vertex, weighted by the angle at the vertex (Thürmer and Wüthrich
+/// 1998), which does not depend on how a polygon was cut into triangles.
+pub fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
+    let mut sums = vec![glam::DVec3::ZERO; positions.len()];
+    for triangle in triangles {
+        let corners = triangle.map(|i| positions[i as usize].as_dvec3());
+        for k in 0..3 {
+            let (a, b) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
+            // A triangle without area has no normal and adds none.
+            if let Some(normal) = a.cross(b).try_normalize() {
+                sums[triangle[k] as usize] += normal * a.angle_between(b);
+            }
+        }
+    }
+    sums.into_iter().map(|sum| sum.try_normalize().map_or(Vec3::Z, |n| n.as_vec3())).collect()
+}
+
+/// That there are triangles, that their vertices exist, and that all positions are finite.
+fn check(positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    if triangles.is_empty() {
+        return Err(MeshError::Empty);
+    }
+    if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
+        return Err(MeshError::NotFinite { vertex });
+    }
+    for (triangle, corners) in triangles.iter().enumerate() {
+        if let Some(&vertex) = corners.iter().find(|&&i| i as usize >= positions.len()) {
+            return Err(MeshError::Vertex { triangle, vertex });
+        }
+    }
+    Ok(())
+}
+
+/// The box around all vertices that a triangle uses.
+fn bounds(positions: &[Vec3], triangles: &[[u32; 3]]) -> Bounds {
+    let mut bounds = Bounds { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+    for &index in triangles.as_flattened() {
+        let p = positions[index as usize];
+        bounds.min = bounds.min.min(p);
+        bounds.max = bounds.max.max(p);
+    }
+    bounds
+}
