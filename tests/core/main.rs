@@ -7,11 +7,17 @@
 
 mod camera;
 mod colorimetry;
+mod fern;
 mod figure;
+mod head;
 mod light;
 mod math;
+mod mesh_reading;
 mod paper;
 mod query;
+mod reflectance;
+mod render;
+mod scene;
 mod spectral;
 mod support;
 mod table;
