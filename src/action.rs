@@ -4,6 +4,7 @@ use chromascope_core::query::Shared;
 
 use crate::catalog::{Entry, Kind};
 use crate::document::own::OwnSet;
+use crate::document::render::{BALANCE, RenderSettings, SUN};
 use crate::document::{
     Diagram, DifferenceChoice, Document, LOCUS_RANGE_K, Light, Overlays, Subset, WayChoice, WhiteChoice,
 };
@@ -15,6 +16,8 @@ pub enum Action {
     Compare(CompareAction),
     /// To the conditions of the scene.
     Scene(SceneAction),
+    /// To the rendered scene.
+    Render(RenderAction),
     /// To the user's own sets.
     Own(OwnAction),
     /// All back to the first screen; own sets stay.
@@ -59,6 +62,23 @@ pub enum SceneAction {
     SetOverlays(Overlays),
 }
 
+/// Changes to the rendered scene. The settings are a record of independent numbers, so a change is the record as it is to be,
+/// with the name of what was moved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RenderAction {
+    /// Other settings.
+    Set {
+        /// What was changed, as the menu calls it.
+        what: &'static str,
+        /// The settings as they are to be.
+        to: Box<RenderSettings>,
+    },
+    /// The paper's Figure 8: the head under sunlight, balanced to D55.
+    Figure8,
+    /// The paper's Figure 9: the fern under sunlight, balanced to D55.
+    Figure9,
+}
+
 /// Changes to the user's own sets.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OwnAction {
@@ -81,6 +101,7 @@ impl Action {
         match self {
             Self::Compare(action) => action.name(),
             Self::Scene(action) => action.name().to_owned(),
+            Self::Render(action) => action.name().to_owned(),
             Self::Own(OwnAction::Import(sets)) => match sets.as_slice() {
                 [one] => format!("Open {}", one.name),
                 many => format!("Open {} sets", many.len()),
@@ -93,6 +114,13 @@ impl Action {
 
     /// Whether a change during the same drag belongs to the same step.
     pub fn is_same_gesture(&self, next: &Self) -> bool {
+        if let (
+            Self::Render(RenderAction::Set { what, .. }),
+            Self::Render(RenderAction::Set { what: next, .. }),
+        ) = (self, next)
+        {
+            return what == next;
+        }
         matches!(
             (self, next),
             (Self::Scene(SceneAction::SetTemperature(_)), Self::Scene(SceneAction::SetTemperature(_)))
@@ -105,6 +133,7 @@ impl Action {
         match self {
             Self::Compare(action) => action.apply(document),
             Self::Scene(action) => action.apply(document),
+            Self::Render(action) => action.apply(document),
             Self::Own(action) => action.apply(document),
             Self::Reset => {
                 let own = std::mem::take(&mut document.own);
@@ -194,6 +223,31 @@ impl SceneAction {
             Self::SetDiagram(diagram) => document.diagram = *diagram,
             Self::SetOverlays(overlays) => document.overlays = *overlays,
         }
+    }
+}
+
+impl RenderAction {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Set { what, .. } => what,
+            Self::Figure8 => "Figure 8",
+            Self::Figure9 => "Figure 9",
+        }
+    }
+
+    fn apply(&self, document: &mut Document) {
+        let figure = match self {
+            Self::Set { to, .. } => {
+                document.render.clone_from(to);
+                return;
+            }
+            Self::Figure8 => RenderSettings::default(),
+            Self::Figure9 => RenderSettings::fern(),
+        };
+        // The reading is what the two versions of each figure differ in, so it stays as it was chosen.
+        document.render = RenderSettings { reading: document.render.reading, ..figure };
+        document.light = Light::Set(SUN.to_owned());
+        document.white = WhiteChoice::Light(BALANCE.to_owned());
     }
 }
 

@@ -5,11 +5,13 @@
 
 pub mod history;
 pub mod own;
+pub mod render;
 pub mod session;
 
 use crate::catalog::Kind;
 use chromascope_core::query::{Metric, Shared};
 use own::OwnSet;
+use render::RenderSettings;
 use serde::{Deserialize, Serialize};
 
 /// The version of the saved form that this program writes.
@@ -45,6 +47,8 @@ pub struct Document {
     pub diagram: Diagram,
     /// What the diagram shows besides.
     pub overlays: Overlays,
+    /// What the Render pane looks at.
+    pub render: RenderSettings,
     /// The user's own sets, by value.
     #[serde(with = "own::list")]
     pub own: Vec<Shared<OwnSet>>,
@@ -256,6 +260,7 @@ impl Default for Document {
             difference: DifferenceChoice::DeltaE2000,
             diagram: Diagram::Xy,
             overlays: Overlays::default(),
+            render: RenderSettings::default(),
             own: Vec::new(),
             unknown: serde_json::Map::new(),
         };

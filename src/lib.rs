@@ -19,6 +19,7 @@ pub mod document;
 pub mod export;
 pub mod figures;
 pub mod files;
+pub mod jobs;
 pub mod number;
 pub mod paint;
 pub mod panes;

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use chromascope_core::query::{Ask, Query};
+use chromascope_core::render::Stop;
 
 /// Answers that were not asked for in this many frames are let go.
 const FRAMES_KEPT: u64 = 240;
@@ -20,6 +21,8 @@ pub struct Count {
     pub misses: u64,
     /// Time spent computing, questions asked on the way included.
     pub time: Duration,
+    /// Time spent computing, without questions asked on the way.
+    pub own_time: Duration,
 }
 
 /// One kind of question's answers.
@@ -30,6 +33,17 @@ struct Answers<Q: Query> {
 struct Known<A> {
     answer: Arc<A>,
     asked: u64,
+}
+
+impl<Q: Query> Answers<Q> {
+    /// Lets go of what was asked for least recently.
+    fn keep(&mut self, count: usize) {
+        while self.known.len() > count {
+            let oldest = self.known.iter().min_by_key(|(_, known)| known.asked).map(|(query, _)| query.clone());
+            let Some(oldest) = oldest else { return };
+            self.known.remove(&oldest);
+        }
+    }
 }
 
 /// Lets go of old answers, whatever their type.
@@ -48,9 +62,13 @@ impl<Q: Query> Forget for Answers<Q> {
     }
 }
 
-/// Remembers answers, on the thread of the window.
+/// Remembers answers, on one thread.
 #[derive(Default)]
 pub struct Results {
+    bounded: bool,
+    stop: RefCell<Stop>,
+    clock: Cell<u64>,
+    asked_on_the_way: Cell<Duration>,
     answers: RefCell<HashMap<TypeId, Box<dyn Forget>>>,
     counts: RefCell<BTreeMap<&'static str, Count>>,
     frame: Cell<u64>,
@@ -60,6 +78,17 @@ pub struct Results {
 }
 
 impl Results {
+    /// Remembers as many answers of each kind as the kind says are worth keeping, however old: for pictures, whose parts are
+    /// large, and of which the costliest are asked for least often.
+    pub fn bounded() -> Self {
+        Self { bounded: true, ..Self::default() }
+    }
+
+    /// Says when answers are no longer wanted. Those that were being made then are not remembered.
+    pub fn stop_at(&self, stop: Stop) {
+        self.stop.replace(stop);
+    }
+
     /// Closes a frame's book: what was not asked for in a long while is let go.
     pub fn end_frame(&self) {
         let frame = self.frame.get() + 1;
@@ -67,7 +96,7 @@ impl Results {
         if self.frame_time.get() > Duration::ZERO {
             self.last_work.set(self.frame_time.replace(Duration::ZERO));
         }
-        if frame.is_multiple_of(FRAMES_KEPT) {
+        if !self.bounded && frame.is_multiple_of(FRAMES_KEPT) {
             let before = frame.saturating_sub(FRAMES_KEPT);
             self.answers.borrow_mut().values_mut().for_each(|answers| answers.forget(before));
         }
@@ -87,7 +116,7 @@ impl Results {
         let mut all = self.answers.borrow_mut();
         let answers = all.get_mut(&TypeId::of::<Q>())?.as_any().downcast_mut::<Answers<Q>>()?;
         let known = answers.known.get_mut(query)?;
-        known.asked = self.frame.get();
+        known.asked = self.now();
         Some(Arc::clone(&known.answer))
     }
 
@@ -95,9 +124,17 @@ impl Results {
         let mut all = self.answers.borrow_mut();
         let slot = all.entry(TypeId::of::<Q>()).or_insert_with(|| Box::new(Answers::<Q> { known: HashMap::new() }));
         if let Some(answers) = slot.as_any().downcast_mut::<Answers<Q>>() {
-            let known = Known { answer: Arc::clone(answer), asked: self.frame.get() };
+            let known = Known { answer: Arc::clone(answer), asked: self.now() };
             answers.known.insert(query.clone(), known);
+            if self.bounded {
+                answers.keep(Q::KEPT);
+            }
         }
+    }
+
+    /// Frames, or where answers are counted, questions.
+    fn now(&self) -> u64 {
+        if self.bounded { self.clock.replace(self.clock.get() + 1) } else { self.frame.get() }
     }
 
     fn count(&self, name: &'static str, change: impl FnOnce(&mut Count)) {
@@ -113,18 +150,28 @@ impl Ask for Results {
         }
         let start = Instant::now();
         self.depth.set(self.depth.get() + 1);
+        let before = self.asked_on_the_way.replace(Duration::ZERO);
         // No cell is borrowed here: the answer may ask further questions.
         let answer = Arc::new(query.answer(self));
         self.depth.set(self.depth.get() - 1);
         let time = start.elapsed();
+        let on_the_way = self.asked_on_the_way.replace(before + time);
         self.count(Q::NAME, |count| {
             count.misses += 1;
             count.time += time;
+            count.own_time += time.saturating_sub(on_the_way);
         });
+        if self.stop.borrow().is_set() {
+            return answer;
+        }
         if self.depth.get() == 0 {
             self.frame_time.set(self.frame_time.get() + time);
         }
         self.remember(query, &answer);
         answer
+    }
+
+    fn stop(&self) -> Stop {
+        self.stop.borrow().clone()
     }
 }

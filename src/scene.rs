@@ -2,6 +2,8 @@
 //!
 //! Panes, exports and the command line all ask through here, so that they cannot disagree.
 
+pub mod render;
+
 use std::sync::Arc;
 
 use chromascope_core::camera::{NoRendering, White};
@@ -13,11 +15,13 @@ use chromascope_core::query::{
     Ask, Locus, LocusOf, MonochromaticOf, NoDifference, PatchColor, PatchColorsOf, RenderingOf, Shared,
     SpectralLocusOf, Temperatures, WayOf, compare,
 };
+use chromascope_core::reflectance::SurfaceError;
+use chromascope_core::scene::lighting::LightingError;
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::{Kelvin, NotPositive};
 
 use crate::catalog::load::{LightOf, LoadError, LoadedLight, PatchesOf, SensorOf};
-use crate::catalog::{Catalog, Entry, Kind};
+use crate::catalog::{Catalog, Entry, Kind, Place};
 use crate::document::{Compared, Document, LOCUS_RANGE_K, Light, REFERENCE, Subset, TRAINING, WayChoice, WhiteChoice};
 use crate::results::Results;
 
@@ -60,6 +64,12 @@ pub enum SceneError {
     /// A temperature that is none.
     #[error(transparent)]
     Temperature(#[from] NotPositive),
+    /// A surface that the model says nothing about.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// A light without a place.
+    #[error(transparent)]
+    Lighting(#[from] LightingError),
 }
 
 /// How a source is drawn and called, everywhere.
@@ -167,6 +177,15 @@ impl<'a> Scene<'a> {
 
     fn patch_set(&self, name: &str, names: Option<&'static [&'static str]>) -> Result<Shared<PatchSet>, SceneError> {
         let place = self.chart_entry(name)?.place;
+        self.loaded_patches(place, name, names)
+    }
+
+    fn loaded_patches(
+        &self,
+        place: Place,
+        name: &str,
+        names: Option<&'static [&'static str]>,
+    ) -> Result<Shared<PatchSet>, SceneError> {
         let answer = self.results.ask(&PatchesOf { place, names });
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }

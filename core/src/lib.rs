@@ -37,6 +37,7 @@ pub mod math;
 pub mod object;
 pub mod query;
 pub mod reflectance;
+pub mod render;
 pub mod scene;
 pub mod spectral;
 pub mod table;

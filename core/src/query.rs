@@ -6,6 +6,7 @@
 pub mod compare;
 pub mod loci;
 pub mod patches;
+pub mod render;
 pub mod shared;
 
 pub use compare::{Metric, NoDifference};
@@ -15,6 +16,7 @@ pub use loci::{
 pub use patches::{FitTargetsOf, PatchColor, PatchColorsOf, RenderingOf, WayOf};
 pub use shared::Shared;
 
+use crate::render::Stop;
 use std::hash::Hash;
 use std::sync::Arc;
 
@@ -26,6 +28,9 @@ pub trait Query: Clone + Eq + Hash + 'static {
     /// A name for counters.
     const NAME: &'static str;
 
+    /// How many answers are worth keeping where memory is what limits; the least recently asked for go first.
+    const KEPT: usize = 256;
+
     /// Computes the answer, asking others on the way.
     fn answer(&self, ask: &impl Ask) -> Self::Answer;
 }
@@ -34,6 +39,11 @@ pub trait Query: Clone + Eq + Hash + 'static {
 pub trait Ask {
     /// The answer to a question, computed or remembered.
     fn ask<Q: Query>(&self, query: &Q) -> Arc<Q::Answer>;
+
+    /// Says when answers are no longer wanted. What is then returned may be incomplete and is not to be kept.
+    fn stop(&self) -> Stop {
+        Stop::NEVER
+    }
 }
 
 /// Answers every question by computing it.

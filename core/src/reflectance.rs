@@ -1,1 +1,31 @@
 //! How a rough surface scatters light: the reflectance model (Eq 1–4) and its parts.
+//!
+//! A surface whose heights are normally distributed with deviation σ and correlated as exp(−r²/τ²) sends part of the light
+//! into the mirror direction and spreads the rest (Beckmann and Spizzichino 1963), through Fresnel's transmittances and a
+//! form factor (Vernold and Harvey 1998; Ragheb and Hancock 2006).
+//!
+//! ```text
+//! P = ρ0² e^-g + D                              Eq 1
+//! D = (π τ²/A) G² S(g, b)                       Eq 2
+//! S = e^-g Σ_{n≥1} gⁿ/(n! n) e^(-b/n)           one uniform method, no regimes
+//! G² = T(θi) T(θs) cos θi,  T = 1 − F           Eq 3
+//! g = σ² v_z²,  b = τ² (v_x² + v_y²) / 4
+//! ```
+//! φi = π as in the paper, so that the mirror direction is θs = θi, φs = 0. Past [`Surface::new`] everything is total: finite
+//! for any σ up to 1 m, any direction, any index, any wavelength.
+
+pub mod coherent;
+pub mod fresnel;
+pub mod geometry;
+pub mod power;
+pub mod reading;
+pub mod regimes;
+pub mod sum;
+pub mod surface;
+
+pub use geometry::Geometry;
+pub use power::{beta, coherent_prefactor, diffuse_prefactor, factor, factor_by, kappa, wavelength_power};
+pub use reading::{Method, Reading};
+pub use regimes::{Regime, diffuse_sum_by_regimes};
+pub use sum::{Precision, diffuse_sum, ln_diffuse_sum};
+pub use surface::{Caution, Surface, SurfaceError};

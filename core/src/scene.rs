@@ -1,10 +1,16 @@
-//! What is looked at: meshes, where they are seen from, what lights them, what they are made of.
+//! What is looked at: meshes, where they are seen from, what lights them.
 //!
-//! Lengths in meters. A mesh says nothing of spectra; a [`Surface`] says nothing of shape.
+//! Lengths in meters. A mesh says nothing of spectra, roughness or cameras.
 
 pub mod fern;
 pub mod head;
+pub mod implicit;
+pub mod lighting;
 pub mod mesh;
 pub mod reading;
+pub mod shapes;
+pub mod viewpoint;
 
+pub use lighting::{Lighting, PlacedLight, SUN_RADIUS};
 pub use mesh::{Bounds, Mesh, MeshError};
+pub use viewpoint::{Eye, Viewpoint};

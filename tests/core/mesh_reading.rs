@@ -1,1 +1,1 @@
-//! The tests of mesh_reading.
+//! Meshes from files.

@@ -1,1 +1,5 @@
-//! The tests of render.
+//! Pictures of meshes: each stage against a second way, skipping against not skipping, one thread against many.
+
+mod diffuse;
+mod images;
+mod visibility;

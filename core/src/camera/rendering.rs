@@ -144,6 +144,15 @@ fn white_integrals(sensor: &Sensor, light: &GridSpectrum) -> Result<(DVec3, f64)
     Ok((DVec3::new(r, g, b), of_r.min(of_g).min(of_b)))
 }
 
+/// What `∫ C_c S L dλ` is divided by: `∫ C_c L dλ` of each channel (Eq 16), for tristimulus values that of Y.
+pub fn white_divisors(sensor: &Sensor, light: &GridSpectrum) -> Result<DVec3, NoRendering> {
+    if sensor.primaries() == Primaries::Xyz {
+        white_integral(sensor, light, 1).map(|(y, _)| DVec3::splat(y))
+    } else {
+        white_integrals(sensor, light).map(|(integrals, _)| integrals)
+    }
+}
+
 /// A CIE observer: tristimulus values with Y = 1 for a perfect white under the light.
 fn direct(sensor: &Sensor, light: &GridSpectrum) -> Result<Rendering, NoRendering> {
     // Only Y divides: light that the other two do not see, such as deep red, is no reason to refuse.

@@ -40,17 +40,14 @@ pub struct Bounds {
     pub min: Vec3,
     /// The largest coordinates.
     pub max: Vec3,
+    /// The radius of the smallest sphere around the box's center that holds the mesh.
+    pub radius: f32,
 }
 
 impl Bounds {
     /// The middle of the box.
     pub fn center(self) -> Vec3 {
         self.min.midpoint(self.max)
-    }
-
-    /// Half the box's diagonal: a sphere of this radius around the center holds the mesh.
-    pub fn radius(self) -> f32 {
-        (self.max - self.min).length() / 2.0
     }
 }
 
@@ -125,7 +122,7 @@ impl Mesh {
 /// A vector brought to unit length; +z where it has none.
 fn unit(v: Vec3) -> Vec3 {
     // In double precision: the squares of a tiny mesh's areas underflow in single.
-    v.as_dvec3().try_normalize().map_or(Vec3::Z, |n| n.as_vec3())
+    v.as_dvec3().try_normalize().map_or(Vec3::Z, glam::DVec3::as_vec3)
 }
 
 /// The mean of the normals of the triangles around each vertex, weighted by the angle at the vertex (Thürmer and Wüthrich
@@ -142,7 +139,7 @@ pub fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
             }
         }
     }
-    sums.into_iter().map(|sum| sum.try_normalize().map_or(Vec3::Z, |n| n.as_vec3())).collect()
+    sums.into_iter().map(|sum| sum.try_normalize().map_or(Vec3::Z, glam::DVec3::as_vec3)).collect()
 }
 
 /// That there are triangles, that their vertices exist, and that all positions are finite.
@@ -163,11 +160,14 @@ fn check(positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
 
 /// The box around all vertices that a triangle uses.
 fn bounds(positions: &[Vec3], triangles: &[[u32; 3]]) -> Bounds {
-    let mut bounds = Bounds { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
-    for &index in triangles.as_flattened() {
-        let p = positions[index as usize];
+    let mut bounds = Bounds { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY, radius: 0.0 };
+    let corners = || triangles.iter().flatten().map(|&v| positions[v as usize]);
+    for p in corners() {
         bounds.min = bounds.min.min(p);
         bounds.max = bounds.max.max(p);
     }
+    // In double precision: the squares of a tiny mesh's distances underflow in single.
+    let center = bounds.center().as_dvec3();
+    bounds.radius = corners().map(|p| p.as_dvec3().distance_squared(center)).fold(0.0, f64::max).sqrt() as f32;
     bounds
 }

@@ -1,0 +1,200 @@
+//! Questions about pictures of meshes, split where the inputs split.
+//!
+//! A viewpoint knows no light, a light's place no spectrum, a surface no camera, a camera's signals no white balance: so moving
+//! a slider asks again only what depends on it.
+
+pub mod picture;
+
+pub use picture::{Difference, ExposureOf, PictureOf, Pictures, PicturesOf, SourceOf};
+
+use super::{Ask, Query, Shared};
+use crate::camera::{NoRendering, rendering::white_divisors};
+use crate::reflectance::{Reading, Surface, wavelength_power};
+use crate::render::{
+    CameraImage, DiffuseTable, GeometryImage, Measure, Quality, RasterSize, ShadingImage, ShadowTree, Shadows,
+    Visibility,
+};
+use crate::scene::{Lighting, Mesh, Viewpoint, fern, head, shapes};
+use crate::spectral::{GridSpectrum, Sensor};
+use std::sync::Arc;
+
+/// Which mesh?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum MeshOf {
+    /// The head, with about this many triangles.
+    Head(usize),
+    /// The fern.
+    Fern(usize),
+    /// A sphere.
+    Sphere(usize),
+    /// A square that faces the front.
+    Plane,
+    /// The user's own.
+    Own(Shared<Mesh>),
+}
+
+impl Query for MeshOf {
+    type Answer = Shared<Mesh>;
+    const NAME: &'static str = "mesh";
+    const KEPT: usize = 3;
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        match self {
+            Self::Head(triangles) => Shared::new(head::head(*triangles)),
+            Self::Fern(triangles) => Shared::new(fern::fern(*triangles)),
+            Self::Sphere(triangles) => Shared::new(shapes::sphere(*triangles)),
+            Self::Plane => Shared::new(shapes::plane(2)),
+            Self::Own(mesh) => mesh.clone(),
+        }
+    }
+}
+
+/// What tree finds the shadows of a mesh?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ShadowTreeOf(pub MeshOf);
+
+impl Query for ShadowTreeOf {
+    type Answer = ShadowTree;
+    const NAME: &'static str = "shadow tree";
+    const KEPT: usize = 3;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        ShadowTree::new(&ask.ask(&self.0))
+    }
+}
+
+/// Which triangle does each sample see? None if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct VisibilityOf {
+    /// The mesh.
+    pub mesh: MeshOf,
+    /// Where it is seen from.
+    pub viewpoint: Viewpoint,
+    /// How many samples there are.
+    pub size: RasterSize,
+}
+
+impl Query for VisibilityOf {
+    type Answer = Option<Visibility>;
+    const NAME: &'static str = "visibility";
+    const KEPT: usize = 6;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let mesh = ask.ask(&self.mesh);
+        Visibility::new(&mesh, self.viewpoint.eye(mesh.bounds()), self.size, &ask.stop())
+    }
+}
+
+/// What are the angles where the light reaches? None if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct GeometryOf {
+    /// What is seen.
+    pub visibility: VisibilityOf,
+    /// Where the light is.
+    pub lighting: Lighting,
+    /// How shadows are found.
+    pub shadows: Shadows,
+}
+
+impl Query for GeometryOf {
+    type Answer = Option<Arc<GeometryImage>>;
+    const NAME: &'static str = "geometry";
+    const KEPT: usize = 6;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let mesh = ask.ask(&self.visibility.mesh);
+        let tree = (self.shadows != Shadows::Off).then(|| ask.ask(&ShadowTreeOf(self.visibility.mesh.clone())));
+        let shadows = tree.as_deref().map(|tree| (tree, self.shadows));
+        let visibility = ask.ask(&self.visibility);
+        let visibility = (*visibility).as_ref()?;
+        GeometryImage::new(&mesh, visibility, &self.lighting, shadows, &ask.stop()).map(Arc::new)
+    }
+}
+
+/// What does a surface make of the angles? None if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ShadingOf {
+    /// The angles.
+    pub geometry: GeometryOf,
+    /// The roughness.
+    pub surface: Surface,
+    /// How Eq 1 is read.
+    pub reading: Reading,
+    /// How exactly integrals are made.
+    pub quality: Quality,
+}
+
+impl Query for ShadingOf {
+    type Answer = Option<ShadingImage>;
+    const NAME: &'static str = "shading";
+    const KEPT: usize = 6;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let geometry = ask.ask(&self.geometry);
+        let geometry = (*geometry).as_ref()?;
+        ShadingImage::new(Arc::clone(geometry), self.surface, self.reading, self.quality, &ask.stop())
+    }
+}
+
+/// How does a camera weigh wavelengths under a light, from a reflectance?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct MeasureOf {
+    /// The camera or observer.
+    pub sensor: Shared<Sensor>,
+    /// The light.
+    pub light: Shared<GridSpectrum>,
+    /// The reflectance.
+    pub reflectance: Shared<GridSpectrum>,
+    /// How Eq 1 is read.
+    pub reading: Reading,
+}
+
+impl Query for MeasureOf {
+    type Answer = Result<Measure, NoRendering>;
+    const NAME: &'static str = "measure";
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        let divisors = white_divisors(&self.sensor, &self.light)?;
+        Ok(Measure::new(&self.sensor, &self.light, &self.reflectance, divisors, wavelength_power(self.reading)))
+    }
+}
+
+/// What is a camera's spectral integral over all roughnesses and angles?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct DiffuseTableOf(pub MeasureOf);
+
+impl Query for DiffuseTableOf {
+    type Answer = Result<DiffuseTable, NoRendering>;
+    const NAME: &'static str = "diffuse table";
+    const KEPT: usize = 64;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let measure = ask.ask(&self.0);
+        Ok(DiffuseTable::new((*measure).as_ref().map_err(|&e| e)?))
+    }
+}
+
+/// What signals does a camera give of a shaded mesh? None inside if stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CameraImageOf {
+    /// The shaded mesh.
+    pub shading: ShadingOf,
+    /// The camera under the light.
+    pub measure: MeasureOf,
+}
+
+impl Query for CameraImageOf {
+    type Answer = Result<Option<CameraImage>, NoRendering>;
+    const NAME: &'static str = "camera image";
+    const KEPT: usize = 64;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let measure = ask.ask(&self.measure);
+        let measure = (*measure).as_ref().map_err(|&e| e)?;
+        let shading = ask.ask(&self.shading);
+        let Some(shading) = (*shading).as_ref() else { return Ok(None) };
+        let table = shading.needs_table().then(|| ask.ask(&DiffuseTableOf(self.measure.clone())));
+        let table = table.as_deref().map(|table| table.as_ref().map_err(|&e| e)).transpose()?;
+        Ok(CameraImage::new(shading, measure, table, &ask.stop()))
+    }
+}

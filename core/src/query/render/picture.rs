@@ -1,0 +1,292 @@
+//! Pictures side by side: one exposure for all, differences to the truth.
+
+use super::{CameraImageOf, MeasureOf, ShadingOf};
+use crate::camera::NoRendering;
+use crate::colorimetry::Xyz;
+use crate::query::{Ask, Query, RenderingOf, Shared};
+use crate::reflectance::{Geometry, Reading, Surface, factor};
+use crate::render::develop::{differences, develop};
+use crate::render::{CameraImage, Development, GeometryCounts, Measurement, Measure, Picture, ShadingCounts};
+use crate::spectral::GridSpectrum;
+use glam::DVec3;
+use std::sync::Arc;
+
+/// The luminance that a material facing the light takes at 0 EV.
+pub const EXPOSED: f64 = 0.4;
+
+/// How bright is a material that faces light and eye, through the truth?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ExposureOf {
+    /// The truth.
+    pub truth: RenderingOf,
+    /// The material.
+    pub reflectance: Shared<GridSpectrum>,
+    /// Its roughness.
+    pub surface: Surface,
+    /// How Eq 1 is read.
+    pub reading: Reading,
+    /// The light's angular radius in radians, as bits.
+    pub angular_radius: u64,
+}
+
+/// What exposure and the measuring of colors go by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facing {
+    /// XYZ of the material, through the truth.
+    pub material: Xyz,
+    /// Y of a white of the same roughness.
+    pub white: f64,
+}
+
+impl Facing {
+    /// The factor on all cameras' signals at an exposure in EV: `2^EV · 0.4 / Y`. 0 for a black material.
+    pub fn factor(&self, ev: f64) -> f64 {
+        if self.material.y > 0.0 { ev.exp2() * EXPOSED / self.material.y } else { 0.0 }
+    }
+}
+
+impl Query for ExposureOf {
+    type Answer = Result<Facing, NoRendering>;
+    const NAME: &'static str = "exposure";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let rendering = ask.ask(&self.truth);
+        let rendering = (*rendering).as_ref().map_err(|&e| e)?;
+        let xyz = |reflectance: Shared<GridSpectrum>| -> Result<Xyz, NoRendering> {
+            let (sensor, light) = (self.truth.sensor.clone(), self.truth.light.clone());
+            let measure = ask.ask(&MeasureOf { sensor, light, reflectance, reading: Reading::Lambertian });
+            let signals = self.signals((*measure).as_ref().map_err(|&e| e)?);
+            Ok(rendering.xyz(rendering.white * signals))
+        };
+        let white = xyz(Shared::new(GridSpectrum::constant(1.0)))?;
+        Ok(Facing { material: xyz(self.reflectance.clone())?, white: white.y })
+    }
+}
+
+impl ExposureOf {
+    /// `∫ C_c S P L dλ / ∫ C_c L dλ` with light, eye and normal along one line, over all wavelengths of the grid.
+    fn signals(&self, measure: &Measure) -> DVec3 {
+        let facing = Geometry::from_angles(0.0, 0.0, 0.0);
+        let radius = f64::from_bits(self.angular_radius);
+        let mut sum = DVec3::ZERO;
+        for node in measure.dense() {
+            let p = factor(&self.surface, &facing, node.wavelength_nm, self.reading, radius);
+            sum += DVec3::from_array(node.weights) * p;
+        }
+        sum
+    }
+}
+
+/// A camera or observer to take a picture with.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SourceOf {
+    /// The sensor, its light, white and way to the diagram.
+    pub rendering: RenderingOf,
+}
+
+/// What does a camera's picture look like?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct PictureOf {
+    /// Its signals.
+    pub image: CameraImageOf,
+    /// How they are balanced.
+    pub rendering: RenderingOf,
+    /// Exposure in EV, as bits.
+    pub ev: u64,
+    /// What is exposed by.
+    pub exposure: ExposureOf,
+    /// What shows beside the mesh, in linear sRGB as bits; none leaves it transparent.
+    pub background: Option<[u32; 3]>,
+}
+
+impl Query for PictureOf {
+    type Answer = Result<Option<Arc<Picture>>, NoRendering>;
+    const NAME: &'static str = "picture";
+    const KEPT: usize = 64;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let facing = ask.ask(&self.exposure);
+        let facing = (*facing).as_ref().map_err(|&e| e)?;
+        let rendering = ask.ask(&self.rendering);
+        let rendering = (*rendering).as_ref().map_err(|&e| e)?;
+        let image = ask.ask(&self.image);
+        let Some(image) = (*image).as_ref().map_err(|&e| e)? else { return Ok(None) };
+        let background = self.background.map(|color| color.map(f32::from_bits));
+        let development = Development::new(rendering, facing.factor(f64::from_bits(self.ev)), background);
+        Ok(develop(image, &development, &ask.stop()).map(Arc::new))
+    }
+}
+
+/// How far is a camera's picture from the truth's, sample by sample?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct DifferenceOf {
+    /// The camera's signals.
+    pub image: CameraImageOf,
+    /// How they are balanced.
+    pub rendering: RenderingOf,
+    /// The truth's signals.
+    pub truth: CameraImageOf,
+    /// What colors are measured by, with the truth's balance.
+    pub exposure: ExposureOf,
+    /// Each how many of the lit samples are compared.
+    pub stride: usize,
+}
+
+/// Differences to the truth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// Each how many of the lit samples were compared.
+    pub stride: usize,
+    /// ΔE*00 at those.
+    pub map: Vec<f32>,
+    /// Its mean.
+    pub mean: f64,
+    /// Its largest.
+    pub max: f64,
+}
+
+impl Query for DifferenceOf {
+    type Answer = Result<Option<Arc<Difference>>, NoRendering>;
+    const NAME: &'static str = "difference";
+    const KEPT: usize = 64;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let facing = ask.ask(&self.exposure);
+        let facing = (*facing).as_ref().map_err(|&e| e)?;
+        let [rendering, truth] = [&self.rendering, &self.exposure.truth].map(|of| ask.ask(of));
+        let measured = Measurement::new((*rendering).as_ref().map_err(|&e| e)?, facing.white);
+        let measured_truth = Measurement::new((*truth).as_ref().map_err(|&e| e)?, facing.white);
+        let [image, truth] = [&self.image, &self.truth].map(|of| ask.ask(of));
+        let (Some(image), Some(truth)) = ((*image).as_ref().map_err(|&e| e)?, (*truth).as_ref().map_err(|&e| e)?) else {
+            return Ok(None);
+        };
+        let map = differences(image, &measured, truth, &measured_truth, self.stride, &ask.stop());
+        Ok(map.map(|map| {
+            let mean = map.iter().map(|&d| f64::from(d)).sum::<f64>() / map.len().max(1) as f64;
+            let max = f64::from(map.iter().copied().fold(0.0, f32::max));
+            Arc::new(Difference { stride: self.stride, map, mean, max })
+        }))
+    }
+}
+
+/// What do several cameras' pictures of one shaded mesh look like, side by side?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct PicturesOf {
+    /// The shaded mesh.
+    pub shading: ShadingOf,
+    /// The material.
+    pub reflectance: Shared<GridSpectrum>,
+    /// The truth; exposure and differences go by it.
+    pub truth: RenderingOf,
+    /// All sources on show, the truth among them or not.
+    pub sources: Vec<SourceOf>,
+    /// Exposure in EV, as bits.
+    pub ev: u64,
+    /// What shows beside the mesh, in linear sRGB as bits.
+    pub background: Option<[u32; 3]>,
+    /// About how many samples are compared with the truth; none compares nothing.
+    pub compared_samples: Option<usize>,
+}
+
+/// Pictures side by side.
+#[derive(Clone, Debug)]
+pub struct Pictures {
+    /// Of each source its picture, or why there is none.
+    pub pictures: Vec<Result<Arc<Picture>, NoRendering>>,
+    /// Of each source its signals, to read pixels from.
+    pub images: Vec<Option<CameraImage>>,
+    /// Of each source how far it is from the truth.
+    pub differences: Vec<Option<Arc<Difference>>>,
+    /// What exposure went by.
+    pub facing: Facing,
+    /// Why samples are dark.
+    pub geometry: GeometryCounts,
+    /// How integrals were made.
+    pub shading: ShadingCounts,
+}
+
+impl PicturesOf {
+    /// What exposure goes by.
+    pub fn exposure(&self) -> ExposureOf {
+        ExposureOf {
+            truth: self.truth.clone(),
+            reflectance: self.reflectance.clone(),
+            surface: self.shading.surface,
+            reading: self.shading.reading,
+            angular_radius: self.shading.geometry.lighting.angular_radius().to_bits(),
+        }
+    }
+
+    /// A source's signals.
+    pub fn image(&self, rendering: &RenderingOf) -> CameraImageOf {
+        let measure = MeasureOf {
+            sensor: rendering.sensor.clone(),
+            light: rendering.light.clone(),
+            reflectance: self.reflectance.clone(),
+            reading: self.shading.reading,
+        };
+        CameraImageOf { shading: self.shading.clone(), measure }
+    }
+
+    /// A source's picture.
+    pub fn picture(&self, rendering: &RenderingOf) -> PictureOf {
+        PictureOf {
+            image: self.image(rendering),
+            rendering: rendering.clone(),
+            ev: self.ev,
+            exposure: self.exposure(),
+            background: self.background,
+        }
+    }
+
+    /// How far a source is from the truth, looking at each `stride`-th lit sample.
+    pub fn difference(&self, rendering: &RenderingOf, stride: usize) -> DifferenceOf {
+        DifferenceOf {
+            image: self.image(rendering),
+            rendering: rendering.clone(),
+            truth: self.image(&self.truth),
+            exposure: self.exposure(),
+            stride,
+        }
+    }
+
+    fn compare(&self, ask: &impl Ask, lit: u64) -> Vec<Option<Arc<Difference>>> {
+        let Some(wanted) = self.compared_samples else { return vec![None; self.sources.len()] };
+        let stride = (lit as usize).div_ceil(wanted.max(1)).max(1);
+        let of = |source: &SourceOf| {
+            if source.rendering == self.truth {
+                return None;
+            }
+            let answer = ask.ask(&self.difference(&source.rendering, stride));
+            (*answer).as_ref().ok().and_then(Clone::clone)
+        };
+        self.sources.iter().map(of).collect()
+    }
+}
+
+impl Query for PicturesOf {
+    type Answer = Result<Option<Pictures>, NoRendering>;
+    const NAME: &'static str = "pictures";
+    const KEPT: usize = 4;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let facing = *ask.ask(&self.exposure());
+        let facing = facing?;
+        let shading = ask.ask(&self.shading);
+        let Some(shading) = (*shading).as_ref() else { return Ok(None) };
+        let mut pictures = Vec::with_capacity(self.sources.len());
+        let mut images = Vec::with_capacity(self.sources.len());
+        for source in &self.sources {
+            match &*ask.ask(&self.picture(&source.rendering)) {
+                Ok(Some(picture)) => pictures.push(Ok(Arc::clone(picture))),
+                Ok(None) => return Ok(None),
+                Err(error) => pictures.push(Err(*error)),
+            }
+            let image = ask.ask(&self.image(&source.rendering));
+            images.push((*image).as_ref().ok().and_then(Clone::clone));
+        }
+        let geometry = shading.geometry().counts();
+        let differences = self.compare(ask, geometry.lit);
+        Ok(Some(Pictures { pictures, images, differences, facing, geometry, shading: shading.counts() }))
+    }
+}

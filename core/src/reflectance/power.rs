@@ -1,0 +1,177 @@
+//! The scattered power of Eq 12, whole and in the parts that a renderer keeps apart.
+//!
+//! ```text
+//! factor(λ) = diffuse_prefactor · (λ0/λ)^p · S(g, βg)  +  coherent_prefactor · (λ0/λ)^p · ρ0² e^-g
+//! g = κ (λ0/λ)²,  λ0 = 550 nm
+//! ```
+//! Neither prefactor contains a wavelength; κ and β neither wavelength, index nor patch. Nothing is divided by cos θs, so that
+//! grazing views stay finite.
+
+use super::coherent::rho0_squared;
+use super::fresnel::{transmittance, transmittance_by_cosine};
+use super::geometry::Geometry;
+use super::reading::{Method, Reading};
+use super::regimes::diffuse_sum_by_regimes;
+use super::sum::diffuse_sum;
+use super::surface::Surface;
+use std::f64::consts::{PI, TAU};
+
+/// λ0, in nanometers: κ is g at this wavelength.
+pub const LAMBDA_0_NM: f64 = 550.0;
+/// λ0 in meters.
+const LAMBDA_0_M: f64 = 550e-9;
+/// Where values that grow without bound are cut: a thousandth of what a product of two parts could still carry.
+const LARGEST: f64 = 1e150;
+
+/// What multiplies S(λ) in Eq 12, with the diffuse sum at full precision: see [`factor_by`].
+pub fn factor(
+    surface: &Surface,
+    geometry: &Geometry,
+    wavelength_nm: f64,
+    reading: Reading,
+    angular_radius: f64,
+) -> f64 {
+    factor_by(surface, geometry, wavelength_nm, reading, Method::default(), angular_radius)
+}
+
+/// What multiplies S(λ) in Eq 12, dimensionless, at a wavelength in nanometers under a light of an angular radius in radians.
+///
+/// ```text
+/// Radiometric, Microfacet   π f,  f = A/(λ² cos θs) (cos θi ρ0² e^-g + D)
+/// Paper                     P = ρ0² e^-g + D
+/// Lambertian                1
+/// D = (π τ²/A) G² S(g, b),  G² = T(θi) T(θs) cos θi,  A = 4XY
+/// ```
+/// For [`Reading::Microfacet`] the cos θi within G² is `4 (l·ĥ)⁴/(cos θi (cos θi + cos θs)²)`, and `cos θi/cos θs` before ρ0² is 1,
+/// which it is in the mirror direction. As in the paper, the mirror term carries no Fresnel factor. ρ0² is its mean over the
+/// light's disk. 0 unless both light and viewer are before the surface; always finite.
+pub fn factor_by(
+    surface: &Surface,
+    geometry: &Geometry,
+    wavelength_nm: f64,
+    reading: Reading,
+    method: Method,
+    angular_radius: f64,
+) -> f64 {
+    if !(geometry.is_lit() && wavelength_nm > 0.0 && wavelength_nm.is_finite()) {
+        return 0.0;
+    }
+    if reading == Reading::Lambertian {
+        return 1.0;
+    }
+    let wave_number = TAU / (wavelength_nm * 1e-9);
+    let ratio = LAMBDA_0_NM / wavelength_nm;
+    let g = kappa(surface, geometry) * (ratio * ratio);
+    let reach = wave_number * surface.tau_m();
+    let b = reach * reach * geometry.vxy2_by_k2 / 4.0;
+    let sum = match method {
+        Method::Uniform(precision) => diffuse_sum(g, b, precision),
+        Method::Regimes => diffuse_sum_by_regimes(g, b),
+    };
+    let pattern = rho0_squared(geometry, surface, wave_number, angular_radius) * (-g).exp();
+    let total =
+        diffuse_prefactor(surface, geometry, reading) * sum + coherent_prefactor(surface, geometry, reading) * pattern;
+    bounded(bounded(ratio.powi(wavelength_power(reading))) * bounded(total))
+}
+
+/// What stands before `(λ0/λ)^p S(g, βg)`: dimensionless, without wavelength.
+///
+/// ```text
+/// Radiometric   π² τ²/λ0² · T(θi) T(θs)/cos θs · cos θi
+/// Microfacet    π² τ²/λ0² · T(θi)/cos θi · T(θs)/cos θs · 4 (l·ĥ)⁴/(cos θi + cos θs)²
+/// Paper         π τ²/A · T(θi) T(θs) cos θi
+/// ```
+/// 0 for [`Reading::Lambertian`], whose factor has no such part, and unless both light and viewer are before the surface.
+#[inline]
+pub fn diffuse_prefactor(surface: &Surface, geometry: &Geometry, reading: Reading) -> f64 {
+    if !geometry.is_lit() {
+        return 0.0;
+    }
+    let (cos_i, cos_s, index) = (geometry.cos_i, geometry.cos_s, surface.index());
+    let correlation = surface.tau_m() / LAMBDA_0_M;
+    bounded(match reading {
+        Reading::Radiometric => {
+            PI * PI
+                * correlation
+                * correlation
+                * transmittance(cos_i, index)
+                * transmittance_by_cosine(cos_s, index)
+                * cos_i
+        }
+        Reading::Microfacet => {
+            let form = 2.0 * geometry.cos_half2 / geometry.vz_by_k;
+            // The fourth power of a half vector near grazing can overflow where the transmittances are 0.
+            PI * PI
+                * correlation
+                * correlation
+                * transmittance_by_cosine(cos_i, index)
+                * transmittance_by_cosine(cos_s, index)
+                * bounded(form * form)
+        }
+        Reading::Paper => {
+            PI * surface.tau_m() * surface.tau_m() / surface.area_m2()
+                * transmittance(cos_i, index)
+                * transmittance(cos_s, index)
+                * cos_i
+        }
+        Reading::Lambertian => 0.0,
+    })
+}
+
+/// What stands before `(λ0/λ)^p ρ0² e^-g`, the mirror term: dimensionless, without wavelength.
+///
+/// ```text
+/// Radiometric   π A/λ0² · cos θi/cos θs
+/// Microfacet    π A/λ0²
+/// Paper         1
+/// ```
+/// 0 for [`Reading::Lambertian`], and unless both light and viewer are before the surface.
+#[inline]
+pub fn coherent_prefactor(surface: &Surface, geometry: &Geometry, reading: Reading) -> f64 {
+    if !geometry.is_lit() {
+        return 0.0;
+    }
+    let patch = PI * surface.area_m2() / (LAMBDA_0_M * LAMBDA_0_M);
+    match reading {
+        Reading::Radiometric => bounded(patch * (geometry.cos_i / geometry.cos_s)),
+        Reading::Microfacet => patch,
+        Reading::Paper => 1.0,
+        Reading::Lambertian => 0.0,
+    }
+}
+
+/// p: the power of λ0/λ that both parts of a reading carry beside g.
+pub const fn wavelength_power(reading: Reading) -> i32 {
+    match reading {
+        Reading::Radiometric | Reading::Microfacet => 2,
+        Reading::Paper | Reading::Lambertian => 0,
+    }
+}
+
+/// κ: g = σ² v_z² at 550 nm, `(2π σ (cos θi + cos θs)/λ0)²`.
+#[inline]
+pub fn kappa(surface: &Surface, geometry: &Geometry) -> f64 {
+    let phase = TAU / LAMBDA_0_M * surface.sigma_m() * geometry.vz_by_k;
+    phase * phase
+}
+
+/// β = b/g, the same for all wavelengths: `(τ/2σ)² v_xy²/v_z²`.
+///
+/// Cut at 1e150, which no sum survives. Where g is 0 (a smooth surface, or both rays grazing) β has no meaning and is given
+/// as 0; the diffuse sum is 0 there.
+#[inline]
+pub fn beta(surface: &Surface, geometry: &Geometry) -> f64 {
+    let height = 2.0 * surface.sigma_m() * geometry.vz_by_k;
+    if height == 0.0 {
+        return 0.0;
+    }
+    let ratio = surface.tau_m() / height;
+    bounded(ratio * ratio * geometry.vxy2_by_k2)
+}
+
+/// The value, cut at [`LARGEST`]; 0 for what is no number.
+#[inline]
+fn bounded(value: f64) -> f64 {
+    // `min` would take the bound in place of NaN.
+    if value.is_nan() { 0.0 } else { value.min(LARGEST) }
+}

@@ -1,0 +1,42 @@
+//! The choices that the paper leaves: what its P stands for, and how its sum is evaluated.
+
+use super::sum::Precision;
+
+/// What the scattered power P of Eq 12 stands for.
+///
+/// P is Beckmann's power relative to that of a smooth mirror of the same patch: dimensionless, and no reflectance
+/// distribution. Put into Eq 12 as it stands, it tints: on a rough surface P goes with λ², so that a white under D55 comes out
+/// mustard.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Reading {
+    /// π f with the bidirectional reflectance `f = A/(λ² cos θs) (cos θi ρ0² e^-g + D)`, in 1/sr.
+    ///
+    /// The default: energy is accounted for (a smooth surface reflects as a mirror, a rough one scatters what falls on it), and
+    /// rough surfaces scatter all wavelengths alike, as geometrical optics demands.
+    #[default]
+    Radiometric,
+    /// P itself, Eq 1–3 to the letter with A = 4XY: for reproducing the paper.
+    Paper,
+    /// π f with the form factor cos θi in G² replaced by Beckmann's own, `4 (l·ĥ)⁴/(cos θi (cos θi + cos θs)²)`.
+    ///
+    /// Light and viewer can be exchanged, and on rough surfaces f equals a microfacet reflectance without shadowing, with
+    /// Beckmann's slope distribution of roughness 2σ/τ.
+    Microfacet,
+    /// 1: a surface that scatters evenly, whatever its roughness.
+    Lambertian,
+}
+
+/// How the sum of Eq 2 is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Method {
+    /// One method for all roughnesses, within the stated error.
+    Uniform(Precision),
+    /// The paper's three cases of g, to show what they cost.
+    Regimes,
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Self::Uniform(Precision::default())
+    }
+}

@@ -1,0 +1,169 @@
+//! A rough dielectric surface.
+
+use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::ops::RangeInclusive;
+
+/// The largest height deviation, in meters.
+const SIGMA_M: RangeInclusive<f64> = 0.0..=1.0;
+/// Correlation lengths and half sides, in meters.
+const LENGTH_M: RangeInclusive<f64> = 1e-9..=1.0;
+/// The largest refractive index.
+const LARGEST_INDEX: f64 = 1000.0;
+
+/// Why numbers are not a surface of the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SurfaceError {
+    /// The height deviation.
+    #[error("the height deviation must lie between 0 and 1 m")]
+    Sigma,
+    /// The correlation length.
+    #[error("the correlation length must lie between 1 nm and 1 m")]
+    Tau,
+    /// A half side of the patch.
+    #[error("the patch's half sides must lie between 1 nm and 1 m")]
+    Patch,
+    /// The refractive index.
+    #[error("the refractive index must be positive and at most 1000")]
+    Index,
+}
+
+/// The roughness, patch and refractive index of a surface. Lengths in meters.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface {
+    sigma_m: f64,
+    tau_m: f64,
+    half_x_m: f64,
+    half_y_m: f64,
+    index: f64,
+}
+
+impl Surface {
+    /// Takes σ from 0 to 1 m, τ and the half sides X and Y from 1 nm to 1 m, and an index above 0 and up to 1000.
+    ///
+    /// ```
+    /// use chromascope_core::reflectance::Surface;
+    /// let surface = Surface::new(5e-6, 10e-6, 50e-6, 50e-6, 1.4)?;
+    /// assert!((surface.area_m2() - 1e-8).abs() < 1e-22);
+    /// # Ok::<(), chromascope_core::reflectance::SurfaceError>(())
+    /// ```
+    pub fn new(sigma_m: f64, tau_m: f64, half_x_m: f64, half_y_m: f64, index: f64) -> Result<Self, SurfaceError> {
+        if !SIGMA_M.contains(&sigma_m) {
+            return Err(SurfaceError::Sigma);
+        }
+        if !LENGTH_M.contains(&tau_m) {
+            return Err(SurfaceError::Tau);
+        }
+        if !LENGTH_M.contains(&half_x_m) || !LENGTH_M.contains(&half_y_m) {
+            return Err(SurfaceError::Patch);
+        }
+        if !(index > 0.0 && index <= LARGEST_INDEX) {
+            return Err(SurfaceError::Index);
+        }
+        // Negative zero equals zero, so it must hash as zero.
+        Ok(Self { sigma_m: sigma_m + 0.0, tau_m, half_x_m, half_y_m, index })
+    }
+
+    /// σ: the standard deviation of the heights, in meters.
+    pub const fn sigma_m(&self) -> f64 {
+        self.sigma_m
+    }
+
+    /// τ: the distance at which the heights' correlation has fallen to 1/e, in meters.
+    pub const fn tau_m(&self) -> f64 {
+        self.tau_m
+    }
+
+    /// X: half the side of the coherently lit patch along the plane of incidence, in meters.
+    pub const fn half_x_m(&self) -> f64 {
+        self.half_x_m
+    }
+
+    /// Y: half the side across the plane of incidence, in meters.
+    pub const fn half_y_m(&self) -> f64 {
+        self.half_y_m
+    }
+
+    /// n: the refractive index, the same at all wavelengths.
+    pub const fn index(&self) -> f64 {
+        self.index
+    }
+
+    /// A = 4XY: the patch's area in square meters.
+    ///
+    /// The paper writes XY; but with its sinc arguments v_x X and v_y Y the sides are 2X and 2Y, and only with their product
+    /// do mirror and diffuse light add up to what falls on the surface.
+    pub const fn area_m2(&self) -> f64 {
+        4.0 * self.half_x_m * self.half_y_m
+    }
+
+    /// The heights' root mean square slope, √2 σ/τ.
+    pub const fn slope(&self) -> f64 {
+        std::f64::consts::SQRT_2 * self.sigma_m / self.tau_m
+    }
+
+    /// What to bear in mind when this surface's numbers are read: where the model is stretched.
+    pub fn cautions(&self) -> Vec<Caution> {
+        let mut cautions = Vec::new();
+        if self.half_x_m.min(self.half_y_m) < 5.0 * self.tau_m {
+            cautions.push(Caution::SmallPatch);
+        }
+        if self.tau_m < LONGEST_VISIBLE_M {
+            cautions.push(Caution::ShortCorrelation);
+        }
+        if self.slope() > 0.4 {
+            cautions.push(Caution::Steep);
+        }
+        cautions
+    }
+}
+
+/// The end of the grid's range.
+const LONGEST_VISIBLE_M: f64 = 780e-9;
+
+/// Where the model is stretched beyond what it was derived for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Caution {
+    /// min(X, Y) < 5 τ.
+    SmallPatch,
+    /// τ < 780 nm.
+    ShortCorrelation,
+    /// √2 σ/τ > 0.4.
+    Steep,
+}
+
+impl fmt::Display for Caution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::SmallPatch => {
+                "The patch is shorter than ten correlation lengths: too small to stand for the surface, and the scattered power can exceed 1"
+            }
+            Self::ShortCorrelation => {
+                "The correlation length is shorter than a wavelength: tangent planes no longer stand for the surface"
+            }
+            Self::Steep => {
+                "The slopes exceed 0.4, where facets shadow each other, which the model leaves out: take it as an empirical lobe"
+            }
+        })
+    }
+}
+
+impl Surface {
+    fn bits(&self) -> [u64; 5] {
+        [self.sigma_m, self.tau_m, self.half_x_m, self.half_y_m, self.index].map(f64::to_bits)
+    }
+}
+
+impl PartialEq for Surface {
+    fn eq(&self, other: &Self) -> bool {
+        self.bits() == other.bits()
+    }
+}
+
+impl Eq for Surface {}
+
+impl Hash for Surface {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.bits().hash(state);
+    }
+}

@@ -1,0 +1,51 @@
+//! Meshes through cameras, wavelength by wavelength, split where the inputs split.
+//!
+//! ```text
+//! visibility   mesh × viewpoint              which triangle each sample sees
+//! geometry     visibility × light's place    angles of light and view where it is lit: no spectrum, roughness or camera
+//! shading      geometry × surface            κ, β and factors: the same for every camera
+//! signals      shading × camera              three numbers a sample: no mesh
+//! develop      signals × balance, matrix, exposure    pixels
+//! ```
+//! Ten cameras share the first three; a new balance needs the last alone.
+
+pub mod develop;
+pub mod diffuse;
+pub mod geometry;
+pub mod measure;
+pub mod mirror;
+pub mod shading;
+pub mod shadow;
+pub mod signals;
+pub mod visibility;
+
+pub use develop::{Development, Measurement, Picture, develop};
+pub use diffuse::DiffuseTable;
+pub use geometry::{Angles, GeometryCounts, GeometryImage, Shadows};
+pub use measure::{LAMBDA_0_NM, Measure};
+pub use shading::{Quality, ShadingCounts, ShadingImage};
+pub use shadow::ShadowTree;
+pub use signals::CameraImage;
+pub use visibility::{RasterSize, Visibility};
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Says when a computation is no longer wanted; looked at once a tile.
+#[derive(Clone, Debug, Default)]
+pub struct Stop(Option<Arc<AtomicBool>>);
+
+impl Stop {
+    /// Never stops.
+    pub const NEVER: Self = Self(None);
+
+    /// Stops once the flag is set.
+    pub fn at(flag: Arc<AtomicBool>) -> Self {
+        Self(Some(flag))
+    }
+
+    /// Whether to stop.
+    pub fn is_set(&self) -> bool {
+        self.0.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+}

@@ -1,0 +1,212 @@
+//! From a camera's signals to pixels: white balance, matrix, exposure, and the screen's encoding.
+
+use super::Stop;
+use super::geometry::GeometryImage;
+use super::signals::CameraImage;
+use super::visibility::RasterSize;
+use crate::camera::Rendering;
+use crate::colorimetry::rgb::srgb_transfer;
+use crate::colorimetry::{Xyz, lab::lab_from_xyz, Lab};
+use glam::{DMat3, Mat3, Vec3};
+use rayon::prelude::*;
+use std::hash::{Hash, Hasher};
+use std::sync::LazyLock;
+
+/// What turns signals into light on a screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Development {
+    /// Linear sRGB from signals: matrix × balance × exposure.
+    pub linear_from_signals: DMat3,
+    /// What shows beside the mesh, in linear sRGB; none leaves it transparent.
+    pub background: Option<[f32; 3]>,
+}
+
+impl Development {
+    /// Balances by the rendering's white, takes its way to XYZ, and multiplies by one factor that all cameras share.
+    pub fn new(rendering: &Rendering, exposure: f64, background: Option<[f32; 3]>) -> Self {
+        let balanced = rendering.xyz_from_signals * DMat3::from_diagonal(rendering.white * exposure);
+        Self { linear_from_signals: rendering.srgb_from_xyz * balanced, background }
+    }
+}
+
+impl Eq for Development {}
+
+impl Hash for Development {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.linear_from_signals.to_cols_array().map(|v| (v + 0.0).to_bits()).hash(state);
+        self.background.map(|color| color.map(|v| (v + 0.0).to_bits())).hash(state);
+    }
+}
+
+/// Pixels for a screen.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// Red, green, blue and opacity (not multiplied in), row by row from the top left.
+    pub rgba: Vec<u8>,
+    /// Samples with a channel below 0 or above 1.
+    pub clipped: u64,
+}
+
+/// How many steps the encoding's table has: an eighth of the least step of eight bits.
+const STEPS: usize = 1 << 15;
+
+/// Eight bits by linear value, in steps of 2⁻¹⁵.
+static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    (0..=STEPS).map(|i| (255.0 * srgb_transfer(i as f64 / STEPS as f64)).round() as u8).collect()
+});
+
+/// Eight bits of a linear value; what is not a number is black.
+fn encode(linear: f32) -> u8 {
+    ENCODED[(linear * STEPS as f32 + 0.5) as usize & (2 * STEPS - 1)]
+}
+
+/// Shows a camera's picture on a screen; none if stopped. A pixel is the mean of its samples in linear light.
+pub fn develop(image: &CameraImage, development: &Development, stop: &Stop) -> Option<Picture> {
+    let geometry = image.geometry();
+    let size = geometry.size();
+    let (width, height) = (size.width as usize, size.height as usize);
+    let background = development.background.map(|color| Vec3::from_array(color).clamp(Vec3::ZERO, Vec3::ONE));
+    let empty = background.map_or([0, 0, 0, 0], |color| opaque(color));
+    let mut rgba = vec![0; width * height * 4];
+    let matrix = development.linear_from_signals.as_mat3();
+    let rows_of_task = (4096 / width.max(1)).max(1);
+    let task = Task { size, geometry, signals: image.signals(), matrix, background, empty };
+    let clipped = rgba
+        .par_chunks_mut(rows_of_task * width * 4)
+        .enumerate()
+        .map(|(index, pixels)| if stop.is_set() { 0 } else { task.rows(index * rows_of_task, pixels) })
+        .sum();
+    (!stop.is_set()).then_some(Picture { width, height, rgba, clipped })
+}
+
+fn opaque(linear: Vec3) -> [u8; 4] {
+    [encode(linear.x), encode(linear.y), encode(linear.z), 255]
+}
+
+struct Task<'a> {
+    size: RasterSize,
+    geometry: &'a GeometryImage,
+    signals: &'a [[f32; 3]],
+    matrix: Mat3,
+    background: Option<Vec3>,
+    empty: [u8; 4],
+}
+
+impl Task<'_> {
+    /// Fills rows of pixels from row `first`; returns how many samples were clipped.
+    fn rows(&self, first: usize, pixels: &mut [u8]) -> u64 {
+        let width = self.size.width as usize;
+        let samples = self.size.samples as usize;
+        let columns = self.size.columns();
+        let rows = pixels.len() / (width * 4);
+        let within = first * samples * columns..(first + rows) * samples * columns;
+        let lit = range(self.geometry.samples(), &within);
+        let seen = range(self.geometry.seen(), &within);
+        let signals = &self.signals[lit.clone()];
+        let (lit, seen) = (&self.geometry.samples()[lit], &self.geometry.seen()[seen]);
+        let mut clipped = 0;
+        let mut linear = |signal: &[f32; 3]| {
+            let color = self.matrix * Vec3::from_array(*signal);
+            let shown = color.clamp(Vec3::ZERO, Vec3::ONE);
+            clipped += u64::from((color - shown).abs().max_element() > 2e-3);
+            shown
+        };
+        if samples == 1 {
+            let (pixels, _) = pixels.as_chunks_mut::<4>();
+            pixels.fill(self.empty);
+            let place = |sample: u32| sample as usize - within.start;
+            seen.iter().for_each(|&sample| pixels[place(sample)] = [0, 0, 0, 255]);
+            for (&sample, signal) in lit.iter().zip(signals) {
+                pixels[place(sample)] = opaque(linear(signal));
+            }
+            return clipped;
+        }
+        let pixel = |sample: u32| {
+            let (row, column) = (sample as usize / columns, sample as usize % columns);
+            (row / samples - first) * width + column / samples
+        };
+        let mut sums = vec![(Vec3::ZERO, 0_u32); rows * width];
+        seen.iter().for_each(|&sample| sums[pixel(sample)].1 += 1);
+        for (&sample, signal) in lit.iter().zip(signals) {
+            sums[pixel(sample)].0 += linear(signal);
+        }
+        self.mix(&sums, pixels);
+        clipped
+    }
+
+    /// Means of several samples, over the background.
+    fn mix(&self, sums: &[(Vec3, u32)], pixels: &mut [u8]) {
+        let all = (self.size.samples * self.size.samples) as f32;
+        let (pixels, _) = pixels.as_chunks_mut::<4>();
+        for (pixel, &(sum, seen)) in pixels.iter_mut().zip(sums) {
+            *pixel = match self.background {
+                _ if seen == 0 => self.empty,
+                Some(behind) => opaque((sum + behind * (all - seen as f32)) / all),
+                None => {
+                    let [r, g, b, _] = opaque(sum / seen as f32);
+                    [r, g, b, (255.0 * seen as f32 / all).round() as u8]
+                }
+            };
+        }
+    }
+}
+
+/// Which part of an ascending list lies within a range.
+fn range(list: &[u32], within: &std::ops::Range<usize>) -> std::ops::Range<usize> {
+    list.partition_point(|&s| (s as usize) < within.start)..list.partition_point(|&s| (s as usize) < within.end)
+}
+
+/// How colors of a render are measured: XYZ over the luminance of a white of the same roughness that faces the light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measurement {
+    /// XYZ from signals, Y = 1 for that white.
+    pub xyz_from_signals: DMat3,
+    /// The white of L*a*b*.
+    pub lab_white: Xyz,
+}
+
+impl Measurement {
+    /// For one source; `white_luminance` is the truth's Y of the white, the same for all sources.
+    pub fn new(rendering: &Rendering, white_luminance: f64) -> Self {
+        let scale = if white_luminance > 0.0 { 1.0 / white_luminance } else { 0.0 };
+        let balanced = rendering.xyz_from_signals * DMat3::from_diagonal(rendering.white * scale);
+        Self { xyz_from_signals: balanced, lab_white: rendering.lab_white }
+    }
+
+    /// The tristimulus values of a signal.
+    pub fn xyz(&self, signal: [f32; 3]) -> Xyz {
+        Xyz::from_vector(self.xyz_from_signals * Vec3::from_array(signal).as_dvec3())
+    }
+
+    /// L*a*b* of a signal; none only if the white has none.
+    pub fn lab(&self, signal: [f32; 3]) -> Option<Lab> {
+        lab_from_xyz(self.xyz(signal), self.lab_white)
+    }
+}
+
+/// ΔE*00 between two pictures of the same geometry at each lit sample, or at each `stride`-th of them; none if stopped.
+pub fn differences(
+    image: &CameraImage,
+    measured: &Measurement,
+    truth: &CameraImage,
+    measured_truth: &Measurement,
+    stride: usize,
+    stop: &Stop,
+) -> Option<Vec<f32>> {
+    let stride = stride.max(1);
+    let count = image.signals().len().min(truth.signals().len()).div_ceil(stride);
+    let at = |index: usize| {
+        if index.is_multiple_of(1024) && stop.is_set() {
+            return 0.0;
+        }
+        let (a, b) = (image.signals()[index * stride], truth.signals()[index * stride]);
+        let labs = measured.lab(a).zip(measured_truth.lab(b));
+        labs.map_or(0.0, |(a, b)| crate::colorimetry::difference::delta_e_2000(a, b) as f32)
+    };
+    let map: Vec<f32> = (0..count).into_par_iter().with_min_len(512).map(at).collect();
+    (!stop.is_set()).then_some(map)
+}

@@ -1,0 +1,134 @@
+//! Camera × light × reflectance as weights over wavelength, and the few wavelengths that stand for 401.
+//!
+//! One channel's integral of Eq 12, `∫ C_c S L P dλ / ∫ C_c L dλ`, is a sum of P over wavelengths with weights w_c. P is smooth
+//! in wavelength, so a Gauss rule of the measure needs a dozen (see `math::gauss`); where P is rough the integral separates
+//! into moments of the measure.
+
+use crate::math::gauss::{gauss_rule, interpolatory_rule};
+use crate::spectral::grid::{COUNT, wavelength_nm};
+use crate::spectral::{GridSpectrum, Sensor};
+use glam::DVec3;
+
+/// The wavelength that κ is g at, in nanometers.
+pub const LAMBDA_0_NM: f64 = 550.0;
+
+/// How many moments beyond the first are kept.
+pub const MOMENTS: usize = 4;
+
+/// A wavelength that stands for its neighborhood.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// The wavelength in nanometers.
+    pub wavelength_nm: f64,
+    /// (λ0/λ)²: g there is κ times this.
+    pub scale: f64,
+    /// The weights of the three channels.
+    pub weights: [f64; 3],
+    /// The weight of the positive measure that the node was made for.
+    pub reference: f64,
+}
+
+/// The weights of one camera, light and reflectance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measure {
+    dense: Vec<Node>,
+    coarse: Vec<Node>,
+    fine: Vec<Node>,
+    moments: [[f64; MOMENTS]; 3],
+    totals: [f64; 3],
+}
+
+/// Wavelengths for a table with errors below 1e-6 of the peak.
+const COARSE_NODES: usize = 9;
+/// Wavelengths for errors below 1e-9 of the peak.
+const FINE_NODES: usize = 15;
+
+impl Measure {
+    /// Weighs wavelengths by `C_c S L (λ0/λ)^power / ∫ C_c L dλ`.
+    ///
+    /// `white_integrals` are the divisors, those of [`crate::camera::Rendering`]; `power` is the reading's
+    /// ([`crate::reflectance::wavelength_power`]).
+    pub fn new(
+        sensor: &Sensor,
+        light: &GridSpectrum,
+        reflectance: &GridSpectrum,
+        white_integrals: DVec3,
+        power: i32,
+    ) -> Self {
+        let divisors = white_integrals.to_array();
+        let mut dense = Vec::with_capacity(COUNT);
+        for index in 0..COUNT {
+            let nm = wavelength_nm(index);
+            let ratio = LAMBDA_0_NM / nm;
+            let product = reflectance.values()[index] * light.values()[index] * ratio.powi(power);
+            let weights = [0, 1, 2].map(|c: usize| sensor.weighted(c)[index] * product / divisors[c]);
+            dense.push(Node { wavelength_nm: nm, scale: ratio * ratio, weights, reference: 0.0 });
+        }
+        let unsigned = [0, 1, 2].map(|c: usize| dense.iter().map(|node| node.weights[c].abs()).sum::<f64>());
+        for node in &mut dense {
+            let share = |c: usize| if unsigned[c] > 0.0 { node.weights[c].abs() / unsigned[c] } else { 0.0 };
+            node.reference = share(0) + share(1) + share(2);
+        }
+        let moments = [0, 1, 2].map(|c: usize| moments(&dense, c));
+        dense.retain(|node| node.reference > 0.0);
+        let coarse = nodes(&dense, COARSE_NODES);
+        let fine = nodes(&dense, FINE_NODES);
+        let totals = [0, 1, 2].map(|c: usize| dense.iter().map(|node| node.weights[c]).sum());
+        Self { dense, coarse, fine, moments, totals }
+    }
+
+    /// All wavelengths of the grid with any weight: the reference.
+    pub fn dense(&self) -> &[Node] {
+        &self.dense
+    }
+
+    /// The wavelengths that fill a table: errors below 1e-6 of the peak.
+    pub fn coarse(&self) -> &[Node] {
+        &self.coarse
+    }
+
+    /// The wavelengths for errors below 1e-9 of the peak.
+    pub fn fine(&self) -> &[Node] {
+        &self.fine
+    }
+
+    /// `M_ck = Σ w_c (λ/λ0)^(2k+2)`: what is left of the spectrum where the surface is rough.
+    pub fn moments(&self) -> &[[f64; MOMENTS]; 3] {
+        &self.moments
+    }
+
+    /// `Σ w_c`: the integral for a surface that scatters all wavelengths alike.
+    pub fn totals(&self) -> [f64; 3] {
+        self.totals
+    }
+}
+
+fn moments(dense: &[Node], channel: usize) -> [f64; MOMENTS] {
+    let mut sums = [0.0; MOMENTS];
+    for node in dense {
+        let mut term = node.weights[channel];
+        for sum in &mut sums {
+            term /= node.scale;
+            *sum += term;
+        }
+    }
+    sums
+}
+
+/// Gauss nodes of the positive measure, with interpolatory weights for each channel, whose own may be negative.
+fn nodes(dense: &[Node], count: usize) -> Vec<Node> {
+    let points: Vec<f64> = dense.iter().map(|node| node.wavelength_nm).collect();
+    let masses: Vec<f64> = dense.iter().map(|node| node.reference).collect();
+    let rule = gauss_rule(&points, &masses, count);
+    let weights = [0, 1, 2].map(|c: usize| {
+        let masses: Vec<f64> = dense.iter().map(|node| node.weights[c]).collect();
+        interpolatory_rule(&rule.nodes, &points, &masses).weights
+    });
+    let node = |(i, (&nm, &reference)): (usize, (&f64, &f64))| Node {
+        wavelength_nm: nm,
+        scale: (LAMBDA_0_NM / nm).powi(2),
+        weights: [weights[0][i], weights[1][i], weights[2][i]],
+        reference,
+    };
+    rule.nodes.iter().zip(&rule.weights).enumerate().map(node).collect()
+}

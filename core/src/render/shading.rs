@@ -1,0 +1,272 @@
+//! What a surface makes of the angles: the same for every camera.
+
+use super::Stop;
+use super::diffuse::{DARK, DiffuseTable, ROUGH};
+use super::geometry::{Angles, GeometryImage};
+use super::measure::LAMBDA_0_NM;
+use crate::reflectance::{Geometry, Reading, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa};
+use crate::spectral::grid::{FIRST_NM, LAST_NM};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Mirror terms below this share of a surface facing the light are left out.
+pub const MIRROR_SHARE: f64 = 1e-7;
+
+/// How exactly the spectral integral is made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Quality {
+    /// Moments and table, mirror terms every 10 nm: while something moves.
+    Preview,
+    /// Moments and table: error below 1e-5 of the peak.
+    #[default]
+    Full,
+    /// Fifteen wavelengths: below 1e-9.
+    Fine,
+    /// The sum over 401 wavelengths.
+    Exact,
+    /// The sum over 401 wavelengths with the paper's three cases of g: to see their error.
+    Regimes,
+}
+
+/// How a sample's integral is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Nothing comes from it.
+    Dark,
+    /// All wavelengths are scattered alike.
+    Flat,
+    /// By moments.
+    Moments,
+    /// By the table.
+    Table,
+    /// By a sum over wavelengths.
+    Sum,
+}
+
+/// One lit sample of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shade {
+    /// The diffuse part's factor beside J: `cos θi cos⁴α` and what the reading makes of the angles.
+    pub front: f64,
+    /// g at 550 nm.
+    pub kappa: f64,
+    /// b / g.
+    pub beta: f64,
+    /// How its integral is made.
+    pub way: Way,
+}
+
+/// A sample with a mirror term worth having.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mirror {
+    /// The sample's place among the lit ones.
+    pub index: u32,
+    /// The factor beside `ρ0² e^-g`.
+    pub front: f64,
+    /// g at 550 nm.
+    pub kappa: f64,
+    /// v_x / k and v_y / k.
+    pub v: [f64; 2],
+}
+
+/// How many samples take which way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ShadingCounts {
+    /// Samples whose light lies below the threshold.
+    pub dark: u64,
+    /// Samples that scatter all wavelengths alike.
+    pub flat: u64,
+    /// Samples by moments.
+    pub moments: u64,
+    /// Samples by the table.
+    pub table: u64,
+    /// Samples by a sum over wavelengths.
+    pub sums: u64,
+    /// Samples with a mirror term.
+    pub mirrors: u64,
+    /// Samples whose mirror term was left out.
+    pub mirrors_skipped: u64,
+}
+
+/// What a surface makes of the angles at each lit sample.
+#[derive(Clone, Debug)]
+pub struct ShadingImage {
+    geometry: Arc<GeometryImage>,
+    surface: Surface,
+    quality: Quality,
+    shades: Vec<Shade>,
+    mirrors: Vec<Mirror>,
+    counts: ShadingCounts,
+}
+
+impl ShadingImage {
+    /// Prepares every lit sample of a picture for any camera; none if stopped.
+    pub fn new(
+        geometry: Arc<GeometryImage>,
+        surface: Surface,
+        reading: Reading,
+        quality: Quality,
+        stop: &Stop,
+    ) -> Option<Self> {
+        let material = Material::new(surface, reading, quality, geometry.angular_radius());
+        let part = |(chunk, angles): (usize, &[Angles])| {
+            if stop.is_set() {
+                return Part::default();
+            }
+            material.part(angles, chunk * GeometryImage::chunk())
+        };
+        let parts: Vec<Part> = geometry.angles().par_chunks(GeometryImage::chunk()).enumerate().map(part).collect();
+        if stop.is_set() {
+            return None;
+        }
+        let mut shades = Vec::with_capacity(geometry.angles().len());
+        let mut mirrors = Vec::new();
+        for part in parts {
+            shades.extend(part.shades);
+            mirrors.extend(part.mirrors);
+        }
+        let counts = counts(&shades, &mirrors);
+        Some(Self { geometry, surface, quality, shades, mirrors, counts })
+    }
+
+    /// The angles it is made of.
+    pub fn geometry(&self) -> &Arc<GeometryImage> {
+        &self.geometry
+    }
+
+    /// The surface.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// How exactly integrals are made.
+    pub fn quality(&self) -> Quality {
+        self.quality
+    }
+
+    /// The lit samples, in the order of [`GeometryImage::samples`].
+    pub fn shades(&self) -> &[Shade] {
+        &self.shades
+    }
+
+    /// The samples with a mirror term, ascending.
+    pub fn mirrors(&self) -> &[Mirror] {
+        &self.mirrors
+    }
+
+    /// How many samples take which way.
+    pub fn counts(&self) -> ShadingCounts {
+        self.counts
+    }
+
+    /// Whether a camera needs a table for this.
+    pub fn needs_table(&self) -> bool {
+        self.counts.table > 0
+    }
+}
+
+fn counts(shades: &[Shade], mirrors: &[Mirror]) -> ShadingCounts {
+    let mut counts = ShadingCounts { mirrors: mirrors.len() as u64, ..ShadingCounts::default() };
+    for shade in shades {
+        match shade.way {
+            Way::Dark => counts.dark += 1,
+            Way::Flat => counts.flat += 1,
+            Way::Moments => counts.moments += 1,
+            Way::Table => counts.table += 1,
+            Way::Sum => counts.sums += 1,
+        }
+    }
+    counts.mirrors_skipped = shades.len() as u64 - counts.mirrors;
+    counts
+}
+
+#[derive(Default)]
+struct Part {
+    shades: Vec<Shade>,
+    mirrors: Vec<Mirror>,
+}
+
+/// One surface in one reading.
+struct Material {
+    surface: Surface,
+    reading: Reading,
+    quality: Quality,
+    angular_radius: f64,
+    /// Below this a mirror term is left out.
+    threshold: f64,
+}
+
+impl Material {
+    fn new(surface: Surface, reading: Reading, quality: Quality, angular_radius: f64) -> Self {
+        let facing = crate::reflectance::factor(
+            &surface,
+            &Geometry::from_angles(0.0, 0.0, 0.0),
+            LAMBDA_0_NM,
+            reading,
+            angular_radius,
+        );
+        Self { surface, reading, quality, angular_radius, threshold: facing * MIRROR_SHARE }
+    }
+
+    fn part(&self, angles: &[Angles], first: usize) -> Part {
+        let mut part = Part { shades: Vec::with_capacity(angles.len()), mirrors: Vec::new() };
+        for (offset, angles) in angles.iter().enumerate() {
+            let geometry = angles.geometry();
+            let light = f64::from(angles.falloff) * f64::from(angles.cos_i);
+            part.shades.push(self.shade(&geometry, light));
+            if let Some(mirror) = self.mirror(&geometry, light, first + offset) {
+                part.mirrors.push(mirror);
+            }
+        }
+        part
+    }
+
+    fn shade(&self, geometry: &Geometry, light: f64) -> Shade {
+        if self.reading == Reading::Lambertian {
+            return Shade { front: light, kappa: 0.0, beta: 0.0, way: Way::Flat };
+        }
+        let front = light * diffuse_prefactor(&self.surface, geometry, self.reading);
+        let (kappa, beta) = (kappa(&self.surface, geometry), beta(&self.surface, geometry));
+        Shade { front, kappa, beta, way: self.way(front, kappa, beta) }
+    }
+
+    fn way(&self, front: f64, kappa: f64, beta: f64) -> Way {
+        if front <= 0.0 || kappa <= 0.0 {
+            return Way::Dark;
+        }
+        match self.quality {
+            Quality::Preview | Quality::Full if kappa >= ROUGH => {
+                if beta > DARK { Way::Dark } else { Way::Moments }
+            }
+            Quality::Preview | Quality::Full if DiffuseTable::holds(kappa, beta) => Way::Table,
+            _ => Way::Sum,
+        }
+    }
+
+    /// The mirror term of a sample, unless it is certainly too small.
+    fn mirror(&self, geometry: &Geometry, light: f64, index: usize) -> Option<Mirror> {
+        if self.reading == Reading::Lambertian {
+            return None;
+        }
+        let front = light * coherent_prefactor(&self.surface, geometry, self.reading);
+        let kappa = kappa(&self.surface, geometry);
+        let (bluest, reddest) = (LAMBDA_0_NM / FIRST_NM, LAMBDA_0_NM / LAST_NM);
+        // Red is where g is least and the lobe widest; blue is where the reading weighs most.
+        let damping = (-kappa * reddest * reddest).exp() * bluest * bluest;
+        if front * damping <= self.threshold {
+            return None;
+        }
+        let wave_number = std::f64::consts::TAU / (LAST_NM * 1e-9);
+        let envelope = |half_side: f64, v: f64| {
+            let u = wave_number * half_side * (v.abs() - self.angular_radius).max(0.0);
+            if u > 1.0 { 1.0 / (u * u) } else { 1.0 }
+        };
+        let lobe = envelope(self.surface.half_x_m(), geometry.vx_by_k) * envelope(self.surface.half_y_m(), geometry.vy_by_k);
+        (front * damping * lobe > self.threshold).then_some(Mirror {
+            index: index as u32,
+            front,
+            kappa,
+            v: [geometry.vx_by_k, geometry.vy_by_k],
+        })
+    }
+}

@@ -1,0 +1,193 @@
+//! What a file says, format left behind: vertices, normals, polygons of any size.
+
+use super::error::{MeshReadError, Place, Quantity};
+use super::lines::FARTHEST;
+use super::report::{Skipped, Tally};
+use super::{MAX_TRIANGLES, MAX_VERTICES};
+use glam::Vec3;
+
+/// No normal in the file.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// One corner of a polygon.
+#[derive(Clone, Copy)]
+pub(super) struct Corner {
+    /// The position's index, from 0.
+    pub(super) position: u32,
+    /// The normal's index, from 0, or [`NONE`].
+    pub(super) normal: u32,
+}
+
+/// How normals that are missing are computed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Smoothing {
+    /// The file says nothing: smooth where faces meet at less than the crease angle.
+    Auto,
+    /// Each face by itself.
+    Flat,
+    /// Smooth where both faces are of this group.
+    Group(u32),
+}
+
+/// The names of a group.
+#[derive(Clone, Default, PartialEq, Eq)]
+pub(super) struct Names {
+    /// The object's and group's name.
+    pub(super) name: String,
+    /// The material's name.
+    pub(super) material: String,
+}
+
+/// Vertices, normals and polygons as they stand in the file.
+pub(super) struct Soup {
+    /// The positions.
+    pub(super) positions: Vec<Vec3>,
+    /// The normals, of any length.
+    pub(super) normals: Vec<Vec3>,
+    /// The corners of all faces, one face after the other.
+    pub(super) corners: Vec<Corner>,
+    /// For each face the end of its corners.
+    ends: Vec<u32>,
+    /// For each face its line or its number.
+    places: Vec<u32>,
+    /// What makes a place of that number.
+    place: fn(usize) -> Place,
+    /// From which face on which smoothing holds.
+    smoothing: Vec<(u32, Smoothing)>,
+    /// From which face on which names hold.
+    pub(super) groups: Vec<(u32, Names)>,
+    /// How many triangles the faces will make.
+    triangles: usize,
+    /// Statements read over.
+    pub(super) skipped: [Tally; Skipped::COUNT],
+    /// Groups without a name kept.
+    pub(super) unnamed_groups: usize,
+}
+
+impl Soup {
+    /// Nothing yet; faces are placed by lines or by numbers.
+    pub(super) fn new(place: fn(usize) -> Place) -> Self {
+        Self {
+            positions: Vec::new(),
+            normals: Vec::new(),
+            corners: Vec::new(),
+            ends: Vec::new(),
+            places: Vec::new(),
+            place,
+            smoothing: Vec::new(),
+            groups: Vec::new(),
+            triangles: 0,
+            skipped: [Tally::default(); Skipped::COUNT],
+            unnamed_groups: 0,
+        }
+    }
+
+    /// How many faces there are.
+    pub(super) fn faces(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The range of a face's corners.
+    pub(super) fn face(&self, face: usize) -> std::ops::Range<usize> {
+        let start = if face == 0 { 0 } else { self.ends[face - 1] };
+        start as usize..self.ends[face] as usize
+    }
+
+    /// Where a face stands in the file.
+    pub(super) fn place(&self, face: usize) -> Place {
+        (self.place)(self.places[face] as usize)
+    }
+
+    /// How a face's missing normals are computed.
+    pub(super) fn smoothing(&self, face: u32) -> Smoothing {
+        let after = self.smoothing.partition_point(|&(first, _)| first <= face);
+        if after == 0 { Smoothing::Auto } else { self.smoothing[after - 1].1 }
+    }
+
+    /// Takes a position.
+    #[inline]
+    pub(super) fn add_position(&mut self, xyz: [f64; 3], place: Place) -> Result<(), MeshReadError> {
+        push(&mut self.positions, xyz, place)
+    }
+
+    /// Takes a normal.
+    #[inline]
+    pub(super) fn add_normal(&mut self, xyz: [f64; 3], place: Place) -> Result<(), MeshReadError> {
+        push(&mut self.normals, xyz, place)
+    }
+
+    /// Ends a face, whose corners were pushed since the last one ended.
+    #[inline]
+    pub(super) fn end_face(&mut self, place: usize) -> Result<(), MeshReadError> {
+        let start = self.ends.last().copied().unwrap_or(0) as usize;
+        let corners = self.corners.len() - start;
+        if corners < 3 {
+            return Err(MeshReadError::FaceTooShort { place: (self.place)(place), corners });
+        }
+        self.triangles += corners - 2;
+        if self.triangles > MAX_TRIANGLES {
+            let (quantity, limit) = (Quantity::Triangles, MAX_TRIANGLES);
+            return Err(MeshReadError::TooLarge { quantity, limit, place: (self.place)(place) });
+        }
+        self.ends.push(self.corners.len() as u32);
+        self.places.push(place as u32);
+        Ok(())
+    }
+
+    /// From the next face on, this smoothing holds.
+    pub(super) fn smooth(&mut self, smoothing: Smoothing) {
+        set_from(&mut self.smoothing, self.ends.len() as u32, smoothing);
+    }
+
+    /// From the next face on, these names hold.
+    pub(super) fn name(&mut self, names: Names) {
+        set_from(&mut self.groups, self.ends.len() as u32, names);
+    }
+
+    /// Counts a statement read over.
+    pub(super) fn skip(&mut self, what: Skipped, place: Place) {
+        self.skipped[what as usize].add(place);
+    }
+
+    /// That all corners name positions and normals that are there.
+    pub(super) fn check(&self) -> Result<(), MeshReadError> {
+        let (positions, normals) = (self.positions.len(), self.normals.len());
+        let is_wrong =
+            |c: &Corner| c.position as usize >= positions || (c.normal != NONE && c.normal as usize >= normals);
+        let Some(corner) = self.corners.iter().position(is_wrong) else { return Ok(()) };
+        let place = self.place(self.ends.partition_point(|&end| end as usize <= corner));
+        let Corner { position, normal } = self.corners[corner];
+        Err(if position as usize >= positions {
+            MeshReadError::NoSuchVertex { place, index: i64::from(position) + 1, count: positions }
+        } else {
+            MeshReadError::NoSuchNormal { place, index: i64::from(normal) + 1, count: normals }
+        })
+    }
+}
+
+/// Appends three coordinates that are within bounds.
+#[inline]
+fn push(to: &mut Vec<Vec3>, xyz: [f64; 3], place: Place) -> Result<(), MeshReadError> {
+    let [x, y, z] = xyz;
+    // Not a number is not below the bound either.
+    if !(x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.abs() <= FARTHEST) {
+        let finite = x.is_finite() && y.is_finite() && z.is_finite();
+        return Err(if finite { MeshReadError::TooFar { place } } else { MeshReadError::NotFinite { place } });
+    }
+    if to.len() >= MAX_VERTICES {
+        return Err(MeshReadError::TooLarge { quantity: Quantity::Vertices, limit: MAX_VERTICES, place });
+    }
+    // Negative zero equals zero, so it must not count as another place.
+    to.push(Vec3::new(x as f32, y as f32, z as f32) + 0.0);
+    Ok(())
+}
+
+/// Appends what holds from a face on, in place of what would hold for no face, and not where nothing changes.
+fn set_from<T: PartialEq>(runs: &mut Vec<(u32, T)>, face: u32, value: T) {
+    if runs.last().is_some_and(|(first, _)| *first == face) {
+        runs.pop();
+    }
+    if runs.last().is_none_or(|(_, last)| *last != value) {
+        runs.push((face, value));
+    }
+}

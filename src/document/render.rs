@@ -1,0 +1,217 @@
+//! What the Render pane looks at: mesh, material, surface, light's place, quality. Part of the document.
+
+use std::path::PathBuf;
+
+use chromascope_core::reflectance::{Reading, Surface, SurfaceError};
+use chromascope_core::render::Quality;
+use chromascope_core::scene::lighting::{Lighting, LightingError, SUN_RADIUS};
+use serde::{Deserialize, Serialize};
+
+/// The skin of the default head.
+pub const SKIN: &str = "Skin Caucasian mean (Vrhel)";
+/// The leaf of the default fern.
+pub const LEAF: &str = "Fern-like bush leaf 024 (Vrhel)";
+/// The light of the paper's third experiment.
+pub const SUN: &str = "Direct sun (ASTM G173)";
+/// The balance of the paper's third experiment.
+pub const BALANCE: &str = "D55";
+
+/// The settings of the rendered scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct RenderSettings {
+    /// What is looked at.
+    pub mesh: MeshChoice,
+    /// About how many triangles the program's own meshes have.
+    pub triangles: usize,
+    /// The name of a reflectance.
+    pub material: String,
+    /// Height deviation σ in micrometers.
+    pub sigma_um: f64,
+    /// Correlation length τ in micrometers.
+    pub tau_um: f64,
+    /// Half sides X and Y of a patch in micrometers.
+    pub half_sides_um: [f64; 2],
+    /// Refractive index.
+    pub index: f64,
+    /// How Eq 1 is read.
+    pub reading: ReadingChoice,
+    /// How exactly integrals are made.
+    pub quality: QualityChoice,
+    /// The light above the view axis, in degrees.
+    pub light_up_deg: f64,
+    /// The light to the right of the view axis (negative: left), in degrees.
+    pub light_right_deg: f64,
+    /// The light's distance from the center in scene radii; none for parallel rays.
+    pub light_distance: Option<f64>,
+    /// The light's angular radius in radians.
+    pub light_radius: f64,
+    /// Whether the light casts shadows.
+    pub shadows: bool,
+    /// Exposure in EV, the same for all cameras.
+    pub exposure_ev: f64,
+}
+
+impl Default for RenderSettings {
+    /// The paper's head under sunlight.
+    fn default() -> Self {
+        Self {
+            mesh: MeshChoice::Head,
+            triangles: 100_000,
+            material: SKIN.to_owned(),
+            sigma_um: 5.0,
+            tau_um: 10.0,
+            half_sides_um: [50.0, 50.0],
+            index: 1.40,
+            reading: ReadingChoice::Radiometric,
+            quality: QualityChoice::Full,
+            light_up_deg: 25.0,
+            light_right_deg: -25.0,
+            light_distance: None,
+            light_radius: SUN_RADIUS,
+            shadows: true,
+            exposure_ev: 0.0,
+        }
+    }
+}
+
+impl RenderSettings {
+    /// The paper's fern under sunlight.
+    pub fn fern() -> Self {
+        Self { mesh: MeshChoice::Fern, material: LEAF.to_owned(), index: 1.45, ..Self::default() }
+    }
+
+    /// The surface in meters.
+    pub fn surface(&self) -> Result<Surface, SurfaceError> {
+        let [x, y] = self.half_sides_um;
+        Surface::new(self.sigma_um * 1e-6, self.tau_um * 1e-6, x * 1e-6, y * 1e-6, self.index)
+    }
+
+    /// The light's place in view axes.
+    pub fn lighting(&self) -> Result<Lighting, LightingError> {
+        let (up, right) = (self.light_up_deg.to_radians(), self.light_right_deg.to_radians());
+        let far = Lighting::from_angles(up, right, self.light_radius)?;
+        match self.light_distance {
+            None => Ok(far),
+            Some(distance) => Lighting::near(far.place() * distance, self.light_radius),
+        }
+    }
+}
+
+/// What is looked at.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MeshChoice {
+    /// The program's head.
+    #[default]
+    Head,
+    /// The program's fern.
+    Fern,
+    /// A sphere.
+    Sphere,
+    /// A square.
+    Plane,
+    /// A file of the user's.
+    File(PathBuf),
+}
+
+/// How Eq 1 is read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ReadingChoice {
+    /// Radiance per irradiance.
+    #[default]
+    Radiometric,
+    /// Eq 1 to 12 to the letter.
+    Paper,
+    /// Beckmann's own geometric factor: reciprocal.
+    Microfacet,
+    /// No model: all directions alike.
+    Lambertian,
+}
+
+impl ReadingChoice {
+    /// All of them, in the order they are listed.
+    pub const ALL: [Self; 4] = [Self::Radiometric, Self::Paper, Self::Microfacet, Self::Lambertian];
+
+    /// The core's reading.
+    pub const fn reading(self) -> Reading {
+        match self {
+            Self::Radiometric => Reading::Radiometric,
+            Self::Paper => Reading::Paper,
+            Self::Microfacet => Reading::Microfacet,
+            Self::Lambertian => Reading::Lambertian,
+        }
+    }
+
+    /// What it is called.
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::Radiometric => "Radiometric",
+            Self::Paper => "Paper, Eq 1–12",
+            Self::Microfacet => "Microfacet",
+            Self::Lambertian => "Lambertian",
+        }
+    }
+
+    /// Why one would choose it.
+    pub const fn why(self) -> &'static str {
+        match self {
+            Self::Radiometric => {
+                "Scattered radiance per incident irradiance: Eq 1 times A / (λ² cos θs). A rough white stays white."
+            }
+            Self::Paper => {
+                "Eq 1 to 12 to the letter. Eq 4 goes with λ² and no λ⁻² beside it, so rough surfaces turn yellow: a white \
+                 under D55 goes from xy (0.332, 0.347) to (0.373, 0.379)."
+            }
+            Self::Microfacet => {
+                "Beckmann's own geometric factor in place of the cos θi of Eq 3: light and eye can change places."
+            }
+            Self::Lambertian => "No model: every direction gets the same share. The quickest, and a plain reference.",
+        }
+    }
+}
+
+/// How exactly integrals are made once nothing moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum QualityChoice {
+    /// As while something moves.
+    Preview,
+    /// Error below 1e-5 of the peak.
+    #[default]
+    Full,
+    /// Below 1e-9.
+    Fine,
+    /// All 401 wavelengths.
+    Exact,
+    /// All 401 wavelengths with the paper's three cases of g.
+    Regimes,
+}
+
+impl QualityChoice {
+    /// All of them, in the order they are listed.
+    pub const ALL: [Self; 5] = [Self::Preview, Self::Full, Self::Fine, Self::Exact, Self::Regimes];
+
+    /// The core's quality.
+    pub const fn quality(self) -> Quality {
+        match self {
+            Self::Preview => Quality::Preview,
+            Self::Full => Quality::Full,
+            Self::Fine => Quality::Fine,
+            Self::Exact => Quality::Exact,
+            Self::Regimes => Quality::Regimes,
+        }
+    }
+
+    /// What it is called.
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::Preview => "Preview",
+            Self::Full => "Full, error < 1e-5",
+            Self::Fine => "Fine, error < 1e-9",
+            Self::Exact => "Exact, 401 wavelengths",
+            Self::Regimes => "Paper's three cases of g",
+        }
+    }
+}
