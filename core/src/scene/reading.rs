@@ -1,28 +1,31 @@
 //! Meshes from files: bytes in, a mesh out, with its groups and a report of what was found and tolerated.
 //!
-//! [`read_mesh`] takes the bytes of a Wavefront OBJ file. Coordinates are kept as they are: neither a
-//! unit nor which way is up is guessed.
+//! [`read_mesh`] takes the bytes of a Wavefront OBJ, Stanford PLY or STL file, the latter two as text or binary.
+//! Coordinates are kept as they are: neither a unit nor which way is up is guessed.
 //!
-//! The way of a file: `sniff` (which format), `obj` (statements to vertices, normals and polygons,
-//! the shared `soup`), `triangulate` (polygons of any shape to triangles), `edges` (what is open, doubled or flipped, and
-//! which corners share a normal), `build` (vertices split where normals differ, missing normals computed).
+//! The way of a file: `sniff` (which format), `obj`, `ply` or `stl` (to vertices, normals and polygons, the shared `soup`;
+//! STL's corners are welded where they are equal), `triangulate` (polygons of any shape to triangles), `edges` (what is
+//! open, doubled or flipped, and which corners share a normal), `build` (vertices split where normals differ, missing
+//! normals computed).
 //!
 //! Normals: those of the file where it has them. Missing ones are the mean of the faces around a vertex, by angle, going
 //! over an edge only where both faces are of one smoothing group (`s 1`), or where the file names no smoothing at
 //! all and the faces meet at less than 60°; `s off` gives each face its own.
 //!
-//! Reading is total: it does not panic, takes time proportional to the input (a concave polygon: to the square of its corners),
-//! and needs at most about 150 bytes for each triangle beside the file's own. The limits are [`MAX_BYTES`],
-//! [`MAX_VERTICES`] and [`MAX_TRIANGLES`].
+//! Reading is total: it does not panic, takes time about proportional to the input (a concave polygon: to the square of its
+//! corners, a few times over), and needs about 150 bytes for each triangle beside the file's own. The limits are
+//! [`MAX_BYTES`], [`MAX_VERTICES`] and [`MAX_TRIANGLES`].
 
 mod build;
 mod edges;
 mod error;
 mod lines;
 mod obj;
+mod ply;
 mod report;
 mod sniff;
 mod soup;
+mod stl;
 mod triangulate;
 
 pub use error::{Alien, MeshReadError, Place, Quantity};
@@ -38,6 +41,9 @@ pub const MAX_VERTICES: usize = 30_000_000;
 
 /// The most triangles that one file may make.
 pub const MAX_TRIANGLES: usize = 10_000_000;
+
+/// Statements, faces or vertices between two looks at whether to stop.
+const STOP_EVERY: usize = 4096;
 
 /// The format of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -106,9 +112,12 @@ pub fn read_mesh(
     if stop() {
         return Err(MeshReadError::Stopped);
     }
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let soup = match kind {
-        Kind::Obj => obj::read(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes), stop)?,
-        Kind::Ply | Kind::Stl => return Err(MeshReadError::NotAMesh { looks_like: Alien::Binary }),
+        Kind::Obj => obj::read(text, stop)?,
+        Kind::Ply => ply::read(text, stop)?,
+        Kind::Stl if !stl::is_whole_binary(bytes) && sniff::is_text_stl(text) => stl::read_text(text, stop)?,
+        Kind::Stl => stl::read_binary(bytes, stop)?,
     };
     build::build(&soup, kind, stop)
 }

@@ -84,7 +84,7 @@ impl Vertices {
             if vertex == NONE {
                 break;
             }
-            if self.normals[vertex as usize] == normal && self.fans[vertex as usize] == fan {
+            if self.fans[vertex as usize] == fan && is_same(soup, self.normals[vertex as usize], normal) {
                 return vertex;
             }
             vertex = self.before[vertex as usize];
@@ -96,6 +96,11 @@ impl Vertices {
         self.before.push(std::mem::replace(&mut self.last[corner.position as usize], vertex));
         vertex
     }
+}
+
+/// Whether two normals, or the lack of them, are the same; exporters repeat equal normals for each corner.
+fn is_same(soup: &Soup, a: u32, b: u32) -> bool {
+    a == b || (a != NONE && b != NONE && soup.normals[a as usize] == soup.normals[b as usize])
 }
 
 /// A normal's index, or [`NONE`] where the normal has no length and must be computed.

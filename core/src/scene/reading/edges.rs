@@ -5,10 +5,11 @@ use super::error::MeshReadError;
 use super::report::Tally;
 use super::soup::{NONE, Smoothing, Soup};
 use super::triangulate::Cut;
-use glam::DVec3;
+use glam::Vec3;
+use rayon::prelude::*;
 
 /// Faces that meet at more than this angle keep an edge between them where the file names no smoothing: its cosine, of 60°.
-const CREASE_COSINE: f64 = 0.5;
+const CREASE_COSINE: f32 = 0.5;
 
 /// Positions between two looks at whether to stop.
 const STOP_EVERY: usize = 1 << 16;
@@ -25,7 +26,8 @@ pub(super) struct Edges {
     pub(super) flipped: Tally,
     /// Positions without triangles.
     pub(super) unused: usize,
-    /// For each corner of each triangle the parent in its fan's tree; empty where the file has all normals.
+    /// For each corner of each triangle the parent in its fan's tree, in the end the root; empty where the file has all
+    /// normals.
     parents: Vec<u32>,
 }
 
@@ -37,7 +39,7 @@ impl Edges {
 
     /// The fan of a triangle's corner (three times the triangle, plus 0 to 2): corners of a fan share their normal.
     pub(super) fn fan(&self, corner: u32) -> u32 {
-        if self.parents.is_empty() { NONE } else { root(&self.parents, corner) }
+        self.parents.get(corner as usize).copied().unwrap_or(NONE)
     }
 }
 
@@ -56,6 +58,7 @@ pub(super) fn survey(soup: &Soup, cut: &Cut, stop: &dyn Fn() -> bool) -> Result<
         unused: unused(soup, cut),
         parents: if needed { (0..3 * cut.triangles.len() as u32).collect() } else { Vec::new() },
     };
+    let normals = if needed { normals(soup, cut) } else { Vec::new() };
     let mut suspects = Vec::new();
     for position in 0..soup.positions.len() {
         if position % STOP_EVERY == 0 && stop() {
@@ -64,8 +67,12 @@ pub(super) fn survey(soup: &Soup, cut: &Cut, stop: &dyn Fn() -> bool) -> Result<
         let around = &mut sides[starts[position] as usize..starts[position + 1] as usize];
         around.sort_unstable();
         for edge in around.chunk_by(|a, b| a.0 == b.0) {
-            edges.look(soup, cut, edge, &mut suspects);
+            edges.look(soup, cut, &normals, edge, &mut suspects);
         }
+    }
+    // A parent is below its child, so that going upwards each finds its parent's root.
+    for corner in 0..edges.parents.len() {
+        edges.parents[corner] = edges.parents[edges.parents[corner] as usize];
     }
     edges.duplicates = duplicates(soup, cut, suspects);
     Ok(edges)
@@ -73,7 +80,7 @@ pub(super) fn survey(soup: &Soup, cut: &Cut, stop: &dyn Fn() -> bool) -> Result<
 
 impl Edges {
     /// Looks at the sides of one edge.
-    fn look(&mut self, soup: &Soup, cut: &Cut, edge: &[Side], suspects: &mut Vec<u32>) {
+    fn look(&mut self, soup: &Soup, cut: &Cut, normals: &[Vec3], edge: &[Side], suspects: &mut Vec<u32>) {
         let place = |side: &Side| soup.place(cut.faces[side.1 as usize / 3] as usize);
         let agree = |a: &Side, b: &Side| position(soup, cut, a.1) != position(soup, cut, b.1);
         match edge {
@@ -93,7 +100,7 @@ impl Edges {
         }
         for pair in edge.windows(2) {
             let [a, b] = [pair[0].1, pair[1].1];
-            if agree(&pair[0], &pair[1]) && is_smooth(soup, cut, a / 3, b / 3) {
+            if agree(&pair[0], &pair[1]) && is_smooth(soup, cut, normals, [a / 3, b / 3]) {
                 // The one triangle comes from where the other goes to.
                 join(&mut self.parents, a, next(b));
                 join(&mut self.parents, next(a), b);
@@ -147,25 +154,29 @@ fn unused(soup: &Soup, cut: &Cut) -> usize {
 }
 
 /// Whether the normal goes on smoothly from one triangle to its neighbor.
-fn is_smooth(soup: &Soup, cut: &Cut, a: u32, b: u32) -> bool {
-    let [f, g] = [a, b].map(|t| cut.faces[t as usize]);
+fn is_smooth(soup: &Soup, cut: &Cut, normals: &[Vec3], pair: [u32; 2]) -> bool {
+    let [f, g] = pair.map(|t| cut.faces[t as usize]);
     if f == g {
         return true;
     }
     match (soup.smoothing(f), soup.smoothing(g)) {
         (Smoothing::Group(s), Smoothing::Group(t)) => s == t,
         (Smoothing::Auto, Smoothing::Auto) => {
-            let [m, n] = [a, b].map(|t| normal(soup, cut, t));
+            let [m, n] = pair.map(|t| normals[t as usize]);
             m.dot(n) >= CREASE_COSINE
         }
         _ => false,
     }
 }
 
-/// The unit normal of a triangle, of which none is without area.
-fn normal(soup: &Soup, cut: &Cut, triangle: u32) -> DVec3 {
-    let [a, b, c] = [0, 1, 2].map(|k| soup.positions[position(soup, cut, 3 * triangle + k) as usize].as_dvec3());
-    (b - a).cross(c - a).normalize_or_zero()
+/// The unit normals of all triangles, of which none is without area.
+fn normals(soup: &Soup, cut: &Cut) -> Vec<Vec3> {
+    let at = |corner: u32| soup.positions[soup.corners[corner as usize].position as usize].as_dvec3();
+    let normal = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(at);
+        (b - a).cross(c - a).normalize_or_zero().as_vec3()
+    };
+    cut.triangles.par_iter().map(normal).collect()
 }
 
 /// Triangles among these on the same three vertices as an earlier one.

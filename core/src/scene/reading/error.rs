@@ -197,11 +197,17 @@ pub enum MeshReadError {
         /// How many the header announces.
         announced: usize,
     },
-    /// A line of a header, or a statement of a text file, is not what the format asks for there.
-    #[error("line {line}: not what the format has here; the file is damaged or of a rare variant, export it as OBJ")]
-    Syntax {
+    /// A text ends within a face.
+    #[error("the file ends within the face that begins on line {line}; it was not copied whole, get it again")]
+    Unfinished {
         /// The line, from 1.
         line: usize,
+    },
+    /// A line of a header, or a record, is not what the format asks for there.
+    #[error("{place}: not what the format has here; the file is damaged or of a rare variant, export it as OBJ")]
+    Syntax {
+        /// The line, vertex or face.
+        place: Place,
     },
     /// The caller asked to stop.
     #[error("stopped before the mesh was read")]

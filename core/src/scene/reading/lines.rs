@@ -34,7 +34,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The line on which the present statement begins.
-    pub(super) fn line(&self) -> usize {
+    pub(super) fn first_line(&self) -> usize {
         self.first_line
     }
 
@@ -96,6 +96,30 @@ impl<'a> Cursor<'a> {
     #[inline]
     pub(super) fn number(&mut self) -> Result<Option<f64>, MeshReadError> {
         self.word().map(|word| parse_number(&word)).transpose()
+    }
+
+    /// The three coordinates of a vertex or normal.
+    #[inline]
+    pub(super) fn three(&mut self) -> Result<[f64; 3], MeshReadError> {
+        let mut xyz = [0.0; 3];
+        for (found, value) in xyz.iter_mut().enumerate() {
+            *value = self.number()?.ok_or(MeshReadError::TooFewNumbers { line: self.first_line, found })?;
+        }
+        Ok(xyz)
+    }
+
+    /// What is not read yet.
+    pub(super) fn left(&self) -> &'a [u8] {
+        &self.bytes[self.at..]
+    }
+
+    /// Goes to the first statement of what follows that is not empty.
+    pub(super) fn skip_empty_lines(&mut self) {
+        self.skip_blanks();
+        while matches!(self.bytes.get(self.at), Some(b'\n' | b'\r' | b'#')) {
+            self.next_line();
+            self.skip_blanks();
+        }
     }
 
     /// Goes over blanks and continued lines.

@@ -2,8 +2,9 @@
 //!
 //! By its own hand, since the crates do not reach what is asked: tobj 4 cuts polygons into fans, stops at the first word
 //! it cannot read without saying where, and hashes vertices by their indices; obj 0.10 copies each line and takes no
-//! continued ones; wavefront_obj 11 refuses statements it does not know. None can be told to stop.
+//! continued ones; `wavefront_obj` 11 refuses statements it does not know. None can be told to stop.
 
+use super::STOP_EVERY;
 use super::error::{MeshReadError, Place};
 use super::lines::{Cursor, Word};
 use super::report::Skipped;
@@ -11,12 +12,6 @@ use super::soup::{Corner, NONE, Names, Smoothing, Soup};
 
 /// The most changes of name that are kept.
 const MAX_GROUPS: usize = 65_536;
-
-/// The longest name that is kept, in bytes of the file.
-const MAX_NAME: usize = 200;
-
-/// Statements between two looks at whether to stop.
-const STOP_EVERY: u32 = 4096;
 
 /// The present object, group and material.
 #[derive(Default)]
@@ -41,7 +36,7 @@ impl Naming {
 /// Reads the statements of an OBJ file.
 pub(super) fn read(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshReadError> {
     let mut cursor = Cursor::new(bytes);
-    let mut soup = Soup::new(Place::Line);
+    let mut soup = Soup::new(Place::Line, 1);
     let mut naming = Naming::default();
     let mut countdown = STOP_EVERY;
     while !cursor.is_done() {
@@ -68,22 +63,22 @@ fn statement(
     soup: &mut Soup,
     naming: &mut Naming,
 ) -> Result<(), MeshReadError> {
-    let place = Place::Line(cursor.line());
+    let place = Place::Line(cursor.first_line());
     match keyword {
         b"v" => {
-            soup.add_position(three(cursor)?, place)?;
+            soup.add_position(cursor.three()?, place)?;
             if cursor.word().is_some() {
                 soup.skip(Skipped::VertexColors, place);
             }
         }
-        b"vn" => soup.add_normal(three(cursor)?, place)?,
+        b"vn" => soup.add_normal(cursor.three()?, place)?,
         b"vt" | b"maplib" | b"usemap" => soup.skip(Skipped::Textures, place),
         b"f" | b"fo" => {
             while let Some(word) = cursor.word() {
                 let corner = corner(&word, soup, place)?;
-                soup.corners.push(corner);
+                soup.add_corner(corner, place)?;
             }
-            soup.end_face(cursor.line())?;
+            soup.end_face(cursor.first_line())?;
         }
         b"s" => soup.smooth(smoothing(cursor)?),
         b"o" | b"g" | b"usemtl" => {
@@ -118,16 +113,6 @@ fn skipped(keyword: &[u8]) -> Skipped {
         b"bevel" | b"c_interp" | b"d_interp" | b"lod" | b"shadow_obj" | b"trace_obj" => Skipped::Display,
         _ => Skipped::Unknown,
     }
-}
-
-/// The three coordinates of a vertex or normal.
-#[inline]
-fn three(cursor: &mut Cursor<'_>) -> Result<[f64; 3], MeshReadError> {
-    let mut xyz = [0.0; 3];
-    for (found, value) in xyz.iter_mut().enumerate() {
-        *value = cursor.number()?.ok_or(MeshReadError::TooFewNumbers { line: cursor.line(), found })?;
-    }
-    Ok(xyz)
 }
 
 /// One corner: `1`, `1/2`, `1//3` or `1/2/3`, each from 1, or counted back from the last with -1.
@@ -182,7 +167,7 @@ fn integer(text: &[u8]) -> Option<(i64, &[u8])> {
 /// Indices of what comes later are looked at when all is read.
 #[inline]
 fn absolute(index: i64, count: usize) -> Option<u32> {
-    let index = if index > 0 { index - 1 } else { index + count as i64 };
+    let index = if index > 0 { index - 1 } else { index + i64::try_from(count).ok()? };
     u32::try_from(index).ok().filter(|&index| index != NONE)
 }
 
@@ -201,5 +186,5 @@ fn smoothing(cursor: &mut Cursor<'_>) -> Result<Smoothing, MeshReadError> {
 
 /// A name as text, of limited length.
 fn clean(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(&bytes[..bytes.len().min(MAX_NAME)]).into_owned()
+    String::from_utf8_lossy(bytes).chars().take(Names::LONGEST).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::error::{Alien, MeshReadError, Place, Quantity};
 use super::lines::Cursor;
-use super::{Kind, MAX_BYTES};
+use super::{Kind, MAX_BYTES, stl};
 
 /// How many bytes are looked at for what no text has.
 const LOOK: usize = 4096;
@@ -18,10 +18,10 @@ pub(super) fn kind(bytes: &[u8], extension_hint: Option<&str>) -> Result<Kind, M
         return Err(MeshReadError::Empty);
     }
     let hint = |extension: &str| extension_hint.is_some_and(|hint| hint.eq_ignore_ascii_case(extension));
-    if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {
+    if text.split(u8::is_ascii_whitespace).next() == Some(b"ply") {
         return Ok(Kind::Ply);
     }
-    if is_binary_stl(bytes) || is_text_stl(text) {
+    if stl::is_whole_binary(bytes) || is_text_stl(text) {
         return Ok(Kind::Stl);
     }
     if let Some(looks_like) = alien(bytes, text) {
@@ -39,15 +39,8 @@ pub(super) fn kind(bytes: &[u8], extension_hint: Option<&str>) -> Result<Kind, M
     }
 }
 
-/// Whether the count after the header of 80 bytes is that of the records that follow.
-fn is_binary_stl(bytes: &[u8]) -> bool {
-    let Some(count) = bytes.get(80..84).and_then(|count| count.try_into().ok()) else { return false };
-    let count = u64::from(u32::from_le_bytes(count));
-    count > 0 && 84 + 50 * count == bytes.len() as u64
-}
-
 /// Whether a text begins as STL does.
-fn is_text_stl(text: &[u8]) -> bool {
+pub(super) fn is_text_stl(text: &[u8]) -> bool {
     let mut cursor = Cursor::new(&text[..text.len().min(LOOK)]);
     if cursor.word().is_none_or(|word| !word.text.eq_ignore_ascii_case(b"solid")) {
         return false;

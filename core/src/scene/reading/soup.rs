@@ -5,6 +5,7 @@ use super::lines::FARTHEST;
 use super::report::{Skipped, Tally};
 use super::{MAX_TRIANGLES, MAX_VERTICES};
 use glam::Vec3;
+use rayon::prelude::*;
 
 /// No normal in the file.
 pub(super) const NONE: u32 = u32::MAX;
@@ -38,6 +39,11 @@ pub(super) struct Names {
     pub(super) material: String,
 }
 
+impl Names {
+    /// The longest name that is kept, in characters.
+    pub(super) const LONGEST: usize = 200;
+}
+
 /// Vertices, normals and polygons as they stand in the file.
 pub(super) struct Soup {
     /// The positions.
@@ -52,6 +58,8 @@ pub(super) struct Soup {
     places: Vec<u32>,
     /// What makes a place of that number.
     place: fn(usize) -> Place,
+    /// The number of the first vertex.
+    first_index: i64,
     /// From which face on which smoothing holds.
     smoothing: Vec<(u32, Smoothing)>,
     /// From which face on which names hold.
@@ -65,8 +73,8 @@ pub(super) struct Soup {
 }
 
 impl Soup {
-    /// Nothing yet; faces are placed by lines or by numbers.
-    pub(super) fn new(place: fn(usize) -> Place) -> Self {
+    /// Nothing yet; faces are placed by lines or by numbers, vertices counted from 0 or 1.
+    pub(super) fn new(place: fn(usize) -> Place, first_index: i64) -> Self {
         Self {
             positions: Vec::new(),
             normals: Vec::new(),
@@ -74,6 +82,7 @@ impl Soup {
             ends: Vec::new(),
             places: Vec::new(),
             place,
+            first_index,
             smoothing: Vec::new(),
             groups: Vec::new(),
             triangles: 0,
@@ -91,6 +100,12 @@ impl Soup {
     pub(super) fn face(&self, face: usize) -> std::ops::Range<usize> {
         let start = if face == 0 { 0 } else { self.ends[face - 1] };
         start as usize..self.ends[face] as usize
+    }
+
+    /// The end of those faces from one on that have together about so many corners; at least one face.
+    pub(super) fn faces_within(&self, from: usize, corners: usize) -> usize {
+        let reach = self.face(from).start + corners;
+        self.ends.partition_point(|&end| end as usize <= reach).max(from + 1)
     }
 
     /// Where a face stands in the file.
@@ -116,7 +131,18 @@ impl Soup {
         push(&mut self.normals, xyz, place)
     }
 
-    /// Ends a face, whose corners were pushed since the last one ended.
+    /// Takes a corner of the face that is next ended.
+    #[inline]
+    pub(super) fn add_corner(&mut self, corner: Corner, place: Place) -> Result<(), MeshReadError> {
+        // Each triangle has three corners at most, however polygons are cut: a single line may not hold more either.
+        if self.corners.len() >= 3 * MAX_TRIANGLES {
+            return Err(MeshReadError::TooLarge { quantity: Quantity::Triangles, limit: MAX_TRIANGLES, place });
+        }
+        self.corners.push(corner);
+        Ok(())
+    }
+
+    /// Ends a face, whose corners were taken since the last one ended.
     #[inline]
     pub(super) fn end_face(&mut self, place: usize) -> Result<(), MeshReadError> {
         let start = self.ends.last().copied().unwrap_or(0) as usize;
@@ -149,6 +175,40 @@ impl Soup {
         self.skipped[what as usize].add(place);
     }
 
+    /// Makes one of positions that are equal; those that are left keep their order.
+    pub(super) fn weld(&mut self) {
+        // Coordinates and index in one number: sorting by index alone would look all over the memory.
+        let key = |i: usize| {
+            let [x, y, z] = self.positions[i].to_array().map(|v| u128::from(v.to_bits()));
+            x << 96 | y << 64 | z << 32 | i as u128
+        };
+        let mut keys: Vec<u128> = (0..self.positions.len()).into_par_iter().map(key).collect();
+        keys.par_sort_unstable();
+        let mut first: Vec<u32> = vec![NONE; keys.len()];
+        for equal in keys.chunk_by(|a, b| a >> 32 == b >> 32) {
+            for &key in equal {
+                first[key as u32 as usize] = equal[0] as u32;
+            }
+        }
+        drop(keys);
+        let mut kept = 0;
+        for i in 0..first.len() {
+            first[i] = if first[i] as usize == i {
+                self.positions[kept] = self.positions[i];
+                kept += 1;
+                kept as u32 - 1
+            } else {
+                // The first of equals comes before this one, and has its new index already.
+                first[first[i] as usize]
+            };
+        }
+        self.positions.truncate(kept);
+        self.positions.shrink_to_fit();
+        for corner in &mut self.corners {
+            corner.position = first[corner.position as usize];
+        }
+    }
+
     /// That all corners name positions and normals that are there.
     pub(super) fn check(&self) -> Result<(), MeshReadError> {
         let (positions, normals) = (self.positions.len(), self.normals.len());
@@ -158,9 +218,9 @@ impl Soup {
         let place = self.place(self.ends.partition_point(|&end| end as usize <= corner));
         let Corner { position, normal } = self.corners[corner];
         Err(if position as usize >= positions {
-            MeshReadError::NoSuchVertex { place, index: i64::from(position) + 1, count: positions }
+            MeshReadError::NoSuchVertex { place, index: i64::from(position) + self.first_index, count: positions }
         } else {
-            MeshReadError::NoSuchNormal { place, index: i64::from(normal) + 1, count: normals }
+            MeshReadError::NoSuchNormal { place, index: i64::from(normal) + self.first_index, count: normals }
         })
     }
 }

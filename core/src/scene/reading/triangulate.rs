@@ -4,14 +4,24 @@ use super::error::MeshReadError;
 use super::report::Tally;
 use super::soup::Soup;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use std::iter::successors;
+use std::ops::Range;
 
 /// The most corners of a concave polygon, whose cutting takes time with their square.
 const MAX_CONCAVE: usize = 4096;
 
-/// Faces between two looks at whether to stop.
-const STOP_EVERY: usize = 1 << 14;
+/// How often all corners of a polygon are looked at anew when no ear is left.
+const MOST_LOOKS: u32 = 8;
+
+/// Corners between two looks at whether to stop: also how many concave polygons there can be between them.
+const STOP_EVERY: usize = 1 << 17;
+
+/// Faces that one thread cuts at a time.
+const PIECE: usize = 1 << 10;
 
 /// Triangles and the faces they were cut from.
+#[derive(Default)]
 pub(super) struct Cut {
     /// Three corners each, as indices among the soup's corners.
     pub(super) triangles: Vec<[u32; 3]>,
@@ -25,13 +35,28 @@ pub(super) struct Cut {
 
 /// Cuts all faces; triangles without area are left out.
 pub(super) fn cut(soup: &Soup, stop: &dyn Fn() -> bool) -> Result<Cut, MeshReadError> {
-    let mut cut =
-        Cut { triangles: Vec::new(), faces: Vec::new(), degenerate: Tally::default(), crossing: Tally::default() };
-    let mut polygon = Polygon::default();
-    for face in 0..soup.faces() {
-        if face % STOP_EVERY == 0 && stop() {
+    let mut cut = Cut::default();
+    let mut from = 0;
+    while from < soup.faces() {
+        if stop() {
             return Err(MeshReadError::Stopped);
         }
+        let to = soup.faces_within(from, STOP_EVERY);
+        let starts = (from..to).into_par_iter().step_by(PIECE);
+        let pieces: Vec<_> = starts.map(|start| piece(soup, start..(start + PIECE).min(to))).collect();
+        for piece in pieces {
+            cut.append(&piece?);
+        }
+        from = to;
+    }
+    Ok(cut)
+}
+
+/// Cuts some faces.
+fn piece(soup: &Soup, faces: Range<usize>) -> Result<Cut, MeshReadError> {
+    let mut cut = Cut::default();
+    let mut polygon = Polygon::default();
+    for face in faces {
         let corners = soup.face(face);
         let first = corners.start as u32;
         if corners.len() == 3 {
@@ -39,17 +64,15 @@ pub(super) fn cut(soup: &Soup, stop: &dyn Fn() -> bool) -> Result<Cut, MeshReadE
             continue;
         }
         polygon.take(soup, corners.clone());
-        let way = if polygon.cut() {
-            Ok(())
-        } else if polygon.points.len() > MAX_CONCAVE {
-            Err(MeshReadError::FaceTooLong { place: soup.place(face), corners: corners.len(), limit: MAX_CONCAVE })
-        } else {
-            if !polygon.clip_ears() {
-                cut.crossing.add(soup.place(face));
+        if !polygon.cut() {
+            let place = soup.place(face);
+            if polygon.points.len() > MAX_CONCAVE {
+                return Err(MeshReadError::FaceTooLong { place, corners: corners.len(), limit: MAX_CONCAVE });
             }
-            Ok(())
-        };
-        way?;
+            if !polygon.clip_ears() {
+                cut.crossing.add(place);
+            }
+        }
         if polygon.triangles.is_empty() {
             cut.degenerate.add(soup.place(face));
         }
@@ -61,6 +84,14 @@ pub(super) fn cut(soup: &Soup, stop: &dyn Fn() -> bool) -> Result<Cut, MeshReadE
 }
 
 impl Cut {
+    /// Appends what later faces were cut into.
+    fn append(&mut self, later: &Self) {
+        self.triangles.extend_from_slice(&later.triangles);
+        self.faces.extend_from_slice(&later.faces);
+        self.degenerate.merge(later.degenerate);
+        self.crossing.merge(later.crossing);
+    }
+
     /// Appends a triangle, or counts it where it has no area.
     #[inline]
     fn add(&mut self, soup: &Soup, face: usize, triangle: [u32; 3]) {
@@ -69,7 +100,7 @@ impl Cut {
         let longest = u.length_squared().max(v.length_squared()).max((c - b).length_squared());
         let size = a.abs().max(b.abs()).max(c.abs()).max_element();
         // Below this height the rounding of the coordinates, not the file, makes the triangle's normal.
-        let height = 2.0 * f64::from(f32::EPSILON) * size;
+        let height = grain(size);
         if u.cross(v).length_squared() <= height * height * longest {
             self.degenerate.add(soup.place(face));
         } else {
@@ -77,6 +108,11 @@ impl Cut {
             self.faces.push(face as u32);
         }
     }
+}
+
+/// How far rounding to single precision moves a point whose farthest coordinate this is.
+fn grain(size: f64) -> f64 {
+    2.0 * f64::from(f32::EPSILON) * size
 }
 
 /// A polygon in its plane, with room that is used again for the next one.
@@ -90,13 +126,17 @@ struct Polygon {
     points: Vec<DVec2>,
     /// What is still uncut: for each corner the one before and the one after.
     around: Vec<[u32; 2]>,
+    /// For each corner how good an ear it is; zero where it is none.
+    ears: Vec<f64>,
+    /// How far rounding to single precision moves a corner.
+    grain: f64,
     /// Triangles of indices among `corners`.
     triangles: Vec<[u32; 3]>,
 }
 
 impl Polygon {
     /// Takes a face's corners and lays them into the plane.
-    fn take(&mut self, soup: &Soup, range: std::ops::Range<usize>) {
+    fn take(&mut self, soup: &Soup, range: Range<usize>) {
         self.triangles.clear();
         self.corners.clear();
         self.space.clear();
@@ -109,6 +149,7 @@ impl Polygon {
             }
             before = i;
         }
+        self.grain = self.space.iter().map(|p| grain(p.abs().max_element())).fold(0.0, f64::max);
         let normal = self.normal();
         self.points.clear();
         let sign = |v: f64| if v < 0.0 { -1.0 } else { 1.0 };
@@ -168,53 +209,114 @@ impl Polygon {
         true
     }
 
-    /// Cuts ear after ear (Meisters 1975). Returns false where at some time no ear was left: the polygon crosses itself.
+    /// Cuts ear after ear (Meisters 1975), the one of the best shape first: that leaves the fewest slivers. Returns false
+    /// where at some time no ear was left: the polygon crosses itself.
     fn clip_ears(&mut self) -> bool {
         let n = self.points.len() as u32;
         self.around.clear();
         self.around.extend((0..n).map(|i| [(i + n - 1) % n, (i + 1) % n]));
-        let (mut left, mut at, mut missed, mut simple) = (n, 0_u32, 0, true);
-        while left > 3 {
-            let [before, after] = self.around[at as usize];
-            if missed < left && !self.is_ear(before, at, after) {
-                missed += 1;
-                at = after;
-                continue;
+        self.ears.clear();
+        self.ears.extend((0..n).map(|_| 0.0));
+        self.judge_all(0);
+        let (mut at, mut simple, mut looks) = (0_u32, true, MOST_LOOKS);
+        while self.triangles.len() as u32 + 3 < n {
+            let mut ear = self.best(at, |i| self.ears[i as usize]);
+            if self.ears[ear as usize] <= 0.0 && looks > 0 {
+                // What touched a corner that is gone may be an ear now.
+                looks -= 1;
+                self.judge_all(at);
+                ear = self.best(at, |i| self.ears[i as usize]);
             }
-            let triangle = [before, at, after];
-            // Corners in line are no ears until their neighbors are gone, but they cross nothing.
-            simple &= missed < left || self.area(triangle.map(|i| i as usize)) == 0.0;
-            self.triangles.push(triangle);
-            self.around[before as usize][1] = after;
-            self.around[after as usize][0] = before;
-            left -= 1;
-            missed = 0;
-            // From the next corner but one, so that a round polygon is not cut into a fan of slivers.
-            at = self.around[after as usize][1];
+            if self.ears[ear as usize] <= 0.0 {
+                ear = self.best(at, |i| -self.area(self.triangle(i)).abs());
+                // Corners in line are no ears, but they cross nothing.
+                simple &= self.is_flat(self.triangle(ear));
+            }
+            at = self.clip(ear);
         }
-        let [before, after] = self.around[at as usize];
-        self.triangles.push([before, at, after]);
-        simple && self.area([before, at, after].map(|i| i as usize)) >= 0.0
+        let last = self.triangle(at);
+        self.triangles.push(last.map(|i| i as u32));
+        simple && (self.area(last) >= 0.0 || self.is_flat(last))
     }
 
-    /// Whether a corner turns to the left and no other corner that is left lies in its triangle.
-    fn is_ear(&self, before: u32, at: u32, after: u32) -> bool {
-        let [a, b, c] = [before, at, after].map(|i| self.points[i as usize]);
-        if (b - a).perp_dot(c - a) <= 0.0 {
-            return false;
+    /// A corner that is left, with its neighbors.
+    fn triangle(&self, at: u32) -> [usize; 3] {
+        let [before, after] = self.around[at as usize];
+        [before, at, after].map(|i| i as usize)
+    }
+
+    /// The corners that are left, beginning with one of them.
+    fn ring(&self, at: u32) -> impl Iterator<Item = u32> {
+        let left = self.points.len() - self.triangles.len();
+        successors(Some(at), |&i| Some(self.around[i as usize][1])).take(left)
+    }
+
+    /// The corner of the highest value among those that are left.
+    fn best(&self, at: u32, value: impl Fn(u32) -> f64) -> u32 {
+        let mut best = (at, f64::NEG_INFINITY);
+        for corner in self.ring(at) {
+            let value = value(corner);
+            if value > best.1 {
+                best = (corner, value);
+            }
         }
-        let inside = |p: DVec2| {
+        best.0
+    }
+
+    /// Cuts a corner off, and returns the one after it.
+    fn clip(&mut self, at: u32) -> u32 {
+        let [before, after] = self.around[at as usize];
+        self.triangles.push([before, at, after]);
+        self.around[before as usize][1] = after;
+        self.around[after as usize][0] = before;
+        self.ears[before as usize] = self.judge(before);
+        self.ears[after as usize] = self.judge(after);
+        after
+    }
+
+    /// Judges all corners that are left.
+    fn judge_all(&mut self, at: u32) {
+        let mut corner = at;
+        loop {
+            self.ears[corner as usize] = self.judge(corner);
+            corner = self.around[corner as usize][1];
+            if corner == at {
+                break;
+            }
+        }
+    }
+
+    /// The height of a corner's triangle for its longest side, next to nothing where it is flat; zero where it turns to
+    /// the right or holds another corner.
+    fn judge(&self, at: u32) -> f64 {
+        let triangle = self.triangle(at);
+        let [a, b, c] = triangle.map(|i| self.points[i]);
+        let area = self.area(triangle);
+        if area <= 0.0 {
+            return 0.0;
+        }
+        let holds = |p: DVec2| {
             (b - a).perp_dot(p - a) >= 0.0 && (c - b).perp_dot(p - b) >= 0.0 && (a - c).perp_dot(p - c) >= 0.0
         };
-        let mut other = self.around[after as usize][1];
-        while other != before {
-            let p = self.points[other as usize];
-            // A corner met twice, as where a bridge leads to a hole, does not stop the ear that ends on it.
-            if p != a && p != b && p != c && inside(p) {
-                return false;
-            }
-            other = self.around[other as usize][1];
+        // A corner met twice, as where a bridge leads to a hole, does not stop the ear that ends on it.
+        let is_held = |p: DVec2| holds(p) && p != a && p != b && p != c;
+        if self.ring(at).any(|other| is_held(self.points[other as usize])) {
+            0.0
+        } else if self.is_flat(triangle) {
+            f64::MIN_POSITIVE
+        } else {
+            area / longest(a, b, c)
         }
-        true
     }
+
+    /// Whether a triangle's corners are in line, as far as coordinates of single precision tell.
+    fn is_flat(&self, triangle: [usize; 3]) -> bool {
+        let [a, b, c] = triangle.map(|i| self.points[i]);
+        self.area(triangle).abs() <= self.grain * longest(a, b, c).sqrt()
+    }
+}
+
+/// The square of the longest side.
+fn longest(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a))
 }
