@@ -58,12 +58,16 @@ impl Fern {
             .par_iter()
             .map(|organs| {
                 let mut surface = Surface::default();
-                organs.iter().for_each(|organ| organ.build(fineness, &mut surface));
+                for organ in organs {
+                    organ.build(fineness, &mut surface);
+                }
                 surface
             })
             .collect();
         let mut all = Surface::default();
-        surfaces.iter().for_each(|surface| all.append(surface));
+        for surface in &surfaces {
+            all.append(surface);
+        }
         all.centered()
     }
 

@@ -53,12 +53,14 @@ impl Grid {
 /// The part of a surface with x ≥ 0 inside a grid that begins at x = 0, and its mirror image: one mesh, joined at x = 0.
 ///
 /// Watertight where the surface stays inside the grid: each edge has exactly two triangles. The same mesh for any number
-/// of threads. Normals are the gradient's. A vertex is within about a thousandth of a cell of the surface, but for
+/// of threads. Normals are the gradient's, but those of the triangles around where these turn away from it, as in creases and
+/// around features that the cells are too coarse for. A vertex is within about a thousandth of a cell of the surface, but for
 /// creases narrower than a cell.
 pub fn mirrored<F: Field + Send>(field: &F, grid: &Grid) -> Result<Mesh, MeshError> {
     let mut half = weld::weld(blocks::blocks(field, grid));
     relax::relax(&mut half);
-    let normals = relax::project(&mut half, 2);
+    let mut normals = relax::project(&mut half, 2);
+    relax::agree(&half, &mut normals);
     // The others' mirror images follow after all vertices; those on the plane are their own.
     let count = half.positions.len() as u32;
     let mut image: Vec<u32> = (0..count).collect();

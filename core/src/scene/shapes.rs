@@ -34,7 +34,7 @@ pub fn sphere(triangles: usize) -> Mesh {
         faces.push([at(rings - 1, sector), last, at(rings - 1, sector + 1)]);
     }
     let positions = normals.iter().map(|n| *n * SIZE).collect();
-    Mesh::new(positions, normals, faces).expect("a sphere's vertices are finite and named within range")
+    built(positions, normals, faces)
 }
 
 /// A square of 0.2 m facing +z, with about this many triangles (at least 2).
@@ -53,5 +53,9 @@ pub fn plane(triangles: usize) -> Mesh {
         }
     }
     let normals = vec![Vec3::Z; positions.len()];
-    Mesh::new(positions, normals, faces).expect("a plane's vertices are finite and named within range")
+    built(positions, normals, faces)
+}
+
+fn built(positions: Vec<Vec3>, normals: Vec<Vec3>, faces: Vec<[u32; 3]>) -> Mesh {
+    Mesh::new(positions, normals, faces).expect("a shape's vertices are finite and named within range")
 }

@@ -3,6 +3,9 @@
 use crate::scene::mesh::Mesh;
 use glam::Vec3;
 
+/// The cosine between a triangle's normal and its corners' from which on they share vertices.
+const LEAST_AGREEMENT: f32 = 0.1;
+
 /// What parts of the plant are added to.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Surface {
@@ -28,16 +31,34 @@ impl Surface {
         self.triangles.push(if flipped { [a, c, b] } else { [a, b, c] });
     }
 
-    /// Gives all vertices of the triangles from `first` on the mean normal of these triangles by area.
+    /// Gives all vertices of the triangles from `first` on the mean normal of these triangles by area; a triangle that
+    /// would look away from a corner's normal gets a vertex of its own there.
     pub(super) fn shade(&mut self, first: usize) {
         for triangle in &self.triangles[first..] {
-            let [a, b, c] = triangle.map(|i| self.positions[i as usize]);
-            let normal = (b - a).cross(c - a);
             // Products of millimeters are far from the smallest numbers, so single precision is enough.
+            let normal = self.area(*triangle);
             for &corner in triangle {
                 self.normals[corner as usize] += normal;
             }
         }
+        for t in first..self.triangles.len() {
+            let normal = self.area(self.triangles[t]);
+            for k in 0..3 {
+                let corner = self.triangles[t][k] as usize;
+                let shaded = self.normals[corner];
+                if normal.dot(shaded) < LEAST_AGREEMENT * normal.length() * shaded.length() {
+                    self.triangles[t][k] = self.next();
+                    self.positions.push(self.positions[corner]);
+                    self.normals.push(normal);
+                }
+            }
+        }
+    }
+
+    /// A triangle's normal, as long as twice its area.
+    fn area(&self, triangle: [u32; 3]) -> Vec3 {
+        let [a, b, c] = triangle.map(|i| self.positions[i as usize]);
+        (b - a).cross(c - a)
     }
 
     /// Adds all of another surface.

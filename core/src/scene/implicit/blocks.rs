@@ -5,7 +5,7 @@ use super::{Field, Grid};
 use glam::Vec3;
 
 /// How many cells a block has along each axis at most.
-const SIDE: usize = 8;
+const SIDE: usize = 4;
 /// How many corners a block has along each axis at most.
 const CORNERS: usize = SIDE + 1;
 
@@ -59,8 +59,7 @@ fn search<F: Field + Send>(field: &F, grid: &Grid, cubes: &Cubes, range: [[usize
     let (mut first, mut second) = (range, range);
     first[longest][1] = middle;
     second[longest][0] = middle;
-    let (mut left, right) =
-        rayon::join(|| search(&near, grid, cubes, first), || search(&near, grid, cubes, second));
+    let (mut left, right) = rayon::join(|| search(&near, grid, cubes, first), || search(&near, grid, cubes, second));
     left.extend(right);
     left
 }

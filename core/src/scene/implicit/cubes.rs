@@ -37,11 +37,7 @@ fn faces() -> [[usize; 4]; 6] {
         let axis = n / 2;
         let (side, up) = (1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3));
         let cycle = [0, side, side | up, up];
-        if n % 2 == 1 {
-            cycle.map(|c| c | (1 << axis))
-        } else {
-            [cycle[3], cycle[2], cycle[1], cycle[0]]
-        }
+        if n % 2 == 1 { cycle.map(|c| c | (1 << axis)) } else { [cycle[3], cycle[2], cycle[1], cycle[0]] }
     })
 }
 

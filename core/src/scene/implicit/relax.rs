@@ -2,6 +2,7 @@
 
 use super::weld::Half;
 use super::{Field, Sample};
+use crate::scene::mesh::smooth_normals;
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -10,16 +11,18 @@ const ROUNDS: usize = 4;
 /// How far it is moved there.
 const SHARE: f32 = 0.6;
 
+/// The cosine between a vertex's normal and its triangles' from which on it is left, and up to which it is replaced.
+const AGREEMENT: [f32; 2] = [0.95, 0.6];
+
 /// Brings vertices onto the surface and away from their nearest neighbors: marching cubes' slivers become triangles of
 /// about one size.
 pub(super) fn relax<F: Field>(half: &mut Half<F>) {
-    project(half, 2);
+    let mut normals = project(half, 1);
     for _ in 0..ROUNDS {
         let middles = middles(half);
-        move_all(half, |at, p, cell, v| {
-            let normal = at(p).gradient.normalize_or(Vec3::Z);
+        normals = move_all(half, |at, p, cell, v| {
             let step = (middles[v] - p) * SHARE;
-            let aside = step - normal * step.dot(normal);
+            let aside = step - normals[v] * step.dot(normals[v]);
             onto(at, p + aside.clamp_length_max(0.5 * cell), cell)
         });
     }
@@ -28,6 +31,19 @@ pub(super) fn relax<F: Field>(half: &mut Half<F>) {
 /// Brings the vertices onto the surface by Newton's steps, and gives the normals there.
 pub(super) fn project<F: Field>(half: &mut Half<F>, steps: usize) -> Vec<Vec3> {
     move_all(half, |at, p, cell, _| (0..steps).fold(p, |p, _| onto(at, p, cell)))
+}
+
+/// Brings normals that differ from their triangles' towards these.
+pub(super) fn agree<F>(half: &Half<F>, normals: &mut [Vec3]) {
+    let means = smooth_normals(&half.positions, &half.triangles);
+    for (v, (normal, mut mean)) in normals.iter_mut().zip(means).enumerate() {
+        if half.on_plane[v] {
+            // The mirrored triangles make up for x.
+            mean = Vec3::new(0.0, mean.y, mean.z).normalize_or(*normal);
+        }
+        let share = ((AGREEMENT[0] - normal.dot(mean)) / (AGREEMENT[0] - AGREEMENT[1])).clamp(0.0, 1.0);
+        *normal = normal.lerp(mean, share).normalize_or(mean);
+    }
 }
 
 /// One of Newton's steps, not longer than a part of a cell.

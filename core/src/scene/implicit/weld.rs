@@ -31,8 +31,13 @@ pub(super) fn weld<F>(blocks: Vec<Block<F>>) -> Half<F> {
             index[entry.1 as usize] = group[0].1;
         }
     }
-    let mut half =
-        Half { positions: Vec::new(), on_plane: Vec::new(), cell: Vec::new(), triangles: Vec::new(), fields: Vec::new() };
+    let mut half = Half {
+        positions: Vec::new(),
+        on_plane: Vec::new(),
+        cell: Vec::new(),
+        triangles: Vec::new(),
+        fields: Vec::new(),
+    };
     let mut slot = 0;
     for block in blocks {
         let (first, begin) = (slot, half.positions.len());
