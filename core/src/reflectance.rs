@@ -1,8 +1,8 @@
 //! How a rough surface scatters light: the reflectance model (Eq 1–4) and its parts.
 //!
 //! A surface whose heights are normally distributed with deviation σ and correlated as exp(−r²/τ²) sends part of the light
-//! into the mirror direction and spreads the rest (Beckmann and Spizzichino 1963), through Fresnel's transmittances and a
-//! form factor (Vernold and Harvey 1998; Ragheb and Hancock 2006).
+//! into the mirror direction and spreads the rest (Beckmann and Spizzichino 1963), through Fresnel's transmittances
+//! (Wolff 1994) and a form factor (Vernold and Harvey 1998; Ragheb and Hancock 2006).
 //!
 //! ```text
 //! P = ρ0² e^-g + D                              Eq 1

@@ -16,13 +16,13 @@ pub struct Geometry {
     pub cos_i: f64,
     /// cos θs, the viewer's zenith cosine; not positive where the viewer is behind the surface.
     pub cos_s: f64,
-    /// v_x/k.
+    /// `v_x/k`.
     pub vx_by_k: f64,
-    /// v_y/k.
+    /// `v_y/k`.
     pub vy_by_k: f64,
-    /// (v_x² + v_y²)/k².
+    /// `(v_x² + v_y²)/k²`.
     pub vxy2_by_k2: f64,
-    /// |v_z|/k = cos θi + cos θs; positive where the surface is lit and seen.
+    /// `|v_z|/k = cos θi + cos θs`; positive where the surface is lit and seen.
     pub vz_by_k: f64,
     /// (l·ĥ)²: the squared cosine between the light and the unit half vector.
     pub cos_half2: f64,
@@ -37,8 +37,9 @@ impl Geometry {
     ///
     /// Differences of sines are written as products, so that all digits survive next to the mirror direction:
     /// ```text
-    /// v_x/k = 2 cos((θi + θs)/2) sin((θi − θs)/2) + 2 sin θs sin²(φs/2)
-    /// v_xy²/k² = 4 cos²((θi + θs)/2) sin²((θi − θs)/2) + 4 sin θi sin θs sin²(φs/2)
+    /// a = sin θi − sin θs = (cos θi + cos θs) tan((θi − θs)/2)
+    /// v_x/k = a + 2 sin θs sin²(φs/2)
+    /// v_xy²/k² = a² + 4 sin θi sin θs sin²(φs/2)
     /// ```
     pub fn from_angles(theta_i: f64, theta_s: f64, phi_s: f64) -> Self {
         if !(theta_i.is_finite() && theta_s.is_finite() && phi_s.is_finite()) {
@@ -47,7 +48,8 @@ impl Geometry {
         let (sin_i, cos_i) = theta_i.sin_cos();
         let (sin_s, cos_s) = theta_s.sin_cos();
         let half_phi2 = (phi_s / 2.0).sin().powi(2);
-        let apart = 2.0 * (theta_i / 2.0 + theta_s / 2.0).cos() * ((theta_i - theta_s) / 2.0).sin();
+        // The halves are taken apart because the difference of the largest angles overflows.
+        let apart = (cos_i + cos_s) * (theta_i / 2.0 - theta_s / 2.0).tan();
         // Where one of the angles is past the zenith the second term is negative; rounding must not carry the sum below zero.
         let vxy2 = (apart * apart + 4.0 * sin_i * sin_s * half_phi2).max(0.0);
         Self::new([cos_i, cos_s], [apart + 2.0 * sin_s * half_phi2, -sin_s * phi_s.sin()], vxy2)

@@ -148,7 +148,7 @@ pub const fn wavelength_power(reading: Reading) -> i32 {
     }
 }
 
-/// κ: g = σ² v_z² at 550 nm, `(2π σ (cos θi + cos θs)/λ0)²`.
+/// κ: `g = σ² v_z²` at 550 nm, `(2π σ (cos θi + cos θs)/λ0)²`.
 #[inline]
 pub fn kappa(surface: &Surface, geometry: &Geometry) -> f64 {
     let phase = TAU / LAMBDA_0_M * surface.sigma_m() * geometry.vz_by_k;

@@ -91,7 +91,7 @@ impl Surface {
 
     /// A = 4XY: the patch's area in square meters.
     ///
-    /// The paper writes XY; but with its sinc arguments v_x X and v_y Y the sides are 2X and 2Y, and only with their product
+    /// The paper writes XY; but with its sinc arguments `v_x X` and `v_y Y` the sides are 2X and 2Y, and only with their product
     /// do mirror and diffuse light add up to what falls on the surface.
     pub const fn area_m2(&self) -> f64 {
         4.0 * self.half_x_m * self.half_y_m

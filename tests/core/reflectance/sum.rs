@@ -1,0 +1,146 @@
+//! The diffuse sum, against 60-digit sums, an integral without a series in it, and its limits.
+
+use chromascope_core::reflectance::{Precision, diffuse_sum, ln_diffuse_sum};
+use proptest::prelude::*;
+
+use crate::support::{assert_near, cases, reference_numbers};
+
+/// Each precision with the relative error that it promises.
+const PROMISES: [(Precision, f64); 3] = [(Precision::Coarse, 1e-6), (Precision::Fine, 1e-10), (Precision::Full, 1e-13)];
+
+/// What rounding b alone costs, twice over.
+fn conditioning(ln_s: f64) -> f64 {
+    2.0 * f64::EPSILON * ln_s.abs()
+}
+
+#[test]
+fn every_precision_keeps_its_promise() {
+    for (precision, promise) in PROMISES {
+        let (mut worst, mut worst_ln) = (0.0_f64, 0.0_f64);
+        for row in reference_numbers("reflectance_sum.csv") {
+            let [g, b, ln_s, s] = row.try_into().unwrap();
+            let value = diffuse_sum(g, b, precision);
+            if s == 0.0 {
+                assert_eq!(value, 0.0, "g {g}, b {b}");
+            } else {
+                worst = worst.max((value / s - 1.0).abs() - conditioning(ln_s));
+            }
+            let excess = (ln_diffuse_sum(g, b, precision) - ln_s).abs() - conditioning(ln_s);
+            worst_ln = worst_ln.max(excess);
+        }
+        assert!(worst <= promise, "{precision:?}: {worst}");
+        assert!(worst_ln <= promise, "{precision:?}, logarithm: {worst_ln}");
+    }
+}
+
+#[test]
+fn an_integral_without_a_series_agrees() {
+    for row in reference_numbers("reflectance_integral.csv") {
+        let [g, b, s] = row.try_into().unwrap();
+        assert_near(&format!("g {g}, b {b}"), diffuse_sum(g, b, Precision::Full) / s, 1.0, 1e-13);
+    }
+}
+
+#[test]
+fn at_no_inclination_the_corrections_are_factorials() {
+    // S(g, 0) = e^-g (Ei(g) − ln g − γ), whose expansion has k! for coefficients: here with eight of them.
+    for (g, precision) in [(22.5, Precision::Coarse), (49.0, Precision::Coarse), (138.0, Precision::Full)] {
+        let mut term = 1.0;
+        let expected = 1.0
+            + (1..=8)
+                .map(|k| {
+                    term *= f64::from(k) / g;
+                    term
+                })
+                .sum::<f64>();
+        assert_near(&format!("g {g}"), g * diffuse_sum(g, 0.0, precision) / expected, 1.0, 4e-15);
+    }
+}
+
+#[test]
+fn a_slight_roughness_leaves_the_first_term() {
+    for b in [0.0, 0.3, 4.0, 16.0] {
+        for g in [1e-300, 1e-100, 1e-20] {
+            let expected = g * f64::exp(-b);
+            let value = diffuse_sum(g, b, Precision::Full);
+            // Below 1e-300 nothing is left.
+            let expected = if expected < 1e-300 { 0.0 } else { expected };
+            assert_near(&format!("g {g}, b {b}"), value, expected, 1e-13 * expected);
+        }
+    }
+}
+
+#[test]
+fn one_term_far_above_its_neighbors_is_found() {
+    // m is 1.98; the first term is e^145 times smaller than the second.
+    let (g, b) = (2.107_093_716_582e-65_f64, 590.226_292_778_497_9);
+    let expected = 2.0 * g.ln() - 4.0_f64.ln() - b / 2.0;
+    assert_near("ln S", ln_diffuse_sum(g, b, Precision::Full), expected, conditioning(expected));
+    assert_near("S", diffuse_sum(g, b, Precision::Full).ln(), expected, conditioning(expected));
+}
+
+#[test]
+fn a_great_roughness_leaves_equation_four() {
+    for g in [1e6_f64, 1e9, 1e15, 1e100] {
+        for beta in [0.0_f64, 0.5, 4.0, 20.0] {
+            let value = diffuse_sum(g, beta * g, Precision::Full) * g / (-beta).exp();
+            // The first correction is (1 − 2β + β²/2)/g.
+            assert_near(&format!("g {g}, β {beta}"), value, 1.0, 1.1 * (1.0 + beta * beta) / g + 1e-13);
+        }
+    }
+}
+
+#[test]
+fn arguments_beyond_reason_are_understood() {
+    for (precision, _) in PROMISES {
+        for g in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(diffuse_sum(g, 1.0, precision), 0.0, "g {g}");
+            assert_eq!(ln_diffuse_sum(g, 1.0, precision), f64::NEG_INFINITY, "g {g}");
+        }
+        for b in [f64::NAN, f64::INFINITY] {
+            assert_eq!(diffuse_sum(1.0, b, precision), 0.0, "b {b}");
+            assert_eq!(ln_diffuse_sum(1.0, b, precision), f64::NEG_INFINITY, "b {b}");
+        }
+        assert_eq!(diffuse_sum(1.0, -1.0, precision), diffuse_sum(1.0, 0.0, precision));
+    }
+}
+
+/// A positive number of any size.
+fn any_size() -> impl Strategy<Value = f64> {
+    (-320.0..308.5_f64).prop_map(|exponent| 10.0_f64.powf(exponent).min(f64::MAX))
+}
+
+proptest! {
+    #![proptest_config(cases(2000))]
+
+    #[test]
+    fn every_sum_is_a_number(g in any_size(), b in any_size()) {
+        for (precision, _) in PROMISES {
+            let (s, ln_s) = (diffuse_sum(g, b, precision), ln_diffuse_sum(g, b, precision));
+            // S ≤ Σ_{n≥1} e^-g gⁿ/n! < 1.
+            prop_assert!((0.0..1.0).contains(&s), "{}", s);
+            prop_assert!(ln_s < 0.0, "{}", ln_s);
+            if s > 0.0 {
+                prop_assert!((s.ln() - ln_s).abs() <= 1e-13 + conditioning(ln_s), "{} {}", s.ln(), ln_s);
+            }
+        }
+    }
+
+    #[test]
+    fn the_cheaper_precisions_stay_near_the_full_one(ln_g in -27.0..18.0_f64, ln_b in -10.0..18.0_f64) {
+        let (g, b) = (ln_g.exp(), ln_b.exp());
+        let full = ln_diffuse_sum(g, b, Precision::Full);
+        for (precision, promise) in PROMISES {
+            let value = ln_diffuse_sum(g, b, precision);
+            prop_assert!((value - full).abs() <= promise + conditioning(full), "{:?}: {} {}", precision, value, full);
+        }
+    }
+
+    #[test]
+    fn the_sum_falls_with_inclination(ln_g in -27.0..18.0_f64, ln_b in -10.0..12.0_f64) {
+        let (g, b) = (ln_g.exp(), ln_b.exp());
+        let (near, far) = (ln_diffuse_sum(g, b, Precision::Full), ln_diffuse_sum(g, 1.01 * b, Precision::Full));
+        // The slope of ln S over b is −⟨1/n⟩, at least 1 over what n is on average.
+        prop_assert!(far <= near + 1e-13 + conditioning(near), "{} {}", near, far);
+    }
+}
