@@ -1,6 +1,6 @@
 //! What a frame waits for: time and error side by side, each against the plain 1 nm sum in the same run.
 //!
-//! `cargo bench -p chromascope-core --bench compare [-- --quick loci patches document slider]`. Times are medians over rounds in which the candidates take
+//! `cargo bench -p chromascope-core --bench compare [-- --quick loci patches document slider render integral growth]`. Times are medians over rounds in which the candidates take
 //! turns, so that a slow moment of the machine falls on all of them. Errors are against compensated sums (Neumaier), which a
 //! double cannot tell from exact ones.
 #![allow(
@@ -17,6 +17,10 @@ mod asker;
 mod exact;
 #[path = "compare/library.rs"]
 mod library;
+#[path = "compare/pictures.rs"]
+mod pictures;
+#[path = "compare/render.rs"]
+mod render;
 #[path = "compare/stopwatch.rs"]
 mod stopwatch;
 #[path = "compare/workloads.rs"]
@@ -30,13 +34,16 @@ fn main() {
     let quick = arguments.iter().any(|argument| argument == "--quick");
     let rounds = if quick { 5 } else { 41 };
     let cores = std::thread::available_parallelism().map_or(0, usize::from);
-    println!("{} · {cores} cores, one used · medians of {rounds} rounds", library::processor());
+    println!("{} · {cores} cores, one used but for pictures · medians of {rounds} rounds", library::processor());
     let named: Vec<&String> = arguments.iter().filter(|argument| !argument.starts_with('-')).collect();
-    let workloads: [Workload; 4] = [
+    let workloads: [Workload; 7] = [
         ("loci", workloads::loci),
         ("patches", workloads::patches),
         ("document", workloads::document),
         ("slider", workloads::slider),
+        ("render", render::render),
+        ("integral", render::integral),
+        ("growth", render::growth),
     ];
     for (name, run) in workloads {
         if named.is_empty() || named.iter().any(|wanted| *wanted == name) {

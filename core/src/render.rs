@@ -12,6 +12,7 @@
 pub mod develop;
 pub mod diffuse;
 pub mod geometry;
+pub mod lobe;
 pub mod measure;
 pub mod mirror;
 pub mod shading;

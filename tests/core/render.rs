@@ -2,4 +2,6 @@
 
 mod diffuse;
 mod images;
+mod skipping;
+mod studio;
 mod visibility;

@@ -38,7 +38,8 @@ pub(crate) fn compare(title: &str, what_error: &str, rounds: usize, mut candidat
     }
 }
 
-fn median(times: &mut [f64]) -> f64 {
+/// The middle one.
+pub(crate) fn median(times: &mut [f64]) -> f64 {
     times.sort_by(f64::total_cmp);
     times[times.len() / 2]
 }

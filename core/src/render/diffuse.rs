@@ -67,11 +67,21 @@ impl DiffuseTable {
         (SMOOTH..=ROUGH).contains(&kappa) && (0.0..LAST_BETA - 1.0).contains(&beta)
     }
 
-    /// The three integrals, and ln J of the positive measure relative to β = 0 at a glance: below −[`DARK`] they are zero.
-    #[inline]
+    /// The three integrals.
     pub fn at(&self, kappa: f64, beta: f64) -> [f64; 3] {
-        let (i, across) = place((kappa.ln() - ln_smooth()) / kappa_step(), KAPPAS);
-        let (j, along) = place(beta.ln_1p() / beta_step(), BETAS);
+        self.read(Self::position(kappa, beta))
+    }
+
+    /// Where these lie in any camera's table, in steps along its two axes.
+    pub fn position(kappa: f64, beta: f64) -> [f64; 2] {
+        [(kappa.ln() - ln_smooth()) / kappa_step(), beta.ln_1p() / beta_step()]
+    }
+
+    /// The three integrals at a [`DiffuseTable::position`].
+    #[inline]
+    pub fn read(&self, position: [f64; 2]) -> [f64; 3] {
+        let (i, across) = place(position[0], KAPPAS);
+        let (j, along) = place(position[1], BETAS);
         let mut mixed = [0.0; 4];
         for (k, u) in across.into_iter().enumerate() {
             let row = &self.cells[(i + k) * BETAS + j..][..STENCIL];
@@ -113,10 +123,12 @@ fn place(position: f64, count: usize) -> (usize, [f64; STENCIL]) {
 /// The weights of Lagrange's polynomials on 0, 1, …, 5.
 #[inline]
 fn lagrange(t: f64) -> [f64; STENCIL] {
-    let d = [t, t - 1.0, t - 2.0, t - 3.0, t - 4.0, t - 5.0];
-    let before = [1.0, d[0], d[0] * d[1], d[0] * d[1] * d[2], d[0] * d[1] * d[2] * d[3], d[0] * d[1] * d[2] * d[3] * d[4]];
-    let after = [d[1] * d[2] * d[3] * d[4] * d[5], d[2] * d[3] * d[4] * d[5], d[3] * d[4] * d[5], d[4] * d[5], d[5], 1.0];
     const SCALE: [f64; STENCIL] = [-1.0 / 120.0, 1.0 / 24.0, -1.0 / 12.0, 1.0 / 12.0, -1.0 / 24.0, 1.0 / 120.0];
+    let d = [t, t - 1.0, t - 2.0, t - 3.0, t - 4.0, t - 5.0];
+    let before =
+        [1.0, d[0], d[0] * d[1], d[0] * d[1] * d[2], d[0] * d[1] * d[2] * d[3], d[0] * d[1] * d[2] * d[3] * d[4]];
+    let after =
+        [d[1] * d[2] * d[3] * d[4] * d[5], d[2] * d[3] * d[4] * d[5], d[3] * d[4] * d[5], d[4] * d[5], d[5], 1.0];
     [0, 1, 2, 3, 4, 5].map(|k: usize| before[k] * after[k] * SCALE[k])
 }
 
@@ -171,7 +183,7 @@ fn by_sum(nodes: &[Node], kappa: f64, sum: impl Fn(f64) -> f64) -> [f64; 3] {
 /// ```text
 /// basis_k = e^-β / κ  q_k(β) κ^-k
 /// ```
-/// with q_k the coefficients of the expansion of S in 1/g at fixed β.
+/// with `q_k` the coefficients of the expansion of S in 1/g at fixed β.
 #[inline]
 pub fn rough_basis(kappa: f64, beta: f64) -> [f64; MOMENTS] {
     let t = 1.0 / kappa;
@@ -180,7 +192,8 @@ pub fn rough_basis(kappa: f64, beta: f64) -> [f64; MOMENTS] {
     let q2 = 2.0 + beta * (-9.0 + beta * (7.5 + beta * (-11.0 / 6.0 + beta * 0.125)));
     let q3 = 6.0
         + beta
-            * (-44.0 + beta * (65.5 + beta * (-34.0 + beta * (22.0 / 3.0 + beta * (-2.0 / 3.0 + beta * (1.0 / 48.0))))));
+            * (-44.0
+                + beta * (65.5 + beta * (-34.0 + beta * (22.0 / 3.0 + beta * (-2.0 / 3.0 + beta * (1.0 / 48.0))))));
     [front, front * t * q1, front * t * t * q2, front * t * t * t * q3]
 }
 

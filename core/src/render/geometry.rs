@@ -1,8 +1,8 @@
 //! The angles of light and view at every sample that the light reaches.
 
-use super::shadow::ShadowTree;
-use super::visibility::{Hit, RasterSize, Visibility};
 use super::Stop;
+use super::shadow::ShadowTree;
+use super::visibility::{Hit, RasterSize, Rays, Visibility};
 use crate::reflectance::Geometry;
 use crate::scene::{Lighting, Mesh, PlacedLight};
 use glam::DVec3;
@@ -63,9 +63,9 @@ pub struct Angles {
     pub tan2: f32,
     /// (l·h)² with h of unit length.
     pub cos_half2: f32,
-    /// v_x / k: along the plane of incidence.
+    /// `v_x / k`: along the plane of incidence.
     pub vx: f32,
-    /// v_y / k: across it.
+    /// `v_y / k`: across it.
     pub vy: f32,
 }
 
@@ -112,7 +112,8 @@ impl GeometryImage {
         stop: &Stop,
     ) -> Option<Self> {
         let size = visibility.size();
-        let scene = Scene { mesh, visibility, light: lighting.before(visibility.eye()), shadows };
+        let light = lighting.before(visibility.eye());
+        let scene = Scene { mesh, visibility, rays: visibility.rays(), light, shadows };
         // Two rows together, for shadow rays that four samples share.
         let band = 2 * size.columns();
         let bands: Vec<Part> = (0..visibility.hits().len().div_ceil(band))
@@ -169,6 +170,16 @@ impl GeometryImage {
         self.counts
     }
 
+    /// The same picture with each `stride`-th of its lit samples only: to measure on.
+    #[must_use]
+    pub fn thinned(&self, stride: usize) -> Self {
+        let stride = stride.max(1);
+        let samples: Vec<u32> = self.samples.iter().copied().step_by(stride).collect();
+        let angles = self.angles.iter().copied().step_by(stride).collect();
+        let counts = GeometryCounts { lit: samples.len() as u64, ..self.counts };
+        Self { samples, angles, seen: self.seen.clone(), counts, ..*self }
+    }
+
     /// How many tasks a list of lit samples is worked on by.
     pub fn chunk() -> usize {
         CHUNK
@@ -187,6 +198,7 @@ struct Part {
 struct Scene<'a> {
     mesh: &'a Mesh,
     visibility: &'a Visibility,
+    rays: Rays,
     light: PlacedLight,
     shadows: Option<(&'a ShadowTree, Shadows)>,
 }
@@ -195,7 +207,10 @@ struct Scene<'a> {
 struct Place {
     point: DVec3,
     normal: DVec3,
-    lifted: DVec3,
+    corners: [u32; 3],
+    weights: [f64; 3],
+    /// Whether the triangle is seen from behind.
+    behind: bool,
 }
 
 impl Scene<'_> {
@@ -229,7 +244,7 @@ impl Scene<'_> {
 
     /// The angles at a sample, unless its surface is turned away from the light.
     fn angles(&self, sample: usize, hit: Hit) -> Option<(Place, DVec3, f64, Angles)> {
-        let ray = self.visibility.ray(sample);
+        let ray = self.rays.at(sample);
         let eye = self.visibility.eye();
         let ahead = ray.normalize();
         let to_viewer = -(eye.world_from_view * DVec3::new(ahead.x, ahead.y, -ahead.z));
@@ -241,23 +256,35 @@ impl Scene<'_> {
 
     fn place(&self, hit: Hit, to_viewer: DVec3) -> Place {
         let corners = self.mesh.triangles()[hit.triangle as usize];
-        let points = corners.map(|i| self.mesh.positions()[i as usize].as_dvec3());
-        let mut normals = corners.map(|i| self.mesh.normals()[i as usize].as_dvec3());
         let weights = hit.barycentric().map(f64::from);
-        let mix = |v: [DVec3; 3]| v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2];
-        let point = mix(points);
+        let points = self.points(corners);
         let flat = (points[1] - points[0]).cross(points[2] - points[0]);
-        let mixed = mix(normals);
+        let mixed = mix(self.normals(corners), weights);
         // The side that is seen: by the triangle itself, for its corners' normals may lie on either side of the view.
         let outward = if flat.dot(mixed) < 0.0 { -flat } else { flat };
         let normal = mixed.try_normalize().or_else(|| outward.try_normalize()).unwrap_or(to_viewer);
         let behind = outward.dot(to_viewer) < 0.0;
-        let normal = if behind { -normal } else { normal };
-        if behind {
-            normals = normals.map(|n| -n);
-        }
-        let lifts = [0, 1, 2].map(|k: usize| normals[k] * (points[k] - point).dot(normals[k]).max(0.0));
-        Place { point, normal: turned_to(normal, to_viewer), lifted: point + mix(lifts) }
+        let normal = turned_to(if behind { -normal } else { normal }, to_viewer);
+        Place { point: mix(points, weights), normal, corners, weights, behind }
+    }
+
+    fn points(&self, corners: [u32; 3]) -> [DVec3; 3] {
+        corners.map(|i| self.mesh.positions()[i as usize].as_dvec3())
+    }
+
+    fn normals(&self, corners: [u32; 3]) -> [DVec3; 3] {
+        corners.map(|i| self.mesh.normals()[i as usize].as_dvec3())
+    }
+
+    /// Where a shadow ray starts: on the surface that the corners' normals suggest, a little above it.
+    fn lifted(&self, place: &Place) -> DVec3 {
+        let (points, normals) = (self.points(place.corners), self.normals(place.corners));
+        let lifts = [0, 1, 2].map(|k: usize| {
+            let normal = if place.behind { -normals[k] } else { normals[k] };
+            normal * (points[k] - place.point).dot(normal).max(0.0)
+        });
+        // A hundred-thousandth of the scene above the surface: single precision does not see it on it.
+        place.point + mix(lifts, place.weights) + place.normal * (self.visibility.eye().radius * 1e-5)
     }
 
     fn is_shadowed(
@@ -271,9 +298,7 @@ impl Scene<'_> {
         let Some((tree, shadows)) = self.shadows else { return false };
         let mut trace = || {
             *rays += 1;
-            // A millionth of the scene above the surface: single precision does not see it on it.
-            let start = place.lifted + place.normal * (self.visibility.eye().radius * 1e-5);
-            tree.is_blocked(start, to_light, distance)
+            tree.is_blocked(self.lifted(place), to_light, distance)
         };
         match shadows {
             Shadows::Off => false,
@@ -281,6 +306,10 @@ impl Scene<'_> {
             Shadows::Coarse => *block.get_or_insert_with(trace),
         }
     }
+}
+
+fn mix(v: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
+    v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2]
 }
 
 /// A normal, bent until it is edge-on where it points away from the viewer.

@@ -4,7 +4,9 @@ use super::Stop;
 use super::diffuse::{DARK, DiffuseTable, ROUGH};
 use super::geometry::{Angles, GeometryImage};
 use super::measure::LAMBDA_0_NM;
-use crate::reflectance::{Geometry, Reading, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa};
+use crate::reflectance::{
+    Geometry, Precision, Reading, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa, ln_diffuse_sum,
+};
 use crate::spectral::grid::{FIRST_NM, LAST_NM};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -52,6 +54,8 @@ pub struct Shade {
     pub kappa: f64,
     /// b / g.
     pub beta: f64,
+    /// Where that lies in a camera's table, if it is made by the table.
+    pub position: [f64; 2],
     /// How its integral is made.
     pub way: Way,
 }
@@ -65,7 +69,7 @@ pub struct Mirror {
     pub front: f64,
     /// g at 550 nm.
     pub kappa: f64,
-    /// v_x / k and v_y / k.
+    /// `v_x / k` and `v_y / k`.
     pub v: [f64; 2],
 }
 
@@ -165,6 +169,12 @@ impl ShadingImage {
     }
 }
 
+/// Whether even the reddest light, which scatters widest, is far below its peak.
+fn is_dark(kappa: f64, beta: f64) -> bool {
+    let g = kappa * (LAMBDA_0_NM / LAST_NM).powi(2);
+    ln_diffuse_sum(g, beta * g, Precision::Coarse) < ln_diffuse_sum(g, 0.0, Precision::Coarse) - DARK
+}
+
 fn counts(shades: &[Shade], mirrors: &[Mirror]) -> ShadingCounts {
     let mut counts = ShadingCounts { mirrors: mirrors.len() as u64, ..ShadingCounts::default() };
     for shade in shades {
@@ -223,11 +233,13 @@ impl Material {
 
     fn shade(&self, geometry: &Geometry, light: f64) -> Shade {
         if self.reading == Reading::Lambertian {
-            return Shade { front: light, kappa: 0.0, beta: 0.0, way: Way::Flat };
+            return Shade { front: light, kappa: 0.0, beta: 0.0, position: [0.0; 2], way: Way::Flat };
         }
         let front = light * diffuse_prefactor(&self.surface, geometry, self.reading);
         let (kappa, beta) = (kappa(&self.surface, geometry), beta(&self.surface, geometry));
-        Shade { front, kappa, beta, way: self.way(front, kappa, beta) }
+        let way = self.way(front, kappa, beta);
+        let position = if way == Way::Table { DiffuseTable::position(kappa, beta) } else { [0.0; 2] };
+        Shade { front, kappa, beta, position, way }
     }
 
     fn way(&self, front: f64, kappa: f64, beta: f64) -> Way {
@@ -236,9 +248,14 @@ impl Material {
         }
         match self.quality {
             Quality::Preview | Quality::Full if kappa >= ROUGH => {
-                if beta > DARK { Way::Dark } else { Way::Moments }
+                if beta > DARK {
+                    Way::Dark
+                } else {
+                    Way::Moments
+                }
             }
             Quality::Preview | Quality::Full if DiffuseTable::holds(kappa, beta) => Way::Table,
+            Quality::Preview | Quality::Full if is_dark(kappa, beta) => Way::Dark,
             _ => Way::Sum,
         }
     }
@@ -261,7 +278,8 @@ impl Material {
             let u = wave_number * half_side * (v.abs() - self.angular_radius).max(0.0);
             if u > 1.0 { 1.0 / (u * u) } else { 1.0 }
         };
-        let lobe = envelope(self.surface.half_x_m(), geometry.vx_by_k) * envelope(self.surface.half_y_m(), geometry.vy_by_k);
+        let lobe =
+            envelope(self.surface.half_x_m(), geometry.vx_by_k) * envelope(self.surface.half_y_m(), geometry.vy_by_k);
         (front * damping * lobe > self.threshold).then_some(Mirror {
             index: index as u32,
             front,

@@ -3,7 +3,7 @@
 use super::Stop;
 use super::diffuse::{DiffuseTable, by_moments, by_nodes, by_regimes, rough_basis};
 use super::geometry::GeometryImage;
-use super::measure::Measure;
+use super::measure::{MOMENTS, Measure};
 use super::mirror::{Nodes, mirror_sum};
 use super::shading::{Quality, Shade, ShadingImage, Way};
 use crate::reflectance::Precision;
@@ -96,12 +96,15 @@ impl Camera<'_> {
     }
 
     fn mirror_nodes(&self) -> Nodes<'_> {
-        Nodes {
-            smooth: self.measure.fine(),
-            every: self.measure.dense(),
-            stride: if self.quality == Quality::Preview { 10 } else { 1 },
-            exact: matches!(self.quality, Quality::Exact | Quality::Regimes),
-        }
+        let (still_m, settled_m) = match self.quality {
+            // What oscillates in between is a thousandth of the lobe.
+            Quality::Preview => (2e-6, 2e-6),
+            Quality::Full => (1e-6, self.measure.settled_m()),
+            Quality::Fine => (0.4e-6, f64::INFINITY),
+            Quality::Exact | Quality::Regimes => (0.0, f64::INFINITY),
+        };
+        let quick = self.quality <= Quality::Full;
+        Nodes { smooth: self.measure.fine(), every: self.measure.dense(), still_m, settled_m, quick }
     }
 }
 
@@ -109,29 +112,88 @@ fn scaled(sums: [f64; 3], front: f64) -> [f32; 3] {
     sums.map(|sum| (sum * front) as f32)
 }
 
+/// Samples whose moments are summed together, channel by channel, so that the loops vectorize.
+const RUN: usize = 64;
+
 /// The samples that take no sum over wavelengths. Compiled for several instruction sets, the best chosen at run time; no
 /// operation is fused, so all of them give the same bits.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
-fn quick(shades: &[Shade], moments: &[[f64; 4]; 3], table: Option<&DiffuseTable>, signals: &mut [[f32; 3]]) {
+fn quick(shades: &[Shade], moments: &[[f64; MOMENTS]; 3], table: Option<&DiffuseTable>, signals: &mut [[f32; 3]]) {
     quick_portable(shades, moments, table, signals);
 }
 
 /// The same for any processor.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn quick_portable(
     shades: &[Shade],
-    moments: &[[f64; 4]; 3],
+    moments: &[[f64; MOMENTS]; 3],
     table: Option<&DiffuseTable>,
     signals: &mut [[f32; 3]],
 ) {
-    for (shade, signal) in shades.iter().zip(signals.iter_mut()) {
-        match (shade.way, table) {
-            (Way::Moments, _) => {
-                let sums = by_moments(moments, &rough_basis(shade.kappa, shade.beta));
-                *signal = scaled(sums, shade.front);
+    for (shades, signals) in shades.chunks(RUN).zip(signals.chunks_mut(RUN)) {
+        if shades.iter().any(|shade| shade.way == Way::Moments) {
+            let sums = moments_of(shades, moments);
+            for (i, (shade, signal)) in shades.iter().zip(signals.iter_mut()).enumerate() {
+                if shade.way == Way::Moments {
+                    *signal = [sums[0][i], sums[1][i], sums[2][i]];
+                }
             }
-            (Way::Table, Some(table)) => *signal = scaled(table.at(shade.kappa, shade.beta), shade.front),
-            _ => {}
         }
+        if let Some(table) = table {
+            for (shade, signal) in shades.iter().zip(signals) {
+                if shade.way == Way::Table {
+                    *signal = scaled(table.read(shade.position), shade.front);
+                }
+            }
+        }
+    }
+}
+
+/// Three channels of each sample by moments; what belongs to samples that go another way means nothing.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn moments_of(shades: &[Shade], moments: &[[f64; MOMENTS]; 3]) -> [[f32; RUN]; 3] {
+    let (mut fronts, mut kappas, mut betas) = ([0.0; RUN], [1.0; RUN], [0.0; RUN]);
+    for (i, shade) in shades.iter().enumerate().take(RUN) {
+        (fronts[i], kappas[i], betas[i]) = (shade.front, shade.kappa, shade.beta);
+    }
+    let mut channels = [[0.0; RUN]; 3];
+    for i in 0..RUN {
+        let sums = by_moments(moments, &rough_basis(kappas[i], betas[i]));
+        for c in 0..3 {
+            channels[c][i] = (sums[c] * fronts[i]) as f32;
+        }
+    }
+    channels
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        let shade = |i: u32| Shade {
+            front: 0.1 + f64::from(i % 17),
+            kappa: 130.0 * 1.01_f64.powi((i % 900).cast_signed()),
+            beta: f64::from(i % 301) / 10.0,
+            position: [0.0; 2],
+            way: if i % 5 == 4 { Way::Dark } else { Way::Moments },
+        };
+        let shades: Vec<Shade> = (0..1000).map(shade).collect();
+        let moments = [[1.0, 1.1, 1.3, 1.7], [0.4, 0.5, 0.7, 0.9], [-0.1, -0.2, -0.3, -0.4]];
+        let (mut chosen, mut portable) = (vec![[0.0; 3]; 1000], vec![[0.0; 3]; 1000]);
+        quick(&shades, &moments, None, &mut chosen);
+        quick_portable(&shades, &moments, None, &mut portable);
+        assert_eq!(chosen, portable);
+        let plain: Vec<[f32; 3]> = shades
+            .iter()
+            .map(|shade| match shade.way {
+                Way::Moments => scaled(by_moments(&moments, &rough_basis(shade.kappa, shade.beta)), shade.front),
+                _ => [0.0; 3],
+            })
+            .collect();
+        assert_eq!(chosen, plain);
     }
 }

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Samples of a tile's side.
-const TILE: usize = 32;
+const TILE: usize = 16;
 
 /// The largest side of a picture, in samples.
 pub const MAX_SIDE: u32 = 16_384;
@@ -35,6 +35,7 @@ impl RasterSize {
     }
 
     /// The same with sides of at least one and at most [`MAX_SIDE`] samples.
+    #[must_use]
     pub fn clamped(self) -> Self {
         let samples = self.samples.clamp(1, 8);
         let side = |pixels: u32| pixels.clamp(1, MAX_SIDE / samples);
@@ -99,10 +100,12 @@ impl Visibility {
     pub fn new(mesh: &Mesh, eye: Eye, size: RasterSize, stop: &Stop) -> Option<Self> {
         let size = size.clamped();
         let rays = Rays::new(size, &eye);
-        let corners: Vec<DVec3> = mesh.positions().par_iter().map(|p| eye.view_from_world(p.as_dvec3())).collect();
-        let bins = Bins::new(mesh.triangles(), &corners, &rays, size);
+        let corner = |p: &glam::Vec3| Corner::new(eye.view_from_world(p.as_dvec3()), &rays);
+        let corners: Vec<Corner> = mesh.positions().par_iter().with_min_len(4096).map(corner).collect();
+        let bins = Bins::new(mesh.triangles(), &corners, size);
         let mut hits = vec![Hit::NOTHING; size.columns() * size.rows()];
         let [across, _] = size.tiles();
+        let scene = Scene { triangles: mesh.triangles(), corners: &corners, extents: &bins.extents, rays: &rays };
         // A band of tiles is a run of rows, so each is written by one thread alone.
         hits.par_chunks_mut(TILE * size.columns()).enumerate().for_each(|(band, rows)| {
             let mut tile = Tile::default();
@@ -112,7 +115,7 @@ impl Visibility {
                 }
                 let ids = bins.of(band * across + column);
                 if !ids.is_empty() {
-                    tile.draw(ids, mesh.triangles(), &corners, &rays, [column * TILE, band * TILE], size);
+                    tile.draw(ids, &scene, [column * TILE, band * TILE]);
                     tile.store(rows, column * TILE, size.columns());
                 }
             }
@@ -135,25 +138,31 @@ impl Visibility {
         &self.hits
     }
 
-    /// The direction of a sample's ray in view coordinates, one ahead.
-    pub fn ray(&self, sample: usize) -> DVec3 {
-        let rays = Rays::new(self.size, &self.eye);
-        DVec3::new(rays.x(sample % self.size.columns()), rays.y(sample / self.size.columns()), 1.0)
+    /// Where samples look.
+    pub fn rays(&self) -> Rays {
+        Rays::new(self.size, &self.eye)
     }
 }
 
 /// Where samples look: x and y of a ray that goes one ahead.
-struct Rays {
+#[derive(Clone, Copy, Debug)]
+pub struct Rays {
     step: f64,
     left: f64,
     top: f64,
+    columns: usize,
 }
 
 impl Rays {
     fn new(size: RasterSize, eye: &Eye) -> Self {
         let step = 2.0 * eye.half_height / size.rows() as f64;
         let left = -0.5 * step * size.columns() as f64;
-        Self { step, left, top: eye.half_height }
+        Self { step, left, top: eye.half_height, columns: size.columns() }
+    }
+
+    /// The direction of a sample's ray in view coordinates, one ahead.
+    pub fn at(&self, sample: usize) -> DVec3 {
+        DVec3::new(self.x(sample % self.columns), self.y(sample / self.columns), 1.0)
     }
 
     fn x(&self, column: usize) -> f64 {
@@ -163,84 +172,108 @@ impl Rays {
     fn y(&self, row: usize) -> f64 {
         self.top - (row as f64 + 0.5) * self.step
     }
+}
 
-    /// The columns whose sample centers lie within [from, to] of x, one more at either side against rounding.
-    fn columns(&self, from: f64, to: f64, count: usize) -> Range<usize> {
-        span((from - self.left) / self.step, (to - self.left) / self.step, count)
-    }
+/// A vertex before the eye.
+#[derive(Clone, Copy)]
+struct Corner {
+    /// In view coordinates, ahead positive.
+    place: DVec3,
+    /// Where it is seen, in samples from the left and the top; nowhere behind the eye.
+    seen: Option<[f64; 2]>,
+}
 
-    /// The rows whose sample centers lie within [from, to] of y.
-    fn rows(&self, from: f64, to: f64, count: usize) -> Range<usize> {
-        span((self.top - to) / self.step, (self.top - from) / self.step, count)
+impl Corner {
+    fn new(place: DVec3, rays: &Rays) -> Self {
+        let seen = (place.z > 0.0).then(|| {
+            let scale = 1.0 / (place.z * rays.step);
+            [place.x * scale - rays.left / rays.step, rays.top / rays.step - place.y * scale]
+        });
+        Self { place, seen }
     }
 }
 
-/// The samples with centers between two places counted in samples; casts saturate, so that any place is one.
-fn span(from: f64, to: f64, count: usize) -> Range<usize> {
+/// The samples that a triangle may cover: from left, to right, from top, to bottom, the ends excluded.
+#[derive(Clone, Copy)]
+struct Extent([u16; 4]);
+
+impl Extent {
+    const EMPTY: Self = Self([0; 4]);
+
+    /// All samples if the triangle reaches behind the eye.
+    fn new(corners: [&Corner; 3], size: RasterSize) -> Self {
+        let (columns, rows) = (size.columns(), size.rows());
+        let [Some(a), Some(b), Some(c)] = corners.map(|corner| corner.seen) else {
+            let hidden = corners.iter().all(|corner| corner.seen.is_none());
+            return if hidden { Self::EMPTY } else { Self([0, columns as u16, 0, rows as u16]) };
+        };
+        let [left, right] = span(a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]), columns);
+        let [top, bottom] = span(a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]), rows);
+        Self([left, right, top, bottom])
+    }
+
+    fn is_empty(self) -> bool {
+        let [left, right, top, bottom] = self.0;
+        left >= right || top >= bottom
+    }
+
+    fn tiles(self, across: usize) -> impl Iterator<Item = usize> {
+        let [left, right, top, bottom] = self.0.map(usize::from);
+        let rows = if self.is_empty() { 0..0 } else { top / TILE..bottom.div_ceil(TILE) };
+        rows.flat_map(move |y| (left / TILE..right.div_ceil(TILE)).map(move |x| y * across + x))
+    }
+}
+
+/// The samples with centers between two places counted in samples, one more at either side against rounding; casts
+/// saturate, so that any place is one.
+fn span(from: f64, to: f64, count: usize) -> [u16; 2] {
     const SLACK: f64 = 1e-6;
-    let first = (from - 0.5 - SLACK).ceil().max(0.0) as usize;
-    let last = (to - 0.5 + SLACK).floor().max(-1.0) + 1.0;
-    first.min(count)..(last as usize).min(count)
-}
-
-/// The samples that a triangle may cover: columns and rows; all of them if it reaches behind the eye.
-fn extent(corners: [DVec3; 3], rays: &Rays, size: RasterSize) -> Option<[Range<usize>; 2]> {
-    let behind = corners.iter().filter(|c| c.z <= 0.0).count();
-    if behind == 3 {
-        return None;
-    }
-    let (columns, rows) = (size.columns(), size.rows());
-    if behind > 0 {
-        return Some([0..columns, 0..rows]);
-    }
-    let x = corners.map(|c| c.x / c.z);
-    let y = corners.map(|c| c.y / c.z);
-    let across = rays.columns(x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]), columns);
-    let down = rays.rows(y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]), rows);
-    (!across.is_empty() && !down.is_empty()).then_some([across, down])
+    let first = (from + (0.5 - SLACK)).max(0.0) as usize;
+    let end = (to + (0.5 + SLACK)).max(0.0) as usize;
+    [first.min(count) as u16, end.min(count) as u16]
 }
 
 /// The triangles that each tile may show, in ascending order.
 struct Bins {
+    extents: Vec<Extent>,
     starts: Vec<u32>,
     ids: Vec<u32>,
 }
 
 impl Bins {
-    fn new(triangles: &[[u32; 3]], corners: &[DVec3], rays: &Rays, size: RasterSize) -> Self {
+    fn new(triangles: &[[u32; 3]], corners: &[Corner], size: RasterSize) -> Self {
         let [across, down] = size.tiles();
-        let tiles_of = |triangle: &[u32; 3]| -> [u16; 4] {
-            match extent(triangle.map(|i| corners[i as usize]), rays, size) {
-                Some([x, y]) => [x.start / TILE, (x.end - 1) / TILE, y.start / TILE, (y.end - 1) / TILE]
-                    .map(|tile| tile as u16),
-                None => [1, 0, 1, 0],
-            }
-        };
-        let places: Vec<[u16; 4]> = triangles.par_iter().map(tiles_of).collect();
-        let tiles = |[left, right, top, bottom]: [u16; 4]| {
-            (top..=bottom).flat_map(move |y| (left..=right).map(move |x| usize::from(y) * across + usize::from(x)))
-        };
+        let extent = |triangle: &[u32; 3]| Extent::new(triangle.map(|i| &corners[i as usize]), size);
+        let extents: Vec<Extent> = triangles.par_iter().with_min_len(4096).map(extent).collect();
         let mut starts = vec![0_u32; across * down + 1];
-        for place in &places {
-            tiles(*place).for_each(|tile| starts[tile + 1] += 1);
+        for extent in &extents {
+            extent.tiles(across).for_each(|tile| starts[tile + 1] += 1);
         }
         for tile in 0..across * down {
             starts[tile + 1] += starts[tile];
         }
         let mut next = starts.clone();
         let mut ids = vec![0; *next.last().unwrap_or(&0) as usize];
-        for (id, place) in places.iter().enumerate() {
-            for tile in tiles(*place) {
+        for (id, extent) in extents.iter().enumerate() {
+            for tile in extent.tiles(across) {
                 ids[next[tile] as usize] = id as u32;
                 next[tile] += 1;
             }
         }
-        Self { starts, ids }
+        Self { extents, starts, ids }
     }
 
     fn of(&self, tile: usize) -> &[u32] {
         &self.ids[self.starts[tile] as usize..self.starts[tile + 1] as usize]
     }
+}
+
+/// What all tiles are drawn from.
+struct Scene<'a> {
+    triangles: &'a [[u32; 3]],
+    corners: &'a [Corner],
+    extents: &'a [Extent],
+    rays: &'a Rays,
 }
 
 /// A square of samples being drawn: the nearest hit so far and one over its depth.
@@ -256,23 +289,15 @@ impl Default for Tile {
 }
 
 impl Tile {
-    fn draw(
-        &mut self,
-        ids: &[u32],
-        triangles: &[[u32; 3]],
-        corners: &[DVec3],
-        rays: &Rays,
-        [left, top]: [usize; 2],
-        size: RasterSize,
-    ) {
+    /// Draws what a tile may show; its left and top samples are given.
+    fn draw(&mut self, ids: &[u32], scene: &Scene<'_>, [left, top]: [usize; 2]) {
         *self = Self::default();
         for &id in ids {
-            let triangle = triangles[id as usize].map(|i| corners[i as usize]);
-            if let Some([across, down]) = extent(triangle, rays, size) {
-                let across = across.start.max(left) - left..across.end.min(left + TILE) - left;
-                let down = down.start.max(top) - top..down.end.min(top + TILE) - top;
-                self.triangle(id, triangle, rays, [left, top], [across, down]);
-            }
+            let corners = scene.triangles[id as usize].map(|i| scene.corners[i as usize].place);
+            let [from, to, above, below] = scene.extents[id as usize].0.map(usize::from);
+            let across = from.max(left) - left..to.min(left + TILE) - left;
+            let down = above.max(top) - top..below.min(top + TILE) - top;
+            self.triangle(id, corners, scene.rays, [left, top], [across, down]);
         }
     }
 
@@ -285,6 +310,9 @@ impl Tile {
         [left, top]: [usize; 2],
         [across, down]: [Range<usize>; 2],
     ) {
+        if self.hides(a.z.min(b.z).min(c.z), &across, &down) {
+            return;
+        }
         let edges = [b.cross(c), c.cross(a), a.cross(b)];
         let volume = a.dot(edges[0]);
         if volume == 0.0 || !volume.is_finite() {
@@ -292,27 +320,36 @@ impl Tile {
         }
         // Seen from the other side all signs are turned; a sample on an edge belongs to one side of it alone.
         let edges = if volume < 0.0 { edges.map(|edge| -edge) } else { edges };
-        let owns = edges.map(owns_its_border);
-        let scale = 1.0 / volume.abs();
+        let volume = volume.abs();
         for row in down {
             let y = rays.y(top + row);
             let bases = edges.map(|edge| edge.y * y + edge.z);
             for column in across.clone() {
                 let x = rays.x(left + column);
                 let e = [0, 1, 2].map(|k: usize| edges[k].x * x + bases[k]);
-                let inside = (0..3).all(|k| e[k] > 0.0 || (e[k] == 0.0 && owns[k]));
+                let inside = (0..3).all(|k| e[k] > 0.0 || (e[k] == 0.0 && owns_its_border(edges[k])));
                 if !inside {
                     continue;
                 }
                 let sum = e[0] + e[1] + e[2];
-                let nearness = sum * scale;
+                let nearness = sum / volume;
                 let at = row * TILE + column;
                 if nearness > self.nearness[at] {
                     self.nearness[at] = nearness;
-                    self.hits[at] = Hit { triangle: id, weights: [(e[1] / sum) as f32, (e[2] / sum) as f32] };
+                    let share = 1.0 / sum;
+                    self.hits[at] = Hit { triangle: id, weights: [(e[1] * share) as f32, (e[2] * share) as f32] };
                 }
             }
         }
+    }
+
+    /// Whether all of these samples see something nearer than a depth, with a margin above rounding.
+    fn hides(&self, depth: f64, across: &Range<usize>, down: &Range<usize>) -> bool {
+        depth > 0.0
+            && down.clone().all(|row| {
+                let line = &self.nearness[row * TILE..][across.clone()];
+                line.iter().all(|nearness| nearness * depth > 1.0 + 1e-9)
+            })
     }
 
     fn store(&self, rows: &mut [Hit], left: usize, columns: usize) {

@@ -19,8 +19,10 @@ fn lattice(count: usize) -> impl Iterator<Item = [f64; 2]> {
 
 /// Skin-like, leaf-like and white reflectances.
 fn reflectances() -> [GridSpectrum; 3] {
-    let skin = |nm: f64| 0.25 + 0.35 / (1.0 + (-(nm - 590.0) / 18.0).exp()) - 0.06 * (-((nm - 545.0) / 25.0).powi(2)).exp();
-    let leaf = |nm: f64| 0.05 + 0.12 * (-((nm - 552.0) / 32.0).powi(2)).exp() + 0.45 / (1.0 + (-(nm - 712.0) / 9.0).exp());
+    let skin =
+        |nm: f64| 0.25 + 0.35 / (1.0 + (-(nm - 590.0) / 18.0).exp()) - 0.06 * (-((nm - 545.0) / 25.0).powi(2)).exp();
+    let leaf =
+        |nm: f64| 0.05 + 0.12 * (-((nm - 552.0) / 32.0).powi(2)).exp() + 0.45 / (1.0 + (-(nm - 712.0) / 9.0).exp());
     [GridSpectrum::from_fn(skin), GridSpectrum::from_fn(leaf), GridSpectrum::constant(1.0)]
 }
 

@@ -1,1 +1,192 @@
-//! Whole pictures.
+//! Whole pictures: quick ways beside the sum over 401 wavelengths, one thread beside many, light and shade.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use chromascope_core::query::render::{MeshOf, Pictures};
+use chromascope_core::query::{Ask, Direct, Shared};
+use chromascope_core::reflectance::Reading;
+use chromascope_core::render::{CameraImage, Quality, RasterSize, Shadows, Stop, Visibility};
+use chromascope_core::scene::{Mesh, Viewpoint, shapes};
+use chromascope_core::spectral::GridSpectrum;
+use glam::Vec3;
+
+use super::studio::Studio;
+
+/// The largest difference between pictures of one scene, relative to each source's largest signal or, where that is larger,
+/// to the material facing light and eye: a mirror's highlight may fall between the samples.
+fn apart(a: &Pictures, b: &Pictures) -> f64 {
+    let (mut worst, facing) = (0.0_f64, b.facing.material.y);
+    for (a, b) in a.images.iter().flatten().zip(b.images.iter().flatten()) {
+        assert_eq!(a.signals().len(), b.signals().len());
+        let all = |image: &CameraImage| image.signals().iter().flatten().map(|&v| f64::from(v)).collect::<Vec<_>>();
+        let (a, b) = (all(a), all(b));
+        let peak = b.iter().fold(facing, |m, v| m.max(v.abs()));
+        assert!(peak > 0.0);
+        worst = a.iter().zip(&b).fold(worst, |w, (a, b)| w.max((a - b).abs() / peak));
+    }
+    worst
+}
+
+#[test]
+fn every_quality_keeps_its_error_against_401_wavelengths() {
+    for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet] {
+        for sigma_m in [5e-6, 0.4e-6, 0.06e-6, 2e-9] {
+            let with = |quality| Studio { reading, sigma_m, quality, size: RasterSize::new(20, 20), ..Studio::new() };
+            let exact = with(Quality::Exact).take(&Direct);
+            // Signals are kept in single precision, which alone is 6e-8.
+            for (quality, bound) in [(Quality::Full, 1e-5), (Quality::Fine, 1e-7), (Quality::Preview, 1e-3)] {
+                let error = apart(&with(quality).take(&Direct), &exact);
+                assert!(error < bound, "{reading:?}, σ = {sigma_m}, {quality:?}: {error:.1e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn three_cases_of_g_are_seen_to_err() {
+    let with = |quality| Studio { sigma_m: 0.2e-6, quality, size: RasterSize::new(20, 20), ..Studio::new() };
+    let error = apart(&with(Quality::Regimes).take(&Direct), &with(Quality::Exact).take(&Direct));
+    assert!((1e-3..1.0).contains(&error), "{error:.1e}");
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let with = |threads: usize, sigma_m: f64| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let size = RasterSize { width: 70, height: 60, samples: 2 };
+        let studio = Studio { mesh: MeshOf::Fern(5_000), size, sigma_m, ..Studio::new() };
+        pool.install(|| studio.take(&Direct))
+    };
+    for sigma_m in [5e-6, 0.1e-6] {
+        let one = with(1, sigma_m);
+        for threads in [2, 5] {
+            let many = with(threads, sigma_m);
+            assert_eq!(one.geometry, many.geometry);
+            assert_eq!(one.shading, many.shading);
+            for (a, b) in one.images.iter().zip(&many.images) {
+                let [a, b] = [a, b].map(|image| image.as_ref().unwrap());
+                assert_eq!(a.signals(), b.signals());
+                assert_eq!(a.geometry().samples(), b.geometry().samples());
+            }
+            for (a, b) in one.pictures.iter().zip(&many.pictures) {
+                assert_eq!(a.as_ref().unwrap(), b.as_ref().unwrap());
+            }
+            assert_eq!(one.differences, many.differences);
+        }
+    }
+}
+
+#[test]
+fn every_sample_is_accounted_for() {
+    for mesh in [MeshOf::Sphere(2_000), MeshOf::Fern(5_000), MeshOf::Head(5_000)] {
+        let studio = Studio { mesh, ..Studio::new() };
+        let pictures = studio.take(&Direct);
+        let counts = pictures.geometry;
+        assert_eq!(counts.seen, counts.lit + counts.facing_away + counts.shadowed);
+        let shading = pictures.shading;
+        assert_eq!(counts.lit, shading.dark + shading.flat + shading.moments + shading.table + shading.sums);
+        assert_eq!(counts.lit, shading.mirrors + shading.mirrors_skipped);
+        assert!(counts.seen > 0 && counts.rays <= counts.lit + counts.shadowed);
+    }
+}
+
+#[test]
+fn a_material_facing_light_and_eye_is_shown_at_its_exposure() {
+    for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet, Reading::Lambertian] {
+        // The light stands behind the eye.
+        let mut question = Studio { mesh: MeshOf::Plane, reading, ..Studio::new() }.question();
+        question.shading.geometry.visibility.viewpoint = Viewpoint::new(0.0, 0.0, 1000.0, 0.002).unwrap();
+        question.shading.geometry.lighting = chromascope_core::scene::Lighting::from_angles(0.0, 0.0, 4.65e-3).unwrap();
+        let pictures = (*Direct.ask(&question)).clone().unwrap().unwrap();
+        let rendering = Direct.ask(&question.truth);
+        let rendering = (*rendering).as_ref().unwrap();
+        let image = pictures.images[0].as_ref().unwrap();
+        let middle = image.signals()[image.signals().len() / 2];
+        let signals = rendering.white * glam::DVec3::from_array(middle.map(f64::from));
+        let y = rendering.xyz(signals).y;
+        assert!((y / pictures.facing.material.y - 1.0).abs() < 1e-5, "{reading:?}: {y}");
+        assert!((y * pictures.facing.factor(0.0) - 0.4).abs() < 1e-5);
+        assert!((y * pictures.facing.factor(-1.5) - 0.4 * (-1.5_f64).exp2()).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn without_a_model_a_white_in_the_light_is_white() {
+    let mut question = Studio { mesh: MeshOf::Plane, reading: Reading::Lambertian, ..Studio::new() }.question();
+    question.reflectance = Shared::new(GridSpectrum::constant(1.0));
+    let pictures = (*Direct.ask(&question)).clone().unwrap().unwrap();
+    let facing = pictures.facing;
+    assert!((facing.white - facing.material.y).abs() < 1e-12, "{facing:?}");
+    // Eq 13's matrix has three digits.
+    assert!((facing.white - 1.0).abs() < 1e-4, "{facing:?}");
+    // The same share of every signal at any sample: cos θi cos⁴α.
+    for image in pictures.images.iter().flatten() {
+        for signal in image.signals() {
+            assert!(signal.iter().all(|v| (v - signal[0]).abs() < 1e-6), "{signal:?}");
+        }
+    }
+}
+
+/// A square on the ground and a small one above it.
+fn table_and_lid() -> Mesh {
+    let square = |half: f32, y: f32| {
+        [[-half, half], [half, half], [half, -half], [-half, -half]].map(|[x, z]| Vec3::new(x, y, z))
+    };
+    let positions = [square(1.0, 0.0), square(0.3, 0.5)].concat();
+    let faces = |first: u32| [[first, first + 1, first + 2], [first, first + 2, first + 3]];
+    Mesh::with_smooth_normals(positions, [faces(0), faces(4)].concat()).unwrap()
+}
+
+#[test]
+fn a_lid_casts_its_shadow_where_the_sun_is_high() {
+    let mesh = MeshOf::Own(Shared::new(table_and_lid()));
+    let from_above = |shadows| {
+        let mut question = Studio { mesh: mesh.clone(), shadows, ..Studio::new() }.question();
+        let geometry = &mut question.shading.geometry;
+        geometry.visibility.size = RasterSize::new(101, 101);
+        // From straight above the lid hides its own shadow but for perspective; from the side the table is seen.
+        geometry.visibility.viewpoint = Viewpoint::new(0.0, 0.6, 4.0, 0.6).unwrap();
+        geometry.lighting = chromascope_core::scene::Lighting::from_angles(0.5, 0.0, 0.0).unwrap();
+        (*Direct.ask(&question)).clone().unwrap().unwrap().geometry
+    };
+    let [off, coarse, full] = [Shadows::Off, Shadows::Coarse, Shadows::Full].map(from_above);
+    assert_eq!((off.shadowed, off.rays), (0, 0));
+    assert_eq!(off.seen, full.seen);
+    assert!(full.shadowed > 100 && full.rays == full.lit + full.shadowed);
+    // The ground is 4/0.36 times the lid; a high sun lets the lid's shadow be nearly as large as the lid.
+    assert!(full.shadowed < full.seen / 5);
+    assert!(coarse.rays * 3 < full.rays, "{} rays of {}", coarse.rays, full.rays);
+    assert!(coarse.shadowed.abs_diff(full.shadowed) < full.shadowed / 3);
+}
+
+#[test]
+fn a_ball_does_not_shadow_itself_in_the_light() {
+    // Facets are flat where normals are round: rays that start on them must not meet their neighbors.
+    let studio = Studio { mesh: MeshOf::Sphere(300), size: RasterSize::new(200, 200), ..Studio::new() };
+    let counts = studio.take(&Direct).geometry;
+    assert!(counts.shadowed * 200 < counts.lit, "{counts:?}");
+}
+
+#[test]
+fn what_is_stopped_gives_nothing() {
+    let stop = Stop::at(Arc::new(AtomicBool::new(true)));
+    let mesh = shapes::sphere(2_000);
+    let eye = Viewpoint::new(0.0, 0.0, 3.0, 0.5).unwrap().eye(mesh.bounds());
+    assert!(Visibility::new(&mesh, eye, RasterSize::new(64, 64), &stop).is_none());
+}
+
+#[test]
+fn more_samples_give_the_same_picture_but_for_its_edges() {
+    let with = |samples| {
+        let size = RasterSize { width: 48, height: 48, samples };
+        Studio { size, mesh: MeshOf::Sphere(20_000), ..Studio::new() }.take(&Direct).pictures[1].clone().unwrap()
+    };
+    let (one, nine) = (with(1), with(3));
+    let far = |a: &[u8; 4], b: &[u8; 4]| a.iter().zip(b).any(|(a, b)| a.abs_diff(*b) > 12);
+    let (a, b) = (one.rgba.as_chunks().0, nine.rgba.as_chunks().0);
+    let apart = a.iter().zip(b).filter(|(a, b)| far(a, b)).count();
+    assert!(apart < 48 * 5, "{apart} pixels");
+    // Half covered pixels are half opaque.
+    assert!(b.iter().any(|pixel| (60..200).contains(&pixel[3])));
+}

@@ -57,7 +57,7 @@ fn the_rasterizer_sees_what_rays_see() {
             let visibility = seen(&mesh, viewpoint, size);
             let eye = *visibility.eye();
             for (sample, hit) in visibility.hits().iter().enumerate() {
-                let ray = visibility.ray(sample);
+                let ray = visibility.rays().at(sample);
                 let direction = eye.world_from_view * DVec3::new(ray.x, ray.y, -ray.z);
                 let expected = cast(&mesh, eye.position, direction);
                 match expected {
@@ -79,7 +79,7 @@ fn the_rasterizer_sees_what_rays_see() {
 #[test]
 fn a_closed_surface_has_no_cracks_and_no_sample_twice() {
     let mesh = shapes::sphere(200_000);
-    let visibility = seen(&mesh, Viewpoint::new(0.7, 0.2, 3.0, 0.5).unwrap(), RasterSize::new(333, 301));
+    let visibility = seen(&mesh, Viewpoint::new(0.7, 0.2, 5.0, 0.5).unwrap(), RasterSize::new(333, 301));
     let (columns, rows) = (333, 301);
     // A row of a sphere's picture is one run: a crack would be a hole in it.
     for row in 0..rows {
@@ -88,8 +88,8 @@ fn a_closed_surface_has_no_cracks_and_no_sample_twice() {
         assert!(runs <= 2, "row {row} has {runs} borders");
     }
     let count = visibility.hits().iter().filter(|hit| hit.is_some()).count() as f64;
-    // The sphere's silhouette is a cone: its picture is a circle of tangent r/√(d² − r²), with d = 3 r.
-    let tangent = 1.0 / 8.0_f64.sqrt();
+    // The sphere's silhouette is a cone: its picture is a circle of tangent r/√(d² − r²), with d = 5 r.
+    let tangent = 1.0 / 24.0_f64.sqrt();
     let pixels = f64::from(rows as u32) / (2.0 * 0.25_f64.tan());
     let expected = std::f64::consts::PI * (tangent * pixels).powi(2);
     assert!((count / expected - 1.0).abs() < 2e-3, "{count} samples, {expected} expected");
@@ -98,7 +98,12 @@ fn a_closed_surface_has_no_cracks_and_no_sample_twice() {
 #[test]
 fn samples_on_a_common_edge_belong_to_one_side() {
     // Two triangles whose common edge runs exactly through sample centers.
-    let positions = vec![Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, -1.0, 0.0), Vec3::new(1.0, 1.0, 0.0), Vec3::new(-1.0, 1.0, 0.0)];
+    let positions = vec![
+        Vec3::new(-1.0, -1.0, 0.0),
+        Vec3::new(1.0, -1.0, 0.0),
+        Vec3::new(1.0, 1.0, 0.0),
+        Vec3::new(-1.0, 1.0, 0.0),
+    ];
     let mesh = Mesh::with_smooth_normals(positions, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
     let visibility = seen(&mesh, Viewpoint::new(0.0, 0.0, 3.0, 0.4).unwrap(), RasterSize::new(64, 64));
     assert!(visibility.hits().iter().all(|hit| hit.is_some()));

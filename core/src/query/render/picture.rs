@@ -5,8 +5,8 @@ use crate::camera::NoRendering;
 use crate::colorimetry::Xyz;
 use crate::query::{Ask, Query, RenderingOf, Shared};
 use crate::reflectance::{Geometry, Reading, Surface, factor};
-use crate::render::develop::{differences, develop};
-use crate::render::{CameraImage, Development, GeometryCounts, Measurement, Measure, Picture, ShadingCounts};
+use crate::render::develop::{develop, differences};
+use crate::render::{CameraImage, Development, GeometryCounts, Measure, Measurement, Picture, ShadingCounts};
 use crate::spectral::GridSpectrum;
 use glam::DVec3;
 use std::sync::Arc;
@@ -157,7 +157,8 @@ impl Query for DifferenceOf {
         let measured = Measurement::new((*rendering).as_ref().map_err(|&e| e)?, facing.white);
         let measured_truth = Measurement::new((*truth).as_ref().map_err(|&e| e)?, facing.white);
         let [image, truth] = [&self.image, &self.truth].map(|of| ask.ask(of));
-        let (Some(image), Some(truth)) = ((*image).as_ref().map_err(|&e| e)?, (*truth).as_ref().map_err(|&e| e)?) else {
+        let (Some(image), Some(truth)) = ((*image).as_ref().map_err(|&e| e)?, (*truth).as_ref().map_err(|&e| e)?)
+        else {
             return Ok(None);
         };
         let map = differences(image, &measured, truth, &measured_truth, self.stride, &ask.stop());

@@ -1,0 +1,114 @@
+//! The scene of the benches: the head under the sun, through the truth and the paper's cameras.
+
+use crate::asker::Remembering;
+use crate::library::{patches, sensor, text};
+use chromascope_core::camera::White;
+use chromascope_core::query::render::{
+    CameraImageOf, GeometryOf, MeshOf, PicturesOf, ShadingOf, SourceOf, VisibilityOf,
+};
+use chromascope_core::query::{Ask, RenderingOf, Shared, WayOf};
+use chromascope_core::reflectance::{Reading, Surface};
+use chromascope_core::render::{CameraImage, Quality, RasterSize, Shadows};
+use chromascope_core::scene::{Lighting, Viewpoint, lighting::SUN_RADIUS};
+use chromascope_core::spectral::{Dataset, GridSpectrum, Quantity, Sensor};
+use std::sync::Arc;
+
+/// A camera's weights are made once; a picture is made anew.
+pub(crate) struct Studio {
+    pub(crate) sources: Vec<RenderingOf>,
+    pub(crate) skin: Shared<GridSpectrum>,
+    pub(crate) mesh: MeshOf,
+    pub(crate) size: RasterSize,
+    pub(crate) shadows: Shadows,
+    pub(crate) quality: Quality,
+    pub(crate) reading: Reading,
+    pub(crate) sigma_m: f64,
+    pub(crate) yaw: f64,
+    pub(crate) light_right: f64,
+    pub(crate) ev: f64,
+}
+
+/// The grid values of a file's first curve.
+fn curve(path: &str) -> GridSpectrum {
+    let data = Dataset::read(&text(path)).unwrap();
+    GridSpectrum::resample(&data.curves[0], Quantity::Light)
+}
+
+impl Studio {
+    /// These sources, the truth first.
+    pub(crate) fn new(sensors: &[Shared<Sensor>]) -> Self {
+        let light = Shared::new(curve("illuminants/direct_sun_astm_g173.csv"));
+        let observer = sensor(&text("observers/cie_1931_2deg.csv"));
+        let d55 = Dataset::read(&text("illuminants/d55.csv")).unwrap();
+        let white = White::from_light(&d55.curves[0], &observer).unwrap();
+        let rendering = |sensor: &Shared<Sensor>| RenderingOf {
+            sensor: sensor.clone(),
+            light: light.clone(),
+            white,
+            way: WayOf::Paper,
+        };
+        let skin = patches("materials/skin_vrhel.csv");
+        let skin = Shared::new(skin.patches()[0].grid.clone());
+        Self {
+            sources: sensors.iter().map(rendering).collect(),
+            skin,
+            mesh: MeshOf::Head(100_000),
+            size: RasterSize::new(512, 512),
+            shadows: Shadows::Coarse,
+            quality: Quality::Full,
+            reading: Reading::Radiometric,
+            sigma_m: 5e-6,
+            yaw: 0.3,
+            light_right: -25.0,
+            ev: 0.0,
+        }
+    }
+
+    pub(crate) fn surface(&self) -> Surface {
+        Surface::new(self.sigma_m, 10e-6, 50e-6, 50e-6, 1.4).unwrap()
+    }
+
+    pub(crate) fn visibility(&self) -> VisibilityOf {
+        let viewpoint = Viewpoint::new(self.yaw, 0.1, 3.6, 30_f64.to_radians()).unwrap();
+        VisibilityOf { mesh: self.mesh.clone(), viewpoint, size: self.size }
+    }
+
+    pub(crate) fn geometry(&self) -> GeometryOf {
+        let (up, right) = (25_f64.to_radians(), self.light_right.to_radians());
+        let lighting = Lighting::from_angles(up, right, SUN_RADIUS).unwrap();
+        GeometryOf { visibility: self.visibility(), lighting, shadows: self.shadows }
+    }
+
+    pub(crate) fn shading(&self) -> ShadingOf {
+        ShadingOf { geometry: self.geometry(), surface: self.surface(), reading: self.reading, quality: self.quality }
+    }
+
+    pub(crate) fn pictures(&self) -> PicturesOf {
+        PicturesOf {
+            shading: self.shading(),
+            reflectance: self.skin.clone(),
+            truth: self.sources[0].clone(),
+            sources: self.sources.iter().map(|rendering| SourceOf { rendering: rendering.clone() }).collect(),
+            ev: self.ev.to_bits(),
+            background: Some([0.2_f32.to_bits(); 3]),
+            compared_samples: None,
+        }
+    }
+
+    /// The question for one source's signals.
+    pub(crate) fn image(&self, source: usize) -> CameraImageOf {
+        self.pictures().image(&self.sources[source])
+    }
+
+    /// The signals of all sources.
+    pub(crate) fn images(&self, ask: &Remembering) -> Vec<CameraImage> {
+        (0..self.sources.len()).map(|source| (*ask.ask(&self.image(source))).clone().unwrap().unwrap()).collect()
+    }
+
+    /// The pictures, made if they are not known.
+    pub(crate) fn take(&self, ask: &Remembering) -> usize {
+        let pictures: Arc<_> = ask.ask(&self.pictures());
+        let pictures = (*pictures).as_ref().unwrap().as_ref().unwrap();
+        pictures.pictures.iter().map(|picture| picture.as_ref().unwrap().rgba.len()).sum()
+    }
+}

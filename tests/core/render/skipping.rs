@@ -1,0 +1,100 @@
+//! What a change asks for anew, and what it does not.
+
+use chromascope_core::camera::White;
+use chromascope_core::colorimetry::Xy;
+use chromascope_core::query::Shared;
+use chromascope_core::reflectance::Reading;
+use chromascope_core::render::Shadows;
+use chromascope_core::spectral::GridSpectrum;
+
+use super::studio::{Counting, Studio};
+
+/// What is made after a change to a picture that is known.
+fn after(start: &Studio, change: impl FnOnce(&mut Studio)) -> Vec<(&'static str, usize)> {
+    let ask = Counting::default();
+    let mut studio = start.clone();
+    studio.take(&ask);
+    ask.made();
+    change(&mut studio);
+    studio.take(&ask);
+    ask.made().into_iter().collect()
+}
+
+#[test]
+fn four_cameras_share_all_that_has_no_camera_in_it() {
+    let ask = Counting::default();
+    Studio::new().take(&ask);
+    let made = ask.made();
+    for (name, count) in [("mesh", 1), ("visibility", 1), ("geometry", 1), ("shading", 1), ("camera image", 4)] {
+        assert_eq!(made[name], count, "{name}");
+    }
+}
+
+#[test]
+fn exposure_asks_for_pixels_alone() {
+    assert_eq!(after(&Studio::new(), |studio| studio.ev = 1.0), [("picture", 4), ("pictures", 1)]);
+}
+
+#[test]
+fn a_new_white_asks_for_no_signals() {
+    let made = after(&Studio::new(), |studio| {
+        let white = White::from_chromaticity(Xy { x: 0.31, y: 0.33 }).unwrap();
+        studio.sources.iter_mut().for_each(|source| source.white = white);
+    });
+    let names: Vec<&str> = made.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["difference", "exposure", "picture", "pictures", "rendering"]);
+}
+
+#[test]
+fn a_rougher_surface_asks_for_no_geometry_and_no_table() {
+    let smooth = Studio { sigma_m: 0.3e-6, ..Studio::new() };
+    let made = after(&smooth, |studio| studio.sigma_m = 0.35e-6);
+    let names: Vec<&str> = made.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["camera image", "difference", "exposure", "picture", "pictures", "shading"]);
+}
+
+#[test]
+fn moving_the_light_keeps_what_is_seen() {
+    let made = after(&Studio::new(), |studio| studio.light_up = 40.0);
+    assert!(made.iter().all(|(name, _)| !["mesh", "visibility", "shadow tree", "measure"].contains(name)), "{made:?}");
+    assert!(made.contains(&("geometry", 1)));
+}
+
+#[test]
+fn another_reflectance_keeps_the_shading() {
+    let made = after(&Studio::new(), |studio| studio.reflectance = Shared::new(GridSpectrum::constant(0.5)));
+    assert!(made.iter().all(|(name, _)| !["visibility", "geometry", "shading"].contains(name)), "{made:?}");
+}
+
+#[test]
+fn a_hidden_camera_costs_nothing() {
+    let made = after(&Studio::new(), |studio| drop(studio.sources.pop()));
+    assert_eq!(made, [("pictures", 1)]);
+    // And one that was never shown is never asked for.
+    let ask = Counting::default();
+    let mut studio = Studio::new();
+    studio.sources.truncate(2);
+    studio.take(&ask);
+    assert_eq!(ask.made()["camera image"], 2);
+}
+
+#[test]
+fn without_shadows_there_is_no_tree() {
+    let ask = Counting::default();
+    Studio { shadows: Shadows::Off, ..Studio::new() }.take(&ask);
+    assert!(!ask.made().contains_key("shadow tree"));
+}
+
+#[test]
+fn rough_surfaces_need_no_table_and_no_mirror() {
+    let ask = Counting::default();
+    // A ball seen face to face with the sun still has samples near grazing, where κ is small.
+    let studio = Studio { sigma_m: 50e-6, ..Studio::new() };
+    let shading = studio.take(&ask).shading;
+    assert!(shading.moments * 10 > shading.table * 9);
+    let flat = Studio { reading: Reading::Lambertian, ..Studio::new() };
+    let ask = Counting::default();
+    let shading = flat.take(&ask).shading;
+    assert_eq!((shading.table, shading.moments, shading.mirrors), (0, 0, 0));
+    assert!(!ask.made().contains_key("diffuse table"));
+}

@@ -1,0 +1,118 @@
+//! A small scene for the tests of pictures, and somebody who remembers answers and counts what had to be made.
+
+use std::any::Any;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use chromascope_core::camera::White;
+use chromascope_core::query::render::{GeometryOf, ShadingOf, VisibilityOf};
+use chromascope_core::query::render::{MeshOf, Pictures, PicturesOf, SourceOf};
+use chromascope_core::query::{Ask, Query, RenderingOf, Shared, WayOf};
+use chromascope_core::reflectance::{Reading, Surface};
+use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::scene::{Lighting, Viewpoint, lighting::SUN_RADIUS};
+use chromascope_core::spectral::GridSpectrum;
+
+use crate::support;
+
+/// What a picture is made of; each test changes what it is about.
+#[derive(Clone)]
+pub(super) struct Studio {
+    pub sources: Vec<RenderingOf>,
+    pub reflectance: Shared<GridSpectrum>,
+    pub mesh: MeshOf,
+    pub size: RasterSize,
+    pub yaw: f64,
+    pub light_up: f64,
+    pub sigma_m: f64,
+    pub shadows: Shadows,
+    pub reading: Reading,
+    pub quality: Quality,
+    pub ev: f64,
+}
+
+impl Studio {
+    /// Skin under the sun on a sphere, through Stiles & Burch and the paper's cameras, at σ = 5 µm.
+    pub(super) fn new() -> Self {
+        let light = Shared::new(support::light("illuminants/direct_sun_astm_g173.csv"));
+        let sensors = [support::TRUTH, support::CANON_10D, support::NIKON_D70, support::DCS200];
+        let skin = support::patches("materials/skin_vrhel.csv");
+        let white = White::from_chromaticity(chromascope_core::colorimetry::Xy { x: 0.3324, y: 0.3474 }).unwrap();
+        let rendering = |path: &&str| RenderingOf {
+            sensor: Shared::new(support::sensor(path)),
+            light: light.clone(),
+            white,
+            way: WayOf::Paper,
+        };
+        Self {
+            sources: sensors.iter().map(rendering).collect(),
+            reflectance: Shared::new(skin.patches()[0].grid.clone()),
+            mesh: MeshOf::Sphere(2_000),
+            size: RasterSize::new(40, 40),
+            yaw: 0.0,
+            light_up: 25.0,
+            sigma_m: 5e-6,
+            shadows: Shadows::Full,
+            reading: Reading::Radiometric,
+            quality: Quality::Full,
+            ev: 0.0,
+        }
+    }
+
+    pub(super) fn surface(&self) -> Surface {
+        Surface::new(self.sigma_m, 10e-6, 50e-6, 50e-6, 1.4).unwrap()
+    }
+
+    pub(super) fn question(&self) -> PicturesOf {
+        let viewpoint = Viewpoint::new(self.yaw, 0.1, 3.6, 30_f64.to_radians()).unwrap();
+        let visibility = VisibilityOf { mesh: self.mesh.clone(), viewpoint, size: self.size };
+        let lighting = Lighting::from_angles(self.light_up.to_radians(), (-25_f64).to_radians(), SUN_RADIUS).unwrap();
+        let geometry = GeometryOf { visibility, lighting, shadows: self.shadows };
+        let (surface, reading, quality) = (self.surface(), self.reading, self.quality);
+        PicturesOf {
+            shading: ShadingOf { geometry, surface, reading, quality },
+            reflectance: self.reflectance.clone(),
+            truth: self.sources[0].clone(),
+            sources: self.sources.iter().map(|rendering| SourceOf { rendering: rendering.clone() }).collect(),
+            ev: self.ev.to_bits(),
+            background: None,
+            compared_samples: Some(500),
+        }
+    }
+
+    pub(super) fn take(&self, ask: &impl Ask) -> Pictures {
+        (*ask.ask(&self.question())).clone().unwrap().unwrap()
+    }
+}
+
+/// Remembers all answers; counts by kind which had to be made.
+#[derive(Default)]
+pub(super) struct Counting {
+    known: RefCell<Vec<Known>>,
+    made: RefCell<BTreeMap<&'static str, usize>>,
+}
+
+type Known = (Box<dyn Any>, Box<dyn Any>);
+
+impl Counting {
+    /// What had to be made since the last time.
+    pub(super) fn made(&self) -> BTreeMap<&'static str, usize> {
+        self.made.take()
+    }
+}
+
+impl Ask for Counting {
+    fn ask<Q: Query>(&self, query: &Q) -> Arc<Q::Answer> {
+        let found = self.known.borrow().iter().find_map(|(question, answer)| {
+            let same = question.downcast_ref::<Q>().is_some_and(|known| known == query);
+            if same { answer.downcast_ref::<Arc<Q::Answer>>().cloned() } else { None }
+        });
+        found.unwrap_or_else(|| {
+            let answer = Arc::new(query.answer(self));
+            *self.made.borrow_mut().entry(Q::NAME).or_default() += 1;
+            self.known.borrow_mut().push((Box::new(query.clone()), Box::new(Arc::clone(&answer))));
+            answer
+        })
+    }
+}
