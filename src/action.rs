@@ -1,10 +1,12 @@
 //! Every change a user can make to the document. Undo is the previous document.
 
+use std::path::PathBuf;
+
 use chromascope_core::query::Shared;
 
 use crate::catalog::{Entry, Kind};
 use crate::document::own::OwnSet;
-use crate::document::render::{BALANCE, RenderSettings, SUN};
+use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::{
     Diagram, DifferenceChoice, Document, LOCUS_RANGE_K, Light, Overlays, Subset, WayChoice, WhiteChoice,
 };
@@ -73,6 +75,8 @@ pub enum RenderAction {
         /// The settings as they are to be.
         to: Box<RenderSettings>,
     },
+    /// Looks at a mesh file of the user's, which was read.
+    Open(PathBuf),
     /// The paper's Figure 8: the head under sunlight, balanced to D55.
     Figure8,
     /// The paper's Figure 9: the fern under sunlight, balanced to D55.
@@ -101,6 +105,10 @@ impl Action {
         match self {
             Self::Compare(action) => action.name(),
             Self::Scene(action) => action.name().to_owned(),
+            Self::Render(RenderAction::Open(path)) => {
+                let name = path.file_name().unwrap_or(path.as_os_str());
+                format!("Open {}", name.to_string_lossy())
+            }
             Self::Render(action) => action.name().to_owned(),
             Self::Own(OwnAction::Import(sets)) => match sets.as_slice() {
                 [one] => format!("Open {}", one.name),
@@ -114,10 +122,8 @@ impl Action {
 
     /// Whether a change during the same drag belongs to the same step.
     pub fn is_same_gesture(&self, next: &Self) -> bool {
-        if let (
-            Self::Render(RenderAction::Set { what, .. }),
-            Self::Render(RenderAction::Set { what: next, .. }),
-        ) = (self, next)
+        if let (Self::Render(RenderAction::Set { what, .. }), Self::Render(RenderAction::Set { what: next, .. })) =
+            (self, next)
         {
             return what == next;
         }
@@ -230,6 +236,7 @@ impl RenderAction {
     fn name(&self) -> &'static str {
         match self {
             Self::Set { what, .. } => what,
+            Self::Open(_) => "Open a mesh",
             Self::Figure8 => "Figure 8",
             Self::Figure9 => "Figure 9",
         }
@@ -239,6 +246,10 @@ impl RenderAction {
         let figure = match self {
             Self::Set { to, .. } => {
                 document.render.clone_from(to);
+                return;
+            }
+            Self::Open(path) => {
+                document.render.mesh = MeshChoice::File(path.clone());
                 return;
             }
             Self::Figure8 => RenderSettings::default(),

@@ -1,18 +1,22 @@
 //! The program in its window: takes in events, carries out commands, shows panes.
 
 mod commands;
+mod meshes;
 mod path_prompt;
+mod pictures;
 mod startup;
 
 use egui::{Align2, CentralPanel, CursorIcon, Event, Frame, Panel, Rect, Sense, Ui};
 
 use crate::catalog::Catalog;
+use crate::catalog::meshes::MeshStore;
 use crate::command::{Command, key_bindings};
 use crate::document::history::History;
 use crate::files::Files;
 use crate::panes::{self, PaneContext};
 use crate::results::Results;
 use crate::scene::Scene;
+use crate::studio::Studio;
 use crate::theme::{self, Theme};
 use crate::view::{SavedView, View};
 use crate::workspaces::{Arrangement, PaneKind, Splitter, arrange};
@@ -29,6 +33,8 @@ pub struct ChromascopeApp {
     results: Results,
     view: View,
     files: Files,
+    meshes: MeshStore,
+    studio: Studio,
     commands: Vec<Command>,
     arrangement: Arrangement,
     first_frame: Option<std::time::Instant>,
@@ -39,12 +45,15 @@ impl ChromascopeApp {
     pub fn new(ctx: &egui::Context, history: History, saved: SavedView, mut files: Files) -> Self {
         theme::apply(ctx);
         files.wake(ctx);
+        let window = ctx.clone();
         Self {
             history,
             catalog: Catalog::built_in(),
             results: Results::default(),
             view: View { saved, ..View::default() },
             files,
+            meshes: MeshStore::new(move || window.request_repaint()),
+            studio: Studio::new(ctx),
             commands: Vec::new(),
             arrangement: Arrangement::default(),
             first_frame: None,
@@ -71,6 +80,16 @@ impl ChromascopeApp {
         &self.results
     }
 
+    /// The user's mesh files.
+    pub fn meshes(&self) -> &MeshStore {
+        &self.meshes
+    }
+
+    /// Where pictures are made.
+    pub fn studio(&self) -> &Studio {
+        &self.studio
+    }
+
     /// Has something done in the next frame.
     pub fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());
@@ -86,6 +105,10 @@ impl ChromascopeApp {
         let typing = ctx.text_edit_focused();
         let focused = self.view.focused.unwrap_or(PaneKind::Chromaticity);
         for binding in key_bindings(focused) {
+            // An open list closes first.
+            if binding.command == Command::Escape && egui::Popup::is_any_open(ctx) {
+                continue;
+            }
             if binding.rests_while_typing && (typing || ctx.egui_wants_keyboard_input()) {
                 continue;
             }
@@ -118,9 +141,9 @@ impl ChromascopeApp {
     /// The bars and panes of one frame.
     fn show(&mut self, ui: &mut Ui) {
         let theme = Theme::of(ui.visuals()).with_surround(self.view.saved.surround);
-        let Self { history, catalog, results, view, commands, arrangement, files, .. } = self;
+        let Self { history, catalog, results, view, commands, arrangement, files, meshes, studio, .. } = self;
         let scene = Scene { document: history.document(), catalog, results };
-        let mut context = PaneContext { scene, theme, view, commands };
+        let mut context = PaneContext { scene, theme, view, meshes, studio, commands };
         let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
             let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
             let frame = Frame::NONE.fill(theme.panel);
@@ -155,7 +178,7 @@ impl ChromascopeApp {
         }
         if let Some((pane, rect)) = arrangement.over {
             let layer =
-                egui::Area::new(egui::Id::unique("inspector over")).fixed_pos(rect.min).order(egui::Order::Foreground);
+                egui::Area::new(egui::Id::unique("column over")).fixed_pos(rect.min).order(egui::Order::Foreground);
             layer.show(ui.ctx(), |ui| {
                 ui.set_min_size(rect.size());
                 panes::show(ui, pane, rect, &mut context);
@@ -165,6 +188,7 @@ impl ChromascopeApp {
         panes::status_bar::show(ui, status, arrangement, &mut context);
         panes::help::show(ui, history, &mut context);
         path_prompt::show(ui, files);
+        context.studio.end_frame();
         drop_veil(ui, theme);
     }
 }
@@ -216,6 +240,7 @@ impl eframe::App for ChromascopeApp {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.results.end_frame();
         self.take_files(ctx);
+        self.take_meshes();
         self.take_input(ctx);
         self.carry_out(ctx);
         self.autosave(ctx);

@@ -5,6 +5,7 @@
 
 pub mod import;
 pub mod load;
+pub mod meshes;
 pub mod names;
 
 use chromascope_core::query::Shared;

@@ -1,9 +1,10 @@
-//! The same answers without a window: `locus`, `patches`, `list`.
+//! The same answers without a window: `locus`, `patches`, `render`, `list`.
 //!
 //! Arguments become a [`Document`](crate::document::Document) and are answered through [`Scene`](crate::scene::Scene), as in the
 //! window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
 
 mod arguments;
+mod render;
 mod request;
 mod tables;
 
@@ -49,6 +50,14 @@ pub enum CliError {
         argument: &'static str,
         /// Why, with what would do.
         reason: String,
+    },
+    /// A picture could not be made into a file.
+    #[error("{}: {error}", path.display())]
+    Picture {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        error: crate::export::render::PictureError,
     },
     /// The output could not be written.
     #[error("cannot write {}: {}", path.display(), crate::files::reason(error))]
@@ -97,6 +106,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         Subcommand::Patches(arguments) => {
             tables::patches(&arguments, matches).and_then(|text| put(&text, arguments.common.out.as_deref()))
         }
+        Subcommand::Render(arguments) => render::run(&arguments, matches),
         Subcommand::List { kind } => put(&tables::list(kind), None),
     };
     Outcome::Done(match result {

@@ -4,6 +4,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::action::Action;
 use crate::theme::Surround;
+use crate::thing::SourceId;
 use crate::view::HelpPage;
 use crate::workspaces::{PaneKind, Workspace};
 
@@ -24,6 +25,8 @@ pub enum Command {
     Paste(String),
     /// Save a pane's figure or numbers.
     Export(PaneKind, Format),
+    /// Save a source's rendered picture with its numbers.
+    ExportExr(SourceId),
     /// Put a pane's picture on the clipboard.
     CopyPicture(PaneKind),
     /// Put a pane's numbers on the clipboard.
@@ -117,6 +120,14 @@ const fn plain(key: Key) -> KeyboardShortcut {
 
 const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
+/// The form in which a pane's figure is saved first: pictures are made of pixels.
+const fn export_format(pane: PaneKind) -> Format {
+    match pane {
+        PaneKind::Render => Format::Png,
+        _ => Format::Svg,
+    }
+}
+
 /// All keys. `focused` is the pane that exports and maximizing mean.
 pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
     let with_ctrl = |key, command, words| KeyBinding { shortcut: ctrl(key), command, words, rests_while_typing: false };
@@ -132,7 +143,7 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
         shifted(Key::Z, Command::Redo, "Redo"),
         shifted(Key::C, Command::CopyPicture(focused), "Copy the pane's picture"),
         with_ctrl(Key::O, Command::Open, "Open files"),
-        with_ctrl(Key::E, Command::Export(focused, Format::Svg), "Export the pane's figure"),
+        with_ctrl(Key::E, Command::Export(focused, export_format(focused)), "Export the pane's figure"),
         with_ctrl(Key::Z, Command::Undo, "Undo"),
         with_ctrl(Key::Y, Command::Redo, "Redo"),
         with_ctrl(Key::F, Command::FocusSearch, "Search the library"),

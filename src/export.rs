@@ -1,5 +1,7 @@
 //! Figures out of the program: SVG from the figure, PNG from that SVG, both in the bundled fonts.
 
+pub mod render;
+
 use std::sync::{Arc, LazyLock};
 
 use base64::{Engine as _, prelude::BASE64_STANDARD};

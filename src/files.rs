@@ -5,7 +5,7 @@
 mod keep;
 
 use std::fs;
-use std::io::{self, Write as _};
+use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -13,6 +13,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::catalog::import::{Imported, import};
+use crate::catalog::meshes::{ENDINGS as MESH_ENDINGS, is_mesh};
 use crate::document::Document;
 use crate::document::own::OwnSet;
 use chromascope_core::table::MAX_BYTES;
@@ -23,6 +24,8 @@ pub use keep::{install_panic_hook, panic_saves};
 const NO_DIALOG: Duration = Duration::from_millis(150);
 /// Endings offered first when opening.
 const ENDINGS: [&str; 9] = ["csv", "txt", "tsv", "dat", "asc", "prn", "trm", "ssm", "spectrum"];
+/// How much of a file is looked at to tell a mesh from spectra.
+const LOOK: usize = 1 << 16;
 
 /// What came of a dialog, a read or a write.
 #[derive(Debug)]
@@ -38,6 +41,8 @@ pub enum FileEvent {
         /// The files they came from.
         paths: Vec<PathBuf>,
     },
+    /// A mesh is to be opened, which is not read yet.
+    Mesh(PathBuf),
     /// Something to know: a file was written.
     Said(String),
     /// Something failed; nothing was changed.
@@ -104,8 +109,10 @@ impl Files {
     /// Asks for files to open.
     pub fn ask_to_open(&mut self) {
         let dialog = rfd::FileDialog::new()
-            .set_title("Open spectra or camera sensitivities")
+            .set_title("Open spectra, camera sensitivities or a mesh")
+            .add_filter("Spectra and meshes", &[&ENDINGS[..], &MESH_ENDINGS].concat())
             .add_filter("Text and CSV", &ENDINGS)
+            .add_filter("Meshes", &MESH_ENDINGS)
             .add_filter("All files", &["*"]);
         self.in_dialog(move || dialog.pick_files().map(Note::ToOpen), None);
     }
@@ -155,14 +162,12 @@ impl Files {
         }
         match prompt.save {
             None => self.open(path),
-            Some(request) => self.in_background(move || save(&path, &request.bytes)),
+            Some(request) => self.in_background(move || [save(&path, &request.bytes)]),
         }
     }
 
     /// Opens a file.
     pub fn open(&mut self, path: PathBuf) {
-        // A relative path would mean another file after a start from elsewhere.
-        let path = std::path::absolute(&path).unwrap_or(path);
         self.in_background(move || read_files(vec![path]));
     }
 
@@ -175,17 +180,20 @@ impl Files {
                 return read_files(vec![path]);
             }
             let name = path.file_name().map_or_else(|| "dropped file".to_owned(), |n| n.to_string_lossy().into_owned());
-            match file.bytes() {
+            vec![match file.bytes() {
+                Ok(bytes) if is_mesh(&path, &bytes[..bytes.len().min(LOOK)]) => FileEvent::Failed(format!(
+                    "{name}: a session remembers where a mesh is, so it must be on disk; save it first. Nothing was changed."
+                )),
                 Ok(bytes) => read_event(import(&name, &bytes, None).map_err(|e| unread(&name, &e)), Vec::new()),
                 Err(error) => FileEvent::Failed(format!("{name}: {error}. Nothing was changed.")),
-            }
+            }]
         });
     }
 
     /// Reads text from the clipboard as if it were a file.
     pub fn open_pasted(&mut self, text: String) {
         self.in_background(move || {
-            read_event(import("clipboard", text.as_bytes(), None).map_err(|e| unread("Clipboard", &e)), Vec::new())
+            [read_event(import("clipboard", text.as_bytes(), None).map_err(|e| unread("Clipboard", &e)), Vec::new())]
         });
     }
 
@@ -220,10 +228,12 @@ impl Files {
         }
     }
 
-    fn in_background(&self, work: impl FnOnce() -> FileEvent + Send + 'static) {
+    fn in_background<E: IntoIterator<Item = FileEvent>>(&self, work: impl FnOnce() -> E + Send + 'static) {
         let (sender, wake) = (self.sender.clone(), self.wake.clone());
         self.spawn("files", move || {
-            let _closed = sender.send(Note::Event(work()));
+            for event in work() {
+                let _closed = sender.send(Note::Event(event));
+            }
             if let Some(ctx) = wake {
                 ctx.request_repaint();
             }
@@ -241,8 +251,33 @@ impl Files {
     }
 }
 
-/// Reads files one after the other; those that cannot be read change nothing.
-fn read_files(paths: Vec<PathBuf>) -> FileEvent {
+/// Reads files one after the other; those that cannot be read change nothing. A mesh is only named: what shows it reads it.
+fn read_files(paths: Vec<PathBuf>) -> Vec<FileEvent> {
+    // A relative path would mean another file after a start from elsewhere.
+    let paths = paths.into_iter().map(|path| std::path::absolute(&path).unwrap_or(path));
+    let (meshes, spectra): (Vec<PathBuf>, Vec<PathBuf>) = paths.partition(|path| is_mesh(path, &beginning(path)));
+    let mut events = Vec::new();
+    if !spectra.is_empty() {
+        events.push(read_spectra(spectra));
+    }
+    events.extend(meshes.into_iter().map(FileEvent::Mesh));
+    events
+}
+
+/// The first bytes of a file; none where it cannot be read, which reading it will tell.
+fn beginning(path: &Path) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    // Opening a pipe would wait for somebody to write into it.
+    if path.is_file()
+        && let Ok(file) = fs::File::open(path)
+        && file.take(LOOK as u64).read_to_end(&mut bytes).is_err()
+    {
+        bytes.clear();
+    }
+    bytes
+}
+
+fn read_spectra(paths: Vec<PathBuf>) -> FileEvent {
     let (mut sets, mut messages, mut failures, mut good) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut guessed = false;
     for path in paths {

@@ -25,6 +25,7 @@ pub mod paint;
 pub mod panes;
 pub mod results;
 pub mod scene;
+pub mod studio;
 pub mod theme;
 pub mod thing;
 pub mod view;

@@ -6,6 +6,7 @@
 mod decoration;
 mod hit;
 mod marks;
+mod pictures;
 mod texture;
 mod triangles;
 
@@ -15,6 +16,7 @@ use egui_plot::{Plot, PlotUi};
 
 use crate::theme::Theme;
 pub use hit::{Hit, nearest};
+pub use pictures::{PictureOf, PictureTextures};
 
 /// How a mark stands out, or does not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -207,6 +209,24 @@ pub fn still(painter: &Painter, panel: &Panel, theme: &Theme, rect: Rect) -> Vie
     let painter = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
     decoration::panel(&painter, panel, &view, rect, theme, &|_| Emphasis::Normal);
     view
+}
+
+/// The two colors of a ring that is seen on any picture: the wider one below, the narrower one above.
+pub const fn ring_colors() -> [egui::Color32; 2] {
+    [egui::Color32::WHITE, egui::Color32::BLACK]
+}
+
+/// Fills a rectangle with a ramp, from 0 at the left to 1 at the right.
+pub fn ramp(painter: &Painter, rect: Rect, color: &dyn Fn(f32) -> [u8; 3]) {
+    let columns = (rect.width().ceil() as usize).max(1);
+    for column in 0..columns {
+        let share = (column as f32 + 0.5) / columns as f32;
+        let [r, g, b] = color(share);
+        let left = rect.left() + column as f32;
+        let strip =
+            Rect::from_min_max(Pos2::new(left, rect.top()), Pos2::new((left + 1.0).min(rect.right()), rect.bottom()));
+        painter.rect_filled(strip, 0.0, egui::Color32::from_rgb(r, g, b));
+    }
 }
 
 /// Draws the key of a source, line and marker, across the middle of `rect`.

@@ -5,6 +5,8 @@ pub mod help;
 pub mod inspector;
 pub mod library;
 pub mod menu;
+pub mod render;
+pub mod render_setup;
 pub mod scene_bar;
 pub mod spectra;
 pub mod status_bar;
@@ -13,8 +15,10 @@ pub mod swatches;
 use chromascope_core::figure::Figure;
 use egui::{Rect, Ui};
 
+use crate::catalog::meshes::MeshStore;
 use crate::command::Command;
 use crate::scene::Scene;
+use crate::studio::Studio;
 use crate::theme::Theme;
 use crate::view::View;
 use crate::workspaces::PaneKind;
@@ -27,6 +31,10 @@ pub struct PaneContext<'a> {
     pub theme: Theme,
     /// What is looked at and how.
     pub view: &'a mut View,
+    /// The user's mesh files.
+    pub meshes: &'a MeshStore,
+    /// Where pictures are made.
+    pub studio: &'a mut Studio,
     /// What is to be done when the frame is over.
     pub commands: &'a mut Vec<Command>,
 }
@@ -46,6 +54,8 @@ pub fn show(ui: &mut Ui, pane: PaneKind, rect: Rect, context: &mut PaneContext<'
         PaneKind::Swatches => swatches::show(ui, rect, context),
         PaneKind::Spectra => spectra::show(ui, rect, context),
         PaneKind::Inspector => inspector::show(ui, rect, context),
+        PaneKind::Render => render::show(ui, rect, context),
+        PaneKind::RenderSetup => render_setup::show(ui, rect, context),
     }
 }
 
@@ -55,6 +65,7 @@ pub fn figure(pane: PaneKind, scene: &Scene<'_>, view: &View) -> Option<Figure> 
         PaneKind::Chromaticity => Some(crate::figures::chromaticity::figure(scene, view)),
         PaneKind::Swatches => Some(crate::figures::swatches::figure(scene, view)),
         PaneKind::Spectra => Some(crate::figures::spectra::figure(scene, view)),
-        PaneKind::Library | PaneKind::Inspector => None,
+        PaneKind::Render => crate::figures::render::figure(scene, view),
+        PaneKind::Library | PaneKind::Inspector | PaneKind::RenderSetup => None,
     }
 }

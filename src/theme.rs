@@ -288,6 +288,32 @@ impl Palette for Theme {
     }
 }
 
+/// Steps of the ramp of differences: even in L*, from blue over gray to yellow, which all kinds of color vision tell apart.
+const DIFFERENCE_RAMP: [[u8; 3]; 9] = [
+    [0x00, 0x33, 0x78],
+    [0x2E, 0x48, 0x80],
+    [0x51, 0x5D, 0x88],
+    [0x6F, 0x74, 0x8F],
+    [0x90, 0x8D, 0x82],
+    [0xB1, 0xA4, 0x7B],
+    [0xD0, 0xBD, 0x73],
+    [0xEF, 0xD7, 0x68],
+    [0xFF, 0xF1, 0x59],
+];
+
+/// The color of a share from 0 (no difference) to 1 (the scale's end).
+pub fn difference_ramp(share: f32) -> [u8; 3] {
+    let last = DIFFERENCE_RAMP.len() - 1;
+    let place = share.clamp(0.0, 1.0) * last as f32;
+    let index = (place as usize).min(last - 1);
+    let part = place - index as f32;
+    let mix = |channel: usize| {
+        let [from, to] = [index, index + 1].map(|i| f32::from(DIFFERENCE_RAMP[i][channel]));
+        (from + part * (to - from)).round() as u8
+    };
+    [mix(0), mix(1), mix(2)]
+}
+
 /// The font of a text size.
 pub fn font(size: TextSize) -> FontId {
     match size {

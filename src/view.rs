@@ -1,5 +1,7 @@
 //! What is looked at and how: selection, panes, layout. Not part of the document, no steps of undo.
 
+pub mod render;
+
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -10,6 +12,7 @@ use crate::theme::Surround;
 use crate::thing::{Standing, Thing, Things};
 use crate::workspaces::{Layout, PaneKind, Workspace};
 use chromascope_core::figure::Tag;
+use render::{RenderLook, RenderView};
 
 /// What is looked at and how.
 #[derive(Debug, Default)]
@@ -33,8 +36,10 @@ pub struct View {
     pub maximized: Option<PaneKind>,
     /// The pane that keys and exports mean.
     pub focused: Option<PaneKind>,
-    /// Whether the inspector lies over the center of a narrow window.
+    /// Whether the column that a narrow window leaves out lies over the center.
     pub inspector_over: bool,
+    /// What the Render pane shows now.
+    pub render: RenderView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
     /// The truth stands in for every camera while B is held.
@@ -83,6 +88,8 @@ pub struct SavedView {
     pub folded: BTreeSet<String>,
     /// Files opened lately, the newest first.
     pub recent: Vec<PathBuf>,
+    /// Where the rendered mesh is seen from, and how pictures stand.
+    pub render: RenderLook,
 }
 
 impl Default for SavedView {
@@ -99,6 +106,7 @@ impl Default for SavedView {
             difference_bars: true,
             folded: ["observers", "charts", "illuminants", "materials"].map(str::to_owned).into(),
             recent: Vec::new(),
+            render: RenderLook::default(),
         }
     }
 }

@@ -13,6 +13,7 @@ use crate::paint;
 use crate::panes::PaneContext;
 use crate::scene::Source;
 use crate::theme::{ROW, Theme, UNIT};
+use crate::thing::SourceId;
 use crate::workspaces::PaneKind;
 
 /// The sentence that says what the window is about.
@@ -79,7 +80,7 @@ fn header_buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
     if icon_button(ui, Icon::Maximize, &format!("{words} {} (F)", kind.title())).clicked() {
         context.push(Command::Maximize(kind));
     }
-    if kind == PaneKind::Inspector {
+    if matches!(kind, PaneKind::Inspector | PaneKind::RenderSetup) {
         return;
     }
     export_menu(ui, kind, context);
@@ -107,6 +108,16 @@ fn export_menu(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
             if ui.button(words).clicked() {
                 context.push(command);
                 ui.close();
+            }
+        }
+        if let Some(shot) = context.view.render.shot.clone().filter(|_| kind == PaneKind::Render) {
+            ui.separator();
+            for source in &shot.sources {
+                if ui.button(format!("{} as OpenEXR…", source.label)).clicked() {
+                    let id = SourceId { kind: source.kind, name: source.name.clone() };
+                    context.push(Command::ExportExr(id));
+                    ui.close();
+                }
             }
         }
     });

@@ -16,13 +16,26 @@ pub enum PaneKind {
     Spectra,
     /// The key, or the selection.
     Inspector,
+    /// A mesh through each camera.
+    Render,
+    /// What is rendered: mesh, surface, light's place.
+    RenderSetup,
 }
 
 impl PaneKind {
     /// All panes.
-    pub const ALL: [Self; 5] = [Self::Library, Self::Chromaticity, Self::Swatches, Self::Spectra, Self::Inspector];
+    pub const ALL: [Self; 7] = [
+        Self::Library,
+        Self::Chromaticity,
+        Self::Swatches,
+        Self::Spectra,
+        Self::Inspector,
+        Self::Render,
+        Self::RenderSetup,
+    ];
     /// The panes that stand in the workspaces' changeable places.
-    pub const CHANGEABLE: [Self; 4] = [Self::Chromaticity, Self::Swatches, Self::Spectra, Self::Inspector];
+    pub const CHANGEABLE: [Self; 6] =
+        [Self::Chromaticity, Self::Swatches, Self::Spectra, Self::Inspector, Self::Render, Self::RenderSetup];
 
     /// Its title.
     pub const fn title(self) -> &'static str {
@@ -32,6 +45,8 @@ impl PaneKind {
             Self::Swatches => "Swatches",
             Self::Spectra => "Spectra",
             Self::Inspector => "Inspector",
+            Self::Render => "Render",
+            Self::RenderSetup => "Scene",
         }
     }
 }
@@ -44,18 +59,26 @@ pub enum Workspace {
     Compare,
     /// Large spectra.
     Spectra,
+    /// A mesh through each camera, beside what it is made of.
+    Render,
 }
 
 impl Workspace {
     /// All workspaces, in the order of their tabs and keys.
-    pub const ALL: [Self; 2] = [Self::Compare, Self::Spectra];
+    pub const ALL: [Self; 3] = [Self::Compare, Self::Spectra, Self::Render];
 
     /// The tab's title.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Compare => "Compare",
             Self::Spectra => "Spectra",
+            Self::Render => "Render",
         }
+    }
+
+    /// Whether a narrow window hides the library, so that the right column stays.
+    const fn keeps_right_column(self) -> bool {
+        matches!(self, Self::Render)
     }
 }
 
@@ -90,6 +113,8 @@ pub struct Layout {
     pub compare: [Option<PaneKind>; 4],
     /// Spectra: center upper, center lower, right upper, right lower.
     pub spectra: [Option<PaneKind>; 4],
+    /// Render: center upper, center lower, right upper, right lower.
+    pub render: [Option<PaneKind>; 4],
 }
 
 impl Default for Layout {
@@ -107,6 +132,7 @@ impl Default for Layout {
                 Some(PaneKind::Spectra),
             ],
             spectra: [Some(PaneKind::Spectra), None, Some(PaneKind::Inspector), None],
+            render: [Some(PaneKind::Render), None, Some(PaneKind::RenderSetup), None],
         }
     }
 }
@@ -117,6 +143,7 @@ impl Layout {
         match workspace {
             Workspace::Compare => &self.compare,
             Workspace::Spectra => &self.spectra,
+            Workspace::Render => &self.render,
         }
     }
 
@@ -125,6 +152,7 @@ impl Layout {
         match workspace {
             Workspace::Compare => &mut self.compare,
             Workspace::Spectra => &mut self.spectra,
+            Workspace::Render => &mut self.render,
         }
     }
 
@@ -140,6 +168,8 @@ impl Layout {
             return;
         }
         let home = Self::default().places(workspace).iter().position(|p| *p == Some(pane));
+        // Where a workspace has no place of its own for it, the inspector stands at the right like everywhere.
+        let home = home.or((pane == PaneKind::Inspector).then_some(3));
         let places = self.places_mut(workspace);
         if let Some(shown) = places.iter_mut().find(|p| **p == Some(pane)) {
             *shown = None;
@@ -171,11 +201,11 @@ pub struct Arrangement {
     pub splitters: Vec<(Splitter, Rect)>,
     /// A pane that lies over the others.
     pub over: Option<(PaneKind, Rect)>,
-    /// Whether the right column was left out for want of width.
+    /// Whether a column was left out for want of width.
     pub narrow: bool,
 }
 
-/// Below this width the right column is left out.
+/// Below this width a column is left out: the right one, in Render the library.
 const NARROW: f32 = 1100.0;
 /// Once left out, it returns only this much above.
 const HYSTERESIS: f32 = 40.0;
@@ -184,14 +214,15 @@ const LARGE: f32 = 1800.0;
 /// Width of a border.
 const GAP: f32 = 4.0;
 
-/// Arranges a workspace in an area. `was_narrow` keeps a window at the limit from flickering.
+/// Arranges a workspace in an area. `was_narrow` keeps a window at the limit from flickering; `column_over` lays the column that
+/// a narrow window leaves out over the center.
 pub fn arrange(
     workspace: Workspace,
     layout: &Layout,
     area: Rect,
     was_narrow: bool,
     maximized: Option<PaneKind>,
-    inspector_over: bool,
+    column_over: bool,
 ) -> Arrangement {
     if let Some(pane) = maximized {
         return Arrangement { panes: vec![(pane, area)], narrow: was_narrow, ..Arrangement::default() };
@@ -200,7 +231,8 @@ pub fn arrange(
     let large = area.width() > LARGE;
     let mut made = Arrangement { narrow, ..Arrangement::default() };
     let mut rest = area;
-    if layout.library {
+    let library_left_out = narrow && workspace.keeps_right_column();
+    if layout.library && !library_left_out {
         let width = layout.library_width.unwrap_or(if large { 280.0 } else { 216.0 }).clamp(160.0, 360.0);
         let (left, border, right) = cut_x(rest, width);
         made.panes.push((PaneKind::Library, left));
@@ -208,7 +240,8 @@ pub fn arrange(
         rest = right;
     }
     let [upper, lower, right_upper, right_lower] = *layout.places(workspace);
-    if !narrow && (right_upper.is_some() || right_lower.is_some()) {
+    let right_left_out = narrow && !workspace.keeps_right_column();
+    if !right_left_out && (right_upper.is_some() || right_lower.is_some()) {
         let width = layout.right_width.unwrap_or(if large { 560.0 } else { 316.0 }).clamp(200.0, 720.0);
         let (center, border, right) = cut_x(rest, (rest.width() - width - GAP).max(200.0));
         made.splitters.push((Splitter::Right, border));
@@ -216,7 +249,12 @@ pub fn arrange(
         rest = center;
     }
     stack(&mut made, rest, [upper, lower], layout.lower_share, Splitter::Center);
-    if narrow && inspector_over {
+    if library_left_out && column_over {
+        let width = 216.0_f32.min(rest.width());
+        let max = Pos2::new(rest.left() + width, rest.bottom());
+        made.over = Some((PaneKind::Library, Rect::from_min_max(rest.min, max)));
+    }
+    if right_left_out && column_over {
         let width = 316.0_f32.min(rest.width());
         let min = Pos2::new(rest.right() - width, rest.top());
         made.over = Some((PaneKind::Inspector, Rect::from_min_max(min, rest.max)));

@@ -12,7 +12,8 @@ use crate::panes;
 use crate::scene::Scene;
 use crate::theme::Theme;
 use crate::view::SavedView;
-use crate::workspaces::{Layout, PaneKind};
+use crate::view::render::RenderMode;
+use crate::workspaces::{Layout, PaneKind, Workspace};
 
 /// Pixels per point in saved and copied pictures.
 const PICTURE_SCALE: f32 = 2.0;
@@ -36,6 +37,7 @@ impl ChromascopeApp {
                     self.view.say(message);
                     self.view.status.change = change;
                 }
+                FileEvent::Mesh(path) => self.open_mesh(&path),
                 FileEvent::Said(message) => self.view.say(message),
                 FileEvent::Failed(message) => self.view.fail(message),
             }
@@ -58,15 +60,22 @@ impl ChromascopeApp {
             Command::OpenPath(path) => self.files.open(path),
             Command::Paste(text) => self.files.open_pasted(text),
             Command::Export(pane, format) => self.export(pane, format),
+            Command::ExportExr(source) => self.export_exr(&source),
             Command::CopyPicture(pane) => self.copy_picture(ctx, pane),
             Command::CopyNumbers(pane) => self.copy_numbers(ctx, pane),
             Command::Show(workspace) => {
                 self.view.saved.workspace = workspace;
                 self.view.maximized = None;
+                self.view.inspector_over = false;
+                let rendered = [Some(PaneKind::Render), Some(PaneKind::RenderSetup)].contains(&self.view.focused);
+                if rendered || workspace == Workspace::Render {
+                    self.view.focused = (workspace == Workspace::Render).then_some(PaneKind::Render);
+                }
             }
             Command::Maximize(pane) => {
                 self.view.maximized = if self.view.maximized == Some(pane) { None } else { Some(pane) };
             }
+            Command::TogglePane(PaneKind::Library) if self.library_left_out() => self.view.inspector_over ^= true,
             Command::TogglePane(pane) => self.toggle_pane(pane),
             Command::ToggleInspector => self.toggle_inspector(),
             Command::ResetView => self.view.reset_plots = true,
@@ -81,13 +90,14 @@ impl ChromascopeApp {
             Command::FocusSearch => {
                 self.view.saved.layout.library = true;
                 self.view.maximized = None;
+                self.view.inspector_over |= self.library_left_out();
                 self.view.focus_search = true;
             }
             Command::FindAnything => self.view.palette = Some(String::new()),
             Command::FocusTemperature => self.view.focus_temperature = true,
             Command::ToggleSource(index) => self.toggle_source(index),
             Command::Pin => self.pin(),
-            Command::ToggleDifference => self.view.saved.difference_bars ^= true,
+            Command::ToggleDifference => self.toggle_difference(),
             Command::Escape => self.escape(),
             Command::NextPane => self.next_pane(),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
@@ -102,11 +112,16 @@ impl ChromascopeApp {
 
     /// In a narrow window the inspector lies over the rest; else it has its place.
     fn toggle_inspector(&mut self) {
-        if self.arrangement.narrow {
+        if self.arrangement.narrow && self.view.saved.workspace != Workspace::Render {
             self.view.inspector_over ^= true;
         } else {
             self.toggle_pane(PaneKind::Inspector);
         }
+    }
+
+    /// Whether a narrow window has no place for the library beside the rest.
+    fn library_left_out(&self) -> bool {
+        self.arrangement.narrow && self.view.saved.workspace == Workspace::Render
     }
 
     fn toggle_source(&mut self, index: usize) {
@@ -117,7 +132,24 @@ impl ChromascopeApp {
         }
     }
 
+    /// The bars under swatches; where pictures are meant, their maps.
+    fn toggle_difference(&mut self) {
+        let mode = &mut self.view.saved.render.mode;
+        match (self.view.focused, *mode) {
+            (Some(PaneKind::Render), RenderMode::Difference) => *mode = RenderMode::Grid,
+            (Some(PaneKind::Render), _) => *mode = RenderMode::Difference,
+            _ => self.view.saved.difference_bars ^= true,
+        }
+    }
+
     fn pin(&mut self) {
+        if self.view.focused == Some(PaneKind::Render)
+            && self.view.selected.is_none()
+            && let Some(place) = self.view.render.hovered.clone()
+        {
+            self.view.render.pinned = Some(place);
+            return;
+        }
         let Some(thing) = self.view.selected.clone() else {
             self.view.say("Select something first: click a point, a swatch or a curve.");
             return;
@@ -130,19 +162,34 @@ impl ChromascopeApp {
         }
     }
 
-    /// One step back: palette, help, overlay, selection, pins, maximized pane, message.
+    /// One step back: reading a mesh, palette, help, overlay, finer pictures, selection, pixel, pins, maximized pane, single
+    /// picture, message.
     fn escape(&mut self) {
-        let view = &mut self.view;
-        if std::mem::take(&mut view.keeps_escape) {
+        if std::mem::take(&mut self.view.keeps_escape) || self.stop_opening() {
             return;
         }
+        let rendering = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Render);
+        let view = &mut self.view;
         if view.palette.take().is_some() || view.help.take().is_some() || view.reading.take().is_some() {
             return;
         }
-        if std::mem::take(&mut view.inspector_over) || view.selected.take().is_some() {
+        if std::mem::take(&mut view.inspector_over) {
+            return;
+        }
+        if rendering && view.render.is_waiting() && !view.render.cancelled {
+            view.render.cancelled = true;
+            view.say("Rendering was stopped; what was made so far stays.");
+            return;
+        }
+        if view.selected.take().is_some() || (rendering && view.render.pinned.take().is_some()) {
             return;
         }
         if !std::mem::take(&mut view.pinned).is_empty() || view.maximized.take().is_some() {
+            return;
+        }
+        let mode = &mut view.saved.render.mode;
+        if rendering && *mode != RenderMode::Grid {
+            *mode = RenderMode::Grid;
             return;
         }
         view.status = crate::view::Status::default();
@@ -163,8 +210,10 @@ impl ChromascopeApp {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let figure = panes::figure(pane, &scene, &self.view);
         if figure.is_none() {
-            self.view
-                .fail(format!("{} has no figure to export; choose Chromaticity, Swatches or Spectra.", pane.title()));
+            self.view.fail(format!(
+                "{} has no figure to export; choose Chromaticity, Swatches, Spectra or Render.",
+                pane.title()
+            ));
         }
         figure
     }

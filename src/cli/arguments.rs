@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, ValueEnum};
 
+use super::render::arguments::RenderArguments;
+
 /// See, measure and explain how digital cameras render color, from spectra.
 ///
 /// Without a command, opens the window with the given files.
@@ -23,6 +25,7 @@ Examples:
   chromascope leaf.csv
   chromascope locus --camera \"Nikon D70\" --observer \"CIE 1931 2°\" --temperatures 2856,5500,6504
   chromascope patches --camera \"Canon EOS 10D\" --illuminant D55 --transform observer --out patches.csv
+  chromascope render --mesh head --camera \"Nikon D70\" --out pictures
   chromascope list cameras
 
 Names are those of `chromascope list`, case and punctuation aside; a part will do where only one name has it.";
@@ -54,6 +57,9 @@ pub(super) enum Subcommand {
     /// Chart patches as CSV: `source,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y`
     #[command(after_help = PATCHES_EXAMPLES)]
     Patches(PatchesArguments),
+    /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
+    #[command(after_help = super::render::arguments::EXAMPLES)]
+    Render(Box<RenderArguments>),
     /// The names of the built-in data sets, one a line
     List {
         /// Which; all if left out
@@ -61,10 +67,10 @@ pub(super) enum Subcommand {
     },
 }
 
-/// What both tables take.
+/// Through what is looked, for tables and pictures.
 #[derive(Debug, Args)]
-pub(super) struct CommonArguments {
-    /// An observer; may be repeated. Without any source, those of the first screen
+pub(super) struct SourceArguments {
+    /// An observer; may be repeated. Without any source: the truth, the paper's three cameras and, in tables, CIE 1931 2°
     #[arg(long, value_name = "NAME")]
     pub(super) observer: Vec<String>,
     /// A camera, or a file with three sensitivities; may be repeated
@@ -76,6 +82,13 @@ pub(super) struct CommonArguments {
     /// The observer fitted to, with `--transform observer` [default: CIE 1931 2°]
     #[arg(long, value_name = "OBSERVER")]
     pub(super) reference: Option<String>,
+}
+
+/// What both tables take.
+#[derive(Debug, Args)]
+pub(super) struct CommonArguments {
+    #[command(flatten)]
+    pub(super) sources: SourceArguments,
     /// The light: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: E]
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) illuminant: Option<String>,

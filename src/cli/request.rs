@@ -9,12 +9,13 @@ use chromascope_core::table::MAX_BYTES;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 
-use super::arguments::{CommonArguments, Transform};
+use super::arguments::{CommonArguments, SourceArguments, Transform};
 use super::{CliError, say};
 use crate::catalog::import::import_warned;
 use crate::catalog::names::find;
 use crate::catalog::{Catalog, Entry, Kind};
 use crate::document::own::{OwnRole, OwnSet};
+use crate::document::render::{LEAF, SKIN};
 use crate::document::{CHART, Document, FIRST_SOURCES, Light, REFERENCE, Subset, WayChoice, WhiteChoice};
 use crate::files::reason;
 
@@ -34,22 +35,32 @@ pub(super) struct Request {
 impl Request {
     /// From what both tables take. `matches` knows in which order sources were named.
     pub(super) fn new(arguments: &CommonArguments, matches: &ArgMatches) -> Result<Self, CliError> {
-        let document = Document { compared: Vec::new(), ..Document::default() };
-        let mut request = Self { document, catalog: Catalog::built_in(), sources: Vec::new() };
-        request.sources = request.named_sources(arguments, matches)?;
-        if request.sources.is_empty() {
-            request.sources = FIRST_SOURCES.map(|(name, kind)| (kind, name.to_owned())).to_vec();
-        }
-        request.set_way(arguments)?;
+        let mut request = Self::of_sources(&arguments.sources, matches, &FIRST_SOURCES)?;
         if let Some(illuminant) = &arguments.illuminant {
             request.set_light(illuminant)?;
         }
         Ok(request)
     }
 
+    /// From sources and their way to the diagram; `first` are those looked through where none is named.
+    pub(super) fn of_sources(
+        arguments: &SourceArguments,
+        matches: &ArgMatches,
+        first: &[(&str, Kind)],
+    ) -> Result<Self, CliError> {
+        let document = Document { compared: Vec::new(), ..Document::default() };
+        let mut request = Self { document, catalog: Catalog::built_in(), sources: Vec::new() };
+        request.sources = request.named_sources(arguments, matches)?;
+        if request.sources.is_empty() {
+            request.sources = first.iter().map(|&(name, kind)| (kind, name.to_owned())).collect();
+        }
+        request.set_way(arguments)?;
+        Ok(request)
+    }
+
     fn named_sources(
         &mut self,
-        arguments: &CommonArguments,
+        arguments: &SourceArguments,
         matches: &ArgMatches,
     ) -> Result<Vec<(Kind, String)>, CliError> {
         let places = |id: &str| matches.indices_of(id).into_iter().flatten().collect::<Vec<usize>>();
@@ -71,7 +82,7 @@ impl Request {
             .collect()
     }
 
-    fn set_way(&mut self, arguments: &CommonArguments) -> Result<(), CliError> {
+    fn set_way(&mut self, arguments: &SourceArguments) -> Result<(), CliError> {
         self.document.way = match (arguments.transform, &arguments.reference) {
             (Transform::Paper, None) => WayChoice::Paper,
             (Transform::Paper, Some(_)) => {
@@ -84,7 +95,8 @@ impl Request {
         Ok(())
     }
 
-    fn set_light(&mut self, illuminant: &str) -> Result<(), CliError> {
+    /// Chooses the light.
+    pub(super) fn set_light(&mut self, illuminant: &str) -> Result<(), CliError> {
         if let Some((light, kelvin)) = radiator("--illuminant", illuminant)? {
             self.document.light = if light == Radiator::Daylight { Light::Daylight } else { Light::BlackBody };
             self.document.temperature_k = kelvin;
@@ -114,6 +126,24 @@ impl Request {
         } else {
             self.document.chart = found;
         }
+        Ok(())
+    }
+
+    /// Chooses the reflectance of what is rendered.
+    pub(super) fn set_material(&mut self, material: &str) -> Result<(), CliError> {
+        self.document.render.material = match material.to_ascii_lowercase().as_str() {
+            "skin" => SKIN.to_owned(),
+            "leaf" => LEAF.to_owned(),
+            _ if is_file(material) => {
+                let set = self.open(material, OwnRole::Reflectance)?;
+                if let [first, _, ..] = set.curves.as_slice() {
+                    let count = set.curves.len();
+                    say(&format!("chromascope: {material}: {count} reflectances; taking the first, {}\n", first.name));
+                }
+                set.name.clone()
+            }
+            _ => self.name(Kind::Material, material)?,
+        };
         Ok(())
     }
 

@@ -1,5 +1,6 @@
 //! What the Render pane looks at: mesh, material, surface, light's place, quality. Part of the document.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use chromascope_core::reflectance::{Reading, Surface, SurfaceError};
@@ -15,6 +16,9 @@ pub const LEAF: &str = "Fern-like bush leaf 024 (Vrhel)";
 pub const SUN: &str = "Direct sun (ASTM G173)";
 /// The balance of the paper's third experiment.
 pub const BALANCE: &str = "D55";
+
+/// How many triangles the program's own meshes may have.
+pub const TRIANGLES: RangeInclusive<usize> = 2_000..=2_000_000;
 
 /// The settings of the rendered scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -76,6 +80,21 @@ impl Default for RenderSettings {
 }
 
 impl RenderSettings {
+    /// Brings what a spoiled session says within its range: numbers clamped, what is no surface or light replaced.
+    pub fn mend(&mut self) {
+        let usual = Self::default();
+        self.triangles = self.triangles.clamp(*TRIANGLES.start(), *TRIANGLES.end());
+        self.exposure_ev = if self.exposure_ev.is_finite() { self.exposure_ev.clamp(-20.0, 20.0) } else { 0.0 };
+        if self.surface().is_err() {
+            let Self { sigma_um, tau_um, half_sides_um, index, .. } = usual;
+            *self = Self { sigma_um, tau_um, half_sides_um, index, ..self.clone() };
+        }
+        if self.lighting().is_err() {
+            let Self { light_up_deg, light_right_deg, light_distance, light_radius, .. } = usual;
+            *self = Self { light_up_deg, light_right_deg, light_distance, light_radius, ..self.clone() };
+        }
+    }
+
     /// The paper's fern under sunlight.
     pub fn fern() -> Self {
         Self { mesh: MeshChoice::Fern, material: LEAF.to_owned(), index: 1.45, ..Self::default() }

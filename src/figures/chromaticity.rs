@@ -2,6 +2,7 @@
 
 mod ground;
 mod loci;
+mod pixel;
 mod points;
 
 use chromascope_core::colorimetry::{UvPrime, Xy};
@@ -96,6 +97,7 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
     if scene.document.overlays.patches {
         points::add(&mut drawing, &sources);
     }
+    pixel::add(&mut drawing, &sources);
     let [x_range, y_range] = ranges(&drawing, view.saved.diagram_fit);
     let [x, y] = coordinates(diagram).map(|name| Axis::new(name, [0.0, 1.0]).with_ticks(Ticks::Auto).with_grid(true));
     let mut panel = Panel::new("Chromaticity", Rect::from_min_size([0.0, 0.0], size), x, y);
@@ -193,18 +195,18 @@ pub fn conditions(scene: &Scene<'_>) -> String {
         WayChoice::Paper => "Paper (Eq 13), CIE observers drawn directly".to_owned(),
         WayChoice::Observer(name) => format!("Observer, 3×3 matrices fitted to {name} over 190 training reflectances"),
     };
+    format!("{} Patches: {}. To diagram: {way}.", viewing_conditions(scene), scene.document.chart)
+}
+
+/// The conditions that have nothing to do with patches and diagram, in sentences.
+pub fn viewing_conditions(scene: &Scene<'_>) -> String {
     let white = match &scene.document.white {
         crate::document::WhiteChoice::Unity => "unity".to_owned(),
         crate::document::WhiteChoice::Light(name) => name.clone(),
         crate::document::WhiteChoice::Daylight(kelvin) => format!("daylight {kelvin:.0} K"),
         crate::document::WhiteChoice::BlackBody(kelvin) => format!("black body {kelvin:.0} K"),
     };
-    format!(
-        "Truth: {}. Light: {}. White: {white}. Patches: {}. To diagram: {way}.",
-        scene.document.truth,
-        scene.light_name(),
-        scene.document.chart
-    )
+    format!("Truth: {}. Light: {}. White: {white}.", scene.document.truth, scene.light_name())
 }
 
 /// All points as numbers.

@@ -3,7 +3,7 @@
 use egui::{Align2, Grid, Key, RichText, ScrollArea, TextEdit, Ui, Vec2, Window};
 
 use super::PaneContext;
-use crate::action::{Action, CompareAction, SceneAction};
+use crate::action::{Action, CompareAction, RenderAction, SceneAction};
 use crate::catalog::{Entry, Kind, licenses, names};
 use crate::command::{Command, key_bindings};
 use crate::document::Light;
@@ -78,6 +78,10 @@ fn what_you_see(ui: &mut Ui) {
          them. The bar below a swatch is the difference. A notched corner marks a color that the screen cannot show.",
         "Spectra. The light, the reflectances and the sensitivities that all of this is computed from. Dotted parts were not \
          measured: the last value is held.",
+        "Render. A head, a fern or a mesh of yours with measured skin or leaf under the light, through each camera beside the \
+         truth. Drag to orbit, all pictures together; the wheel moves nearer; a click keeps a pixel, a double click shows its \
+         picture alone. Figure 8 and Figure 9 are the paper's, with Light and White; Reading says what its Eq 1 stands for. \
+         Difference maps how far each camera is from the truth.",
         "To diagram: Paper. Camera and RGB observer signals, balanced so that a flat spectrum is 1 : 1 : 1, go through the \
          matrix of Eq 13; equal energy falls on D65 (0.3127, 0.3290). CIE observers are drawn directly, with equal energy at \
          (1/3, 1/3), so they differ from the others by construction and have no distance to the truth.",
@@ -110,6 +114,10 @@ fn keyboard(ui: &mut Ui, context: &PaneContext<'_>) {
         ("Ctrl +, Ctrl −, Ctrl 0", "Larger, smaller, normal size"),
         ("Tab, Shift+Tab", "Next, previous control"),
         ("Arrows in the strip", "Temperature"),
+        ("Drag, arrows in Render", "Orbit all pictures"),
+        ("Wheel, + and − in Render", "Nearer, farther"),
+        ("Click, double click in Render", "Keep a pixel; one picture, all pictures"),
+        ("Esc in Render", "Stop rendering, let go of the pixel, all pictures"),
         ("Ctrl+Q", "Quit"),
     ] {
         rows.push((key.to_owned(), words.to_owned()));
@@ -143,9 +151,36 @@ fn data(ui: &mut Ui, context: &PaneContext<'_>) {
 fn equations(ui: &mut Ui) {
     for (number, formula, words) in [
         (
+            "Eq 1",
+            "P = ρ₀² exp(−g) + D,  ρ₀ = sinc(v_x X) sinc(v_y Y),  g = σ² v_z²",
+            "Light scattered by a rough surface: a mirror term and a diffuse one. σ: deviation of heights; τ: their correlation \
+             length; X, Y: half sides of the patch. sinc x = sin x / x; the light comes from azimuth π.",
+        ),
+        (
+            "Eq 2",
+            "D = (π τ² / A) G² exp(−g) Σ gⁿ / (n! n) exp(−τ² v_xy² / (4 n))",
+            "n from 1 on, A = 4 X Y. Summed by one method for all g: around its saddle, directly where few terms count.",
+        ),
+        (
+            "Eq 3",
+            "G² = (1 − F(θi, n)) (1 − F(asin(sin θs / n), 1 / n)) cos θi",
+            "Fresnel's transmittances into the surface and out of it.",
+        ),
+        (
+            "Eq 4",
+            "D = π τ² G² / (A σ² v_z²) exp(−τ² v_xy² / (4 σ² v_z²))",
+            "Eq 2 for very rough surfaces, g ≫ 1. It stands behind the paper's third case of g.",
+        ),
+        (
             "Eq 11",
             "s_c = κ_c m dω ∫ C_c L dλ",
             "White balance: the color s that a perfect white under the light is to take.",
+        ),
+        (
+            "Eq 12",
+            "I_c = s_c cos θi cos⁴α ∫ C_c P S L dλ / ∫ C_c L dλ",
+            "A pixel through a camera. Reading: P itself (Paper), or π f with f = A / (λ² cos θs) (cos θi ρ₀² exp(−g) + D) \
+             (Radiometric), or the same with Beckmann's geometric factor (Microfacet).",
         ),
         (
             "Eq 13",
@@ -267,6 +302,15 @@ fn find(typed: &str, history: &History, context: &PaneContext<'_>) -> Vec<Found>
         })
         .filter(|found| matches(&found.words))
         .collect();
+    for (action, words) in [
+        (RenderAction::Figure8, "Figure 8: a head under direct sunlight"),
+        (RenderAction::Figure9, "Figure 9: a fern under direct sunlight"),
+    ] {
+        if matches(words) {
+            let command = Command::Do(Action::Render(action));
+            found.push(Found { words: words.to_owned(), note: "render".to_owned(), command });
+        }
+    }
     for kind in Kind::ALL {
         let entries = context.scene.entries(kind).filter(|entry| names::matches_search(entry, typed));
         found.extend(entries.map(|entry| entry_found(kind, &entry)));

@@ -3,6 +3,7 @@
 mod numbers;
 mod patch;
 mod pinned;
+mod pixel;
 mod radiator;
 mod reading;
 mod source;
@@ -49,6 +50,7 @@ fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
         context.view.reading = None;
     }
     match context.view.selected.clone().or_else(|| context.view.hovered.clone()) {
+        None if pixel::kept(context).is_some() => {}
         None => welcome::show(ui, context),
         Some(Thing::Patch { source: Some(id), patch }) => patch::one(ui, &id, &patch, context),
         Some(Thing::Patch { source: None, patch }) => patch::across(ui, &patch, context),
@@ -56,6 +58,7 @@ fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
         Some(Thing::Source(id)) => source::show(ui, &id, context),
         Some(Thing::Light) => source::light(ui, context),
     }
+    pixel::show(ui, context);
     pinned::show(ui, context);
 }
 

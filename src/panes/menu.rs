@@ -87,6 +87,7 @@ fn focused(context: &PaneContext<'_>) -> PaneKind {
 fn pictured(context: &PaneContext<'_>) -> PaneKind {
     match focused(context) {
         PaneKind::Library | PaneKind::Inspector => PaneKind::Chromaticity,
+        PaneKind::RenderSetup => PaneKind::Render,
         pane => pane,
     }
 }

@@ -1,6 +1,9 @@
 //! The foot of the window: the last message or what the pointer is on; at the right, how the numbers came about.
 
+use std::time::Duration;
+
 use chromascope_core::camera::LocusMethod;
+use chromascope_core::render::Quality;
 use egui::{Align, Button, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
@@ -14,6 +17,14 @@ use crate::workspaces::{Arrangement, PaneKind};
 
 /// What the bar says when there is nothing else.
 const READY: &str = "Ready. Drop a spectrum or camera file anywhere.";
+/// Pictures that take longer are told of.
+const LONG: Duration = Duration::from_millis(500);
+/// What the facts at the right mean.
+const FACTS: &str = "How long the last change took to compute; the largest error of the loci on show, relative to the largest \
+                     signal and checked against sums at 1 nm; how many cameras are computed. What is not shown is not computed.";
+/// The same where pictures are rendered.
+const RENDER_FACTS: &str = "How long the last stage of the pictures took; the error of their integrals over wavelength, relative \
+                            to the brightest pixel; how many cameras are rendered. What is not shown is not computed.";
 
 /// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut PaneContext<'_>) {
@@ -24,8 +35,11 @@ pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut Pa
     let response = ui.interact(right, ui.scope_id().with("facts"), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
     response.on_hover_text(
-        "How long the last change took to compute; the largest error of the loci on show, relative to the largest signal and \
-         checked against sums at 1 nm; how many cameras are computed. What is not shown is not computed.",
+        if context.view.render.shot.is_some() && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Render) {
+            RENDER_FACTS
+        } else {
+            FACTS
+        },
     );
     let left = Rect::from_min_max(inner.min, egui::pos2(right.left() - 4.0 * UNIT, inner.bottom()));
     message(ui, left, context);
@@ -47,6 +61,8 @@ fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             rest.min.x += 5.0 * UNIT;
         }
         (status.text.clone(), color)
+    } else if let Some(point) = context.view.point.clone() {
+        (point, theme.text)
     } else if let Some(thing) = context.view.hovered.clone() {
         (describe(&thing, context), theme.text)
     } else {
@@ -137,6 +153,9 @@ fn value_is_delta_e(document: &Document) -> bool {
 /// The right side. What no pane shows is not computed for it.
 fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
     let scene = &context.scene;
+    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Render) {
+        return render_facts(context);
+    }
     let mut facts = Vec::new();
     if !context.view.fixed_clock {
         let milliseconds = scene.results.last_work().as_secs_f64() * 1e3;
@@ -153,6 +172,30 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
     let own = scene.document.own.iter().map(crate::catalog::Entry::from_own);
     let all = scene.catalog.of_kind(Kind::Camera).count() + own.filter(|entry| entry.kind == Kind::Camera).count();
     facts.push(format!("{computed} of {all} cameras computed"));
+    facts
+}
+
+/// The same where pictures are rendered.
+fn render_facts(context: &PaneContext<'_>) -> Vec<String> {
+    let Some(shot) = context.view.render.shot.as_deref() else { return Vec::new() };
+    let mut facts = Vec::new();
+    let long = context.view.render.busy.filter(|busy| *busy >= LONG);
+    if let Some(busy) = long {
+        facts.push(format!("{}: {:.0} s, Esc stops", context.view.render.making, busy.as_secs_f64()));
+    } else if !context.view.fixed_clock {
+        let milliseconds = shot.time.as_secs_f64() * 1e3;
+        facts.push(format!("updated in {} ms", fixed(milliseconds, usize::from(milliseconds < 100.0))));
+    }
+    let error = match shot.query.shading.quality {
+        Quality::Preview => "preview",
+        Quality::Full => "error < 1e−5",
+        Quality::Fine => "error < 1e−9",
+        Quality::Exact => "1 nm sums",
+        Quality::Regimes => "the paper's three cases of g",
+    };
+    facts.push(error.to_owned());
+    let cameras = shot.sources.iter().filter(|source| source.kind == Kind::Camera).count();
+    facts.push(format!("{cameras} {}", if cameras == 1 { "camera" } else { "cameras" }));
     facts
 }
 

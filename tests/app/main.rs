@@ -5,14 +5,17 @@
 mod architecture;
 mod assets;
 mod cli;
+mod cli_render;
 mod cpu_renderer;
 mod exports;
 mod figure;
 mod import;
 mod inspector;
 mod library;
+mod meshes;
 mod own_data;
 mod recompute;
 mod reducer;
+mod render;
 mod screenshots;
 mod theme;

@@ -162,7 +162,7 @@ fn nothing_changed_is_no_step() {
 fn a_session_keeps_all_even_what_it_does_not_know() {
     let mut document = Document::default();
     import(&["mine"], OwnRole::Camera).apply(&mut document);
-    document.unknown.insert("render".to_owned(), serde_json::json!({ "mesh": "head" }));
+    document.unknown.insert("hologram".to_owned(), serde_json::json!({ "mesh": "head" }));
     let json = session::to_json(&document).unwrap();
     assert_eq!(session::from_json(&json).unwrap(), document);
     assert!(session::from_json("{}").unwrap().compared.len() == 5, "missing fields have defaults");

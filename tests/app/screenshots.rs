@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use chromascope::action::{Action, CompareAction, SceneAction};
+use chromascope::action::{Action, CompareAction, RenderAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Kind;
 use chromascope::command::Command;
@@ -12,6 +12,7 @@ use chromascope::document::history::History;
 use chromascope::document::{Diagram, Document, Overlays, Subset, WayChoice};
 use chromascope::files::Files;
 use chromascope::thing::{SourceId, Thing};
+use chromascope::view::render::RenderMode;
 use chromascope::view::{DiagramFit, SavedView};
 use chromascope::workspaces::{PaneKind, Workspace};
 use egui_kittest::Harness;
@@ -103,4 +104,45 @@ fn spectra() {
     harness.state_mut().view_mut().saved.workspace = Workspace::Spectra;
     harness.run();
     check(harness, "spectra.png");
+}
+
+/// The Render workspace, all pictures made.
+fn render(
+    size: [f32; 2],
+    theme: egui::Theme,
+    change: impl FnOnce(&mut ChromascopeApp),
+) -> Harness<'static, ChromascopeApp> {
+    let mut harness = open(size, theme);
+    harness.state_mut().view_mut().saved.workspace = Workspace::Render;
+    change(harness.state_mut());
+    for _ in 0..4 {
+        harness.run_steps(2);
+        harness.state().studio().wait();
+    }
+    harness
+}
+
+#[test]
+fn render_head() {
+    check(
+        render([1280.0, 800.0], egui::Theme::Light, |app| app.push(Action::Render(RenderAction::Figure8))),
+        "render_head.png",
+    );
+}
+
+#[test]
+fn render_fern() {
+    check(
+        render([1280.0, 800.0], egui::Theme::Dark, |app| app.push(Action::Render(RenderAction::Figure9))),
+        "render_fern.png",
+    );
+}
+
+#[test]
+fn render_difference() {
+    let difference = |app: &mut ChromascopeApp| {
+        app.push(Action::Render(RenderAction::Figure8));
+        app.view_mut().saved.render.mode = RenderMode::Difference;
+    };
+    check(render([1280.0, 800.0], egui::Theme::Dark, difference), "render_difference.png");
 }

@@ -8,6 +8,9 @@ use crate::scene::{Lighting, Mesh, PlacedLight};
 use glam::DVec3;
 use rayon::prelude::*;
 
+/// The side of the block of samples that share a coarse shadow ray.
+const BLOCK: usize = 4;
+
 /// Samples that one task works on.
 const CHUNK: usize = 8192;
 
@@ -16,7 +19,7 @@ const CHUNK: usize = 8192;
 pub enum Shadows {
     /// None: light passes through everything.
     Off,
-    /// One ray for each 2 × 2 samples.
+    /// One ray for each 4 × 4 samples: while something moves.
     Coarse,
     /// One ray a sample.
     #[default]
@@ -114,8 +117,8 @@ impl GeometryImage {
         let size = visibility.size();
         let light = lighting.before(visibility.eye());
         let scene = Scene { mesh, visibility, rays: visibility.rays(), light, shadows };
-        // Two rows together, for shadow rays that four samples share.
-        let band = 2 * size.columns();
+        // Rows whose samples share shadow rays together.
+        let band = BLOCK * size.columns();
         let bands: Vec<Part> = (0..visibility.hits().len().div_ceil(band))
             .into_par_iter()
             .map(|index| if stop.is_set() { Part::default() } else { scene.part(index * band, band) })
@@ -218,8 +221,8 @@ impl Scene<'_> {
         let hits = self.visibility.hits();
         let columns = self.visibility.size().columns();
         let mut part = Part::default();
-        // Whether the block of 2 × 2 samples is in shadow, once known.
-        let mut blocks: Vec<Option<bool>> = vec![None; columns.div_ceil(2)];
+        // Whether a block of samples is in shadow, once known.
+        let mut blocks: Vec<Option<bool>> = vec![None; columns.div_ceil(BLOCK)];
         for (sample, hit) in hits.iter().enumerate().take((start + count).min(hits.len())).skip(start) {
             if !hit.is_some() {
                 continue;
@@ -230,7 +233,7 @@ impl Scene<'_> {
                 part.counts.facing_away += 1;
                 continue;
             };
-            let block = &mut blocks[sample % columns / 2];
+            let block = &mut blocks[sample % columns / BLOCK];
             if self.is_shadowed(&place, to_light, distance, block, &mut part.counts.rays) {
                 part.counts.shadowed += 1;
                 continue;

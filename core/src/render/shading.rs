@@ -265,9 +265,13 @@ impl Material {
         if self.reading == Reading::Lambertian {
             return None;
         }
-        let front = light * coherent_prefactor(&self.surface, geometry, self.reading);
         let kappa = kappa(&self.surface, geometry);
         let (bluest, reddest) = (LAMBDA_0_NM / FIRST_NM, LAMBDA_0_NM / LAST_NM);
+        // Most surfaces: no patch and no reading lifts e^-100 above the threshold.
+        if kappa * reddest * reddest > 100.0 {
+            return None;
+        }
+        let front = light * coherent_prefactor(&self.surface, geometry, self.reading);
         // Red is where g is least and the lobe widest; blue is where the reading weighs most.
         let damping = (-kappa * reddest * reddest).exp() * bluest * bluest;
         if front * damping <= self.threshold {

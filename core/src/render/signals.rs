@@ -15,7 +15,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct CameraImage {
     geometry: Arc<GeometryImage>,
-    signals: Arc<[[f32; 3]]>,
+    signals: Arc<Vec<[f32; 3]>>,
 }
 
 impl CameraImage {
@@ -43,7 +43,7 @@ impl CameraImage {
                 *signal += sum as f32;
             }
         }
-        (!stop.is_set()).then(|| Self { geometry, signals: signals.into() })
+        (!stop.is_set()).then(|| Self { geometry, signals: Arc::new(signals) })
     }
 
     /// The angles it is made of, with the places of the lit samples.

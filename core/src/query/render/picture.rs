@@ -64,12 +64,12 @@ impl Query for ExposureOf {
 }
 
 impl ExposureOf {
-    /// `∫ C_c S P L dλ / ∫ C_c L dλ` with light, eye and normal along one line, over all wavelengths of the grid.
+    /// `∫ C_c S P L dλ / ∫ C_c L dλ` with light, eye and normal along one line, where nothing oscillates: a few wavelengths do.
     fn signals(&self, measure: &Measure) -> DVec3 {
         let facing = Geometry::from_angles(0.0, 0.0, 0.0);
         let radius = f64::from_bits(self.angular_radius);
         let mut sum = DVec3::ZERO;
-        for node in measure.dense() {
+        for node in measure.fine() {
             let p = factor(&self.surface, &facing, node.wavelength_nm, self.reading, radius);
             sum += DVec3::from_array(node.weights) * p;
         }

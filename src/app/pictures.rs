@@ -1,0 +1,55 @@
+//! Rendered pictures as files.
+
+use chromascope_core::query::Ask as _;
+
+use super::ChromascopeApp;
+use crate::document::WhiteChoice;
+use crate::export::render::{Provenance, exr_bytes};
+use crate::figures::render::{index_of, mesh_name};
+use crate::files::SaveRequest;
+use crate::scene::Scene;
+use crate::thing::SourceId;
+
+impl ChromascopeApp {
+    /// Saves a source's picture with its numbers.
+    pub(super) fn export_exr(&mut self, source: &SourceId) {
+        match self.exr(source) {
+            Some(Ok(bytes)) => {
+                let name: String = source.name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+                self.files.ask_to_save(SaveRequest { name: format!("{name}.exr"), extension: "exr", bytes });
+            }
+            Some(Err(why)) => self.view.fail(why),
+            None => self.view.fail(format!("{}: there is no picture yet.", source.name)),
+        }
+    }
+
+    fn exr(&self, source: &SourceId) -> Option<Result<Vec<u8>, String>> {
+        let shot = self.view.render.shot.clone()?;
+        let index = index_of(&shot, source)?;
+        let image = shot.made()?.images.get(index)?.as_ref()?;
+        let rendering = self.results.ask(&shot.query.sources.get(index)?.rendering);
+        let rendering = (*rendering).as_ref().ok()?;
+        let document = self.history.document();
+        let scene = Scene { document, catalog: &self.catalog, results: &self.results };
+        let white = match &document.white {
+            WhiteChoice::Unity => "unity".to_owned(),
+            WhiteChoice::Light(name) => name.clone(),
+            WhiteChoice::Daylight(kelvin) => format!("daylight {kelvin:.0} K"),
+            WhiteChoice::BlackBody(kelvin) => format!("black body {kelvin:.0} K"),
+        };
+        let shading = &shot.query.shading;
+        let provenance = Provenance {
+            source: &source.name,
+            balance: if rendering.is_rgb { &white } else { "none" },
+            illuminant: &scene.light_name(),
+            material: &document.render.material,
+            mesh: &mesh_name(&document.render.mesh),
+            quality: document.render.quality.label(),
+            lighting: shading.geometry.lighting,
+            viewpoint: shading.geometry.visibility.viewpoint,
+            surface: shading.surface,
+            reading: shading.reading,
+        };
+        Some(exr_bytes(image, rendering, &provenance).map_err(|error| error.to_string()))
+    }
+}

@@ -1,0 +1,248 @@
+//! The user's mesh files: read beside the window, remembered by path, read anew when they changed.
+//!
+//! A document holds a mesh's path alone. [`MeshStore::get`] is what a picture asks: it begins to read at the first question and
+//! never waits. [`MeshStore::open`] is what a person asks: the file is read before anything is changed, and what came of it is
+//! taken from [`MeshStore::poll`]; opening another file meanwhile stops the first.
+
+mod read;
+
+pub use read::{ENDINGS, LoadedMesh, MAX_FILE_BYTES, MeshFailure, is_mesh, read};
+
+use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+
+use read::{Stamp, file_name};
+
+/// Meshes that nobody looks at are remembered up to this many bytes, so that undo need not read them again.
+const REMEMBERED_BYTES: usize = 256_000_000;
+
+/// What is known of a mesh file.
+#[derive(Clone, Debug)]
+pub enum MeshState {
+    /// It is being read.
+    Loading,
+    /// It was read.
+    Ready(Arc<LoadedMesh>),
+    /// It gives no mesh: why, and what to do.
+    Failed(String),
+}
+
+/// What came of opening a file.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// The file.
+    pub path: PathBuf,
+    /// The mesh, or a sentence that says why there is none.
+    pub result: Result<Arc<LoadedMesh>, String>,
+}
+
+/// The mesh files that were asked for.
+pub struct MeshStore {
+    desk: Arc<Desk>,
+}
+
+/// What lies between the window and the threads that read.
+struct Desk {
+    state: Mutex<State>,
+    wake: Box<dyn Fn() + Send + Sync>,
+}
+
+#[derive(Default)]
+struct State {
+    known: HashMap<PathBuf, Known>,
+    opening: Option<PathBuf>,
+    opened: Vec<Opened>,
+    clock: u64,
+}
+
+/// One file. With nothing in it, nothing was tried yet.
+#[derive(Default)]
+struct Known {
+    mesh: Option<(Arc<LoadedMesh>, Stamp)>,
+    failure: Option<String>,
+    /// Says to the thread that reads it that nobody wants it any more.
+    reading: Option<Arc<AtomicBool>>,
+    asked: u64,
+}
+
+impl Known {
+    fn stop(&mut self) {
+        if let Some(stop) = self.reading.take() {
+            stop.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+impl MeshStore {
+    /// Knows no file yet. `wake` is called when a file was read, from the thread that read it.
+    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self { desk: Arc::new(Desk { state: Mutex::default(), wake: Box::new(wake) }) }
+    }
+
+    /// What is known of a file. Reading begins with the first question; a mesh stays on show while it is read anew.
+    pub fn get(&self, path: &Path) -> MeshState {
+        let mut state = self.desk.lock();
+        state.clock += 1;
+        let now = state.clock;
+        let known = state.known_at(path);
+        known.asked = now;
+        if let Some((mesh, _)) = &known.mesh {
+            return MeshState::Ready(Arc::clone(mesh));
+        }
+        if known.reading.is_none() {
+            if let Some(failure) = &known.failure {
+                return MeshState::Failed(failure.clone());
+            }
+            self.begin(&mut state, path, None);
+        }
+        MeshState::Loading
+    }
+
+    /// Opens a file for a person: [`MeshStore::poll`] tells what came of it. What was being opened before is given up.
+    pub fn open(&self, path: &Path) {
+        let mut state = self.desk.lock();
+        state.give_up_opening();
+        state.opening = Some(path.to_owned());
+        let known = state.known_at(path);
+        let unless = known.mesh.as_ref().map(|(_, stamp)| *stamp);
+        if known.reading.is_none() {
+            self.begin(&mut state, path, unless);
+        }
+    }
+
+    /// Reads a file again, changed or not. Its mesh stays on show meanwhile, and afterwards if it can no longer be read.
+    pub fn reload(&self, path: &Path) {
+        let mut state = self.desk.lock();
+        state.known_at(path).stop();
+        self.begin(&mut state, path, None);
+    }
+
+    /// What came of opening, once for each file that was not given up.
+    pub fn poll(&self) -> Vec<Opened> {
+        std::mem::take(&mut self.desk.lock().opened)
+    }
+
+    /// The file that is being opened.
+    pub fn opening(&self) -> Option<PathBuf> {
+        self.desk.lock().opening.clone()
+    }
+
+    /// Gives up opening. Returns the file that was being opened.
+    pub fn cancel(&self) -> Option<PathBuf> {
+        self.desk.lock().give_up_opening()
+    }
+
+    /// Stops reading what is neither wanted nor being opened, and lets go of meshes beyond what is worth remembering.
+    pub fn keep(&self, wanted: Option<&Path>) {
+        let mut state = self.desk.lock();
+        let opening = state.opening.clone();
+        let needed = |path: &Path| Some(path) == wanted || Some(path) == opening.as_deref();
+        for (path, known) in &mut state.known {
+            if !needed(path) {
+                known.stop();
+            }
+        }
+        state.known.retain(|path, known| needed(path) || known.mesh.is_some() || known.failure.is_some());
+        let size = |known: &Known| known.mesh.as_ref().map_or(0, |(mesh, _)| mesh.bytes());
+        loop {
+            let spare = || state.known.iter().filter(|(path, _)| !needed(path));
+            if spare().map(|(_, known)| size(known)).sum::<usize>() <= REMEMBERED_BYTES {
+                return;
+            }
+            let oldest = spare().filter(|(_, known)| known.mesh.is_some()).min_by_key(|(_, known)| known.asked);
+            let Some(oldest) = oldest.map(|(path, _)| path.clone()) else { return };
+            state.known.remove(&oldest);
+        }
+    }
+
+    /// Reads on a thread of its own, so that a folder of a server that is gone holds up no other file.
+    fn begin(&self, state: &mut State, path: &Path, unless: Option<Stamp>) {
+        let stop: Arc<AtomicBool> = Arc::default();
+        state.known_at(path).reading = Some(Arc::clone(&stop));
+        let (desk, file) = (Arc::clone(&self.desk), path.to_owned());
+        let work = move || {
+            let result = read_once(&file, unless, &|| stop.load(Ordering::Relaxed));
+            desk.lock().take(&file, &stop, result);
+            (desk.wake)();
+        };
+        if let Err(error) = thread::Builder::new().name("meshes".to_owned()).spawn(work) {
+            let failure = MeshFailure::Io { file: file_name(path), error };
+            let stop = state.known_at(path).reading.clone().unwrap_or_default();
+            state.take(path, &stop, Err(failure));
+        }
+    }
+}
+
+impl Drop for MeshStore {
+    fn drop(&mut self) {
+        self.desk.lock().known.values_mut().for_each(Known::stop);
+    }
+}
+
+impl Desk {
+    /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl State {
+    fn known_at(&mut self, path: &Path) -> &mut Known {
+        self.known.entry(path.to_owned()).or_default()
+    }
+
+    /// Takes what a thread read; none for a file that is as it was.
+    fn take(&mut self, path: &Path, stop: &Arc<AtomicBool>, result: Result<Option<(LoadedMesh, Stamp)>, MeshFailure>) {
+        let Some(known) = self.known.get_mut(path) else { return };
+        if known.reading.as_ref().is_none_or(|reading| !Arc::ptr_eq(reading, stop)) {
+            return;
+        }
+        known.reading = None;
+        let mut sentence = None;
+        match result {
+            Ok(Some((mesh, stamp))) => {
+                log::info!("read {}", mesh.summary);
+                known.mesh = Some((Arc::new(mesh), stamp));
+                known.failure = None;
+            }
+            Ok(None) => {}
+            Err(failure) => {
+                log::warn!("{failure}");
+                known.failure = Some(failure.on_show());
+                sentence = Some(failure.on_opening());
+            }
+        }
+        if self.opening.as_deref() != Some(path) {
+            return;
+        }
+        self.opening = None;
+        let result = match (sentence, &known.mesh) {
+            (Some(sentence), _) => Err(sentence),
+            (None, Some((mesh, _))) => Ok(Arc::clone(mesh)),
+            (None, None) => return,
+        };
+        self.opened.push(Opened { path: path.to_owned(), result });
+    }
+
+    fn give_up_opening(&mut self) -> Option<PathBuf> {
+        let path = self.opening.take()?;
+        let known = self.known_at(&path);
+        known.stop();
+        known.failure = Some(MeshFailure::Stopped { file: file_name(&path) }.on_show());
+        Some(path)
+    }
+}
+
+/// Reads, and has a panic come out as a failure of this file alone.
+fn read_once(
+    path: &Path,
+    unless: Option<Stamp>,
+    stop: &dyn Fn() -> bool,
+) -> Result<Option<(LoadedMesh, Stamp)>, MeshFailure> {
+    let read = catch_unwind(AssertUnwindSafe(|| read::read_unless(path, unless, stop)));
+    read.unwrap_or_else(|_| Err(MeshFailure::Broken { file: file_name(path) }))
+}

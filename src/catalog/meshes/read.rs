@@ -1,0 +1,249 @@
+//! One mesh file: from the disk to a mesh with what a person should know about it, or to a sentence.
+
+use std::ffi::OsStr;
+use std::fs::File;
+use std::io::{self, Read as _};
+use std::path::Path;
+use std::time::SystemTime;
+
+use chromascope_core::query::Shared;
+use chromascope_core::scene::Mesh;
+use chromascope_core::scene::reading::{MeshReadError, Note, ReadMesh, read_mesh};
+
+use crate::files::reason;
+
+/// The largest mesh file that is read, in bytes.
+pub const MAX_FILE_BYTES: u64 = 1_000_000_000;
+/// How much is read from the disk between two looks at the stop signal.
+const CHUNK_BYTES: u64 = 4 << 20;
+/// Endings of mesh files.
+pub const ENDINGS: [&str; 3] = ["obj", "ply", "stl"];
+
+/// A mesh from a file.
+#[derive(Clone, Debug)]
+pub struct LoadedMesh {
+    /// The mesh.
+    pub mesh: Shared<Mesh>,
+    /// What was found and tolerated, the gravest first.
+    pub notes: Vec<String>,
+    /// The file's name and its counts: `head.obj: 4429 vertices, 8812 triangles, open edges 36`.
+    pub summary: String,
+    /// The summary with the gravest of the notes that the counts do not already tell, in full sentences.
+    pub message: String,
+}
+
+impl LoadedMesh {
+    /// About how much memory it takes.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(self.mesh.positions()) + size_of_val(self.mesh.normals()) + size_of_val(self.mesh.triangles())
+    }
+}
+
+/// Why a file gives no mesh.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshFailure {
+    /// There is no such file.
+    #[error("{file} is not in {folder}")]
+    Missing {
+        /// The file's name.
+        file: String,
+        /// Where it was looked for.
+        folder: String,
+    },
+    /// The system does not give it out.
+    #[error("{file}: {}", reason(.error))]
+    Io {
+        /// The file's name.
+        file: String,
+        /// Why.
+        error: io::Error,
+    },
+    /// A folder or a device.
+    #[error("{file} is no file")]
+    NoFile {
+        /// Its name.
+        file: String,
+    },
+    /// A session is text, and could not name this file.
+    #[error("{file}: a session cannot keep its path, which is no Unicode text; rename the file or folder")]
+    Path {
+        /// The file's name.
+        file: String,
+    },
+    /// It is larger than what is read.
+    #[error(
+        "{file}: {} MB, but the limit is {} MB; simplify the mesh or export a part of it",
+        .bytes / 1_000_000,
+        MAX_FILE_BYTES / 1_000_000
+    )]
+    TooLarge {
+        /// The file's name.
+        file: String,
+        /// Its size.
+        bytes: u64,
+    },
+    /// There is no memory for it.
+    #[error("{file}: no memory for its {} MB; close other programs or simplify the mesh", .bytes / 1_000_000)]
+    NoMemory {
+        /// The file's name.
+        file: String,
+        /// Its size.
+        bytes: u64,
+    },
+    /// Its contents make no mesh.
+    #[error("{file}{}{error}", joint(.error))]
+    Mesh {
+        /// The file's name.
+        file: String,
+        /// Why, and where.
+        error: MeshReadError,
+    },
+    /// The program broke on it.
+    #[error("{file} could not be read because of a fault in this program; please report it with the file")]
+    Broken {
+        /// The file's name.
+        file: String,
+    },
+    /// Nobody wanted it any more.
+    #[error("reading {file} was stopped")]
+    Stopped {
+        /// The file's name.
+        file: String,
+    },
+}
+
+impl MeshFailure {
+    /// For a person who opened the file.
+    pub fn on_opening(&self) -> String {
+        capitalized(&format!("{self}. Nothing was changed."))
+    }
+
+    /// For a picture that needs the file.
+    pub fn on_show(&self) -> String {
+        capitalized(&match self {
+            Self::Missing { .. } => format!("{self}; open it from where it is now, or choose Head or Fern."),
+            Self::Io { .. } | Self::Stopped { .. } => format!("{self}; open it again, or choose Head or Fern."),
+            _ => format!("{self}. Open another mesh, or choose Head or Fern."),
+        })
+    }
+}
+
+/// A line number belongs to the name before it.
+fn joint(error: &MeshReadError) -> &'static str {
+    let text = error.to_string();
+    if ["line ", "face ", "vertex "].iter().any(|place| text.starts_with(place)) { ", " } else { ": " }
+}
+
+/// Only a sentence's own first word takes a capital: a file's name stays as it is.
+fn capitalized(sentence: &str) -> String {
+    sentence.strip_prefix("reading ").map_or_else(|| sentence.to_owned(), |rest| format!("Reading {rest}"))
+}
+
+/// When a file was changed, and how long it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Stamp {
+    modified: Option<SystemTime>,
+    bytes: u64,
+}
+
+/// Reads a mesh file. `stop` is asked now and then, and ends the reading with [`MeshFailure::Stopped`].
+pub fn read(path: &Path, stop: &dyn Fn() -> bool) -> Result<LoadedMesh, MeshFailure> {
+    // Nothing to compare with, so there is always something.
+    read_unless(path, None, stop)?.map(|(mesh, _)| mesh).ok_or_else(|| MeshFailure::Stopped { file: file_name(path) })
+}
+
+/// The same, unless the file is as it was when it had this stamp.
+pub(super) fn read_unless(
+    path: &Path,
+    unless: Option<Stamp>,
+    stop: &dyn Fn() -> bool,
+) -> Result<Option<(LoadedMesh, Stamp)>, MeshFailure> {
+    let file = file_name(path);
+    let failed = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => {
+            let folder = path.parent().map_or_else(String::new, |folder| folder.display().to_string());
+            MeshFailure::Missing { file: file.clone(), folder }
+        }
+        _ => MeshFailure::Io { file: file.clone(), error },
+    };
+    if path.to_str().is_none() {
+        return Err(MeshFailure::Path { file });
+    }
+    // Opening a pipe would wait for somebody to write into it.
+    if !std::fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(MeshFailure::NoFile { file });
+    }
+    let source = File::open(path).map_err(failed)?;
+    let known = source.metadata().map_err(failed)?;
+    let stamp = Stamp { modified: known.modified().ok(), bytes: known.len() };
+    if unless == Some(stamp) {
+        return Ok(None);
+    }
+    if stamp.bytes > MAX_FILE_BYTES {
+        return Err(MeshFailure::TooLarge { file, bytes: stamp.bytes });
+    }
+    let bytes = contents(source, stamp.bytes, stop).map_err(|error| match error.kind() {
+        io::ErrorKind::OutOfMemory => MeshFailure::NoMemory { file: file.clone(), bytes: stamp.bytes },
+        io::ErrorKind::Interrupted => MeshFailure::Stopped { file: file.clone() },
+        _ => failed(error),
+    })?;
+    match read_mesh(&bytes, path.extension().and_then(OsStr::to_str), stop) {
+        Ok(mesh) => Ok(Some((loaded(&file, mesh), stamp))),
+        Err(MeshReadError::Stopped) => Err(MeshFailure::Stopped { file }),
+        Err(error) => Err(MeshFailure::Mesh { file, error }),
+    }
+}
+
+/// The bytes of a file, in pieces, for a disk can be slow.
+fn contents(source: File, size: u64, stop: &dyn Fn() -> bool) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let room = usize::try_from(size).unwrap_or(usize::MAX);
+    bytes.try_reserve_exact(room).map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))?;
+    // A file that grows meanwhile is read as long as it was.
+    let mut rest = source.take(size);
+    while (&mut rest).take(CHUNK_BYTES).read_to_end(&mut bytes)? > 0 {
+        if stop() {
+            return Err(io::Error::from(io::ErrorKind::Interrupted));
+        }
+    }
+    Ok(bytes)
+}
+
+fn loaded(file: &str, read: ReadMesh) -> LoadedMesh {
+    let ReadMesh { mesh, report, .. } = read;
+    let open = report.boundary_edges;
+    let open = if open == 0 { "closed".to_owned() } else { format!("open edges {open}") };
+    let plural = if report.triangles == 1 { "" } else { "s" };
+    let summary = format!("{file}: {} vertices, {} triangle{plural}, {open}", report.vertices, report.triangles);
+    let notes = report.notes();
+    let first = notes.iter().find(|note| !matches!(note, Note::Open { .. } | Note::Skipped { .. }));
+    let message = first.map_or_else(|| format!("{summary}."), |note| format!("{summary}. {note}."));
+    LoadedMesh { mesh: Shared::new(mesh), notes: notes.iter().map(ToString::to_string).collect(), summary, message }
+}
+
+/// Whether a file is a mesh rather than spectra: by its name's ending, else by its first bytes.
+pub fn is_mesh(path: &Path, beginning: &[u8]) -> bool {
+    let ending = path.extension().and_then(OsStr::to_str);
+    if ending.is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known))) {
+        return true;
+    }
+    let text = String::from_utf8_lossy(beginning);
+    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    match lines.next() {
+        Some("ply") => true,
+        Some(first) if first.starts_with("solid") => lines.next().is_some_and(|line| line.starts_with("facet")),
+        _ => text.lines().any(is_vertex),
+    }
+}
+
+/// `v`, and three numbers or more.
+fn is_vertex(line: &str) -> bool {
+    let mut words = line.split_whitespace();
+    let numbers = |words: std::str::SplitWhitespace<'_>| words.take_while(|word| word.parse::<f64>().is_ok()).count();
+    words.next() == Some("v") && numbers(words) >= 3
+}
+
+/// The last part of a path.
+pub(super) fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
+}

@@ -1,0 +1,262 @@
+//! `render`: pictures of a mesh, made as in the window and written to files.
+
+mod accuracy;
+pub(super) mod arguments;
+mod setup;
+mod stats;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{self, IsTerminal as _};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use chromascope_core::camera::Rendering;
+use chromascope_core::query::render::{Pictures, PicturesOf};
+use chromascope_core::query::{Ask as _, NoDifference, RenderingOf};
+use chromascope_core::render::{CameraImage, Picture};
+use clap::ArgMatches;
+use rayon::prelude::*;
+
+use self::arguments::{Format, RenderArguments};
+use self::setup::Setup;
+use super::{CliError, put, say, write_to};
+use crate::document::WhiteChoice;
+use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
+use crate::results::{Count, Results};
+use crate::scene::{Scene, SceneError, Source};
+
+/// Makes the pictures, writes them, and says what came of it.
+pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {
+    let start = Instant::now();
+    let setup = Setup::new(arguments, matches)?;
+    make_folder(&arguments.out)?;
+    let results = Results::bounded();
+    let made = patiently("rendering", || Made::new(arguments, &setup, &results))?;
+    let files = Instant::now();
+    made.write(arguments)?;
+    let times = Times { all: start.elapsed(), reading: setup.reading, writing: files.elapsed() };
+    // Before anything is asked for the sake of measuring.
+    let counts = results.counts();
+    let lines = made.lines(&counts, &times);
+    let to_stdout = arguments.stats.as_deref().is_some_and(|path| path == Path::new("-"));
+    if to_stdout {
+        say(&lines);
+    } else {
+        put(&lines, None)?;
+    }
+    match &arguments.stats {
+        Some(path) => put(&patiently("measuring", || stats::json(arguments, &made, &counts, &times)), Some(path)),
+        None => Ok(()),
+    }
+}
+
+/// Works, and says now and then to a person who waits that it still does.
+fn patiently<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
+    const EVERY: Duration = Duration::from_secs(3);
+    let (done, end) = channel::<()>();
+    if io::stderr().is_terminal() {
+        let start = Instant::now();
+        let wait = move || {
+            while end.recv_timeout(EVERY) == Err(RecvTimeoutError::Timeout) {
+                say(&format!("chromascope: still {what} after {} s\n", start.elapsed().as_secs()));
+            }
+        };
+        // Without a thread it is silent, no more.
+        let _silent = thread::Builder::new().name("patience".to_owned()).spawn(wait);
+    }
+    let result = work();
+    drop(done);
+    result
+}
+
+/// Where time went that no question counts.
+struct Times {
+    all: Duration,
+    reading: Duration,
+    writing: Duration,
+}
+
+/// Pictures with what they are of.
+struct Made<'a> {
+    setup: &'a Setup,
+    scene: Scene<'a>,
+    sources: Vec<Source>,
+    /// Why a source cannot be compared with the truth.
+    not_comparable: Vec<Option<NoDifference>>,
+    files: Vec<PathBuf>,
+    query: PicturesOf,
+    pictures: Pictures,
+}
+
+impl<'a> Made<'a> {
+    fn new(arguments: &RenderArguments, setup: &'a Setup, results: &'a Results) -> Result<Self, CliError> {
+        let document = &setup.request.document;
+        let scene = Scene { document, catalog: &setup.request.catalog, results };
+        let sources = scene.sources();
+        let mesh = scene.mesh_of(setup.own_mesh.as_ref());
+        let mesh = mesh.ok_or_else(|| CliError::File(format!("{}: there is no mesh", arguments.mesh)))?;
+        let query = scene.pictures_of(&sources, mesh, setup.viewpoint, setup.finish, None)?;
+        // Exposure goes by the truth, on show or not. What cannot be shown is said before anything large is computed.
+        rendering(&scene, &document.truth, &query.truth)?;
+        for (source, of) in sources.iter().zip(&query.sources) {
+            rendering(&scene, &source.name, &of.rendering)?;
+        }
+        let comparable = |source: &Source| Ok(scene.comparable(source.kind, &source.name)?.err());
+        let not_comparable = sources.iter().map(comparable).collect::<Result<_, SceneError>>()?;
+        let pictures = match &*results.ask(&query) {
+            Ok(Some(pictures)) => pictures.clone(),
+            Ok(None) => return Err(CliError::File("the pictures were not finished".to_owned())),
+            Err(error) => return Err(SceneError::Rendering { name: document.truth.clone(), error: *error }.into()),
+        };
+        let files = file_names(arguments, &setup.mesh_name, &sources);
+        Ok(Self { setup, scene, sources, not_comparable, files, query, pictures })
+    }
+
+    /// Writes the files side by side: encoding takes longer than the disk.
+    fn write(&self, arguments: &RenderArguments) -> Result<(), CliError> {
+        let names = [self.scene.light_name(), white_name(&self.scene.document.white)];
+        let contents = (0..self.files.len()).map(|index| self.content(index, arguments, &names));
+        let contents = contents.collect::<Result<Vec<_>, _>>()?;
+        contents.par_iter().zip(&self.files).try_for_each(|(content, path)| {
+            let bytes = content.bytes().map_err(|error| CliError::Picture { path: path.clone(), error })?;
+            write_to(path, &bytes).map_err(|error| CliError::Output { path: path.clone(), error })
+        })
+    }
+
+    fn content<'b>(
+        &'b self,
+        index: usize,
+        arguments: &RenderArguments,
+        [illuminant, white]: &'b [String; 2],
+    ) -> Result<Content<'b>, CliError> {
+        let name = &self.sources[index].name;
+        let picture = self.pictures.pictures[index].as_ref();
+        let picture = picture.map_err(|error| SceneError::Rendering { name: name.clone(), error: *error })?;
+        if arguments.format == Format::Png {
+            return Ok(Content::Png(picture));
+        }
+        let image = self.pictures.images[index].as_ref();
+        let image = image.ok_or_else(|| CliError::File(format!("{name}: there is no picture")))?;
+        let rendering = rendering(&self.scene, name, &self.query.sources[index].rendering)?;
+        let shading = &self.query.shading;
+        let provenance = Provenance {
+            source: name,
+            balance: if rendering.is_rgb { white } else { "none" },
+            illuminant,
+            material: &self.scene.document.render.material,
+            mesh: &self.setup.mesh_name,
+            quality: arguments.quality.name(),
+            lighting: shading.geometry.lighting,
+            viewpoint: self.setup.viewpoint,
+            surface: shading.surface,
+            reading: shading.reading,
+        };
+        Ok(Content::Exr { image, rendering: Box::new(rendering), provenance: Box::new(provenance) })
+    }
+
+    /// A line for each picture, and one for all.
+    fn lines(&self, counts: &BTreeMap<&'static str, Count>, times: &Times) -> String {
+        let pictures = self.files.iter().enumerate();
+        let lines = pictures.map(|(index, path)| [path.display().to_string(), self.difference(index)].join(": "));
+        let mut lines: Vec<String> = lines.collect();
+        let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
+        let stages = counts.iter().map(|(name, count)| (*name, count.own_time));
+        let stages = stages.chain([("mesh file", times.reading), ("files", times.writing)]);
+        let mut stages: Vec<(&str, f64)> = stages.map(|(name, time)| (name, milliseconds(time))).collect();
+        stages.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let stages = stages.iter().filter(|(_, time)| *time >= 0.5).map(|(name, time)| format!("{name} {time:.0}"));
+        let (count, size) = (self.files.len(), self.setup.finish.size);
+        lines.push(format!(
+            "{count} picture{} of {}x{}, {} of {} samples lit: {:.0} ms ({})",
+            if count == 1 { "" } else { "s" },
+            size.width,
+            size.height,
+            self.pictures.geometry.lit,
+            size.columns() * size.rows(),
+            milliseconds(times.all),
+            stages.collect::<Vec<_>>().join(", ")
+        ));
+        lines.push(String::new());
+        lines.join("\n")
+    }
+
+    /// How far a picture is from the truth, in words.
+    fn difference(&self, index: usize) -> String {
+        match (&self.pictures.differences[index], self.not_comparable[index]) {
+            _ if self.sources[index].is_truth => "the truth".to_owned(),
+            (_, Some(NoDifference::Ways)) => "no \u{394}E*00 by Eq 13; add --transform observer to compare".to_owned(),
+            (_, Some(other)) => format!("no \u{394}E*00: {other}"),
+            (Some(difference), None) if difference.map.is_empty() => "nothing is lit".to_owned(),
+            (Some(difference), None) => {
+                format!("\u{394}E*00 mean {:.2}, max {:.2}", difference.mean, difference.max)
+            }
+            (None, None) => "no \u{394}E*00".to_owned(),
+        }
+    }
+}
+
+/// What goes into a file.
+enum Content<'a> {
+    Png(&'a Picture),
+    Exr { image: &'a CameraImage, rendering: Box<Rendering>, provenance: Box<Provenance<'a>> },
+}
+
+impl Content<'_> {
+    fn bytes(&self) -> Result<Vec<u8>, PictureError> {
+        match self {
+            Self::Png(picture) => png_bytes(picture),
+            Self::Exr { image, rendering, provenance } => exr_bytes(image, rendering, provenance),
+        }
+    }
+}
+
+/// A source's way to the diagram, or why it has none.
+fn rendering(scene: &Scene<'_>, name: &str, of: &RenderingOf) -> Result<Rendering, SceneError> {
+    let answer = scene.results.ask(of);
+    (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
+}
+
+fn make_folder(folder: &Path) -> Result<(), CliError> {
+    if folder.as_os_str().is_empty() || folder.is_dir() {
+        return Ok(());
+    }
+    if folder.exists() {
+        let reason = format!("{} is a file; give a folder, the pictures are named by themselves", folder.display());
+        return Err(CliError::Argument { argument: "--out", reason });
+    }
+    fs::create_dir_all(folder).map_err(|error| CliError::Output { path: folder.to_owned(), error })
+}
+
+/// A file for each source, no two alike.
+fn file_names(arguments: &RenderArguments, mesh: &str, sources: &[Source]) -> Vec<PathBuf> {
+    let here = arguments.out == Path::new(".");
+    let mut taken: Vec<String> = Vec::new();
+    for source in sources {
+        let stem = format!("{}_{}", slug(mesh), slug(&source.label));
+        let numbered = (2_u32..).map(|number| format!("{stem}-{number}"));
+        let free = std::iter::once(stem.clone()).chain(numbered).find(|name| !taken.contains(name));
+        taken.extend(free);
+    }
+    let name = |stem: &String| format!("{stem}.{}", arguments.format.ending());
+    taken.iter().map(|stem| if here { PathBuf::from(name(stem)) } else { arguments.out.join(name(stem)) }).collect()
+}
+
+/// A name that any file system takes: letters and digits, small, other signs as single hyphens.
+fn slug(name: &str) -> String {
+    let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let slug = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
+    if slug.is_empty() { "unnamed".to_owned() } else { slug }
+}
+
+/// What the balance is called.
+fn white_name(white: &WhiteChoice) -> String {
+    match white {
+        WhiteChoice::Unity => "unity".to_owned(),
+        WhiteChoice::Light(name) => name.clone(),
+        WhiteChoice::Daylight(kelvin) => format!("daylight {kelvin} K"),
+        WhiteChoice::BlackBody(kelvin) => format!("black body {kelvin} K"),
+    }
+}

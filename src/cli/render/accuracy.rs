@@ -1,0 +1,141 @@
+//! How exact the chosen quality is and what it costs, beside the sum over all wavelengths, on the samples of this very picture.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use chromascope_core::camera::NoRendering;
+use chromascope_core::query::Ask as _;
+use chromascope_core::query::render::DiffuseTableOf;
+use chromascope_core::reflectance::{Reading, Surface};
+use chromascope_core::render::{CameraImage, DiffuseTable, GeometryImage, Measure, Quality, ShadingImage, Stop};
+use rayon::ThreadPoolBuilder;
+
+use super::Made;
+
+/// At most this many lit samples are measured on.
+const SAMPLES: usize = 2000;
+/// Short work is repeated for so long, and the shortest taken.
+const AT_LEAST: Duration = Duration::from_millis(20);
+
+/// What was measured.
+pub(super) struct Accuracy {
+    /// Each how many of the lit samples were taken.
+    pub(super) stride: usize,
+    /// How many they are.
+    pub(super) samples: usize,
+    /// The chosen quality.
+    pub(super) chosen: Cost,
+    /// The plain sum over all wavelengths.
+    pub(super) exact: Cost,
+    /// The paper's three cases of g.
+    pub(super) regimes: Cost,
+}
+
+/// What a way of integrating costs.
+pub(super) struct Cost {
+    /// Nanoseconds a sample and source, on one thread.
+    pub(super) ns: f64,
+    /// Of each source its errors; none for a source without light anywhere.
+    pub(super) errors: Vec<Option<Errors>>,
+}
+
+/// Differences to the sum over all wavelengths, as shares of the picture's peak.
+#[derive(Clone, Copy)]
+pub(super) struct Errors {
+    /// The largest in any channel.
+    pub(super) max: f64,
+    /// The root of the mean square over all channels.
+    pub(super) rms: f64,
+}
+
+/// The signals of each source by one quality.
+struct Run {
+    signals: Vec<Vec<[f32; 3]>>,
+    time: Duration,
+}
+
+/// What is measured on. All data are at hand, so that no question is asked while a watch runs.
+struct Bench {
+    geometry: Arc<GeometryImage>,
+    surface: Surface,
+    reading: Reading,
+    cameras: Vec<Camera>,
+}
+
+/// A source's weights, and its table where the picture takes one.
+struct Camera {
+    measure: Arc<Result<Measure, NoRendering>>,
+    table: Option<Arc<Result<DiffuseTable, NoRendering>>>,
+}
+
+/// Measures; none where nothing is lit.
+pub(super) fn measure(made: &Made<'_>) -> Option<Accuracy> {
+    let geometry = made.pictures.images.iter().flatten().next()?.geometry();
+    let lit = geometry.samples().len();
+    if lit == 0 {
+        return None;
+    }
+    let stride = lit.div_ceil(SAMPLES);
+    let bench = Bench::new(made, Arc::new(geometry.thinned(stride)));
+    // One thread: times of a sample, not of a machine, and nothing waits for others.
+    let pool = ThreadPoolBuilder::new().num_threads(1).build().ok()?;
+    let run = |quality: Quality| pool.install(|| bench.shortest(quality));
+    let [chosen, exact, regimes] = [made.setup.finish.quality, Quality::Exact, Quality::Regimes].map(run);
+    let (chosen, exact, regimes) = (chosen?, exact?, regimes?);
+    let peaks: Vec<f64> = made.pictures.images.iter().map(|image| image.as_ref().map_or(0.0, peak)).collect();
+    let samples = bench.geometry.samples().len();
+    let cost = |run: &Run| Cost {
+        ns: run.time.as_secs_f64() * 1e9 / (samples * run.signals.len().max(1)) as f64,
+        errors: (0..peaks.len()).map(|i| errors(&run.signals[i], &exact.signals[i], peaks[i])).collect(),
+    };
+    Some(Accuracy { stride, samples, chosen: cost(&chosen), exact: cost(&exact), regimes: cost(&regimes) })
+}
+
+impl Bench {
+    fn new(made: &Made<'_>, geometry: Arc<GeometryImage>) -> Self {
+        let needs_table = made.pictures.shading.table > 0;
+        let cameras = made.query.sources.iter().map(|source| {
+            let of = made.query.image(&source.rendering).measure;
+            let table = needs_table.then(|| made.scene.results.ask(&DiffuseTableOf(of.clone())));
+            Camera { measure: made.scene.results.ask(&of), table }
+        });
+        let of = &made.query.shading;
+        Self { geometry, surface: of.surface, reading: of.reading, cameras: cameras.collect() }
+    }
+
+    fn shortest(&self, quality: Quality) -> Option<Run> {
+        let start = Instant::now();
+        let mut best = self.once(quality)?;
+        while start.elapsed() < AT_LEAST {
+            best.time = best.time.min(self.once(quality)?.time);
+        }
+        Some(best)
+    }
+
+    /// From angles to all sources' signals. Making a table is not counted: that is done once for any number of samples.
+    fn once(&self, quality: Quality) -> Option<Run> {
+        let start = Instant::now();
+        let geometry = Arc::clone(&self.geometry);
+        let shading = ShadingImage::new(geometry, self.surface, self.reading, quality, &Stop::NEVER)?;
+        let image = |camera: &Camera| {
+            let table = camera.table.as_deref().and_then(|table| table.as_ref().ok());
+            CameraImage::new(&shading, (*camera.measure).as_ref().ok()?, table, &Stop::NEVER)
+        };
+        let images: Vec<CameraImage> = self.cameras.iter().map(image).collect::<Option<_>>()?;
+        let time = start.elapsed();
+        Some(Run { signals: images.iter().map(|image| image.signals().to_vec()).collect(), time })
+    }
+}
+
+/// The largest signal of a picture; 0 for a black one.
+pub(super) fn peak(image: &CameraImage) -> f64 {
+    f64::from(image.signals().iter().flatten().fold(0.0_f32, |largest, value| largest.max(value.abs())))
+}
+
+fn errors(signals: &[[f32; 3]], exact: &[[f32; 3]], peak: f64) -> Option<Errors> {
+    let pairs = signals.as_flattened().iter().zip(exact.as_flattened());
+    let shares = pairs.map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs() / peak);
+    let (max, squares) = shares.fold((0.0_f64, 0.0), |(max, sum), share| (max.max(share), sum + share * share));
+    let rms = (squares / exact.as_flattened().len().max(1) as f64).sqrt();
+    (peak > 0.0).then_some(Errors { max, rms })
+}

@@ -1,0 +1,214 @@
+//! What `render` takes, and how its numbers are read.
+
+use std::path::PathBuf;
+
+use chromascope_core::render::visibility::MAX_SIDE;
+use clap::{Args, ValueEnum};
+
+use crate::cli::arguments::SourceArguments;
+use crate::document::render::{QualityChoice, ReadingChoice};
+
+pub(in crate::cli) const EXAMPLES: &str = "\
+Examples:
+  chromascope render --out pictures
+  chromascope render --mesh fern --reading paper --samples 3
+  chromascope render --mesh bust.obj --camera \"Nikon D70\" --light=-1,1,1 --orbit 30,10,4
+  chromascope render --sigma 1e-6 --tau 5e-6 --quality fine --stats -
+  chromascope render --mesh sphere --material mine.csv --illuminant A --white A --format exr
+
+The light's direction is in view axes: x to the right, y up, z towards the eye. Angles are in degrees, lengths in meters,
+distances in radii of the mesh. A picture is called after mesh and source, as in head_nikon-d70.png, and replaces an older one.
+OpenEXR holds Eq 12 before exposure, with \u{3c0}f in the place of P for the radiometric and microfacet readings: R G B after white
+balance, X Y Z, and the coverage A. Without any source: the truth (Stiles & Burch) and the paper's three cameras.";
+
+/// What `render` takes.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct RenderArguments {
+    #[command(flatten)]
+    pub(in crate::cli) sources: SourceArguments,
+    /// What is looked at: `head`, `fern`, `sphere`, `plane`, or an OBJ, PLY or STL file
+    #[arg(long, value_name = "NAME|FILE", default_value = "head", help_heading = SCENE)]
+    pub(super) mesh: String,
+    /// About how many triangles head, fern and sphere have
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(8..=5_000_000),
+          help_heading = SCENE)]
+    pub(super) triangles: u32,
+    /// The reflectance: `skin`, `leaf`, a name, or a file [default: skin; leaf for the fern]
+    #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
+    pub(super) material: Option<String>,
+    /// The light: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: Direct sun (ASTM G173)]
+    #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
+    pub(super) illuminant: Option<String>,
+    /// The color a perfect white is to take: `unity`, a light's name, `daylight:K` or `blackbody:K` [default: D55]
+    #[arg(long, value_name = "WHITE", help_heading = SCENE)]
+    pub(super) white: Option<String>,
+    /// The light's direction in view axes [default: 25° up, 25° left]
+    #[arg(long, value_name = "x,y,z", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
+    pub(super) light: Option<[f64; 3]>,
+    /// Lets light pass through the mesh
+    #[arg(long, help_heading = SCENE)]
+    pub(super) no_shadows: bool,
+    /// Where the eye is: degrees around and above the mesh, and its distance in radii of the mesh [default: 20,5,3.6; 20,15,3.6
+    /// for the fern]
+    #[arg(long, value_name = "yaw,pitch,distance", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
+    pub(super) orbit: Option<[f64; 3]>,
+    /// The vertical field of view in degrees [default: 30 along the shorter side]
+    #[arg(long, value_name = "DEGREES", value_parser = finite, allow_hyphen_values = true, help_heading = SCENE)]
+    pub(super) fov: Option<f64>,
+    /// The deviation of the surface's heights in meters [default: 5e-6]
+    #[arg(long, value_name = "METERS", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
+    pub(super) sigma: Option<f64>,
+    /// The correlation length of the surface's heights in meters [default: 10e-6]
+    #[arg(long, value_name = "METERS", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
+    pub(super) tau: Option<f64>,
+    /// Half the sides of a patch of the surface in meters [default: 50e-6,50e-6]
+    #[arg(long, value_name = "X,Y", value_parser = two, allow_hyphen_values = true, help_heading = SURFACE)]
+    pub(super) patch: Option<[f64; 2]>,
+    /// The refractive index [default: 1.4; 1.45 for the fern]
+    #[arg(long, value_name = "N", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
+    pub(super) ior: Option<f64>,
+    /// How Eq 1 is read
+    #[arg(long, value_enum, default_value_t = ReadingName::Radiometric, help_heading = SURFACE)]
+    pub(super) reading: ReadingName,
+    /// How exactly the sums over wavelengths are made
+    #[arg(long, value_enum, default_value_t = QualityName::Full, help_heading = PICTURE)]
+    pub(super) quality: QualityName,
+    /// Pixels across and down
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = size, help_heading = PICTURE)]
+    pub(super) size: [u32; 2],
+    /// Samples along a pixel's side, for smooth edges
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=8),
+          help_heading = PICTURE)]
+    pub(super) samples: u32,
+    /// Exposure in EV, the same for all sources
+    #[arg(long, value_name = "EV", default_value_t = 0.0, value_parser = ev, allow_hyphen_values = true,
+          help_heading = PICTURE)]
+    pub(super) exposure: f64,
+    /// What kind of files
+    #[arg(long, value_enum, default_value_t = Format::Png, help_heading = PICTURE)]
+    pub(super) format: Format,
+    /// The folder for pictures; made if it is not there
+    #[arg(long, value_name = "DIR", default_value = ".", help_heading = PICTURE)]
+    pub(super) out: PathBuf,
+    /// Measures times, counts and errors, and writes them as JSON; `-` for standard output
+    #[arg(long, value_name = "FILE", help_heading = PICTURE)]
+    pub(super) stats: Option<PathBuf>,
+}
+
+const SCENE: &str = "Scene";
+const SURFACE: &str = "Surface";
+const PICTURE: &str = "Picture";
+
+/// How Eq 1 is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ReadingName {
+    /// Radiance per irradiance
+    Radiometric,
+    /// Eq 1 to 12 to the letter
+    Paper,
+    /// Beckmann's own geometric factor: reciprocal
+    Microfacet,
+    /// No model: all directions alike
+    Lambertian,
+}
+
+impl ReadingName {
+    pub(super) fn choice(self) -> ReadingChoice {
+        match self {
+            Self::Radiometric => ReadingChoice::Radiometric,
+            Self::Paper => ReadingChoice::Paper,
+            Self::Microfacet => ReadingChoice::Microfacet,
+            Self::Lambertian => ReadingChoice::Lambertian,
+        }
+    }
+}
+
+/// How exactly sums are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum QualityName {
+    /// As in the window while something moves
+    Preview,
+    /// Error below 1e-5 of the peak
+    Full,
+    /// Error below 1e-9 of the peak
+    Fine,
+    /// All 401 wavelengths
+    Exact,
+    /// All 401 wavelengths with the paper's three cases of g
+    Regimes,
+}
+
+impl QualityName {
+    pub(super) fn choice(self) -> QualityChoice {
+        match self {
+            Self::Preview => QualityChoice::Preview,
+            Self::Full => QualityChoice::Full,
+            Self::Fine => QualityChoice::Fine,
+            Self::Exact => QualityChoice::Exact,
+            Self::Regimes => QualityChoice::Regimes,
+        }
+    }
+
+    /// As it is typed.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Preview => "preview",
+            Self::Full => "full",
+            Self::Fine => "fine",
+            Self::Exact => "exact",
+            Self::Regimes => "regimes",
+        }
+    }
+}
+
+/// A kind of files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// Eight bits, sRGB, exposed, clear beside the mesh
+    Png,
+    /// OpenEXR: linear 32-bit floats before exposure
+    Exr,
+}
+
+impl Format {
+    /// The ending of such files.
+    pub(super) fn ending(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Exr => "exr",
+        }
+    }
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    number.ok_or_else(|| format!("\"{text}\" is no number; write one like 0.5 or 5e-6"))
+}
+
+fn ev(text: &str) -> Result<f64, String> {
+    const LARGEST: f64 = 64.0;
+    let number = finite(text)?;
+    let within = number.abs() <= LARGEST;
+    within.then_some(number).ok_or_else(|| format!("{number} EV is out of sight; give -{LARGEST} to {LARGEST}"))
+}
+
+fn numbers<const N: usize>(text: &str, example: &str) -> Result<[f64; N], String> {
+    let parts: Vec<f64> = text.split(',').map(finite).collect::<Result<_, _>>()?;
+    let count = parts.len();
+    parts.try_into().map_err(|_| format!("{count} given, but {N} wanted with commas between, such as {example}"))
+}
+
+fn three(text: &str) -> Result<[f64; 3], String> {
+    numbers(text, "-0.4,0.5,1")
+}
+
+fn two(text: &str) -> Result<[f64; 2], String> {
+    numbers(text, "50e-6,50e-6")
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let remedy = || format!("give pixels across and down, each from 1 to {MAX_SIDE}, such as 512x512");
+    let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(remedy)?;
+    let side = |text: &str| text.trim().parse::<u32>().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+    Ok([side(width).ok_or_else(remedy)?, side(height).ok_or_else(remedy)?])
+}

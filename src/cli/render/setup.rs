@@ -1,0 +1,201 @@
+//! From arguments to a document with a rendered scene, a place to look from, and the size of the pictures.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use chromascope_core::query::Shared;
+use chromascope_core::reflectance::SurfaceError;
+use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::scene::viewpoint::ViewpointError;
+use chromascope_core::scene::{Mesh, Viewpoint};
+use clap::ArgMatches;
+
+use super::arguments::RenderArguments;
+use crate::catalog::meshes;
+use crate::cli::request::Request;
+use crate::cli::{CliError, say};
+use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
+use crate::document::{Compared, FIRST_SOURCES, Light, REFERENCE, WhiteChoice};
+use crate::scene::render::Finish;
+use crate::view::render::Orbit;
+
+/// All that pictures are made of.
+pub(super) struct Setup {
+    pub(super) request: Request,
+    pub(super) viewpoint: Viewpoint,
+    pub(super) finish: Finish,
+    /// The user's mesh, if it is one.
+    pub(super) own_mesh: Option<Shared<Mesh>>,
+    /// What the mesh is called in names of files.
+    pub(super) mesh_name: String,
+    /// How long reading the mesh took.
+    pub(super) reading: Duration,
+}
+
+impl Setup {
+    pub(super) fn new(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Self, CliError> {
+        let choice = mesh_choice(&arguments.mesh)?;
+        // What only arguments decide comes before files are read.
+        let viewpoint = viewpoint(arguments, &choice)?;
+        let size = raster(arguments)?;
+        let first: Vec<_> = FIRST_SOURCES.into_iter().filter(|(name, _)| *name != REFERENCE).collect();
+        let mut request = Request::of_sources(&arguments.sources, matches, &first)?;
+        request.document.render = settings(arguments, choice)?;
+        match &arguments.illuminant {
+            Some(illuminant) => request.set_light(illuminant)?,
+            None => request.document.light = Light::Set(SUN.to_owned()),
+        }
+        match &arguments.white {
+            Some(white) => request.set_white(white)?,
+            None => request.document.white = WhiteChoice::Light(BALANCE.to_owned()),
+        }
+        if let Some(material) = &arguments.material {
+            request.set_material(material)?;
+        }
+        for (slot, (kind, name)) in request.sources.iter().enumerate() {
+            let known = |other: &Compared| other.kind == *kind && other.name == *name;
+            if !request.document.compared.iter().any(known) {
+                let slot = slot.min(usize::from(u8::MAX)) as u8;
+                let compared = Compared { name: name.clone(), kind: *kind, slot, visible: true, label: None };
+                request.document.compared.push(compared);
+            }
+        }
+        let start = Instant::now();
+        let own_mesh = match &request.document.render.mesh {
+            MeshChoice::File(path) => Some(read_mesh(path)?),
+            _ => None,
+        };
+        let quality = arguments.quality.choice().quality();
+        let shadows = if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full };
+        let finish = Finish { size, quality, shadows, compared_samples: Some(usize::MAX) };
+        let mesh_name = mesh_name(&request.document.render.mesh);
+        Ok(Self { request, viewpoint, finish, own_mesh, mesh_name, reading: start.elapsed() })
+    }
+}
+
+/// The program's own meshes by name.
+const MESHES: [(&str, MeshChoice); 4] = [
+    ("head", MeshChoice::Head),
+    ("fern", MeshChoice::Fern),
+    ("sphere", MeshChoice::Sphere),
+    ("plane", MeshChoice::Plane),
+];
+
+fn mesh_choice(typed: &str) -> Result<MeshChoice, CliError> {
+    let known = MESHES.into_iter().find(|(name, _)| typed.trim().eq_ignore_ascii_case(name));
+    if let Some((_, choice)) = known {
+        return Ok(choice);
+    }
+    let path = Path::new(typed);
+    if path.is_file() || path.extension().is_some() || typed.contains(['/', '\\']) {
+        return Ok(MeshChoice::File(path.to_owned()));
+    }
+    let alike = MESHES.map(|(name, _)| (strsim::jaro_winkler(&typed.to_lowercase(), name), name));
+    let nearest = alike.into_iter().filter(|(score, _)| *score > 0.7).max_by(|a, b| a.0.total_cmp(&b.0));
+    let hint = nearest.map_or_else(String::new, |(_, name)| format!("did you mean {name}? "));
+    let reason = format!(
+        "no mesh is named \"{typed}\"; {hint}give head, fern, sphere, plane, or the path of an OBJ, PLY or STL file"
+    );
+    Err(CliError::Argument { argument: "--mesh", reason })
+}
+
+fn mesh_name(choice: &MeshChoice) -> String {
+    match choice {
+        MeshChoice::File(path) => path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
+        own => {
+            MESHES.into_iter().find(|(_, choice)| choice == own).map_or_else(String::new, |(name, _)| name.to_owned())
+        }
+    }
+}
+
+fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError> {
+    // Whole, so that a complaint can say in which folder the file is not.
+    let whole = std::path::absolute(path).unwrap_or_else(|_| path.clone());
+    let read = meshes::read(&whole, &|| false).map_err(|failure| CliError::File(failure.to_string()))?;
+    for note in &read.notes {
+        say(&format!("chromascope: {}: {note}\n", path.display()));
+    }
+    Ok(read.mesh)
+}
+
+/// What differs from the settings of the paper's head or fern.
+fn settings(arguments: &RenderArguments, mesh: MeshChoice) -> Result<RenderSettings, CliError> {
+    const MICRO: f64 = 1e6;
+    let usual = if mesh == MeshChoice::Fern { RenderSettings::fern() } else { RenderSettings::default() };
+    let mut settings = RenderSettings {
+        mesh,
+        triangles: arguments.triangles as usize,
+        sigma_um: arguments.sigma.map_or(usual.sigma_um, |sigma| sigma * MICRO),
+        tau_um: arguments.tau.map_or(usual.tau_um, |tau| tau * MICRO),
+        half_sides_um: arguments.patch.map_or(usual.half_sides_um, |sides| sides.map(|side| side * MICRO)),
+        index: arguments.ior.unwrap_or(usual.index),
+        reading: arguments.reading.choice(),
+        quality: arguments.quality.choice(),
+        shadows: !arguments.no_shadows,
+        exposure_ev: arguments.exposure,
+        ..usual
+    };
+    if let Some([x, y, z]) = arguments.light {
+        let length = x.hypot(y).hypot(z);
+        if !(length > 0.0 && length.is_finite()) {
+            let reason = "a direction of no length; give one such as -0.4,0.5,1: left, up, towards the eye".to_owned();
+            return Err(CliError::Argument { argument: "--light", reason });
+        }
+        settings.light_up_deg = y.atan2(x.hypot(z)).to_degrees();
+        settings.light_right_deg = x.atan2(z).to_degrees();
+    }
+    settings.surface().map_err(surface_error)?;
+    Ok(settings)
+}
+
+/// The argument that a surface was refused for, with what would do.
+fn surface_error(error: SurfaceError) -> CliError {
+    let (argument, remedy) = match error {
+        SurfaceError::Sigma => ("--sigma", "write meters, such as 5e-6 for 5 µm"),
+        SurfaceError::Tau => ("--tau", "write meters, such as 10e-6 for 10 µm"),
+        SurfaceError::Patch => ("--patch", "write meters, such as 50e-6,50e-6 for 50 µm each"),
+        SurfaceError::Index => ("--ior", "skin has 1.4, a leaf 1.45"),
+    };
+    CliError::Argument { argument, reason: format!("{error}; {remedy}") }
+}
+
+fn viewpoint(arguments: &RenderArguments, mesh: &MeshChoice) -> Result<Viewpoint, CliError> {
+    let usual = Orbit::of(mesh);
+    let [yaw, pitch, distance] = arguments.orbit.unwrap_or([usual.yaw_deg, usual.pitch_deg, usual.distance]);
+    if pitch.abs() > 90.0 {
+        let reason = format!("{pitch}° is beyond the poles; give a pitch from -90 to 90");
+        return Err(CliError::Argument { argument: "--orbit", reason });
+    }
+    let [width, height] = arguments.size.map(f64::from);
+    let as_shown =
+        || usual.viewpoint(width / height).map_or(usual.field_of_view_deg.to_radians(), |v| v.field_of_view());
+    let field = arguments.fov.map_or_else(as_shown, f64::to_radians);
+    Viewpoint::new(yaw.to_radians(), pitch.to_radians(), distance, field).map_err(|error| {
+        let (argument, example) = match error {
+            ViewpointError::FieldOfView => ("--fov", "such as 30"),
+            ViewpointError::Distance | ViewpointError::NotFinite => ("--orbit", "such as 20,5,3.6"),
+        };
+        CliError::Argument { argument, reason: format!("{error}, {example}") }
+    })
+}
+
+/// Beyond this many samples memory runs out on small machines.
+const MOST_SAMPLES: u64 = 40_000_000;
+
+fn raster(arguments: &RenderArguments) -> Result<RasterSize, CliError> {
+    let [width, height] = arguments.size;
+    let samples = arguments.samples;
+    let size = RasterSize { width, height, samples };
+    let count = u64::from(width) * u64::from(height) * u64::from(samples * samples);
+    if count > MOST_SAMPLES || size.clamped() != size {
+        let millions = count.div_ceil(1_000_000);
+        let reason = format!(
+            "{width}x{height} with {samples} x {samples} samples a pixel are {millions} million samples; give at most {} million, \
+             and {} along a side",
+            MOST_SAMPLES / 1_000_000,
+            chromascope_core::render::visibility::MAX_SIDE
+        );
+        return Err(CliError::Argument { argument: "--size", reason });
+    }
+    Ok(size)
+}

@@ -1,0 +1,209 @@
+//! Rendered pictures out of the program: PNG for screens, OpenEXR with the numbers.
+
+use std::io::{Cursor, Seek, Write};
+
+use chromascope_core::camera::Rendering;
+use chromascope_core::reflectance::{Reading, Surface};
+use chromascope_core::render::{CameraImage, Picture};
+use chromascope_core::scene::Viewpoint;
+use chromascope_core::scene::lighting::{Distance, Lighting};
+use exr::prelude::{
+    AnyChannel, AnyChannels, AttributeValue, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes,
+    LineOrder, Text, WritableImage as _,
+};
+
+/// Why there is no file.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// The PNG could not be encoded.
+    #[error("the picture could not be encoded: {0}")]
+    Png(#[from] image::ImageError),
+    /// The OpenEXR could not be encoded.
+    #[error("the picture could not be encoded: {0}")]
+    Exr(#[from] exr::error::Error),
+}
+
+/// What the numbers of a picture hold, for its file's header.
+#[derive(Clone, Copy, Debug)]
+pub struct Provenance<'a> {
+    /// The camera's or observer's name.
+    pub source: &'a str,
+    /// The name of the balance.
+    pub balance: &'a str,
+    /// The name of the light's spectrum.
+    pub illuminant: &'a str,
+    /// The name of the material.
+    pub material: &'a str,
+    /// The mesh's name.
+    pub mesh: &'a str,
+    /// How integrals were made.
+    pub quality: &'a str,
+    /// Where the light is.
+    pub lighting: Lighting,
+    /// Where the eye is.
+    pub viewpoint: Viewpoint,
+    /// The roughness.
+    pub surface: Surface,
+    /// How Eq 1 is read.
+    pub reading: Reading,
+}
+
+/// The bytes of a PNG file: eight bits, sRGB, with opacity.
+pub fn png_bytes(picture: &Picture) -> Result<Vec<u8>, PictureError> {
+    Ok(super::encoded(&picture.rgba, picture.width as u32, picture.height as u32)?)
+}
+
+/// The bytes of an OpenEXR file: the balanced signals of Eq 12 as R G B (where the source has such), tristimulus values as
+/// X Y Z, coverage as A; 32-bit floats, linear, before exposure.
+///
+/// A pixel is the mean over all its samples, those beside the mesh counted as 0: colors are multiplied by A, as usual in
+/// OpenEXR. The same picture gives the same bytes.
+pub fn exr_bytes(
+    image: &CameraImage,
+    rendering: &Rendering,
+    provenance: &Provenance<'_>,
+) -> Result<Vec<u8>, PictureError> {
+    let size = image.geometry().size();
+    let channels =
+        planes(image, rendering).into_iter().map(|(name, values)| AnyChannel::new(name, FlatSamples::F32(values)));
+    let channels = AnyChannels::sort(channels.collect());
+    let encoding =
+        Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
+    let dimensions = (size.width as usize, size.height as usize);
+    let layer = Layer::new(dimensions, attributes(rendering, provenance), encoding, channels);
+    let mut file = Cursor::new(Vec::new());
+    write(&Image::from_layer(layer), &mut file)?;
+    Ok(with_sorted_header(file.into_inner()))
+}
+
+fn write(
+    image: &Image<Layer<AnyChannels<FlatSamples>>>,
+    file: &mut (impl Write + Seek),
+) -> Result<(), exr::error::Error> {
+    image.write().non_parallel().to_buffered(file)
+}
+
+/// The channels, each row by row from the top left.
+fn planes(image: &CameraImage, rendering: &Rendering) -> Vec<(&'static str, Vec<f32>)> {
+    let geometry = image.geometry();
+    let size = geometry.size();
+    let (width, samples) = (size.width as usize, size.samples as usize);
+    let pixel = |sample: u32| {
+        let (row, column) = (sample as usize / size.columns(), sample as usize % size.columns());
+        row / samples * width + column / samples
+    };
+    let count = width * size.height as usize;
+    let mut sums = vec![[0.0_f64; 3]; count];
+    for (&sample, signal) in geometry.samples().iter().zip(image.signals()) {
+        for (sum, value) in sums[pixel(sample)].iter_mut().zip(signal) {
+            *sum += f64::from(*value);
+        }
+    }
+    let share = 1.0 / (samples * samples) as f64;
+    let mut coverage = vec![0.0_f32; count];
+    geometry.seen().iter().for_each(|&sample| coverage[pixel(sample)] += share as f32);
+    let mut planes = vec![("A", coverage)];
+    let mut values = [const { Vec::new() }; 6];
+    for sum in sums {
+        let balanced = rendering.white * glam::DVec3::from_array(sum) * share;
+        let xyz = rendering.xyz(balanced);
+        let numbers = balanced.to_array().into_iter().chain([xyz.x, xyz.y, xyz.z]);
+        values.iter_mut().zip(numbers).for_each(|(plane, number)| plane.push(number as f32));
+    }
+    let named = ["R", "G", "B", "X", "Y", "Z"].into_iter().zip(values);
+    // Of a CIE observer the signals are tristimulus values: there is no red, green and blue.
+    planes.extend(named.filter(|(name, _)| rendering.is_rgb || !["R", "G", "B"].contains(name)));
+    planes
+}
+
+fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttributes {
+    let Provenance { surface, lighting, viewpoint, .. } = provenance;
+    let text = |value: &str| AttributeValue::Text(utf8(value));
+    let three = |[x, y, z]: [f64; 3]| AttributeValue::FloatVec3((x as f32, y as f32, z as f32));
+    let place = match lighting.distance() {
+        Distance::Far => "lightDirection",
+        Distance::Near => "lightPosition",
+    };
+    let orbit = [viewpoint.yaw().to_degrees(), viewpoint.pitch().to_degrees(), viewpoint.distance()];
+    let own = [
+        ("camera", text(provenance.source)),
+        ("balance", text(provenance.balance)),
+        ("balanceFactors", three(rendering.white.to_array())),
+        ("illuminant", text(provenance.illuminant)),
+        ("material", text(provenance.material)),
+        ("mesh", text(provenance.mesh)),
+        ("quality", text(provenance.quality)),
+        ("reading", text(reading_name(provenance.reading))),
+        (place, three(lighting.place().to_array())),
+        ("lightAngularRadius", AttributeValue::F64(lighting.angular_radius())),
+        ("sigma", AttributeValue::F64(surface.sigma_m())),
+        ("tau", AttributeValue::F64(surface.tau_m())),
+        ("halfSideX", AttributeValue::F64(surface.half_x_m())),
+        ("halfSideY", AttributeValue::F64(surface.half_y_m())),
+        ("refractiveIndex", AttributeValue::F64(surface.index())),
+        ("orbit", three(orbit)),
+        ("fieldOfView", AttributeValue::F64(viewpoint.field_of_view().to_degrees())),
+    ];
+    LayerAttributes {
+        software_name: Some(utf8(concat!("chromascope ", env!("CARGO_PKG_VERSION")))),
+        comments: Some(utf8(comments(provenance.reading))),
+        other: own.into_iter().map(|(name, value)| (utf8(name), value)).collect(),
+        ..LayerAttributes::default()
+    }
+}
+
+/// What the numbers mean.
+fn comments(reading: Reading) -> &'static str {
+    match reading {
+        Reading::Radiometric | Reading::Microfacet => {
+            "R G B: Eq 12 balanced, before exposure, with pi f in the place of P; X Y Z: tristimulus values by the program's way \
+             to the diagram; A: coverage, multiplied in. Lengths in meters, angles in degrees except lightAngularRadius \
+             (radians), the light in view axes, orbit = yaw, pitch, distance in scene radii."
+        }
+        Reading::Paper | Reading::Lambertian => {
+            "R G B: Eq 12 balanced, before exposure; X Y Z: tristimulus values by the program's way to the diagram; A: coverage, \
+             multiplied in. Lengths in meters, angles in degrees except lightAngularRadius (radians), the light in view \
+             axes, orbit = yaw, pitch, distance in scene radii."
+        }
+    }
+}
+
+/// A reading's name, as the command line takes it.
+pub const fn reading_name(reading: Reading) -> &'static str {
+    match reading {
+        Reading::Radiometric => "radiometric",
+        Reading::Paper => "paper",
+        Reading::Microfacet => "microfacet",
+        Reading::Lambertian => "lambertian",
+    }
+}
+
+/// Text as it is: the crate's own conversion knows no letters beyond Latin.
+fn utf8(text: &str) -> Text {
+    Text::from_slice_unchecked(text.as_bytes())
+}
+
+/// The same file with its header's attributes in the order of their names: the crate writes them in an order that changes from
+/// run to run.
+fn with_sorted_header(mut file: Vec<u8>) -> Vec<u8> {
+    const START: usize = 8; // after the magic number and the version
+    let end_of_text = |at: usize| Some(at + file.get(at..)?.iter().position(|&byte| byte == 0)? + 1);
+    let end_of_attribute = |at: usize| -> Option<usize> {
+        let length_at = end_of_text(end_of_text(at)?)?;
+        let length = i32::from_le_bytes(file.get(length_at..length_at + 4)?.try_into().ok()?);
+        (length_at + 4).checked_add(usize::try_from(length).ok()?)
+    };
+    let mut attributes: Vec<&[u8]> = Vec::new();
+    let mut at = START;
+    while file.get(at).is_some_and(|&byte| byte != 0) {
+        let Some((end, attribute)) = end_of_attribute(at).and_then(|end| Some((end, file.get(at..end)?))) else {
+            return file;
+        };
+        attributes.push(attribute);
+        at = end;
+    }
+    attributes.sort_unstable();
+    let sorted = attributes.concat();
+    file[START..at].copy_from_slice(&sorted);
+    file
+}

@@ -1,0 +1,35 @@
+//! The pixel that is kept of the rendered pictures, through each source.
+
+use chromascope_core::figure::{InkRole, Mark, Marker, Shape};
+
+use super::{Drawing, id};
+use crate::figures::render::pixel_of;
+use crate::scene::Source;
+use crate::studio::pixel::PixelShows;
+use crate::thing::Thing;
+use crate::view::render::PixelPlace;
+use crate::workspaces::PaneKind;
+
+/// The radius of its mark.
+const RADIUS: f64 = 4.5;
+
+/// Adds a diamond for each source whose picture is on show beside the diagram.
+pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[Source]) {
+    let saved = &drawing.view.saved;
+    let render = &drawing.view.render;
+    let Some(pinned) = render.pinned.clone().filter(|_| saved.layout.shows(saved.workspace, PaneKind::Render)) else {
+        return;
+    };
+    for source in sources.iter().rev() {
+        let place = PixelPlace { source: id(source), ..pinned.clone() };
+        let Some(PixelShows::Lit(lit)) = pixel_of(drawing.scene, render, &place).map(|reading| reading.shows) else {
+            continue;
+        };
+        let Some(at) = lit.xy.and_then(|xy| drawing.place(xy)) else { continue };
+        drawing.data.push(at);
+        let tag = drawing.things.tag(Thing::Source(id(source)));
+        let shape = Shape::Points { points: vec![at], marker: Marker::Diamond, radius: RADIUS };
+        let mark = Mark::new(tag, format!("{}, pixel", source.label), shape).with_stroke(source.role, 1.5);
+        drawing.marks.push(mark.with_fill(source.role).with_halo(InkRole::Plot));
+    }
+}

@@ -1,0 +1,184 @@
+//! The rendered pictures as a figure, and their pixels in words.
+
+pub mod difference;
+
+use chromascope_core::figure::{Anchor, Cell, Figure, Image, Ink, Mark, Panel, Rect, Shape, Table, TextSize};
+
+use super::chromaticity::viewing_conditions;
+use crate::document::render::MeshChoice;
+use crate::scene::Scene;
+use crate::studio::Shot;
+use crate::studio::pixel::{self, LitPixel, PixelReading, PixelShows};
+use crate::thing::{SourceId, Things};
+use crate::view::View;
+use crate::view::render::{PixelPlace, RenderMode, RenderView};
+use crate::widgets::lines::fixed;
+
+/// The width of a saved picture in points, in a grid of two columns.
+const WIDTH: f64 = 340.0;
+/// The height of the line above a picture.
+const CAPTION: f64 = 20.0;
+/// The gap between pictures.
+const GAP: f64 = 8.0;
+
+/// A source's index among the pictures.
+pub fn index_of(shot: &Shot, id: &SourceId) -> Option<usize> {
+    shot.sources.iter().position(|source| source.kind == id.kind && source.name == id.name)
+}
+
+/// The pictures on show, with captions and numbers; none before there are any.
+pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
+    let shot = view.render.shot.as_deref()?;
+    let made = shot.made()?;
+    let mode = view.saved.render.mode;
+    let maps = (mode == RenderMode::Difference).then(|| difference::scale_end(shot));
+    let only_sources = matches!(mode, RenderMode::One | RenderMode::Difference);
+    let first = usize::from(only_sources && shot.sources.len() > 1);
+    let shown: Vec<usize> = (first..shot.sources.len()).collect();
+    let columns = ((shown.len() as f64).sqrt().ceil() as usize).max(1);
+    let size = shot.query.shading.geometry.visibility.size;
+    let height = WIDTH * f64::from(size.height) / f64::from(size.width.max(1));
+    let rows = shown.len().div_ceil(columns);
+    let scale = if maps.is_some() { difference::SCALE } else { 0.0 };
+    let all = [columns as f64 * (WIDTH + GAP) + GAP, rows as f64 * (height + CAPTION + GAP) + GAP + scale];
+    let mut figure = Figure::new("Rendered pictures", all);
+    // The gray that the pictures were made on, whatever paper they go to.
+    let surround = view.saved.surround;
+    let [ground, ink] = [surround.color(), surround.label()].map(|color| {
+        let [r, g, b, _] = color.to_array();
+        Ink::rgb([r, g, b])
+    });
+    let mut panel = Panel::board("Render", Rect::from_min_size([0.0, 0.0], all), ground);
+    for (place, &at) in shown.iter().enumerate() {
+        let x = GAP + (place % columns) as f64 * (WIDTH + GAP);
+        let y = GAP + (place / columns) as f64 * (height + CAPTION + GAP);
+        let source = &shot.sources[at];
+        let label = if source.is_truth { format!("Truth, {}", source.label) } else { source.label.clone() };
+        let difference = made.differences.get(at).and_then(Option::as_ref);
+        let note = difference.map(|difference| format!("mean ΔE {}", fixed(difference.mean, 1)));
+        let middle = y + CAPTION / 2.0;
+        let marker = Shape::Points { points: vec![[x + 7.0, middle]], marker: source.marker, radius: 5.0 };
+        let mark = Mark::new(Things::NONE, label.clone(), marker).with_stroke(ink, 1.5);
+        panel.marks.push(if source.marker.has_inside() { mark.with_fill(ink) } else { mark });
+        panel.marks.push(text(&label, [x + 18.0, middle], Anchor::LEFT, ink));
+        if let Some(note) = note {
+            panel.marks.push(text(&note, [x + WIDTH - GAP, middle], Anchor::RIGHT, ink));
+        }
+        if let Some(Ok(picture)) = made.pictures.get(at) {
+            let ([width, height_in_pixels], rgba) = match maps {
+                Some(end) => difference::map(shot, at, end),
+                None => ([picture.width, picture.height], picture.rgba.clone()),
+            };
+            let image = Image { width, height: height_in_pixels, rgba: rgba.into() };
+            let top = y + CAPTION;
+            let shape = Shape::Image { min: [x, top + height], max: [x + WIDTH, top], image };
+            panel.marks.push(Mark::new(Things::NONE, format!("{label}, picture"), shape));
+        }
+    }
+    if let Some(end) = maps {
+        panel.marks.extend(difference::scale(end, [GAP, all[1] - difference::SCALE], all[0] - 2.0 * GAP, ink));
+    }
+    figure.panels.push(panel);
+    figure.caption = match maps {
+        Some(_) => format!("Maps of ΔE*00 to the truth; black: no light. {}", caption(scene)),
+        None => caption(scene),
+    };
+    figure.table = table(shot);
+    Some(figure)
+}
+
+fn text(words: &str, at: [f64; 2], anchor: Anchor, ink: Ink) -> Mark {
+    let shape = Shape::Text { at, text: words.to_owned(), anchor, offset: [0.0, 0.0], size: TextSize::Body, ink };
+    Mark::new(Things::NONE, words, shape)
+}
+
+/// What a mesh is called.
+pub fn mesh_name(mesh: &MeshChoice) -> String {
+    match mesh {
+        MeshChoice::Head => "head".to_owned(),
+        MeshChoice::Fern => "fern".to_owned(),
+        MeshChoice::Sphere => "sphere".to_owned(),
+        MeshChoice::Plane => "plane".to_owned(),
+        MeshChoice::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+    }
+}
+
+/// The conditions in sentences.
+fn caption(scene: &Scene<'_>) -> String {
+    let settings = &scene.document.render;
+    let mesh = mesh_name(&settings.mesh);
+    format!(
+        "Mesh: {mesh}. Material: {}, σ = {} µm, τ = {} µm, n = {}. Reading: {}. {}",
+        settings.material,
+        settings.sigma_um,
+        settings.tau_um,
+        settings.index,
+        settings.reading.label(),
+        viewing_conditions(scene)
+    )
+}
+
+fn table(shot: &Shot) -> Table {
+    let mut table =
+        Table::new(["source", "mean_de00", "max_de00", "clipped_samples", "pixels_across", "pixels_down", "time_ms"]);
+    let Some(made) = shot.made() else { return table };
+    for (at, source) in shot.sources.iter().enumerate() {
+        let difference = made.differences.get(at).and_then(Option::as_ref);
+        let picture = made.pictures.get(at).and_then(|picture| picture.as_ref().ok());
+        table.push([
+            Cell::from(source.label.as_str()),
+            Cell::from(difference.map(|difference| difference.mean)),
+            Cell::from(difference.map(|difference| difference.max)),
+            Cell::from(picture.map(|picture| picture.clipped as f64)),
+            Cell::from(picture.map(|picture| picture.width as f64)),
+            Cell::from(picture.map(|picture| picture.height as f64)),
+            Cell::from(shot.time.as_secs_f64() * 1e3),
+        ]);
+    }
+    table
+}
+
+/// The pixel at a place of a source's picture.
+pub fn pixel_of(scene: &Scene<'_>, render: &RenderView, place: &PixelPlace) -> Option<PixelReading> {
+    let shot = render.shot.as_deref()?;
+    pixel::read(shot, scene.results, index_of(shot, &place.source)?, place.at)
+}
+
+/// A pixel in one line.
+pub fn pixel_line(scene: &Scene<'_>, render: &RenderView, place: &PixelPlace) -> Option<String> {
+    let reading = pixel_of(scene, render, place)?;
+    let shot = render.shot.as_deref()?;
+    let label = &shot.sources.get(index_of(shot, &place.source)?)?.label;
+    let [x, y] = reading.at;
+    let rest = match &reading.shows {
+        PixelShows::Nothing => {
+            let hint = "Drag orbits, the wheel moves nearer.";
+            return Some(format!("{label}, pixel {x}, {y}: beside the mesh. {hint}"));
+        }
+        PixelShows::Unlit => "no light reaches it".to_owned(),
+        PixelShows::Lit(lit) => {
+            facts(lit).into_iter().map(|(name, value)| format!("{name} {value}")).collect::<Vec<_>>().join("  ")
+        }
+    };
+    Some(format!("{label}, pixel {x}, {y}: {rest}"))
+}
+
+/// A lit pixel's numbers with their names.
+pub fn facts(lit: &LitPixel) -> Vec<(&'static str, String)> {
+    let three = |values: [f64; 3], decimals: usize| values.map(|v| fixed(v, decimals)).join(" ");
+    let mut facts = vec![("RGB", three(lit.linear, 3))];
+    if let Some(xy) = lit.xy {
+        facts.push(("xy", format!("{} {}", fixed(xy.x, 4), fixed(xy.y, 4))));
+    }
+    if let Some(lab) = lit.lab {
+        facts.push(("Lab", three([lab.l, lab.a, lab.b], 1)));
+    }
+    if let Some(difference) = lit.difference {
+        facts.push(("ΔE*00", fixed(difference, 1)));
+    }
+    if let Some((g, _)) = lit.roughness {
+        let decimals = if g >= 100.0 { 0 } else { 3 };
+        facts.push(("g", fixed(g, decimals)));
+    }
+    facts
+}

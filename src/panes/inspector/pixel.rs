@@ -1,0 +1,46 @@
+//! The pixel that is kept of the rendered pictures, through every source.
+
+use egui::{Grid, RichText, Ui};
+
+use super::note;
+use crate::figures::chromaticity::id;
+use crate::figures::render::{facts, pixel_of};
+use crate::panes::PaneContext;
+use crate::studio::pixel::PixelShows;
+use crate::theme::UNIT;
+use crate::view::render::PixelPlace;
+use crate::widgets::lines::key_and_label;
+use crate::workspaces::PaneKind;
+
+/// The pixel that is kept, if pictures are on show.
+pub(super) fn kept<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
+    let (saved, render) = (&context.view.saved, &context.view.render);
+    render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::Render))
+}
+
+/// Shows it, if pictures are on show.
+pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
+    let render = &context.view.render;
+    let Some((pinned, shot)) = kept(context).zip(render.shot.clone()) else { return };
+    ui.add_space(UNIT);
+    ui.label(RichText::new("The pixel that is kept").strong());
+    for source in &shot.sources {
+        let place = PixelPlace { source: id(source), ..pinned.clone() };
+        let Some(reading) = pixel_of(&context.scene, render, &place) else { continue };
+        key_and_label(ui, source, &context.theme);
+        match reading.shows {
+            PixelShows::Nothing => note(ui, &context.theme, "Beside the mesh."),
+            PixelShows::Unlit => note(ui, &context.theme, "No light reaches it."),
+            PixelShows::Lit(lit) => {
+                let grid = Grid::new(("pixel", &source.name)).num_columns(2).min_row_height(0.0);
+                grid.spacing([3.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
+                    for (name, value) in facts(&lit) {
+                        ui.monospace(name);
+                        ui.monospace(value);
+                        ui.end_row();
+                    }
+                });
+            }
+        }
+    }
+}

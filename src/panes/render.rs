@@ -1,0 +1,113 @@
+//! A mesh through each camera, side by side, from one orbit.
+
+mod cells;
+mod difference;
+mod draw;
+mod orbit;
+mod request;
+mod switches;
+
+use egui::{Align2, FontId, Rect, Sense, Ui, Vec2};
+
+use super::PaneContext;
+use crate::theme::{HEADING, UNIT};
+use crate::view::render::{PixelPlace, RenderMode, RenderView};
+use crate::widgets;
+use crate::workspaces::PaneKind;
+use cells::Stand;
+
+/// Shows the pane in its rectangle.
+pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, PaneKind::Render, rect, context, switches::show);
+    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    context.view.render.hovered = None;
+    if context.view.reset_plots {
+        context.view.saved.render.orbit = None;
+    }
+    let sources = context.scene.rendered_sources();
+    let stand = Stand::new(&sources, body, ui.ctx().pixels_per_point(), context);
+    let asked = request::ask(ui, &stand, context);
+    let busy = context.studio.busy();
+    context.view.render.busy = busy;
+    if context.view.saved.tables.contains(&PaneKind::Render) {
+        if let Some(figure) = crate::figures::render::figure(&context.scene, context.view) {
+            widgets::data_table(ui, body, "render", &figure.table);
+        }
+        busy_line(ui, body, context);
+        return;
+    }
+    let painter = ui.painter().with_clip_rect(body.intersect(ui.clip_rect()));
+    painter.rect_filled(body, 0.0, context.theme.surround.color());
+    let id = ui.scope_id().with("render orbit");
+    let response = ui.interact(body, id, Sense::click_and_drag());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Rendered pictures"));
+    orbit::by_pointer(ui, &response, context);
+    orbit::by_keys(ui, &response, context);
+    if let Err(words) = asked {
+        context.view.render.shot = None;
+        say(&painter, body, &words, context);
+    } else {
+        draw::pictures(ui, &painter, &stand, context);
+        point_at(ui, &response, &stand, context);
+        draw::divider(ui, &stand, context);
+        draw::choosers(ui, &stand, &sources, context);
+    }
+    busy_line(ui, body, context);
+    if response.has_focus() {
+        let stroke = egui::Stroke::new(1.0, context.theme.surround.label());
+        ui.painter().rect_stroke(body, 0.0, stroke, egui::StrokeKind::Inside);
+    }
+}
+
+/// What stands in place of pictures.
+fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'_>) {
+    let galley = painter.layout(
+        words.to_owned(),
+        FontId::proportional(HEADING),
+        context.theme.surround.label(),
+        (body.width() - 40.0).max(80.0),
+    );
+    let at = Align2::CENTER_CENTER.align_size_within_rect(galley.size(), body).min;
+    painter.galley(at, galley, context.theme.surround.label());
+}
+
+/// The pixel under the pointer is read; a click keeps it, a double click shows its source alone or all again.
+fn point_at(ui: &Ui, response: &egui::Response, stand: &Stand, context: &mut PaneContext<'_>) {
+    let Some(pointer) = response.hover_pos() else { return };
+    let Some((cell, at)) = stand.place_at(pointer) else { return };
+    let Some(source) = stand.sources.get(cell).map(crate::figures::chromaticity::id) else { return };
+    let place = PixelPlace { at, source: source.clone() };
+    if response.double_clicked() {
+        let look = &mut context.view.saved.render;
+        look.mode = if look.mode == RenderMode::Grid { RenderMode::One } else { RenderMode::Grid };
+        context.view.render.chosen = Some(source);
+        context.view.render.pinned = None;
+        ui.ctx().request_repaint();
+        return;
+    }
+    if response.clicked() {
+        context.view.render.pinned = Some(place.clone());
+        ui.ctx().request_repaint();
+    }
+    if !response.dragged() {
+        let words = crate::figures::render::pixel_line(&context.scene, &context.view.render, &place);
+        context.view.point = words;
+        context.view.hover(Some(&crate::thing::Thing::Source(source)));
+        context.view.render.hovered = Some(place);
+    }
+}
+
+/// A thin line along the top while pictures are in the making; words stand in the status bar.
+fn busy_line(ui: &Ui, body: Rect, context: &PaneContext<'_>) {
+    let Some(busy) = context.view.render.busy else { return };
+    if let Some(wait) = RenderView::PATIENCE.checked_sub(busy) {
+        ui.ctx().request_repaint_after(wait);
+        return;
+    }
+    ui.ctx().request_repaint_after(std::time::Duration::from_millis(50));
+    let color = context.theme.surround.label();
+    let seconds = busy.as_secs_f32();
+    let left = body.left() + body.width() * 0.75 * (0.5 - 0.5 * (3.0 * seconds).cos());
+    let line = Rect::from_min_size(egui::pos2(left, body.top()), Vec2::new(0.25 * body.width(), 2.0));
+    ui.painter().rect_filled(line, 0.0, color);
+}

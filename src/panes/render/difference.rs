@@ -1,0 +1,33 @@
+//! The scale below maps of differences.
+
+use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Ui, Vec2};
+
+use crate::panes::PaneContext;
+use crate::theme::{SMALL, difference_ramp};
+
+/// The scale: what the ramp's colors stand for.
+pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, end: f32, context: &PaneContext<'_>) {
+    let color = context.theme.surround.label();
+    let font = FontId::proportional(SMALL);
+    let words = "ΔE*00 to the truth";
+    let title = painter.text(rect.left_center() + Vec2::new(8.0, 0.0), Align2::LEFT_CENTER, words, font.clone(), color);
+    let left = title.right() + 16.0;
+    let bar = Rect::from_min_max(
+        Pos2::new(left, rect.top() + 6.0),
+        Pos2::new(left.max(rect.right() - 120.0), rect.top() + 18.0),
+    );
+    crate::paint::ramp(painter, bar, &difference_ramp);
+    let steps = crate::figures::render::difference::steps(end);
+    for step in 0..=steps {
+        let share = f32::from(step) / f32::from(steps);
+        let at = Pos2::new(bar.left() + share * bar.width(), bar.bottom() + 2.0);
+        let value = crate::number::number(f64::from((share * end * 100.0).round() / 100.0));
+        painter.text(at, Align2::CENTER_TOP, value, font.clone(), color);
+    }
+    let dark = Pos2::new(rect.right() - 8.0, bar.center().y);
+    painter.text(dark, Align2::RIGHT_CENTER, "black: no light", font, color);
+    let response = ui.interact(rect, ui.scope_id().with("difference scale"), Sense::hover());
+    let said = format!("Scale of ΔE*00 to the truth, from 0 to {end}");
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &said));
+    response.on_hover_text("ΔE*00 of each lit sample; a white of the same roughness that faces the light has Y = 1.");
+}

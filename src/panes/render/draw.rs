@@ -1,0 +1,244 @@
+//! Pictures with their captions, the pixel that is kept, the divider.
+
+use chromascope_core::figure::{Ink, InkRole, Mark, Panel, Rect as Area, Shape};
+use egui::{
+    Align2, ComboBox, CursorIcon, FontId, Key, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, UiBuilder, Vec2,
+};
+
+use super::cells::{CAPTION, Cell, Stand, chosen};
+use super::difference;
+use crate::figures::chromaticity::id;
+use crate::figures::render::{difference as maps, index_of};
+use crate::paint::{self, PictureOf};
+use crate::panes::PaneContext;
+use crate::scene::Source;
+use crate::studio::Shot;
+use crate::theme::TEXT;
+use crate::thing::Things;
+use crate::view::render::RenderMode;
+use crate::widgets::lines::{self, fixed};
+
+/// From this width of a caption on it tells the mean difference, in full, and with the largest.
+const WITH_NOTE: f32 = 150.0;
+const WITH_MEAN: f32 = 230.0;
+const WITH_LARGEST: f32 = 260.0;
+/// The radius of the ring around the pixel that is kept.
+const RING: f32 = 7.0;
+
+/// Draws what stands in the pane, as far as it was made.
+pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &Stand, context: &mut PaneContext<'_>) {
+    let shot = context.view.render.shot.clone();
+    let scale = shot.as_deref().filter(|_| stand.scale.is_some()).map(maps::scale_end);
+    for (index, cell) in stand.cells.iter().enumerate() {
+        let Some(source) = stand.sources.get(cell.source) else { continue };
+        let index_in = |source: &Source| shot.as_deref().and_then(|shot| Some((shot, index_of(shot, &id(source))?)));
+        let found = index_in(source);
+        // While B is held the truth stands in for every camera; a map of differences has none.
+        let blinking = context.view.blink && scale.is_none();
+        let drawn = if blinking { stand.sources.first().and_then(index_in) } else { found };
+        if let Some((shot, at)) = drawn {
+            picture(ui, painter, stand, index, (shot, at), scale, context);
+        }
+        if stand.mode == RenderMode::Grid || stand.mode == RenderMode::Difference {
+            let note = found.and_then(|(shot, at)| note(shot, at, stand.mode, cell.caption.width()));
+            caption(ui, painter, cell, source, note.as_deref(), context);
+        }
+        ring(painter, stand, index, context);
+    }
+    if let (Some(scale), Some(end)) = (stand.scale, scale) {
+        difference::scale(ui, painter, scale, end, context);
+    }
+}
+
+/// One picture, or why there is none.
+fn picture(
+    ui: &Ui,
+    painter: &Painter,
+    stand: &Stand,
+    cell: usize,
+    (shot, at): (&Shot, usize),
+    scale: Option<f32>,
+    context: &mut PaneContext<'_>,
+) {
+    let rect = stand.cells[cell].picture;
+    let clip = stand.visible(cell);
+    let why = match shot.pictures().map(|pictures| pictures.pictures.get(at)) {
+        Err(error) => error.to_string(),
+        Ok(Some(Err(error))) => error.to_string(),
+        Ok(None) => return,
+        Ok(Some(Ok(made))) => {
+            let source = &shot.sources[at];
+            let sharp = [made.width, made.height] == stand.pixels.map(|side| side as usize);
+            let name = format!("{} {}", source.kind.singular(), source.name);
+            let textures = &mut context.view.render.textures;
+            match scale {
+                None => {
+                    let of = PictureOf { name: &name, version: shot.serial, rect, clip, sharp };
+                    textures.draw(painter, of, || ([made.width, made.height], made.rgba.clone()));
+                }
+                Some(end) => {
+                    let name = format!("{name}, difference");
+                    // The same map in another scale is another picture.
+                    let version = (shot.serial << 16) ^ u64::from(end.to_bits() >> 8);
+                    let of = PictureOf { name: &name, version, rect, clip, sharp };
+                    textures.draw(painter, of, || maps::map(shot, at, end));
+                }
+            }
+            return;
+        }
+    };
+    let area = rect.shrink(8.0);
+    let galley = ui.painter().layout(why, FontId::proportional(TEXT), context.theme.surround.label(), area.width());
+    painter.galley(area.min, galley, context.theme.surround.label());
+}
+
+/// What stands at the right of a caption.
+fn note(shot: &Shot, at: usize, mode: RenderMode, width: f32) -> Option<String> {
+    let difference = shot.made()?.differences.get(at)?.as_ref()?;
+    let mean = fixed(difference.mean, 1);
+    Some(match mode {
+        RenderMode::Difference if width >= WITH_LARGEST => format!("mean ΔE {mean}  max {}", fixed(difference.max, 1)),
+        _ if width >= WITH_MEAN => format!("mean ΔE {mean}"),
+        _ if width >= WITH_NOTE => format!("ΔE {mean}"),
+        _ => return None,
+    })
+}
+
+/// What a source is called above its picture.
+fn title(source: &Source) -> String {
+    if source.is_truth { format!("Truth, {}", source.label) } else { source.label.clone() }
+}
+
+/// A source's marker and name, and a note at the right.
+fn caption(
+    ui: &mut Ui,
+    painter: &Painter,
+    cell: &Cell,
+    source: &Source,
+    note: Option<&str>,
+    context: &PaneContext<'_>,
+) {
+    let color = context.theme.surround.label();
+    let rect = cell.caption.shrink2(Vec2::new(8.0, 0.0));
+    marker(painter, Rect::from_min_size(rect.min, Vec2::new(16.0, CAPTION)), source, context);
+    let right = note.map_or(0.0, |note| lines::right_aligned(ui, rect, note, TextStyle::Small, color) + 8.0);
+    let words = title(source);
+    let left = Rect::from_min_max(rect.min + Vec2::new(20.0, 0.0), rect.max - Vec2::new(right, 0.0));
+    let cut = lines::elided(ui, left, &words, TextStyle::Body, color);
+    let said = note.map_or_else(|| words.clone(), |note| format!("{words}, {note}"));
+    let response = ui.interact(cell.caption, ui.scope_id().with(("caption", &words)), Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("Picture: {said}")));
+    if cut {
+        response.on_hover_text(said);
+    }
+}
+
+fn marker(painter: &Painter, rect: Rect, source: &Source, context: &PaneContext<'_>) {
+    let size = [f64::from(rect.width()), f64::from(rect.height())];
+    let area = Area::from_min_size([0.0, 0.0], size);
+    let mut panel = Panel::board("marker", area, Ink::new(InkRole::Surround));
+    let shape = Shape::Points { points: vec![size.map(|side| side / 2.0)], marker: source.marker, radius: 5.0 };
+    let mark = Mark::new(Things::NONE, source.label.clone(), shape).with_stroke(InkRole::OnSurround, 1.5);
+    panel.marks.push(if source.marker.has_inside() { mark.with_fill(InkRole::OnSurround) } else { mark });
+    paint::still(painter, &panel, &context.theme, rect);
+}
+
+/// The ring around the pixel that is kept, in every picture.
+fn ring(painter: &Painter, stand: &Stand, cell: usize, context: &PaneContext<'_>) {
+    let Some(pinned) = &context.view.render.pinned else { return };
+    let picture = stand.cells[cell].picture;
+    let at = picture.min + Vec2::new(pinned.at[0] as f32, pinned.at[1] as f32) * picture.size();
+    let painter = painter.with_clip_rect(stand.visible(cell).intersect(painter.clip_rect()));
+    let [outer, inner] = paint::ring_colors();
+    painter.circle_stroke(at, RING, Stroke::new(3.0, outer));
+    painter.circle_stroke(at, RING, Stroke::new(1.5, inner));
+}
+
+/// The divider of a split picture: drag it, or move it with arrows.
+pub(super) fn divider(ui: &mut Ui, stand: &Stand, context: &mut PaneContext<'_>) {
+    let (Some(x), Some(cell)) = (stand.divider, stand.cells.first()) else { return };
+    let picture = cell.picture;
+    let line = Rect::from_min_max(Pos2::new(x - 6.0, picture.top()), Pos2::new(x + 6.0, picture.bottom()));
+    let response = ui.interact(line, ui.scope_id().with("divider"), Sense::click_and_drag());
+    let share = f64::from(context.view.saved.render.split);
+    response.widget_info(|| egui::WidgetInfo::slider(true, 100.0 * share, "Divider between truth and source"));
+    let color = context.theme.surround.label();
+    let width = if response.hovered() || response.dragged() || response.has_focus() { 2.0 } else { 1.0 };
+    ui.painter().vline(x, picture.y_range(), Stroke::new(width, color));
+    let handle = Pos2::new(x, picture.center().y);
+    ui.painter().circle(handle, 8.0, context.theme.control, Stroke::new(width, color));
+    for side in [-1.0, 1.0] {
+        let tip = handle + Vec2::new(5.0 * side, 0.0);
+        for up in [-3.0, 3.0] {
+            ui.painter().line_segment([tip, tip + Vec2::new(-3.0 * side, up)], Stroke::new(1.2, context.theme.text));
+        }
+    }
+    let mut split = context.view.saved.render.split;
+    if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+        split = (at.x - picture.left()) / picture.width().max(1.0);
+    }
+    if response.has_focus() {
+        let arrows = egui::EventFilter { horizontal_arrows: true, ..egui::EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+        let presses = |key: Key| ui.input(|input| input.num_presses(key) as f32);
+        split += 0.02 * (presses(Key::ArrowRight) - presses(Key::ArrowLeft));
+    }
+    if split != context.view.saved.render.split {
+        context.view.saved.render.split = split.clamp(0.02, 0.98);
+        ui.ctx().request_repaint();
+    }
+    response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
+}
+
+/// The line above a single or split picture, with a list to choose its source from.
+pub(super) fn choosers(ui: &mut Ui, stand: &Stand, sources: &[Source], context: &mut PaneContext<'_>) {
+    let Some(cell) = stand.cells.first() else { return };
+    if !matches!(stand.mode, RenderMode::One | RenderMode::Split) {
+        return;
+    }
+    let shot = context.view.render.shot.clone();
+    let painter = ui.painter().clone();
+    let row = cell.caption.shrink2(Vec2::new(8.0, 0.0));
+    let mut left = row.left();
+    if stand.mode == RenderMode::Split {
+        if let Some(truth) = stand.sources.first() {
+            let half = Rect::from_min_max(cell.caption.min, Pos2::new(row.center().x, row.bottom()));
+            let truth_cell = Cell { caption: half, ..*cell };
+            caption(ui, &painter, &truth_cell, truth, None, context);
+        }
+        left = row.center().x;
+    }
+    let Some(now) = chosen(sources, context.view.render.chosen.as_ref()).cloned() else { return };
+    marker(&painter, Rect::from_min_size(Pos2::new(left, row.top()), Vec2::new(16.0, CAPTION)), &now, context);
+    let place = Rect::from_min_size(Pos2::new(left + 20.0, row.top() + 1.0), Vec2::new(190.0, CAPTION - 2.0));
+    let place = place.intersect(row);
+    let mut child = ui.new_child(UiBuilder::new().id_salt("source on show").max_rect(place));
+    child.spacing_mut().interact_size.y = place.height();
+    child.spacing_mut().button_padding.y = 1.0;
+    let combo = ComboBox::from_id_salt("source on show").width(place.width()).truncate().selected_text(title(&now));
+    let response = combo.show_ui(&mut child, |ui| {
+        for source in sources.iter().filter(|source| stand.mode == RenderMode::One || !source.is_truth) {
+            let here = source.kind == now.kind && source.name == now.name;
+            if ui.selectable_label(here, title(source)).clicked() {
+                context.view.render.chosen = Some(id(source));
+            }
+        }
+    });
+    let said = format!("Source on show: {}", title(&now));
+    response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
+    let made = shot
+        .as_deref()
+        .and_then(|shot| index_of(shot, &id(&now)).and_then(|at| note(shot, at, stand.mode, row.width())));
+    if let Some(note) = made {
+        let rest = Rect::from_min_max(Pos2::new(place.right() + 8.0, row.top()), row.max);
+        if rest.width() > 90.0 {
+            painter.text(
+                rest.right_center(),
+                Align2::RIGHT_CENTER,
+                note,
+                FontId::proportional(crate::theme::SMALL),
+                context.theme.surround.label(),
+            );
+        }
+    }
+}

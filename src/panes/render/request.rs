@@ -1,0 +1,142 @@
+//! What the pane asks for: coarse pictures while something moves, then fine ones.
+
+use chromascope_core::colorimetry::rgb::srgb_inverse_transfer;
+use chromascope_core::query::Shared;
+use chromascope_core::query::render::{MeshOf, PicturesOf};
+use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::scene::Mesh;
+use egui::Ui;
+
+use super::cells::Stand;
+use crate::catalog::meshes::MeshState;
+use crate::document::render::{MeshChoice, QualityChoice};
+use crate::panes::PaneContext;
+use crate::scene::render::Finish;
+use crate::view::render::{Orbit, RenderMode};
+
+/// Above so many pixels in all, pictures of something that moves have half the resolution.
+const MANY_PIXELS: u64 = 1_500_000;
+/// So many samples are compared with the truth while something moves, and at rest.
+const COMPARED: [usize; 2] = [2048, 16384];
+/// Samples along the side of a pixel in the finest pictures.
+const SAMPLES: u32 = 3;
+
+/// Asks for the pictures that stand here. Says why there are none.
+pub(super) fn ask(ui: &Ui, stand: &Stand, context: &mut PaneContext<'_>) -> Result<(), String> {
+    let mesh = mesh(context)?;
+    if stand.cells.is_empty() {
+        return Err("Tick a camera in the Library.".to_owned());
+    }
+    let wish = Wish { stand, mesh, context };
+    let last = wish.query(wish.last())?;
+    let stages = [wish.first(), wish.middle(), wish.last()];
+    let [first, middle] = [0, 1].map(|stage: usize| wish.query(stages[stage]));
+    let (first, middle) = (first?, middle?);
+    let making = context.scene.document.render.quality.label();
+    let settled = context.scene.document.render.quality != QualityChoice::Full;
+    context.view.render.making = if settled { making } else { "Rendering" };
+    let studio = &mut *context.studio;
+    let known = studio.shot().is_some();
+    let rest = studio.want(&last, ui.input(|input| input.time));
+    let moving = rest.is_some() && known;
+    if let Some(rest) = rest {
+        ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(rest));
+        context.view.render.cancelled = false;
+    }
+    if context.view.render.cancelled {
+        studio.stay();
+    } else if studio.only_develops(&last) {
+        studio.ask(vec![last], &stand.sources, moving);
+    } else if moving {
+        studio.ask(vec![first], &stand.sources, true);
+    } else {
+        let mut stages = vec![first, middle, last];
+        // In some qualities the last two are the same.
+        stages.dedup();
+        studio.ask(stages, &stand.sources, false);
+    }
+    context.view.render.shot = studio.shot();
+    studio.failure().map_or(Ok(()), |why| Err(format!("No picture: {why}.")))
+}
+
+/// The mesh, or what is to be said while there is none.
+fn mesh(context: &PaneContext<'_>) -> Result<MeshOf, String> {
+    let own: Option<Shared<Mesh>> = match &context.scene.document.render.mesh {
+        MeshChoice::File(path) => match context.meshes.get(path) {
+            MeshState::Ready(mesh) => Some(mesh.mesh.clone()),
+            MeshState::Loading => {
+                let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+                return Err(format!("Reading {name}…"));
+            }
+            MeshState::Failed(why) => return Err(why),
+        },
+        _ => None,
+    };
+    context.scene.mesh_of(own.as_ref()).ok_or_else(|| "Pick Head or Fern, or open an OBJ.".to_owned())
+}
+
+/// The pictures as they are to be in the end, with the stages before.
+struct Wish<'a, 'b> {
+    stand: &'a Stand,
+    mesh: MeshOf,
+    context: &'a PaneContext<'b>,
+}
+
+impl Wish<'_, '_> {
+    fn size(&self, samples: u32) -> RasterSize {
+        let [width, height] = self.stand.pixels;
+        RasterSize { width, height, samples }.clamped()
+    }
+
+    fn compared(&self, at_rest: usize) -> usize {
+        match self.stand.mode {
+            RenderMode::Difference => usize::MAX,
+            _ => COMPARED[at_rest],
+        }
+    }
+
+    /// While something moves.
+    fn first(&self) -> Finish {
+        let [width, height] = self.stand.pixels;
+        let all = u64::from(width) * u64::from(height) * self.stand.sources.len() as u64;
+        let size = if all > MANY_PIXELS {
+            RasterSize::new(width.div_ceil(2), height.div_ceil(2)).clamped()
+        } else {
+            self.size(1)
+        };
+        Finish { size, quality: Quality::Preview, shadows: Shadows::Coarse, compared_samples: Some(self.compared(0)) }
+    }
+
+    /// At rest, before the slow part.
+    fn middle(&self) -> Finish {
+        let chosen = self.context.scene.document.render.quality;
+        let quality = if is_slow(chosen) { Quality::Full } else { chosen.quality() };
+        Finish { size: self.size(1), quality, shadows: Shadows::Full, compared_samples: Some(self.compared(1)) }
+    }
+
+    fn last(&self) -> Finish {
+        let chosen = self.context.scene.document.render.quality;
+        // Maps compare every sample, which costs more than all else: one a pixel is enough for them.
+        let one = is_slow(chosen) || self.stand.mode == RenderMode::Difference;
+        let samples = if one { 1 } else { SAMPLES };
+        Finish { size: self.size(samples), quality: chosen.quality(), ..self.middle() }
+    }
+
+    fn query(&self, finish: Finish) -> Result<PicturesOf, String> {
+        let look = &self.context.view.saved.render;
+        let orbit = look.orbit.unwrap_or_else(|| Orbit::of(&self.context.scene.document.render.mesh));
+        let [width, height] = self.stand.pixels;
+        let viewpoint = orbit.viewpoint(f64::from(width) / f64::from(height.max(1))).ok_or("No such view.")?;
+        let surround = self.context.theme.surround.color().to_array();
+        let linear = |channel: u8| srgb_inverse_transfer(f64::from(channel) / 255.0) as f32;
+        let background = Some([surround[0], surround[1], surround[2]].map(linear));
+        let scene = &self.context.scene;
+        let pictures = scene.pictures_of(&self.stand.sources, self.mesh.clone(), viewpoint, finish, background);
+        pictures.map_err(|error| error.to_string())
+    }
+}
+
+/// Whether a quality sums over wavelengths at every sample.
+fn is_slow(quality: QualityChoice) -> bool {
+    matches!(quality, QualityChoice::Fine | QualityChoice::Exact | QualityChoice::Regimes)
+}

@@ -1,0 +1,55 @@
+//! The pixel that is kept, or under the pointer, in numbers.
+
+use egui::{Grid, RichText, Ui};
+
+use crate::figures::render::{facts, index_of, pixel_of};
+use crate::panes::PaneContext;
+use crate::studio::pixel::PixelShows;
+use crate::theme::UNIT;
+
+/// Shows the group.
+pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
+    ui.spacing_mut().interact_size.y = 14.0;
+    let render = &context.view.render;
+    let weak = context.theme.weak;
+    let Some(place) = render.pinned.clone().or_else(|| render.hovered.clone()) else {
+        ui.label(
+            RichText::new("Point at a picture to read it; click keeps the pixel, Esc lets go.").small().color(weak),
+        );
+        return;
+    };
+    let Some(reading) = pixel_of(&context.scene, render, &place) else {
+        ui.label(RichText::new("Nothing was made for this source yet.").small().color(weak));
+        return;
+    };
+    let label =
+        render.shot.as_deref().and_then(|shot| Some(shot.sources[index_of(shot, &place.source)?].label.clone()));
+    let label = label.unwrap_or_else(|| place.source.name.clone());
+    let [x, y] = reading.at;
+    ui.label(format!("Pixel {x}, {y}   {label}"));
+    match reading.shows {
+        PixelShows::Nothing => {
+            ui.label("Beside the mesh.");
+        }
+        PixelShows::Unlit => {
+            ui.label("No light reaches it: turned away, or in shadow.");
+        }
+        PixelShows::Lit(lit) => {
+            let numbers = Grid::new("pixel").num_columns(2).spacing([3.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
+                for (name, value) in facts(&lit) {
+                    ui.monospace(name);
+                    ui.monospace(value);
+                    ui.end_row();
+                }
+            });
+            numbers.response.on_hover_text(
+                "RGB: linear sRGB at this exposure, before clipping. xy, Lab and ΔE*00: a white of the same roughness that \
+                 faces the light has Y = 1. g: at 550 nm.",
+            );
+            if let Some((_, way)) = lit.roughness {
+                ui.label(RichText::new(format!("g at 550 nm, {way}")).small().color(weak));
+            }
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Mesh, material, and where the light is.
+
+use chromascope_core::scene::lighting::SUN_RADIUS;
+use egui::{ComboBox, Ui};
+
+use super::{Dial, caption, material, set};
+use crate::catalog::meshes::MeshState;
+use crate::command::Command;
+use crate::document::render::{MeshChoice, RenderSettings};
+use crate::panes::PaneContext;
+
+/// How many triangles can be chosen.
+const TRIANGLES: std::ops::RangeInclusive<f64> = 2e3..=2e6;
+/// The distance that a near light begins with, in scene radii.
+const NEAR: f64 = 4.0;
+
+/// Shows the group.
+pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let settings = context.scene.document.render.clone();
+    ui.horizontal(|ui| {
+        mesh(ui, &settings, context);
+        ui.label("Mesh");
+    });
+    summary(ui, &settings, context);
+    if matches!(settings.mesh, MeshChoice::Head | MeshChoice::Fern | MeshChoice::Sphere) {
+        let dial = Dial {
+            name: "Triangles",
+            range: TRIANGLES,
+            logarithmic: Some(1.0),
+            unit: "",
+            hint: "About how many triangles the mesh is made of. Making a new one takes longer than drawing it.",
+            beyond: false,
+        };
+        if let Some(to) = dial.show(ui, settings.triangles as f64) {
+            set(context, "Triangles", |settings| settings.triangles = to as usize);
+        }
+    }
+    caption(ui, "Material", context);
+    material::choice(ui, &settings.material, context);
+    light(ui, &settings, context);
+}
+
+fn mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+    let shown = match &settings.mesh {
+        MeshChoice::Head => "Head".to_owned(),
+        MeshChoice::Fern => "Fern".to_owned(),
+        MeshChoice::Sphere => "Sphere".to_owned(),
+        MeshChoice::Plane => "Plane".to_owned(),
+        MeshChoice::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+    };
+    let combo = ComboBox::from_id_salt("mesh").width(150.0).truncate().selected_text(&shown);
+    let response = combo.show_ui(ui, |ui| {
+        for (choice, words) in [
+            (MeshChoice::Head, "Head"),
+            (MeshChoice::Fern, "Fern"),
+            (MeshChoice::Sphere, "Sphere"),
+            (MeshChoice::Plane, "Plane"),
+        ] {
+            if ui.selectable_label(settings.mesh == choice, words).clicked() {
+                set(context, "Mesh", |settings| settings.mesh = choice);
+            }
+        }
+        ui.separator();
+        let recent = context.view.saved.recent.clone();
+        for path in recent.into_iter().filter(|path| crate::catalog::meshes::is_mesh(path, &[])) {
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+            let here = settings.mesh == MeshChoice::File(path.clone());
+            if ui.selectable_label(here, name).on_hover_text(path.display().to_string()).clicked() {
+                context.push(Command::OpenPath(path));
+            }
+        }
+        if ui.selectable_label(false, "Open OBJ…").on_hover_text("OBJ, PLY or STL; or drop it on the window").clicked()
+        {
+            context.push(Command::Open);
+        }
+    });
+    response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, format!("Mesh: {shown}")));
+}
+
+/// What was read from a file, and tolerated.
+fn summary(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
+    if let MeshChoice::File(path) = &settings.mesh
+        && let MeshState::Ready(mesh) = context.meshes.get(path)
+    {
+        let words = egui::RichText::new(&mesh.summary).small().color(context.theme.weak);
+        ui.label(words).on_hover_text(mesh.notes.join("\n"));
+    }
+}
+
+fn light(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+    let angle = |name, hint| Dial { name, range: -90.0..=90.0, logarithmic: None, unit: "°", hint, beyond: false };
+    let height = angle("Light height", "The light above the view axis; it goes along when you orbit.");
+    if let Some(to) = height.show(ui, settings.light_up_deg) {
+        set(context, "Light height", |settings| settings.light_up_deg = to.round());
+    }
+    let side = angle("Light side", "The light to the right of the view axis; negative is left.");
+    if let Some(to) = side.show(ui, settings.light_right_deg) {
+        set(context, "Light side", |settings| settings.light_right_deg = to.round());
+    }
+    ui.horizontal(|ui| {
+        let mut shadows = settings.shadows;
+        if ui.checkbox(&mut shadows, "Shadows").on_hover_text("Whether the mesh shadows itself").changed() {
+            set(context, "Shadows", |settings| settings.shadows = shadows);
+        }
+        let mut disk = settings.light_radius > 0.0;
+        let hint = "A light as wide as the Sun blurs the mirror term; a point does not. Only smooth surfaces show it.";
+        if ui.checkbox(&mut disk, "Sun's disk").on_hover_text(hint).changed() {
+            set(context, "Sun's disk", |settings| settings.light_radius = if disk { SUN_RADIUS } else { 0.0 });
+        }
+        let mut near = settings.light_distance.is_some();
+        let hint = "From a point at a distance instead of parallel rays, without the inverse square";
+        if ui.checkbox(&mut near, "Near").on_hover_text(hint).changed() {
+            set(context, "Near light", |settings| settings.light_distance = near.then_some(NEAR));
+        }
+    });
+    if let Some(distance) = settings.light_distance {
+        let hint = "From the center, in radii of the mesh";
+        let range = 1.1..=100.0;
+        let dial = Dial { name: "Light distance", range, logarithmic: Some(1.0), unit: "", hint, beyond: false };
+        if let Some(to) = dial.show(ui, distance) {
+            set(context, "Light distance", |settings| settings.light_distance = Some(to));
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Roughness and refractive index, and how the model is read.
+
+use chromascope_core::reflectance::Caution;
+use egui::{ComboBox, RichText, Ui};
+
+use super::{Dial, set};
+use crate::document::render::{LEAF, ReadingChoice, RenderSettings, SKIN};
+use crate::panes::PaneContext;
+
+/// Shows the group.
+pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let settings = context.scene.document.render.clone();
+    presets(ui, context);
+    lengths(ui, &settings, context);
+    let hint = "The refractive index, the same at all wavelengths; type up to 1000.";
+    let dial = Dial { name: "Index n", range: 1.0..=3.0, logarithmic: None, unit: "", hint, beyond: true };
+    if let Some(to) = dial.show(ui, settings.index) {
+        set(context, "Refractive index", |settings| settings.index = to.clamp(0.01, 1000.0));
+    }
+    reading(ui, settings.reading, context);
+    let why = settings.reading.why();
+    // What follows from it, which its last sentence says; the pointer reads all.
+    let last = why.rsplit(". ").next().unwrap_or(why).split(':').next().unwrap_or(why);
+    let last = last.trim_end_matches('.');
+    ui.label(RichText::new(last).small().color(context.theme.weak)).on_hover_text(why);
+    cautions(ui, &settings, context);
+}
+
+/// Surfaces to begin with.
+fn presets(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    ui.horizontal(|ui| {
+        let rough = RenderSettings::default();
+        for (name, material, index, sigma_um, hint) in [
+            (
+                "Skin",
+                SKIN,
+                1.40,
+                rough.sigma_um,
+                "σ 5 µm, τ 10 µm, n 1.40: an empirical lobe; its slope exceeds the model's comfort",
+            ),
+            (
+                "Leaf",
+                LEAF,
+                1.45,
+                rough.sigma_um,
+                "σ 5 µm, τ 10 µm, n 1.45: an empirical lobe; its slope exceeds the model's comfort",
+            ),
+            (
+                "Smooth",
+                "",
+                1.50,
+                0.05,
+                "σ 0.05 µm, τ 10 µm, n 1.50: a gloss, dark beside its highlights; the material stays",
+            ),
+        ] {
+            if ui.button(name).on_hover_text(hint).clicked() {
+                let tau_um = rough.tau_um;
+                set(context, name, |settings| {
+                    if !material.is_empty() {
+                        material.clone_into(&mut settings.material);
+                    }
+                    (settings.index, settings.sigma_um, settings.tau_um) = (index, sigma_um, tau_um);
+                });
+            }
+        }
+    });
+}
+
+fn lengths(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+    let length = |name, from, least, hint| Dial {
+        name,
+        range: from..=1000.0,
+        logarithmic: Some(least),
+        unit: " µm",
+        hint,
+        beyond: false,
+    };
+    let sigma = length("Roughness σ", 0.0, 0.01, "The standard deviation of the surface's heights");
+    if let Some(to) = sigma.show(ui, settings.sigma_um) {
+        set(context, "Roughness", |settings| settings.sigma_um = to);
+    }
+    let tau =
+        length("Correlation τ", 0.001, 0.001, "The distance at which heights know half of each other no more: 1/e");
+    if let Some(to) = tau.show(ui, settings.tau_um) {
+        set(context, "Correlation length", |settings| settings.tau_um = to);
+    }
+    ui.horizontal(|ui| {
+        for (axis, name, hint) in [
+            (0, "X", "Half the side of the patch that counts as one, along the plane of incidence"),
+            (1, "Y", "Half the side across the plane of incidence"),
+        ] {
+            let mut value = settings.half_sides_um[axis];
+            let field = egui::DragValue::new(&mut value)
+                .range(0.001..=1e6)
+                .speed(0.01 * settings.half_sides_um[axis])
+                .max_decimals(3)
+                .suffix(" µm");
+            let response = ui.add(field);
+            ui.label(name).on_hover_text(hint);
+            response.widget_info(|| egui::WidgetInfo::slider(true, value, format!("Half side {name}")));
+            if response.on_hover_text(hint).changed() {
+                set(context, "Half sides", |settings| settings.half_sides_um[axis] = value);
+            }
+        }
+        ui.label(RichText::new("half sides").small().color(context.theme.weak));
+    });
+}
+
+fn reading(ui: &mut Ui, now: ReadingChoice, context: &mut PaneContext<'_>) {
+    ui.horizontal(|ui| {
+        let combo = ComboBox::from_id_salt("reading").width(150.0).selected_text(now.label());
+        let response = combo.show_ui(ui, |ui| {
+            for reading in ReadingChoice::ALL {
+                if ui.selectable_label(now == reading, reading.label()).on_hover_text(reading.why()).clicked() {
+                    set(context, "Reading", |settings| settings.reading = reading);
+                }
+            }
+        });
+        let said = format!("Reading: {}", now.label());
+        response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
+        response.response.on_hover_text(now.why());
+        ui.label("Reading of Eq 1");
+    });
+}
+
+/// Where the model is stretched.
+fn cautions(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
+    if settings.reading == ReadingChoice::Lambertian {
+        return;
+    }
+    match settings.surface() {
+        Err(error) => {
+            ui.label(RichText::new(error.to_string()).small().color(context.theme.error));
+        }
+        Ok(surface) => {
+            for caution in surface.cautions() {
+                let whole = format!("{caution}.");
+                let said = whole.split([',', ':']).next().unwrap_or(&whole);
+                let words = if caution == Caution::Steep {
+                    format!("Empirical lobe: {}", lowered(said))
+                } else {
+                    said.to_owned()
+                };
+                ui.label(RichText::new(words).small().color(context.theme.warning)).on_hover_text(whole);
+            }
+        }
+    }
+}
+
+/// A sentence to go on with.
+fn lowered(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}

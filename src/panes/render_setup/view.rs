@@ -1,0 +1,44 @@
+//! Exposure, lens and quality.
+
+use egui::{ComboBox, Ui};
+
+use super::{Dial, set};
+use crate::document::render::QualityChoice;
+use crate::panes::PaneContext;
+use crate::view::render::Orbit;
+
+/// Shows the group.
+pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let settings = context.scene.document.render.clone();
+    let hint = "The same for all cameras. At 0 EV the material facing the light has 40 % of the screen's white.";
+    let dial = Dial { name: "Exposure", range: -6.0..=6.0, logarithmic: None, unit: " EV", hint, beyond: false };
+    if let Some(to) = dial.show(ui, settings.exposure_ev) {
+        set(context, "Exposure", |settings| settings.exposure_ev = (to * 10.0).round() / 10.0);
+    }
+    let orbit = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
+    let hint = "Of the lens; the eye moves so that the mesh stays as large. Wide lenses fall off with cos⁴ (Eq 12).";
+    let dial = Dial { name: "Field of view", range: 2.0..=120.0, logarithmic: None, unit: "°", hint, beyond: false };
+    if let Some(to) = dial.show(ui, orbit.field_of_view_deg) {
+        context.view.saved.render.orbit = Some(orbit.with_field_of_view(to));
+        ui.ctx().request_repaint();
+    }
+    ui.horizontal(|ui| {
+        let now = settings.quality;
+        let combo = ComboBox::from_id_salt("quality").width(150.0).selected_text(now.label());
+        let response = combo.show_ui(ui, |ui| {
+            for quality in QualityChoice::ALL {
+                if ui.selectable_label(now == quality, quality.label()).clicked() {
+                    set(context, "Quality", |settings| settings.quality = quality);
+                }
+            }
+        });
+        let said = format!("Quality: {}", now.label());
+        response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
+        response.response.on_hover_text("How exactly integrals over wavelength are made once nothing moves");
+        ui.label("Quality");
+        if ui.button("Reset").on_hover_text("The view the mesh is first seen in (Home)").clicked() {
+            context.view.saved.render.orbit = None;
+            ui.ctx().request_repaint();
+        }
+    });
+}

@@ -1,0 +1,316 @@
+//! `chromascope render`: pictures, their numbers, what is measured, and what is refused.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use chromascope::catalog::{Catalog, Kind};
+use chromascope::document::render::{MeshChoice, RenderSettings, SUN};
+use chromascope::document::{Compared, Document, Light, WhiteChoice};
+use chromascope::results::Results;
+use chromascope::scene::Scene;
+use chromascope::scene::render::Finish;
+use chromascope::view::render::Orbit;
+use chromascope_core::query::Ask as _;
+use chromascope_core::query::render::Pictures;
+use chromascope_core::render::{Quality, RasterSize, Shadows};
+use exr::prelude::{AnyChannels, AttributeValue, FlatImage, FlatSamples, Layer};
+use serde_json::Value;
+
+/// Little enough to be rendered by a program that was not optimized.
+const SMALL: [&str; 6] = ["--mesh", "sphere", "--triangles", "800", "--size", "40x30"];
+const D70: [&str; 2] = ["--camera", "Nikon D70"];
+
+/// A folder of one test's own, empty.
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli_render").join(name);
+    if path.exists() {
+        std::fs::remove_dir_all(&path).unwrap();
+    }
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_chromascope"));
+    command.arg("render").args(arguments).current_dir(folder);
+    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap()
+}
+
+/// What it says on standard output.
+fn rendered(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Fails with this code and a message that holds these words, and leaves no picture.
+fn refused(folder: &Path, arguments: &[&str], code: i32, words: &[&str]) {
+    let output = run(folder, arguments);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(code), 0), "{arguments:?}: {message}");
+    for word in words {
+        assert!(message.contains(word), "{arguments:?}: {message}");
+    }
+    assert!(pictures_in(folder).is_empty(), "{arguments:?}");
+}
+
+fn pictures_in(folder: &Path) -> Vec<String> {
+    let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let pictures = paths.filter(|path| path.extension().is_some_and(|ending| ending == "png" || ending == "exr"));
+    let mut names: Vec<String> =
+        pictures.map(|path| path.file_name().unwrap().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+/// The same as the small pictures, asked for as the window asks.
+fn as_in_the_window(samples: u32, quality: Quality) -> (Pictures, [f64; 3]) {
+    let compared = |name: &str, kind| Compared { name: name.to_owned(), kind, slot: 0, visible: true, label: None };
+    let document = Document {
+        compared: vec![compared("Nikon D70", Kind::Camera)],
+        light: Light::Set(SUN.to_owned()),
+        white: WhiteChoice::Light("D55".to_owned()),
+        render: RenderSettings { mesh: MeshChoice::Sphere, triangles: 800, ..RenderSettings::default() },
+        ..Document::default()
+    };
+    let (catalog, results) = (Catalog::built_in(), Results::bounded());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let viewpoint = Orbit::of(&MeshChoice::Sphere).viewpoint(40.0 / 30.0).unwrap();
+    let size = RasterSize { width: 40, height: 30, samples };
+    let finish = Finish { size, quality, shadows: Shadows::Full, compared_samples: Some(usize::MAX) };
+    let query = scene.pictures_of(&scene.sources(), scene.mesh_of(None).unwrap(), viewpoint, finish, None).unwrap();
+    let rendering = (*results.ask(&query.sources[0].rendering)).clone().unwrap();
+    let pictures = (*results.ask(&query)).clone().unwrap().unwrap();
+    (pictures, rendering.white.to_array())
+}
+
+fn read_exr(path: &Path) -> (Layer<AnyChannels<FlatSamples>>, BTreeMap<String, Vec<f32>>) {
+    let FlatImage { layer_data, .. } = exr::prelude::read_all_flat_layers_from_file(path).unwrap();
+    assert_eq!(layer_data.len(), 1);
+    let layer = layer_data.into_iter().next().unwrap();
+    let channels = layer.channel_data.list.iter();
+    let channels = channels.map(|channel| match &channel.sample_data {
+        FlatSamples::F32(values) => (channel.name.to_string(), values.clone()),
+        other => panic!("{other:?}"),
+    });
+    let channels = channels.collect();
+    (layer, channels)
+}
+
+#[test]
+fn without_sources_the_truth_and_the_papers_three() {
+    let folder = folder("first");
+    let text = rendered(&folder, &[&SMALL[..], &["--out", "new/folder"]].concat());
+    let lines: Vec<&str> = text.lines().collect();
+    let starts = ["s-b-1955", "canon-eos-10d", "nikon-d70", "kodak-dcs200"];
+    for (line, start) in lines.iter().zip(starts) {
+        assert!(
+            line.starts_with(&format!("new/folder/sphere_{start}.png: ").replace('/', std::path::MAIN_SEPARATOR_STR)),
+            "{line}"
+        );
+    }
+    assert!(lines[0].ends_with(": the truth") && lines[1].contains("ΔE*00 mean ") && lines[1].contains(", max "));
+    assert!(lines[4].starts_with("4 pictures of 40x30, ") && lines[4].contains(" ms ("), "{}", lines[4]);
+    assert_eq!(lines.len(), 5);
+    assert_eq!(pictures_in(&folder.join("new/folder")).len(), 4);
+}
+
+#[test]
+fn a_png_shows_the_windows_pixels() {
+    let folder = folder("png");
+    rendered(&folder, &[&SMALL[..], &D70].concat());
+    let picture = image::open(folder.join("sphere_nikon-d70.png")).unwrap().into_rgba8();
+    let (window, _) = as_in_the_window(1, Quality::Full);
+    let window = window.pictures[0].as_ref().unwrap();
+    assert_eq!((picture.width() as usize, picture.height() as usize), (window.width, window.height));
+    assert_eq!(picture.as_raw(), &window.rgba);
+    assert!(window.rgba.chunks(4).any(|pixel| pixel[3] == 255 && pixel[0] > 100), "something is lit");
+    assert_eq!(window.rgba[..4], [0; 4], "the corner is clear");
+}
+
+#[test]
+fn exr_holds_the_numbers() {
+    let folder = folder("exr");
+    rendered(&folder, &[&SMALL[..], &D70, &["--samples", "2", "--format", "exr", "--exposure", "-3"]].concat());
+    let path = folder.join("sphere_nikon-d70.exr");
+    let (layer, channels) = read_exr(&path);
+    assert_eq!((layer.size.width(), layer.size.height()), (40, 30));
+    assert_eq!(channels.keys().collect::<Vec<_>>(), ["A", "B", "G", "R", "X", "Y", "Z"]);
+
+    let (window, white) = as_in_the_window(2, Quality::Full);
+    let image = window.images[0].as_ref().unwrap();
+    let place = |sample: u32| (sample as usize / 80 / 2) * 40 + sample as usize % 80 / 2;
+    let mut expected = vec![[0.0_f64; 4]; 40 * 30];
+    for (&sample, signal) in image.geometry().samples().iter().zip(image.signals()) {
+        for c in 0..3 {
+            expected[place(sample)][c] += white[c] * f64::from(signal[c]) / 4.0;
+        }
+    }
+    image.geometry().seen().iter().for_each(|&sample| expected[place(sample)][3] += 0.25);
+    let peak = expected.iter().map(|pixel| pixel[1]).fold(0.0, f64::max);
+    assert!(peak > 0.05, "{peak}");
+    for (c, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
+        for (pixel, expected) in channels[name].iter().zip(&expected) {
+            assert!((f64::from(*pixel) - expected[c]).abs() < 1e-7 * peak.max(1.0), "{name}: {pixel} {expected:?}");
+        }
+    }
+    assert!(expected.iter().any(|pixel| pixel[3] > 0.0 && pixel[3] < 1.0), "an edge");
+    // Eq 13 has fixed coefficients: of a balanced white with R = G = B, Y is that very number.
+    let outside = channels["A"].iter().position(|&a| a == 0.0).unwrap();
+    assert!(["X", "Y", "Z"].iter().all(|name| channels[*name][outside] == 0.0));
+    assert!(channels["Y"].iter().copied().fold(0.0, f32::max) > 0.05);
+}
+
+#[test]
+fn exr_says_what_it_is_of_and_is_the_same_each_time() {
+    let folder = folder("exr_header");
+    let surface = ["--sigma", "4e-6", "--tau", "9e-6", "--patch", "30e-6,60e-6", "--ior", "1.5", "--light", "-1,0,1"];
+    let arguments = [&SMALL[..], &D70, &surface, &["--format", "exr", "--reading", "paper"]].concat();
+    rendered(&folder, &arguments);
+    let path = folder.join("sphere_nikon-d70.exr");
+    let first = std::fs::read(&path).unwrap();
+    rendered(&folder, &arguments);
+    assert!(first == std::fs::read(&path).unwrap(), "two runs, the same bytes");
+
+    let (layer, _) = read_exr(&path);
+    let text = |value: &AttributeValue| match value {
+        AttributeValue::Text(text) => String::from_utf8(text.as_slice().to_vec()).unwrap(),
+        other => panic!("{other:?}"),
+    };
+    let of = |name: &str| layer.attributes.other.get(&exr::prelude::Text::from(name)).unwrap();
+    assert_eq!(text(of("camera")), "Nikon D70");
+    assert_eq!(text(of("balance")), "D55");
+    assert_eq!(text(of("illuminant")), "Direct sun (ASTM G173)");
+    assert_eq!(text(of("reading")), "paper");
+    let number = |name: &str| match of(name) {
+        AttributeValue::F64(number) => *number,
+        other => panic!("{other:?}"),
+    };
+    let numbers =
+        [("sigma", 4e-6), ("tau", 9e-6), ("halfSideX", 30e-6), ("halfSideY", 60e-6), ("refractiveIndex", 1.5)];
+    for (name, expected) in numbers {
+        assert!((number(name) / expected - 1.0).abs() < 1e-12, "{name}");
+    }
+    let AttributeValue::FloatVec3((x, y, z)) = of("lightDirection") else { panic!("no direction") };
+    assert!((x + 0.5_f32.sqrt()).abs() < 1e-6 && y.abs() < 1e-6 && (z - 0.5_f32.sqrt()).abs() < 1e-6);
+    let AttributeValue::FloatVec3((r, _, b)) = of("balanceFactors") else { panic!("no balance") };
+    assert!((r - 1.104).abs() < 1e-3 && (b - 0.8233).abs() < 1e-3, "the paper's");
+    let software = layer.attributes.software_name.as_ref().unwrap().to_string();
+    assert_eq!(software, concat!("chromascope ", env!("CARGO_PKG_VERSION")));
+    assert!(layer.attributes.comments.is_some());
+}
+
+#[test]
+fn a_cie_observer_has_no_red_green_and_blue() {
+    let folder = folder("exr_cie");
+    let text = rendered(&folder, &[&SMALL[..], &["--observer", "CIE 1931 2°", "--format", "exr"]].concat());
+    assert!(text.contains("add --transform observer"), "{text}");
+    let (_, channels) = read_exr(&folder.join("sphere_cie-1931-2.exr"));
+    assert_eq!(channels.keys().collect::<Vec<_>>(), ["A", "X", "Y", "Z"]);
+    let fitted = ["--observer", "CIE 1931 2°", "--transform", "observer"];
+    assert!(rendered(&folder, &[&SMALL[..], &fitted].concat()).contains("ΔE*00 mean"));
+}
+
+#[test]
+fn statistics_are_json() {
+    let folder = folder("stats");
+    let smooth = ["--sigma", "3e-7", "--tau", "3e-6", "--patch", "2e-6,2e-6", "--stats", "-"];
+    let output = run(&folder, &[&SMALL[..], &D70, &smooth].concat());
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && message.contains("sphere_nikon-d70.png: ΔE*00"), "{message}");
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["size"], serde_json::json!({ "width": 40, "height": 30, "samples_per_side": 1 }));
+    assert_eq!(json["settings"]["sigma_m"], 3e-7);
+    let count = |name: &str| json["samples"][name].as_u64().unwrap_or_else(|| panic!("{name}"));
+    assert_eq!(count("all"), 1200);
+    assert_eq!(count("seen"), count("lit") + count("facing_away") + count("in_shadow"));
+    let ways = ["below_threshold", "lambertian", "by_moments", "by_table", "by_sums"].map(count);
+    assert_eq!(count("lit"), ways.iter().sum::<u64>());
+    assert_eq!(count("lit"), count("mirror_terms") + count("mirror_terms_skipped"));
+    assert!(count("by_table") > 0 && count("shadow_rays") > 0, "{}", json["samples"]);
+    assert_eq!(json["tables"]["built"], 2, "the camera's and, for the difference, the truth's");
+    for stage in ["mesh", "visibility", "geometry", "shading", "camera image", "picture", "difference"] {
+        assert!(json["stages"][stage]["own_ms"].as_f64().is_some_and(|ms| ms >= 0.0), "{stage}");
+        assert!(json["stages"][stage]["misses"].as_u64().is_some_and(|misses| misses >= 1), "{stage}");
+    }
+    let source = &json["sources"][0];
+    assert_eq!(source["name"], "Nikon D70");
+    assert_eq!(source["delta_e_2000"]["samples"], json["samples"]["lit"]);
+    let wavelengths = &source["wavelengths"];
+    assert_eq!((&wavelengths["of"], &wavelengths["in_a_table_place"]), (&Value::from(401), &Value::from(9)));
+    let accuracy = &json["accuracy"];
+    let error = |way: &str| accuracy[way]["error_to_peak"]["max"].as_f64().unwrap();
+    assert!(error("chosen") <= 1e-5 && error("exact") == 0.0 && error("regimes") > 1e-4, "{accuracy}");
+    assert_eq!(source["error_to_peak"]["max"].as_f64().unwrap(), error("chosen"));
+    let ratio = |way: &str| accuracy[way]["time_ratio"].as_f64().unwrap();
+    assert!(ratio("exact") == 1.0 && ratio("chosen") < 0.5 && ratio("regimes") > 0.0, "{accuracy}");
+    assert!(accuracy["samples"].as_u64().is_some_and(|samples| samples > 0 && samples <= 2000));
+}
+
+#[test]
+fn qualities_agree_and_readings_do_not() {
+    let folder = folder("qualities");
+    let small = ["--mesh", "sphere", "--triangles", "800", "--size", "16x12", "--format", "exr"];
+    let of = |arguments: &[&str]| {
+        rendered(&folder, &[&small[..], &D70, arguments].concat());
+        read_exr(&folder.join("sphere_nikon-d70.exr")).1["G"].clone()
+    };
+    let exact = of(&["--quality", "exact"]);
+    let peak = exact.iter().copied().fold(0.0, f32::max);
+    let distance = |other: &[f32]| exact.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max) / peak;
+    for (quality, bound) in [("preview", 1e-5), ("full", 1e-5), ("fine", 1e-6)] {
+        assert!(distance(&of(&["--quality", quality])) < bound, "{quality}");
+    }
+    for reading in ["paper", "microfacet", "lambertian"] {
+        assert!(distance(&of(&["--reading", reading])) > 0.01, "{reading}");
+    }
+    let coarse = of(&["--no-shadows", "--exposure", "2"]);
+    assert!(distance(&coarse) < 1e-6, "a sphere shadows nothing, and numbers are before exposure");
+}
+
+#[test]
+fn meshes_and_materials_come_from_files() {
+    let folder = folder("files");
+    std::fs::write(folder.join("My Square.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n").unwrap();
+    std::fs::write(folder.join("gray.csv"), "wavelength_nm,dark,light\n380,0.2,0.9\n780,0.2,0.9\n").unwrap();
+    let arguments = ["--mesh", "My Square.obj", "--material", "gray.csv", "--size", "24x24"];
+    let output = run(&folder, &[&arguments[..], &D70].concat());
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{message}");
+    assert!(message.contains("taking the first, dark") && message.contains("My Square.obj: "), "{message}");
+    assert_eq!(pictures_in(&folder), ["my-square_nikon-d70.png"]);
+    let behind = rendered(&folder, &[&arguments[..], &D70, &["--light=0,0,-1"]].concat());
+    assert!(behind.contains("nothing is lit"), "{behind}");
+}
+
+#[test]
+fn mistakes_are_named() {
+    let folder = folder("mistakes");
+    refused(&folder, &["--mesh", "haed"], 2, &["--mesh", "haed", "did you mean head", "OBJ"]);
+    refused(&folder, &["--mesh", "missing.obj"], 1, &["missing.obj is not in", "mistakes"]);
+    std::fs::write(folder.join("broken.obj"), "v 0 0 0\nv 1 0 x\n").unwrap();
+    refused(&folder, &["--mesh", "broken.obj"], 1, &["broken.obj, line 2", "decimal point"]);
+    refused(&folder, &["--material", "Vrhel"], 1, &["could be", "(Vrhel)"]);
+    refused(&folder, &["--material", "Lead 001"], 1, &["no material is named \"Lead 001\""]);
+    refused(&folder, &["--camera", "Nikn D70"], 1, &["did you mean", "Nikon D70"]);
+    refused(&folder, &["--sigma", "5"], 2, &["--sigma", "meters", "5e-6"]);
+    refused(&folder, &["--tau", "0"], 2, &["--tau", "10e-6"]);
+    refused(&folder, &["--patch", "1e-6"], 2, &["--patch", "2 wanted", "50e-6,50e-6"]);
+    refused(&folder, &["--patch", "2,2"], 2, &["--patch", "meters"]);
+    refused(&folder, &["--ior", "-1"], 2, &["--ior", "1.4"]);
+    refused(&folder, &["--light", "0,0,0"], 2, &["--light", "-0.4,0.5,1"]);
+    refused(&folder, &["--light", "1,nan,0"], 2, &["--light", "nan"]);
+    refused(&folder, &["--orbit", "0,0,0.01"], 2, &["--orbit", "0.05", "20,5,3.6"]);
+    refused(&folder, &["--orbit", "0,91,3"], 2, &["--orbit", "-90 to 90"]);
+    refused(&folder, &["--fov", "170"], 2, &["--fov", "150°"]);
+    refused(&folder, &["--size", "512"], 2, &["--size", "512x512"]);
+    refused(&folder, &["--size", "9000x9000"], 2, &["--size", "81 million", "at most 40 million"]);
+    refused(&folder, &["--exposure", "100"], 2, &["--exposure", "-64 to 64"]);
+    refused(&folder, &["--reading", "papre"], 2, &["'paper'"]);
+    refused(&folder, &["--quality", "best"], 2, &["--quality", "exact"]);
+    refused(&folder, &["--white", "daylight:warm"], 2, &["--white", "daylight:5500"]);
+    refused(&folder, &["--reference", "CIE 1964 10°"], 2, &["--transform observer"]);
+    refused(&folder, &["--observer", "CIE 2006 2° cone fundamentals"], 1, &["Eq 13", "--transform observer"]);
+    refused(&folder, &["--out", "broken.obj"], 2, &["--out", "broken.obj", "folder"]);
+}

@@ -1,0 +1,389 @@
+//! The Render workspace: what it shows, what it asks for, and what it does not.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use chromascope::action::{Action, CompareAction, RenderAction};
+use chromascope::app::ChromascopeApp;
+use chromascope::catalog::Kind;
+use chromascope::catalog::meshes::MeshState;
+use chromascope::command::Command;
+use chromascope::document::render::{BALANCE, MeshChoice, QualityChoice, ReadingChoice, RenderSettings, SUN};
+use chromascope::document::{Document, Light, WhiteChoice};
+use chromascope::panes;
+use chromascope::scene::Scene;
+use chromascope::thing::SourceId;
+use chromascope::view::View;
+use chromascope::view::render::{PixelPlace, RenderMode};
+use chromascope::workspaces::{PaneKind, Workspace};
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::screenshots::open;
+
+type Window = Harness<'static, ChromascopeApp>;
+
+/// Waits for the pictures and shows them.
+fn settle(window: &mut Window) {
+    for _ in 0..3 {
+        window.run_steps(2);
+        window.state().studio().wait();
+    }
+    window.run_steps(2);
+}
+
+fn render(window: &mut Window, change: impl FnOnce(&mut RenderSettings)) {
+    let mut to = window.state().history().document().render.clone();
+    change(&mut to);
+    window.state_mut().push(Action::Render(RenderAction::Set { what: "Test", to: Box::new(to) }));
+    window.run_steps(1);
+}
+
+/// The workspace with a coarse head, so that nobody waits.
+fn window(size: [f32; 2], theme: egui::Theme) -> Window {
+    let mut window = open(size, theme);
+    window.state_mut().view_mut().saved.workspace = Workspace::Render;
+    render(&mut window, |settings| settings.triangles = 4000);
+    settle(&mut window);
+    window
+}
+
+fn small() -> Window {
+    window([900.0, 600.0], egui::Theme::Dark)
+}
+
+/// How often a kind of question was computed.
+fn made(window: &Window, name: &str) -> u64 {
+    let counts = window.state().studio().counts();
+    counts.iter().find(|(counted, _)| *counted == name).map_or(0, |(_, count)| count.misses)
+}
+
+/// The captions of the pictures on show.
+fn captions(window: &Window) -> Vec<String> {
+    let labels = window.query_all_by(|node| node.value().is_some_and(|label| label.starts_with("Picture: ")));
+    labels.filter_map(|node| node.accesskit_node().value()).collect()
+}
+
+fn document(window: &Window) -> &Document {
+    window.state().history().document()
+}
+
+#[test]
+fn the_truth_and_three_cameras_stand_side_by_side() {
+    let window = small();
+    let captions = captions(&window);
+    assert_eq!(captions.len(), 4, "{captions:?}");
+    assert!(captions[0].starts_with("Picture: Truth"), "{captions:?}");
+    assert!(captions[1..].iter().all(|caption| caption.contains("mean ΔE")), "{captions:?}");
+    let shot = window.state().view().render.shot.clone().unwrap();
+    assert!(shot.is_last && shot.query.shading.geometry.visibility.size.samples == 3);
+    let pixels = &shot.made().unwrap().pictures[0].as_ref().unwrap().rgba;
+    assert!(pixels.chunks_exact(4).any(|pixel| pixel[0] > 200), "it is lit");
+}
+
+#[test]
+fn a_figure_sets_light_and_white_in_one_step() {
+    let mut window = small();
+    let before = document(&window).clone();
+    window.get_by_role_and_label(Role::Button, "Figure 9").click();
+    window.run_steps(2);
+    assert_eq!(document(&window).light, Light::Set(SUN.to_owned()));
+    assert_eq!(document(&window).white, WhiteChoice::Light(BALANCE.to_owned()));
+    assert_eq!(window.state().history().undo_name(), Some("Figure 9"));
+    window.state_mut().push(Command::Undo);
+    window.run_steps(2);
+    assert_eq!(*document(&window), before);
+}
+
+#[test]
+fn a_figure_keeps_the_reading() {
+    let mut window = small();
+    render(&mut window, |settings| settings.reading = ReadingChoice::Paper);
+    window.get_by_role_and_label(Role::Button, "Figure 8").click();
+    window.run_steps(2);
+    assert_eq!(document(&window).render.reading, ReadingChoice::Paper);
+    assert_eq!(document(&window).white, WhiteChoice::Light(BALANCE.to_owned()));
+}
+
+#[test]
+fn a_mesh_that_is_gone_is_said_in_place_of_pictures() {
+    let mut window = small();
+    render(&mut window, |settings| settings.mesh = MeshChoice::File("/nowhere/bust.obj".into()));
+    let start = Instant::now();
+    while matches!(window.state().meshes().get(Path::new("/nowhere/bust.obj")), MeshState::Loading) {
+        assert!(start.elapsed() < Duration::from_secs(30));
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    window.run_steps(2);
+    assert!(captions(&window).is_empty());
+    assert!(window.state().view().render.shot.is_none() && window.state().studio().busy().is_none());
+}
+
+#[test]
+fn dragging_orbits_and_changes_nothing_else() {
+    let mut window = small();
+    let before = document(&window).clone();
+    let step = window.state().history().undo_name().map(str::to_owned);
+    let [from, to] = [egui::pos2(150.0, 250.0), egui::pos2(200.0, 250.0)];
+    window.hover_at(from);
+    window.drag_at(from);
+    window.run_steps(2);
+    window.hover_at(to);
+    window.run_steps(2);
+    window.drop_at(to);
+    settle(&mut window);
+    let orbit = window.state().view().saved.render.orbit.expect("it was turned");
+    assert!((orbit.yaw_deg - 0.0).abs() < 4.1 && orbit.pitch_deg == 5.0, "{orbit:?}");
+    assert_eq!(*document(&window), before);
+    assert_eq!(window.state().history().undo_name().map(str::to_owned), step);
+    assert!(window.state().view().render.pinned.is_none(), "a drag is no click");
+    window.key_press(egui::Key::Home);
+    window.run_steps(2);
+    assert!(window.state().view().saved.render.orbit.is_none());
+}
+
+#[test]
+fn exposure_asks_for_no_signals() {
+    let mut window = small();
+    let (images, pictures) = (made(&window, "camera image"), made(&window, "picture"));
+    render(&mut window, |settings| settings.exposure_ev = 1.0);
+    settle(&mut window);
+    assert_eq!(made(&window, "camera image"), images);
+    assert_eq!(made(&window, "picture"), pictures + 4, "the finest ones alone");
+}
+
+#[test]
+fn the_lights_place_leaves_what_is_seen_alone() {
+    let mut window = small();
+    let (seen, angles) = (made(&window, "visibility"), made(&window, "geometry"));
+    render(&mut window, |settings| settings.light_up_deg = 40.0);
+    settle(&mut window);
+    assert_eq!(made(&window, "visibility"), seen);
+    assert!(made(&window, "geometry") > angles);
+}
+
+#[test]
+fn a_hidden_camera_is_not_computed() {
+    let mut window = small();
+    let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70".to_owned(), false);
+    window.state_mut().push(Action::Compare(hide));
+    settle(&mut window);
+    assert_eq!(captions(&window).len(), 3);
+    // A change that asks for the finest pictures alone, so that none is begun and given up on the way.
+    let pictures = made(&window, "picture");
+    render(&mut window, |settings| settings.exposure_ev = 0.5);
+    settle(&mut window);
+    assert_eq!(made(&window, "picture"), pictures + 3);
+    let shot = window.state().view().render.shot.clone().unwrap();
+    assert!(shot.sources.iter().all(|source| source.name != "Nikon D70"));
+    assert_eq!(shot.query.sources.len(), 3);
+}
+
+#[test]
+fn a_hidden_workspace_asks_nothing() {
+    let mut window = small();
+    window.state_mut().push(Command::Show(Workspace::Compare));
+    settle(&mut window);
+    let counts = window.state().studio().counts();
+    render(&mut window, |settings| settings.sigma_um = 3.0);
+    settle(&mut window);
+    assert_eq!(window.state().studio().counts(), counts);
+    assert!(window.state().studio().busy().is_none());
+}
+
+#[test]
+fn nothing_moves_when_nothing_changes() {
+    let mut window = small();
+    let serial = window.state().view().render.shot.as_ref().unwrap().serial;
+    let counts = window.state().studio().counts();
+    window.run_steps(4);
+    assert!(!window.ctx.has_requested_repaint());
+    assert_eq!(window.state().studio().counts(), counts);
+    assert_eq!(window.state().view().render.shot.as_ref().unwrap().serial, serial);
+}
+
+#[test]
+fn a_narrow_window_keeps_the_scene_pane() {
+    let mut window = small();
+    assert!(window.query_by_role_and_label(Role::Button, "Close Scene").is_some());
+    let search = |window: &Window| window.query_by_role_and_label(Role::TextInput, "Search the library").is_some();
+    assert!(!search(&window));
+    window.key_press(egui::Key::L);
+    window.run_steps(2);
+    assert!(search(&window), "it lies over the pictures");
+    assert!(window.query_by_role_and_label(Role::Button, "Close Scene").is_some());
+    window.key_press(egui::Key::Escape);
+    window.run_steps(2);
+    assert!(!search(&window));
+}
+
+#[test]
+fn a_double_click_shows_one_picture_and_all_again() {
+    let mut window = small();
+    let click = |window: &mut Window, at: egui::Pos2| {
+        window.drag_at(at);
+        window.drop_at(at);
+    };
+    // A step here takes a quarter of a second.
+    window.ctx.options_mut(|options| options.input_options.max_double_click_delay = 5.0);
+    let at = egui::pos2(420.0, 190.0);
+    window.hover_at(at);
+    window.run_steps(1);
+    click(&mut window, at);
+    click(&mut window, at);
+    window.run_steps(3);
+    assert_eq!(window.state().view().saved.render.mode, RenderMode::One);
+    let chosen = window.state().view().render.chosen.clone().expect("the picture's source");
+    assert_eq!(chosen.kind, Kind::Camera);
+    window.key_press(egui::Key::Escape);
+    window.run_steps(2);
+    assert_eq!(window.state().view().saved.render.mode, RenderMode::Grid);
+    window.key_press(egui::Key::D);
+    window.run_steps(2);
+    assert_eq!(window.state().view().saved.render.mode, RenderMode::Difference);
+}
+
+#[test]
+fn the_divider_moves_by_drag_and_by_keys() {
+    let mut window = small();
+    window.state_mut().view_mut().saved.render.mode = RenderMode::Split;
+    settle(&mut window);
+    let divider = "Divider between truth and source";
+    let start = window.get_by_role_and_label(Role::Slider, divider).rect().center();
+    window.hover_at(start);
+    window.drag_at(start);
+    window.run_steps(2);
+    window.hover_at(start + egui::vec2(60.0, 0.0));
+    window.run_steps(2);
+    window.drop_at(start + egui::vec2(60.0, 0.0));
+    window.run_steps(2);
+    let dragged = window.state().view().saved.render.split;
+    assert!(dragged > 0.55, "{dragged}");
+    assert!(window.state().view().saved.render.orbit.is_none(), "the mesh stays");
+    window.get_by_role_and_label(Role::Slider, divider).focus();
+    window.run_steps(2);
+    window.key_press(egui::Key::ArrowLeft);
+    window.run_steps(2);
+    assert!((window.state().view().saved.render.split - (dragged - 0.02)).abs() < 1e-5);
+}
+
+#[test]
+fn a_material_is_found_by_typing() {
+    let mut window = small();
+    window.get_by_label_contains("Material: ").click();
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::TextInput, "Search materials").focus();
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::TextInput, "Search materials").type_text("grass");
+    window.run_steps(2);
+    window.get_by_label("Grass 025 (Vrhel)").click();
+    window.run_steps(3);
+    assert_eq!(document(&window).render.material, "Grass 025 (Vrhel)");
+    assert!(window.query_by_label("Search materials").is_none(), "the list is closed");
+}
+
+#[test]
+fn escape_closes_a_list_before_anything_else() {
+    let mut window = small();
+    window.state_mut().view_mut().saved.render.mode = RenderMode::One;
+    window.get_by_label_contains("Mesh: ").click();
+    window.run_steps(2);
+    assert!(window.query_by_label("Plane").is_some());
+    window.key_press(egui::Key::Escape);
+    window.run_steps(3);
+    assert!(window.query_by_label("Plane").is_none());
+    assert_eq!(window.state().view().saved.render.mode, RenderMode::One);
+}
+
+#[test]
+fn a_click_keeps_a_pixel_and_escape_lets_go() {
+    let mut window = small();
+    // On the forehead in the second picture.
+    let at = egui::pos2(420.0, 190.0);
+    window.hover_at(at);
+    window.run_steps(2);
+    let point = window.state().view().point.clone().expect("the pointer reads");
+    assert!(point.contains("pixel") && point.contains("ΔE*00"), "{point}");
+    window.drag_at(at);
+    window.drop_at(at);
+    settle(&mut window);
+    let pinned = window.state().view().render.pinned.clone().expect("it is kept");
+    assert_eq!(pinned.source.kind, Kind::Camera);
+    assert!(window.query_by(|node| node.value().is_some_and(|text| text.starts_with("Pixel "))).is_some());
+    assert!(window.query_by(|node| node.value().is_some_and(|text| text.contains("closed form"))).is_some());
+    window.key_press(egui::Key::Escape);
+    window.run_steps(2);
+    assert!(window.state().view().render.pinned.is_none());
+}
+
+#[test]
+fn every_way_to_stand_makes_its_pictures() {
+    let mut window = small();
+    for (mode, pictures) in [(RenderMode::Split, 2), (RenderMode::One, 2), (RenderMode::Difference, 4)] {
+        window.state_mut().view_mut().saved.render.mode = mode;
+        settle(&mut window);
+        let shot = window.state().view().render.shot.clone().unwrap();
+        assert_eq!(shot.sources.len(), pictures, "{mode:?}");
+        let differences = shot.made().unwrap().differences.iter().flatten();
+        assert!(mode != RenderMode::Difference || differences.into_iter().all(|difference| difference.stride == 1));
+    }
+    window.key_press(egui::Key::Escape);
+    window.run_steps(2);
+    assert_eq!(window.state().view().saved.render.mode, RenderMode::Grid);
+}
+
+#[test]
+fn the_pictures_are_a_figure_with_numbers() {
+    let window = small();
+    let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
+    let scene = Scene { document: document(&window), catalog: &catalog, results: &results };
+    let figure = panes::figure(PaneKind::Render, &scene, window.state().view()).expect("there are pictures");
+    assert_eq!(figure.table.rows.len(), 4);
+    let svg =
+        chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, chromascope::export::Paper::default());
+    assert_eq!(svg.matches("data:image/png").count(), 4);
+    assert!(!figure.table.to_csv().contains("NaN") && !figure.caption.contains("NaN"));
+}
+
+#[test]
+fn escape_stops_what_takes_long_and_keeps_what_was_made() {
+    let mut window = window([1280.0, 800.0], egui::Theme::Dark);
+    // So smooth that no closed form holds, and each sample sums series at all wavelengths.
+    render(&mut window, |settings| (settings.quality, settings.sigma_um) = (QualityChoice::Exact, 0.3));
+    window.run_steps(2);
+    let start = Instant::now();
+    let coarse = |window: &Window| window.state().view().render.shot.as_ref().is_some_and(|shot| !shot.is_last);
+    while !(window.state().view().render.is_waiting() && coarse(&window)) {
+        assert!(start.elapsed() < Duration::from_secs(30), "exact sums take longer than that");
+        std::thread::sleep(Duration::from_millis(10));
+        window.run_steps(1);
+    }
+    let before = window.state().view().render.shot.clone().unwrap();
+    assert!(!before.is_last);
+    window.key_press(egui::Key::Escape);
+    window.run_steps(3);
+    assert!(window.state().studio().busy().is_none());
+    let after = window.state().view().render.shot.clone().unwrap();
+    assert_eq!(after.serial, before.serial);
+    assert_eq!(captions(&window).len(), 4);
+    assert_eq!(window.state().history().undo_name(), Some("Test"), "the choice stays");
+}
+
+#[test]
+fn a_pixel_is_marked_in_the_diagram_beside_the_pictures() {
+    let mut window = window([1280.0, 800.0], egui::Theme::Light);
+    window.state_mut().view_mut().saved.layout.render[1] = Some(PaneKind::Chromaticity);
+    settle(&mut window);
+    let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
+    let document = document(&window).clone();
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let diamonds = |view: &View| {
+        let built = chromascope::figures::chromaticity::build(&scene, view, [600.0, 400.0]);
+        built.panel.marks.iter().filter(|mark| mark.name.ends_with(", pixel")).count()
+    };
+    assert_eq!(diamonds(window.state().view()), 0);
+    let source = SourceId { kind: Kind::Camera, name: "Nikon D70".to_owned() };
+    window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [0.45, 0.3], source });
+    assert_eq!(diamonds(window.state().view()), 4, "one for each source");
+}
