@@ -85,6 +85,11 @@ pub struct GeometryImage {
 }
 
 impl Angles {
+    /// `cos θi cos⁴α`: what Eq 12 has beside the reflectance factor.
+    pub fn light(&self) -> f64 {
+        f64::from(self.falloff) * f64::from(self.cos_i)
+    }
+
     /// The same in the reflectance model's terms.
     pub fn geometry(&self) -> Geometry {
         let (cos_i, cos_s) = (f64::from(self.cos_i), f64::from(self.cos_s));

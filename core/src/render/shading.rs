@@ -60,6 +60,10 @@ pub struct Shade {
     pub way: Way,
 }
 
+impl Shade {
+    const DARK: Self = Self { front: 0.0, kappa: 0.0, beta: 0.0, position: [0.0; 2], way: Way::Dark };
+}
+
 /// A sample with a mirror term worth having.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mirror {
@@ -113,23 +117,18 @@ impl ShadingImage {
         stop: &Stop,
     ) -> Option<Self> {
         let material = Material::new(surface, reading, quality, geometry.angular_radius());
-        let part = |(chunk, angles): (usize, &[Angles])| {
-            if stop.is_set() {
-                return Part::default();
-            }
-            material.part(angles, chunk * GeometryImage::chunk())
+        let chunk = GeometryImage::chunk();
+        let shade = |angles: &Angles| if stop.is_set() { Shade::DARK } else { material.shade(angles) };
+        let shades: Vec<Shade> = geometry.angles().par_iter().with_min_len(chunk).map(shade).collect();
+        let mirrors = |(run, angles): (usize, &[Angles])| {
+            if stop.is_set() { Vec::new() } else { material.mirrors(run * chunk, angles) }
         };
-        let parts: Vec<Part> = geometry.angles().par_chunks(GeometryImage::chunk()).enumerate().map(part).collect();
+        let mirrors: Vec<Vec<Mirror>> = geometry.angles().par_chunks(chunk).enumerate().map(mirrors).collect();
         if stop.is_set() {
             return None;
         }
-        let mut shades = Vec::with_capacity(geometry.angles().len());
-        let mut mirrors = Vec::new();
-        for part in parts {
-            shades.extend(part.shades);
-            mirrors.extend(part.mirrors);
-        }
-        let counts = counts(&shades, &mirrors);
+        let mirrors = mirrors.concat();
+        let counts = counts(&shades, mirrors.len());
         Some(Self { geometry, surface, quality, shades, mirrors, counts })
     }
 
@@ -175,25 +174,30 @@ fn is_dark(kappa: f64, beta: f64) -> bool {
     ln_diffuse_sum(g, beta * g, Precision::Coarse) < ln_diffuse_sum(g, 0.0, Precision::Coarse) - DARK
 }
 
-fn counts(shades: &[Shade], mirrors: &[Mirror]) -> ShadingCounts {
-    let mut counts = ShadingCounts { mirrors: mirrors.len() as u64, ..ShadingCounts::default() };
-    for shade in shades {
-        match shade.way {
-            Way::Dark => counts.dark += 1,
-            Way::Flat => counts.flat += 1,
-            Way::Moments => counts.moments += 1,
-            Way::Table => counts.table += 1,
-            Way::Sum => counts.sums += 1,
+fn counts(shades: &[Shade], mirrors: usize) -> ShadingCounts {
+    let of_run = |shades: &[Shade]| {
+        let mut counts = ShadingCounts::default();
+        for shade in shades {
+            *match shade.way {
+                Way::Dark => &mut counts.dark,
+                Way::Flat => &mut counts.flat,
+                Way::Moments => &mut counts.moments,
+                Way::Table => &mut counts.table,
+                Way::Sum => &mut counts.sums,
+            } += 1;
         }
-    }
-    counts.mirrors_skipped = shades.len() as u64 - counts.mirrors;
-    counts
-}
-
-#[derive(Default)]
-struct Part {
-    shades: Vec<Shade>,
-    mirrors: Vec<Mirror>,
+        counts
+    };
+    let all =
+        shades.par_chunks(GeometryImage::chunk()).map(of_run).reduce(ShadingCounts::default, |a, b| ShadingCounts {
+            dark: a.dark + b.dark,
+            flat: a.flat + b.flat,
+            moments: a.moments + b.moments,
+            table: a.table + b.table,
+            sums: a.sums + b.sums,
+            ..a
+        });
+    ShadingCounts { mirrors: mirrors as u64, mirrors_skipped: (shades.len() - mirrors) as u64, ..all }
 }
 
 /// One surface in one reading.
@@ -218,20 +222,13 @@ impl Material {
         Self { surface, reading, quality, angular_radius, threshold: facing * MIRROR_SHARE }
     }
 
-    fn part(&self, angles: &[Angles], first: usize) -> Part {
-        let mut part = Part { shades: Vec::with_capacity(angles.len()), mirrors: Vec::new() };
-        for (offset, angles) in angles.iter().enumerate() {
-            let geometry = angles.geometry();
-            let light = f64::from(angles.falloff) * f64::from(angles.cos_i);
-            part.shades.push(self.shade(&geometry, light));
-            if let Some(mirror) = self.mirror(&geometry, light, first + offset) {
-                part.mirrors.push(mirror);
-            }
-        }
-        part
+    fn mirrors(&self, first: usize, angles: &[Angles]) -> Vec<Mirror> {
+        let all = angles.iter().enumerate();
+        all.filter_map(|(offset, angles)| self.mirror(&angles.geometry(), angles.light(), first + offset)).collect()
     }
 
-    fn shade(&self, geometry: &Geometry, light: f64) -> Shade {
+    fn shade(&self, angles: &Angles) -> Shade {
+        let (geometry, light) = (&angles.geometry(), angles.light());
         if self.reading == Reading::Lambertian {
             return Shade { front: light, kappa: 0.0, beta: 0.0, position: [0.0; 2], way: Way::Flat };
         }

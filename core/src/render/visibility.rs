@@ -102,21 +102,22 @@ impl Visibility {
         let rays = Rays::new(size, &eye);
         let corner = |p: &glam::Vec3| Corner::new(eye.view_from_world(p.as_dvec3()), &rays);
         let corners: Vec<Corner> = mesh.positions().par_iter().with_min_len(4096).map(corner).collect();
-        let bins = Bins::new(mesh.triangles(), &corners, size);
+        let bins = |(run, triangles): (usize, &[[u32; 3]])| Bins::new(run * RUN, triangles, &corners, size);
+        let bins: Vec<Bins> = mesh.triangles().par_chunks(RUN).enumerate().map(bins).collect();
         let mut hits = vec![Hit::NOTHING; size.columns() * size.rows()];
         let [across, _] = size.tiles();
-        let scene = Scene { triangles: mesh.triangles(), corners: &corners, extents: &bins.extents, rays: &rays };
+        let scene = Scene { triangles: mesh.triangles(), corners: &corners, bins: &bins, rays: &rays };
         // A band of tiles is a run of rows, so each is written by one thread alone.
         hits.par_chunks_mut(TILE * size.columns()).enumerate().for_each(|(band, rows)| {
-            let mut tile = Tile::default();
+            let mut square = Tile::default();
             for column in 0..across {
                 if stop.is_set() {
                     return;
                 }
-                let ids = bins.of(band * across + column);
-                if !ids.is_empty() {
-                    tile.draw(ids, &scene, [column * TILE, band * TILE]);
-                    tile.store(rows, column * TILE, size.columns());
+                let tile = band * across + column;
+                if bins.iter().any(|bins| !bins.is_empty(tile)) {
+                    square.draw(tile, &scene, [column * TILE, band * TILE]);
+                    square.store(rows, column * TILE, size.columns());
                 }
             }
         });
@@ -233,18 +234,24 @@ fn span(from: f64, to: f64, count: usize) -> [u16; 2] {
     [first.min(count) as u16, end.min(count) as u16]
 }
 
-/// The triangles that each tile may show, in ascending order.
+/// Triangles that one task sorts into tiles.
+const RUN: usize = 8192;
+
+/// The triangles of one run that each tile may show, in ascending order.
 struct Bins {
+    /// The run's first triangle.
+    first: u32,
     extents: Vec<Extent>,
     starts: Vec<u32>,
     ids: Vec<u32>,
 }
 
 impl Bins {
-    fn new(triangles: &[[u32; 3]], corners: &[Corner], size: RasterSize) -> Self {
+    /// Sorts a run of triangles into tiles.
+    fn new(first: usize, triangles: &[[u32; 3]], corners: &[Corner], size: RasterSize) -> Self {
         let [across, down] = size.tiles();
         let extent = |triangle: &[u32; 3]| Extent::new(triangle.map(|i| &corners[i as usize]), size);
-        let extents: Vec<Extent> = triangles.par_iter().with_min_len(4096).map(extent).collect();
+        let extents: Vec<Extent> = triangles.iter().map(extent).collect();
         let mut starts = vec![0_u32; across * down + 1];
         for extent in &extents {
             extent.tiles(across).for_each(|tile| starts[tile + 1] += 1);
@@ -260,11 +267,17 @@ impl Bins {
                 next[tile] += 1;
             }
         }
-        Self { extents, starts, ids }
+        Self { first: first as u32, extents, starts, ids }
     }
 
-    fn of(&self, tile: usize) -> &[u32] {
-        &self.ids[self.starts[tile] as usize..self.starts[tile + 1] as usize]
+    /// The run's triangles in a tile, with the samples they may cover.
+    fn of(&self, tile: usize) -> impl Iterator<Item = (u32, Extent)> {
+        let ids = &self.ids[self.starts[tile] as usize..self.starts[tile + 1] as usize];
+        ids.iter().map(|&id| (self.first + id, self.extents[id as usize]))
+    }
+
+    fn is_empty(&self, tile: usize) -> bool {
+        self.starts[tile] == self.starts[tile + 1]
     }
 }
 
@@ -272,7 +285,7 @@ impl Bins {
 struct Scene<'a> {
     triangles: &'a [[u32; 3]],
     corners: &'a [Corner],
-    extents: &'a [Extent],
+    bins: &'a [Bins],
     rays: &'a Rays,
 }
 
@@ -290,11 +303,11 @@ impl Default for Tile {
 
 impl Tile {
     /// Draws what a tile may show; its left and top samples are given.
-    fn draw(&mut self, ids: &[u32], scene: &Scene<'_>, [left, top]: [usize; 2]) {
+    fn draw(&mut self, tile: usize, scene: &Scene<'_>, [left, top]: [usize; 2]) {
         *self = Self::default();
-        for &id in ids {
+        for (id, extent) in scene.bins.iter().flat_map(|bins| bins.of(tile)) {
             let corners = scene.triangles[id as usize].map(|i| scene.corners[i as usize].place);
-            let [from, to, above, below] = scene.extents[id as usize].0.map(usize::from);
+            let [from, to, above, below] = extent.0.map(usize::from);
             let across = from.max(left) - left..to.min(left + TILE) - left;
             let down = above.max(top) - top..below.min(top + TILE) - top;
             self.triangle(id, corners, scene.rays, [left, top], [across, down]);
