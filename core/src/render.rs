@@ -18,6 +18,7 @@ pub mod mirror;
 pub mod shading;
 pub mod shadow;
 pub mod signals;
+pub mod vertices;
 pub mod visibility;
 
 pub use develop::{Development, Measurement, Picture, develop};
@@ -27,6 +28,7 @@ pub use measure::{LAMBDA_0_NM, Measure};
 pub use shading::{Quality, ShadingCounts, ShadingImage};
 pub use shadow::ShadowTree;
 pub use signals::CameraImage;
+pub use vertices::VertexImage;
 pub use visibility::{RasterSize, Visibility};
 
 use std::sync::Arc;

@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
+use chromascope_core::query::render::Roughness;
 use chromascope_core::reflectance::{Reading, Surface, SurfaceError};
 use chromascope_core::render::Quality;
 use chromascope_core::scene::lighting::{Lighting, LightingError, SUN_RADIUS};
@@ -32,6 +33,8 @@ pub struct RenderSettings {
     pub material: String,
     /// Height deviation σ in micrometers.
     pub sigma_um: f64,
+    /// Where σ is from.
+    pub roughness: RoughnessChoice,
     /// Correlation length τ in micrometers.
     pub tau_um: f64,
     /// Half sides X and Y of a patch in micrometers.
@@ -64,6 +67,7 @@ impl Default for RenderSettings {
             triangles: 100_000,
             material: SKIN.to_owned(),
             sigma_um: 5.0,
+            roughness: RoughnessChoice::Surface,
             tau_um: 10.0,
             half_sides_um: [50.0, 50.0],
             index: 1.40,
@@ -132,6 +136,33 @@ pub enum MeshChoice {
     Plane,
     /// A file of the user's.
     File(PathBuf),
+}
+
+/// Where the height deviation is from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RoughnessChoice {
+    /// The number that is set.
+    #[default]
+    Surface,
+    /// The heights of each vertex's neighbors about its tangent plane, as in the paper.
+    Mesh,
+}
+
+impl RoughnessChoice {
+    /// Why one would not choose the mesh.
+    pub const WHY_NOT: &'static str = "The paper's way: σ at each vertex from the heights of its neighbors about the \
+        tangent plane, P at the vertices, interpolated. These are heights of the mesh, not of the skin: on a head of some \
+        thousand triangles about a tenth of a millimeter and more, which makes g some tens of millions and the picture almost \
+        black; with more triangles σ shrinks.";
+
+    /// The core's.
+    pub const fn roughness(self) -> Roughness {
+        match self {
+            Self::Surface => Roughness::Surface,
+            Self::Mesh => Roughness::Mesh,
+        }
+    }
 }
 
 /// How Eq 1 is read.

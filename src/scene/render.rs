@@ -73,6 +73,7 @@ impl Scene<'_> {
         let shading = ShadingOf {
             geometry,
             surface: settings.surface()?,
+            roughness: settings.roughness.roughness(),
             reading: settings.reading.reading(),
             quality: finish.quality,
         };

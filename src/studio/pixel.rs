@@ -3,6 +3,7 @@
 use chromascope_core::colorimetry::difference::delta_e_2000;
 use chromascope_core::colorimetry::{Lab, Xy};
 use chromascope_core::query::Ask as _;
+use chromascope_core::query::render::Roughness;
 use chromascope_core::reflectance::{Reading, Regime, beta, kappa};
 use chromascope_core::render::diffuse::{DARK, DiffuseTable, ROUGH};
 use chromascope_core::render::{CameraImage, Development, Measurement, Quality};
@@ -136,7 +137,8 @@ fn samples(image: &CameraImage, [x, y]: [usize; 2]) -> Samples {
 /// g at 550 nm with the way that its spectral integral was made.
 fn roughness(shot: &Shot, image: &CameraImage, middle: usize) -> Option<(f64, &'static str)> {
     let shading = &shot.query.shading;
-    if shading.reading == Reading::Lambertian {
+    // Between vertices of different roughness there is no one g.
+    if shading.reading == Reading::Lambertian || shading.roughness == Roughness::Mesh {
         return None;
     }
     let geometry = image.geometry().angles().get(middle)?.geometry();

@@ -314,3 +314,36 @@ fn mistakes_are_named() {
     refused(&folder, &["--observer", "CIE 2006 2° cone fundamentals"], 1, &["Eq 13", "--transform observer"]);
     refused(&folder, &["--out", "broken.obj"], 2, &["--out", "broken.obj", "folder"]);
 }
+
+#[test]
+fn the_meshs_own_roughness_is_darker_and_has_no_one_error() {
+    let folder = folder("from_mesh");
+    let by = |more: &[&str]| {
+        let name = if more.is_empty() { "given.json" } else { "mesh.json" };
+        let head = ["--mesh", "head", "--triangles", "3000", "--size", "32x32", "--stats", name];
+        rendered(&folder, &[&head[..], &D70, more].concat());
+        serde_json::from_slice::<Value>(&std::fs::read(folder.join(name)).unwrap()).unwrap()
+    };
+    let (given, mesh) = (by(&[]), by(&["--sigma-from-mesh"]));
+    let peak = |stats: &Value| stats["sources"][0]["peak_signal"].as_f64().unwrap();
+    assert!(peak(&mesh) < 0.1 * peak(&given), "{} and {}", peak(&mesh), peak(&given));
+    assert!(given["accuracy"].is_object() && mesh["accuracy"].is_null());
+}
+
+/// Small pictures kept beside the tests: what head and fern look like through the truth and a camera, in all readings that
+/// differ to the eye. `UPDATE_SCREENSHOTS=1 cargo test` writes them.
+#[test]
+fn head_and_fern_look_as_they_did() {
+    let folder = folder("kept");
+    for mesh in ["head", "fern"] {
+        for reading in ["radiometric", "paper"] {
+            let what = ["--mesh", mesh, "--reading", reading, "--triangles", "20000", "--size", "96x96"];
+            rendered(&folder, &[&what[..], &["--samples", "2", "--camera", "Nikon D70"]].concat());
+            let picture = pictures_in(&folder).into_iter().find(|name| name.starts_with(mesh)).unwrap();
+            let now = image::open(folder.join(&picture)).unwrap().to_rgba8();
+            let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/app/pictures");
+            let kept = kept.join(format!("{mesh}_{reading}.png"));
+            crate::cpu_renderer::compare(&now, &kept).unwrap_or_else(|difference| panic!("{difference}"));
+        }
+    }
+}

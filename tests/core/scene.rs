@@ -1,1 +1,81 @@
-//! The tests of scene.
+//! Meshes, eyes and lights.
+
+use chromascope_core::scene::roughness::vertex_deviations;
+use chromascope_core::scene::{Lighting, Mesh, MeshError, Viewpoint, head, shapes};
+use glam::{DVec3, Vec3};
+
+/// The middle value.
+fn median(mut values: Vec<f32>) -> f32 {
+    values.sort_by(f32::total_cmp);
+    values[values.len() / 2]
+}
+
+#[test]
+fn a_sphere_is_as_uneven_as_its_edges_are_long() {
+    let mesh = shapes::sphere(20_000);
+    // A neighbor at distance d lies d²/2r below the tangent plane.
+    let (r, deviations) = (0.1, vertex_deviations(&mesh));
+    let longest = mesh.triangles().iter().flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]);
+    let longest = longest.map(|(a, b)| mesh.positions()[a as usize].distance(mesh.positions()[b as usize]));
+    let longest = longest.fold(0.0, f32::max);
+    assert!(deviations.iter().all(|&sigma| sigma > 0.0 && sigma <= longest * longest / (2.0 * r) * 1.001));
+    assert!(vertex_deviations(&shapes::plane(100)).iter().all(|&sigma| sigma == 0.0));
+}
+
+#[test]
+fn a_head_is_ten_thousand_times_too_uneven_to_scatter_light() {
+    // The paper's head had some thousand triangles.
+    let coarse = median(vertex_deviations(&head::head(9_000)));
+    assert!((5e-5..1e-3).contains(&coarse), "{coarse} m");
+    let fine = median(vertex_deviations(&head::head(100_000)));
+    assert!(fine < coarse / 4.0, "{fine} m: it says more of the triangles than of the skin");
+}
+
+#[test]
+fn smooth_normals_of_a_ball_point_outward() {
+    let ball = shapes::sphere(2_000);
+    let mesh = Mesh::with_smooth_normals(ball.positions().to_vec(), ball.triangles().to_vec()).unwrap();
+    for (normal, expected) in mesh.normals().iter().zip(ball.normals()) {
+        assert!(normal.dot(*expected) > 0.999);
+    }
+    assert!((mesh.bounds().radius - 0.1).abs() < 1e-6 && mesh.bounds().center().length() < 1e-6);
+}
+
+#[test]
+fn what_is_no_mesh_is_refused() {
+    let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+    let made = |positions: Vec<Vec3>, triangle| Mesh::with_smooth_normals(positions, vec![triangle]);
+    assert!(matches!(made(corners.clone(), [0, 1, 3]), Err(MeshError::Vertex { .. })));
+    assert!(matches!(made(vec![Vec3::ZERO, Vec3::X, Vec3::NAN], [0, 1, 2]), Err(MeshError::NotFinite { vertex: 2 })));
+    assert!(Mesh::with_smooth_normals(corners, Vec::new()).is_err());
+    assert!(Mesh::new(vec![Vec3::ZERO; 3], vec![Vec3::X; 2], vec![[0, 1, 2]]).is_err());
+}
+
+#[test]
+fn an_orbit_looks_at_the_middle_from_where_it_says() {
+    let bounds = shapes::sphere(2_000).bounds();
+    for (yaw, pitch, expected) in [(0.0, 0.0, DVec3::Z), (90.0, 0.0, DVec3::X), (0.0, 90.0, DVec3::Y)] {
+        let eye = Viewpoint::new(f64::to_radians(yaw), f64::to_radians(pitch), 4.0, 0.5).unwrap().eye(bounds);
+        assert!((eye.position / 0.4).distance(expected) < 1e-5, "{yaw}, {pitch}: {}", eye.position);
+        let seen = eye.view_from_world(bounds.center().as_dvec3());
+        assert!(seen.x.abs() < 1e-9 && seen.y.abs() < 1e-9 && (seen.z - 0.4).abs() < 1e-5);
+    }
+    assert!(Viewpoint::new(0.0, 0.0, 0.0, 0.5).is_err() && Viewpoint::new(0.0, f64::NAN, 3.0, 0.5).is_err());
+    assert!((Viewpoint::new(7.0, 9.0, 3.0, 0.5).unwrap().pitch() - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+}
+
+#[test]
+fn a_light_moves_with_the_eye() {
+    let bounds = shapes::sphere(2_000).bounds();
+    let eye = Viewpoint::new(1.0, 0.3, 4.0, 0.5).unwrap().eye(bounds);
+    // Up and to the left of the view axis, towards the eye.
+    let (up, right) = (25_f64.to_radians(), (-25_f64).to_radians());
+    let light = Lighting::from_angles(up, right, 0.0).unwrap();
+    let (direction, distance) = light.before(&eye).seen_from(DVec3::ZERO).unwrap();
+    let view = eye.world_from_view.transpose() * direction;
+    assert!(distance.is_infinite() && view.x < 0.0 && view.y > 0.0 && view.z > 0.0);
+    assert!((view.y - up.sin()).abs() < 1e-12, "{view}");
+    let near = Lighting::near(DVec3::new(0.0, 0.0, 2.0), 0.01).unwrap().before(&eye);
+    let (_, distance) = near.seen_from(DVec3::ZERO).unwrap();
+    assert!((distance - 0.2).abs() < 1e-6, "{distance}");
+}

@@ -4,7 +4,7 @@ use crate::asker::Remembering;
 use crate::library::{patches, sensor, text};
 use chromascope_core::camera::White;
 use chromascope_core::query::render::{
-    CameraImageOf, GeometryOf, MeshOf, PicturesOf, ShadingOf, SourceOf, VisibilityOf,
+    CameraImageOf, GeometryOf, MeshOf, PicturesOf, Roughness, ShadingOf, SourceOf, VisibilityOf,
 };
 use chromascope_core::query::{Ask, RenderingOf, Shared, WayOf};
 use chromascope_core::reflectance::{Reading, Surface};
@@ -80,7 +80,13 @@ impl Studio {
     }
 
     pub(crate) fn shading(&self) -> ShadingOf {
-        ShadingOf { geometry: self.geometry(), surface: self.surface(), reading: self.reading, quality: self.quality }
+        ShadingOf {
+            geometry: self.geometry(),
+            surface: self.surface(),
+            roughness: Roughness::Surface,
+            reading: self.reading,
+            quality: self.quality,
+        }
     }
 
     pub(crate) fn pictures(&self) -> PicturesOf {

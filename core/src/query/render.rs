@@ -12,9 +12,9 @@ use crate::camera::{NoRendering, rendering::white_divisors};
 use crate::reflectance::{Reading, Surface, wavelength_power};
 use crate::render::{
     CameraImage, DiffuseTable, GeometryImage, Measure, Quality, RasterSize, ShadingImage, ShadowTree, Shadows,
-    Visibility,
+    VertexImage, Visibility,
 };
-use crate::scene::{Lighting, Mesh, Viewpoint, fern, head, shapes};
+use crate::scene::{Lighting, Mesh, Viewpoint, fern, head, roughness::vertex_deviations, shapes};
 use crate::spectral::{GridSpectrum, Sensor};
 use std::sync::Arc;
 
@@ -111,13 +111,39 @@ impl Query for GeometryOf {
     }
 }
 
+/// How uneven is a mesh at each of its vertices? In meters.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct DeviationsOf(pub MeshOf);
+
+impl Query for DeviationsOf {
+    type Answer = Vec<f32>;
+    const NAME: &'static str = "deviations";
+    const KEPT: usize = 3;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        vertex_deviations(&ask.ask(&self.0))
+    }
+}
+
+/// Where σ is from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Roughness {
+    /// The surface's own, the same everywhere.
+    #[default]
+    Surface,
+    /// The mesh's unevenness, vertex by vertex; P is interpolated between vertices. The paper's way.
+    Mesh,
+}
+
 /// What does a surface make of the angles? None if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ShadingOf {
     /// The angles.
     pub geometry: GeometryOf,
-    /// The roughness.
+    /// The surface.
     pub surface: Surface,
+    /// Where σ is from.
+    pub roughness: Roughness,
     /// How Eq 1 is read.
     pub reading: Reading,
     /// How exactly integrals are made.
@@ -132,6 +158,15 @@ impl Query for ShadingOf {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let geometry = ask.ask(&self.geometry);
         let geometry = (*geometry).as_ref()?;
+        if self.roughness == Roughness::Mesh {
+            let GeometryOf { visibility: seen, lighting, .. } = &self.geometry;
+            let (mesh, deviations) = (ask.ask(&seen.mesh), ask.ask(&DeviationsOf(seen.mesh.clone())));
+            let visibility = ask.ask(seen);
+            let visibility = (*visibility).as_ref()?;
+            let vertices = VertexImage::new(&mesh, visibility, Arc::clone(geometry), lighting, &ask.stop())?;
+            let (surface, reading, quality) = (self.surface, self.reading, self.quality);
+            return ShadingImage::by_vertices(Arc::new(vertices), &deviations, surface, reading, quality, &ask.stop());
+        }
         ShadingImage::new(Arc::clone(geometry), self.surface, self.reading, self.quality, &ask.stop())
     }
 }

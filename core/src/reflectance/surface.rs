@@ -39,6 +39,12 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// The same with another height deviation in meters; what is beyond 0 to 1 m counts as the nearest, no number as 0.
+    #[must_use]
+    pub fn with_sigma(self, sigma_m: f64) -> Self {
+        Self { sigma_m: if sigma_m > 0.0 { sigma_m.min(*SIGMA_M.end()) } else { 0.0 }, ..self }
+    }
+
     /// Takes σ from 0 to 1 m, τ and the half sides X and Y from 1 nm to 1 m, and an index above 0 and up to 1000.
     ///
     /// ```

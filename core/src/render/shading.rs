@@ -4,6 +4,7 @@ use super::Stop;
 use super::diffuse::{DARK, DiffuseTable, ROUGH};
 use super::geometry::{Angles, GeometryImage};
 use super::measure::LAMBDA_0_NM;
+use super::vertices::VertexImage;
 use crate::reflectance::{
     Geometry, Precision, Reading, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa, ln_diffuse_sum,
 };
@@ -100,6 +101,8 @@ pub struct ShadingCounts {
 #[derive(Clone, Debug)]
 pub struct ShadingImage {
     geometry: Arc<GeometryImage>,
+    /// Where samples lie between vertices that are shaded in their place.
+    vertices: Option<Arc<VertexImage>>,
     surface: Surface,
     quality: Quality,
     shades: Vec<Shade>,
@@ -116,20 +119,52 @@ impl ShadingImage {
         quality: Quality,
         stop: &Stop,
     ) -> Option<Self> {
-        let material = Material::new(surface, reading, quality, geometry.angular_radius());
-        let chunk = GeometryImage::chunk();
-        let shade = |angles: &Angles| if stop.is_set() { Shade::DARK } else { material.shade(angles) };
-        let shades: Vec<Shade> = geometry.angles().par_iter().with_min_len(chunk).map(shade).collect();
-        let mirrors = |(run, angles): (usize, &[Angles])| {
-            if stop.is_set() { Vec::new() } else { material.mirrors(run * chunk, angles) }
+        Self::shade(geometry, None, surface, reading, quality, stop)
+    }
+
+    /// Prepares every vertex in place of the samples between them, each with a σ of its own in meters (the paper's way); none
+    /// if stopped. Deviations beyond a meter count as one.
+    pub fn by_vertices(
+        vertices: Arc<VertexImage>,
+        deviations: &[f32],
+        surface: Surface,
+        reading: Reading,
+        quality: Quality,
+        stop: &Stop,
+    ) -> Option<Self> {
+        let geometry = Arc::clone(vertices.geometry());
+        Self::shade(geometry, Some((vertices, deviations)), surface, reading, quality, stop)
+    }
+
+    fn shade(
+        geometry: Arc<GeometryImage>,
+        vertices: Option<(Arc<VertexImage>, &[f32])>,
+        surface: Surface,
+        reading: Reading,
+        quality: Quality,
+        stop: &Stop,
+    ) -> Option<Self> {
+        let material = Material::new(&surface, reading, quality, geometry.angular_radius());
+        let (shades, mirrors) = match &vertices {
+            None => {
+                let place = |index: usize| {
+                    let angles: &Angles = &geometry.angles()[index];
+                    Place { geometry: angles.geometry(), light: angles.light(), surface }
+                };
+                material.shaded(geometry.angles().len(), place, stop)?
+            }
+            Some((vertices, deviations)) => {
+                let place = |index: usize| Place {
+                    geometry: vertices.geometries()[index],
+                    light: 1.0,
+                    surface: surface.with_sigma(deviations.get(index).copied().unwrap_or(0.0).into()),
+                };
+                material.shaded(vertices.geometries().len(), place, stop)?
+            }
         };
-        let mirrors: Vec<Vec<Mirror>> = geometry.angles().par_chunks(chunk).enumerate().map(mirrors).collect();
-        if stop.is_set() {
-            return None;
-        }
-        let mirrors = mirrors.concat();
         let counts = counts(&shades, mirrors.len());
-        Some(Self { geometry, surface, quality, shades, mirrors, counts })
+        let vertices = vertices.map(|(vertices, _)| vertices);
+        Some(Self { geometry, vertices, surface, quality, shades, mirrors, counts })
     }
 
     /// The angles it is made of.
@@ -147,17 +182,22 @@ impl ShadingImage {
         self.quality
     }
 
-    /// The lit samples, in the order of [`GeometryImage::samples`].
+    /// Where samples lie between vertices that are shaded in their place.
+    pub fn vertices(&self) -> Option<&VertexImage> {
+        self.vertices.as_deref()
+    }
+
+    /// The lit samples, in the order of [`GeometryImage::samples`], or the vertices in their place.
     pub fn shades(&self) -> &[Shade] {
         &self.shades
     }
 
-    /// The samples with a mirror term, ascending.
+    /// The samples or vertices with a mirror term, ascending.
     pub fn mirrors(&self) -> &[Mirror] {
         &self.mirrors
     }
 
-    /// How many samples take which way.
+    /// How many samples or vertices take which way.
     pub fn counts(&self) -> ShadingCounts {
         self.counts
     }
@@ -200,9 +240,16 @@ fn counts(shades: &[Shade], mirrors: usize) -> ShadingCounts {
     ShadingCounts { mirrors: mirrors as u64, mirrors_skipped: (shades.len() - mirrors) as u64, ..all }
 }
 
-/// One surface in one reading.
-struct Material {
+/// A lit sample, or a vertex in its place.
+struct Place {
+    geometry: Geometry,
+    /// What stands beside the reflectance factor.
+    light: f64,
     surface: Surface,
+}
+
+/// One reading of the model.
+struct Material {
     reading: Reading,
     quality: Quality,
     angular_radius: f64,
@@ -211,29 +258,43 @@ struct Material {
 }
 
 impl Material {
-    fn new(surface: Surface, reading: Reading, quality: Quality, angular_radius: f64) -> Self {
+    fn new(surface: &Surface, reading: Reading, quality: Quality, angular_radius: f64) -> Self {
         let facing = crate::reflectance::factor(
-            &surface,
+            surface,
             &Geometry::from_angles(0.0, 0.0, 0.0),
             LAMBDA_0_NM,
             reading,
             angular_radius,
         );
-        Self { surface, reading, quality, angular_radius, threshold: facing * MIRROR_SHARE }
+        Self { reading, quality, angular_radius, threshold: facing * MIRROR_SHARE }
     }
 
-    fn mirrors(&self, first: usize, angles: &[Angles]) -> Vec<Mirror> {
-        let all = angles.iter().enumerate();
-        all.filter_map(|(offset, angles)| self.mirror(&angles.geometry(), angles.light(), first + offset)).collect()
+    /// The shades of a list of places, and their mirror terms; none if stopped.
+    fn shaded(
+        &self,
+        count: usize,
+        place: impl Fn(usize) -> Place + Sync,
+        stop: &Stop,
+    ) -> Option<(Vec<Shade>, Vec<Mirror>)> {
+        let chunk = GeometryImage::chunk();
+        let shade = |index| if stop.is_set() { Shade::DARK } else { self.shade(&place(index)) };
+        let shades: Vec<Shade> = (0..count).into_par_iter().with_min_len(chunk).map(shade).collect();
+        let mirrors = |run: usize| {
+            let all = (run * chunk..count.min((run + 1) * chunk)).take_while(|_| !stop.is_set());
+            all.filter_map(|index| self.mirror(&place(index), index)).collect()
+        };
+        let mirrors: Vec<Vec<Mirror>> = (0..count.div_ceil(chunk)).into_par_iter().map(mirrors).collect();
+        (!stop.is_set()).then(|| (shades, mirrors.concat()))
     }
 
-    fn shade(&self, angles: &Angles) -> Shade {
-        let (geometry, light) = (&angles.geometry(), angles.light());
+    fn shade(&self, place: &Place) -> Shade {
+        let Place { geometry, light, surface } = place;
+        let light = *light;
         if self.reading == Reading::Lambertian {
             return Shade { front: light, kappa: 0.0, beta: 0.0, position: [0.0; 2], way: Way::Flat };
         }
-        let front = light * diffuse_prefactor(&self.surface, geometry, self.reading);
-        let (kappa, beta) = (kappa(&self.surface, geometry), beta(&self.surface, geometry));
+        let front = light * diffuse_prefactor(surface, geometry, self.reading);
+        let (kappa, beta) = (kappa(surface, geometry), beta(surface, geometry));
         let way = self.way(front, kappa, beta);
         let position = if way == Way::Table { DiffuseTable::position(kappa, beta) } else { [0.0; 2] };
         Shade { front, kappa, beta, position, way }
@@ -258,17 +319,18 @@ impl Material {
     }
 
     /// The mirror term of a sample, unless it is certainly too small.
-    fn mirror(&self, geometry: &Geometry, light: f64, index: usize) -> Option<Mirror> {
+    fn mirror(&self, place: &Place, index: usize) -> Option<Mirror> {
+        let Place { geometry, light, surface } = place;
         if self.reading == Reading::Lambertian {
             return None;
         }
-        let kappa = kappa(&self.surface, geometry);
+        let kappa = kappa(surface, geometry);
         let (bluest, reddest) = (LAMBDA_0_NM / FIRST_NM, LAMBDA_0_NM / LAST_NM);
         // Most surfaces: no patch and no reading lifts e^-100 above the threshold.
         if kappa * reddest * reddest > 100.0 {
             return None;
         }
-        let front = light * coherent_prefactor(&self.surface, geometry, self.reading);
+        let front = light * coherent_prefactor(surface, geometry, self.reading);
         // Red is where g is least and the lobe widest; blue is where the reading weighs most.
         let damping = (-kappa * reddest * reddest).exp() * bluest * bluest;
         if front * damping <= self.threshold {
@@ -279,8 +341,7 @@ impl Material {
             let u = wave_number * half_side * (v.abs() - self.angular_radius).max(0.0);
             if u > 1.0 { 1.0 / (u * u) } else { 1.0 }
         };
-        let lobe =
-            envelope(self.surface.half_x_m(), geometry.vx_by_k) * envelope(self.surface.half_y_m(), geometry.vy_by_k);
+        let lobe = envelope(surface.half_x_m(), geometry.vx_by_k) * envelope(surface.half_y_m(), geometry.vy_by_k);
         (front * damping * lobe > self.threshold).then_some(Mirror {
             index: index as u32,
             front,

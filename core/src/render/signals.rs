@@ -43,6 +43,10 @@ impl CameraImage {
                 *signal += sum as f32;
             }
         }
+        let signals = match shading.vertices() {
+            Some(vertices) => vertices.mixed(&signals),
+            None => signals,
+        };
         (!stop.is_set()).then(|| Self { geometry, signals: Arc::new(signals) })
     }
 

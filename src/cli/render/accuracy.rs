@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use chromascope_core::camera::NoRendering;
 use chromascope_core::query::Ask as _;
-use chromascope_core::query::render::DiffuseTableOf;
+use chromascope_core::query::render::{DiffuseTableOf, Roughness};
 use chromascope_core::reflectance::{Reading, Surface};
 use chromascope_core::render::{CameraImage, DiffuseTable, GeometryImage, Measure, Quality, ShadingImage, Stop};
 use rayon::ThreadPoolBuilder;
@@ -68,11 +68,11 @@ struct Camera {
     table: Option<Arc<Result<DiffuseTable, NoRendering>>>,
 }
 
-/// Measures; none where nothing is lit.
+/// Measures; none where nothing is lit, and where samples lie between vertices of different roughness.
 pub(super) fn measure(made: &Made<'_>) -> Option<Accuracy> {
     let geometry = made.pictures.images.iter().flatten().next()?.geometry();
     let lit = geometry.samples().len();
-    if lit == 0 {
+    if lit == 0 || made.query.shading.roughness == Roughness::Mesh {
         return None;
     }
     let stride = lit.div_ceil(SAMPLES);

@@ -58,6 +58,9 @@ pub(in crate::cli) struct RenderArguments {
     /// The deviation of the surface's heights in meters [default: 5e-6]
     #[arg(long, value_name = "METERS", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) sigma: Option<f64>,
+    /// Takes the deviation of heights from the mesh, vertex by vertex, as the paper does: nearly black pictures
+    #[arg(long, help_heading = SURFACE)]
+    pub(super) sigma_from_mesh: bool,
     /// The correlation length of the surface's heights in meters [default: 10e-6]
     #[arg(long, value_name = "METERS", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) tau: Option<f64>,

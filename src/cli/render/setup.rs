@@ -14,7 +14,7 @@ use super::arguments::RenderArguments;
 use crate::catalog::meshes;
 use crate::cli::request::Request;
 use crate::cli::{CliError, say};
-use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
+use crate::document::render::{BALANCE, MeshChoice, RenderSettings, RoughnessChoice, SUN};
 use crate::document::{Compared, FIRST_SOURCES, Light, REFERENCE, WhiteChoice};
 use crate::scene::render::Finish;
 use crate::view::render::Orbit;
@@ -126,6 +126,7 @@ fn settings(arguments: &RenderArguments, mesh: MeshChoice) -> Result<RenderSetti
         mesh,
         triangles: arguments.triangles as usize,
         sigma_um: arguments.sigma.map_or(usual.sigma_um, |sigma| sigma * MICRO),
+        roughness: if arguments.sigma_from_mesh { RoughnessChoice::Mesh } else { RoughnessChoice::Surface },
         tau_um: arguments.tau.map_or(usual.tau_um, |tau| tau * MICRO),
         half_sides_um: arguments.patch.map_or(usual.half_sides_um, |sides| sides.map(|side| side * MICRO)),
         index: arguments.ior.unwrap_or(usual.index),

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use chromascope_core::query::Ask as _;
+use chromascope_core::query::render::Roughness;
 use chromascope_core::render::{Measure, Quality, ShadingCounts};
 use chromascope_core::spectral::grid::COUNT;
 use serde_json::{Value, json};
@@ -73,6 +74,7 @@ fn settings(arguments: &RenderArguments, made: &Made<'_>) -> Value {
         "reading": reading_name(shading.reading),
         "quality": arguments.quality.name(),
         "sigma_m": plain(surface.sigma_m()),
+        "sigma_from_mesh": shading.roughness == Roughness::Mesh,
         "tau_m": plain(surface.tau_m()),
         "half_sides_m": [plain(surface.half_x_m()), plain(surface.half_y_m())],
         "refractive_index": surface.index(),

@@ -4,7 +4,7 @@ use chromascope_core::reflectance::Caution;
 use egui::{ComboBox, RichText, Ui};
 
 use super::{Dial, set};
-use crate::document::render::{LEAF, ReadingChoice, RenderSettings, SKIN};
+use crate::document::render::{LEAF, ReadingChoice, RenderSettings, RoughnessChoice, SKIN};
 use crate::panes::PaneContext;
 
 /// Shows the group.
@@ -78,6 +78,17 @@ fn lengths(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
     let sigma = length("Roughness σ", 0.0, 0.01, "The standard deviation of the surface's heights");
     if let Some(to) = sigma.show(ui, settings.sigma_um) {
         set(context, "Roughness", |settings| settings.sigma_um = to);
+    }
+    let from_mesh = settings.roughness == RoughnessChoice::Mesh;
+    let mut wanted = from_mesh;
+    let said = ui.checkbox(&mut wanted, "σ from the mesh, as in the paper").on_hover_text(RoughnessChoice::WHY_NOT);
+    if said.changed() {
+        let to = if wanted { RoughnessChoice::Mesh } else { RoughnessChoice::Surface };
+        set(context, "Roughness from the mesh", |settings| settings.roughness = to);
+    }
+    if from_mesh {
+        let words = RichText::new("Heights of the mesh, not the skin: nearly black").small();
+        ui.label(words.color(context.theme.warning)).on_hover_text(RoughnessChoice::WHY_NOT);
     }
     let tau =
         length("Correlation τ", 0.001, 0.001, "The distance at which heights know half of each other no more: 1/e");

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use chromascope_core::query::render::{MeshOf, Pictures};
+use chromascope_core::query::render::{DeviationsOf, MeshOf, Pictures, Roughness};
 use chromascope_core::query::{Ask, Direct, Shared};
 use chromascope_core::reflectance::Reading;
 use chromascope_core::render::{CameraImage, Quality, RasterSize, Shadows, Stop, Visibility};
@@ -75,6 +75,41 @@ fn the_number_of_threads_changes_nothing() {
             assert_eq!(one.differences, many.differences);
         }
     }
+}
+
+#[test]
+fn between_vertices_of_one_roughness_there_is_little_to_interpolate() {
+    // A plane's σ is 0 everywhere, a fine ball's nearly the same: shading vertices comes near to shading samples.
+    let ball = MeshOf::Sphere(60_000);
+    let deviations = Direct.ask(&DeviationsOf(ball.clone()));
+    let mut sorted = deviations.to_vec();
+    sorted.sort_by(f32::total_cmp);
+    let sigma_m = f64::from(sorted[sorted.len() / 2]);
+    let with = |roughness| Studio { mesh: ball.clone(), roughness, sigma_m, ..Studio::new() }.take(&Direct);
+    let [uniform, own] = [Roughness::Surface, Roughness::Mesh].map(with);
+    assert_eq!(uniform.geometry, own.geometry);
+    let (a, b) = (uniform.images[0].as_ref().unwrap(), own.images[0].as_ref().unwrap());
+    // Around the middle, where the ball's triangles are alike.
+    let mut compared = 0;
+    for (angles, (a, b)) in a.geometry().angles().iter().zip(a.signals().iter().zip(b.signals())) {
+        if angles.cos_s > 0.9 {
+            assert!((b[1] / a[1] - 1.0).abs() < 0.5, "{b:?} beside {a:?}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 50);
+}
+
+#[test]
+fn by_the_papers_own_roughness_a_head_is_almost_black() {
+    let with = |roughness| Studio { mesh: MeshOf::Head(9_000), roughness, ..Studio::new() }.take(&Direct);
+    let [skin, paper] = [Roughness::Surface, Roughness::Mesh].map(with);
+    let mean = |pictures: &Pictures| {
+        let signals = pictures.images[0].as_ref().unwrap().signals();
+        signals.iter().map(|signal| f64::from(signal[1])).sum::<f64>() / signals.len() as f64
+    };
+    let share = mean(&paper) / mean(&skin);
+    assert!(share < 0.05, "{share}");
 }
 
 #[test]

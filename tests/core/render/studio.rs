@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chromascope_core::camera::White;
-use chromascope_core::query::render::{GeometryOf, ShadingOf, VisibilityOf};
+use chromascope_core::query::render::{GeometryOf, Roughness, ShadingOf, VisibilityOf};
 use chromascope_core::query::render::{MeshOf, Pictures, PicturesOf, SourceOf};
 use chromascope_core::query::{Ask, Query, RenderingOf, Shared, WayOf};
 use chromascope_core::reflectance::{Reading, Surface};
@@ -28,6 +28,7 @@ pub(super) struct Studio {
     pub sigma_m: f64,
     pub shadows: Shadows,
     pub reading: Reading,
+    pub roughness: Roughness,
     pub quality: Quality,
     pub ev: f64,
 }
@@ -55,6 +56,7 @@ impl Studio {
             sigma_m: 5e-6,
             shadows: Shadows::Full,
             reading: Reading::Radiometric,
+            roughness: Roughness::Surface,
             quality: Quality::Full,
             ev: 0.0,
         }
@@ -71,7 +73,7 @@ impl Studio {
         let geometry = GeometryOf { visibility, lighting, shadows: self.shadows };
         let (surface, reading, quality) = (self.surface(), self.reading, self.quality);
         PicturesOf {
-            shading: ShadingOf { geometry, surface, reading, quality },
+            shading: ShadingOf { geometry, surface, roughness: self.roughness, reading, quality },
             reflectance: self.reflectance.clone(),
             truth: self.sources[0].clone(),
             sources: self.sources.iter().map(|rendering| SourceOf { rendering: rendering.clone() }).collect(),
