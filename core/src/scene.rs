@@ -8,6 +8,7 @@ pub mod implicit;
 pub mod lighting;
 pub mod mesh;
 pub mod reading;
+pub mod roughness;
 pub mod shapes;
 pub mod viewpoint;
 

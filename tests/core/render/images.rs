@@ -12,6 +12,7 @@ use chromascope_core::spectral::GridSpectrum;
 use glam::Vec3;
 
 use super::studio::Studio;
+use crate::support;
 
 /// The largest difference between pictures of one scene, relative to each source's largest signal or, where that is larger,
 /// to the material facing light and eye: a mirror's highlight may fall between the samples.
@@ -110,6 +111,43 @@ fn by_the_papers_own_roughness_a_head_is_almost_black() {
     };
     let share = mean(&paper) / mean(&skin);
     assert!(share < 0.05, "{share}");
+}
+
+#[test]
+fn of_the_papers_cameras_the_kodak_is_farthest_from_the_truth() {
+    let leaf = support::patches("materials/leaves_vrhel.csv");
+    let leaf = leaf.patches().iter().find(|patch| patch.name.contains("024")).unwrap();
+    let skin = Studio::new().reflectance;
+    for (mesh, reflectance, expected) in [
+        (MeshOf::Head(9_000), skin, [2.9, 2.7, 6.3]),
+        (MeshOf::Fern(20_000), Shared::new(leaf.grid.clone()), [1.4, 1.1, 3.3]),
+    ] {
+        let studio = Studio { mesh, reflectance, yaw: 0.35, size: RasterSize::new(96, 96), ..Studio::new() };
+        let means = studio.take(&Direct).differences;
+        let means: Vec<f64> = means.iter().flatten().map(|difference| difference.mean).collect();
+        for (mean, expected) in means.iter().zip(expected) {
+            assert!((mean - expected).abs() < 0.15, "{means:?}");
+        }
+        assert!(means[2] > 2.0 * means[0].max(means[1]), "{means:?}");
+    }
+}
+
+#[test]
+fn read_to_the_letter_a_rough_white_turns_yellow() {
+    for (reading, expected) in [(Reading::Radiometric, [0.332, 0.347]), (Reading::Paper, [0.373, 0.379])] {
+        let mut studio = Studio { reading, ..Studio::new() };
+        studio.reflectance = Shared::new(GridSpectrum::constant(1.0));
+        let light = Shared::new(support::light("illuminants/d55.csv"));
+        studio.sources.iter_mut().for_each(|source| source.light = light.clone());
+        let pictures = studio.take(&Direct);
+        let rendering = Direct.ask(&studio.sources[0]);
+        let rendering = (*rendering).as_ref().unwrap();
+        let signals = pictures.images[0].as_ref().unwrap().signals();
+        let brightest = signals.iter().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
+        let signals = rendering.white * glam::DVec3::from_array(brightest.map(f64::from));
+        let xy = rendering.xyz(signals).chromaticity().unwrap();
+        assert!((xy.x - expected[0]).abs() < 1e-3 && (xy.y - expected[1]).abs() < 1e-3, "{reading:?}: {xy:?}");
+    }
 }
 
 #[test]
