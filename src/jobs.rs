@@ -100,7 +100,7 @@ where
             shown.current = false;
         }
         drop(state);
-        self.desk.news.notify_one();
+        self.desk.news.notify_all();
     }
 
     /// Stops what is being made: nobody looks. The answer on show stays.

@@ -33,15 +33,20 @@ struct Answers<Q: Query> {
 struct Known<A> {
     answer: Arc<A>,
     asked: u64,
+    bytes: usize,
 }
 
+/// The most memory that the answers of one kind take where answers are counted; the last one stays, however large.
+const BYTES: usize = 256 << 20;
+
 impl<Q: Query> Answers<Q> {
-    /// Lets go of what was asked for least recently.
-    fn keep(&mut self, count: usize) {
-        while self.known.len() > count {
+    /// Lets go of what was asked for least recently, until no more than these are left.
+    fn keep(&mut self, count: usize, bytes: usize) {
+        let mut all: usize = self.known.values().map(|known| known.bytes).sum();
+        while self.known.len() > 1 && (self.known.len() > count || all > bytes) {
             let oldest = self.known.iter().min_by_key(|(_, known)| known.asked).map(|(query, _)| query.clone());
-            let Some(oldest) = oldest else { return };
-            self.known.remove(&oldest);
+            let Some(known) = oldest.and_then(|oldest| self.known.remove(&oldest)) else { return };
+            all = all.saturating_sub(known.bytes);
         }
     }
 }
@@ -124,10 +129,10 @@ impl Results {
         let mut all = self.answers.borrow_mut();
         let slot = all.entry(TypeId::of::<Q>()).or_insert_with(|| Box::new(Answers::<Q> { known: HashMap::new() }));
         if let Some(answers) = slot.as_any().downcast_mut::<Answers<Q>>() {
-            let known = Known { answer: Arc::clone(answer), asked: self.now() };
+            let known = Known { answer: Arc::clone(answer), asked: self.now(), bytes: Q::bytes(answer) };
             answers.known.insert(query.clone(), known);
             if self.bounded {
-                answers.keep(Q::KEPT);
+                answers.keep(Q::KEPT, BYTES);
             }
         }
     }
@@ -161,7 +166,7 @@ impl Ask for Results {
             count.time += time;
             count.own_time += time.saturating_sub(on_the_way);
         });
-        if self.stop.borrow().is_set() {
+        if !Q::WHOLE && self.stop.borrow().is_set() {
             return answer;
         }
         if self.depth.get() == 0 {

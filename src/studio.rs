@@ -150,7 +150,8 @@ impl Studio {
         if self.shot.as_ref().is_none_or(|shot| shot.serial != shown.serial) {
             // What arrived before the latest request was made answers the one before.
             let request = if shown.current { &self.latest } else { &self.before };
-            let query = request.stages.get(shown.stage)?.clone();
+            // What arrived while nobody looked belongs to a request that is forgotten.
+            let Some(query) = request.stages.get(shown.stage).cloned() else { return self.shot.clone() };
             // What was only remembered took no time worth telling.
             let remembered = self.shot.as_ref().filter(|shot| shot.query == query).map(|shot| shot.time);
             self.shot = Some(Arc::new(Shot {
@@ -163,6 +164,11 @@ impl Studio {
             }));
         }
         self.shot.clone()
+    }
+
+    /// Whether the pictures on show are those that are wanted in the end.
+    pub fn is_settled(&self) -> bool {
+        self.shot.as_ref().is_some_and(|shot| self.wanted.as_ref() == Some(&shot.query))
     }
 
     /// For how long the latest request has been worked on, if it still is.

@@ -23,7 +23,7 @@ pub mod visibility;
 
 pub use develop::{Development, Measurement, Picture, develop};
 pub use diffuse::DiffuseTable;
-pub use geometry::{Angles, GeometryCounts, GeometryImage, Shadows};
+pub use geometry::{Angles, GeometryCounts, GeometryImage, Placed, Shadows};
 pub use measure::{LAMBDA_0_NM, Measure};
 pub use shading::{Quality, ShadingCounts, ShadingImage};
 pub use shadow::ShadowTree;

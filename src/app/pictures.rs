@@ -25,6 +25,11 @@ impl ChromascopeApp {
 
     fn exr(&self, source: &SourceId) -> Option<Result<Vec<u8>, String>> {
         let shot = self.view.render.shot.clone()?;
+        if !self.studio.is_settled() {
+            return Some(Err(
+                "The pictures are not finished yet: wait until nothing is being made, then save.".to_owned()
+            ));
+        }
         let index = index_of(&shot, source)?;
         let image = shot.made()?.images.get(index)?.as_ref()?;
         let rendering = self.results.ask(&shot.query.sources.get(index)?.rendering);
@@ -44,7 +49,7 @@ impl ChromascopeApp {
             illuminant: &scene.light_name(),
             material: &document.render.material,
             mesh: &mesh_name(&document.render.mesh),
-            quality: document.render.quality.label(),
+            quality: shading.quality,
             lighting: shading.geometry.lighting,
             viewpoint: shading.geometry.visibility.viewpoint,
             surface: shading.surface,

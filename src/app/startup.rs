@@ -52,7 +52,8 @@ pub fn run(files: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         APP_ID,
         options,
         Box::new(move |cc| {
-            let saved: SavedView = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY)).unwrap_or_default();
+            let mut saved: SavedView = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY)).unwrap_or_default();
+            saved.render.mend();
             let mut kept = Files::new(eframe::storage_dir(APP_ID));
             let history = History::new(kept.kept_document());
             let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);

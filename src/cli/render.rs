@@ -148,7 +148,7 @@ impl<'a> Made<'a> {
             illuminant,
             material: &self.scene.document.render.material,
             mesh: &self.setup.mesh_name,
-            quality: arguments.quality.name(),
+            quality: shading.quality,
             lighting: shading.geometry.lighting,
             viewpoint: self.setup.viewpoint,
             surface: shading.surface,

@@ -4,7 +4,7 @@ use std::io::{Cursor, Seek, Write};
 
 use chromascope_core::camera::Rendering;
 use chromascope_core::reflectance::{Reading, Surface};
-use chromascope_core::render::{CameraImage, Picture};
+use chromascope_core::render::{CameraImage, Picture, Quality};
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::lighting::{Distance, Lighting};
 use exr::prelude::{
@@ -37,7 +37,7 @@ pub struct Provenance<'a> {
     /// The mesh's name.
     pub mesh: &'a str,
     /// How integrals were made.
-    pub quality: &'a str,
+    pub quality: Quality,
     /// Where the light is.
     pub lighting: Lighting,
     /// Where the eye is.
@@ -63,7 +63,7 @@ pub fn exr_bytes(
     rendering: &Rendering,
     provenance: &Provenance<'_>,
 ) -> Result<Vec<u8>, PictureError> {
-    let size = image.geometry().size();
+    let size = image.placed().size();
     let channels =
         planes(image, rendering).into_iter().map(|(name, values)| AnyChannel::new(name, FlatSamples::F32(values)));
     let channels = AnyChannels::sort(channels.collect());
@@ -85,7 +85,7 @@ fn write(
 
 /// The channels, each row by row from the top left.
 fn planes(image: &CameraImage, rendering: &Rendering) -> Vec<(&'static str, Vec<f32>)> {
-    let geometry = image.geometry();
+    let geometry = image.placed();
     let size = geometry.size();
     let (width, samples) = (size.width as usize, size.samples as usize);
     let pixel = |sample: u32| {
@@ -132,7 +132,7 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         ("illuminant", text(provenance.illuminant)),
         ("material", text(provenance.material)),
         ("mesh", text(provenance.mesh)),
-        ("quality", text(provenance.quality)),
+        ("quality", text(quality_name(provenance.quality))),
         ("reading", text(reading_name(provenance.reading))),
         (place, three(lighting.place().to_array())),
         ("lightAngularRadius", AttributeValue::F64(lighting.angular_radius())),
@@ -206,4 +206,15 @@ fn with_sorted_header(mut file: Vec<u8>) -> Vec<u8> {
     let sorted = attributes.concat();
     file[START..at].copy_from_slice(&sorted);
     file
+}
+
+/// The word for a quality, as the command line takes it.
+pub const fn quality_name(quality: Quality) -> &'static str {
+    match quality {
+        Quality::Preview => "preview",
+        Quality::Full => "full",
+        Quality::Fine => "fine",
+        Quality::Exact => "exact",
+        Quality::Regimes => "regimes",
+    }
 }

@@ -91,7 +91,7 @@ impl Dial<'_> {
     fn show(&self, ui: &mut Ui, now: f64) -> Option<f64> {
         let mut value = now;
         let unit = self.unit.to_owned();
-        let clamping = if self.beyond { egui::SliderClamping::Never } else { egui::SliderClamping::Always };
+        let clamping = if self.beyond { egui::SliderClamping::Never } else { egui::SliderClamping::Edits };
         let mut slider = egui::Slider::new(&mut value, self.range.clone())
             .clamping(clamping)
             .text(self.name)

@@ -42,8 +42,8 @@ pub struct LitPixel {
     pub lab: Option<Lab>,
     /// ΔE*00 to the truth.
     pub difference: Option<f64>,
-    /// g at 550 nm, with how the integral was made.
-    pub roughness: Option<(f64, &'static str)>,
+    /// g at 550 nm, with its regime and how the integral was made.
+    pub roughness: Option<(f64, String)>,
 }
 
 /// The lit signals of a pixel, and how many of its samples see the mesh.
@@ -57,7 +57,7 @@ struct Samples {
 pub fn read(shot: &Shot, results: &Results, index: usize, place: [f64; 2]) -> Option<PixelReading> {
     let pictures = shot.made()?;
     let image = pictures.images.get(index)?.as_ref()?;
-    let size = image.geometry().size();
+    let size = image.placed().size();
     let within = |place: f64, count: u32| ((place * f64::from(count)) as usize).min(count.saturating_sub(1) as usize);
     let at = [within(place[0], size.width), within(place[1], size.height)];
     let samples = samples(image, at);
@@ -87,13 +87,12 @@ fn lit(
     let signal = glam::DVec3::from(samples.signal.map(f64::from));
     let lab = measurement.lab(samples.signal);
     let difference = (*of != shot.query.truth).then(|| truth_lab(shot, results, at)).flatten();
-    let image = pictures.images.get(index)?.as_ref()?;
     Some(LitPixel {
         linear: (development.linear_from_signals * signal).to_array(),
         xy: measurement.xyz(samples.signal).chromaticity(),
         lab,
         difference: lab.zip(difference).map(|(lab, truth)| delta_e_2000(lab, truth)),
-        roughness: roughness(shot, image, middle),
+        roughness: roughness(shot, middle),
     })
 }
 
@@ -109,7 +108,7 @@ fn truth_lab(shot: &Shot, results: &Results, at: [usize; 2]) -> Option<Lab> {
 
 /// The mean over those samples of a pixel that see the mesh.
 fn samples(image: &CameraImage, [x, y]: [usize; 2]) -> Samples {
-    let geometry = image.geometry();
+    let geometry = image.placed();
     let (columns, each) = (geometry.size().columns(), geometry.size().samples as usize);
     let mut found = Samples { signal: [0.0; 3], seen: 0, middle: None };
     for row in y * each..(y + 1) * each {
@@ -134,27 +133,32 @@ fn samples(image: &CameraImage, [x, y]: [usize; 2]) -> Samples {
     found
 }
 
-/// g at 550 nm with the way that its spectral integral was made.
-fn roughness(shot: &Shot, image: &CameraImage, middle: usize) -> Option<(f64, &'static str)> {
+/// g at 550 nm with its regime and the way that its spectral integral was made.
+fn roughness(shot: &Shot, middle: usize) -> Option<(f64, String)> {
     let shading = &shot.query.shading;
     // Between vertices of different roughness there is no one g.
     if shading.reading == Reading::Lambertian || shading.roughness == Roughness::Mesh {
         return None;
     }
-    let geometry = image.geometry().angles().get(middle)?.geometry();
+    let geometry = shot.made()?.angles.angles().get(middle)?.geometry();
     let (kappa, beta) = (kappa(&shading.surface, &geometry), beta(&shading.surface, &geometry));
+    let regime = match Regime::of(kappa) {
+        Regime::Slight => "slight",
+        Regime::Moderate => "moderate",
+        Regime::Rough => "rough",
+    };
     let way = match shading.quality {
-        Quality::Preview | Quality::Full if kappa >= ROUGH && beta > DARK => "rough: below the threshold",
-        Quality::Preview | Quality::Full if kappa >= ROUGH => "rough: closed form",
-        Quality::Preview | Quality::Full if DiffuseTable::holds(kappa, beta) => "table over 401 wavelengths",
+        Quality::Preview | Quality::Full if kappa >= ROUGH && beta > DARK => "below the threshold",
+        Quality::Preview | Quality::Full if kappa >= ROUGH => "closed form",
+        Quality::Preview | Quality::Full if DiffuseTable::holds(kappa, beta) => "table of 9 wavelengths",
         Quality::Preview | Quality::Full => "9 wavelengths",
         Quality::Fine => "15 wavelengths",
         Quality::Exact => "401 wavelengths",
         Quality::Regimes => match Regime::of(kappa) {
-            Regime::Slight => "slight: first term of Eq 2",
-            Regime::Moderate => "moderate: ten terms of Eq 2",
-            Regime::Rough => "rough: Eq 4",
+            Regime::Slight => "first term of Eq 2",
+            Regime::Moderate => "ten terms of Eq 2",
+            Regime::Rough => "Eq 4",
         },
     };
-    Some((kappa, way))
+    Some((kappa, format!("{regime}, {way}")))
 }

@@ -29,6 +29,16 @@ impl Default for RenderLook {
     }
 }
 
+impl RenderLook {
+    /// Brings what a spoiled file says within its range.
+    pub fn mend(&mut self) {
+        if !(0.0..=1.0).contains(&self.split) {
+            self.split = Self::default().split;
+        }
+        self.orbit = self.orbit.filter(|orbit| orbit.viewpoint(1.0).is_some());
+    }
+}
+
 /// How pictures stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum RenderMode {

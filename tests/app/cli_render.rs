@@ -142,12 +142,12 @@ fn exr_holds_the_numbers() {
     let image = window.images[0].as_ref().unwrap();
     let place = |sample: u32| (sample as usize / 80 / 2) * 40 + sample as usize % 80 / 2;
     let mut expected = vec![[0.0_f64; 4]; 40 * 30];
-    for (&sample, signal) in image.geometry().samples().iter().zip(image.signals()) {
+    for (&sample, signal) in image.placed().samples().iter().zip(image.signals()) {
         for c in 0..3 {
             expected[place(sample)][c] += white[c] * f64::from(signal[c]) / 4.0;
         }
     }
-    image.geometry().seen().iter().for_each(|&sample| expected[place(sample)][3] += 0.25);
+    image.placed().seen().iter().for_each(|&sample| expected[place(sample)][3] += 0.25);
     let peak = expected.iter().map(|pixel| pixel[1]).fold(0.0, f64::max);
     assert!(peak > 0.05, "{peak}");
     for (c, name) in ["R", "G", "B", "A"].into_iter().enumerate() {

@@ -36,7 +36,12 @@ pub enum MeshOf {
 impl Query for MeshOf {
     type Answer = Shared<Mesh>;
     const NAME: &'static str = "mesh";
+    const WHOLE: bool = true;
     const KEPT: usize = 3;
+
+    fn bytes(mesh: &Self::Answer) -> usize {
+        size_of_val(mesh.positions()) + size_of_val(mesh.normals()) + size_of_val(mesh.triangles())
+    }
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         match self {
@@ -56,6 +61,7 @@ pub struct ShadowTreeOf(pub MeshOf);
 impl Query for ShadowTreeOf {
     type Answer = ShadowTree;
     const NAME: &'static str = "shadow tree";
+    const WHOLE: bool = true;
     const KEPT: usize = 3;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
@@ -79,6 +85,10 @@ impl Query for VisibilityOf {
     const NAME: &'static str = "visibility";
     const KEPT: usize = 6;
 
+    fn bytes(visibility: &Self::Answer) -> usize {
+        visibility.as_ref().map_or(0, |visibility| size_of_val(visibility.hits()))
+    }
+
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let mesh = ask.ask(&self.mesh);
         Visibility::new(&mesh, self.viewpoint.eye(mesh.bounds()), self.size, &ask.stop())
@@ -101,6 +111,13 @@ impl Query for GeometryOf {
     const NAME: &'static str = "geometry";
     const KEPT: usize = 6;
 
+    fn bytes(geometry: &Self::Answer) -> usize {
+        let of = |geometry: &Arc<GeometryImage>| {
+            size_of_val(geometry.angles()) + size_of_val(geometry.samples()) + size_of_val(geometry.placed().seen())
+        };
+        geometry.as_ref().map_or(0, of)
+    }
+
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let mesh = ask.ask(&self.visibility.mesh);
         let tree = (self.shadows != Shadows::Off).then(|| ask.ask(&ShadowTreeOf(self.visibility.mesh.clone())));
@@ -118,6 +135,7 @@ pub struct DeviationsOf(pub MeshOf);
 impl Query for DeviationsOf {
     type Answer = Vec<f32>;
     const NAME: &'static str = "deviations";
+    const WHOLE: bool = true;
     const KEPT: usize = 3;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
@@ -155,6 +173,10 @@ impl Query for ShadingOf {
     const NAME: &'static str = "shading";
     const KEPT: usize = 6;
 
+    fn bytes(shading: &Self::Answer) -> usize {
+        shading.as_ref().map_or(0, |shading| size_of_val(shading.shades()) + size_of_val(shading.mirrors()))
+    }
+
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let geometry = ask.ask(&self.geometry);
         let geometry = (*geometry).as_ref()?;
@@ -187,6 +209,7 @@ pub struct MeasureOf {
 impl Query for MeasureOf {
     type Answer = Result<Measure, NoRendering>;
     const NAME: &'static str = "measure";
+    const WHOLE: bool = true;
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         let divisors = white_divisors(&self.sensor, &self.light)?;
@@ -201,6 +224,7 @@ pub struct DiffuseTableOf(pub MeasureOf);
 impl Query for DiffuseTableOf {
     type Answer = Result<DiffuseTable, NoRendering>;
     const NAME: &'static str = "diffuse table";
+    const WHOLE: bool = true;
     const KEPT: usize = 64;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
@@ -222,6 +246,11 @@ impl Query for CameraImageOf {
     type Answer = Result<Option<CameraImage>, NoRendering>;
     const NAME: &'static str = "camera image";
     const KEPT: usize = 64;
+
+    fn bytes(image: &Self::Answer) -> usize {
+        let of = |image: &CameraImage| size_of_val(image.signals()) + size_of_val(image.placed().samples());
+        image.as_ref().ok().and_then(Option::as_ref).map_or(0, of)
+    }
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let measure = ask.ask(&self.measure);

@@ -71,6 +71,26 @@ impl Geometry {
         Self::new([normal.dot(to_light), normal.dot(to_viewer)], v, turned.length_squared())
     }
 
+    /// What [`Self::from_directions`] gives, without a branch, and whether it does: not where a vector is no number, nor so
+    /// near to normal incidence that the plane of incidence is any.
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[inline(always)]
+    pub fn quickly_from_directions(to_light: DVec3, to_viewer: DVec3, normal: DVec3) -> (Self, bool) {
+        let turned = normal.cross(to_light + to_viewer);
+        let cross = to_light.cross(normal);
+        let within = cross - normal * normal.dot(cross);
+        let stretch = within.length_recip();
+        let across = within * stretch;
+        let [cos_i, cos_s] = [normal.dot(to_light), normal.dot(to_viewer)];
+        let [vx_by_k, vy_by_k] = [-turned.dot(across), turned.dot(across.cross(normal))];
+        let (vxy2_by_k2, vz_by_k) = (turned.length_squared(), cos_i + cos_s);
+        let cos_half2 = (vxy2_by_k2 + vz_by_k * vz_by_k) / 4.0;
+        let all = Self { cos_i, cos_s, vx_by_k, vy_by_k, vxy2_by_k2, vz_by_k, cos_half2: cos_half2.min(1.0) };
+        // Whatever is no number or infinite is so in one of these as well.
+        let finite = cos_half2.is_finite() && vx_by_k.is_finite() && vy_by_k.is_finite();
+        (all, finite && stretch > 0.0 && stretch.is_finite() && cross.length_squared() >= 1e-24)
+    }
+
     fn new([cos_i, cos_s]: [f64; 2], [vx_by_k, vy_by_k]: [f64; 2], vxy2_by_k2: f64) -> Self {
         let vz_by_k = cos_i + cos_s;
         // |l + v|² = 2 + 2 l·v, and l·ĥ is half of |l + v|.
@@ -97,4 +117,23 @@ fn across_incidence(to_light: DVec3, normal: DVec3) -> DVec3 {
     let within = cross - normal * normal.dot(cross);
     let any = || normal.try_normalize().unwrap_or(DVec3::Z).any_orthonormal_vector();
     if cross.length_squared() < 1e-24 { any() } else { within.try_normalize().unwrap_or_else(any) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_quick_way_is_the_same_or_says_that_it_is_not() {
+        let unit = |i: u32| DVec3::new((1.7 * f64::from(i)).sin(), (2.3 * f64::from(i)).cos(), 0.4).normalize();
+        for i in 0..500 {
+            let (light, viewer, normal) = (unit(i), unit(3 * i + 1), unit(7 * i + 2));
+            let (quick, holds) = Geometry::quickly_from_directions(light, viewer, normal);
+            assert!(holds);
+            assert_eq!(quick, Geometry::from_directions(light, viewer, normal));
+        }
+        for (light, normal) in [(DVec3::Z, DVec3::Z), (DVec3::NAN, DVec3::Z), (DVec3::X, DVec3::INFINITY)] {
+            assert!(!Geometry::quickly_from_directions(light, DVec3::Y, normal).1);
+        }
+    }
 }

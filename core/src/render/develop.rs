@@ -1,7 +1,7 @@
 //! From a camera's signals to pixels: white balance, matrix, exposure, and the screen's encoding.
 
 use super::Stop;
-use super::geometry::GeometryImage;
+use super::geometry::Placed;
 use super::signals::CameraImage;
 use super::visibility::RasterSize;
 use crate::camera::Rendering;
@@ -103,7 +103,7 @@ fn encode(linear: f32) -> u8 {
 
 /// Shows a camera's picture on a screen; none if stopped. A pixel is the mean of its samples in linear light.
 pub fn develop(image: &CameraImage, development: &Development, stop: &Stop) -> Option<Picture> {
-    let geometry = image.geometry();
+    let geometry = image.placed();
     let size = geometry.size();
     let (width, height) = (size.width as usize, size.height as usize);
     let background = development.background.map(|color| Vec3::from_array(color).clamp(Vec3::ZERO, Vec3::ONE));
@@ -126,7 +126,7 @@ fn opaque(linear: Vec3) -> [u8; 4] {
 
 struct Task<'a> {
     size: RasterSize,
-    geometry: &'a GeometryImage,
+    geometry: &'a Placed,
     signals: &'a [[f32; 3]],
     matrix: Mat3,
     background: Option<Vec3>,

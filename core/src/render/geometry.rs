@@ -1,12 +1,16 @@
 //! The angles of light and view at every sample that the light reaches.
 
+mod lanes;
+
+use self::lanes::{EDGE, Found, Given, LANES};
 use super::Stop;
 use super::shadow::ShadowTree;
 use super::visibility::{Hit, RasterSize, Rays, Visibility};
 use crate::reflectance::Geometry;
 use crate::scene::{Lighting, Mesh, PlacedLight};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// The side of the block of samples that share a coarse shadow ray.
 const BLOCK: usize = 4;
@@ -72,14 +76,36 @@ pub struct Angles {
     pub vy: f32,
 }
 
+/// Where a picture's samples are: all that a camera's signals need to know of geometry.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Placed {
+    size: RasterSize,
+    samples: Vec<u32>,
+    seen: Vec<u32>,
+}
+
+impl Placed {
+    /// The picture's size.
+    pub fn size(&self) -> RasterSize {
+        self.size
+    }
+
+    /// The places of the lit samples, ascending, row by row from the top left.
+    pub fn samples(&self) -> &[u32] {
+        &self.samples
+    }
+
+    /// The places of all samples that see a triangle, ascending.
+    pub fn seen(&self) -> &[u32] {
+        &self.seen
+    }
+}
+
 /// The angles at the lit samples of a picture. No spectrum, no roughness, no camera is in it.
 #[derive(Clone, Debug)]
 pub struct GeometryImage {
-    size: RasterSize,
-    /// For each row its first lit sample's place in the lists.
-    samples: Vec<u32>,
+    placed: Arc<Placed>,
     angles: Vec<Angles>,
-    seen: Vec<u32>,
     angular_radius: f64,
     counts: GeometryCounts,
 }
@@ -131,41 +157,34 @@ impl GeometryImage {
         if stop.is_set() {
             return None;
         }
-        let mut image = Self {
-            size,
-            samples: Vec::with_capacity(bands.iter().map(|part| part.samples.len()).sum()),
-            angles: Vec::with_capacity(bands.iter().map(|part| part.angles.len()).sum()),
-            seen: Vec::with_capacity(bands.iter().map(|part| part.seen.len()).sum()),
-            angular_radius: lighting.angular_radius(),
-            counts: GeometryCounts::default(),
-        };
+        let (mut samples, mut angles, mut seen) = (Vec::new(), Vec::new(), Vec::new());
+        samples.reserve(bands.iter().map(|part| part.samples.len()).sum());
+        angles.reserve(bands.iter().map(|part| part.angles.len()).sum());
+        seen.reserve(bands.iter().map(|part| part.seen.len()).sum());
+        let mut counts = GeometryCounts::default();
         for part in bands {
-            image.samples.extend(part.samples);
-            image.angles.extend(part.angles);
-            image.seen.extend(part.seen);
-            image.counts = image.counts.plus(part.counts);
+            samples.extend(part.samples);
+            angles.extend(part.angles);
+            seen.extend(part.seen);
+            counts = counts.plus(part.counts);
         }
-        Some(image)
+        let placed = Arc::new(Placed { size, samples, seen });
+        Some(Self { placed, angles, angular_radius: lighting.angular_radius(), counts })
     }
 
-    /// The picture's size.
-    pub fn size(&self) -> RasterSize {
-        self.size
+    /// Where the samples are.
+    pub fn placed(&self) -> &Arc<Placed> {
+        &self.placed
     }
 
     /// The places of the lit samples, ascending, row by row from the top left.
     pub fn samples(&self) -> &[u32] {
-        &self.samples
+        self.placed.samples()
     }
 
     /// The angles at the lit samples.
     pub fn angles(&self) -> &[Angles] {
         &self.angles
-    }
-
-    /// The places of all samples that see a triangle, ascending.
-    pub fn seen(&self) -> &[u32] {
-        &self.seen
     }
 
     /// The light's angular radius in radians.
@@ -182,13 +201,14 @@ impl GeometryImage {
     #[must_use]
     pub fn thinned(&self, stride: usize) -> Self {
         let stride = stride.max(1);
-        let samples: Vec<u32> = self.samples.iter().copied().step_by(stride).collect();
+        let samples: Vec<u32> = self.samples().iter().copied().step_by(stride).collect();
         let angles = self.angles.iter().copied().step_by(stride).collect();
         let counts = GeometryCounts { lit: samples.len() as u64, ..self.counts };
-        Self { samples, angles, seen: self.seen.clone(), counts, ..*self }
+        let placed = Arc::new(Placed { size: self.placed.size, samples, seen: self.placed.seen.clone() });
+        Self { placed, angles, counts, ..*self }
     }
 
-    /// How many tasks a list of lit samples is worked on by.
+    /// How many samples of a list one task works on.
     pub fn chunk() -> usize {
         CHUNK
     }
@@ -215,98 +235,141 @@ struct Scene<'a> {
 struct Place {
     point: DVec3,
     normal: DVec3,
-    corners: [u32; 3],
-    weights: [f64; 3],
+    hit: Hit,
     /// Whether the triangle is seen from behind.
     behind: bool,
 }
 
+/// Whether each block of a band of rows is in shadow, once known.
+type Blocks = Vec<Option<bool>>;
+
 impl Scene<'_> {
     fn part(&self, start: usize, count: usize) -> Part {
         let hits = self.visibility.hits();
-        let columns = self.visibility.size().columns();
+        let end = (start + count).min(hits.len());
         let mut part = Part::default();
-        // Whether a block of samples is in shadow, once known.
-        let mut blocks: Vec<Option<bool>> = vec![None; columns.div_ceil(BLOCK)];
-        for (sample, hit) in hits.iter().enumerate().take((start + count).min(hits.len())).skip(start) {
-            if !hit.is_some() {
-                continue;
+        part.seen.extend((start..end).filter(|&sample| hits[sample].is_some()).map(|sample| sample as u32));
+        part.counts.seen = part.seen.len() as u64;
+        part.samples.reserve(part.seen.len());
+        part.angles.reserve(part.seen.len());
+        let mut blocks = vec![None; self.visibility.size().columns().div_ceil(BLOCK)];
+        let (mut given, mut found) = (Given::NOTHING, Found::NOTHING);
+        for run in 0..part.seen.len().div_ceil(LANES) {
+            let run = run * LANES..part.seen.len().min((run + 1) * LANES);
+            self.gather(&part.seen[run.clone()], &mut given);
+            lanes::find(&given, &self.visibility.eye().world_from_view, &mut found);
+            for (lane, at) in run.enumerate() {
+                self.take(part.seen[at], lane, &given, &found, &mut blocks, &mut part);
             }
-            part.seen.push(sample as u32);
-            part.counts.seen += 1;
-            let Some((place, to_light, distance, angles)) = self.angles(sample, *hit) else {
-                part.counts.facing_away += 1;
-                continue;
-            };
-            let block = &mut blocks[sample % columns / BLOCK];
-            if self.is_shadowed(&place, to_light, distance, block, &mut part.counts.rays) {
-                part.counts.shadowed += 1;
-                continue;
-            }
-            part.counts.lit += 1;
-            part.samples.push(sample as u32);
-            part.angles.push(angles);
         }
         part
     }
 
-    /// The angles at a sample, unless its surface is turned away from the light.
-    fn angles(&self, sample: usize, hit: Hit) -> Option<(Place, DVec3, f64, Angles)> {
-        let ray = self.rays.at(sample);
-        let eye = self.visibility.eye();
-        let ahead = ray.normalize();
-        let to_viewer = -(eye.world_from_view * DVec3::new(ahead.x, ahead.y, -ahead.z));
+    /// Brings together what the angles of some samples are made of.
+    fn gather(&self, samples: &[u32], given: &mut Given) {
+        let (hits, triangles) = (self.visibility.hits(), self.mesh.triangles());
+        let (positions, normals) = (self.mesh.positions(), self.mesh.normals());
+        let columns = self.visibility.size().columns() as u32;
+        for (lane, &sample) in samples.iter().enumerate().take(LANES) {
+            let hit = hits[sample as usize];
+            // Divided once: that is slow.
+            let (row, column) = (sample / columns, sample % columns);
+            given.columns[lane] = column;
+            given.rays[0][lane] = self.rays.x(column as usize);
+            given.rays[1][lane] = self.rays.y(row as usize);
+            given.weights[0][lane] = hit.weights[0];
+            given.weights[1][lane] = hit.weights[1];
+            for (corner, vertex) in triangles[hit.triangle as usize].into_iter().enumerate() {
+                let (point, normal) = (positions[vertex as usize], normals[vertex as usize]);
+                for (axis, (v, n)) in point.to_array().into_iter().zip(normal.to_array()).enumerate() {
+                    given.points[corner][axis][lane] = v;
+                    given.normals[corner][axis][lane] = n;
+                }
+            }
+        }
+        for lane in 0..samples.len().min(LANES) {
+            // Where the light stands on the surface there is none.
+            let (to_light, _) = self.light.seen_from(given.point(lane)).unwrap_or((DVec3::NAN, 0.0));
+            for (row, v) in given.to_light.iter_mut().zip(to_light.to_array()) {
+                row[lane] = v;
+            }
+        }
+    }
+
+    /// Adds a sample to those that the light reaches, or counts why it does not.
+    fn take(&self, sample: u32, lane: usize, given: &Given, found: &Found, blocks: &mut Blocks, part: &mut Part) {
+        let hit = self.visibility.hits()[sample as usize];
+        let lit = if found.plain[lane] {
+            found.lit[lane].then(|| {
+                let place =
+                    Place { point: given.point(lane), normal: found.normal(lane), hit, behind: found.behind[lane] };
+                (place, found.angles(lane))
+            })
+        } else {
+            self.carefully(sample as usize, hit)
+        };
+        let Some((place, angles)) = lit else {
+            part.counts.facing_away += 1;
+            return;
+        };
+        let block = &mut blocks[given.columns[lane] as usize / BLOCK];
+        if self.is_shadowed(&place, block, &mut part.counts.rays) {
+            part.counts.shadowed += 1;
+            return;
+        }
+        part.counts.lit += 1;
+        part.samples.push(sample);
+        part.angles.push(angles);
+    }
+
+    /// The angles at a sample of any kind, unless its surface is turned away from the light.
+    fn carefully(&self, sample: usize, hit: Hit) -> Option<(Place, Angles)> {
+        let ahead = self.rays.at(sample).normalize();
+        let to_viewer = -(self.visibility.eye().world_from_view * DVec3::new(ahead.x, ahead.y, -ahead.z));
         let place = self.place(hit, to_viewer);
-        let (to_light, distance) = self.light.seen_from(place.point)?;
-        let angles = angles(to_light, to_viewer, place.normal, ahead.z)?;
-        Some((place, to_light, distance, angles))
+        let (to_light, _) = self.light.seen_from(place.point)?;
+        let geometry = Geometry::from_directions(to_light, to_viewer, place.normal);
+        geometry.is_lit().then(|| (place, angles(&geometry, ahead.z)))
     }
 
     fn place(&self, hit: Hit, to_viewer: DVec3) -> Place {
-        let corners = self.mesh.triangles()[hit.triangle as usize];
         let weights = hit.barycentric().map(f64::from);
-        let points = self.points(corners);
+        let (points, normals) = self.corners(hit);
         let flat = (points[1] - points[0]).cross(points[2] - points[0]);
-        let mixed = mix(self.normals(corners), weights);
+        let mixed = mix(normals, weights);
         // The side that is seen: by the triangle itself, for its corners' normals may lie on either side of the view.
         let outward = if flat.dot(mixed) < 0.0 { -flat } else { flat };
         let normal = mixed.try_normalize().or_else(|| outward.try_normalize()).unwrap_or(to_viewer);
         let behind = outward.dot(to_viewer) < 0.0;
         let normal = turned_to(if behind { -normal } else { normal }, to_viewer);
-        Place { point: mix(points, weights), normal, corners, weights, behind }
+        Place { point: mix(points, weights), normal, hit, behind }
     }
 
-    fn points(&self, corners: [u32; 3]) -> [DVec3; 3] {
-        corners.map(|i| self.mesh.positions()[i as usize].as_dvec3())
-    }
-
-    fn normals(&self, corners: [u32; 3]) -> [DVec3; 3] {
-        corners.map(|i| self.mesh.normals()[i as usize].as_dvec3())
+    /// Places and normals of a triangle's corners.
+    fn corners(&self, hit: Hit) -> ([DVec3; 3], [DVec3; 3]) {
+        let corners = self.mesh.triangles()[hit.triangle as usize];
+        let of = |all: &[Vec3]| corners.map(|i| all[i as usize].as_dvec3());
+        (of(self.mesh.positions()), of(self.mesh.normals()))
     }
 
     /// Where a shadow ray starts: on the surface that the corners' normals suggest, a little above it.
     fn lifted(&self, place: &Place) -> DVec3 {
-        let (points, normals) = (self.points(place.corners), self.normals(place.corners));
+        let (points, normals) = self.corners(place.hit);
         let lifts = [0, 1, 2].map(|k: usize| {
             let normal = if place.behind { -normals[k] } else { normals[k] };
             normal * (points[k] - place.point).dot(normal).max(0.0)
         });
         // A hundred-thousandth of the scene above the surface: single precision does not see it on it.
-        place.point + mix(lifts, place.weights) + place.normal * (self.visibility.eye().radius * 1e-5)
+        let above = place.normal * (self.visibility.eye().radius * 1e-5);
+        place.point + mix(lifts, place.hit.barycentric().map(f64::from)) + above
     }
 
-    fn is_shadowed(
-        &self,
-        place: &Place,
-        to_light: DVec3,
-        distance: f64,
-        block: &mut Option<bool>,
-        rays: &mut u64,
-    ) -> bool {
+    fn is_shadowed(&self, place: &Place, block: &mut Option<bool>, rays: &mut u64) -> bool {
         let Some((tree, shadows)) = self.shadows else { return false };
         let mut trace = || {
             *rays += 1;
-            tree.is_blocked(self.lifted(place), to_light, distance)
+            let way = self.light.seen_from(place.point);
+            way.is_some_and(|(to_light, distance)| tree.is_blocked(self.lifted(place), to_light, distance))
         };
         match shadows {
             Shadows::Off => false,
@@ -316,13 +379,14 @@ impl Scene<'_> {
     }
 }
 
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
 fn mix(v: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2]
 }
 
 /// A normal, bent until it is edge-on where it points away from the viewer.
 fn turned_to(normal: DVec3, to_viewer: DVec3) -> DVec3 {
-    const EDGE: f64 = 1e-3;
     let cos = normal.dot(to_viewer);
     if cos >= EDGE {
         return normal;
@@ -331,14 +395,11 @@ fn turned_to(normal: DVec3, to_viewer: DVec3) -> DVec3 {
     bent.try_normalize().unwrap_or(to_viewer)
 }
 
-/// The angles between light, viewer and normal, all of unit length; none where the light is behind the surface.
-fn angles(to_light: DVec3, to_viewer: DVec3, normal: DVec3, cos_alpha: f64) -> Option<Angles> {
-    let geometry = Geometry::from_directions(to_light, to_viewer, normal);
-    if !geometry.is_lit() {
-        return None;
-    }
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn angles(geometry: &Geometry, cos_alpha: f64) -> Angles {
     let vz2 = geometry.vz_by_k * geometry.vz_by_k;
-    Some(Angles {
+    Angles {
         falloff: (cos_alpha * cos_alpha * cos_alpha * cos_alpha) as f32,
         cos_i: geometry.cos_i as f32,
         cos_s: geometry.cos_s as f32,
@@ -346,5 +407,5 @@ fn angles(to_light: DVec3, to_viewer: DVec3, normal: DVec3, cos_alpha: f64) -> O
         cos_half2: geometry.cos_half2 as f32,
         vx: geometry.vx_by_k as f32,
         vy: geometry.vy_by_k as f32,
-    })
+    }
 }

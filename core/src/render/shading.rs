@@ -18,7 +18,7 @@ pub const MIRROR_SHARE: f64 = 1e-7;
 /// How exactly the spectral integral is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quality {
-    /// Moments and table, mirror terms every 10 nm: while something moves.
+    /// Moments and table; of the mirror lobe's oscillation only the mean, from a path of 2 µm on: while something moves.
     Preview,
     /// Moments and table: error below 1e-5 of the peak.
     #[default]

@@ -2,7 +2,7 @@
 
 use super::Stop;
 use super::diffuse::{DiffuseTable, by_moments, by_nodes, by_regimes, rough_basis};
-use super::geometry::GeometryImage;
+use super::geometry::Placed;
 use super::measure::{MOMENTS, Measure};
 use super::mirror::{Nodes, mirror_sum};
 use super::shading::{Quality, Shade, ShadingImage, Way};
@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// One camera's picture: `cos θi cos⁴α ∫C_c P S L dλ / ∫C_c L dλ` at each lit sample (Eq 12 without its s).
 #[derive(Clone, Debug)]
 pub struct CameraImage {
-    geometry: Arc<GeometryImage>,
+    placed: Arc<Placed>,
     signals: Arc<Vec<[f32; 3]>>,
 }
 
@@ -22,7 +22,8 @@ impl CameraImage {
     /// Integrates at every lit sample; none if stopped. `table` may be left out where no sample needs it; where one does and
     /// there is none, sums over wavelengths take its place.
     pub fn new(shading: &ShadingImage, measure: &Measure, table: Option<&DiffuseTable>, stop: &Stop) -> Option<Self> {
-        let geometry = Arc::clone(shading.geometry());
+        let geometry = shading.geometry();
+        let placed = Arc::clone(geometry.placed());
         let mut signals = vec![[0.0; 3]; shading.shades().len()];
         let camera = Camera { measure, table, quality: shading.quality() };
         let chunk = camera.chunk();
@@ -47,15 +48,15 @@ impl CameraImage {
             Some(vertices) => vertices.mixed(&signals),
             None => signals,
         };
-        (!stop.is_set()).then(|| Self { geometry, signals: Arc::new(signals) })
+        (!stop.is_set()).then(|| Self { placed, signals: Arc::new(signals) })
     }
 
-    /// The angles it is made of, with the places of the lit samples.
-    pub fn geometry(&self) -> &Arc<GeometryImage> {
-        &self.geometry
+    /// Where its samples are.
+    pub fn placed(&self) -> &Placed {
+        &self.placed
     }
 
-    /// The signals of the lit samples, in the order of [`GeometryImage::samples`].
+    /// The signals of the lit samples, in the order of [`Placed::samples`].
     pub fn signals(&self) -> &[[f32; 3]] {
         &self.signals
     }

@@ -8,6 +8,7 @@
 use super::Stop;
 use crate::scene::{Eye, Mesh};
 use glam::DVec3;
+use multiversion::multiversion;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -109,14 +110,14 @@ impl Visibility {
         let scene = Scene { triangles: mesh.triangles(), corners: &corners, bins: &bins, rays: &rays };
         // A band of tiles is a run of rows, so each is written by one thread alone.
         hits.par_chunks_mut(TILE * size.columns()).enumerate().for_each(|(band, rows)| {
-            let mut square = Tile::default();
+            let mut square = Tile::EMPTY;
             for column in 0..across {
                 if stop.is_set() {
                     return;
                 }
                 let tile = band * across + column;
                 if bins.iter().any(|bins| !bins.is_empty(tile)) {
-                    square.draw(tile, &scene, [column * TILE, band * TILE]);
+                    draw(&mut square, tile, &scene, [column * TILE, band * TILE]);
                     square.store(rows, column * TILE, size.columns());
                 }
             }
@@ -166,11 +167,11 @@ impl Rays {
         DVec3::new(self.x(sample % self.columns), self.y(sample / self.columns), 1.0)
     }
 
-    fn x(&self, column: usize) -> f64 {
+    pub(super) fn x(&self, column: usize) -> f64 {
         self.left + (column as f64 + 0.5) * self.step
     }
 
-    fn y(&self, row: usize) -> f64 {
+    pub(super) fn y(&self, row: usize) -> f64 {
         self.top - (row as f64 + 0.5) * self.step
     }
 }
@@ -201,15 +202,49 @@ struct Extent([u16; 4]);
 impl Extent {
     const EMPTY: Self = Self([0; 4]);
 
-    /// All samples if the triangle reaches behind the eye.
     fn new(corners: [&Corner; 3], size: RasterSize) -> Self {
-        let (columns, rows) = (size.columns(), size.rows());
         let [Some(a), Some(b), Some(c)] = corners.map(|corner| corner.seen) else {
-            let hidden = corners.iter().all(|corner| corner.seen.is_none());
-            return if hidden { Self::EMPTY } else { Self([0, columns as u16, 0, rows as u16]) };
+            return Self::reaching_behind(corners, size);
         };
-        let [left, right] = span(a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]), columns);
-        let [top, bottom] = span(a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]), rows);
+        let [left, right] = span(a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]), size.columns());
+        let [top, bottom] = span(a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]), size.rows());
+        Self([left, right, top, bottom])
+    }
+
+    /// A triangle that reaches behind the eye: from what is seen of it to the picture's border, on the sides that its edges
+    /// pass the eye on.
+    fn reaching_behind(corners: [&Corner; 3], size: RasterSize) -> Self {
+        let (mut from, mut to) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let mut include = |[x, y]: [f64; 2]| {
+            from = [from[0].min(x), from[1].min(y)];
+            to = [to[0].max(x), to[1].max(y)];
+        };
+        for k in 0..3 {
+            let (corner, other) = (corners[k], corners[(k + 1) % 3]);
+            if let Some(seen) = corner.seen {
+                include(seen);
+            }
+            if corner.seen.is_some() != other.seen.is_some() {
+                // Where the edge passes the plane of the eye, turned so that the eye's depths do not divide.
+                let (a, b) = (corner.place, other.place);
+                let beside = (a * (-b.z) + b * a.z) * if a.z > 0.0 { 1.0 } else { -1.0 };
+                let rounding = (a.abs() * b.z.abs() + b.abs() * a.z.abs()) * 1e-9;
+                // Both ways where rounding hides the side.
+                let far = |v: f64, rounding: f64| {
+                    let way =
+                        |sign: f64| if sign * v >= -rounding { sign * f64::INFINITY } else { -sign * f64::INFINITY };
+                    [way(-1.0), way(1.0)]
+                };
+                let (x, y) = (far(beside.x, rounding.x), far(-beside.y, rounding.y));
+                include([x[0], y[0]]);
+                include([x[1], y[1]]);
+            }
+        }
+        if from[0] > to[0] {
+            return Self::EMPTY;
+        }
+        let [left, right] = span(from[0], to[0], size.columns());
+        let [top, bottom] = span(from[1], to[1], size.rows());
         Self([left, right, top, bottom])
     }
 
@@ -229,19 +264,42 @@ impl Extent {
 /// saturate, so that any place is one.
 fn span(from: f64, to: f64, count: usize) -> [u16; 2] {
     const SLACK: f64 = 1e-6;
-    let first = (from + (0.5 - SLACK)).max(0.0) as usize;
-    let end = (to + (0.5 + SLACK)).max(0.0) as usize;
-    [first.min(count) as u16, end.min(count) as u16]
+    let within = |place: f64| place.max(0.0).min(count as f64) as i32 as u16;
+    [within(from + (0.5 - SLACK)), within(to + (0.5 + SLACK))]
 }
 
 /// Triangles that one task sorts into tiles.
 const RUN: usize = 8192;
 
-/// The triangles of one run that each tile may show, in ascending order.
+/// A triangle that may be seen, and where.
+#[derive(Clone, Copy)]
+struct Outline {
+    extent: Extent,
+    /// No corner is nearer than this; not positive if one is behind the eye.
+    ahead: f32,
+    /// Whether it is drawn first: of a closed surface these hide the others.
+    facing: bool,
+}
+
+impl Outline {
+    fn new(corners: [&Corner; 3], size: RasterSize) -> Self {
+        let extent = Extent::new(corners, size);
+        let nearest = corners.iter().map(|corner| corner.place.z).fold(f64::INFINITY, f64::min);
+        let facing = match corners.map(|corner| corner.seen) {
+            // Rows run down, so what is counter-clockwise to the eye has a negative area here.
+            [Some(a), Some(b), Some(c)] => (b[0] - a[0]) * (c[1] - a[1]) <= (b[1] - a[1]) * (c[0] - a[0]),
+            _ => true,
+        };
+        Self { extent, ahead: (nearest * (1.0 - 1e-6)) as f32, facing }
+    }
+}
+
+/// The triangles of one run that each tile may show: those that face the eye, then the others, each in ascending order.
 struct Bins {
     /// The run's first triangle.
     first: u32,
-    extents: Vec<Extent>,
+    outlines: Vec<Outline>,
+    tiles: usize,
     starts: Vec<u32>,
     ids: Vec<u32>,
 }
@@ -250,34 +308,40 @@ impl Bins {
     /// Sorts a run of triangles into tiles.
     fn new(first: usize, triangles: &[[u32; 3]], corners: &[Corner], size: RasterSize) -> Self {
         let [across, down] = size.tiles();
-        let extent = |triangle: &[u32; 3]| Extent::new(triangle.map(|i| &corners[i as usize]), size);
-        let extents: Vec<Extent> = triangles.iter().map(extent).collect();
-        let mut starts = vec![0_u32; across * down + 1];
-        for extent in &extents {
-            extent.tiles(across).for_each(|tile| starts[tile + 1] += 1);
+        let tiles = across * down;
+        let outline = |triangle: &[u32; 3]| Outline::new(triangle.map(|i| &corners[i as usize]), size);
+        let outlines: Vec<Outline> = triangles.iter().map(outline).collect();
+        let places = |outline: &Outline| {
+            let side = if outline.facing { 0 } else { tiles };
+            outline.extent.tiles(across).map(move |tile| side + tile)
+        };
+        let mut starts = vec![0_u32; 2 * tiles + 1];
+        for outline in outlines.iter().filter(|outline| !outline.extent.is_empty()) {
+            places(outline).for_each(|place| starts[place + 1] += 1);
         }
-        for tile in 0..across * down {
-            starts[tile + 1] += starts[tile];
+        for place in 0..2 * tiles {
+            starts[place + 1] += starts[place];
         }
         let mut next = starts.clone();
         let mut ids = vec![0; *next.last().unwrap_or(&0) as usize];
-        for (id, extent) in extents.iter().enumerate() {
-            for tile in extent.tiles(across) {
-                ids[next[tile] as usize] = id as u32;
-                next[tile] += 1;
+        for (id, outline) in outlines.iter().enumerate().filter(|(_, outline)| !outline.extent.is_empty()) {
+            for place in places(outline) {
+                ids[next[place] as usize] = id as u32;
+                next[place] += 1;
             }
         }
-        Self { first: first as u32, extents, starts, ids }
+        Self { first: first as u32, outlines, tiles, starts, ids }
     }
 
-    /// The run's triangles in a tile, with the samples they may cover.
-    fn of(&self, tile: usize) -> impl Iterator<Item = (u32, Extent)> {
-        let ids = &self.ids[self.starts[tile] as usize..self.starts[tile + 1] as usize];
-        ids.iter().map(|&id| (self.first + id, self.extents[id as usize]))
+    /// The run's triangles in a tile, either those that face the eye or the others.
+    fn of(&self, tile: usize, facing: bool) -> impl Iterator<Item = (u32, Outline)> {
+        let place = if facing { tile } else { self.tiles + tile };
+        let ids = &self.ids[self.starts[place] as usize..self.starts[place + 1] as usize];
+        ids.iter().map(|&id| (self.first + id, self.outlines[id as usize]))
     }
 
     fn is_empty(&self, tile: usize) -> bool {
-        self.starts[tile] == self.starts[tile + 1]
+        [tile, self.tiles + tile].iter().all(|&place| self.starts[place] == self.starts[place + 1])
     }
 }
 
@@ -289,88 +353,197 @@ struct Scene<'a> {
     rays: &'a Rays,
 }
 
-/// A square of samples being drawn: the nearest hit so far and one over its depth.
+/// Samples of a row that are drawn side by side.
+const LANES: usize = 4;
+
+/// Samples from one row of a tile to the next: what runs past the right end is thrown away.
+const STRIDE: usize = TILE + LANES;
+
+/// A square of samples being drawn: what is nearest so far. All numbers are of one size, so that the loops vectorize.
 struct Tile {
-    hits: [Hit; TILE * TILE],
-    nearness: [f64; TILE * TILE],
+    /// One over the depth; infinite past the right end, so that nothing is drawn there.
+    nearness: [f64; TILE * STRIDE],
+    ids: [f64; TILE * STRIDE],
+    /// The edge functions of the second and third corner, and the sum of all three.
+    edges: [[f64; TILE * STRIDE]; 3],
+    /// Where the columns look.
+    xs: [f64; STRIDE],
 }
 
-impl Default for Tile {
-    fn default() -> Self {
-        Self { hits: [Hit::NOTHING; TILE * TILE], nearness: [0.0; TILE * TILE] }
-    }
+/// Draws what a tile may show; its left and top samples are given. Compiled for several instruction sets, the best chosen
+/// at run time; no operation is fused, so all of them give the same bits.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn draw(tile: &mut Tile, index: usize, scene: &Scene<'_>, corner: [usize; 2]) {
+    draw_portable(tile, index, scene, corner);
+}
+
+/// The same for any processor.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn draw_portable(tile: &mut Tile, index: usize, scene: &Scene<'_>, corner: [usize; 2]) {
+    tile.clear(scene.rays, corner[0]);
+    tile.draw(index, true, scene, corner, 0.0);
+    let floor = tile.floor();
+    tile.draw(index, false, scene, corner, floor);
 }
 
 impl Tile {
-    /// Draws what a tile may show; its left and top samples are given.
-    fn draw(&mut self, tile: usize, scene: &Scene<'_>, [left, top]: [usize; 2]) {
-        *self = Self::default();
-        for (id, extent) in scene.bins.iter().flat_map(|bins| bins.of(tile)) {
-            let corners = scene.triangles[id as usize].map(|i| scene.corners[i as usize].place);
-            let [from, to, above, below] = extent.0.map(usize::from);
-            let across = from.max(left) - left..to.min(left + TILE) - left;
-            let down = above.max(top) - top..below.min(top + TILE) - top;
-            self.triangle(id, corners, scene.rays, [left, top], [across, down]);
+    const EMPTY: Self = Self {
+        nearness: [0.0; TILE * STRIDE],
+        ids: [0.0; TILE * STRIDE],
+        edges: [[0.0; TILE * STRIDE]; 3],
+        xs: [0.0; STRIDE],
+    };
+
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[inline(always)]
+    fn clear(&mut self, rays: &Rays, left: usize) {
+        for row in self.nearness.chunks_exact_mut(STRIDE) {
+            let (inside, outside) = row.split_at_mut(TILE);
+            // Above zero, so that a hit's numbers can be divided by their sum.
+            inside.fill(f64::MIN_POSITIVE);
+            outside.fill(f64::INFINITY);
+        }
+        self.ids.fill(f64::from(Hit::NONE));
+        for (column, x) in self.xs.iter_mut().enumerate() {
+            *x = rays.x(left + column);
         }
     }
 
-    /// Writes the samples of a triangle that are nearer than what was there; the first of equals stays.
-    fn triangle(
-        &mut self,
-        id: u32,
-        [a, b, c]: [DVec3; 3],
-        rays: &Rays,
-        [left, top]: [usize; 2],
-        [across, down]: [Range<usize>; 2],
-    ) {
-        if self.hides(a.z.min(b.z).min(c.z), &across, &down) {
-            return;
-        }
-        let edges = [b.cross(c), c.cross(a), a.cross(b)];
-        let volume = a.dot(edges[0]);
-        if volume == 0.0 || !volume.is_finite() {
-            return;
-        }
-        // Seen from the other side all signs are turned; a sample on an edge belongs to one side of it alone.
-        let edges = if volume < 0.0 { edges.map(|edge| -edge) } else { edges };
-        let volume = volume.abs();
-        for row in down {
-            let y = rays.y(top + row);
-            let bases = edges.map(|edge| edge.y * y + edge.z);
-            for column in across.clone() {
-                let x = rays.x(left + column);
-                let e = [0, 1, 2].map(|k: usize| edges[k].x * x + bases[k]);
-                let inside = (0..3).all(|k| e[k] > 0.0 || (e[k] == 0.0 && owns_its_border(edges[k])));
-                if !inside {
+    /// The nearness that all samples have at least.
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[inline(always)]
+    fn floor(&self) -> f64 {
+        // Bits of what is not negative are in the order of the numbers, and whole numbers are compared in vectors.
+        f64::from_bits(self.nearness.iter().fold(u64::MAX, |least, v| least.min(v.to_bits())))
+    }
+
+    /// Draws the triangles of one side that are not certainly behind what all samples see.
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[inline(always)]
+    fn draw(&mut self, index: usize, facing: bool, scene: &Scene<'_>, [left, top]: [usize; 2], floor: f64) {
+        for bins in scene.bins {
+            for (id, outline) in bins.of(index, facing) {
+                let ahead = f64::from(outline.ahead);
+                if floor * ahead > 1.0 {
                     continue;
                 }
-                let sum = e[0] + e[1] + e[2];
-                let nearness = sum / volume;
-                let at = row * TILE + column;
-                if nearness > self.nearness[at] {
-                    self.nearness[at] = nearness;
-                    let share = 1.0 / sum;
-                    self.hits[at] = Hit { triangle: id, weights: [(e[1] * share) as f32, (e[2] * share) as f32] };
+                let [from, to, above, below] = outline.extent.0.map(usize::from);
+                let across = from.max(left) - left..to.min(left + TILE) - left;
+                let down = above.max(top) - top..below.min(top + TILE) - top;
+                if !facing && self.hides(ahead, &across, &down) {
+                    continue;
                 }
+                let corners = scene.triangles[id as usize].map(|i| scene.corners[i as usize].place);
+                self.triangle(id, corners, |row| scene.rays.y(top + row), [across, down]);
             }
         }
     }
 
-    /// Whether all of these samples see something nearer than a depth, with a margin above rounding.
-    fn hides(&self, depth: f64, across: &Range<usize>, down: &Range<usize>) -> bool {
-        depth > 0.0
+    /// Whether all of these samples see something nearer than a depth.
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[inline(always)]
+    fn hides(&self, ahead: f64, across: &Range<usize>, down: &Range<usize>) -> bool {
+        ahead > 0.0
             && down.clone().all(|row| {
-                let line = &self.nearness[row * TILE..][across.clone()];
-                line.iter().all(|nearness| nearness * depth > 1.0 + 1e-9)
+                across.clone().step_by(LANES).all(|column| {
+                    let [a, b, c, d] = lanes(&self.nearness, row * STRIDE + column);
+                    least(least(a, b), least(c, d)) * ahead > 1.0
+                })
             })
+    }
+
+    /// Writes the samples of a triangle that are nearer than what was there; of equals the one with the lowest index stays.
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[inline(always)]
+    fn triangle(
+        &mut self,
+        id: u32,
+        [a, b, c]: [DVec3; 3],
+        y: impl Fn(usize) -> f64,
+        [across, down]: [Range<usize>; 2],
+    ) {
+        let edges = [b.cross(c), c.cross(a), a.cross(b)];
+        let volume = a.dot(edges[0]);
+        let scale = 1.0 / volume.abs();
+        if !(scale > 0.0 && scale.is_finite()) {
+            return;
+        }
+        // Seen from the other side all signs are turned; a sample on an edge belongs to one side of it alone.
+        let edges = if volume < 0.0 { edges.map(|edge| -edge) } else { edges };
+        let limits = edges.map(|edge| if owns_its_border(edge) { 0.0 } else { f64::MIN_POSITIVE });
+        for row in down {
+            let y = y(row);
+            let bases = edges.map(|edge| edge.y * y + edge.z);
+            for column in across.clone().step_by(LANES) {
+                self.four(
+                    f64::from(id),
+                    row,
+                    column,
+                    [0, 1, 2].map(|k: usize| (edges[k].x, bases[k], limits[k])),
+                    scale,
+                );
+            }
+        }
+    }
+
+    /// The same for some samples side by side.
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[inline(always)]
+    fn four(&mut self, id: f64, row: usize, column: usize, lines: [(f64, f64, f64); 3], scale: f64) {
+        let start = row * STRIDE + column;
+        let xs = lanes(&self.xs, column);
+        let edge = |k: usize| each(|i| lines[k].0 * xs[i] + lines[k].1);
+        let (a, b, c) = (edge(0), edge(1), edge(2));
+        let sum = each(|i| a[i] + b[i] + c[i]);
+        let least = each(|i| least(a[i] - lines[0].2, least(b[i] - lines[1].2, c[i] - lines[2].2)));
+        let nearness = each(|i| if least[i] >= 0.0 { sum[i] * scale } else { 0.0 });
+        let nearest = lanes(&self.nearness, start);
+        let ids = lanes(&self.ids, start);
+        let equal = each(|i| if id < ids[i] { nearness[i] } else { -1.0 });
+        let gate = each(|i| if equal[i] == nearest[i] { f64::INFINITY } else { nearness[i] });
+        let [second, third, sums] = &mut self.edges;
+        for (all, new) in [&mut self.ids, second, third, sums].into_iter().zip([[id; LANES], b, c, sum]) {
+            let old = lanes(all, start);
+            let kept = each(|i| if gate[i] > nearest[i] { new[i] } else { old[i] });
+            all[start..start + LANES].copy_from_slice(&kept);
+        }
+        let kept = each(|i| if gate[i] > nearest[i] { nearness[i] } else { nearest[i] });
+        self.nearness[start..start + LANES].copy_from_slice(&kept);
     }
 
     fn store(&self, rows: &mut [Hit], left: usize, columns: usize) {
         let width = TILE.min(columns - left);
         for (row, line) in rows.chunks_exact_mut(columns).enumerate() {
-            line[left..left + width].copy_from_slice(&self.hits[row * TILE..row * TILE + width]);
+            for (column, hit) in line[left..left + width].iter_mut().enumerate() {
+                let at = row * STRIDE + column;
+                let share = 1.0 / self.edges[2][at];
+                let weights = [0, 1].map(|k: usize| (self.edges[k][at] * share) as f32);
+                let triangle = self.ids[at] as u32;
+                *hit = if triangle == Hit::NONE { Hit::NOTHING } else { Hit { triangle, weights } };
+            }
         }
     }
+}
+
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn each(value: impl Fn(usize) -> f64) -> [f64; LANES] {
+    [value(0), value(1), value(2), value(3)]
+}
+
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn lanes(all: &[f64], start: usize) -> [f64; LANES] {
+    let mut lanes = [0.0; LANES];
+    lanes.copy_from_slice(&all[start..start + LANES]);
+    lanes
 }
 
 /// Which of two neighbors has the samples exactly on their common edge: the one into which the edge's normal points to
@@ -378,4 +551,29 @@ impl Tile {
 fn owns_its_border(edge: DVec3) -> bool {
     let first = [edge.x, edge.y, edge.z].into_iter().find(|v| *v != 0.0);
     first.is_some_and(|v| v > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_instruction_set_draws_the_same() {
+        let size = RasterSize::new(16, 16);
+        let rays = Rays { step: 0.1, left: -0.8, top: 0.8, columns: 16 };
+        let place = |i: u32| DVec3::new((1.9 * f64::from(i)).sin(), (2.7 * f64::from(i)).cos(), 1.5 + f64::from(i % 5));
+        let corners: Vec<Corner> = (0..60).map(|i| Corner::new(place(i), &rays)).collect();
+        let triangles: Vec<[u32; 3]> = (0..58).map(|i| [i, i + 1, i + 2]).collect();
+        let bins = [Bins::new(0, &triangles, &corners, size)];
+        let scene = Scene { triangles: &triangles, corners: &corners, bins: &bins, rays: &rays };
+        let drawn = |draw: fn(&mut Tile, usize, &Scene<'_>, [usize; 2])| {
+            let (mut tile, mut hits) = (Tile::EMPTY, vec![Hit::NOTHING; 256]);
+            draw(&mut tile, 0, &scene, [0; 2]);
+            tile.store(&mut hits, 0, 16);
+            hits
+        };
+        let chosen = drawn(draw);
+        assert_eq!(chosen, drawn(draw_portable));
+        assert!(chosen.iter().any(|hit| hit.is_some()));
+    }
 }

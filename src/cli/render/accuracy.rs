@@ -70,7 +70,7 @@ struct Camera {
 
 /// Measures; none where nothing is lit, and where samples lie between vertices of different roughness.
 pub(super) fn measure(made: &Made<'_>) -> Option<Accuracy> {
-    let geometry = made.pictures.images.iter().flatten().next()?.geometry();
+    let geometry = &made.pictures.angles;
     let lit = geometry.samples().len();
     if lit == 0 || made.query.shading.roughness == Roughness::Mesh {
         return None;

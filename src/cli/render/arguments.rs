@@ -42,7 +42,7 @@ pub(in crate::cli) struct RenderArguments {
     /// The color a perfect white is to take: `unity`, a light's name, `daylight:K` or `blackbody:K` [default: D55]
     #[arg(long, value_name = "WHITE", help_heading = SCENE)]
     pub(super) white: Option<String>,
-    /// The light's direction in view axes [default: 25° up, 25° left]
+    /// The way to the light in view axes: right, up, towards the eye [default: 25° up, 25° left]
     #[arg(long, value_name = "x,y,z", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) light: Option<[f64; 3]>,
     /// Lets light pass through the mesh
@@ -52,7 +52,7 @@ pub(in crate::cli) struct RenderArguments {
     /// for the fern]
     #[arg(long, value_name = "yaw,pitch,distance", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) orbit: Option<[f64; 3]>,
-    /// The vertical field of view in degrees [default: 30 along the shorter side]
+    /// The vertical field of view in degrees [default: 30, or what shows 30 across in an upright picture]
     #[arg(long, value_name = "DEGREES", value_parser = finite, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) fov: Option<f64>,
     /// The deviation of the surface's heights in meters [default: 5e-6]

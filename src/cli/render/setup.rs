@@ -139,7 +139,9 @@ fn settings(arguments: &RenderArguments, mesh: MeshChoice) -> Result<RenderSetti
     if let Some([x, y, z]) = arguments.light {
         let length = x.hypot(y).hypot(z);
         if !(length > 0.0 && length.is_finite()) {
-            let reason = "a direction of no length; give one such as -0.4,0.5,1: left, up, towards the eye".to_owned();
+            let reason =
+                "a direction of no length; give one such as -0.4,0.5,1: 0.4 to the left, 0.5 up, 1 towards the eye"
+                    .to_owned();
             return Err(CliError::Argument { argument: "--light", reason });
         }
         settings.light_up_deg = y.atan2(x.hypot(z)).to_degrees();

@@ -145,14 +145,12 @@ fn wavelengths(measure: &Measure, made: &Made<'_>) -> Value {
         Quality::Fine => measure.fine().len(),
         Quality::Exact | Quality::Regimes => measure.dense().len(),
     };
-    let of_mirror =
-        if quality == Quality::Preview { measure.dense().len().div_ceil(10) } else { measure.dense().len() };
     let where_any = |count: u64, wavelengths: usize| (count > 0).then_some(wavelengths);
     let ways = [
         where_any(moments, 0),
         where_any(table, measure.coarse().len()),
         where_any(sums, of_sum),
-        where_any(mirrors, of_mirror),
+        where_any(mirrors, measure.dense().len()),
     ];
     json!({
         "of": COUNT,

@@ -8,18 +8,14 @@ use crate::scene::Source;
 use crate::studio::pixel::PixelShows;
 use crate::thing::Thing;
 use crate::view::render::PixelPlace;
-use crate::workspaces::PaneKind;
 
 /// The radius of its mark.
 const RADIUS: f64 = 4.5;
 
-/// Adds a diamond for each source whose picture is on show beside the diagram.
+/// Adds a diamond for each source that has a picture, in whatever workspace that is.
 pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[Source]) {
-    let saved = &drawing.view.saved;
     let render = &drawing.view.render;
-    let Some(pinned) = render.pinned.clone().filter(|_| saved.layout.shows(saved.workspace, PaneKind::Render)) else {
-        return;
-    };
+    let Some(pinned) = render.pinned.clone() else { return };
     for source in sources.iter().rev() {
         let place = PixelPlace { source: id(source), ..pinned.clone() };
         let Some(PixelShows::Lit(lit)) = pixel_of(drawing.scene, render, &place).map(|reading| reading.shows) else {

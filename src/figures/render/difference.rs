@@ -61,7 +61,7 @@ pub fn map(shot: &Shot, at: usize, end: f32) -> ([usize; 2], Vec<u8>) {
     let (Some(Some(difference)), Some(Some(image))) = (made.differences.get(at), made.images.get(at)) else {
         return nothing;
     };
-    let geometry = image.geometry();
+    let geometry = image.placed();
     let size = geometry.size();
     let (width, height, each) = (size.width as usize, size.height as usize, size.samples as usize);
     let pixel = |sample: u32| {

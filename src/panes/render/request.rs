@@ -18,8 +18,9 @@ use crate::view::render::{Orbit, RenderMode};
 const MANY_PIXELS: u64 = 1_500_000;
 /// So many samples are compared with the truth while something moves, and at rest.
 const COMPARED: [usize; 2] = [2048, 16384];
-/// Samples along the side of a pixel in the finest pictures.
+/// Samples along the side of a pixel in the finest pictures, and the most in all: beyond, there are fewer to a pixel.
 const SAMPLES: u32 = 3;
+const MOST_SAMPLES: u64 = 6_000_000;
 
 /// Asks for the pictures that stand here. Says why there are none.
 pub(super) fn ask(ui: &Ui, stand: &Stand, context: &mut PaneContext<'_>) -> Result<(), String> {
@@ -118,7 +119,9 @@ impl Wish<'_, '_> {
         let chosen = self.context.scene.document.render.quality;
         // Maps compare every sample, which costs more than all else: one a pixel is enough for them.
         let one = is_slow(chosen) || self.stand.mode == RenderMode::Difference;
-        let samples = if one { 1 } else { SAMPLES };
+        let [width, height] = self.stand.pixels.map(u64::from);
+        let fits = |samples: &u32| width * height * u64::from(samples * samples) <= MOST_SAMPLES;
+        let samples = if one { 1 } else { (2..=SAMPLES).rev().find(fits).unwrap_or(1) };
         Finish { size: self.size(samples), quality: chosen.quality(), ..self.middle() }
     }
 

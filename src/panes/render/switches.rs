@@ -25,12 +25,14 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         (
             RenderAction::Figure8,
             "Figure 8",
-            "The paper's head under direct sunlight, balanced to D55. Sets Light and White too, in one step.",
+            "The paper's head under direct sunlight, balanced to D55, in the reading of Eq 1 that is chosen under Surface. Sets Light \
+             and White too, in one step; ticked sources stay.",
         ),
         (
             RenderAction::Figure9,
             "Figure 9",
-            "The paper's fern under direct sunlight, balanced to D55. Sets Light and White too, in one step.",
+            "The paper's fern under direct sunlight, balanced to D55, in the reading of Eq 1 that is chosen under Surface. Sets Light \
+             and White too, in one step; ticked sources stay.",
         ),
     ];
     for (action, words, hint) in figures {

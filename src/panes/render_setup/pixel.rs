@@ -6,6 +6,8 @@ use crate::figures::render::{facts, index_of, pixel_of};
 use crate::panes::PaneContext;
 use crate::studio::pixel::PixelShows;
 use crate::theme::UNIT;
+use crate::thing::SourceId;
+use crate::view::render::PixelPlace;
 
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -47,9 +49,31 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 "RGB: linear sRGB at this exposure, before clipping. xy, Lab and ΔE*00: a white of the same roughness that \
                  faces the light has Y = 1. g: at 550 nm.",
             );
+            others(ui, &place, context);
             if let Some((_, way)) = lit.roughness {
                 ui.label(RichText::new(format!("g at 550 nm, {way}")).small().color(weak));
             }
         }
     }
+}
+
+/// The same pixel through each source, in a line each.
+fn others(ui: &mut Ui, place: &PixelPlace, context: &PaneContext<'_>) {
+    let render = &context.view.render;
+    let Some(shot) = render.shot.as_deref() else { return };
+    Grid::new("pixel through all").num_columns(3).spacing([2.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
+        for source in &shot.sources {
+            let place = PixelPlace { at: place.at, source: SourceId { kind: source.kind, name: source.name.clone() } };
+            let Some(PixelShows::Lit(lit)) = pixel_of(&context.scene, render, &place).map(|reading| reading.shows)
+            else {
+                continue;
+            };
+            let xy = lit.xy.map_or_else(|| "no xy".to_owned(), |xy| format!("{:.4} {:.4}", xy.x, xy.y));
+            let difference = lit.difference.map_or_else(String::new, |difference| format!("ΔE {difference:.1}"));
+            ui.label(RichText::new(&source.label).small());
+            ui.label(RichText::new(xy).small().monospace());
+            ui.label(RichText::new(difference).small().monospace());
+            ui.end_row();
+        }
+    });
 }

@@ -88,12 +88,14 @@ fn summary(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
 }
 
 fn light(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
-    let angle = |name, hint| Dial { name, range: -90.0..=90.0, logarithmic: None, unit: "°", hint, beyond: false };
-    let height = angle("Light height", "The light above the view axis; it goes along when you orbit.");
+    let angle =
+        |name, to: f64, hint| Dial { name, range: -to..=to, logarithmic: None, unit: "°", hint, beyond: false };
+    let height = angle("Light height", 90.0, "The light above the view axis; it goes along when you orbit.");
     if let Some(to) = height.show(ui, settings.light_up_deg) {
         set(context, "Light height", |settings| settings.light_up_deg = to.round());
     }
-    let side = angle("Light side", "The light to the right of the view axis; negative is left.");
+    let side =
+        angle("Light side", 180.0, "The light to the right of the view axis; negative is left, beyond 90° behind.");
     if let Some(to) = side.show(ui, settings.light_right_deg) {
         set(context, "Light side", |settings| settings.light_right_deg = to.round());
     }

@@ -73,11 +73,12 @@ fn lengths(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
         logarithmic: Some(least),
         unit: " µm",
         hint,
-        beyond: false,
+        beyond: true,
     };
-    let sigma = length("Roughness σ", 0.0, 0.01, "The standard deviation of the surface's heights");
+    let sigma =
+        length("Roughness σ", 0.0, 0.01, "The standard deviation of the surface's heights; type up to 1e6, a meter");
     if let Some(to) = sigma.show(ui, settings.sigma_um) {
-        set(context, "Roughness", |settings| settings.sigma_um = to);
+        set(context, "Roughness", |settings| settings.sigma_um = to.clamp(0.0, 1e6));
     }
     let from_mesh = settings.roughness == RoughnessChoice::Mesh;
     let mut wanted = from_mesh;
@@ -93,7 +94,7 @@ fn lengths(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
     let tau =
         length("Correlation τ", 0.001, 0.001, "The distance at which heights know half of each other no more: 1/e");
     if let Some(to) = tau.show(ui, settings.tau_um) {
-        set(context, "Correlation length", |settings| settings.tau_um = to);
+        set(context, "Correlation length", |settings| settings.tau_um = to.clamp(0.001, 1e6));
     }
     ui.horizontal(|ui| {
         for (axis, name, hint) in [
@@ -144,6 +145,12 @@ fn cautions(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
             ui.label(RichText::new(error.to_string()).small().color(context.theme.error));
         }
         Ok(surface) => {
+            if is_nearly_a_mirror(settings) {
+                let whole = "Nearly a mirror: most light stays in the highlight, which is what exposure goes by; all else is dark. \
+                             The small highlight may fall between the pixels.";
+                let words = RichText::new("Nearly a mirror: dark but for its highlight").small();
+                ui.label(words.color(context.theme.warning)).on_hover_text(whole);
+            }
             for caution in surface.cautions() {
                 let whole = format!("{caution}.");
                 let said = whole.split([',', ':']).next().unwrap_or(&whole);
@@ -156,6 +163,12 @@ fn cautions(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
             }
         }
     }
+}
+
+/// Whether most of the light is reflected as by a mirror when it comes head-on, at 550 nm.
+fn is_nearly_a_mirror(settings: &RenderSettings) -> bool {
+    let phase = 4.0 * std::f64::consts::PI * settings.sigma_um / 0.55;
+    settings.roughness == RoughnessChoice::Surface && (-phase * phase).exp() > 0.01
 }
 
 /// A sentence to go on with.

@@ -68,7 +68,7 @@ fn the_number_of_threads_changes_nothing() {
             for (a, b) in one.images.iter().zip(&many.images) {
                 let [a, b] = [a, b].map(|image| image.as_ref().unwrap());
                 assert_eq!(a.signals(), b.signals());
-                assert_eq!(a.geometry().samples(), b.geometry().samples());
+                assert_eq!(a.placed(), b.placed());
             }
             for (a, b) in one.pictures.iter().zip(&many.pictures) {
                 assert_eq!(a.as_ref().unwrap(), b.as_ref().unwrap());
@@ -92,7 +92,7 @@ fn between_vertices_of_one_roughness_there_is_little_to_interpolate() {
     let (a, b) = (uniform.images[0].as_ref().unwrap(), own.images[0].as_ref().unwrap());
     // Around the middle, where the ball's triangles are alike.
     let mut compared = 0;
-    for (angles, (a, b)) in a.geometry().angles().iter().zip(a.signals().iter().zip(b.signals())) {
+    for (angles, (a, b)) in uniform.angles.angles().iter().zip(a.signals().iter().zip(b.signals())) {
         if angles.cos_s > 0.9 {
             assert!((b[1] / a[1] - 1.0).abs() < 0.5, "{b:?} beside {a:?}");
             compared += 1;

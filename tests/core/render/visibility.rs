@@ -129,3 +129,22 @@ fn a_stopped_picture_is_none() {
     let eye = Viewpoint::new(0.0, 0.0, 3.0, 0.7).unwrap().eye(mesh.bounds());
     assert!(Visibility::new(&mesh, eye, RasterSize::new(8, 8), &Stop::at(flag)).is_none());
 }
+
+#[test]
+fn from_within_a_mesh_each_sample_sees_what_a_ray_meets() {
+    let ball = shapes::sphere(300);
+    for (yaw, distance) in [(0.3, 0.9), (1.7, 0.4), (-2.0, 0.06)] {
+        let visibility = seen(&ball, Viewpoint::new(yaw, 0.4, distance, 1.2).unwrap(), RasterSize::new(48, 40));
+        let eye = visibility.eye();
+        for (sample, hit) in visibility.hits().iter().enumerate() {
+            let ray = visibility.rays().at(sample);
+            let direction = eye.world_from_view * DVec3::new(ray.x, ray.y, -ray.z);
+            let (triangle, _) = cast(&ball, eye.position, direction).expect("a ball is closed");
+            assert!(hit.is_some(), "sample {sample} at {distance}");
+            // On an edge either neighbor will do.
+            let near =
+                |t: u32| ball.triangles()[t as usize].iter().any(|v| ball.triangles()[triangle as usize].contains(v));
+            assert!(hit.triangle == triangle || near(hit.triangle), "sample {sample} at {distance}");
+        }
+    }
+}

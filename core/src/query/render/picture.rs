@@ -6,7 +6,9 @@ use crate::colorimetry::Xyz;
 use crate::query::{Ask, Query, RenderingOf, Shared};
 use crate::reflectance::{Geometry, Reading, Surface, factor};
 use crate::render::develop::{develop, differences};
-use crate::render::{CameraImage, Development, GeometryCounts, Measure, Measurement, Picture, ShadingCounts};
+use crate::render::{
+    CameraImage, Development, GeometryCounts, GeometryImage, Measure, Measurement, Picture, ShadingCounts,
+};
 use crate::spectral::GridSpectrum;
 use glam::DVec3;
 use std::sync::Arc;
@@ -104,6 +106,10 @@ impl Query for PictureOf {
     const NAME: &'static str = "picture";
     const KEPT: usize = 64;
 
+    fn bytes(picture: &Self::Answer) -> usize {
+        picture.as_ref().ok().and_then(Option::as_ref).map_or(0, |picture| picture.rgba.len())
+    }
+
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let facing = ask.ask(&self.exposure);
         let facing = (*facing).as_ref().map_err(|&e| e)?;
@@ -149,6 +155,10 @@ impl Query for DifferenceOf {
     type Answer = Result<Option<Arc<Difference>>, NoRendering>;
     const NAME: &'static str = "difference";
     const KEPT: usize = 64;
+
+    fn bytes(difference: &Self::Answer) -> usize {
+        difference.as_ref().ok().and_then(Option::as_ref).map_or(0, |difference| size_of_val(&*difference.map))
+    }
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let facing = ask.ask(&self.exposure);
@@ -198,6 +208,8 @@ pub struct Pictures {
     pub images: Vec<Option<CameraImage>>,
     /// Of each source how far it is from the truth.
     pub differences: Vec<Option<Arc<Difference>>>,
+    /// The angles at the lit samples, to read pixels from.
+    pub angles: Arc<GeometryImage>,
     /// What exposure went by.
     pub facing: Facing,
     /// Why samples are dark.
@@ -268,7 +280,8 @@ impl PicturesOf {
 impl Query for PicturesOf {
     type Answer = Result<Option<Pictures>, NoRendering>;
     const NAME: &'static str = "pictures";
-    const KEPT: usize = 4;
+    // Each holds on to all of its parts.
+    const KEPT: usize = 2;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let facing = *ask.ask(&self.exposure());
@@ -286,8 +299,9 @@ impl Query for PicturesOf {
             let image = ask.ask(&self.image(&source.rendering));
             images.push((*image).as_ref().ok().and_then(Clone::clone));
         }
-        let geometry = shading.geometry().counts();
+        let angles = Arc::clone(shading.geometry());
+        let geometry = angles.counts();
         let differences = self.compare(ask, geometry.lit);
-        Ok(Some(Pictures { pictures, images, differences, facing, geometry, shading: shading.counts() }))
+        Ok(Some(Pictures { pictures, images, differences, facing, angles, geometry, shading: shading.counts() }))
     }
 }

@@ -1,0 +1,181 @@
+//! The angles of many samples side by side, so that the arithmetic runs in vectors.
+
+use super::{Angles, mix};
+use crate::reflectance::Geometry;
+use glam::{DMat3, DVec3};
+use multiversion::multiversion;
+
+/// Samples that are worked on side by side.
+pub(super) const LANES: usize = 64;
+
+/// Below this cosine towards the viewer a normal is bent.
+pub(super) const EDGE: f64 = 1e-3;
+
+/// One number for each sample.
+type Row<T> = [T; LANES];
+
+/// Three coordinates for each sample, axis by axis.
+type Rows<T> = [Row<T>; 3];
+
+/// What the angles of some samples are made of.
+pub(super) struct Given {
+    /// The sample's column in the picture.
+    pub(super) columns: Row<u32>,
+    /// x and y of the sample's ray, which goes one ahead.
+    pub(super) rays: [Row<f64>; 2],
+    /// The weights of the triangle's second and third corner.
+    pub(super) weights: [Row<f32>; 2],
+    /// The triangle's corners.
+    pub(super) points: [Rows<f32>; 3],
+    /// The normals at the corners.
+    pub(super) normals: [Rows<f32>; 3],
+    /// The unit vector towards the light.
+    pub(super) to_light: Rows<f64>,
+}
+
+impl Given {
+    pub(super) const NOTHING: Self = Self {
+        columns: [0; LANES],
+        rays: [[0.0; LANES]; 2],
+        weights: [[0.0; LANES]; 2],
+        points: [[[0.0; LANES]; 3]; 3],
+        normals: [[[0.0; LANES]; 3]; 3],
+        to_light: [[0.0; LANES]; 3],
+    };
+
+    fn weights(&self, lane: usize) -> [f64; 3] {
+        let [b, c] = [self.weights[0][lane], self.weights[1][lane]];
+        [1.0 - b - c, b, c].map(f64::from)
+    }
+
+    /// A place in the triangle.
+    pub(super) fn point(&self, lane: usize) -> DVec3 {
+        mix(self.points.each_ref().map(|rows| at(rows, lane)), self.weights(lane))
+    }
+}
+
+/// What is found out about some samples.
+pub(super) struct Found {
+    /// Whether what follows holds; if not, the sample is one of the rare ones that need care.
+    pub(super) plain: Row<bool>,
+    /// Whether light and viewer are before the surface.
+    pub(super) lit: Row<bool>,
+    /// Whether the triangle is seen from behind.
+    pub(super) behind: Row<bool>,
+    normals: Rows<f64>,
+    angles: [Row<f32>; 7],
+}
+
+impl Found {
+    pub(super) const NOTHING: Self = Self {
+        plain: [false; LANES],
+        lit: [false; LANES],
+        behind: [false; LANES],
+        normals: [[0.0; LANES]; 3],
+        angles: [[0.0; LANES]; 7],
+    };
+
+    pub(super) fn normal(&self, lane: usize) -> DVec3 {
+        at(&self.normals, lane)
+    }
+
+    pub(super) fn angles(&self, lane: usize) -> Angles {
+        let [falloff, cos_i, cos_s, tan2, cos_half2, vx, vy] = self.angles.each_ref().map(|row| row[lane]);
+        Angles { falloff, cos_i, cos_s, tan2, cos_half2, vx, vy }
+    }
+}
+
+/// Finds the angles of all samples. Compiled for several instruction sets, the best chosen at run time; no operation is
+/// fused, so all of them give the same bits.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+pub(super) fn find(given: &Given, world_from_view: &DMat3, found: &mut Found) {
+    find_portable(given, world_from_view, found);
+}
+
+/// The same for any processor.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn find_portable(given: &Given, world_from_view: &DMat3, found: &mut Found) {
+    for lane in 0..LANES {
+        let ray = DVec3::new(given.rays[0][lane], given.rays[1][lane], 1.0);
+        let ahead = ray.normalize();
+        let to_viewer = -(*world_from_view * DVec3::new(ahead.x, ahead.y, -ahead.z));
+        let to_light = at(&given.to_light, lane);
+        let [a, b, c] = given.points.each_ref().map(|rows| at(rows, lane));
+        let flat = (b - a).cross(c - a);
+        let mixed = mix(given.normals.each_ref().map(|rows| at(rows, lane)), given.weights(lane));
+        let shrink = mixed.length_recip();
+        // The side that is seen: by the triangle itself, for its corners' normals may lie on either side of the view.
+        let facing = flat.dot(to_viewer);
+        let behind = if flat.dot(mixed) < 0.0 { facing > 0.0 } else { facing < 0.0 };
+        let upright = mixed * shrink;
+        let normal = if behind { -upright } else { upright };
+        let (geometry, plain) = Geometry::quickly_from_directions(to_light, to_viewer, normal);
+        found.plain[lane] = plain && shrink > 0.0 && shrink.is_finite() && geometry.cos_s >= EDGE;
+        found.lit[lane] = geometry.is_lit();
+        found.behind[lane] = behind;
+        put(&mut found.normals, lane, normal);
+        let angles = super::angles(&geometry, ahead.z);
+        let Angles { falloff, cos_i, cos_s, tan2, cos_half2, vx, vy } = angles;
+        for (row, v) in found.angles.iter_mut().zip([falloff, cos_i, cos_s, tan2, cos_half2, vx, vy]) {
+            row[lane] = v;
+        }
+    }
+}
+
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn at<T: Copy + Into<f64>>(rows: &Rows<T>, lane: usize) -> DVec3 {
+    DVec3::new(rows[0][lane].into(), rows[1][lane].into(), rows[2][lane].into())
+}
+
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn put(rows: &mut Rows<f64>, lane: usize, v: DVec3) {
+    for (row, v) in rows.iter_mut().zip(v.to_array()) {
+        row[lane] = v;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers between -1 and 1 without any order.
+    fn number(seed: usize) -> f64 {
+        let mixed = (seed as u64).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        ((mixed ^ (mixed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        let mut given = Given::NOTHING;
+        for lane in 0..LANES {
+            let numbers = |start: usize| [0, 1, 2].map(|k: usize| number(lane * 64 + start + k));
+            (given.rays[0][lane], given.rays[1][lane]) = (number(lane * 64), number(lane * 64 + 1));
+            given.weights.iter_mut().for_each(|row| row[lane] = 0.01 * lane as f32);
+            put(&mut given.to_light, lane, DVec3::from(numbers(2)).normalize());
+            for corner in 0..3 {
+                for axis in 0..3 {
+                    given.points[corner][axis][lane] = numbers(5 + 3 * corner)[axis] as f32;
+                    given.normals[corner][axis][lane] = numbers(20 + 3 * corner)[axis] as f32;
+                }
+            }
+        }
+        // Some that need care: no normal, no light.
+        given.normals.iter_mut().flatten().for_each(|row| row[7] = 0.0);
+        put(&mut given.to_light, 9, DVec3::NAN);
+        let view = DMat3::from_rotation_y(0.3);
+        let (mut chosen, mut portable) = (Found::NOTHING, Found::NOTHING);
+        find(&given, &view, &mut chosen);
+        find_portable(&given, &view, &mut portable);
+        assert_eq!((chosen.plain, chosen.lit, chosen.behind), (portable.plain, portable.lit, portable.behind));
+        assert!(!chosen.plain[7] && !chosen.plain[9]);
+        let plain: Vec<usize> = (0..LANES).filter(|&lane| chosen.plain[lane]).collect();
+        assert!(plain.len() > 10, "{} are plain", plain.len());
+        for lane in plain {
+            assert_eq!(chosen.angles(lane), portable.angles(lane));
+            assert_eq!(chosen.normal(lane), portable.normal(lane));
+        }
+    }
+}
