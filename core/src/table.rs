@@ -39,6 +39,8 @@ mod families;
 mod family;
 mod grid;
 mod header;
+mod instrument;
+mod raw;
 mod reading;
 mod scale;
 mod sniff;

@@ -3,6 +3,7 @@
 #![allow(clippy::format_push_string, reason = "files are written as they read")]
 
 mod hostile;
+mod instruments;
 mod layouts;
 
 use chromascope_core::table::{

@@ -14,7 +14,7 @@ mod xml;
 use super::family::{self, Family};
 use super::grid::Grid;
 use super::sniff::{self, Layout};
-use super::{Decided, Decision, Orientation, ReadError, ReadOptions, Reader, Warning, columns, wide};
+use super::{Decided, Decision, Orientation, ReadError, ReadOptions, Reader, Warning, columns, instrument, raw, wide};
 
 /// What a reader makes of a text, before units, order and scale are settled.
 pub(super) struct Found {
@@ -64,10 +64,15 @@ fn recognize(text: &str) -> Result<Reader, ReadError> {
 fn table(text: &str, options: &ReadOptions, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
     let layout = sniff::sniff(text, options)?;
     warnings.extend(layout.warnings.iter().cloned());
-    let grid = match layout.orientation.value {
+    let mut grid = match layout.orientation.value {
         Orientation::Down => columns::read(text, &layout, warnings)?,
         Orientation::Across => wide::read(text, &layout, warnings)?,
     };
     let reader = Decided::certain(Reader::Table, "Rows of numbers");
-    Ok(Found { grid, layout, reader, notes: Vec::new() })
+    let mut notes = Vec::new();
+    if options.reader.is_none() {
+        notes.extend(instrument::recognize(text, &mut grid, warnings));
+    }
+    notes.extend(raw::leave_out(&mut grid, options));
+    Ok(Found { grid, layout, reader, notes })
 }
