@@ -189,7 +189,7 @@ fn rawtoaces() {
     assert_eq!((names(&light), samples(&light, 0)), (vec!["L1"], vec![(380.0, 0.4), (385.0, 0.5)]));
     assert_eq!((light.role.value, light.role.certainty), (Role::Illuminant, Certainty::Certain));
     let uneven = layouts::RAWTOACES.replace("[0.04, 0.02, 0.01]", "[0.04, 0.02]");
-    let wrong = ReadError::WrongCount { line: 1, name: "385".to_owned(), found: 2, expected: 3 };
+    let wrong = ReadError::WrongCount { line: 7, name: "385".to_owned(), found: 2, expected: 3 };
     assert_eq!(error(&uneven), wrong);
     let cut = &layouts::RAWTOACES[..layouts::RAWTOACES.len() - 4];
     assert!(matches!(error(cut), ReadError::Malformed { family: Family::Json, line: 9, .. }));
@@ -208,7 +208,7 @@ fn dcamprof() {
     let light = ok("{ /* two\nlines */ \"bands\": [400, 405, 420], \"scale\": 100, \"spectrum\": [50, 75, 100] }");
     assert_eq!(samples(&light, 0), [(400.0, 0.5), (405.0, 0.75), (420.0, 1.0)]);
     let short = layouts::DCAMPROF.replace("0.3, 0.2", "0.3");
-    let wrong = ReadError::WrongCount { line: 1, name: "green_ssf".to_owned(), found: 2, expected: 3 };
+    let wrong = ReadError::WrongCount { line: 11, name: "green_ssf".to_owned(), found: 2, expected: 3 };
     assert_eq!(error(&short), wrong);
     assert_eq!(error("[1, 2]"), ReadError::Unsupported { family: Family::Json });
     assert!(matches!(error("{ // cut\n \"ssf_bands\": [400"), ReadError::Malformed { line: 2, .. }));
@@ -239,6 +239,23 @@ fn alternate_lines() {
     assert_eq!(table.reading.comment("date"), Some("19/5/1997"));
     let odd = error("@a\n#b\n250\n1\n251\n");
     assert_eq!(odd, ReadError::UnevenRow { line: 5, found: 1, expected: 2 });
+}
+
+#[test]
+fn database_of_cameras() {
+    let row = |peak: f64| {
+        let cells = (0..33).map(|i| format!("{:.6}", (-((f64::from(i) - peak) / 5.0).powi(2)).exp()));
+        cells.collect::<Vec<_>>().join("\t") + "\r\n"
+    };
+    let camera = |name: &str| format!("{name}\r\n{}{}{}", row(20.0), row(13.0), row(5.0));
+    let one = ok(&camera("Made up 1D"));
+    assert_eq!((names(&one), one.reading.comment("title")), (vec!["R", "G", "B"], Some("Made up 1D")));
+    assert_eq!((one.reading.range_nm, one.reading.camera_columns), ([400.0, 720.0], Some([0, 1, 2])));
+    assert_eq!((one.curves[1].values[13], one.reading.reader.certainty), (1.0, Certainty::Guess));
+    let two = ok(&(camera("Made up 1D") + &camera("Made up 2D")));
+    assert_eq!((two.curves.len(), two.curves[5].name.as_str()), (6, "Made up 2D B"));
+    let cut = camera("Made up 1D") + "Made up 2D\r\n1\t2\r\n";
+    assert_eq!(error(&cut), ReadError::UnevenRow { line: 6, found: 2, expected: 33 });
 }
 
 #[test]

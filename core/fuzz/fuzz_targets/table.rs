@@ -4,7 +4,7 @@
 use chromascope_core::table::{ReadOptions, Reader, read};
 use libfuzzer_sys::fuzz_target;
 
-const READERS: [Option<Reader>; 9] = [
+const READERS: [Option<Reader>; 10] = [
     None,
     Some(Reader::Table),
     Some(Reader::Cgats),
@@ -14,6 +14,7 @@ const READERS: [Option<Reader>; 9] = [
     Some(Reader::Rawtoaces),
     Some(Reader::Labels),
     Some(Reader::Alternate),
+    Some(Reader::Camspec),
 ];
 
 fuzz_target!(|bytes: &[u8]| {

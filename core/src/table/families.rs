@@ -2,6 +2,7 @@
 
 mod alternate;
 mod asdf;
+mod camspec;
 mod cgats;
 mod cxf;
 mod jcamp;
@@ -40,6 +41,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, warnings: &mut Vec<Warning
         Reader::Rawtoaces | Reader::Dcamprof => json::read(text, warnings),
         Reader::Labels => labels::read(text, warnings),
         Reader::Alternate => alternate::read(text, warnings),
+        Reader::Camspec => camspec::read(text),
     }?;
     if options.reader == Some(found.reader.value) {
         found.reader = Decided::chosen(found.reader.value);
@@ -55,6 +57,7 @@ fn recognize(text: &str) -> Result<Reader, ReadError> {
         Some(Family::Json) => Ok(Reader::Rawtoaces),
         Some(Family::Xml) => xml::recognize(text).ok_or(ReadError::Unsupported { family: Family::Xml }),
         None if alternate::recognize(text) => Ok(Reader::Alternate),
+        None if camspec::recognize(text) => Ok(Reader::Camspec),
         None if labels::recognize(text) => Ok(Reader::Labels),
         None => Ok(Reader::Table),
     }

@@ -49,6 +49,10 @@ pub(super) fn recognize(text: &str, grid: &mut Grid, warnings: &mut Vec<Warning>
         take_mode(line, mode, grid, warnings);
         return Some(decision("StellarNet SpectraWiz", line));
     }
+    let decibels = |line: &str| line.trim_start_matches('#').to_ascii_lowercase().starts_with("yaxisunit;dbm");
+    if let Some((line, _)) = lines().find(|(_, line)| decibels(line)) {
+        warnings.push(Warning::Decibels { line });
+    }
     let (line, program) = lines().find_map(|(number, line)| {
         let mark = MARKS.iter().find(|(mark, _)| mark.fits(line));
         mark.map(|(_, program)| (number, *program))

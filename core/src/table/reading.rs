@@ -145,6 +145,8 @@ pub enum Reader {
     Labels,
     /// Wavelengths and values on alternate lines, as Macam writes.
     Alternate,
+    /// Cameras by name, each with three lines of 33 values.
+    Camspec,
 }
 
 impl fmt::Display for Reader {
@@ -158,6 +160,7 @@ impl fmt::Display for Reader {
             Self::Rawtoaces => "rawtoaces JSON",
             Self::Dcamprof => "dcamprof JSON",
             Self::Labels => "one labeled sample a line",
+            Self::Camspec => "database of cameras, untested on a real file",
             Self::Alternate => "wavelengths and values on alternate lines",
         })
     }

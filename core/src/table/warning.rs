@@ -129,6 +129,11 @@ pub enum Warning {
         /// The line that says so.
         line: usize,
     },
+    /// Values in decibels of power, which no curve here is.
+    Decibels {
+        /// The line that says so.
+        line: usize,
+    },
     /// Curves read as reflectances that reach values no reflectance has.
     NotReflectances {
         /// How many.
@@ -166,6 +171,7 @@ impl fmt::Display for Warning {
             Self::CountDiffers { line, expected, found } => {
                 write!(f, "line {line} announces {expected} values, but there are {found}")
             }
+            Self::Decibels { line } => write!(f, "line {line}: these are decibels, not a linear scale"),
             Self::Absorbance { line } => write!(f, "line {line}: these are absorbances, not reflectances"),
             Self::NotReflectances { count: 1, first, max } => {
                 write!(f, "“{first}” reaches {max}, more than a reflectance can")

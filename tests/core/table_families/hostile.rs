@@ -74,6 +74,8 @@ fn deep_nesting_and_huge_counts_are_refused() {
     let repeats =
         format!("##TITLE= a\n##FIRSTX= 1\n##LASTX= 2\n##XYDATA= (X++(Y..Y))\n400 1{}\n", "Z9999".repeat(5000));
     assert!(read(repeats.as_bytes(), &ReadOptions::default()).is_err());
+    let line = format!("##TITLE= a\n##FIRSTX= 1\n##LASTX= 2\n##XYDATA= (X++(Y..Y))\n400{}\n", "AZ99999".repeat(50_000));
+    assert!(read(line.as_bytes(), &ReadOptions::default()).is_err());
     let entities = "<!DOCTYPE a [<!ENTITY b \"cccc\">]><CxF>&b;</CxF>";
     assert!(read(entities.as_bytes(), &ReadOptions::default()).is_err());
     let large = vec![b'<'; MAX_BYTES + 1];

@@ -97,6 +97,21 @@ fn spectral_library_in_micrometers() {
 }
 
 #[test]
+fn optical_spectrum_analyzer() {
+    let file = |unit: &str| {
+        format!(
+            "#Thorlabs FTS 1\n#[SpectrumHeader]\n#Date;20260522\n#XAxisUnit;nm_air\n#YAxisUnit;{unit}\n#[Data]\n\
+             9.997433472e+02;-6.0e+01\n1.000743347e+03;-5.0e+01\n#[EndOfFile]\n"
+        )
+    };
+    let table = ok(&file("intensity"));
+    assert_eq!(samples(&table, 0), [(999.743_347_2, -60.0), (1_000.743_347, -50.0)]);
+    assert_eq!(table.reading.wavelength_unit.certainty, Certainty::Certain);
+    assert!(note(&table, "Program").is_some_and(|program| program.contains("no real file")));
+    assert_eq!(ok(&file("dBm")).warnings[0], Warning::Decibels { line: 5 });
+}
+
+#[test]
 fn headers_of_numbers_and_labels() {
     let asd = "\r\nText conversion of header file \\a.asd\r\n ------\r\n\0\0\0\0\0\0\r\nxmin = 350 xmax= 2500\r\n\
         VNIR gain was 16 offset was 2051\r\n\r\nWavelength;a.asd\r\n350; 0.2197 \r\n351; 0.2164 \r\n352; 0.2164 \r\n";

@@ -20,8 +20,8 @@ enum Kind {
     Repeat,
 }
 
-/// The most times an entry may stand: far above any line of a sound file.
-const MOST_REPEATS: f64 = 100_000.0;
+/// The most values of a line, far above any line of a sound file: a few letters can ask for billions.
+const MOST_VALUES: usize = 100_000;
 
 /// Decodes a line: its abscissa is passed over, since the steps are equal. `carried` is that of the line before.
 ///
@@ -40,7 +40,10 @@ pub(super) fn decode(line: &str, carried: Option<f64>) -> Result<Ordinates, &str
             (Kind::Repeat, Some((entry, step)), Some(&last)) => {
                 let mut value = last;
                 // The entry itself is the first of the repetitions.
-                for _ in 1..number.clamp(1.0, MOST_REPEATS) as usize {
+                if number > MOST_VALUES as f64 || values.len() > MOST_VALUES {
+                    return Err(line.trim());
+                }
+                for _ in 1..number.max(1.0) as usize {
                     value += if entry == Kind::Difference { step } else { 0.0 };
                     values.push(value);
                 }
@@ -71,6 +74,9 @@ fn entries(line: &str) -> Result<Vec<(Kind, f64)>, &str> {
             (_, digits) => format!("{lead}{digits}").parse().ok().filter(|n: &f64| n.is_finite()).ok_or(rest)?,
         };
         found.push((kind, number));
+        if found.len() > MOST_VALUES {
+            return Err(line.trim());
+        }
         rest = body[end..].trim_start_matches(separates);
     }
     Ok(found)

@@ -6,7 +6,8 @@ use super::super::sniff::Layout;
 use super::super::text::{Lines, excerpt};
 use super::super::words;
 use super::super::{
-    Decided, DecimalMark, Decision, Delimiter, MAX_SAMPLES, Orientation, ReadError, ReadOptions, Reader, Warning,
+    Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, ReadError, ReadOptions, Reader,
+    Warning,
 };
 use super::spectra::{self, Sample, Spectrum};
 use super::{Found, asdf};
@@ -74,12 +75,17 @@ struct Block {
 fn blocks(text: &str) -> Result<Vec<Block>, ReadError> {
     let mut all: Vec<Block> = Vec::new();
     let mut total = 0;
+    // Repetitions make more of a file than it is long, but no sound file makes this much of little.
+    let most = MAX_SAMPLES.min(1_000_000 + 10 * text.len());
     for (number, line) in Lines::new(text) {
         let line = line.split_once("$$").map_or(line, |(before, _)| before);
         if let Some((key, value)) = line.trim_start().strip_prefix("##").and_then(|record| record.split_once('=')) {
             let key = label(key);
             if key == "TITLE" || all.is_empty() {
                 close(&mut all)?;
+                if all.len() >= MAX_CURVES {
+                    return Err(ReadError::TooManyCurves { line: number });
+                }
                 all.push(Block::default());
             }
             if let Some(block) = all.last_mut() {
@@ -91,7 +97,7 @@ fn blocks(text: &str) -> Result<Vec<Block>, ReadError> {
             let before = block.samples.len();
             block.data(number, line)?;
             total += block.samples.len() - before;
-            if total > MAX_SAMPLES {
+            if total > most {
                 return Err(ReadError::TooManySamples { line: number });
             }
         }

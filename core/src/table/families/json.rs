@@ -15,24 +15,44 @@ use super::super::{
 use super::Found;
 use super::spectra::{self, Sample, Spectrum};
 
+/// The fewest bytes for each quotation mark in a file of spectra.
+const FEWEST_BYTES: usize = 5;
+
 /// Reads a document of either layout.
 pub(super) fn read(text: &str, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
+    // Every list and every text has a name of its own; hostile text, which has nothing else, would need many times its size.
+    if text.bytes().filter(|byte| *byte == b'"').count() > text.len() / FEWEST_BYTES + 1000 {
+        return Err(ReadError::Unsupported { family: Family::Json });
+    }
     let bare = comments::blank(text);
     let file: File = serde_json::from_str(&bare).map_err(|error| malformed(text, &error))?;
-    let Parts { spectra, header, reader, role, notes } = match file {
-        File { spectral_data: Some(data), header, .. } => aces(data, &header.unwrap_or_default().0)?,
+    let parts = match file {
+        File { spectral_data: Some(data), header, .. } => aces(data, &header.unwrap_or_default().0),
         File {
             ssf_bands: Some(bands), red_ssf: Some(r), green_ssf: Some(g), blue_ssf: Some(b), camera_name, ..
-        } => camera(&bands, [r, g, b], camera_name.as_deref())?,
-        File { bands: Some(bands), spectrum: Some(values), scale, .. } => spectrum(&bands, values, scale)?,
+        } => camera(&bands, [r, g, b], camera_name.as_deref()),
+        File { bands: Some(bands), spectrum: Some(values), scale, .. } => spectrum(&bands, values, scale),
         _ => return Err(ReadError::Unsupported { family: Family::Json }),
     };
+    let Parts { spectra, header, reader, role, notes } = parts.map_err(|error| placed(text, error))?;
     let mut grid = spectra::grid(spectra, header, warnings)?;
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "Both layouts prescribe it"));
     grid.role = role;
     let dialect = (Delimiter::Comma, DecimalMark::Point);
     let layout = Layout::fixed(dialect, Orientation::Down, 1, "JSON prescribes it");
     Ok(Found { grid, layout, reader, notes })
+}
+
+/// An error about a list with the line where the list is named.
+fn placed(text: &str, error: ReadError) -> ReadError {
+    match error {
+        ReadError::WrongCount { name, found, expected, .. } => {
+            let at = text.find(&format!("\"{name}\"")).unwrap_or(0);
+            let line = 1 + text[..at].bytes().filter(|byte| *byte == b'\n').count();
+            ReadError::WrongCount { line, name, found, expected }
+        }
+        other => other,
+    }
 }
 
 /// What the layouts have in common.
