@@ -8,7 +8,11 @@
 //! semicolons, tabs or spaces; points or commas as decimal marks; UTF-8, UTF-16 or Windows-1252; any line ends;
 //! comments (`# key: value`), headers, units in headers, gaps (`NaN`, `---`, empty), any order of wavelengths.
 //!
-//! What is not read: binary files, XML, JSON, JCAMP-DX and CGATS. They are recognized by content and named in the error.
+//! Families with a grammar of their own are recognized by content and read too: CGATS (Argyll, X-Rite), JCAMP-DX, XML
+//! (TM-27, `CxF`), JSON (rawtoaces, dcamprof, with comments), lamp meters that write wavelengths into labels, and files
+//! that put wavelengths and values on alternate lines.
+//!
+//! What is not read: binary files, and XML or JSON of other layouts. They are named in the error.
 //!
 //! Reading is total: it does not panic, takes time proportional to the input, and needs a few times its memory, most of it
 //! the samples themselves (16 bytes each). The limits are [`MAX_BYTES`], [`MAX_CURVES`] and [`MAX_SAMPLES`].
@@ -23,17 +27,20 @@
 //! # Ok::<(), chromascope_core::table::ReadError>(())
 //! ```
 //!
-//! The way of a file: `text` (bytes to text), `family` (refuse what another reader must take), `sniff` (which
-//! separators, where the numbers begin), `header` (names, units, comments), `columns` or `wide` (text to numbers),
+//! The way of a file: `text` (bytes to text), `families` (who takes it), for numbers in columns `sniff` (which
+//! separators, where the numbers begin), `header` (names, units, comments), `columns` or `wide` (text to numbers), then
 //! `wavelengths` (unit, order, repeats), `scale` (role, percent), and here the curves. A reader for another family of
-//! files is a small file beside `columns`: it fills the same `Grid`, and all after it is shared.
+//! files is a small file in `families`: it fills the same `Grid`, and all after it is shared.
 
 mod columns;
 mod dialect;
 mod error;
+mod families;
 mod family;
 mod grid;
 mod header;
+mod instrument;
+mod raw;
 mod reading;
 mod scale;
 mod sniff;
@@ -52,8 +59,6 @@ pub use scale::Role;
 pub use text::{BinaryKind, MAX_BYTES};
 pub use warning::{LineList, Warning};
 pub use wavelengths::WavelengthUnit;
-
-use grid::Grid;
 
 /// The most curves one table may hold.
 pub const MAX_CURVES: usize = 100_000;
@@ -78,6 +83,10 @@ pub struct ReadOptions {
     pub percent: Option<bool>,
     /// What the curves are.
     pub role: Option<Role>,
+    /// Which reader takes the file; [`Reader::Table`] reads numbers in columns whatever stands around them.
+    pub reader: Option<Reader>,
+    /// Whether raw curves (dark, reference and sample counts) are kept beside the processed one.
+    pub raw: Option<bool>,
 }
 
 /// One curve: values over wavelength, in the order of wavelength.
@@ -122,24 +131,19 @@ impl Table {
 /// The same bytes and options always give the same table. Nothing is decided by a file name.
 pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Table, ReadError> {
     let (text, encoding) = text::decode(bytes)?;
-    family::refuse(&text)?;
-    let layout = sniff::sniff(&text, options)?;
-    let mut warnings = layout.warnings.clone();
-    let grid = match layout.orientation.value {
-        Orientation::Down => columns::read(&text, &layout, &mut warnings)?,
-        Orientation::Across => wide::read(&text, &layout, &mut warnings)?,
-    };
-    finish(grid, layout, encoding, options, warnings)
+    let mut warnings = Vec::new();
+    let found = families::read(&text, options, &mut warnings)?;
+    finish(found, encoding, options, warnings)
 }
 
 /// What all readers share: units, order, role, scale, curves.
 fn finish(
-    mut grid: Grid,
-    layout: sniff::Layout,
+    found: families::Found,
     encoding: Encoding,
     options: &ReadOptions,
     mut warnings: Vec<Warning>,
 ) -> Result<Table, ReadError> {
+    let families::Found { mut grid, layout, reader, notes } = found;
     if grid.wavelengths.len() < 2 {
         return Err(ReadError::TooFewSamples { line: grid.line(0).max(layout.first_line) });
     }
@@ -160,13 +164,14 @@ fn finish(
     let camera_columns = scale::camera_columns(scale.role.value, &curves);
     scale::warn(&scale, &curves, &mut warnings);
     let reading = Reading {
-        reader: Reader::Table,
+        reader,
         encoding,
         delimiter: layout.delimiter,
         decimal_mark: layout.decimal_mark,
         orientation: layout.orientation,
         wavelength_unit,
         percent: scale.percent,
+        notes,
         header: header.comments,
         header_line: header.line,
         first_data_line: layout.first_line,

@@ -21,3 +21,4 @@ mod scene;
 mod spectral;
 mod support;
 mod table;
+mod table_families;

@@ -205,7 +205,7 @@ impl Columns {
         let curves = curves.collect();
         let rows = self.lines.len();
         let (lines, label_unit) = (self.lines, self.label_unit);
-        let mut grid = Grid { wavelengths, lines, curves, header, label_unit, rows, dropped: Vec::new() };
+        let mut grid = Grid { wavelengths, lines, curves, header, label_unit, rows, ..Grid::default() };
         drop_without_wavelength(&mut grid, warnings);
         Ok(grid)
     }

@@ -17,6 +17,8 @@ pub enum Delimiter {
     Tab,
     /// Any run of spaces and tabs.
     Spaces,
+    /// None: each value stands in an element of its own, as in XML.
+    Elements,
 }
 
 impl fmt::Display for Delimiter {
@@ -27,6 +29,7 @@ impl fmt::Display for Delimiter {
             Self::Semicolon => "semicolon separated",
             Self::Tab => "tab separated",
             Self::Spaces => "separated by spaces",
+            Self::Elements => "one value in each element",
         })
     }
 }
@@ -264,6 +267,7 @@ impl Delimiter {
             Self::Semicolon => b';',
             Self::Tab => b'\t',
             Self::CommaSpace => return text.find(", ").map(|at| (at, 2)),
+            Self::Elements => return None,
             Self::Spaces => return text.bytes().position(|b| b.is_ascii_whitespace()).map(|at| (at, 1)),
         };
         text.bytes().position(|b| b == wanted).map(|at| (at, 1))

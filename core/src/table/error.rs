@@ -22,11 +22,39 @@ pub enum ReadError {
         /// What it is.
         kind: BinaryKind,
     },
-    /// The file is text of a family that no reader takes yet.
-    #[error("line 1: this is {family}, not a table of numbers: export the measurement as text or CSV")]
+    /// The file is of a known family, but of a layout that no reader takes.
+    #[error("line 1: this is {family}, but of no layout that holds spectra: export the measurement as text or CSV")]
     Unsupported {
         /// What it is.
         family: Family,
+    },
+    /// The file breaks the rules of its family.
+    #[error("line {line}: from column {column} on this breaks the rules of {family}: is the file cut short or edited?")]
+    Malformed {
+        /// What it is.
+        family: Family,
+        /// The line.
+        line: usize,
+        /// The column.
+        column: usize,
+    },
+    /// Values whose wavelengths are given nowhere.
+    #[error("line {line}: the file does not say at which wavelengths these values are: export them with wavelengths")]
+    NoWavelengths {
+        /// The line of the values.
+        line: usize,
+    },
+    /// A list of values is longer or shorter than what it belongs to.
+    #[error("line {line}: “{name}” has {found} values where {expected} are expected: is the file cut short?")]
+    WrongCount {
+        /// The line, where known, else 1.
+        line: usize,
+        /// The list.
+        name: String,
+        /// Values in it.
+        found: usize,
+        /// Values it should have.
+        expected: usize,
     },
     /// Nothing but white space.
     #[error("the file is empty: expected a wavelength and at least one value in each line")]
@@ -133,6 +161,9 @@ impl ReadError {
             | Self::SecondWavelengthColumn { .. } => None,
             Self::Unsupported { .. } => Some(1),
             Self::OneColumn { line }
+            | Self::Malformed { line, .. }
+            | Self::WrongCount { line, .. }
+            | Self::NoWavelengths { line }
             | Self::NotANumber { line, .. }
             | Self::UnevenRow { line, .. }
             | Self::SecondTable { line }
@@ -149,7 +180,9 @@ impl ReadError {
     /// The column the error is about, from 1, where known.
     pub fn column(&self) -> Option<usize> {
         match *self {
-            Self::NotANumber { column, .. } | Self::SecondWavelengthColumn { column } => Some(column),
+            Self::NotANumber { column, .. }
+            | Self::Malformed { column, .. }
+            | Self::SecondWavelengthColumn { column } => Some(column),
             _ => None,
         }
     }

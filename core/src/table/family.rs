@@ -1,10 +1,8 @@
-//! File families that are text but no table of numbers. Each becomes a reader of its own; until then it is named.
+//! File families that are text but no table of numbers, and the marks by which they are known.
 
 use std::fmt;
 
-use super::ReadError;
-
-/// A family of text files that the table reader must not guess at.
+/// A family of text files with a grammar of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Family {
     /// XML, such as TM-27 or `CxF`.
@@ -31,15 +29,8 @@ impl fmt::Display for Family {
 /// How much of the text is looked at for the marks of a family.
 const LOOK: usize = 64 << 10;
 
-/// An error if the text belongs to a family that has no reader yet.
-pub(super) fn refuse(text: &str) -> Result<(), ReadError> {
-    match recognize(text) {
-        Some(family) => Err(ReadError::Unsupported { family }),
-        None => Ok(()),
-    }
-}
-
-fn recognize(text: &str) -> Option<Family> {
+/// The family of a text, from its beginning.
+pub(super) fn recognize(text: &str) -> Option<Family> {
     let start = text.trim_start();
     if start.starts_with("<?xml") || (start.starts_with('<') && start.trim_end().ends_with('>')) {
         return Some(Family::Xml);
@@ -47,7 +38,8 @@ fn recognize(text: &str) -> Option<Family> {
     if start.starts_with("##") && start[..floor(start)].contains("DATA TYPE=") || start.starts_with("##TITLE=") {
         return Some(Family::Jcamp);
     }
-    if start.starts_with(['{', '[']) && start.trim_end().ends_with(['}', ']']) || commented_json(start) {
+    let list = start.starts_with('[') && start.trim_end().ends_with(']');
+    if start.starts_with('{') || list || commented_json(start) {
         return Some(Family::Json);
     }
     let cgats = text[..floor(text)].lines().any(|line| line.trim() == "BEGIN_DATA_FORMAT");
@@ -55,11 +47,11 @@ fn recognize(text: &str) -> Option<Family> {
 }
 
 fn commented_json(start: &str) -> bool {
-    start.starts_with("//")
+    (start.starts_with("//") || start.starts_with("/*"))
         && start
             .lines()
             .map(str::trim)
-            .find(|l| !l.is_empty() && !l.starts_with("//"))
+            .find(|l| !l.is_empty() && !l.starts_with("//") && !l.starts_with("/*") && !l.starts_with('*'))
             .is_some_and(|l| l.starts_with('{'))
 }
 

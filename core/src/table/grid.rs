@@ -2,7 +2,7 @@
 
 use super::header::Header;
 use super::warning::{LineList, Warning};
-use super::{Curve, Dropped, DroppedRow, WavelengthUnit};
+use super::{Curve, Decided, Dropped, DroppedRow, Role, WavelengthUnit};
 
 /// How many dropped rows are listed; nobody reads more.
 const MAX_DROPPED: usize = 1000;
@@ -20,8 +20,14 @@ pub(super) struct Grid {
     pub(super) header: Header,
     /// The unit, if it stands beside each wavelength.
     pub(super) label_unit: Option<WavelengthUnit>,
+    /// The unit, if the format prescribes it.
+    pub(super) unit: Option<Decided<WavelengthUnit>>,
+    /// What the curves are, if the format says or suggests it.
+    pub(super) role: Option<Decided<Role>>,
     /// Rows of numbers in the file.
     pub(super) rows: usize,
+    /// Whether each curve has wavelengths of its own, so that one it lacks is no gap.
+    pub(super) own_wavelengths: bool,
     /// Rows left out.
     pub(super) dropped: Vec<DroppedRow>,
 }
@@ -82,11 +88,11 @@ impl Grid {
 
     /// The curves without their gaps. A curve of fewer than two values is left
     /// out; it is worth a warning only if it has a name or a value.
-    pub(super) fn into_curves(self, warnings: &mut Vec<Warning>) -> Vec<Curve> {
+    pub(super) fn into_curves(mut self, warnings: &mut Vec<Warning>) -> Vec<Curve> {
         let mut gaps = vec![0_u32; self.wavelengths.len()];
         let mut curves = Vec::new();
         let (mut empty, mut first_empty) = (0, None);
-        for raw in self.curves {
+        for raw in std::mem::take(&mut self.curves) {
             let missing = raw.values.iter().filter(|value| value.is_nan()).count();
             let left = raw.values.len() - missing;
             if left < 2 {
@@ -101,7 +107,13 @@ impl Grid {
             }
             curves.push(curve(raw, &self.wavelengths, missing));
         }
-        warn_gaps(&gaps, &self.lines, warnings);
+        if self.own_wavelengths {
+            for curve in &mut curves {
+                curve.missing = 0;
+            }
+        } else {
+            warn_gaps(&gaps, &self.lines, warnings);
+        }
         if let Some(first) = first_empty {
             warnings.push(Warning::EmptyCurves { count: empty, first });
         }

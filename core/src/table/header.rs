@@ -46,6 +46,13 @@ impl Header {
         format!("{} {unit}", self.name(column).unwrap_or_default()).trim().to_owned()
     }
 
+    /// Keeps a comment.
+    pub(super) fn note(&mut self, key: &str, value: &str) {
+        if self.comments.len() < MAX_COMMENTS && !value.is_empty() {
+            self.comments.push((key.to_owned(), value.to_owned()));
+        }
+    }
+
     /// The value of a comment.
     pub(super) fn comment(&self, key: &str) -> Option<&str> {
         self.comments.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, value)| value.as_str())

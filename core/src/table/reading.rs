@@ -129,12 +129,39 @@ impl fmt::Display for Orientation {
 pub enum Reader {
     /// The general reader of numbers in rows and columns.
     Table,
+    /// CGATS and its relatives, as Argyll and X-Rite write them.
+    Cgats,
+    /// JCAMP-DX.
+    Jcamp,
+    /// XML of IES TM-27 (`.spdx`).
+    Tm27,
+    /// XML of `CxF3`.
+    Cxf,
+    /// JSON of rawtoaces.
+    Rawtoaces,
+    /// JSON of dcamprof, with or without comments.
+    Dcamprof,
+    /// One sample a line, its wavelength at the end of a label, as Sekonic meters write.
+    Labels,
+    /// Wavelengths and values on alternate lines, as Macam writes.
+    Alternate,
+    /// Cameras by name, each with three lines of 33 values.
+    Camspec,
 }
 
 impl fmt::Display for Reader {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Table => "table of numbers",
+            Self::Cgats => "CGATS",
+            Self::Jcamp => "JCAMP-DX",
+            Self::Tm27 => "IES TM-27",
+            Self::Cxf => "CxF",
+            Self::Rawtoaces => "rawtoaces JSON",
+            Self::Dcamprof => "dcamprof JSON",
+            Self::Labels => "one labeled sample a line",
+            Self::Camspec => "database of cameras, untested on a real file",
+            Self::Alternate => "wavelengths and values on alternate lines",
         })
     }
 }
@@ -198,7 +225,7 @@ pub(super) fn clean(nm: f64) -> f64 {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
     /// Which reader took the file.
-    pub reader: Reader,
+    pub reader: Decided<Reader>,
     /// The encoding of the bytes.
     pub encoding: Encoding,
     /// What stands between cells.
@@ -211,6 +238,8 @@ pub struct Reading {
     pub wavelength_unit: Decided<WavelengthUnit>,
     /// Whether the values (or the columns the header marks) were percent and are divided by 100.
     pub percent: Decided<bool>,
+    /// Decisions that only some families of files ask for, such as which block was taken.
+    pub notes: Vec<Decision>,
     /// The comments above the table, `# key: value`, in order; the first thousand.
     pub header: Vec<(String, String)>,
     /// The line with the names of the columns.
@@ -239,14 +268,20 @@ impl Reading {
             certainty: self.percent.certainty,
             why: self.percent.why.clone(),
         };
-        vec![
+        let mut all = Vec::new();
+        if self.reader.value != Reader::Table || self.reader.certainty == Certainty::Chosen {
+            all.push(Decision::new("Layout", &self.reader));
+        }
+        all.extend([
             Decision::new("Encoding", &Decided::certain(self.encoding, self.encoding_evidence())),
             Decision::new("Separator", &self.delimiter),
             Decision::new("Decimal mark", &self.decimal_mark),
             Decision::new("Orientation", &self.orientation),
             Decision::new("Wavelengths", &self.wavelength_unit),
             Decision::new("Values", &scale),
-        ]
+        ]);
+        all.extend(self.notes.iter().cloned());
+        all
     }
 
     /// The value of a comment, such as `title`, whatever the case of its key.

@@ -5,7 +5,7 @@ use std::fmt;
 use super::grid::Grid;
 use super::warning::Warning;
 use super::words::{self, Channel};
-use super::{Curve, Decided, ReadOptions};
+use super::{Certainty, Curve, Decided, ReadOptions};
 
 /// What the curves of a table are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -120,6 +120,9 @@ pub(super) fn decide(grid: &Grid, options: &ReadOptions) -> Scale {
 }
 
 fn role_from_header(grid: &Grid) -> Option<Decided<Role>> {
+    if let Some(role) = grid.role.as_ref().filter(|role| role.certainty == Certainty::Certain) {
+        return Some(role.clone());
+    }
     if let Some((line, role)) = grid.header.role {
         return Some(Decided::certain(role, format!("Line {line} says so")));
     }
@@ -146,8 +149,10 @@ fn role_from_hints(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> 
     if headed || matches!(grid.header.percent, Some((_, true))) {
         return Some(Decided::guess(Role::Reflectance, "The header says percent"));
     }
-    let (line, role) = grid.header.mentioned?;
-    Some(Decided::guess(role, format!("Line {line} mentions it")))
+    if let Some((line, role)) = grid.header.mentioned {
+        return Some(Decided::guess(role, format!("Line {line} mentions it")));
+    }
+    grid.role.clone()
 }
 
 fn role_from_values(grid: &Grid, span: &Span) -> Decided<Role> {

@@ -22,6 +22,24 @@ pub(super) struct Layout {
 }
 
 impl Layout {
+    /// The layout of a family that leaves nothing to decide.
+    pub(super) fn fixed(
+        (delimiter, mark): (Delimiter, DecimalMark),
+        orientation: Orientation,
+        first_line: usize,
+        why: &str,
+    ) -> Self {
+        Self {
+            delimiter: Decided::certain(delimiter, why),
+            decimal_mark: Decided::certain(mark, why),
+            orientation: Decided::certain(orientation, why),
+            first_line,
+            width: 0,
+            across: None,
+            warnings: Vec::new(),
+        }
+    }
+
     pub(super) fn dialect(&self) -> Dialect {
         Dialect { delimiter: self.delimiter.value, mark: self.decimal_mark.value }
     }

@@ -27,6 +27,20 @@ pub enum BinaryKind {
     Gzip,
     /// A measurement in `AvaSoft` 8's own format.
     AvaSoft8,
+    /// A measurement in ASD's own format.
+    Asd,
+    /// An HDF5 or netCDF 4 file.
+    Hdf5,
+    /// A TIFF image.
+    Tiff,
+    /// An `OpenEXR` image.
+    Exr,
+    /// A MATLAB workspace.
+    Matlab,
+    /// A measurement in Bruker OPUS's own format.
+    Opus,
+    /// Any other file with bytes that no text has.
+    Unknown,
 }
 
 impl fmt::Display for BinaryKind {
@@ -39,11 +53,18 @@ impl fmt::Display for BinaryKind {
             Self::Pdf => "a PDF document",
             Self::Gzip => "a gzip archive",
             Self::AvaSoft8 => "an AvaSoft 8 binary measurement (AVS8x)",
+            Self::Asd => "an ASD binary measurement (.asd)",
+            Self::Hdf5 => "an HDF5 file",
+            Self::Tiff => "a TIFF image",
+            Self::Exr => "an OpenEXR image",
+            Self::Matlab => "a MATLAB workspace",
+            Self::Opus => "a Bruker OPUS measurement",
+            Self::Unknown => "a binary file of an unknown kind",
         })
     }
 }
 
-const MAGIC: [(&[u8], BinaryKind); 7] = [
+const MAGIC: [(&[u8], BinaryKind); 19] = [
     (b"PK\x03\x04", BinaryKind::Zip),
     (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", BinaryKind::Ole2),
     (b"\x89PNG", BinaryKind::Png),
@@ -51,7 +72,32 @@ const MAGIC: [(&[u8], BinaryKind); 7] = [
     (b"%PDF", BinaryKind::Pdf),
     (b"\x1F\x8B", BinaryKind::Gzip),
     (b"AVS8", BinaryKind::AvaSoft8),
+    (b"ASD\0", BinaryKind::Asd),
+    (b"as2\0", BinaryKind::Asd),
+    (b"as3\0", BinaryKind::Asd),
+    (b"as6\0", BinaryKind::Asd),
+    (b"as7\0", BinaryKind::Asd),
+    (b"as8\0", BinaryKind::Asd),
+    (b"\x89HDF\r\n", BinaryKind::Hdf5),
+    (b"II*\0", BinaryKind::Tiff),
+    (b"MM\0*", BinaryKind::Tiff),
+    (b"\x76\x2F\x31\x01", BinaryKind::Exr),
+    (b"MATLAB 5.0 MAT-file", BinaryKind::Matlab),
+    (b"\x0A\x0A\xFE\xFE", BinaryKind::Opus),
 ];
+
+/// Whether one byte in ten of the beginning is a control character that text has no use for. NUL is left out of it:
+/// instruments pad with it, and half of UTF-16 is made of it.
+fn looks_binary(bytes: &[u8]) -> bool {
+    const LOOK: usize = 4096;
+    const FEWEST: usize = 32;
+    let start = &bytes[..bytes.len().min(LOOK)];
+    let strange = start.iter().filter(|byte| matches!(byte, 0x01..=0x08 | 0x0E..=0x19 | 0x1C..=0x1F)).count();
+    start.len() >= FEWEST
+        && strange * 10 > start.len()
+        && !start.starts_with(b"\xFF\xFE")
+        && !start.starts_with(b"\xFE\xFF")
+}
 
 /// The text of a file and the encoding it was in. NUL padding, which some instruments write, is removed.
 pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
@@ -60,6 +106,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError
     }
     if let Some((_, kind)) = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return Err(ReadError::Binary { kind: *kind });
+    }
+    if looks_binary(bytes) {
+        return Err(ReadError::Binary { kind: BinaryKind::Unknown });
     }
     let (text, encoding) = decode_any(bytes);
     let text = if text.contains('\0') { Cow::Owned(text.replace('\0', "")) } else { text };

@@ -103,6 +103,37 @@ pub enum Warning {
     },
     /// No number has a decimal point, so the separating commas might be decimal marks.
     CommasOnly,
+    /// Several values at one wavelength of a curve: their mean was taken.
+    Averaged {
+        /// The curve.
+        name: String,
+        /// Where the repeated values stand.
+        lines: LineList,
+    },
+    /// Another table with spectra follows the one that was read.
+    MoreTables {
+        /// Where it begins.
+        line: usize,
+    },
+    /// The file announces another number of values than it holds.
+    CountDiffers {
+        /// Where it is announced.
+        line: usize,
+        /// As announced.
+        expected: usize,
+        /// As found.
+        found: usize,
+    },
+    /// A column of decadic absorbances, which are no reflectances.
+    Absorbance {
+        /// The line that says so.
+        line: usize,
+    },
+    /// Values in decibels of power, which no curve here is.
+    Decibels {
+        /// The line that says so.
+        line: usize,
+    },
     /// Curves read as reflectances that reach values no reflectance has.
     NotReflectances {
         /// How many.
@@ -133,6 +164,15 @@ impl fmt::Display for Warning {
             Self::CommasOnly => {
                 f.write_str("No number has a decimal point: if the commas mark fractions, the columns are wrong")
             }
+            Self::Averaged { name, lines } => {
+                write!(f, "{lines}: “{name}” has several values at one wavelength: their mean is taken")
+            }
+            Self::MoreTables { line } => write!(f, "line {line}: another table with spectra: left out"),
+            Self::CountDiffers { line, expected, found } => {
+                write!(f, "line {line} announces {expected} values, but there are {found}")
+            }
+            Self::Decibels { line } => write!(f, "line {line}: these are decibels, not a linear scale"),
+            Self::Absorbance { line } => write!(f, "line {line}: these are absorbances, not reflectances"),
             Self::NotReflectances { count: 1, first, max } => {
                 write!(f, "“{first}” reaches {max}, more than a reflectance can")
             }

@@ -68,6 +68,9 @@ pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<Wavelen
     if let Some(unit) = options.wavelength_unit {
         return Ok(Decided::chosen(unit));
     }
+    if let Some(unit) = &grid.unit {
+        return Ok(unit.clone());
+    }
     if let Some(unit) = grid.label_unit {
         return Ok(Decided::certain(unit, "The unit stands beside each wavelength"));
     }

@@ -40,7 +40,7 @@ pub(super) fn read(text: &str, layout: &Layout, warnings: &mut Vec<Warning>) -> 
     header.mentioned = rows.mentioned.or(header.mentioned);
     let count = rows.curves.len();
     let lines = vec![across.line];
-    Ok(Grid { wavelengths, lines, curves: rows.curves, header, label_unit, rows: count, dropped: Vec::new() })
+    Ok(Grid { wavelengths, lines, curves: rows.curves, header, label_unit, rows: count, ..Grid::default() })
 }
 
 fn wavelengths(dialect: Dialect, line: &str, across: &Across) -> Result<(Vec<f64>, Option<WavelengthUnit>), ReadError> {

@@ -1,0 +1,125 @@
+//! Ordinates as JCAMP-DX squeezes them: letters that carry a digit and a sign, differences, repetitions.
+
+/// What a line holds.
+#[derive(Debug, PartialEq)]
+pub(super) struct Ordinates {
+    /// The values of the line, without the check of the line before.
+    pub(super) values: Vec<f64>,
+    /// The last value, if it was written as a difference: the next line then begins by repeating it.
+    pub(super) carried: Option<f64>,
+}
+
+/// How a number was written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    /// The abscissa or a value, with an ordinary sign or none, or the sign in its first letter.
+    Value,
+    /// The difference from the value before.
+    Difference,
+    /// How many times the entry before stands.
+    Repeat,
+}
+
+/// The most values of a line, far above any line of a sound file: a few letters can ask for billions.
+const MOST_VALUES: usize = 100_000;
+
+/// Decodes a line: its abscissa is passed over, since the steps are equal. `carried` is that of the line before.
+///
+/// The error is the text that is no number.
+pub(super) fn decode(line: &str, carried: Option<f64>) -> Result<Ordinates, &str> {
+    let mut entries = entries(line)?.into_iter();
+    if entries.next().is_some_and(|(kind, _)| kind != Kind::Value) {
+        return Err(line.trim());
+    }
+    let mut values: Vec<f64> = Vec::new();
+    let mut before: Option<(Kind, f64)> = None;
+    for (kind, number) in entries {
+        match (kind, before, values.last()) {
+            (Kind::Value, ..) => values.push(number),
+            (Kind::Difference, _, Some(last)) => values.push(last + number),
+            (Kind::Repeat, Some((entry, step)), Some(&last)) => {
+                let mut value = last;
+                // The entry itself is the first of the repetitions.
+                if number > MOST_VALUES as f64 || values.len() > MOST_VALUES {
+                    return Err(line.trim());
+                }
+                for _ in 1..number.max(1.0) as usize {
+                    value += if entry == Kind::Difference { step } else { 0.0 };
+                    values.push(value);
+                }
+                continue;
+            }
+            _ => return Err(line.trim()),
+        }
+        before = Some((kind, number));
+    }
+    let differs = before.is_some_and(|(kind, _)| kind == Kind::Difference);
+    let last = values.last().copied().filter(|_| differs);
+    if carried.is_some() && values.first().copied() == carried {
+        values.remove(0);
+    }
+    Ok(Ordinates { values, carried: last })
+}
+
+/// The entries of a line. Plain numbers may have exponents, which squeezed ones never have.
+fn entries(line: &str) -> Result<Vec<(Kind, f64)>, &str> {
+    let mut found = Vec::new();
+    let mut rest = line.trim_start_matches(separates);
+    while let Some(first) = rest.chars().next() {
+        let (kind, lead) = lead(first).ok_or(rest)?;
+        let body = &rest[first.len_utf8()..];
+        let end = end(body);
+        let number = match (first, &body[..end]) {
+            ('?', "") => f64::NAN,
+            (_, digits) => format!("{lead}{digits}").parse().ok().filter(|n: &f64| n.is_finite()).ok_or(rest)?,
+        };
+        found.push((kind, number));
+        if found.len() > MOST_VALUES {
+            return Err(line.trim());
+        }
+        rest = body[end..].trim_start_matches(separates);
+    }
+    Ok(found)
+}
+
+fn separates(c: char) -> bool {
+    c.is_whitespace() || c == ','
+}
+
+/// Where the digits after the first character end.
+fn end(body: &str) -> usize {
+    let bytes = body.as_bytes();
+    let mut at = 0;
+    while at < bytes.len() {
+        let exponent = matches!(bytes[at], b'E' | b'e')
+            && matches!(bytes.get(at + 1), Some(b'+' | b'-'))
+            && bytes.get(at + 2).is_some_and(u8::is_ascii_digit);
+        match bytes[at] {
+            b'0'..=b'9' | b'.' => at += 1,
+            _ if exponent => at += 3,
+            _ => break,
+        }
+    }
+    at
+}
+
+/// What the first character of an entry says: its kind, its sign and its first digit.
+fn lead(first: char) -> Option<(Kind, String)> {
+    let digit = |from: u8, negative: bool| {
+        let digit = u32::from(first).wrapping_sub(u32::from(from)) + 1;
+        format!("{}{digit}", if negative { "-" } else { "" })
+    };
+    Some(match first {
+        '0'..='9' | '.' | '-' => (Kind::Value, first.to_string()),
+        '+' | '?' => (Kind::Value, String::new()),
+        '@' => (Kind::Value, "0".to_owned()),
+        'A'..='I' => (Kind::Value, digit(b'A', false)),
+        'a'..='i' => (Kind::Value, digit(b'a', true)),
+        '%' => (Kind::Difference, "0".to_owned()),
+        'J'..='R' => (Kind::Difference, digit(b'J', false)),
+        'j'..='r' => (Kind::Difference, digit(b'j', true)),
+        'S'..='Z' => (Kind::Repeat, digit(b'S', false)),
+        's' => (Kind::Repeat, "9".to_owned()),
+        _ => return None,
+    })
+}

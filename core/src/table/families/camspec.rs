@@ -1,0 +1,82 @@
+//! A database of cameras: a line with the name of each, then a line of 33 values for red, green and blue, without wavelengths
+//! (J. Jiang et al. 2013: 400 to 720 nm by 10). Read as its users describe it; no real file was at hand.
+
+use super::super::dialect::{Cell, Dialect};
+use super::super::grid::{Grid, RawCurve};
+use super::super::header::Header;
+use super::super::sniff::Layout;
+use super::super::text::Lines;
+use super::super::{
+    Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, Orientation, ReadError, Reader, Role, WavelengthUnit,
+};
+use super::Found;
+
+/// Values in a line, one every 10 nm from 400 nm.
+const BANDS: usize = 33;
+
+const CHANNELS: [&str; 3] = ["R", "G", "B"];
+
+/// Whether the text begins with a name and three lines of 33 numbers.
+pub(super) fn recognize(text: &str) -> bool {
+    let mut lines = Lines::new(text).map(|(_, line)| line).filter(|line| !line.trim().is_empty());
+    lines.next().is_some_and(is_name) && (0..CHANNELS.len()).all(|_| lines.next().and_then(values).is_some())
+}
+
+fn is_name(line: &str) -> bool {
+    const LONGEST: usize = 100;
+    line.len() <= LONGEST && line.contains(char::is_alphabetic)
+}
+
+/// The values of a line, if it has as many as it must.
+fn values(line: &str) -> Option<Vec<f64>> {
+    let dialect = Dialect { delimiter: Delimiter::Spaces, mark: DecimalMark::Point };
+    let number = |cell| match dialect.parse(cell) {
+        Cell::Number(value) => Some(value),
+        Cell::Gap | Cell::Text => None,
+    };
+    let all: Vec<f64> = dialect.cells(line).take(BANDS + 1).map(number).collect::<Option<_>>()?;
+    (all.len() == BANDS).then_some(all)
+}
+
+/// Reads three curves for each camera.
+pub(super) fn read(text: &str) -> Result<Found, ReadError> {
+    let mut lines = Lines::new(text).filter(|(_, line)| !line.trim().is_empty()).peekable();
+    let first_line = lines.peek().map_or(1, |(line, _)| line + 1);
+    let mut cameras: Vec<(String, [Vec<f64>; 3])> = Vec::new();
+    while let Some((_, name)) = lines.next() {
+        let mut channel = || {
+            let (line, text) = lines.next().unwrap_or_default();
+            let found = text.split_ascii_whitespace().count();
+            values(text).ok_or(ReadError::UnevenRow { line: line.max(1), found, expected: BANDS })
+        };
+        cameras.push((name.trim().to_owned(), [channel()?, channel()?, channel()?]));
+        if cameras.len() > MAX_CURVES / CHANNELS.len() {
+            return Err(ReadError::TooManyCurves { line: first_line });
+        }
+    }
+    let mut header = Header::default();
+    if let [(only, _)] = cameras.as_slice() {
+        header.note("title", only);
+    }
+    let (alone, rows) = (cameras.len() == 1, cameras.len() * CHANNELS.len());
+    let curves = cameras.into_iter().flat_map(|(camera, channels)| {
+        channels.into_iter().zip(CHANNELS).map(move |(values, channel)| {
+            let name = if alone { channel.to_owned() } else { format!("{camera} {channel}") };
+            RawCurve { name, named: true, label: String::new(), values }
+        })
+    });
+    let why = "Three lines of 33 values under each name";
+    let grid = Grid {
+        wavelengths: (0..BANDS).map(|i| 400.0 + 10.0 * i as f64).collect(),
+        lines: vec![first_line],
+        curves: curves.collect(),
+        header,
+        unit: Some(Decided::guess(WavelengthUnit::Nanometer, why)),
+        role: Some(Decided::certain(Role::Camera, why)),
+        rows,
+        ..Grid::default()
+    };
+    let notes = vec![Decision::new("Grid", &Decided::guess("400 to 720 nm in steps of 10".to_owned(), why))];
+    let layout = Layout::fixed((Delimiter::Spaces, DecimalMark::Point), Orientation::Across, first_line, why);
+    Ok(Found { grid, layout, reader: Decided::guess(Reader::Camspec, why), notes })
+}

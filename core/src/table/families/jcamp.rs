@@ -1,0 +1,256 @@
+//! JCAMP-DX: labeled records, blocks of blocks, points or compressed ordinates.
+
+use super::super::header::Header;
+use super::super::reading::clean;
+use super::super::sniff::Layout;
+use super::super::text::{Lines, excerpt};
+use super::super::words;
+use super::super::{
+    Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, ReadError, ReadOptions, Reader,
+    Warning,
+};
+use super::spectra::{self, Sample, Spectrum};
+use super::{Found, asdf};
+
+/// Reads the processed spectrum, or all spectra if none is a raw one beside it.
+pub(super) fn read(text: &str, options: &ReadOptions, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
+    let mut blocks = blocks(text)?;
+    blocks.retain(|block| !block.samples.is_empty());
+    let mut notes = Vec::new();
+    let raw = blocks.iter().filter(|block| block.is_raw()).count();
+    if raw > 0 && raw < blocks.len() && options.raw != Some(true) {
+        let why = format!("{} blocks, of which {raw} are dark or reference spectra", blocks.len());
+        blocks.retain(|block| !block.is_raw());
+        let taken = format!("“{}” alone", blocks[0].title);
+        notes.push(Decision::new(
+            "Blocks",
+            &Decided::or_chosen(options.raw, || Decided::certain(false, why)).named(taken),
+        ));
+    }
+    let first_line = blocks.first().map(|block| block.data_line + 1).ok_or(ReadError::NoNumbers)?;
+    for block in &blocks {
+        block.warn(warnings);
+    }
+    let comma = blocks.iter().any(|block| block.comma);
+    let header = blocks[0].header();
+    let spectra = blocks.into_iter().map(Block::spectrum).collect();
+    let grid = spectra::grid(spectra, header, warnings)?;
+    let dialect =
+        if comma { (Delimiter::CommaSpace, DecimalMark::Comma) } else { (Delimiter::Comma, DecimalMark::Point) };
+    let layout = Layout::fixed(dialect, Orientation::Down, first_line, "JCAMP-DX prescribes it");
+    let reader = Decided::certain(Reader::Jcamp, "The file begins with ## labels");
+    Ok(Found { grid, layout, reader, notes })
+}
+
+/// How the data of a block is written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Form {
+    /// `x, y` pairs.
+    Pairs,
+    /// `x y y y`, the steps of x being equal.
+    Ordinates,
+}
+
+/// A block with, or without, data.
+#[derive(Debug, Default)]
+struct Block {
+    title: String,
+    records: Vec<(String, String)>,
+    x_units: (usize, String),
+    y_units: (usize, String),
+    points: (usize, Option<usize>),
+    first_x: Option<f64>,
+    last_x: Option<f64>,
+    delta_x: Option<f64>,
+    x_factor: Option<f64>,
+    y_factor: Option<f64>,
+    form: Option<Form>,
+    data_line: usize,
+    samples: Vec<Sample>,
+    last_ordinate: Option<f64>,
+    comma: bool,
+}
+
+/// All blocks that have a title of their own, in the order of the file.
+fn blocks(text: &str) -> Result<Vec<Block>, ReadError> {
+    let mut all: Vec<Block> = Vec::new();
+    let mut total = 0;
+    // Repetitions make more of a file than it is long, but no sound file makes this much of little.
+    let most = MAX_SAMPLES.min(1_000_000 + 10 * text.len());
+    for (number, line) in Lines::new(text) {
+        let line = line.split_once("$$").map_or(line, |(before, _)| before);
+        if let Some((key, value)) = line.trim_start().strip_prefix("##").and_then(|record| record.split_once('=')) {
+            let key = label(key);
+            if key == "TITLE" || all.is_empty() {
+                close(&mut all)?;
+                if all.len() >= MAX_CURVES {
+                    return Err(ReadError::TooManyCurves { line: number });
+                }
+                all.push(Block::default());
+            }
+            if let Some(block) = all.last_mut() {
+                block.record(number, &key, value.trim());
+            }
+            continue;
+        }
+        if let Some(block) = all.last_mut().filter(|block| block.form.is_some()) {
+            let before = block.samples.len();
+            block.data(number, line)?;
+            total += block.samples.len() - before;
+            if total > most {
+                return Err(ReadError::TooManySamples { line: number });
+            }
+        }
+    }
+    close(&mut all)?;
+    Ok(all)
+}
+
+fn close(all: &mut [Block]) -> Result<(), ReadError> {
+    all.last_mut().map_or(Ok(()), Block::close)
+}
+
+/// A label as labels are compared: capitals and digits only.
+fn label(written: &str) -> String {
+    written.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_uppercase()).take(64).collect()
+}
+
+impl Block {
+    fn record(&mut self, line: usize, key: &str, value: &str) {
+        const MAX_RECORDS: usize = 1000;
+        let number = || value.replace(',', ".").parse::<f64>().ok().filter(|number| number.is_finite());
+        self.form = None;
+        match key {
+            "TITLE" => value.clone_into(&mut self.title),
+            "XUNITS" => self.x_units = (line, value.to_owned()),
+            "YUNITS" => self.y_units = (line, value.to_owned()),
+            "NPOINTS" => self.points = (line, value.parse().ok()),
+            "FIRSTX" => self.first_x = number(),
+            "LASTX" => self.last_x = number(),
+            "DELTAX" => self.delta_x = number(),
+            "XFACTOR" => self.x_factor = number().filter(|factor| *factor != 0.0),
+            "YFACTOR" => self.y_factor = number().filter(|factor| *factor != 0.0),
+            "XYDATA" | "XYPOINTS" | "PEAKTABLE" if self.samples.is_empty() => {
+                let ordinates = label(value).starts_with("XYY");
+                self.form = Some(if ordinates { Form::Ordinates } else { Form::Pairs });
+                self.data_line = line;
+            }
+            _ => {}
+        }
+        if self.records.len() < MAX_RECORDS {
+            self.records.push((key.to_owned(), value.to_owned()));
+        }
+    }
+
+    fn data(&mut self, line: usize, text: &str) -> Result<(), ReadError> {
+        let broken = |text: &str| ReadError::NotANumber { line, column: 1, text: excerpt(text) };
+        if self.form == Some(Form::Ordinates) {
+            let found = asdf::decode(text, self.last_ordinate).map_err(broken)?;
+            self.last_ordinate = found.carried;
+            let samples = found.values.into_iter().map(|value| Sample { wavelength: f64::NAN, value, line });
+            self.samples.extend(samples);
+            return Ok(());
+        }
+        for pair in text.split(';').filter(|pair| !pair.trim().is_empty()) {
+            let (numbers, comma) = numbers(pair).ok_or_else(|| broken(pair.trim()))?;
+            self.comma |= comma;
+            if numbers.len() % 2 != 0 {
+                return Err(broken(pair.trim()));
+            }
+            for xy in numbers.chunks_exact(2).filter(|xy| xy.iter().all(|number| !number.is_nan())) {
+                self.samples.push(Sample { wavelength: xy[0], value: xy[1], line });
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives the samples their wavelengths and factors.
+    fn close(&mut self) -> Result<(), ReadError> {
+        let count = self.samples.len();
+        let (x_factor, y_factor) = (self.x_factor.unwrap_or(1.0), self.y_factor.unwrap_or(1.0));
+        let ordinates = self.samples.first().is_some_and(|sample| sample.wavelength.is_nan());
+        if !ordinates {
+            for sample in &mut self.samples {
+                sample.wavelength = clean(sample.wavelength * x_factor);
+                sample.value *= y_factor;
+            }
+            return Ok(());
+        }
+        let steps = self.points.1.unwrap_or(count).saturating_sub(1) as f64;
+        let step = match (self.first_x, self.last_x) {
+            (Some(first), Some(last)) if steps > 0.0 => Some((last - first) / steps),
+            _ => self.delta_x,
+        };
+        let (Some(first), Some(step)) = (self.first_x, step) else {
+            return Err(ReadError::NoWavelengths { line: self.data_line });
+        };
+        for (index, sample) in self.samples.iter_mut().enumerate() {
+            sample.wavelength = clean(first + step * index as f64);
+            sample.value *= y_factor;
+        }
+        self.samples.retain(|sample| !sample.value.is_nan());
+        Ok(())
+    }
+
+    /// Whether this is a dark or a reference spectrum.
+    fn is_raw(&self) -> bool {
+        let title = self.title.to_ascii_lowercase();
+        let last = title.rsplit(':').next().unwrap_or_default();
+        last.contains("dark") || last.contains("reference") || last.contains("raw")
+    }
+
+    fn warn(&self, warnings: &mut Vec<Warning>) {
+        let found = self.samples.len();
+        if let (line, Some(expected)) = self.points
+            && expected != found
+        {
+            warnings.push(Warning::CountDiffers { line, expected, found });
+        }
+        if self.y_units.1.to_ascii_lowercase().contains("absorb") {
+            warnings.push(Warning::Absorbance { line: self.y_units.0 });
+        }
+    }
+
+    fn header(&self) -> Header {
+        let (line, units) = &self.y_units;
+        let mut header = Header {
+            x_unit: words::x_unit(&self.x_units.1).map(|unit| (self.x_units.0, unit)),
+            role: words::role(units).map(|role| (*line, role)),
+            percent: words::says_percent(units).then_some((*line, true)),
+            ..Header::default()
+        };
+        for (key, value) in &self.records {
+            header.note(&key.to_ascii_lowercase(), value);
+        }
+        header
+    }
+
+    fn spectrum(self) -> Spectrum {
+        let name = Some(self.title).filter(|title| !title.is_empty());
+        Spectrum { name, label: String::new(), samples: self.samples }
+    }
+}
+
+impl<T> Decided<T> {
+    /// The same decision with its value told in other words.
+    fn named(self, value: String) -> Decided<String> {
+        Decided { value, certainty: self.certainty, why: self.why }
+    }
+}
+
+/// The numbers of a piece of a line, NaN for a gap, and whether commas mark their fractions.
+fn numbers(text: &str) -> Option<(Vec<f64>, bool)> {
+    let text = text.trim();
+    let parse = |cell: &str| match cell {
+        "?" => Some(f64::NAN),
+        _ => cell.parse::<f64>().ok().filter(|number| number.is_finite()),
+    };
+    // Where a comma has a space after it in one place and none in another, the latter marks a fraction.
+    let spaced = text.contains(", ") && !text.contains('.');
+    if spaced && text.replace(", ", " ").contains(',') {
+        let cells = text.split(", ").map(|cell| parse(&cell.trim().replace(',', ".")));
+        return Some((cells.collect::<Option<_>>()?, true));
+    }
+    let cells = text.split([',', ' ', '\t']).filter(|cell| !cell.is_empty()).map(parse);
+    Some((cells.collect::<Option<_>>()?, false))
+}

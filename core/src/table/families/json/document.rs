@@ -1,0 +1,125 @@
+//! The members that the two layouts have; all others are passed over without being kept.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use serde::Deserialize;
+use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
+
+/// How many entries of a header are kept.
+const MAX_ENTRIES: usize = 1000;
+
+/// A document of either layout.
+#[derive(Deserialize)]
+pub(super) struct File {
+    pub(super) header: Option<Texts>,
+    pub(super) spectral_data: Option<Aces>,
+    pub(super) camera_name: Option<String>,
+    pub(super) ssf_bands: Option<Vec<f64>>,
+    pub(super) red_ssf: Option<Vec<f64>>,
+    pub(super) green_ssf: Option<Vec<f64>>,
+    pub(super) blue_ssf: Option<Vec<f64>>,
+    pub(super) bands: Option<Vec<f64>>,
+    pub(super) scale: Option<f64>,
+    pub(super) spectrum: Option<Vec<f64>>,
+}
+
+/// The data of rawtoaces.
+#[derive(Deserialize)]
+pub(super) struct Aces {
+    pub(super) units: Option<String>,
+    #[serde(default)]
+    pub(super) index: BTreeMap<String, Vec<String>>,
+    pub(super) data: BTreeMap<String, Rows>,
+}
+
+/// An object of texts; what is no text is left out.
+#[derive(Default)]
+pub(super) struct Texts(pub(super) Vec<(String, String)>);
+
+impl<'de> Deserialize<'de> for Texts {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Entries;
+        impl<'de> Visitor<'de> for Entries {
+            type Value = Texts;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("an object of texts")
+            }
+            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Texts, M::Error> {
+                let mut kept = Vec::new();
+                while let Some((key, entry)) = map.next_entry::<String, MaybeText>()? {
+                    if let Some(text) = entry.0.filter(|_| kept.len() < MAX_ENTRIES) {
+                        kept.push((key, text));
+                    }
+                }
+                Ok(Texts(kept))
+            }
+        }
+        deserializer.deserialize_map(Entries)
+    }
+}
+
+/// A text, or a value of any other kind, which is not kept.
+struct MaybeText(Option<String>);
+
+impl<'de> Deserialize<'de> for MaybeText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Any;
+        impl<'de> Visitor<'de> for Any {
+            type Value = Option<String>;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("any value")
+            }
+            fn visit_str<E: Error>(self, text: &str) -> Result<Option<String>, E> {
+                Ok(Some(text.to_owned()))
+            }
+            fn visit_bool<E: Error>(self, _: bool) -> Result<Option<String>, E> {
+                Ok(None)
+            }
+            fn visit_i64<E: Error>(self, _: i64) -> Result<Option<String>, E> {
+                Ok(None)
+            }
+            fn visit_u64<E: Error>(self, _: u64) -> Result<Option<String>, E> {
+                Ok(None)
+            }
+            fn visit_f64<E: Error>(self, _: f64) -> Result<Option<String>, E> {
+                Ok(None)
+            }
+            fn visit_unit<E: Error>(self) -> Result<Option<String>, E> {
+                Ok(None)
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Option<String>, A::Error> {
+                while list.next_element::<IgnoredAny>()?.is_some() {}
+                Ok(None)
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Option<String>, A::Error> {
+                while map.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
+                Ok(None)
+            }
+        }
+        deserializer.deserialize_any(Any).map(Self)
+    }
+}
+
+/// An object of lists, in the order of the file; `null` is a gap.
+pub(super) struct Rows(pub(super) Vec<(String, Vec<Option<f64>>)>);
+
+impl<'de> Deserialize<'de> for Rows {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Entries;
+        impl<'de> Visitor<'de> for Entries {
+            type Value = Rows;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("an object of lists of numbers")
+            }
+            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Rows, M::Error> {
+                let mut rows = Vec::new();
+                while let Some(row) = map.next_entry()? {
+                    rows.push(row);
+                }
+                Ok(Rows(rows))
+            }
+        }
+        deserializer.deserialize_map(Entries)
+    }
+}

@@ -1,0 +1,116 @@
+//! One sample a line, its wavelength at the end of a label in any language: `Spectral Data 380[nm],0.001`.
+
+use super::super::dialect::{Cell, Dialect};
+use super::super::header::Header;
+use super::super::sniff::Layout;
+use super::super::text::{Lines, excerpt};
+use super::super::{
+    Decided, DecimalMark, Decision, Delimiter, Orientation, ReadError, Reader, Role, Warning, WavelengthUnit,
+};
+use super::Found;
+use super::spectra::{self, Sample, Spectrum};
+
+/// The fewest lines of one label that make a spectrum.
+const FEWEST: usize = 5;
+
+/// How much of the text is looked at.
+const LOOK: usize = 1 << 20;
+
+/// A line that is a sample.
+struct Labeled<'a> {
+    label: &'a str,
+    wavelength: f64,
+    delimiter: Delimiter,
+    value: &'a str,
+}
+
+/// Whether enough lines hold a label, a wavelength in nanometers and a value.
+pub(super) fn recognize(text: &str) -> bool {
+    let start = &text[..text.floor_char_boundary(LOOK)];
+    Lines::new(start).filter_map(|(_, line)| sample(line)).take(FEWEST).count() == FEWEST
+}
+
+/// Reads the finest block of samples.
+pub(super) fn read(text: &str, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
+    let mut header = Header::default();
+    let (blocks, delimiter, mark) = blocks(text, &mut header)?;
+    let finest = blocks.iter().enumerate().max_by_key(|(at, block)| (block.len(), std::cmp::Reverse(*at)));
+    let at = finest.map(|(at, _)| at).ok_or(ReadError::NoNumbers)?;
+    let mut notes = Vec::new();
+    let count = blocks.len();
+    let Some(samples) = blocks.into_iter().nth(at) else { return Err(ReadError::NoNumbers) };
+    let first_line = samples.first().map_or(1, |sample| sample.line);
+    if count > 1 {
+        let why = format!("{count} blocks of samples, this one with the most");
+        let taken = format!("the {} samples from line {first_line} on", samples.len());
+        notes.push(Decision::new("Block", &Decided::certain(taken, why)));
+    }
+    let mut grid = spectra::grid(vec![Spectrum { samples, ..Spectrum::default() }], header, warnings)?;
+    grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "The unit stands in the labels"));
+    grid.role = Some(Decided::guess(Role::Illuminant, "Meters that write such files measure light"));
+    let why = format!("Labels such as the one in line {first_line} end with a wavelength");
+    let layout = Layout::fixed((delimiter, mark), Orientation::Down, first_line, &why);
+    Ok(Found { grid, layout, reader: Decided::certain(Reader::Labels, why), notes })
+}
+
+type Blocks = (Vec<Vec<Sample>>, Delimiter, DecimalMark);
+
+/// Blocks of samples of one label and rising wavelengths; other lines are kept as comments.
+fn blocks(text: &str, header: &mut Header) -> Result<Blocks, ReadError> {
+    let mut all: Vec<Vec<Sample>> = vec![Vec::new()];
+    let mut label = None;
+    let (mut delimiter, mut mark) = (Delimiter::Comma, DecimalMark::Point);
+    for (number, line) in Lines::new(text) {
+        let Some(found) = sample(line) else {
+            if let Some((key, value)) = line.split_once([',', ';', '\t']) {
+                let key = if key.eq_ignore_ascii_case("title") { "title" } else { key };
+                header.note(key.trim(), value.trim());
+            }
+            continue;
+        };
+        let last = all.last().and_then(|block| block.last());
+        let goes_on = label == Some(found.label) && last.is_some_and(|last| found.wavelength > last.wavelength);
+        if !goes_on {
+            label = Some(found.label);
+            all.push(Vec::new());
+        }
+        delimiter = found.delimiter;
+        if found.value.contains(',') {
+            mark = DecimalMark::Comma;
+        }
+        let value = match (Dialect { delimiter, mark }).parse(found.value) {
+            Cell::Number(value) => value,
+            Cell::Gap => continue,
+            Cell::Text => return Err(ReadError::NotANumber { line: number, column: 2, text: excerpt(found.value) }),
+        };
+        if let Some(block) = all.last_mut() {
+            block.push(Sample { wavelength: found.wavelength, value, line: number });
+        }
+    }
+    all.retain(|block| block.len() >= FEWEST);
+    Ok((all, delimiter, mark))
+}
+
+/// The parts of a line that is a sample.
+fn sample(line: &str) -> Option<Labeled<'_>> {
+    const LONGEST: usize = 200;
+    if line.len() > LONGEST {
+        return None;
+    }
+    let at = line.find([',', ';', '\t'])?;
+    let delimiter = match line.as_bytes()[at] {
+        b',' => Delimiter::Comma,
+        b';' => Delimiter::Semicolon,
+        _ => Delimiter::Tab,
+    };
+    let (cell, value) = (line[..at].trim().trim_matches('"').trim_end(), line[at + 1..].trim().trim_matches('"'));
+    let bare = cell.trim_end_matches([']', ')']).trim_end();
+    let number = bare.strip_suffix("nm").or_else(|| bare.strip_suffix("NM"))?.trim_end_matches(['[', '(']).trim_end();
+    let start = number.rfind(|c: char| !(c.is_ascii_digit() || c == '.')).map_or(0, |at| at + 1);
+    let start = (start..=number.len()).find(|&at| number.is_char_boundary(at))?;
+    let label = number[..start].trim();
+    let wavelength = number[start..].parse().ok().filter(|w: &f64| (100.0..=20_000.0).contains(w))?;
+    // A range such as `PPFD 400-700nm` is no wavelength.
+    let usable = !label.is_empty() && !label.ends_with(['-', '~', '\u{2013}']) && !value.is_empty();
+    usable.then_some(Labeled { label, wavelength, delimiter, value })
+}

@@ -1,0 +1,121 @@
+//! Spectra that each have wavelengths of their own, brought onto one grid.
+
+use super::super::grid::{Grid, RawCurve};
+use super::super::header::Header;
+use super::super::warning::LineList;
+use super::super::{MAX_CURVES, MAX_SAMPLES, ReadError, Warning};
+
+/// One sample and the line it stands in.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sample {
+    pub(super) wavelength: f64,
+    pub(super) value: f64,
+    pub(super) line: usize,
+}
+
+/// A spectrum as it stands in the file.
+#[derive(Debug, Default)]
+pub(super) struct Spectrum {
+    pub(super) name: Option<String>,
+    /// What the file says the values are.
+    pub(super) label: String,
+    pub(super) samples: Vec<Sample>,
+}
+
+impl Spectrum {
+    /// The line where it begins.
+    fn line(&self) -> usize {
+        self.samples.first().map_or(1, |sample| sample.line)
+    }
+
+    /// Whether wavelengths fall from first to last.
+    fn falls(&self) -> bool {
+        self.samples.windows(2).all(|pair| pair[1].wavelength < pair[0].wavelength)
+    }
+
+    /// Brings the samples into ascending order, one for each wavelength.
+    fn settle(&mut self, name: &str, warnings: &mut Vec<Warning>) {
+        let back = |pair: &[Sample]| pair[1].wavelength < pair[0].wavelength;
+        if !self.falls()
+            && let Some(at) = self.samples.windows(2).position(back)
+        {
+            warnings.push(Warning::Sorted { line: self.samples[at + 1].line });
+        }
+        self.samples.sort_by(|a, b| a.wavelength.total_cmp(&b.wavelength));
+        let mut lines = Vec::new();
+        let (mut kept, mut count) = (0, 1.0);
+        for i in 1..self.samples.len() {
+            let next = self.samples[i];
+            if next.wavelength == self.samples[kept].wavelength {
+                count += 1.0;
+                lines.push(next.line);
+                let mean = &mut self.samples[kept].value;
+                *mean += (next.value - *mean) / count;
+                continue;
+            }
+            kept += 1;
+            count = 1.0;
+            self.samples[kept] = next;
+        }
+        self.samples.truncate(kept + 1);
+        if !lines.is_empty() {
+            lines.sort_unstable();
+            let mut list = LineList::default();
+            for line in lines {
+                list.add(line);
+            }
+            warnings.push(Warning::Averaged { name: name.to_owned(), lines: list });
+        }
+    }
+}
+
+/// The grid of all wavelengths of all spectra; a spectrum has gaps where only others have values.
+pub(super) fn grid(mut spectra: Vec<Spectrum>, header: Header, warnings: &mut Vec<Warning>) -> Result<Grid, ReadError> {
+    let rows = spectra.iter().map(|spectrum| spectrum.samples.len()).sum();
+    let line = spectra.first().map_or(1, Spectrum::line);
+    if spectra.len() > MAX_CURVES {
+        return Err(ReadError::TooManyCurves { line: spectra[MAX_CURVES].line() });
+    }
+    let falls = !spectra.is_empty() && spectra.iter().all(|spectrum| spectrum.samples.len() > 1 && spectrum.falls());
+    let title = header.comment("title").filter(|_| spectra.len() == 1).map(str::to_owned);
+    let mut names = Vec::with_capacity(spectra.len());
+    for (index, spectrum) in spectra.iter_mut().enumerate() {
+        let given = spectrum.name.take().or_else(|| title.clone());
+        let name = given.clone().unwrap_or_else(|| format!("Spectrum {}", index + 1));
+        spectrum.settle(&name, warnings);
+        names.push((name, given.is_some()));
+    }
+    let samples = spectra.iter().flat_map(|spectrum| &spectrum.samples);
+    let mut wavelengths: Vec<f64> = samples.map(|sample| sample.wavelength).collect();
+    wavelengths.sort_unstable_by(f64::total_cmp);
+    wavelengths.dedup();
+    if wavelengths.len().saturating_mul(spectra.len()) > MAX_SAMPLES {
+        return Err(ReadError::TooManySamples { line });
+    }
+    let mut lines = vec![line];
+    if let [only] = spectra.as_slice() {
+        lines = only.samples.iter().map(|sample| sample.line).collect();
+    }
+    let curves = spectra.into_iter().zip(names).map(|(spectrum, (name, named))| RawCurve {
+        name,
+        named,
+        label: spectrum.label,
+        values: onto(&wavelengths, &spectrum.samples),
+    });
+    let curves = curves.collect();
+    let mut grid = Grid { wavelengths, lines, curves, header, rows, own_wavelengths: true, ..Grid::default() };
+    if falls {
+        let order: Vec<usize> = (0..grid.wavelengths.len()).rev().collect();
+        grid.reorder(&order);
+    }
+    Ok(grid)
+}
+
+/// The values at the wavelengths of a grid that holds all wavelengths of the samples.
+fn onto(wavelengths: &[f64], samples: &[Sample]) -> Vec<f64> {
+    let mut next = samples.iter().peekable();
+    let value = |&wavelength: &f64| {
+        next.next_if(|sample| sample.wavelength == wavelength).map_or(f64::NAN, |sample| sample.value)
+    };
+    wavelengths.iter().map(value).collect()
+}

@@ -1,0 +1,100 @@
+//! Which program wrote a table, and what it says about the values in its own words.
+
+use super::grid::Grid;
+use super::text::Lines;
+use super::{Decided, Decision, Role, Warning};
+
+/// Lines that are looked at for marks.
+const LOOK: usize = 60;
+
+/// Longer lines hold no marks.
+const LONGEST: usize = 400;
+
+/// What a line begins with, or holds, and who writes it.
+const MARKS: [(Mark, &str); 13] = [
+    (Mark::Start("SpectraSuite Data File"), "Ocean SpectraSuite"),
+    (Mark::Start("OOIBase32 Version"), "Ocean OOIBase32"),
+    (Mark::Start("Jaz Data File"), "Ocean Jaz"),
+    (Mark::Ends("Data from ", " Node"), "Ocean OceanView"),
+    (Mark::Start(">>>>>"), "an Ocean program"),
+    (Mark::Start("Text conversion of header file"), "ASD ViewSpec Pro"),
+    (Mark::Start("Data measured with spectrometer"), "Avantes AvaSoft"),
+    (Mark::Start("Filename-->"), "an Avantes program"),
+    (Mark::Start("ENLIGHTEN Version"), "Wasatch ENLIGHTEN"),
+    (Mark::Start("Date,Mode,IntegrationTime(ms)"), "CID SpectraVue"),
+    (Mark::Start("LambdaPValue\t"), "a UPRtek meter"),
+    (Mark::Start("#Thorlabs"), "Thorlabs (read as described, no real file was at hand)"),
+    (Mark::Start("X Units:"), "the ECOSTRESS library"),
+];
+
+#[derive(Debug, Clone, Copy)]
+enum Mark {
+    Start(&'static str),
+    Ends(&'static str, &'static str),
+}
+
+impl Mark {
+    fn fits(self, line: &str) -> bool {
+        match self {
+            Self::Start(start) => line.starts_with(start),
+            Self::Ends(start, end) => line.starts_with(start) && line.trim_end().ends_with(end),
+        }
+    }
+}
+
+/// Names the program that wrote a table, and takes over what only its own words say.
+pub(super) fn recognize(text: &str, grid: &mut Grid, warnings: &mut Vec<Warning>) -> Option<Decision> {
+    let lines = || Lines::new(text).take(LOOK).filter(|(_, line)| line.len() <= LONGEST);
+    if let Some((line, mode)) = lines().take(4).find_map(|(line, text)| Some((line, stellarnet_mode(text)?))) {
+        take_mode(line, mode, grid, warnings);
+        return Some(decision("StellarNet SpectraWiz", line));
+    }
+    let decibels = |line: &str| line.trim_start_matches('#').to_ascii_lowercase().starts_with("yaxisunit;dbm");
+    if let Some((line, _)) = lines().find(|(_, line)| decibels(line)) {
+        warnings.push(Warning::Decibels { line });
+    }
+    let (line, program) = lines().find_map(|(number, line)| {
+        let mark = MARKS.iter().find(|(mark, _)| mark.fits(line));
+        mark.map(|(_, program)| (number, *program))
+    })?;
+    if let Some(name) = lines().find_map(|(_, line)| library_name(line)) {
+        grid.header.note("title", name);
+        if let [only] = grid.curves.as_mut_slice()
+            && !only.named
+        {
+            name.clone_into(&mut only.name);
+            only.named = true;
+        }
+    }
+    Some(decision(program, line))
+}
+
+fn decision(program: &str, line: usize) -> Decision {
+    Decision::new("Program", &Decided::certain(format!("a file of {program}"), format!("Line {line} shows it")))
+}
+
+/// The name of a sample of a spectral library.
+fn library_name(line: &str) -> Option<&str> {
+    line.strip_prefix("Name:").map(str::trim).filter(|name| !name.is_empty())
+}
+
+/// The word before an arrow in a line that begins with a quote that is never closed.
+fn stellarnet_mode(line: &str) -> Option<&str> {
+    let (mode, rest) = line.strip_prefix('"')?.split_once("->")?;
+    rest.contains("Wave:").then_some(mode.trim())
+}
+
+fn take_mode(line: usize, mode: &str, grid: &mut Grid, warnings: &mut Vec<Warning>) {
+    let why = || format!("Line {line} says {mode}");
+    match mode.to_ascii_uppercase().as_str() {
+        "TRANS" | "REFL" | "TRM" => {
+            grid.role = Some(Decided::certain(Role::Reflectance, why()));
+            grid.header.percent = Some((line, true));
+        }
+        "ABSORB" | "ABS" => warnings.push(Warning::Absorbance { line }),
+        "SCOPE" | "IRRAD" | "IRR" | "WATTS" | "LUMENS" => {
+            grid.role = Some(Decided::certain(Role::Illuminant, why()));
+        }
+        _ => {}
+    }
+}
