@@ -16,15 +16,22 @@ use crate::theme::UNIT;
 use crate::widgets;
 use crate::workspaces::PaneKind;
 
-/// Height of the numbers of a pixel, at the foot of the pane.
-const PIXEL: f32 = 136.0;
+/// Height of the numbers of a pixel, at the foot of the pane, beside a line for each of some sources.
+const PIXEL: f32 = 128.0;
+const PIXEL_LINE: f32 = 17.0;
+const PIXEL_LINES: usize = 6;
+/// The same while no pixel is kept: the status bar reads what is under the pointer.
+const NO_PIXEL: f32 = 44.0;
 /// In a lower pane they are a group among the others.
 const WITH_PIXEL: f32 = 480.0;
 
 /// Shows the pane in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, PaneKind::RenderSetup, rect, context, |_, _| {});
-    let below = if body.height() > WITH_PIXEL { PIXEL } else { 0.0 };
+    let sources = context.view.render.shot.as_deref().map_or(0, |shot| shot.sources.len());
+    let kept = context.view.render.pinned.is_some();
+    let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 } else { NO_PIXEL };
+    let below = if body.height() > WITH_PIXEL { foot } else { 0.0 };
     let groups = Rect::from_min_max(body.min, egui::pos2(body.right(), body.bottom() - below));
     let inner = groups.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let mut child = ui.new_child(UiBuilder::new().id_salt("render setup").max_rect(inner));
@@ -48,7 +55,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let room = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
         let mut child = ui.new_child(UiBuilder::new().id_salt("pixel").max_rect(room));
         child.set_clip_rect(rect.intersect(ui.clip_rect()));
-        pixel::show(&mut child, context);
+        ScrollArea::vertical().id_salt("pixel").auto_shrink(false).show(&mut child, |ui| pixel::show(ui, context));
     }
 }
 

@@ -1,4 +1,4 @@
-//! The pixel that is kept, or under the pointer, in numbers.
+//! The pixel that is kept, in numbers.
 
 use egui::{Grid, RichText, Ui};
 
@@ -15,7 +15,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().interact_size.y = 14.0;
     let render = &context.view.render;
     let weak = context.theme.weak;
-    let Some(place) = render.pinned.clone().or_else(|| render.hovered.clone()) else {
+    let Some(place) = render.pinned.clone() else {
         ui.label(
             RichText::new("Point at a picture to read it; click keeps the pixel, Esc lets go.").small().color(weak),
         );
