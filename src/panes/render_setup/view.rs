@@ -1,6 +1,6 @@
 //! Exposure, lens and quality.
 
-use egui::{ComboBox, Ui};
+use egui::{ComboBox, RichText, Ui};
 
 use super::{Dial, set};
 use crate::document::render::QualityChoice;
@@ -41,4 +41,19 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ui.ctx().request_repaint();
         }
     });
+    without_picture(ui, context);
+}
+
+/// Names the sources that are on show elsewhere but have no picture.
+fn without_picture(ui: &mut Ui, context: &PaneContext<'_>) {
+    let rendered = context.scene.rendered_sources();
+    let left_out = context.scene.sources().into_iter().filter(|source| source.visible);
+    let left_out = left_out.filter(|source| !rendered.iter().any(|r| (r.kind, &r.name) == (source.kind, &source.name)));
+    let names: Vec<String> = left_out.map(|source| source.label).collect();
+    if !names.is_empty() {
+        let words = format!("No picture: {}", names.join(", "));
+        ui.label(RichText::new(words).small().color(context.theme.weak)).on_hover_text(
+            "Eq 13 takes the signals of cameras and of Stiles & Burch; with an observer under To diagram all have pictures.",
+        );
+    }
 }
