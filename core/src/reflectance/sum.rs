@@ -7,9 +7,9 @@
 //! ```text
 //! m = g e^δ,  δ e^(2δ) = b/g²
 //! ```
-//! Where m is large, the sum is an expansion about that maximum in powers of 1/m, uniformly in b ([`saddle`]); where it is
-//! small, the terms that weigh are added ([`direct`]). What decides is m, not g: with b ≫ g² a sum of many terms belongs to a
-//! small g. With b ≫ g² the terms can also fall off within one step of n, at any m ([`narrow`]).
+//! Where m is large, the sum is an expansion about that maximum in powers of 1/m, uniformly in b (`saddle`); where it is
+//! small, the terms that weigh are added (`direct`). What decides is m, not g: with b ≫ g² a sum of many terms belongs to a
+//! small g. With b ≫ g² the terms can also fall off within one step of n, at any m (`narrow`).
 
 mod coefficients;
 mod direct;
