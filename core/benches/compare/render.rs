@@ -68,7 +68,7 @@ pub(crate) fn render(rounds: usize) {
     };
     let preview = || Studio { quality: Quality::Preview, ..studio() };
     let full = || Studio { shadows: Shadows::Full, ..studio() };
-    let orbit = |studio: &mut Studio, round: usize| studio.yaw += 0.01 * round as f64;
+    let orbit = |studio: &mut Studio, round: usize| studio.yaw = 0.3 + 0.01 * round as f64;
     line("orbit, preview", 16.0, frame(rounds, preview(), orbit), error(preview(), Quality::Preview));
     line("orbit, full", 16.0, frame(rounds, full(), orbit), error(full(), Quality::Full));
     let light = |studio: &mut Studio, round: usize| studio.light_right += round as f64;
@@ -76,7 +76,7 @@ pub(crate) fn render(rounds: usize) {
     for sigma in [5e-6, 0.3e-6, 0.05e-6] {
         let start = || Studio { sigma_m: sigma, ..full() };
         let slide = |studio: &mut Studio, round: usize| studio.sigma_m = sigma * (1.0 + 1e-3 * round as f64);
-        let name = format!("σ moved at {} µm", sigma * 1e6);
+        let name = format!("σ moved at {:.2} µm", sigma * 1e6);
         line(&name, 5.0, frame(rounds, start(), slide), error(start(), Quality::Full));
     }
     let expose = |studio: &mut Studio, round: usize| studio.ev = 0.01 * round as f64;
