@@ -19,25 +19,12 @@ use egui_kittest::Harness;
 use tempfile::TempDir;
 
 use crate::cpu_renderer::Cpu;
+use crate::own_data::Dropped;
 use crate::screenshots::open;
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\n";
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
 const BROKEN: &str = "v 0 0 0\nv 1 zero 0\nv 1 1 0\nf 1 2 3\n";
-
-/// A file on disk that is dropped on the window.
-#[derive(Debug)]
-struct Dropped(PathBuf, Vec<u8>);
-
-impl egui::DroppedFile for Dropped {
-    fn path(&self) -> &Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        Ok(self.1.clone())
-    }
-}
 
 fn folder_with(name: &str, text: &str) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();

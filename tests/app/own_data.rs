@@ -13,9 +13,9 @@ use egui_kittest::Harness;
 
 use crate::screenshots::open;
 
-/// A file that is dropped on the window without being on disk.
+/// A file that is dropped on the window, with its bytes.
 #[derive(Debug)]
-struct Dropped(PathBuf, Vec<u8>);
+pub(crate) struct Dropped(pub(crate) PathBuf, pub(crate) Vec<u8>);
 
 impl egui::DroppedFile for Dropped {
     fn path(&self) -> &Path {

@@ -7,7 +7,7 @@ use crate::panes::PaneContext;
 use crate::studio::pixel::PixelShows;
 use crate::theme::UNIT;
 use crate::thing::SourceId;
-use crate::view::render::PixelPlace;
+use crate::view::render::{PixelPlace, RenderView};
 
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -15,7 +15,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().interact_size.y = 14.0;
     let render = &context.view.render;
     let weak = context.theme.weak;
-    let Some(place) = render.pinned.clone() else {
+    let Some(place) = render.pinned.clone().map(|place| shown(place, render)) else {
         ui.label(
             RichText::new("Point at a picture to read it; click keeps the pixel, Esc lets go.").small().color(weak),
         );
@@ -54,6 +54,17 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 ui.label(RichText::new(format!("g at 550 nm, {way}")).small().color(weak));
             }
         }
+    }
+}
+
+/// The place in the picture it was kept in or, where that source has none now, in the last one that has.
+fn shown(place: PixelPlace, render: &RenderView) -> PixelPlace {
+    let Some(shot) = render.shot.as_deref() else { return place };
+    match shot.sources.last() {
+        Some(last) if index_of(shot, &place.source).is_none() => {
+            PixelPlace { source: SourceId { kind: last.kind, name: last.name.clone() }, ..place }
+        }
+        _ => place,
     }
 }
 
