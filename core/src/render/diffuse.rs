@@ -57,11 +57,6 @@ impl DiffuseTable {
         Self { cells: rows.collect::<Vec<_>>().concat() }
     }
 
-    /// How many sums a table is made of.
-    pub fn sums(measure: &Measure) -> u64 {
-        (KAPPAS * BETAS * measure.coarse().len()) as u64
-    }
-
     /// Whether the table holds these.
     pub fn holds(kappa: f64, beta: f64) -> bool {
         (SMOOTH..=ROUGH).contains(&kappa) && (0.0..LAST_BETA - 1.0).contains(&beta)

@@ -5,6 +5,7 @@ use super::diffuse::{DARK, DiffuseTable, ROUGH};
 use super::geometry::{Angles, GeometryImage};
 use super::measure::LAMBDA_0_NM;
 use super::vertices::VertexImage;
+use crate::reflectance::coherent::rho0_squared_bound;
 use crate::reflectance::{
     Geometry, Precision, Reading, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa, ln_diffuse_sum,
 };
@@ -337,11 +338,7 @@ impl Material {
             return None;
         }
         let wave_number = std::f64::consts::TAU / (LAST_NM * 1e-9);
-        let envelope = |half_side: f64, v: f64| {
-            let u = wave_number * half_side * (v.abs() - self.angular_radius).max(0.0);
-            if u > 1.0 { 1.0 / (u * u) } else { 1.0 }
-        };
-        let lobe = envelope(surface.half_x_m(), geometry.vx_by_k) * envelope(surface.half_y_m(), geometry.vy_by_k);
+        let lobe = rho0_squared_bound(geometry, surface, wave_number, self.angular_radius);
         (front * damping * lobe > self.threshold).then_some(Mirror {
             index: index as u32,
             front,
