@@ -95,6 +95,13 @@ pub enum OwnAction {
         /// The set as it is to be.
         with: Box<OwnSet>,
     },
+    /// Puts other versions of some sets in their places, because of what the step is called.
+    ReplaceAll {
+        /// What the step is called.
+        what: String,
+        /// The names they had, and the sets as they are to be.
+        with: Vec<(String, OwnSet)>,
+    },
     /// Takes a set out, and off the list.
     Remove(String),
 }
@@ -115,6 +122,7 @@ impl Action {
                 many => format!("Open {} sets", many.len()),
             },
             Self::Own(OwnAction::Replace { name, .. }) => format!("Change {name}"),
+            Self::Own(OwnAction::ReplaceAll { what, .. }) => what.clone(),
             Self::Own(OwnAction::Remove(name)) => format!("Remove {name}"),
             Self::Reset => "Reset to the first screen".to_owned(),
         }
@@ -274,23 +282,27 @@ impl OwnAction {
                     document.own.push(set);
                 }
             }
-            Self::Replace { name, with } => {
-                let Some(index) = document.own.iter().position(|set| set.name == *name) else { return };
-                let mut set = (**with).clone();
-                set.name = free_name(document, &set.name, Some(index));
-                let before = Entry::from_own(&document.own[index]).kind;
-                let set = Shared::new(set);
-                document.own[index] = set.clone();
-                if Entry::from_own(&set).kind != before || set.name != *name {
-                    forget(document, name);
-                    put_to_use(document, &set);
-                }
-            }
+            Self::Replace { name, with } => replace(document, name, with),
+            Self::ReplaceAll { with, .. } => with.iter().for_each(|(name, with)| replace(document, name, with)),
             Self::Remove(name) => {
                 document.own.retain(|set| set.name != *name);
                 forget(document, name);
             }
         }
+    }
+}
+
+/// Puts another version of a set in its place. What it is used as stays, unless that has become something else.
+fn replace(document: &mut Document, name: &str, with: &OwnSet) {
+    let Some(index) = document.own.iter().position(|set| set.name == name) else { return };
+    let mut set = with.clone();
+    set.name = free_name(document, &set.name, Some(index));
+    let before = Entry::from_own(&document.own[index]).kind;
+    let set = Shared::new(set);
+    document.own[index] = set.clone();
+    if Entry::from_own(&set).kind != before || set.name != name {
+        forget(document, name);
+        put_to_use(document, &set);
     }
 }
 
@@ -315,6 +327,7 @@ fn put_to_use(document: &mut Document, set: &Shared<OwnSet>) {
             document.subset = Subset::All;
         }
         Kind::Illuminant => document.light = Light::Set(set.name.clone()),
+        Kind::Unsorted => {}
     }
 }
 

@@ -1,15 +1,18 @@
 //! The program in its window: takes in events, carries out commands, shows panes.
 
 mod commands;
+mod imports;
 mod meshes;
 mod path_prompt;
 mod pictures;
+mod saving;
 mod startup;
 
 use egui::{Align2, CentralPanel, CursorIcon, Event, Frame, Panel, Rect, Sense, Ui};
 
 use crate::catalog::Catalog;
 use crate::catalog::meshes::MeshStore;
+use crate::catalog::opened::Opened;
 use crate::command::{Command, key_bindings};
 use crate::document::history::History;
 use crate::files::Files;
@@ -34,6 +37,7 @@ pub struct ChromascopeApp {
     view: View,
     files: Files,
     meshes: MeshStore,
+    opened: Opened,
     studio: Studio,
     commands: Vec<Command>,
     arrangement: Arrangement,
@@ -45,7 +49,7 @@ impl ChromascopeApp {
     pub fn new(ctx: &egui::Context, history: History, saved: SavedView, mut files: Files) -> Self {
         theme::apply(ctx);
         files.wake(ctx);
-        let window = ctx.clone();
+        let (window, also) = (ctx.clone(), ctx.clone());
         Self {
             history,
             catalog: Catalog::built_in(),
@@ -53,6 +57,7 @@ impl ChromascopeApp {
             view: View { saved, ..View::default() },
             files,
             meshes: MeshStore::new(move || window.request_repaint()),
+            opened: Opened::new(move || also.request_repaint()),
             studio: Studio::new(ctx),
             commands: Vec::new(),
             arrangement: Arrangement::default(),
@@ -83,6 +88,11 @@ impl ChromascopeApp {
     /// The user's mesh files.
     pub fn meshes(&self) -> &MeshStore {
         &self.meshes
+    }
+
+    /// The spectral files that were opened.
+    pub fn opened(&self) -> &Opened {
+        &self.opened
     }
 
     /// Where pictures are made.
@@ -141,9 +151,9 @@ impl ChromascopeApp {
     /// The bars and panes of one frame.
     fn show(&mut self, ui: &mut Ui) {
         let theme = Theme::of(ui.visuals()).with_surround(self.view.saved.surround);
-        let Self { history, catalog, results, view, commands, arrangement, files, meshes, studio, .. } = self;
+        let Self { history, catalog, results, view, commands, arrangement, files, meshes, opened, studio, .. } = self;
         let scene = Scene { document: history.document(), catalog, results };
-        let mut context = PaneContext { scene, theme, view, meshes, studio, commands };
+        let mut context = PaneContext { scene, theme, view, meshes, opened, studio, commands };
         let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
             let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
             let frame = Frame::NONE.fill(theme.panel);
@@ -239,7 +249,9 @@ fn drop_veil(ui: &Ui, theme: Theme) {
 impl eframe::App for ChromascopeApp {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.results.end_frame();
-        self.take_files(ctx);
+        self.take_files();
+        self.take_dropped(ctx);
+        self.take_opened();
         self.take_meshes();
         self.take_input(ctx);
         self.carry_out(ctx);

@@ -4,15 +4,17 @@
 //! ([`load`]), and kept by whoever keeps answers.
 
 pub mod import;
+pub mod likeness;
 pub mod load;
 pub mod meshes;
 pub mod names;
+pub mod opened;
 
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::{Dataset, Header};
 use include_dir::{Dir, include_dir};
 
-use crate::document::own::{OwnRole, OwnSet};
+use crate::document::own::{OwnSet, Role};
 
 /// The data files in the program.
 static ASSETS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets");
@@ -31,11 +33,14 @@ pub enum Kind {
     Illuminant,
     /// Single reflectances.
     Material,
+    /// Spectra of the user's of which nobody has said what they are of.
+    Unsorted,
 }
 
 impl Kind {
     /// All kinds in the order they are listed.
-    pub const ALL: [Self; 5] = [Self::Camera, Self::Observer, Self::Chart, Self::Illuminant, Self::Material];
+    pub const ALL: [Self; 6] =
+        [Self::Camera, Self::Observer, Self::Chart, Self::Illuminant, Self::Material, Self::Unsorted];
 
     /// The plural, as shown and as the command line takes it.
     pub const fn plural(self) -> &'static str {
@@ -45,6 +50,7 @@ impl Kind {
             Self::Chart => "charts",
             Self::Illuminant => "illuminants",
             Self::Material => "materials",
+            Self::Unsorted => "unsorted spectra",
         }
     }
 
@@ -56,6 +62,7 @@ impl Kind {
             Self::Chart => "chart",
             Self::Illuminant => "illuminant",
             Self::Material => "material",
+            Self::Unsorted => "unsorted spectrum",
         }
     }
 }
@@ -100,9 +107,10 @@ impl Entry {
     /// An entry for one of the user's sets.
     pub fn from_own(set: &Shared<OwnSet>) -> Self {
         let kind = match set.role {
-            OwnRole::Camera => Kind::Camera,
-            OwnRole::Reflectance => Kind::Chart,
-            OwnRole::Illuminant => Kind::Illuminant,
+            Role::Camera => Kind::Camera,
+            Role::Reflectance | Role::Transmittance => Kind::Chart,
+            Role::Illuminant => Kind::Illuminant,
+            Role::Unknown => Kind::Unsorted,
         };
         let name = set.name.clone();
         Self {

@@ -1,9 +1,10 @@
-//! The same answers without a window: `locus`, `patches`, `render`, `list`.
+//! The same answers without a window: `locus`, `patches`, `render`, `inspect`, `list`.
 //!
 //! Arguments become a [`Document`](crate::document::Document) and are answered through [`Scene`](crate::scene::Scene), as in the
 //! window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
 
 mod arguments;
+mod inspect;
 mod render;
 mod request;
 mod tables;
@@ -37,6 +38,14 @@ pub enum CliError {
     /// A file could not be read.
     #[error("{}", .0)]
     File(String),
+    /// Some of several files failed; each was told of.
+    #[error("{failed} of {count} files failed")]
+    Failed {
+        /// How many.
+        failed: usize,
+        /// Of how many.
+        count: usize,
+    },
     /// The scene cannot be computed.
     #[error(transparent)]
     Scene(SceneError),
@@ -107,6 +116,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
             tables::patches(&arguments, matches).and_then(|text| put(&text, arguments.common.out.as_deref()))
         }
         Subcommand::Render(arguments) => render::run(&arguments, matches),
+        Subcommand::Inspect(arguments) => inspect::run(&arguments),
         Subcommand::List { kind } => put(&tables::list(kind), None),
     };
     Outcome::Done(match result {

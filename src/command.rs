@@ -3,9 +3,13 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::action::Action;
+use crate::catalog::Kind;
+use crate::document::own::{Fingerprint, Wishes};
+use crate::export::spectra::Form;
 use crate::theme::Surround;
 use crate::thing::SourceId;
 use crate::view::HelpPage;
+use crate::view::import::ImportItem;
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Something to do at the start of the next frame.
@@ -19,14 +23,34 @@ pub enum Command {
     Redo,
     /// Ask for files to open.
     Open,
-    /// Open a file of the given path.
+    /// Ask for a folder whose files are to be opened.
+    OpenFolder,
+    /// Open a file or folder of the given path.
     OpenPath(std::path::PathBuf),
+    /// Show a file in Import, at a line.
+    ShowImport(ImportItem, Option<usize>),
+    /// Have a file read otherwise.
+    Wish(ImportItem, Box<Wishes>),
+    /// Give up what was tried on the file on show.
+    TakeWishBack,
+    /// Make a set of a file that is none yet.
+    UseFile(Fingerprint, Box<Wishes>),
+    /// Read all files of this one's kind as this one.
+    UseForAlike(ImportItem),
+    /// Take a file off the list.
+    ForgetFile(Fingerprint),
+    /// Read a set's file from disk again.
+    ReadAgain(String),
+    /// Stop reading files.
+    StopReading,
     /// Read text as if it were a file.
     Paste(String),
     /// Save a pane's figure or numbers.
     Export(PaneKind, Format),
     /// Save a source's rendered picture with its numbers.
     ExportExr(SourceId),
+    /// Save the curves of a set of the library.
+    SaveSet(Kind, String, Form),
     /// Put a pane's picture on the clipboard.
     CopyPicture(PaneKind),
     /// Put a pane's numbers on the clipboard.

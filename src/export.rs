@@ -1,6 +1,7 @@
 //! Figures out of the program: SVG from the figure, PNG from that SVG, both in the bundled fonts.
 
 pub mod render;
+pub mod spectra;
 
 use std::sync::{Arc, LazyLock};
 

@@ -1,6 +1,7 @@
 //! The scene as figures: the same value is drawn on screen, saved as SVG and PNG, and written as numbers.
 
 pub mod chromaticity;
+pub mod curves;
 pub mod render;
 pub mod spectra;
 pub mod strip;

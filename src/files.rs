@@ -3,46 +3,35 @@
 //! Dialogs, reads and writes run on threads of their own and come back through [`Files::poll`]; the window never waits.
 
 mod keep;
+mod watch;
 
 use std::fs;
-use std::io::{self, Read as _, Write as _};
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::catalog::import::{Imported, import};
-use crate::catalog::meshes::{ENDINGS as MESH_ENDINGS, is_mesh};
+use crate::catalog::meshes::ENDINGS as MESH_ENDINGS;
 use crate::document::Document;
-use crate::document::own::OwnSet;
-use chromascope_core::table::MAX_BYTES;
 
 pub use keep::{install_panic_hook, panic_saves};
 
 /// A dialog that answers nothing within this time was never there: a missing portal looks like Cancel.
 const NO_DIALOG: Duration = Duration::from_millis(150);
 /// Endings offered first when opening.
-const ENDINGS: [&str; 9] = ["csv", "txt", "tsv", "dat", "asc", "prn", "trm", "ssm", "spectrum"];
-/// How much of a file is looked at to tell a mesh from spectra.
-const LOOK: usize = 1 << 16;
+const ENDINGS: [&str; 30] = [
+    "csv", "txt", "tsv", "dat", "asc", "prn", "trm", "ssm", "abs", "irr", "spectrum", "ttt", "trt", "tat", "jaz",
+    "dta", "dpt", "sp", "cmf", "ccss", "ti3", "cgats", "jdx", "dx", "jcm", "spdx", "cxf", "xml", "json", "xls",
+];
 
 /// What came of a dialog, a read or a write.
 #[derive(Debug)]
 pub enum FileEvent {
-    /// Sets were read.
-    Read {
-        /// The sets.
-        sets: Vec<OwnSet>,
-        /// What was read, and what was decided, in one sentence.
-        message: String,
-        /// Whether something was guessed that a person should look at.
-        guessed: bool,
-        /// The files they came from.
-        paths: Vec<PathBuf>,
-    },
-    /// A mesh is to be opened, which is not read yet.
-    Mesh(PathBuf),
+    /// Files or folders are to be opened.
+    Open(Vec<PathBuf>),
+    /// Files changed on disk.
+    Changed(Vec<PathBuf>),
     /// Something to know: a file was written.
     Said(String),
     /// Something failed; nothing was changed.
@@ -58,6 +47,8 @@ pub struct SaveRequest {
     pub extension: &'static str,
     /// The contents.
     pub bytes: Vec<u8>,
+    /// What to say besides once it is saved: how the contents differ from what is in the program. May be empty.
+    pub note: String,
 }
 
 /// A path to be typed, where there is no dialog.
@@ -83,18 +74,27 @@ pub struct Files {
     keeper: keep::Keeper,
     prompt: Option<PathPrompt>,
     wake: Option<egui::Context>,
+    watch: watch::Watch,
 }
 
 impl Files {
     /// With the folder that the document is kept in between runs, if any.
     pub fn new(folder: Option<PathBuf>) -> Self {
         let (sender, receiver) = channel();
-        Self { sender, receiver, keeper: keep::Keeper::new(folder), prompt: None, wake: None }
+        Self {
+            sender,
+            receiver,
+            keeper: keep::Keeper::new(folder),
+            prompt: None,
+            wake: None,
+            watch: watch::Watch::new(None),
+        }
     }
 
     /// Has the window drawn when something comes back.
     pub fn wake(&mut self, ctx: &egui::Context) {
         self.wake = Some(ctx.clone());
+        self.watch = watch::Watch::new(Some(ctx.clone()));
     }
 
     /// The document as it was kept, else the first screen.
@@ -117,6 +117,12 @@ impl Files {
         self.in_dialog(move || dialog.pick_files().map(Note::ToOpen), None);
     }
 
+    /// Asks for a folder whose files are to be opened.
+    pub fn ask_for_folder(&mut self) {
+        let dialog = rfd::FileDialog::new().set_title("Open all spectra of a folder");
+        self.in_dialog(move || dialog.pick_folder().map(|folder| Note::ToOpen(vec![folder])), None);
+    }
+
     /// Asks where to save.
     pub fn ask_to_save(&mut self, request: SaveRequest) {
         let dialog = rfd::FileDialog::new()
@@ -124,7 +130,7 @@ impl Files {
             .set_file_name(&request.name)
             .add_filter(request.extension, &[request.extension]);
         let kept = request.clone();
-        self.in_dialog(move || dialog.save_file().map(|path| Note::Event(save(&path, &request.bytes))), Some(kept));
+        self.in_dialog(move || dialog.save_file().map(|path| Note::Event(save(&path, &request))), Some(kept));
     }
 
     /// Runs a dialog on a thread (on a Mac they must stay on this one). One that closed at once without an answer was not there.
@@ -161,50 +167,26 @@ impl Files {
             return;
         }
         match prompt.save {
-            None => self.open(path),
-            Some(request) => self.in_background(move || [save(&path, &request.bytes)]),
+            None => self.note(Note::ToOpen(vec![path])),
+            Some(request) => self.in_background(move || [save(&path, &request)]),
         }
-    }
-
-    /// Opens a file.
-    pub fn open(&mut self, path: PathBuf) {
-        self.in_background(move || read_files(vec![path]));
-    }
-
-    /// Opens a file that was dropped on the window.
-    pub fn open_dropped(&mut self, file: &Arc<dyn egui::DroppedFile + Send + Sync>) {
-        let file = Arc::clone(file);
-        self.in_background(move || {
-            let path = file.path().to_path_buf();
-            if path.is_file() {
-                return read_files(vec![path]);
-            }
-            let name = path.file_name().map_or_else(|| "dropped file".to_owned(), |n| n.to_string_lossy().into_owned());
-            vec![match file.bytes() {
-                Ok(bytes) if is_mesh(&path, &bytes[..bytes.len().min(LOOK)]) => FileEvent::Failed(format!(
-                    "{name}: a session remembers where a mesh is, so it must be on disk; save it first. Nothing was changed."
-                )),
-                Ok(bytes) => read_event(import(&name, &bytes, None).map_err(|e| unread(&name, &e)), Vec::new()),
-                Err(error) => FileEvent::Failed(format!("{name}: {error}. Nothing was changed.")),
-            }]
-        });
-    }
-
-    /// Reads text from the clipboard as if it were a file.
-    pub fn open_pasted(&mut self, text: String) {
-        self.in_background(move || {
-            [read_event(import("clipboard", text.as_bytes(), None).map_err(|e| unread("Clipboard", &e)), Vec::new())]
-        });
     }
 
     /// What happened since.
     pub fn poll(&mut self) -> Vec<FileEvent> {
         let notes: Vec<Note> = self.receiver.try_iter().collect();
         let mut events = Vec::new();
+        let (changed, again) = self.watch.poll();
+        if !changed.is_empty() {
+            events.push(FileEvent::Changed(changed));
+        }
+        if let Some((after, ctx)) = again.zip(self.wake.as_ref()) {
+            ctx.request_repaint_after(after);
+        }
         for note in notes {
             match note {
                 Note::Event(event) => events.push(event),
-                Note::ToOpen(paths) => self.in_background(move || read_files(paths)),
+                Note::ToOpen(paths) => events.push(FileEvent::Open(paths)),
                 Note::NoDialog(save) => {
                     let text = save.as_ref().map_or_else(String::new, |request| request.name.clone());
                     self.prompt = Some(PathPrompt { text, save });
@@ -212,6 +194,11 @@ impl Files {
             }
         }
         events
+    }
+
+    /// Watches these files on disk and no others.
+    pub fn watch(&mut self, files: std::collections::BTreeSet<PathBuf>) {
+        self.watch.files(files);
     }
 
     /// Keeps a changed document, a moment after it stopped changing.
@@ -251,95 +238,10 @@ impl Files {
     }
 }
 
-/// Reads files one after the other; those that cannot be read change nothing. A mesh is only named: what shows it reads it.
-fn read_files(paths: Vec<PathBuf>) -> Vec<FileEvent> {
-    // A relative path would mean another file after a start from elsewhere.
-    let paths = paths.into_iter().map(|path| std::path::absolute(&path).unwrap_or(path));
-    let (meshes, spectra): (Vec<PathBuf>, Vec<PathBuf>) = paths.partition(|path| is_mesh(path, &beginning(path)));
-    let mut events = Vec::new();
-    if !spectra.is_empty() {
-        events.push(read_spectra(spectra));
-    }
-    events.extend(meshes.into_iter().map(FileEvent::Mesh));
-    events
-}
-
-/// The first bytes of a file; none where it cannot be read, which reading it will tell.
-fn beginning(path: &Path) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    // Opening a pipe would wait for somebody to write into it.
-    if path.is_file()
-        && let Ok(file) = fs::File::open(path)
-        && file.take(LOOK as u64).read_to_end(&mut bytes).is_err()
-    {
-        bytes.clear();
-    }
-    bytes
-}
-
-fn read_spectra(paths: Vec<PathBuf>) -> FileEvent {
-    let (mut sets, mut messages, mut failures, mut good) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut guessed = false;
-    for path in paths {
-        match read_file(&path) {
-            Ok(imported) => {
-                log::info!("opened {}", imported.message);
-                guessed |= imported.guessed;
-                sets.push(imported.set);
-                messages.push(imported.message);
-                good.push(path);
-            }
-            Err(message) => failures.push(message),
-        }
-    }
-    for failure in &failures {
-        log::warn!("{failure}");
-    }
-    if sets.is_empty() {
-        return FileEvent::Failed(failures.join("  "));
-    }
-    let mut message = match messages.as_slice() {
-        [one] => one.clone(),
-        many => format!("{} files read.", many.len()),
-    };
-    if !failures.is_empty() {
-        message = format!("{message} Not read: {}", failures.join("  "));
-    }
-    FileEvent::Read { sets, message, guessed, paths: good }
-}
-
-/// Reads one file; the error is a sentence with its name.
-pub fn read_file(path: &Path) -> Result<Imported, String> {
-    let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
-    let failed = |error: io::Error| format!("{name}: {}. Nothing was changed.", reason(&error));
-    let size = fs::metadata(path).map_err(failed)?.len();
-    if size > MAX_BYTES as u64 {
-        let limit = MAX_BYTES / 1_000_000;
-        return Err(format!(
-            "{name}: {} MB, but the limit is {limit} MB; split it. Nothing was changed.",
-            size / 1_000_000
-        ));
-    }
-    let bytes = fs::read(path).map_err(failed)?;
-    import(&name, &bytes, None).map_err(|error| unread(&name, &error))
-}
-
-fn unread(name: &str, error: &chromascope_core::table::ReadError) -> String {
-    let text = error.to_string();
-    let joint = if text.starts_with("line ") { ", " } else { ": " };
-    format!("{name}{joint}{text}. Nothing was changed.")
-}
-
-fn read_event(read: Result<Imported, String>, paths: Vec<PathBuf>) -> FileEvent {
-    match read {
-        Ok(Imported { set, message, guessed }) => FileEvent::Read { sets: vec![set], message, guessed, paths },
-        Err(message) => FileEvent::Failed(message),
-    }
-}
-
-fn save(path: &Path, bytes: &[u8]) -> FileEvent {
-    match write_atomically(path, bytes) {
-        Ok(()) => FileEvent::Said(format!("Saved {}.", path.display())),
+fn save(path: &Path, request: &SaveRequest) -> FileEvent {
+    match write_atomically(path, &request.bytes) {
+        Ok(()) if request.note.is_empty() => FileEvent::Said(format!("Saved {}.", path.display())),
+        Ok(()) => FileEvent::Said(format!("Saved {}: {}.", path.display(), request.note)),
         Err(error) => {
             FileEvent::Failed(format!("Cannot write {}: {}. Your work is safe.", path.display(), reason(&error)))
         }

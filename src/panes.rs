@@ -1,7 +1,9 @@
 //! The panes: each reads the document, asks for answers, and says what is to be done. None knows another.
 
 pub mod chromaticity;
+pub mod curves;
 pub mod help;
+pub mod import;
 pub mod inspector;
 pub mod library;
 pub mod menu;
@@ -11,11 +13,13 @@ pub mod scene_bar;
 pub mod spectra;
 pub mod status_bar;
 pub mod swatches;
+pub mod understood;
 
 use chromascope_core::figure::Figure;
 use egui::{Rect, Ui};
 
 use crate::catalog::meshes::MeshStore;
+use crate::catalog::opened::Opened;
 use crate::command::Command;
 use crate::scene::Scene;
 use crate::studio::Studio;
@@ -33,6 +37,8 @@ pub struct PaneContext<'a> {
     pub view: &'a mut View,
     /// The user's mesh files.
     pub meshes: &'a MeshStore,
+    /// The spectral files that were opened.
+    pub opened: &'a Opened,
     /// Where pictures are made.
     pub studio: &'a mut Studio,
     /// What is to be done when the frame is over.
@@ -56,6 +62,9 @@ pub fn show(ui: &mut Ui, pane: PaneKind, rect: Rect, context: &mut PaneContext<'
         PaneKind::Inspector => inspector::show(ui, rect, context),
         PaneKind::Render => render::show(ui, rect, context),
         PaneKind::RenderSetup => render_setup::show(ui, rect, context),
+        PaneKind::Import => import::show(ui, rect, context),
+        PaneKind::Curves => curves::show(ui, rect, context),
+        PaneKind::Understood => understood::show(ui, rect, context),
     }
 }
 
@@ -66,6 +75,9 @@ pub fn figure(pane: PaneKind, scene: &Scene<'_>, view: &View) -> Option<Figure> 
         PaneKind::Swatches => Some(crate::figures::swatches::figure(scene, view)),
         PaneKind::Spectra => Some(crate::figures::spectra::figure(scene, view)),
         PaneKind::Render => crate::figures::render::figure(scene, view),
-        PaneKind::Library | PaneKind::Inspector | PaneKind::RenderSetup => None,
+        PaneKind::Curves => crate::figures::curves::figure(scene, view),
+        PaneKind::Library | PaneKind::Inspector | PaneKind::RenderSetup | PaneKind::Import | PaneKind::Understood => {
+            None
+        }
     }
 }

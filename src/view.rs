@@ -1,5 +1,6 @@
 //! What is looked at and how: selection, panes, layout. Not part of the document, no steps of undo.
 
+pub mod import;
 pub mod render;
 
 use std::collections::BTreeSet;
@@ -12,6 +13,7 @@ use crate::theme::Surround;
 use crate::thing::{Standing, Thing, Things};
 use crate::workspaces::{Layout, PaneKind, Workspace};
 use chromascope_core::figure::Tag;
+use import::{ImportItem, ImportMemory, ImportView};
 use render::{RenderLook, RenderView};
 
 /// What is looked at and how.
@@ -38,6 +40,8 @@ pub struct View {
     pub focused: Option<PaneKind>,
     /// Whether the column that a narrow window leaves out lies over the center.
     pub inspector_over: bool,
+    /// What is looked at in Import.
+    pub import: ImportView,
     /// What the Render pane shows now.
     pub render: RenderView,
     /// Plots show their own ranges again in this frame.
@@ -54,8 +58,6 @@ pub struct View {
     pub help: Option<HelpPage>,
     /// The palette of commands, with what is typed into it, while open.
     pub palette: Option<String>,
-    /// The own set whose reading is being looked at, by name.
-    pub reading: Option<String>,
     /// Times are not shown: for pictures that are compared.
     pub fixed_clock: bool,
     /// The last message.
@@ -90,6 +92,8 @@ pub struct SavedView {
     pub recent: Vec<PathBuf>,
     /// Where the rendered mesh is seen from, and how pictures stand.
     pub render: RenderLook,
+    /// How kinds of files were wished to be read.
+    pub import: ImportMemory,
 }
 
 impl Default for SavedView {
@@ -107,6 +111,7 @@ impl Default for SavedView {
             folded: ["observers", "charts", "illuminants", "materials"].map(str::to_owned).into(),
             recent: Vec::new(),
             render: RenderLook::default(),
+            import: ImportMemory::default(),
         }
     }
 }
@@ -177,8 +182,8 @@ pub struct Status {
     pub text: String,
     /// How grave it is.
     pub weight: Weight,
-    /// The own set that `[Change]` leads to.
-    pub change: Option<String>,
+    /// What `[Change]` or `[Show line]` leads to in Import, and the line.
+    pub change: Option<(ImportItem, Option<usize>)>,
 }
 
 /// How grave a message is.

@@ -20,11 +20,17 @@ pub enum PaneKind {
     Render,
     /// What is rendered: mesh, surface, light's place.
     RenderSetup,
+    /// The user's files, and the text of one with what was understood of it.
+    Import,
+    /// The curves that a file gives.
+    Curves,
+    /// What a file was understood as, with switches.
+    Understood,
 }
 
 impl PaneKind {
     /// All panes.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 10] = [
         Self::Library,
         Self::Chromaticity,
         Self::Swatches,
@@ -32,10 +38,22 @@ impl PaneKind {
         Self::Inspector,
         Self::Render,
         Self::RenderSetup,
+        Self::Import,
+        Self::Curves,
+        Self::Understood,
     ];
     /// The panes that stand in the workspaces' changeable places.
-    pub const CHANGEABLE: [Self; 6] =
-        [Self::Chromaticity, Self::Swatches, Self::Spectra, Self::Inspector, Self::Render, Self::RenderSetup];
+    pub const CHANGEABLE: [Self; 9] = [
+        Self::Chromaticity,
+        Self::Swatches,
+        Self::Spectra,
+        Self::Inspector,
+        Self::Render,
+        Self::RenderSetup,
+        Self::Import,
+        Self::Curves,
+        Self::Understood,
+    ];
 
     /// Its title.
     pub const fn title(self) -> &'static str {
@@ -47,6 +65,9 @@ impl PaneKind {
             Self::Inspector => "Inspector",
             Self::Render => "Render",
             Self::RenderSetup => "Scene",
+            Self::Import => "Import",
+            Self::Curves => "Result",
+            Self::Understood => "Understood as",
         }
     }
 }
@@ -61,11 +82,13 @@ pub enum Workspace {
     Spectra,
     /// A mesh through each camera, beside what it is made of.
     Render,
+    /// The user's files, and what was understood of them.
+    Import,
 }
 
 impl Workspace {
     /// All workspaces, in the order of their tabs and keys.
-    pub const ALL: [Self; 3] = [Self::Compare, Self::Spectra, Self::Render];
+    pub const ALL: [Self; 4] = [Self::Compare, Self::Spectra, Self::Render, Self::Import];
 
     /// The tab's title.
     pub const fn title(self) -> &'static str {
@@ -73,12 +96,13 @@ impl Workspace {
             Self::Compare => "Compare",
             Self::Spectra => "Spectra",
             Self::Render => "Render",
+            Self::Import => "Import",
         }
     }
 
     /// Whether a narrow window hides the library, so that the right column stays.
-    const fn keeps_right_column(self) -> bool {
-        matches!(self, Self::Render)
+    pub const fn keeps_right_column(self) -> bool {
+        matches!(self, Self::Render | Self::Import)
     }
 }
 
@@ -115,6 +139,8 @@ pub struct Layout {
     pub spectra: [Option<PaneKind>; 4],
     /// Render: center upper, center lower, right upper, right lower.
     pub render: [Option<PaneKind>; 4],
+    /// Import: center upper, center lower, right upper, right lower.
+    pub import: [Option<PaneKind>; 4],
 }
 
 impl Default for Layout {
@@ -133,6 +159,7 @@ impl Default for Layout {
             ],
             spectra: [Some(PaneKind::Spectra), None, Some(PaneKind::Inspector), None],
             render: [Some(PaneKind::Render), None, Some(PaneKind::RenderSetup), None],
+            import: [Some(PaneKind::Import), Some(PaneKind::Curves), Some(PaneKind::Understood), None],
         }
     }
 }
@@ -144,6 +171,7 @@ impl Layout {
             Workspace::Compare => &self.compare,
             Workspace::Spectra => &self.spectra,
             Workspace::Render => &self.render,
+            Workspace::Import => &self.import,
         }
     }
 
@@ -153,6 +181,7 @@ impl Layout {
             Workspace::Compare => &mut self.compare,
             Workspace::Spectra => &mut self.spectra,
             Workspace::Render => &mut self.render,
+            Workspace::Import => &mut self.import,
         }
     }
 
@@ -205,7 +234,7 @@ pub struct Arrangement {
     pub narrow: bool,
 }
 
-/// Below this width a column is left out: the right one, in Render the library.
+/// Below this width a column is left out: the right one, in Render and Import the library.
 const NARROW: f32 = 1100.0;
 /// Once left out, it returns only this much above.
 const HYSTERESIS: f32 = 40.0;

@@ -1,6 +1,6 @@
 //! What a frame waits for: time and error side by side, each against the plain 1 nm sum in the same run.
 //!
-//! `cargo bench -p chromascope-core --bench compare [-- --quick loci patches document slider render integral growth]`. Times are medians over rounds in which the candidates take
+//! `cargo bench -p chromascope-core --bench compare [-- --quick loci patches document slider render integral growth reading]`. Times are medians over rounds in which the candidates take
 //! turns, so that a slow moment of the machine falls on all of them. Errors are against compensated sums (Neumaier), which a
 //! double cannot tell from exact ones.
 #![allow(
@@ -15,10 +15,16 @@
 mod asker;
 #[path = "compare/exact.rs"]
 mod exact;
+#[path = "compare/files.rs"]
+mod files;
 #[path = "compare/library.rs"]
 mod library;
+#[path = "compare/memory.rs"]
+mod memory;
 #[path = "compare/pictures.rs"]
 mod pictures;
+#[path = "compare/reading.rs"]
+mod reading;
 #[path = "compare/render.rs"]
 mod render;
 #[path = "compare/stopwatch.rs"]
@@ -38,7 +44,7 @@ fn main() {
     let cores = std::thread::available_parallelism().map_or(0, usize::from);
     println!("{} · {cores} cores, one used but for pictures · medians of {rounds} rounds", library::processor());
     let named: Vec<&String> = arguments.iter().filter(|argument| !argument.starts_with('-')).collect();
-    let workloads: [Workload; 7] = [
+    let workloads: [Workload; 8] = [
         ("loci", workloads::loci),
         ("patches", workloads::patches),
         ("document", workloads::document),
@@ -46,6 +52,7 @@ fn main() {
         ("render", render::render),
         ("integral", render::integral),
         ("growth", render::growth),
+        ("reading", reading::reading),
     ];
     for (name, run) in workloads {
         if named.is_empty() || named.iter().any(|wanted| *wanted == name) {

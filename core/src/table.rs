@@ -29,7 +29,7 @@
 //!
 //! The way of a file: `text` (bytes to text), `families` (who takes it), for numbers in columns `sniff` (which
 //! separators, where the numbers begin), `header` (names, units, comments), `columns` or `wide` (text to numbers), then
-//! `wavelengths` (unit, order, repeats), `scale` (role, percent), and here the curves. A reader for another family of
+//! `wavelengths` (unit, order, repeats), `scale` (role, percent), `quantity`, and here the curves. A reader for another family of
 //! files is a small file in `families`: it fills the same `Grid`, and all after it is shared.
 
 mod columns;
@@ -40,6 +40,8 @@ mod family;
 mod grid;
 mod header;
 mod instrument;
+mod preview;
+mod quantity;
 mod raw;
 mod reading;
 mod scale;
@@ -47,17 +49,27 @@ mod sniff;
 mod text;
 mod trial;
 mod warning;
+mod watch;
 mod wavelengths;
 mod wide;
 mod words;
+pub mod write;
+
+use serde::{Deserialize, Serialize};
 
 pub use dialect::{DecimalMark, Delimiter};
 pub use error::ReadError;
 pub use family::Family;
-pub use reading::{Certainty, Decided, Decision, Dropped, DroppedRow, Encoding, Orientation, Reader, Reading, Steps};
-pub use scale::Role;
+pub use preview::{LONGEST_LINE, LeftOut, Mark, Marker, Preview, Shown, What};
+pub use quantity::Quantity;
+pub use reading::{
+    Certainty, Decided, Decision, Dropped, DroppedRow, Encoding, Medium, Orientation, Part, Reader, Reading, Steps,
+};
+pub use scale::{Role, Values};
 pub use text::{BinaryKind, MAX_BYTES};
 pub use warning::{LineList, Warning};
+use watch::Log;
+pub use watch::Watch;
 pub use wavelengths::WavelengthUnit;
 
 /// The most curves one table may hold.
@@ -69,7 +81,8 @@ pub const MAX_SAMPLES: usize = 20_000_000;
 /// What the caller fixes before reading; `None` leaves the decision to the content.
 ///
 /// The default decides everything from the content.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(default)]
 pub struct ReadOptions {
     /// What stands between two cells.
     pub delimiter: Option<Delimiter>,
@@ -79,8 +92,12 @@ pub struct ReadOptions {
     pub orientation: Option<Orientation>,
     /// The unit of the wavelengths as written.
     pub wavelength_unit: Option<WavelengthUnit>,
-    /// Whether reflectances are written in percent. Illuminants and sensitivities are never scaled.
-    pub percent: Option<bool>,
+    /// The column of the wavelengths, from 1, where they run down one.
+    pub wavelength_column: Option<usize>,
+    /// What the values stand for. Left open, only reflectances and transmittances are scaled.
+    pub values: Option<Values>,
+    /// Which of several tables, blocks or groups in one file is taken, from 1 in the order of the file.
+    pub part: Option<usize>,
     /// What the curves are.
     pub role: Option<Role>,
     /// Which reader takes the file; [`Reader::Table`] reads numbers in columns whatever stands around them.
@@ -102,6 +119,8 @@ pub struct Curve {
     pub values: Vec<f64>,
     /// How many wavelengths of the table have no value in this curve. They are left out, not filled.
     pub missing: usize,
+    /// The unit of the values as the file names it, such as `W/m²/nm` or `counts`.
+    pub unit: Option<String>,
 }
 
 /// What a file was understood to hold.
@@ -130,10 +149,19 @@ impl Table {
 ///
 /// The same bytes and options always give the same table. Nothing is decided by a file name.
 pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Table, ReadError> {
+    read_watched(bytes, options, Watch::none())
+}
+
+/// [`read`], with somebody who sees how far it is and can stop it.
+///
+/// A reading that was stopped ends in [`ReadError::Stopped`], within some milliseconds.
+pub fn read_watched(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Result<Table, ReadError> {
     let (text, encoding) = text::decode(bytes)?;
-    let mut warnings = Vec::new();
-    let found = families::read(&text, options, &mut warnings)?;
-    finish(found, encoding, options, warnings)
+    let mut log = Log::new(watch, text.len());
+    log.look(0)?;
+    let found = families::read(&text, options, &mut log)?;
+    log.look(text.len())?;
+    finish(found, encoding, options, log)
 }
 
 /// What all readers share: units, order, role, scale, curves.
@@ -141,20 +169,29 @@ fn finish(
     found: families::Found,
     encoding: Encoding,
     options: &ReadOptions,
-    mut warnings: Vec<Warning>,
+    mut warnings: Log<'_>,
 ) -> Result<Table, ReadError> {
-    let families::Found { mut grid, layout, reader, notes } = found;
+    let families::Found { mut grid, layout, reader, mut notes } = found;
     if grid.wavelengths.len() < 2 {
         return Err(ReadError::TooFewSamples { line: grid.line(0).max(layout.first_line) });
     }
+    let (parts, part) = grid.settle_parts(options.part, layout.first_line)?;
     let wavelength_unit = wavelengths::unit(&grid, options)?;
     wavelengths::to_nanometers(&mut grid, wavelength_unit.value)?;
+    warnings.look(usize::MAX)?;
     let descending = wavelengths::sort(&mut grid, &mut warnings)?;
     let range_nm = [grid.wavelengths[0], grid.wavelengths[grid.wavelengths.len() - 1]];
     let step_nm = Steps::of(&grid.wavelengths);
+    warnings.look(usize::MAX)?;
     let scale = scale::decide(&grid, options);
-    scale::divide(&mut grid, &scale);
-    let rows = grid.rows;
+    let quantity = quantity::decide(&grid, &scale.role);
+    let per_photon = quantity::per_photon(&grid, scale.role.value, &quantity);
+    scale::convert(&mut grid, &scale);
+    warnings.look(usize::MAX)?;
+    if let Some((line, medium)) = grid.header.medium {
+        notes.push(Decision::new("Medium", &Decided::certain(medium, format!("Line {line} says so"))));
+    }
+    let (rows, grid_column) = (grid.rows, grid.wavelength_column);
     let header = std::mem::take(&mut grid.header);
     let dropped_rows = std::mem::take(&mut grid.dropped);
     let curves = grid.into_curves(&mut warnings);
@@ -170,7 +207,12 @@ fn finish(
         decimal_mark: layout.decimal_mark,
         orientation: layout.orientation,
         wavelength_unit,
-        percent: scale.percent,
+        values: scale.values,
+        wavelength_column: grid_column,
+        quantity,
+        per_photon,
+        parts,
+        part,
         notes,
         header: header.comments,
         header_line: header.line,
@@ -182,5 +224,5 @@ fn finish(
         step_nm,
         camera_columns,
     };
-    Ok(Table { curves, role: scale.role, reading, warnings })
+    Ok(Table { curves, role: scale.role, reading, warnings: warnings.warnings })
 }

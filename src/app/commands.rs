@@ -3,8 +3,9 @@
 use egui::ViewportCommand;
 
 use super::ChromascopeApp;
-use crate::action::{Action, CompareAction, OwnAction};
+use crate::action::{Action, CompareAction};
 use crate::catalog::Kind;
+use crate::catalog::opened::Request;
 use crate::command::{Command, Format};
 use crate::export;
 use crate::files::{FileEvent, SaveRequest};
@@ -13,31 +14,18 @@ use crate::scene::Scene;
 use crate::theme::Theme;
 use crate::view::SavedView;
 use crate::view::render::RenderMode;
-use crate::workspaces::{Layout, PaneKind, Workspace};
+use crate::workspaces::{Layout, PaneKind};
 
 /// Pixels per point in saved and copied pictures.
 const PICTURE_SCALE: f32 = 2.0;
 
 impl ChromascopeApp {
-    /// Dropped files, finished dialogs, reads and writes.
-    pub(super) fn take_files(&mut self, ctx: &egui::Context) {
-        let dropped = ctx.input(|input| input.raw.dropped_files.clone());
-        for file in dropped {
-            self.files.open_dropped(&file);
-        }
+    /// Finished dialogs and writes, files that changed.
+    pub(super) fn take_files(&mut self) {
         for event in self.files.poll() {
             match event {
-                FileEvent::Read { sets, message, guessed, paths } => {
-                    for path in paths {
-                        self.view.remember_file(path);
-                    }
-                    let change = guessed.then(|| sets.first().map(|set| set.name.clone())).flatten();
-                    self.history.apply(&Action::Own(OwnAction::Import(sets)));
-                    self.history.end_gesture();
-                    self.view.say(message);
-                    self.view.status.change = change;
-                }
-                FileEvent::Mesh(path) => self.open_mesh(&path),
+                FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
+                FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
                 FileEvent::Failed(message) => self.view.fail(message),
             }
@@ -57,19 +45,35 @@ impl ChromascopeApp {
             Command::Undo => self.history.undo(),
             Command::Redo => self.history.redo(),
             Command::Open => self.files.ask_to_open(),
-            Command::OpenPath(path) => self.files.open(path),
-            Command::Paste(text) => self.files.open_pasted(text),
+            Command::OpenFolder => self.files.ask_for_folder(),
+            Command::OpenPath(path) => self.open(vec![Request::Path(path)]),
+            Command::Paste(text) => {
+                let bytes = text.into_bytes().into();
+                self.open(vec![Request::Bytes { name: "clipboard".to_owned(), bytes }]);
+            }
+            Command::ShowImport(item, line) => self.show_import(item, line),
+            Command::Wish(item, wishes) => self.view.import.pending = Some((item, *wishes)),
+            Command::TakeWishBack => self.view.import.pending = None,
+            Command::UseFile(fingerprint, wishes) => self.open(vec![Request::Known(fingerprint, wishes)]),
+            Command::UseForAlike(item) => self.use_for_alike(&item),
+            Command::ForgetFile(fingerprint) => self.opened.forget(fingerprint),
+            Command::ReadAgain(name) => self.read_again(&name),
+            Command::StopReading => {
+                self.stop_reading();
+            }
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
+            Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
             Command::CopyPicture(pane) => self.copy_picture(ctx, pane),
             Command::CopyNumbers(pane) => self.copy_numbers(ctx, pane),
             Command::Show(workspace) => {
                 self.view.saved.workspace = workspace;
                 self.view.maximized = None;
                 self.view.inspector_over = false;
-                let rendered = [Some(PaneKind::Render), Some(PaneKind::RenderSetup)].contains(&self.view.focused);
-                if rendered || workspace == Workspace::Render {
-                    self.view.focused = (workspace == Workspace::Render).then_some(PaneKind::Render);
+                // A pane that is not in sight is not what keys and exports mean.
+                let shown = self.view.focused.is_some_and(|pane| self.view.saved.layout.shows(workspace, pane));
+                if !shown {
+                    self.view.focused = self.view.saved.layout.places(workspace)[0];
                 }
             }
             Command::Maximize(pane) => {
@@ -112,7 +116,7 @@ impl ChromascopeApp {
 
     /// In a narrow window the inspector lies over the rest; else it has its place.
     fn toggle_inspector(&mut self) {
-        if self.arrangement.narrow && self.view.saved.workspace != Workspace::Render {
+        if self.arrangement.narrow && !self.view.saved.workspace.keeps_right_column() {
             self.view.inspector_over ^= true;
         } else {
             self.toggle_pane(PaneKind::Inspector);
@@ -121,7 +125,7 @@ impl ChromascopeApp {
 
     /// Whether a narrow window has no place for the library beside the rest.
     fn library_left_out(&self) -> bool {
-        self.arrangement.narrow && self.view.saved.workspace == Workspace::Render
+        self.arrangement.narrow && self.view.saved.workspace.keeps_right_column()
     }
 
     fn toggle_source(&mut self, index: usize) {
@@ -165,12 +169,12 @@ impl ChromascopeApp {
     /// One step back: reading a mesh, palette, help, overlay, finer pictures, selection, pixel, pins, maximized pane, single
     /// picture, message.
     fn escape(&mut self) {
-        if std::mem::take(&mut self.view.keeps_escape) || self.stop_opening() {
+        if std::mem::take(&mut self.view.keeps_escape) || self.stop_opening() || self.stop_reading() {
             return;
         }
         let rendering = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Render);
         let view = &mut self.view;
-        if view.palette.take().is_some() || view.help.take().is_some() || view.reading.take().is_some() {
+        if view.palette.take().is_some() || view.help.take().is_some() {
             return;
         }
         if std::mem::take(&mut view.inspector_over) {
@@ -229,7 +233,7 @@ impl ChromascopeApp {
         match bytes {
             Ok(bytes) => {
                 let name = format!("{}.{}", pane.title().to_lowercase(), format.extension());
-                self.files.ask_to_save(SaveRequest { name, extension: format.extension(), bytes });
+                self.files.ask_to_save(SaveRequest { name, extension: format.extension(), bytes, note: String::new() });
             }
             Err(error) => self.view.fail(error.to_string()),
         }

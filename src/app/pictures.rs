@@ -16,7 +16,8 @@ impl ChromascopeApp {
         match self.exr(source) {
             Some(Ok(bytes)) => {
                 let name: String = source.name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
-                self.files.ask_to_save(SaveRequest { name: format!("{name}.exr"), extension: "exr", bytes });
+                let name = format!("{name}.exr");
+                self.files.ask_to_save(SaveRequest { name, extension: "exr", bytes, note: String::new() });
             }
             Some(Err(why)) => self.view.fail(why),
             None => self.view.fail(format!("{}: there is no picture yet.", source.name)),

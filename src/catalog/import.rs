@@ -1,10 +1,13 @@
 //! From the bytes of a user's file to a set of their own, with what was decided on the way.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use chromascope_core::table::{self, Certainty, ReadError, ReadOptions, Role, Table, Warning, WavelengthUnit};
+use chromascope_core::table::{self, Certainty, ReadError, Role, Table, Values, Warning, Watch};
 
-use crate::document::own::{OwnCurve, OwnRole, OwnSet, OwnUnit, ReadAs};
+use crate::document::own::{Fingerprint, OwnCurve, OwnSet, ReadAs, Wishes};
+
+/// Of a file with more curves, so many are taken until a person chooses others.
+pub const TAKEN_AT_FIRST: usize = 200;
 
 /// A set as it was read.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,30 +20,72 @@ pub struct Imported {
     pub guessed: bool,
 }
 
+/// Where bytes are from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Origin {
+    /// What it is called: a file's name, or `clipboard`.
+    pub name: String,
+    /// Where it is on disk, if it is.
+    pub path: Option<PathBuf>,
+    /// What tells its contents from others.
+    pub fingerprint: Fingerprint,
+}
+
+impl Origin {
+    /// Of bytes that are not on disk.
+    pub fn named(name: &str, bytes: &[u8]) -> Self {
+        Self { name: name.to_owned(), path: None, fingerprint: Fingerprint::of(bytes) }
+    }
+}
+
 /// Reads a file's bytes; `file` names it. A role that is given is not guessed.
-pub fn import(file: &str, bytes: &[u8], role: Option<OwnRole>) -> Result<Imported, ReadError> {
+pub fn import(file: &str, bytes: &[u8], role: Option<Role>) -> Result<Imported, ReadError> {
     Ok(import_warned(file, bytes, role)?.0)
 }
 
 /// The same, with what should be looked at before the curves are trusted; the message tells the first of it.
-pub fn import_warned(file: &str, bytes: &[u8], role: Option<OwnRole>) -> Result<(Imported, Vec<Warning>), ReadError> {
-    let options = ReadOptions { role: role.map(core_role), ..ReadOptions::default() };
-    let table = table::read(bytes, &options)?;
-    let weighty = |what: &str| matches!(what, "Role" | "Wavelengths" | "Values");
-    let guesses: Vec<_> = table
-        .decisions()
-        .into_iter()
-        .filter(|decision| decision.certainty == Certainty::Guess && weighty(decision.what))
-        .collect();
-    let mut message = format!("{file}: {}", summary(&table));
+pub fn import_warned(file: &str, bytes: &[u8], role: Option<Role>) -> Result<(Imported, Vec<Warning>), ReadError> {
+    let wishes = Wishes::for_role(role);
+    let table = table::read(bytes, &wishes.options)?;
+    let warnings = table.warnings.clone();
+    Ok((imported(&Origin::named(file, bytes), &table, &wishes), warnings))
+}
+
+/// Reads bytes as a person wishes, in sight of whoever may stop it.
+pub fn import_as(origin: &Origin, bytes: &[u8], wishes: &Wishes, watch: Watch<'_>) -> Result<Imported, ReadError> {
+    Ok(imported(origin, &table::read_watched(bytes, &wishes.options, watch)?, wishes))
+}
+
+/// What is made of a table that was read with the options of these wishes.
+pub fn imported(origin: &Origin, table: &Table, wishes: &Wishes) -> Imported {
+    let guesses: Vec<_> = weighty_guesses(table);
+    let file = &origin.name;
+    let mut message = format!("{file}: {}", summary(table));
+    let taken = taken(table, wishes);
+    if taken.len() < table.curves.len() {
+        message = format!("{message} {} of them are taken; choose in Import.", taken.len());
+    }
     if let Some(guess) = guesses.iter().find(|guess| guess.what == "Values").or_else(|| guesses.first()) {
         message = format!("{message} {guess}");
     }
     if let Some(warning) = table.warnings.first() {
         message = format!("{message} {warning}");
     }
-    let warnings = table.warnings.clone();
-    Ok((Imported { message, guessed: !guesses.is_empty(), set: own_set(file, table) }, warnings))
+    Imported { message, guessed: !guesses.is_empty(), set: own_set(origin, table, wishes, &taken) }
+}
+
+/// The guesses that change numbers or what a set is used as.
+pub fn weighty_guesses(table: &Table) -> Vec<table::Decision> {
+    let weighty = |what: &str| matches!(what, "Role" | "Wavelengths" | "Values" | "Separator" | "Part");
+    let decisions = table.decisions().into_iter();
+    decisions.filter(|decision| decision.certainty == Certainty::Guess && weighty(decision.what)).collect()
+}
+
+/// Which curves of a table are taken: those wished for, else the first of them.
+pub fn taken(table: &Table, wishes: &Wishes) -> Vec<usize> {
+    let count = table.curves.len();
+    let wished = wishes.taken.as_ref().map(|taken| taken.iter().copied().filter(|index| *index < count).collect());
+    wished.filter(|taken: &Vec<usize>| !taken.is_empty()).unwrap_or_else(|| (0..count.min(TAKEN_AT_FIRST)).collect())
 }
 
 /// How many curves of what, over which range.
@@ -51,53 +96,47 @@ fn summary(table: &Table) -> String {
     format!("{curves}, {}, {first}–{last} nm.", table.role.value)
 }
 
-fn own_set(file: &str, table: Table) -> OwnSet {
-    let name = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty()).map(str::to_owned);
-    let stem =
-        || Path::new(file).file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned());
-    let unit = match table.reading.wavelength_unit.value {
-        WavelengthUnit::Nanometer => OwnUnit::Nanometers,
-        WavelengthUnit::Micrometer => OwnUnit::Micrometers,
-        WavelengthUnit::Angstrom => OwnUnit::Angstroms,
-    };
-    let percent = table.reading.percent.value;
+fn own_set(origin: &Origin, table: &Table, wishes: &Wishes, taken: &[usize]) -> OwnSet {
+    let title = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty());
+    let stem = || Path::new(&origin.name).file_stem().map_or(origin.name.clone(), |s| s.to_string_lossy().into_owned());
+    let name = title.map_or_else(stem, str::to_owned);
+    let alone = table.curves.len() == 1;
+    let curves = taken.iter().filter_map(|&index| table.curves.get(index)).map(|curve| OwnCurve {
+        // The file's name says more about its only curve than "Column 2" does.
+        name: if alone && !curve.named { name.clone() } else { curve.name.clone() },
+        wavelengths: curve.wavelengths_nm.clone(),
+        values: curve.values.clone(),
+        unit: curve.unit.clone(),
+    });
+    let unit = table.reading.wavelength_unit.value;
+    let percent = table.reading.values.value == Values::Percent;
     let mut decisions: Vec<String> =
         table.decisions().iter().map(|decision| format!("{} ({})", decision, decision.certainty)).collect();
     decisions.extend(table.warnings.iter().map(ToString::to_string));
-    let name = name.unwrap_or_else(stem);
-    let mut curves: Vec<OwnCurve> = Vec::with_capacity(table.curves.len());
-    let alone = table.curves.len() == 1;
-    for curve in table.curves {
-        // The file's name says more about its only curve than "Column 2" does.
-        let called = if alone && !curve.named { name.clone() } else { curve.name };
-        curves.push(OwnCurve { name: called, wavelengths: curve.wavelengths_nm, values: curve.values });
-    }
+    let per_photon = || table.reading.per_photon.as_ref().is_some_and(|decided| decided.value);
     OwnSet {
+        curves: curves.collect(),
         name,
-        file: file.to_owned(),
-        role: own_role(table.role.value),
+        file: origin.name.clone(),
+        path: origin.path.clone(),
+        fingerprint: Some(origin.fingerprint),
+        wishes: wishes.clone(),
+        role: table.role.value,
         read_as: ReadAs { unit, percent },
         unit,
         percent,
-        per_photon: table.reading.comment("response").is_some_and(|response| response.trim() == "per photon"),
-        channels: table.reading.camera_columns.unwrap_or([0, 1, 2]),
-        curves,
+        per_photon: wishes.per_photon.unwrap_or_else(per_photon),
+        channels: channels(table, wishes, taken),
         decisions,
     }
 }
 
-const fn own_role(role: Role) -> OwnRole {
-    match role {
-        Role::Camera => OwnRole::Camera,
-        Role::Reflectance => OwnRole::Reflectance,
-        Role::Illuminant => OwnRole::Illuminant,
-    }
-}
-
-const fn core_role(role: OwnRole) -> Role {
-    match role {
-        OwnRole::Camera => Role::Camera,
-        OwnRole::Reflectance => Role::Reflectance,
-        OwnRole::Illuminant => Role::Illuminant,
+/// Which of the curves taken are red, green and blue.
+fn channels(table: &Table, wishes: &Wishes, taken: &[usize]) -> [usize; 3] {
+    let wanted = wishes.channels.or(table.reading.camera_columns).unwrap_or([0, 1, 2]);
+    let place = |index: usize| taken.iter().position(|taken| *taken == index);
+    match wanted.map(place) {
+        [Some(red), Some(green), Some(blue)] => [red, green, blue],
+        _ => [0, 1, 2],
     }
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, ValueEnum};
 
+use super::inspect::arguments::InspectArguments;
 use super::render::arguments::RenderArguments;
 
 /// See, measure and explain how digital cameras render color, from spectra.
@@ -26,6 +27,7 @@ Examples:
   chromascope locus --camera \"Nikon D70\" --observer \"CIE 1931 2°\" --temperatures 2856,5500,6504
   chromascope patches --camera \"Canon EOS 10D\" --illuminant D55 --transform observer --out patches.csv
   chromascope render --mesh head --camera \"Nikon D70\" --out pictures
+  chromascope inspect measured.txt --csv measured.csv
   chromascope list cameras
 
 Names are those of `chromascope list`, case and punctuation aside; a part will do where only one name has it.";
@@ -60,6 +62,9 @@ pub(super) enum Subcommand {
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
+    /// What files of spectra hold and how they were understood; their curves as CSV or JSON
+    #[command(after_help = super::inspect::arguments::EXAMPLES)]
+    Inspect(Box<InspectArguments>),
     /// The names of the built-in data sets, one a line
     List {
         /// Which; all if left out

@@ -14,7 +14,7 @@ use super::{CliError, say};
 use crate::catalog::import::import_warned;
 use crate::catalog::names::find;
 use crate::catalog::{Catalog, Entry, Kind};
-use crate::document::own::{OwnRole, OwnSet};
+use crate::document::own::{OwnSet, Role};
 use crate::document::render::{LEAF, SKIN};
 use crate::document::{CHART, Document, FIRST_SOURCES, Light, REFERENCE, Subset, WayChoice, WhiteChoice};
 use crate::files::reason;
@@ -73,7 +73,7 @@ impl Request {
             .into_iter()
             .map(|(_, kind, name)| {
                 let found = if kind == Kind::Camera && is_file(name) {
-                    self.open(name, OwnRole::Camera)?.name.clone()
+                    self.open(name, Role::Camera)?.name.clone()
                 } else {
                     self.name(kind, name)?
                 };
@@ -103,7 +103,7 @@ impl Request {
             return Ok(());
         }
         let name = if is_file(illuminant) {
-            self.open(illuminant, OwnRole::Illuminant)?.name.clone()
+            self.open(illuminant, Role::Illuminant)?.name.clone()
         } else {
             self.name(Kind::Illuminant, illuminant)?
         };
@@ -116,7 +116,7 @@ impl Request {
         self.document.subset = Subset::All;
         let Some(chart) = chart else { return Ok(()) };
         if is_file(chart) {
-            let set = self.open(chart, OwnRole::Reflectance)?;
+            let set = self.open(chart, Role::Reflectance)?;
             self.document.chart.clone_from(&set.name);
             return Ok(());
         }
@@ -135,7 +135,7 @@ impl Request {
             "skin" => SKIN.to_owned(),
             "leaf" => LEAF.to_owned(),
             _ if is_file(material) => {
-                let set = self.open(material, OwnRole::Reflectance)?;
+                let set = self.open(material, Role::Reflectance)?;
                 if let [first, _, ..] = set.curves.as_slice() {
                     let count = set.curves.len();
                     say(&format!("chromascope: {material}: {count} reflectances; taking the first, {}\n", first.name));
@@ -175,7 +175,7 @@ impl Request {
     }
 
     /// Reads a file as a set of the document's own, under a name that no other set has; says what had to be guessed.
-    fn open(&mut self, path: &str, role: OwnRole) -> Result<Shared<OwnSet>, CliError> {
+    fn open(&mut self, path: &str, role: Role) -> Result<Shared<OwnSet>, CliError> {
         let known = self.document.own.iter().find(|own| own.file == path && own.role == role);
         if let Some(known) = known {
             return Ok(known.clone());
@@ -201,7 +201,7 @@ impl Request {
 }
 
 /// A file's bytes, or of an endless one as many as show that it is too large.
-fn read(path: &str) -> io::Result<Vec<u8>> {
+pub(super) fn read(path: &str) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     fs::File::open(path)?.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
@@ -210,8 +210,8 @@ fn read(path: &str) -> io::Result<Vec<u8>> {
 /// Whether a file holds as many curves as its use takes.
 fn check_curves(set: &OwnSet) -> Result<(), CliError> {
     let wanted = match set.role {
-        OwnRole::Camera if set.curves.len() < 3 => "a camera takes three: red, green and blue",
-        OwnRole::Illuminant if set.curves.len() > 1 => "a light is one; keep the one meant",
+        Role::Camera if set.curves.len() < 3 => "a camera takes three: red, green and blue",
+        Role::Illuminant if set.curves.len() > 1 => "a light is one; keep the one meant",
         _ => return Ok(()),
     };
     let count = match set.curves.len() {

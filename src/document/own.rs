@@ -1,45 +1,12 @@
 //! The user's own sets, by value: figures as read, with the decisions that can be flipped.
 
 use std::hash::{Hash, Hasher};
+use std::path::PathBuf;
 
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::{DistributionError, Response, SpectralDistribution};
+pub use chromascope_core::table::{ReadOptions, Role, WavelengthUnit};
 use serde::{Deserialize, Serialize};
-
-/// What a set is used as.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum OwnRole {
-    /// Three sensitivities.
-    Camera,
-    /// Reflectances: a chart.
-    Reflectance,
-    /// A light.
-    Illuminant,
-}
-
-/// In what wavelengths are counted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum OwnUnit {
-    /// Nanometers.
-    Nanometers,
-    /// Micrometers.
-    Micrometers,
-    /// Ångströms.
-    Angstroms,
-}
-
-impl OwnUnit {
-    /// How many nanometers one is.
-    pub const fn nanometers(self) -> f64 {
-        match self {
-            Self::Nanometers => 1.0,
-            Self::Micrometers => 1000.0,
-            Self::Angstroms => 0.1,
-        }
-    }
-}
 
 /// One curve, as it was read: in the units that [`OwnSet::read_as`] says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -50,13 +17,37 @@ pub struct OwnCurve {
     pub wavelengths: Vec<f64>,
     /// Values; percent already divided if that was decided.
     pub values: Vec<f64>,
+    /// The unit of the values as the file names it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<String>,
+}
+
+/// How a person wants a file to be read. What is open is decided by its content.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Wishes {
+    /// The switches of the reader.
+    pub options: ReadOptions,
+    /// Which of the file's curves are taken, by their place in it, from 0.
+    pub taken: Option<Vec<usize>>,
+    /// For a camera: which of the file's curves are red, green and blue.
+    pub channels: Option<[usize; 3]>,
+    /// For a camera: whether it counts photons, not energy.
+    pub per_photon: Option<bool>,
+}
+
+impl Wishes {
+    /// Leaves all but the role to the content.
+    pub fn for_role(role: Option<Role>) -> Self {
+        Self { options: ReadOptions { role, ..ReadOptions::default() }, ..Self::default() }
+    }
 }
 
 /// What the reader took a file's units to be, and converted from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct ReadAs {
     /// The unit of the wavelengths.
-    pub unit: OwnUnit,
+    pub unit: WavelengthUnit,
     /// Whether values were percent.
     pub percent: bool,
 }
@@ -68,12 +59,21 @@ pub struct OwnSet {
     pub name: String,
     /// The file it came from, or `clipboard`.
     pub file: String,
+    /// Where that file was, if it was on disk.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathBuf>,
+    /// What tells that file's contents from others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fingerprint: Option<Fingerprint>,
+    /// How a person wanted it read.
+    #[serde(default)]
+    pub wishes: Wishes,
     /// What it is used as.
-    pub role: OwnRole,
+    pub role: Role,
     /// The units that the curves were converted from on reading.
     pub read_as: ReadAs,
     /// The unit of the wavelengths in the file, as the user has it.
-    pub unit: OwnUnit,
+    pub unit: WavelengthUnit,
     /// Whether the file's values are percent, as the user has it.
     pub percent: bool,
     /// For a camera: whether it counts photons, not energy.
@@ -93,12 +93,27 @@ fn first_three() -> [usize; 3] {
     [0, 1, 2]
 }
 
+/// A number that two contents of a file share only by a chance of 1 in 10^19; the same on every machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Fingerprint(u64);
+
+impl Fingerprint {
+    /// Of a file's bytes (FNV-1a, 64 bits).
+    pub fn of(bytes: &[u8]) -> Self {
+        const OFFSET: u64 = 0xCBF2_9CE4_8422_2325;
+        const PRIME: u64 = 0x0100_0000_01B3;
+        Self(bytes.iter().fold(OFFSET, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME)))
+    }
+}
+
 impl Eq for OwnSet {}
 
 impl Hash for OwnSet {
     fn hash<H: Hasher>(&self, state: &mut H) {
         (&self.name, &self.file, self.role, self.read_as, self.unit, self.percent, self.per_photon, self.channels)
             .hash(state);
+        self.wishes.hash(state);
         for curve in &self.curves {
             curve.name.hash(state);
             curve.wavelengths.iter().chain(&curve.values).for_each(|v| v.to_bits().hash(state));
@@ -110,8 +125,8 @@ impl OwnSet {
     /// The curves that its role uses, in nanometers and, for reflectances, as fractions.
     pub fn curves_in_nm(&self) -> Result<Vec<(String, SpectralDistribution)>, DistributionError> {
         let used: Vec<&OwnCurve> = match self.role {
-            OwnRole::Camera => self.channels.iter().filter_map(|&index| self.curves.get(index)).collect(),
-            OwnRole::Reflectance | OwnRole::Illuminant => self.curves.iter().collect(),
+            Role::Camera => self.channels.iter().filter_map(|&index| self.curves.get(index)).collect(),
+            _ => self.curves.iter().collect(),
         };
         used.into_iter().map(|curve| Ok((curve.name.clone(), self.spectrum(curve)?))).collect()
     }
@@ -123,19 +138,23 @@ impl OwnSet {
 
     /// A curve with the units that the user has it in. Unchanged units change no bit.
     fn spectrum(&self, curve: &OwnCurve) -> Result<SpectralDistribution, DistributionError> {
-        let stretch = self.unit.nanometers() / self.read_as.unit.nanometers();
-        let wavelengths = if self.unit == self.read_as.unit {
-            curve.wavelengths.clone()
-        } else {
-            // Rounded to a picometer: 0.38 µm is 380 nm, not 380.00000000000006.
-            curve.wavelengths.iter().map(|w| (w * stretch * 1e3).round() / 1e3).collect()
-        };
-        let is_percent = self.percent && self.role == OwnRole::Reflectance;
-        let values = match (is_percent, self.read_as.percent) {
+        let is_percent = self.percent && self.role.is_fraction();
+        let mut values: Vec<f64> = match (is_percent, self.read_as.percent) {
             (true, false) => curve.values.iter().map(|v| v / 100.0).collect(),
             (false, true) => curve.values.iter().map(|v| v * 100.0).collect(),
             _ => curve.values.clone(),
         };
+        let mut wavelengths = curve.wavelengths.clone();
+        if self.unit != self.read_as.unit {
+            for nm in &mut wavelengths {
+                *nm = self.unit.nanometers(self.read_as.unit.from_nanometers(*nm));
+            }
+            // Wave numbers and frequencies run the other way.
+            if wavelengths.first() > wavelengths.last() {
+                wavelengths.reverse();
+                values.reverse();
+            }
+        }
         SpectralDistribution::new(wavelengths, values)
     }
 }

@@ -10,6 +10,7 @@ use crate::document::Light;
 use crate::document::history::History;
 use crate::theme::{ROW, UNIT};
 use crate::view::HelpPage;
+use crate::view::import::ImportItem;
 use crate::widgets::WHAT_YOU_SEE;
 use crate::workspaces::{PaneKind, Workspace};
 
@@ -329,11 +330,15 @@ fn entry_found(kind: Kind, entry: &Entry) -> Found {
         Kind::Camera | Kind::Observer => Action::Compare(CompareAction::Add(kind, name)),
         Kind::Chart | Kind::Material => Action::Scene(SceneAction::SetChart(name)),
         Kind::Illuminant => Action::Scene(SceneAction::SetLight(Light::Set(name))),
+        Kind::Unsorted => {
+            let command = Command::ShowImport(ImportItem::Set(name), None);
+            return Found { words: entry.name.clone(), note: "not sorted yet: say what it is".to_owned(), command };
+        }
     };
     let verb = match kind {
         Kind::Camera | Kind::Observer => "compare",
         Kind::Chart | Kind::Material => "as patches",
-        Kind::Illuminant => "as light",
+        Kind::Illuminant | Kind::Unsorted => "as light",
     };
     Found { words: entry.name.clone(), note: format!("{}, {verb}", kind.singular()), command: Command::Do(action) }
 }

@@ -5,7 +5,6 @@ mod patch;
 mod pinned;
 mod pixel;
 mod radiator;
-mod reading;
 mod source;
 mod welcome;
 
@@ -41,14 +40,6 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 }
 
 fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    if let Some(name) = context.view.reading.clone() {
-        // Undo may have taken the set, or its name, away.
-        if context.scene.document.own.iter().any(|set| set.name == name) {
-            reading::show(ui, &name, context);
-            return;
-        }
-        context.view.reading = None;
-    }
     match context.view.selected.clone().or_else(|| context.view.hovered.clone()) {
         None if pixel::kept(context).is_some() => {}
         None => welcome::show(ui, context),

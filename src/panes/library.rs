@@ -1,6 +1,7 @@
 //! What is compared, which is the only legend, and all data sets.
 
 mod compared;
+mod save;
 mod sets;
 mod show;
 

@@ -42,6 +42,9 @@ fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let fill = if on { theme.control } else { theme.panel };
         let response =
             ui.add(Button::selectable(on, workspace.title()).fill(fill).min_size(Vec2::new(72.0, rect.height())));
+        if workspace == Workspace::Import {
+            unseen_dot(ui, &response, context);
+        }
         if on {
             ui.painter().hline(response.rect.x_range(), rect.top() + 1.0, egui::Stroke::new(2.0, theme.text));
         }
@@ -49,6 +52,19 @@ fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             context.push(Command::Show(workspace));
         }
     }
+}
+
+/// A dot on the tab while files wait to be looked at.
+fn unseen_dot(ui: &Ui, tab: &egui::Response, context: &PaneContext<'_>) {
+    let count = context.view.import.unseen.len();
+    if count == 0 {
+        return;
+    }
+    ui.painter().circle_filled(tab.rect.right_top() + Vec2::new(-7.0, 9.0), 3.0, context.theme.warning);
+    let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
+    let words = format!("Import, {files} to look at");
+    tab.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &words));
+    tab.clone().on_hover_text(words);
 }
 
 /// An arrow back or forward, named after its step.
@@ -88,12 +104,14 @@ fn pictured(context: &PaneContext<'_>) -> PaneKind {
     match focused(context) {
         PaneKind::Library | PaneKind::Inspector => PaneKind::Chromaticity,
         PaneKind::RenderSetup => PaneKind::Render,
+        PaneKind::Import | PaneKind::Understood => PaneKind::Curves,
         pane => pane,
     }
 }
 
 fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     item(ui, "Open…", Command::Open, context);
+    item(ui, "Open folder…", Command::OpenFolder, context);
     let recent = context.view.saved.recent.clone();
     if !recent.is_empty() {
         ui.menu_button("Open recent", |ui| {

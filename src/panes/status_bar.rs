@@ -8,6 +8,8 @@ use egui::{Align, Button, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::catalog::Kind;
+use crate::catalog::opened::Progress;
+use crate::command::Command;
 use crate::document::Document;
 use crate::theme::UNIT;
 use crate::thing::{SourceId, Thing};
@@ -19,6 +21,10 @@ use crate::workspaces::{Arrangement, PaneKind};
 const READY: &str = "Ready. Drop a spectrum or camera file anywhere.";
 /// Pictures that take longer are told of.
 const LONG: Duration = Duration::from_millis(500);
+/// Files that take longer are told of.
+const PATIENCE: Duration = Duration::from_millis(100);
+/// The width of the button after a message.
+const CHANGE: f32 = 76.0;
 /// What the facts at the right mean.
 const FACTS: &str = "How long the last change took to compute; the largest error of the loci on show, relative to the largest \
                      signal and checked against sums at 1 nm; how many cameras are computed. What is not shown is not computed.";
@@ -49,6 +55,13 @@ pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut Pa
 fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     let status = context.view.status.clone();
+    if let Some(progress) = context.opened.progress() {
+        if progress.time >= PATIENCE {
+            reading(ui, rect, &progress, context);
+            return;
+        }
+        ui.ctx().request_repaint_after(PATIENCE);
+    }
     let mut rest = rect;
     let (words, color) = if !status.text.is_empty() {
         let color = match status.weight {
@@ -68,8 +81,8 @@ fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     } else {
         (READY.to_owned(), theme.text)
     };
-    if let Some(name) = status.change.filter(|_| !status.text.is_empty()) {
-        rest.max.x -= 68.0;
+    if let Some((item, line)) = status.change.filter(|_| !status.text.is_empty()) {
+        rest.max.x -= CHANGE + UNIT;
         let galley = egui::WidgetText::from(words.as_str()).into_galley(
             ui,
             Some(egui::TextWrapMode::Truncate),
@@ -77,19 +90,19 @@ fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             TextStyle::Body,
         );
         let place = egui::pos2(rest.left() + galley.size().x + UNIT, rect.top() + 1.0);
-        let button = Rect::from_min_size(place, Vec2::new(64.0, rect.height() - 2.0));
+        let button = Rect::from_min_size(place, Vec2::new(CHANGE, rect.height() - 2.0));
         let mut child = ui.new_child(
             UiBuilder::new().id_salt("change").max_rect(button).layout(Layout::left_to_right(Align::Center)),
         );
         child.spacing_mut().button_padding.y = 0.0;
         child.spacing_mut().interact_size.y = button.height();
-        if child.add(Button::new("Change")).on_hover_text("See what was decided on reading, and change it").clicked() {
-            context.view.reading = Some(name);
-            context.view.inspector_over = true;
-            let saved = &mut context.view.saved;
-            if !saved.layout.shows(saved.workspace, PaneKind::Inspector) {
-                saved.layout.toggle(saved.workspace, PaneKind::Inspector);
-            }
+        let (title, hint) = if status.weight == Weight::Error {
+            ("Show line", "See the text where it could not be read")
+        } else {
+            ("Change", "See what was decided on reading, and change it")
+        };
+        if child.add(Button::new(title)).on_hover_text(hint).clicked() {
+            context.push(Command::ShowImport(item, line));
         }
     }
     let cut = lines::elided(ui, rest, &words, TextStyle::Body, color);
@@ -98,6 +111,40 @@ fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if cut {
         response.on_hover_text(words);
     }
+}
+
+/// The left side while files are read.
+fn reading(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut PaneContext<'_>) {
+    ui.ctx().request_repaint_after(Duration::from_millis(50));
+    let words = reading_words(progress);
+    let mut rest = rect;
+    rest.max.x -= CHANGE + UNIT;
+    let galley = egui::WidgetText::from(words.as_str()).into_galley(
+        ui,
+        Some(egui::TextWrapMode::Truncate),
+        rest.width().max(0.0),
+        TextStyle::Body,
+    );
+    let place = egui::pos2(rest.left() + galley.size().x + 2.0 * UNIT, rect.top() + 1.0);
+    lines::elided(ui, rest, &words, TextStyle::Body, context.theme.text);
+    let response = ui.interact(rest, ui.scope_id().with("message"), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, &words));
+    let button = Rect::from_min_size(place, Vec2::new(CHANGE, rect.height() - 2.0));
+    let layout = Layout::left_to_right(Align::Center);
+    let mut child = ui.new_child(UiBuilder::new().id_salt("stop").max_rect(button).layout(layout));
+    child.spacing_mut().button_padding.y = 0.0;
+    child.spacing_mut().interact_size.y = button.height();
+    if child.add(Button::new("Stop")).on_hover_text("Read no further; nothing is changed (Esc)").clicked() {
+        context.push(Command::StopReading);
+    }
+}
+
+/// What is read, and how far that is.
+fn reading_words(progress: &Progress) -> String {
+    let [file, count] = progress.file;
+    let of = if count > 1 { format!(", {file} of {count}") } else { String::new() };
+    let name = if progress.name.is_empty() { "files" } else { &progress.name };
+    format!("Reading {name}{of}, {:.0} %", 100.0 * progress.share.clamp(0.0, 1.0))
 }
 
 /// A thing in one line.

@@ -8,7 +8,7 @@ use egui::{TextFormat, Ui};
 use super::number;
 use crate::catalog::load::FileOf;
 use crate::catalog::{Entry, Kind, Place};
-use crate::document::own::OwnRole;
+use crate::document::own::Role;
 use crate::scene::Scene;
 use crate::theme::{SMALL, Theme, UNIT};
 
@@ -65,7 +65,7 @@ pub fn of(scene: &Scene<'_>, entry: &Entry, with_range: bool) -> Vec<Fact> {
     }
     if let Place::Own(set) = &entry.place {
         facts.push(("File", set.file.clone()));
-        if set.role == OwnRole::Camera {
+        if set.role == Role::Camera {
             facts.push(("Response", response_words(set.response()).to_owned()));
         }
         facts.extend(set.decisions.iter().map(|decision| ("Read", decision.clone())));

@@ -1,9 +1,9 @@
 //! From the bytes of a user's file to a set: names, roles, units and percent that can be flipped, channels, decisions.
 
 use chromascope::catalog::import::{import, import_warned};
-use chromascope::document::own::{OwnRole, OwnSet, OwnUnit};
+use chromascope::document::own::{OwnSet, Role, WavelengthUnit};
 
-fn set(file: &str, text: &str, role: Option<OwnRole>) -> OwnSet {
+fn set(file: &str, text: &str, role: Option<Role>) -> OwnSet {
     import(file, text.as_bytes(), role).unwrap().set
 }
 
@@ -33,8 +33,8 @@ fn an_only_curve_without_a_name_takes_the_sets() {
 #[test]
 fn a_role_given_is_kept_and_else_decided() {
     let rgb = "nm,red,green,blue\n400,0.1,0.2,0.9\n500,0.2,0.9,0.4\n600,0.9,0.3,0.1\n";
-    assert_eq!(set("x.csv", rgb, None).role, OwnRole::Camera);
-    for role in [OwnRole::Camera, OwnRole::Reflectance, OwnRole::Illuminant] {
+    assert_eq!(set("x.csv", rgb, None).role, Role::Camera);
+    for role in [Role::Camera, Role::Reflectance, Role::Illuminant] {
         assert_eq!(set("x.csv", rgb, Some(role)).role, role);
     }
 }
@@ -42,7 +42,7 @@ fn a_role_given_is_kept_and_else_decided() {
 #[test]
 fn percent_can_be_flipped_back_to_the_figures_written() {
     let text = "nm,leaf (%)\n400,5.5\n500,10\n600,99\n";
-    let mut leaf = set("leaf.csv", text, Some(OwnRole::Reflectance));
+    let mut leaf = set("leaf.csv", text, Some(Role::Reflectance));
     assert!(leaf.percent);
     assert_eq!(first(&leaf).1, [0.055, 0.1, 0.99]);
     leaf.percent = false;
@@ -55,12 +55,12 @@ fn percent_can_be_flipped_back_to_the_figures_written() {
 #[test]
 fn units_can_be_flipped_back_to_the_figures_written() {
     let text = "wavelength (µm),leaf\n0.38,0.1\n0.5,0.2\n0.78,0.3\n";
-    let mut leaf = set("leaf.csv", text, Some(OwnRole::Reflectance));
-    assert_eq!(leaf.unit, OwnUnit::Micrometers);
+    let mut leaf = set("leaf.csv", text, Some(Role::Reflectance));
+    assert_eq!(leaf.unit, WavelengthUnit::Micrometer);
     assert_eq!(first(&leaf).0, [380.0, 500.0, 780.0]);
-    leaf.unit = OwnUnit::Nanometers;
+    leaf.unit = WavelengthUnit::Nanometer;
     assert_eq!(first(&leaf).0, [0.38, 0.5, 0.78]);
-    leaf.unit = OwnUnit::Angstroms;
+    leaf.unit = WavelengthUnit::Angstrom;
     assert_eq!(first(&leaf).0, [0.038, 0.05, 0.078]);
 }
 
@@ -70,7 +70,7 @@ fn channels_are_found_by_name_and_else_are_the_first_three() {
         let columns = header.split(',').count() - 1;
         let row = |nm: u32| format!("{nm}{}\n", ",0.5".repeat(columns));
         let text = format!("{header}\n{}{}{}", row(400), row(500), row(600));
-        set("camera.csv", &text, Some(OwnRole::Camera)).channels
+        set("camera.csv", &text, Some(Role::Camera)).channels
     };
     assert_eq!(of("nm,blue,green,red"), [2, 1, 0]);
     assert_eq!(of("nm,B,G,R,IR"), [2, 1, 0]);
@@ -81,8 +81,8 @@ fn channels_are_found_by_name_and_else_are_the_first_three() {
 #[test]
 fn sensitivities_per_photon_are_known_by_their_header() {
     let rows = "nm,r,g,b\n400,0.1,0.2,0.9\n500,0.2,0.9,0.4\n600,0.9,0.3,0.1\n";
-    assert!(!set("x.csv", rows, Some(OwnRole::Camera)).per_photon);
-    assert!(set("x.csv", &format!("# response: per photon\n{rows}"), Some(OwnRole::Camera)).per_photon);
+    assert!(!set("x.csv", rows, Some(Role::Camera)).per_photon);
+    assert!(set("x.csv", &format!("# response: per photon\n{rows}"), Some(Role::Camera)).per_photon);
 }
 
 #[test]

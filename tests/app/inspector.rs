@@ -1,10 +1,7 @@
 //! The inspector and the foot of the window.
 
-use chromascope::action::{Action, OwnAction};
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::{Catalog, Kind, import};
-use chromascope::command::Command;
-use chromascope::document::own::OwnRole;
+use chromascope::catalog::{Catalog, Kind};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::thing::{SourceId, Thing};
@@ -107,65 +104,4 @@ fn pinned_things_stand_side_by_side() {
     assert!(says(&window, "x: truth 0.2020, A 0.2534, B "));
     press(&mut window, Role::Button, "Unpin A");
     assert_eq!(window.state().view().pinned, [patch("Nikon D70", "blue")]);
-}
-
-#[test]
-fn what_was_decided_on_reading_is_changed_and_undone() {
-    let mut window = window();
-    let text = "nm,leaf a,leaf b\n400,4,5\n500,9,10\n600,22,30\n700,45,50\n";
-    let mut imported =
-        import::import("leaves.csv", text.as_bytes(), Some(OwnRole::Reflectance)).expect("a table of two curves");
-    imported.set.name = "Leaves".to_owned();
-    assert!(imported.set.percent, "values to 50 are percent");
-    window.state_mut().push(Action::Own(OwnAction::Import(vec![imported.set])));
-    window.state_mut().view_mut().reading = Some("Leaves".to_owned());
-    window.run();
-    let percent = |window: &Window| window.state().history().document().own[0].percent;
-    press(&mut window, Role::CheckBox, "Values are percent");
-    assert!(!percent(&window));
-    window.state_mut().push(Command::Undo);
-    window.run();
-    assert!(percent(&window));
-    press(&mut window, Role::Button, "Light");
-    assert_eq!(window.state().history().document().own[0].role, OwnRole::Illuminant);
-    press(&mut window, Role::Button, "Done");
-    assert_eq!(window.state().view().reading, None);
-}
-
-#[test]
-fn a_set_is_renamed_and_stays_in_sight() {
-    let mut window = window();
-    let text = "nm,red,green,blue\n400,0,1,5\n500,1,8,4\n600,9,5,1\n700,5,1,0\n";
-    let mut imported =
-        import::import("zoo.csv", text.as_bytes(), Some(OwnRole::Camera)).expect("a table of three curves");
-    imported.set.name = "Zoo".to_owned();
-    window.state_mut().push(Action::Own(OwnAction::Import(vec![imported.set])));
-    window.state_mut().view_mut().reading = Some("Zoo".to_owned());
-    window.run();
-    window.get_by_role_and_label(Role::TextInput, "Name of the set").focus();
-    window.run();
-    window.key_combination_modifiers(egui::Modifiers::COMMAND, &[egui::Key::A]);
-    window.get_by_role_and_label(Role::TextInput, "Name of the set").type_text("Park");
-    window.run();
-    window.key_press(egui::Key::Enter);
-    window.run();
-    assert_eq!(window.state().view().reading.as_deref(), Some("Park"));
-    assert!(window.state().compares(Kind::Camera, "Park"));
-}
-
-#[test]
-fn the_foot_tells_what_failed_and_leads_to_what_was_guessed() {
-    let mut window = window();
-    let text = "nm,red,green,blue\n400,0,1,5\n500,1,8,4\n600,9,5,1\n700,5,1,0\n";
-    let imported = import::import("zoo.csv", text.as_bytes(), Some(OwnRole::Camera)).expect("a table of three curves");
-    let name = imported.set.name.clone();
-    window.state_mut().push(Action::Own(OwnAction::Import(vec![imported.set])));
-    window.state_mut().view_mut().say("Values reach 98: read as percent.");
-    window.state_mut().view_mut().status.change = Some(name.clone());
-    window.run();
-    press(&mut window, Role::Button, "Change");
-    assert_eq!(window.state().view().reading, Some(name));
-    window.state_mut().view_mut().fail("leaf.csv, line 14: no number in column 2.");
-    window.run();
-    assert!(says(&window, "leaf.csv, line 14"));
 }

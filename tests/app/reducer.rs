@@ -3,7 +3,7 @@
 use chromascope::action::{Action, CompareAction, OwnAction, SceneAction};
 use chromascope::catalog::{Catalog, Kind};
 use chromascope::document::history::History;
-use chromascope::document::own::{OwnCurve, OwnRole, OwnSet, OwnUnit, ReadAs};
+use chromascope::document::own::{OwnCurve, OwnSet, ReadAs, Role, WavelengthUnit, Wishes};
 use chromascope::document::{CHART, Document, Light, Subset, TRUTH, WhiteChoice, session};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
@@ -16,18 +16,22 @@ fn check(action: &Action, expect: impl Fn(&Document)) {
     expect(&document);
 }
 
-fn own(name: &str, role: OwnRole) -> OwnSet {
+fn own(name: &str, role: Role) -> OwnSet {
     let curve = |name: &str| OwnCurve {
         name: name.to_owned(),
         wavelengths: vec![400.0, 550.0, 700.0],
         values: vec![0.2, 0.9, 0.4],
+        unit: None,
     };
     OwnSet {
         name: name.to_owned(),
         file: "file.csv".to_owned(),
+        path: None,
+        fingerprint: None,
+        wishes: Wishes::default(),
         role,
-        read_as: ReadAs { unit: OwnUnit::Nanometers, percent: false },
-        unit: OwnUnit::Nanometers,
+        read_as: ReadAs { unit: WavelengthUnit::Nanometer, percent: false },
+        unit: WavelengthUnit::Nanometer,
         percent: false,
         per_photon: false,
         channels: [0, 1, 2],
@@ -36,7 +40,7 @@ fn own(name: &str, role: OwnRole) -> OwnSet {
     }
 }
 
-fn import(names: &[&str], role: OwnRole) -> Action {
+fn import(names: &[&str], role: Role) -> Action {
     Action::Own(OwnAction::Import(names.iter().map(|name| own(name, role)).collect()))
 }
 
@@ -81,11 +85,11 @@ fn a_slot_is_kept_and_the_ninth_takes_color_1_with_marker_5() {
 
 #[test]
 fn what_is_opened_is_put_to_use() {
-    check(&import(&["mine"], OwnRole::Camera), |document| assert!(document.compared(Kind::Camera, "mine").is_some()));
-    check(&import(&["mine"], OwnRole::Illuminant), |document| {
+    check(&import(&["mine"], Role::Camera), |document| assert!(document.compared(Kind::Camera, "mine").is_some()));
+    check(&import(&["mine"], Role::Illuminant), |document| {
         assert_eq!(document.light, Light::Set("mine".to_owned()));
     });
-    check(&import(&["mine", "mine"], OwnRole::Reflectance), |document| {
+    check(&import(&["mine", "mine"], Role::Reflectance), |document| {
         assert_eq!((document.chart.as_str(), document.subset), ("mine (2)", Subset::All));
         assert_eq!(document.own.len(), 2);
     });
@@ -94,8 +98,8 @@ fn what_is_opened_is_put_to_use() {
 #[test]
 fn what_is_removed_is_no_longer_used() {
     let mut document = Document::default();
-    import(&["leaf"], OwnRole::Reflectance).apply(&mut document);
-    import(&["lamp"], OwnRole::Illuminant).apply(&mut document);
+    import(&["leaf"], Role::Reflectance).apply(&mut document);
+    import(&["lamp"], Role::Illuminant).apply(&mut document);
     document.white = WhiteChoice::Light("lamp".to_owned());
     for name in ["leaf", "lamp"] {
         Action::Own(OwnAction::Remove(name.to_owned())).apply(&mut document);
@@ -106,8 +110,8 @@ fn what_is_removed_is_no_longer_used() {
 #[test]
 fn another_role_moves_a_set() {
     let mut document = Document::default();
-    import(&["x"], OwnRole::Reflectance).apply(&mut document);
-    let with = Box::new(own("x", OwnRole::Camera));
+    import(&["x"], Role::Reflectance).apply(&mut document);
+    let with = Box::new(own("x", Role::Camera));
     Action::Own(OwnAction::Replace { name: "x".to_owned(), with }).apply(&mut document);
     assert_eq!(document.chart, CHART);
     assert!(document.compared(Kind::Camera, "x").is_some());
@@ -115,20 +119,20 @@ fn another_role_moves_a_set() {
 
 #[test]
 fn units_can_be_flipped_and_flipped_back() {
-    let mut set = own("leaf", OwnRole::Reflectance);
+    let mut set = own("leaf", Role::Reflectance);
     let before = set.curves_in_nm().unwrap();
     set.percent = true;
     assert_eq!(set.curves_in_nm().unwrap()[0].1.values(), [0.2 / 100.0, 0.9 / 100.0, 0.4 / 100.0]);
-    set.unit = OwnUnit::Micrometers;
+    set.unit = WavelengthUnit::Micrometer;
     assert_eq!(set.curves_in_nm().unwrap()[0].1.range_nm(), [400_000.0, 700_000.0]);
-    (set.percent, set.unit) = (false, OwnUnit::Nanometers);
+    (set.percent, set.unit) = (false, WavelengthUnit::Nanometer);
     assert_eq!(set.curves_in_nm().unwrap(), before, "to the bit");
 }
 
 #[test]
 fn reset_keeps_what_the_user_brought() {
     let mut document = Document::default();
-    import(&["mine"], OwnRole::Camera).apply(&mut document);
+    import(&["mine"], Role::Camera).apply(&mut document);
     Action::Reset.apply(&mut document);
     assert_eq!((document.own.len(), document.compared.len()), (1, 5));
 }
@@ -161,7 +165,7 @@ fn nothing_changed_is_no_step() {
 #[test]
 fn a_session_keeps_all_even_what_it_does_not_know() {
     let mut document = Document::default();
-    import(&["mine"], OwnRole::Camera).apply(&mut document);
+    import(&["mine"], Role::Camera).apply(&mut document);
     document.unknown.insert("hologram".to_owned(), serde_json::json!({ "mesh": "head" }));
     let json = session::to_json(&document).unwrap();
     assert_eq!(session::from_json(&json).unwrap(), document);

@@ -12,6 +12,7 @@ use chromascope::document::history::History;
 use chromascope::document::{Diagram, Document, Overlays, Subset, WayChoice};
 use chromascope::files::Files;
 use chromascope::thing::{SourceId, Thing};
+use chromascope::view::import::ImportItem;
 use chromascope::view::render::RenderMode;
 use chromascope::view::{DiagramFit, SavedView};
 use chromascope::workspaces::{PaneKind, Workspace};
@@ -145,4 +146,42 @@ fn render_difference() {
         app.view_mut().saved.render.mode = RenderMode::Difference;
     };
     check(render([1280.0, 800.0], egui::Theme::Dark, difference), "render_difference.png");
+}
+
+/// A transmittance as `SpectraWiz` writes it: a quote that is never closed, three digits of exponent, percent, filler at the ends.
+fn leaf() -> String {
+    let head = "\" File: C:\\spectra\\oak\n\" TRANS->  Wave:550.00nm  Pix:612  Val: 12.310  Time:120ms  Avg:10  Sm:1\n";
+    let bell = |nm: f64, center: f64, width: f64| (-((nm - center) / width).powi(2)).exp();
+    let rows = (0..1001).map(|i| {
+        let nm = 350.0 + 0.5 * f64::from(i);
+        let edge = 48.0 / (1.0 + (-(nm - 715.0) / 12.0).exp());
+        let value = if nm < 355.0 { 0.001 } else { 2.0 + 14.0 * bell(nm, 552.0, 38.0) + edge };
+        let (exponent, mantissa) = if value >= 10.0 { ("+001", value / 10.0) } else { ("+000", value) };
+        format!(" {nm:.2}  {mantissa:.4}E{exponent}\n")
+    });
+    head.to_owned() + &rows.collect::<Vec<_>>().concat()
+}
+
+#[test]
+fn import() {
+    let folder = tempfile::tempdir().unwrap();
+    let camera = "# camera: Acme One\nwavelength_nm,R,G,B\n400,0.01,0.02,0.60\n450,0.02,0.10,0.95\n500,0.05,0.60,0.50\n\
+                  550,0.15,0.98,0.08\n600,0.90,0.35,0.02\n650,0.55,0.05,0.01\n700,0.05,0.01,0.00\n";
+    let broken = "nm;leaf;bark\n400;0,12;0,20\n410;0,14;0,21\n420;0,15;0.2.2\n430;0,17;0,22\n440;0,18;0,23\n";
+    for (name, text) in [("acme.csv", camera), ("bark.txt", broken), ("oak leaf.TRM", &leaf())] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let mut harness = open([1280.0, 800.0], egui::Theme::Dark);
+    harness.state_mut().push(Command::OpenPath(folder.path().to_owned()));
+    harness.run_steps(2);
+    for _ in 0..3 {
+        harness.state().opened().wait();
+        harness.run_steps(3);
+    }
+    harness.state_mut().push(Command::ShowImport(ImportItem::Set("oak leaf".to_owned()), None));
+    for _ in 0..3 {
+        harness.run_steps(2);
+        harness.state().opened().wait();
+    }
+    check(harness, "import.png");
 }

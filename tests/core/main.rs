@@ -22,3 +22,5 @@ mod spectral;
 mod support;
 mod table;
 mod table_families;
+mod table_preview;
+mod table_write;

@@ -3,10 +3,13 @@
 #![allow(clippy::format_push_string, reason = "files are written as they read")]
 
 mod damage;
+mod limits;
+mod parts;
+mod said;
 
 use chromascope_core::table::{
     BinaryKind, Certainty, Curve, DecimalMark, Delimiter, Dropped, Encoding, Family, MAX_BYTES, Orientation, ReadError,
-    ReadOptions, Role, Table, Warning, WavelengthUnit, read,
+    ReadOptions, Role, Table, Values, Warning, WavelengthUnit, read,
 };
 
 fn ok(text: &str) -> Table {
@@ -178,7 +181,11 @@ fn wavelength_units() {
         ("400nm,1\n500 [nm],2\n", Unit::Nanometer, Sure::Certain),
         ("Wavelength (Å),a\n4000,1\n5000,2\n", Unit::Angstrom, Sure::Certain),
         ("0.4,1\n0.5,2\n", Unit::Micrometer, Sure::Guess),
-        ("4000,1\n5000,2\n", Unit::Angstrom, Sure::Guess),
+        ("Wavenumber (cm-1),a\n25000,1\n20000,2\n", Unit::Wavenumber, Sure::Certain),
+        ("1/cm;a\n25000;1\n20000;2\n", Unit::Wavenumber, Sure::Certain),
+        ("#XAxisUnit;cm-1\n25000;1\n20000;2\n", Unit::Wavenumber, Sure::Certain),
+        ("cm⁻¹\ta\n25000\t1\n20000\t2\n", Unit::Wavenumber, Sure::Certain),
+        ("Frequency (THz),a\n749.481145,1\n599.584916,2\n", Unit::Terahertz, Sure::Certain),
         ("400,1\n500,2\n", Unit::Nanometer, Sure::Guess),
     ] {
         let table = ok(text);
@@ -209,8 +216,9 @@ fn percent_and_fractions() {
         let table = ok(text);
         assert_eq!(table.role.value, Role::Reflectance, "{text:?}");
         assert_eq!(table.curves[0].values, [0.05, 0.5], "{text:?}");
-        let decided = &table.reading.percent;
-        assert_eq!((decided.value, decided.certainty), (percent, certainty), "{text:?}");
+        let decided = &table.reading.values;
+        let values = if percent { Values::Percent } else { Values::Plain };
+        assert_eq!((decided.value, decided.certainty), (values, certainty), "{text:?}");
     }
     let said: Vec<String> = ok("400,5\n500,98\n").decisions().iter().map(ToString::to_string).collect();
     assert!(said.contains(&"Values reach 98: read as percent.".to_owned()), "{said:?}");
@@ -222,24 +230,38 @@ fn percent_in_one_column_scales_only_that() {
     let table = read(b"Wave;Sample;Reflectance\n[nm];[counts];[%]\n400;700;40\n401;800;50\n", &options).unwrap();
     assert_eq!(table.curves[0].values, [700.0, 800.0]);
     assert_eq!(table.curves[1].values, [0.4, 0.5]);
+    assert_eq!((table.curves[0].unit.as_deref(), table.curves[1].unit.as_deref()), (Some("counts"), Some("%")));
     let expected = Warning::NotReflectances { count: 1, first: "Sample".to_owned(), max: 800.0 };
     assert_eq!(table.warnings, [expected]);
 }
 
 #[test]
-fn illuminants_and_sensitivities_are_never_scaled() {
-    let options = |role| ReadOptions { role: Some(role), percent: Some(true), ..ReadOptions::default() };
-    for role in [Role::Illuminant, Role::Camera] {
-        let table = read(b"400,5\n500,50\n", &options(role)).unwrap();
-        assert_eq!((table.curves[0].values.as_slice(), table.reading.percent.value), ([5.0, 50.0].as_slice(), false));
+fn illuminants_and_sensitivities_are_scaled_only_when_asked() {
+    let options = |role, values| ReadOptions { role: Some(role), values, ..ReadOptions::default() };
+    for role in [Role::Illuminant, Role::Camera, Role::Unknown] {
+        let table = read(b"400,5\n500,50\n", &options(role, None)).unwrap();
+        assert_eq!((table.curves[0].values.as_slice(), table.reading.values.value), (&[5.0, 50.0][..], Values::Plain));
         assert_eq!(table.role.certainty, Certainty::Chosen);
+        let table = read(b"400,5\n500,50\n", &options(role, Some(Values::Percent))).unwrap();
+        assert_eq!(table.curves[0].values, [0.05, 0.5]);
+        assert_eq!(table.reading.values.certainty, Certainty::Chosen);
     }
-    let table = read(b"400,5\n500,50\n", &options(Role::Reflectance)).unwrap();
-    assert_eq!(table.curves[0].values, [0.05, 0.5]);
-    assert_eq!(table.reading.percent.certainty, Certainty::Chosen);
-    let flipped = ReadOptions { percent: Some(false), ..ReadOptions::default() };
+    let flipped = ReadOptions { values: Some(Values::Plain), ..ReadOptions::default() };
     assert_eq!(read(b"400,5\n500,50\n", &flipped).unwrap().curves[0].values, [5.0, 50.0]);
     assert_eq!(ok("nm,QE R %,QE G %,QE B %\n400,5,6,7\n500,50,51,52\n").curves[0].values, [5.0, 50.0]);
+}
+
+#[test]
+fn absorbances_decibels_wave_numbers_and_frequencies_on_request() {
+    let with = |values, unit| ReadOptions { values, wavelength_unit: unit, ..ReadOptions::default() };
+    let table = read(b"400,1\n500,2\n", &with(Some(Values::Absorbance), None)).unwrap();
+    assert_eq!(table.curves[0].values, [0.1, 0.01]);
+    let table = read(b"400,-10\n500,20\n", &with(Some(Values::Decibels), None)).unwrap();
+    assert_eq!(table.curves[0].values, [0.1, 100.0]);
+    let table = read(b"20000,1\n25000,2\n", &with(None, Some(WavelengthUnit::Wavenumber))).unwrap();
+    assert_eq!((table.curves[0].wavelengths_nm.as_slice(), table.reading.descending), (&[400.0, 500.0][..], true));
+    let table = read(b"500,1\n599.584916,2\n", &with(None, Some(WavelengthUnit::Terahertz))).unwrap();
+    assert_eq!(table.curves[0].wavelengths_nm, [500.0, 599.584_916]);
 }
 
 #[test]
@@ -261,7 +283,11 @@ fn roles() {
         (bells([600.0, 540.0, 450.0]), Is::Camera, Sure::Guess),
         ("# quantity: spectral irradiance\n400,0.1\n500,0.2\n".to_owned(), Is::Illuminant, Sure::Certain),
         ("CCT\t5198\n400\t0.1\n500\t0.2\n".to_owned(), Is::Illuminant, Sure::Guess),
-        ("400,63\n560,105.3\n600,124\n".to_owned(), Is::Illuminant, Sure::Guess),
+        ("400,63\n560,105.3\n600,124\n".to_owned(), Is::Unknown, Sure::Guess),
+        ("nm,signal [counts]\n400,0.3\n500,0.4\n".to_owned(), Is::Unknown, Sure::Certain),
+        ("nm,Transmittance (%)\n400,3\n500,4\n".to_owned(), Is::Transmittance, Sure::Certain),
+        ("Y Units: T-Factor\n400 3\n500 4\n".to_owned(), Is::Transmittance, Sure::Certain),
+        ("Technique\tTransmission\nWavelength\ta (%)\n400\t3\n500\t4\n".to_owned(), Is::Transmittance, Sure::Guess),
         ("400,49\n560,100\n600,97\n".to_owned(), Is::Illuminant, Sure::Guess),
         ("nm,leaf,bark\n400,0.1,0.2\n500,0.9,1.1\n".to_owned(), Is::Reflectance, Sure::Guess),
     ] {
@@ -445,17 +471,12 @@ fn broken_rows_are_named() {
 }
 
 #[test]
-fn tables_that_cannot_be_told_apart() {
-    let second = ReadError::SecondTable { line: 5 };
-    assert_eq!(error("380,1\n390,2\n400,3\nagain\n380,1\n390,2\n"), second);
-    assert_eq!(error("380,1\n390,2\n400,3\nagain\n1,2,3\n2,3,4\n"), ReadError::SecondTable { line: 6 });
-    let pass = |from: u32| (0..8).map(|i| format!("{},{}\n", 380 + 10 * i, from + i)).collect::<Vec<_>>().concat();
-    assert_eq!(error(&format!("{}\n{}", pass(1), pass(5))), ReadError::SecondTable { line: 10 });
+fn what_cannot_be_told_apart() {
     assert_eq!(error("380,0,0,05\n385,0,0,12\n390,0,0,2\n"), ReadError::AmbiguousCommas { line: 1 });
-    let pairs = "Wavelength (nm),%R,Wavelength (nm),%R\n380,1,380,2\n390,1,390,2\n";
-    assert_eq!(error(pairs), ReadError::SecondWavelengthColumn { column: 3 });
-    assert_eq!(error("380,0.1,380,2\n390,0.1,390,2\n"), ReadError::SecondWavelengthColumn { column: 3 });
-    assert_eq!(error("cm-1,a\n4000,1\n3990,2\n"), ReadError::NotWavelengths { line: 1 });
+    assert_eq!(error("eV,a\n3.2,1\n3.1,2\n"), ReadError::NotWavelengths { line: 1 });
+    let ambiguous = ReadError::AmbiguousUnit { line: 1, min: 4000.0, max: 5000.0 };
+    assert_eq!(error("4000,1\n5000,2\n"), ambiguous);
+    assert!(ambiguous.to_string().ends_with("choose the wavelength unit"));
 }
 
 #[test]

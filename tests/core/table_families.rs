@@ -5,10 +5,11 @@
 mod hostile;
 mod instruments;
 mod layouts;
+mod xml;
 
 use chromascope_core::table::{
     Certainty, DecimalMark, Delimiter, Encoding, Family, Orientation, ReadError, ReadOptions, Reader, Role, Table,
-    Warning, read,
+    Values, Warning, read,
 };
 
 fn ok(text: &str) -> Table {
@@ -63,7 +64,7 @@ fn xrite_without_a_type_line() {
     let table = ok(layouts::XRITE);
     assert_eq!(names(&table), ["X1", "X 2"]);
     assert_eq!(samples(&table, 1), [(380.0, 0.9009), (390.0, 0.9024), (400.0, 0.9046)]);
-    assert_eq!((table.role.value, table.reading.percent.value), (Role::Reflectance, false));
+    assert_eq!((table.role.value, table.reading.values.value), (Role::Reflectance, Values::Plain));
     let source = table.reading.comment("MEASUREMENT_SOURCE");
     assert_eq!(source, Some("Illumination=D65\tObserverAngle=10°\tFilter=No"));
     assert_eq!(table.reading.comment("CREATED"), Some("11/14/2014"));
@@ -78,7 +79,7 @@ fn cgats_in_pairs_and_its_errors() {
     let pairs = ok("CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_NAME SPECTRAL_NM SPECTRAL_PCT SPECTRAL_NM SPECTRAL_PCT\n\
                     END_DATA_FORMAT\nBEGIN_DATA\n\"a \"\"b\"\"\" 400 5 410 6 # note\nc 400 50 410 60\nEND_DATA\n");
     assert_eq!((names(&pairs), samples(&pairs, 0)), (vec!["a \"b\"", "c"], vec![(400.0, 0.05), (410.0, 0.06)]));
-    assert_eq!(pairs.reading.percent.certainty, Certainty::Certain);
+    assert_eq!(pairs.reading.values.certainty, Certainty::Certain);
     let start = "CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_ID R_400 R_410\nEND_DATA_FORMAT\nBEGIN_DATA\n";
     assert_eq!(
         error(&format!("{start}1 5 6\n2 7\nEND_DATA\n")),
@@ -94,7 +95,7 @@ fn cgats_in_pairs_and_its_errors() {
         "{start}1 5 6\nEND_DATA\nCAL\nBEGIN_DATA_FORMAT\nSPEC_400 SPEC_410\nEND_DATA_FORMAT\nBEGIN_DATA\n1 2\nEND_DATA\n"
     );
     let second = ok(&second);
-    assert_eq!((second.curves.len(), &second.warnings[0]), (1, &Warning::MoreTables { line: 12 }));
+    assert_eq!((second.curves.len(), &second.warnings[0]), (1, &Warning::MoreTables { line: 13 }));
 }
 
 #[test]
@@ -102,8 +103,8 @@ fn jcamp_of_linked_blocks() {
     let table = ok(layouts::JCAMP_LINK);
     assert_eq!(table.reading.reader.value, Reader::Jcamp);
     assert_eq!(samples(&table, 0), [(400.5, 0.25), (401.0, 0.3), (401.5, 0.35)]);
-    assert_eq!((table.role.value, table.role.certainty), (Role::Reflectance, Certainty::Certain));
-    assert_eq!(table.reading.percent.certainty, Certainty::Certain);
+    assert_eq!((table.role.value, table.role.certainty), (Role::Transmittance, Certainty::Certain));
+    assert_eq!(table.reading.values.certainty, Certainty::Certain);
     assert!(note(&table, "Blocks").is_some_and(|note| note.contains("PROCESSED")));
     let options = ReadOptions { raw: Some(true), ..ReadOptions::default() };
     let all = read(layouts::JCAMP_LINK.as_bytes(), &options).unwrap();
@@ -134,12 +135,16 @@ fn jcamp_with_squeezed_ordinates() {
     let short = ok(&format!("{head}400 100 110 120 120\n##END=\n"));
     assert_eq!(short.warnings, [Warning::CountDiffers { line: 10, expected: 5, found: 4 }]);
     let waves = head.replace("NANOMETERS", "1/CM");
-    assert_eq!(error(&format!("{waves}400 100 110\n")), ReadError::NotWavelengths { line: 4 });
+    let waves = waves.replace("FIRSTX= 400", "FIRSTX= 25000").replace("LASTX= 440", "LASTX= 15000");
+    let table = ok(&format!("{waves}25000 100 110 120 120 50\n"));
+    assert_eq!((table.reading.range_nm[0], table.reading.descending), (400.0, false));
     let text = "400 1!0".to_owned();
     assert!(matches!(error(&format!("{head}{text}\n")), ReadError::NotANumber { line: 12, .. }));
     let absorbance = head.replace("REFLECTANCE", "ABSORBANCE");
     let table = ok(&format!("{absorbance}400 100 110 120 120 50\n"));
-    assert_eq!(table.warnings[0], Warning::Absorbance { line: 5 });
+    assert_eq!((table.reading.values.value, table.reading.values.certainty), (Values::Absorbance, Certainty::Certain));
+    assert_eq!((table.role.value, table.role.certainty), (Role::Transmittance, Certainty::Guess));
+    assert_eq!(table.curves[0].values[0], 10_f64.powf(-0.1));
 }
 
 #[test]
@@ -266,5 +271,5 @@ fn the_reader_can_be_chosen() {
     let said: Vec<_> = table.decisions().iter().map(|decision| decision.what).collect();
     assert_eq!(said[1], "Layout");
     let options = ReadOptions { reader: Some(Reader::Cgats), ..ReadOptions::default() };
-    assert_eq!(read(b"400,1\n500,2\n", &options), Err(ReadError::NoWavelengths { line: 1 }));
+    assert_eq!(read(b"400,1\n500,2\n", &options), Err(ReadError::OtherLayout { reader: Reader::Cgats }));
 }

@@ -1,23 +1,43 @@
 //! Reads tables whose wavelengths run down a column.
 
+mod pairs;
+
 use super::dialect::{Cell, Dialect};
 use super::grid::{Grid, RawCurve};
 use super::header::{self, Header};
 use super::sniff::Layout;
-use super::text::{Lines, comment, excerpt};
+use super::text::{Lines, Section, comment, excerpt};
 use super::warning::{LineList, Warning};
-use super::{Dropped, MAX_CURVES, MAX_SAMPLES, ReadError, WavelengthUnit, words};
+use super::watch::Log;
+use super::{Decision, Dropped, MAX_CURVES, MAX_SAMPLES, ReadError, WavelengthUnit, quantity, wavelengths, words};
+
+/// What was read: the first table of a section.
+pub(super) struct Read {
+    pub(super) grid: Grid,
+    /// The line after it, if another table follows.
+    pub(super) next: Option<usize>,
+    /// What its columns are, if that was to decide.
+    pub(super) note: Option<Decision>,
+}
 
 /// Reads the rows of a layout.
-pub(super) fn read(text: &str, layout: &Layout, warnings: &mut Vec<Warning>) -> Result<Grid, ReadError> {
-    let header = header::read(text, layout);
-    let mut columns = Columns::new(layout, wavelength_column(&header));
-    for (number, line) in Lines::new(text).skip(layout.first_line - 1) {
+pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Read, ReadError> {
+    let header = header::read(section, layout);
+    let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
+    let mut columns = Columns::new(layout, chosen.or_else(|| wavelength_column(&header)));
+    let mut read = section.byte;
+    for (number, line) in Lines::of(section).skip_while(|(number, _)| *number < layout.first_line) {
+        read += line.len() + 1;
+        log.at(read)?;
         if !line.trim_ascii().is_empty() && comment(line).is_none() {
             if columns.lines.is_empty() {
-                columns.expected_rows = text.len() / (line.len() + 1) + 1;
+                columns.expected_rows = section.text.len() / (line.len() + 1) + 1;
             }
             columns.take(number, line)?;
+            if columns.next.is_some() {
+                columns.broken = None;
+                break;
+            }
         }
     }
     if let Some(broken) = columns.broken.take() {
@@ -25,9 +45,9 @@ pub(super) fn read(text: &str, layout: &Layout, warnings: &mut Vec<Warning>) -> 
         if broken.begins_with_number {
             return Err(broken.error);
         }
-        warnings.push(Warning::TextBelow { line: broken.line });
+        log.push(Warning::TextBelow { line: broken.line });
     }
-    columns.into_grid(header, warnings)
+    columns.finish(header, layout, log)
 }
 
 /// The column that the header names as that of the wavelengths, if it names one.
@@ -58,6 +78,8 @@ struct Columns {
     named: Option<usize>,
     label_unit: Option<WavelengthUnit>,
     broken: Option<Broken>,
+    /// The line after the last row, once another table is seen.
+    next: Option<usize>,
 }
 
 /// What a line turned out to be.
@@ -80,6 +102,7 @@ impl Columns {
             named,
             label_unit: None,
             broken: None,
+            next: None,
         }
     }
 
@@ -96,12 +119,21 @@ impl Columns {
                     broken.others += usize::from(cells > 1);
                     let second = broken.others > 1;
                     self.broken = Some(broken);
-                    if second { Err(ReadError::SecondTable { line: number }) } else { Ok(()) }
+                    self.end(second);
+                    Ok(())
                 }
-                Some(broken) if !broken.has_numbers && self.restarts() => Err(ReadError::SecondTable { line: number }),
+                Some(broken) if !broken.has_numbers && self.restarts() => {
+                    self.end(true);
+                    Ok(())
+                }
                 Some(broken) => Err(broken.error),
             },
         }
+    }
+
+    /// Ends the table, if another one was seen.
+    fn end(&mut self, second: bool) {
+        self.next = self.lines.last().filter(|_| second).map(|line| line + 1);
     }
 
     /// Parses a line into `row`.
@@ -183,59 +215,70 @@ impl Columns {
         self.lines.reserve_exact(rows);
     }
 
-    fn into_grid(mut self, header: Header, warnings: &mut Vec<Warning>) -> Result<Grid, ReadError> {
+    fn finish(mut self, header: Header, layout: &Layout, log: &mut Log<'_>) -> Result<Read, ReadError> {
         let empty = |column: &Vec<f64>| column.iter().all(|value| value.is_nan());
-        let at = self.named.filter(|&at| at < self.cells.len());
+        let columns = self.cells.len();
+        if let Some(column) = layout.wavelength_column
+            && column.checked_sub(1).and_then(|at| self.cells.get(at)).is_none_or(empty)
+        {
+            return Err(ReadError::NotWavelengthColumn { column, columns });
+        }
+        let at = self.named.filter(|&at| at < columns);
         let at = at.or_else(|| self.cells.iter().position(|column| !empty(column))).unwrap_or(0);
         if self.cells[..at].iter().any(|column| !empty(column)) {
-            warnings.push(Warning::SkippedColumns { wavelength_column: at + 1 });
+            log.push(Warning::SkippedColumns { wavelength_column: at + 1 });
         }
+        self.cut_second_pass(at);
+        warn_of_names_without_columns(&header, columns, log);
+        let (next, rows, label_unit) = (self.next, self.lines.len(), self.label_unit);
         let values = self.cells.split_off(at + 1);
         let wavelengths = self.cells.pop().unwrap_or_default();
-        refuse_second_wavelengths(&header, at, &wavelengths, &values)?;
-        warn_of_names_without_columns(&header, at + 1 + values.len(), warnings);
-        let only = values.len() == 1;
-        let curves = values.into_iter().enumerate().map(|(i, values)| {
-            let column = at + 1 + i;
-            let title = header.comment("title").filter(|_| only);
-            let given = header.name(column).or(title);
-            let name = given.map_or_else(|| format!("Column {}", column + 1), str::to_owned);
-            RawCurve { name, named: given.is_some(), label: header.label(column), values }
-        });
-        let curves = curves.collect();
-        let rows = self.lines.len();
-        let (lines, label_unit) = (self.lines, self.label_unit);
-        let mut grid = Grid { wavelengths, lines, curves, header, label_unit, rows, ..Grid::default() };
-        drop_without_wavelength(&mut grid, warnings);
-        Ok(grid)
+        let more = pairs::more_wavelengths(&header, at, &wavelengths, &values);
+        let (mut grid, note) = if more.is_empty() {
+            let only = values.len() == 1;
+            let curves =
+                values.into_iter().zip(at + 1..).map(|(values, column)| raw_curve(&header, column, only, values));
+            let curves = curves.collect();
+            (Grid { wavelengths, lines: self.lines, curves, header, ..Grid::default() }, None)
+        } else {
+            pairs::read(header, at, wavelengths, values, &more, &self.lines, log)?
+        };
+        grid.label_unit = label_unit;
+        grid.rows = rows;
+        grid.wavelength_column = Some(at + 1);
+        drop_without_wavelength(&mut grid, log);
+        Ok(Read { grid, next, note })
     }
+
+    /// Leaves rows to the next table that go over the same wavelengths again.
+    fn cut_second_pass(&mut self, at: usize) {
+        if let Some(rows) = wavelengths::second_pass(&self.cells[at]) {
+            self.next = Some(self.lines[rows - 1] + 1);
+            self.lines.truncate(rows);
+            self.cells.iter_mut().for_each(|column| column.truncate(rows));
+        }
+    }
+}
+
+/// A column as a curve, with what the header says of it.
+fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> RawCurve {
+    let title = header.comment("title").filter(|_| only);
+    // What is measured names no sample, where there is only one.
+    let named = header.name(column).map(quantity::without_unit).filter(|name| !(only && words::is_quantity(name)));
+    let given = named.or(title);
+    let name = given.map_or_else(|| format!("Column {}", column + 1), str::to_owned);
+    RawCurve { name, named: given.is_some(), label: header.label(column), unit: header.unit(column), values }
 }
 
 /// A named column that is empty in every row is no column of the rows, but somebody expects it.
-fn warn_of_names_without_columns(header: &Header, width: usize, warnings: &mut Vec<Warning>) {
+fn warn_of_names_without_columns(header: &Header, width: usize, log: &mut Log<'_>) {
     let mut names = header.names.iter().skip(width).filter(|name| !name.is_empty());
     if let Some(first) = names.next() {
-        warnings.push(Warning::EmptyCurves { count: 1 + names.count(), first: first.clone() });
+        log.push(Warning::EmptyCurves { count: 1 + names.count(), first: first.clone() });
     }
 }
 
-/// Pairs of columns, each with its own wavelengths, must not be read as curves over the first.
-fn refuse_second_wavelengths(
-    header: &Header,
-    at: usize,
-    wavelengths: &[f64],
-    values: &[Vec<f64>],
-) -> Result<(), ReadError> {
-    for (i, column) in values.iter().enumerate() {
-        let named = header.name(at + 1 + i).is_some_and(|name| name.to_lowercase().starts_with("wavelength"));
-        if named || (wavelengths.len() > 1 && column == wavelengths) {
-            return Err(ReadError::SecondWavelengthColumn { column: at + 2 + i });
-        }
-    }
-    Ok(())
-}
-
-fn drop_without_wavelength(grid: &mut Grid, warnings: &mut Vec<Warning>) {
+fn drop_without_wavelength(grid: &mut Grid, log: &mut Log<'_>) {
     let marked: Vec<bool> = grid.wavelengths.iter().map(|value| value.is_nan()).collect();
     let mut list = LineList::default();
     for (index, _) in marked.iter().enumerate().filter(|(_, marked)| **marked) {
@@ -244,6 +287,6 @@ fn drop_without_wavelength(grid: &mut Grid, warnings: &mut Vec<Warning>) {
     }
     if !list.is_empty() {
         grid.remove(&marked);
-        warnings.push(Warning::NoWavelength { lines: list });
+        log.push(Warning::NoWavelength { lines: list });
     }
 }

@@ -1,6 +1,6 @@
 //! Why a file could not be read.
 
-use super::{BinaryKind, Family, MAX_CURVES, MAX_SAMPLES};
+use super::{BinaryKind, Family, MAX_CURVES, MAX_SAMPLES, Reader};
 
 /// Why a file could not be read: where, what, and what helps. Lines and columns count from 1.
 ///
@@ -56,6 +56,9 @@ pub enum ReadError {
         /// Values it should have.
         expected: usize,
     },
+    /// The caller wanted no more.
+    #[error("reading was stopped")]
+    Stopped,
     /// Nothing but white space.
     #[error("the file is empty: expected a wavelength and at least one value in each line")]
     Empty,
@@ -88,11 +91,45 @@ pub enum ReadError {
         /// Columns in the rest.
         expected: usize,
     },
-    /// Another table follows the first.
+    /// Rows of a table that each name their wavelengths have other ones than the first.
     #[error("line {line}: a second table begins here: put each table into a file of its own")]
     SecondTable {
         /// The first row of the second table.
         line: usize,
+    },
+    /// The file has fewer tables, blocks or groups than the caller chose from.
+    #[error("the file has no part {part}: it has {parts}")]
+    NoSuchPart {
+        /// The part that was chosen, from 1.
+        part: usize,
+        /// How many there are.
+        parts: usize,
+    },
+    /// The file is not of the family that the chosen reader is for.
+    #[error("this is no file of the chosen layout ({reader}): choose another, or let the content decide")]
+    OtherLayout {
+        /// The chosen reader.
+        reader: Reader,
+    },
+    /// The column that was chosen for the wavelengths holds no numbers, or is not there.
+    #[error("column {column} holds no wavelengths: the table has {columns} columns")]
+    NotWavelengthColumn {
+        /// The column, from 1.
+        column: usize,
+        /// How many there are.
+        columns: usize,
+    },
+    /// Numbers that may be wavelengths in ångströms as well as wave numbers.
+    #[error(
+        "line {line}: numbers from {min} to {max} may be ångströms or wave numbers (1/cm): choose the wavelength unit"
+    )]
+    AmbiguousUnit {
+        /// The line where they begin.
+        line: usize,
+        /// The smallest.
+        min: f64,
+        /// The largest.
+        max: f64,
     },
     /// Commas separate the cells and mark the fractions.
     #[error("line {line}: commas both separate numbers and mark fractions: export with semicolons or decimal points")]
@@ -100,14 +137,8 @@ pub enum ReadError {
         /// The line that shows it.
         line: usize,
     },
-    /// More than one column of wavelengths.
-    #[error("column {column} holds wavelengths too: put each pair of columns into a file of its own")]
-    SecondWavelengthColumn {
-        /// The column.
-        column: usize,
-    },
-    /// The header gives wave numbers or frequencies.
-    #[error("line {line}: the header gives wave numbers or frequencies: convert them to wavelengths in nm")]
+    /// The header gives photon energies, or another scale that is not converted.
+    #[error("line {line}: the header gives neither wavelengths nor wave numbers nor THz: convert to wavelengths in nm")]
     NotWavelengths {
         /// The header line.
         line: usize,
@@ -157,8 +188,11 @@ impl ReadError {
             Self::TooLarge { .. }
             | Self::Binary { .. }
             | Self::Empty
+            | Self::Stopped
             | Self::NoNumbers
-            | Self::SecondWavelengthColumn { .. } => None,
+            | Self::NoSuchPart { .. }
+            | Self::OtherLayout { .. }
+            | Self::NotWavelengthColumn { .. } => None,
             Self::Unsupported { .. } => Some(1),
             Self::OneColumn { line }
             | Self::Malformed { line, .. }
@@ -168,6 +202,7 @@ impl ReadError {
             | Self::UnevenRow { line, .. }
             | Self::SecondTable { line }
             | Self::AmbiguousCommas { line }
+            | Self::AmbiguousUnit { line, .. }
             | Self::NotWavelengths { line }
             | Self::TooFewSamples { line }
             | Self::WavelengthOutOfRange { line, .. }
@@ -182,7 +217,7 @@ impl ReadError {
         match *self {
             Self::NotANumber { column, .. }
             | Self::Malformed { column, .. }
-            | Self::SecondWavelengthColumn { column } => Some(column),
+            | Self::NotWavelengthColumn { column, .. } => Some(column),
             _ => None,
         }
     }

@@ -8,14 +8,19 @@ mod cxf;
 mod jcamp;
 mod json;
 mod labels;
-mod spectra;
+pub(super) mod spectra;
 mod tm27;
 mod xml;
 
 use super::family::{self, Family};
 use super::grid::Grid;
+use super::reading::MAX_PARTS;
 use super::sniff::{self, Layout};
-use super::{Decided, Decision, Orientation, ReadError, ReadOptions, Reader, Warning, columns, instrument, raw, wide};
+use super::text::{Lines, Section};
+use super::watch::Log;
+use super::{
+    Decided, Decision, Orientation, Part, ReadError, ReadOptions, Reader, Warning, columns, instrument, raw, wide,
+};
 
 /// What a reader makes of a text, before units, order and scale are settled.
 pub(super) struct Found {
@@ -27,26 +32,46 @@ pub(super) struct Found {
 }
 
 /// Reads a text with the reader that was chosen, or with the one its content asks for.
-pub(super) fn read(text: &str, options: &ReadOptions, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
+pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let reader = match options.reader {
-        Some(reader) => reader,
+        Some(reader) if fits(reader, text) => reader,
+        Some(reader) => return Err(ReadError::OtherLayout { reader }),
         None => recognize(text)?,
     };
     let mut found = match reader {
-        Reader::Table => table(text, options, warnings),
-        Reader::Cgats => cgats::read(text, warnings),
-        Reader::Jcamp => jcamp::read(text, options, warnings),
-        Reader::Tm27 => tm27::read(text, warnings),
-        Reader::Cxf => cxf::read(text, warnings),
-        Reader::Rawtoaces | Reader::Dcamprof => json::read(text, warnings),
-        Reader::Labels => labels::read(text, warnings),
-        Reader::Alternate => alternate::read(text, warnings),
-        Reader::Camspec => camspec::read(text),
+        Reader::Table => table(text, options, log),
+        Reader::Cgats => cgats::read(text, options, log),
+        Reader::Jcamp => jcamp::read(text, options, log),
+        Reader::Tm27 => tm27::read(text, log),
+        Reader::Cxf => cxf::read(text, log),
+        Reader::Rawtoaces | Reader::Dcamprof => json::read(text, options, log),
+        Reader::Labels => labels::read(text, options, log),
+        Reader::Alternate => alternate::read(text, log),
+        Reader::Camspec => camspec::read(text, log),
     }?;
-    if options.reader == Some(found.reader.value) {
-        found.reader = Decided::chosen(found.reader.value);
+    match options.reader {
+        Some(chosen) if chosen == found.reader.value => found.reader = Decided::chosen(chosen),
+        Some(reader) => return Err(ReadError::OtherLayout { reader }),
+        None => {}
     }
     Ok(found)
+}
+
+/// Whether a text can be of the layout that a reader was chosen for.
+fn fits(reader: Reader, text: &str) -> bool {
+    let has_line = |start: &str| Lines::new(text).any(|(_, line)| line.trim_start().starts_with(start));
+    match reader {
+        Reader::Table => true,
+        Reader::Cgats => has_line("BEGIN_DATA_FORMAT"),
+        Reader::Jcamp => has_line("##"),
+        Reader::Tm27 | Reader::Cxf => {
+            family::recognize(text) == Some(Family::Xml) && xml::recognize(text).is_none_or(|found| found == reader)
+        }
+        Reader::Rawtoaces | Reader::Dcamprof => family::recognize(text) == Some(Family::Json),
+        Reader::Labels => labels::recognize(text),
+        Reader::Alternate => alternate::recognize(text),
+        Reader::Camspec => camspec::recognize(text),
+    }
 }
 
 /// The reader that the content asks for.
@@ -63,19 +88,75 @@ fn recognize(text: &str) -> Result<Reader, ReadError> {
     }
 }
 
-/// Numbers in columns.
-fn table(text: &str, options: &ReadOptions, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
-    let layout = sniff::sniff(text, options)?;
-    warnings.extend(layout.warnings.iter().cloned());
-    let mut grid = match layout.orientation.value {
-        Orientation::Down => columns::read(text, &layout, warnings)?,
-        Orientation::Across => wide::read(text, &layout, warnings)?,
+/// Numbers in columns: the table that was chosen of several below one another, else the first.
+fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+    let wanted = options.part.unwrap_or(1);
+    let mut section = Section::whole(text);
+    let mut parts = Vec::new();
+    let mut taken: Option<(Layout, columns::Read)> = None;
+    let mut begun = None;
+    loop {
+        let warnings = log.warnings.len();
+        let (layout, mut read) = match one(section, options, log) {
+            Ok(read) => read,
+            Err(ReadError::Stopped) => return Err(ReadError::Stopped),
+            Err(error) if taken.is_some() => {
+                log.warnings.truncate(warnings);
+                if let Some(line) = begun {
+                    log.push(Warning::BrokenTable { line, error: Box::new(error) });
+                }
+                break;
+            }
+            Err(ReadError::NoNumbers | ReadError::OneColumn { .. }) if !parts.is_empty() => break,
+            Err(error) => return Err(error),
+        };
+        let next = read.next.take();
+        parts.push(part(&layout, &read.grid));
+        if parts.len() == wanted {
+            taken = Some((layout, read));
+        } else {
+            log.warnings.truncate(warnings);
+        }
+        match next.filter(|_| parts.len() < MAX_PARTS) {
+            Some(line) => {
+                begun = Some(line);
+                section = section.after(line);
+            }
+            None => break,
+        }
+    }
+    let Some((layout, read)) = taken else {
+        return Err(ReadError::NoSuchPart { part: wanted, parts: parts.len() });
     };
+    let columns::Read { mut grid, note, .. } = read;
+    let mut notes: Vec<Decision> = note.into_iter().collect();
+    if let [_, second, ..] = parts.as_slice() {
+        grid.part = Some(Decided::guess(wanted, format!("{} tables stand below one another", parts.len())));
+        if options.part.is_none() {
+            log.push(Warning::MoreTables { line: second.line });
+        }
+        grid.parts = parts;
+    }
     let reader = Decided::certain(Reader::Table, "Rows of numbers");
-    let mut notes = Vec::new();
     if options.reader.is_none() {
-        notes.extend(instrument::recognize(text, &mut grid, warnings));
+        notes.extend(instrument::recognize(text, &mut grid));
     }
     notes.extend(raw::leave_out(&mut grid, options));
     Ok(Found { grid, layout, reader, notes })
+}
+
+/// The first table of a section.
+fn one(section: Section<'_>, options: &ReadOptions, log: &mut Log<'_>) -> Result<(Layout, columns::Read), ReadError> {
+    let layout = sniff::sniff(section, options)?;
+    log.extend(layout.warnings.iter().cloned());
+    let read = match layout.orientation.value {
+        Orientation::Down => columns::read(section, &layout, log)?,
+        Orientation::Across => columns::Read { grid: wide::read(section, &layout, log)?, next: None, note: None },
+    };
+    Ok((layout, read))
+}
+
+fn part(layout: &Layout, grid: &Grid) -> Part {
+    let name = grid.header.comment("title").unwrap_or_default().to_owned();
+    Part { line: layout.first_line, name, curves: grid.curves.len(), rows: grid.rows }
 }

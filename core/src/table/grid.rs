@@ -2,7 +2,8 @@
 
 use super::header::Header;
 use super::warning::{LineList, Warning};
-use super::{Curve, Decided, Dropped, DroppedRow, Role, WavelengthUnit};
+use super::watch::Log;
+use super::{Curve, Decided, Dropped, DroppedRow, Part, Quantity, ReadError, Role, WavelengthUnit};
 
 /// How many dropped rows are listed; nobody reads more.
 const MAX_DROPPED: usize = 1000;
@@ -24,8 +25,15 @@ pub(super) struct Grid {
     pub(super) unit: Option<Decided<WavelengthUnit>>,
     /// What the curves are, if the format says or suggests it.
     pub(super) role: Option<Decided<Role>>,
+    /// What the values are, if the format says so.
+    pub(super) quantity: Option<Decided<Quantity>>,
+    /// The parts of the file, if it can have several, and which one this is.
+    pub(super) parts: Vec<Part>,
+    pub(super) part: Option<Decided<usize>>,
     /// Rows of numbers in the file.
     pub(super) rows: usize,
+    /// The column of the wavelengths, from 1, where they run down one.
+    pub(super) wavelength_column: Option<usize>,
     /// Whether each curve has wavelengths of its own, so that one it lacks is no gap.
     pub(super) own_wavelengths: bool,
     /// Rows left out.
@@ -40,6 +48,8 @@ pub(super) struct RawCurve {
     pub(super) named: bool,
     /// All that the header says about this curve: its name and its unit.
     pub(super) label: String,
+    /// The unit of the values as the file names it.
+    pub(super) unit: Option<String>,
     pub(super) values: Vec<f64>,
 }
 
@@ -68,6 +78,25 @@ impl Grid {
         })
     }
 
+    /// Settles which part of a file this is; a file without a list of parts is a single one.
+    pub(super) fn settle_parts(
+        &mut self,
+        chosen: Option<usize>,
+        first_line: usize,
+    ) -> Result<(Vec<Part>, Decided<usize>), ReadError> {
+        let mut parts = std::mem::take(&mut self.parts);
+        if parts.is_empty() {
+            let name = self.header.comment("title").unwrap_or_default().to_owned();
+            parts.push(Part { line: first_line, name, curves: self.curves.len(), rows: self.rows });
+        }
+        if let Some(part) = chosen.filter(|part| !(1..=parts.len()).contains(part)) {
+            return Err(ReadError::NoSuchPart { part, parts: parts.len() });
+        }
+        let only = || Decided::certain(1, "The file has one part");
+        let part = chosen.map_or_else(|| self.part.take().unwrap_or_else(only), Decided::chosen);
+        Ok((parts, part))
+    }
+
     /// Notes a row as left out.
     pub(super) fn drop_row(&mut self, line: usize, why: Dropped) {
         if self.dropped.len() < MAX_DROPPED {
@@ -88,7 +117,7 @@ impl Grid {
 
     /// The curves without their gaps. A curve of fewer than two values is left
     /// out; it is worth a warning only if it has a name or a value.
-    pub(super) fn into_curves(mut self, warnings: &mut Vec<Warning>) -> Vec<Curve> {
+    pub(super) fn into_curves(mut self, log: &mut Log<'_>) -> Vec<Curve> {
         let mut gaps = vec![0_u32; self.wavelengths.len()];
         let mut curves = Vec::new();
         let (mut empty, mut first_empty) = (0, None);
@@ -112,28 +141,28 @@ impl Grid {
                 curve.missing = 0;
             }
         } else {
-            warn_gaps(&gaps, &self.lines, warnings);
+            warn_gaps(&gaps, &self.lines, log);
         }
         if let Some(first) = first_empty {
-            warnings.push(Warning::EmptyCurves { count: empty, first });
+            log.push(Warning::EmptyCurves { count: empty, first });
         }
         curves
     }
 }
 
 fn curve(raw: RawCurve, wavelengths: &[f64], missing: usize) -> Curve {
-    let RawCurve { name, named, mut values, .. } = raw;
+    let RawCurve { name, named, unit, mut values, .. } = raw;
     if missing == 0 {
         values.shrink_to_fit();
-        return Curve { name, named, wavelengths_nm: wavelengths.to_vec(), values, missing };
+        return Curve { name, named, wavelengths_nm: wavelengths.to_vec(), values, missing, unit };
     }
     let present = wavelengths.iter().zip(&values).filter(|(_, value)| !value.is_nan());
     let wavelengths_nm = present.map(|(wavelength, _)| *wavelength).collect();
     values.retain(|value| !value.is_nan());
-    Curve { name, named, wavelengths_nm, values, missing }
+    Curve { name, named, wavelengths_nm, values, missing, unit }
 }
 
-fn warn_gaps(gaps: &[u32], lines: &[usize], warnings: &mut Vec<Warning>) {
+fn warn_gaps(gaps: &[u32], lines: &[usize], log: &mut Log<'_>) {
     let cells: usize = gaps.iter().map(|&count| count as usize).sum();
     if cells == 0 {
         return;
@@ -149,7 +178,7 @@ fn warn_gaps(gaps: &[u32], lines: &[usize], warnings: &mut Vec<Warning>) {
     for line in gap_lines {
         list.add(line);
     }
-    warnings.push(Warning::Gaps { cells, lines: list });
+    log.push(Warning::Gaps { cells, lines: list });
 }
 
 fn retain<T>(items: &mut Vec<T>, marked: &[bool]) {

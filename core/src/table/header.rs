@@ -1,10 +1,11 @@
 //! What stands above the numbers: comments, names of columns, units.
 
 use super::dialect::{Cell, Delimiter, Dialect};
-use super::reading::Orientation;
-use super::scale::Role;
+use super::quantity::{self, Quantity};
+use super::reading::{Medium, Orientation};
+use super::scale::{Role, Values};
 use super::sniff::Layout;
-use super::text::{Lines, comment};
+use super::text::{Lines, Section, comment};
 use super::words::{self, XUnit};
 use super::{MAX_CURVES, WavelengthUnit};
 
@@ -26,8 +27,14 @@ pub(super) struct Header {
     pub(super) units: Vec<String>,
     /// The unit of the wavelengths and the line that gives it.
     pub(super) x_unit: Option<(usize, XUnit)>,
-    /// Percent or not, as a line about all values says, and that line.
-    pub(super) percent: Option<(usize, bool)>,
+    /// What all values stand for, as a line says, and that line.
+    pub(super) values: Option<(usize, Values)>,
+    /// The physical quantity of all values, as a line says, and that line.
+    pub(super) quantity: Option<(usize, Quantity)>,
+    /// The unit of all values.
+    pub(super) unit: Option<String>,
+    /// In what the wavelengths are measured, and the line that says so.
+    pub(super) medium: Option<(usize, Medium)>,
     /// What a comment or a unit line says the values are.
     pub(super) role: Option<(usize, Role)>,
     /// What free text mentions; only good for a guess.
@@ -46,6 +53,16 @@ impl Header {
         format!("{} {unit}", self.name(column).unwrap_or_default()).trim().to_owned()
     }
 
+    /// The unit that the header gives for a column of values.
+    pub(super) fn unit(&self, column: usize) -> Option<String> {
+        let whole = |cell: &&String| cell.starts_with(['[', '(']);
+        let cell = self.units.get(column);
+        let cell = cell.and_then(|cell| {
+            quantity::unit(cell).or_else(|| Some(cell).filter(whole).and_then(|cell| quantity::unit_cell(cell)))
+        });
+        cell.or_else(|| self.name(column).and_then(quantity::unit)).or_else(|| self.unit.clone())
+    }
+
     /// Keeps a comment.
     pub(super) fn note(&mut self, key: &str, value: &str) {
         if self.comments.len() < MAX_COMMENTS && !value.is_empty() {
@@ -60,10 +77,10 @@ impl Header {
 }
 
 /// Reads what stands above the numbers of a layout.
-pub(super) fn read(text: &str, layout: &Layout) -> Header {
+pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
     let mut header = Header::default();
     let mut near: Vec<(usize, &str)> = Vec::with_capacity(NEAR + 1);
-    for (number, line) in Lines::new(text).take_while(|(number, _)| *number < layout.header_end()) {
+    for (number, line) in Lines::of(section).take_while(|(number, _)| *number < layout.header_end()) {
         if line.trim().is_empty() {
             continue;
         }
@@ -87,9 +104,11 @@ pub(super) fn read(text: &str, layout: &Layout) -> Header {
 impl Header {
     fn take_comment(&mut self, line: usize, key: &str, value: &str) {
         let lower = key.to_ascii_lowercase();
-        if matches!(lower.as_str(), "unit" | "units" | "quantity" | "y unit" | "yunit") {
+        if matches!(lower.as_str(), "unit" | "units" | "quantity" | "y unit" | "y units" | "yunit" | "yunits") {
             self.take_value_unit(line, value);
-            self.role = words::role(value).map(|role| (line, role)).or(self.role);
+            if lower != "quantity" {
+                self.unit = quantity::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
+            }
         }
         if matches!(lower.as_str(), "response" | "title" | "description") {
             self.mentioned = self.mentioned.or_else(|| words::role(value).map(|role| (line, role)));
@@ -105,25 +124,42 @@ impl Header {
     }
 
     fn take_value_unit(&mut self, line: usize, text: &str) {
-        if words::says_percent(text) {
-            self.percent = Some((line, true));
-        } else if words::says_fraction(text) && self.percent.is_none() {
-            self.percent = Some((line, false));
+        let plain_after_other = |values: &Values| *values == Values::Plain && self.values.is_some();
+        if let Some(values) = words::values(text).filter(|values| !plain_after_other(values)) {
+            self.values = Some((line, values));
         }
+        self.role = words::role(text).map(|role| (line, role)).or(self.role);
+        self.quantity = match (words::quantity(text), self.quantity) {
+            (Some(Quantity::Relative), Some(known)) => Some(known),
+            (found, known) => found.map(|quantity| (line, quantity)).or(known),
+        };
     }
 
     fn take_prose(&mut self, line: usize, text: &str) {
         if let Some(unit) = words::x_unit_in_prose(text) {
             self.x_unit = Some((line, unit));
         }
+        self.medium = words::medium(text).map(|medium| (line, medium)).or(self.medium);
         let start = text.trim_start().as_bytes();
         let about_y = start.get(..6).is_some_and(|start| start.eq_ignore_ascii_case(b"y unit"))
-            || start.get(..5).is_some_and(|start| start.eq_ignore_ascii_case(b"yunit"));
+            || start.get(..5).is_some_and(|start| start.eq_ignore_ascii_case(b"yunit"))
+            || start.get(..9).is_some_and(|start| start.eq_ignore_ascii_case(b"yaxisunit"));
         if about_y {
             self.take_value_unit(line, text);
-            self.role = words::role(text).map(|role| (line, role)).or(self.role);
+            let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| quantity::unit(value));
+            self.unit = unit.or(self.unit.take());
         }
+        self.take_mode(line, text);
         self.mentioned = words::role(text).map(|role| (line, role)).or(self.mentioned);
+    }
+
+    /// A line such as `Mode/Unit-->,Irradiance[µWatt/cm²]`.
+    fn take_mode(&mut self, line: usize, text: &str) {
+        if let Some((_, value)) = text.split_once("Unit-->") {
+            let value = value.trim_start_matches([',', ';', '\t', ' ']);
+            self.take_value_unit(line, value);
+            self.unit = quantity::unit(value).or(self.unit.take());
+        }
     }
 
     /// The names, and units below them, from the lines just above the numbers.
@@ -163,12 +199,13 @@ impl Header {
 
     /// Names that do not split into the columns of the table still say something about it as a whole.
     fn take_joined(&mut self, number: usize, line: &str) {
-        if words::names_wavelengths(line) && self.percent.is_none() {
+        if words::names_wavelengths(line) && self.values.is_none() {
             self.line = self.line.or(Some(number));
-            if words::says_percent(line) {
-                self.percent = Some((number, true));
+            if let Some(values) = words::values(line).filter(|values| *values != Values::Plain) {
+                self.values = Some((number, values));
             }
             self.role = words::role(line).map(|role| (number, role)).or(self.role);
+            self.quantity = words::quantity(line).map(|quantity| (number, quantity)).or(self.quantity);
         }
     }
 
@@ -182,8 +219,13 @@ impl Header {
 
 /// Whether a line above two columns is a setting of the instrument, such as `LUX 695`, and no pair of names.
 fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
-    let numeric = |cell: &String| matches!(layout.dialect().parse(cell), Cell::Number(_));
-    layout.width == 2 && cells.len() == 2 && numeric(&cells[1]) && !words::names_wavelengths(&cells[0])
+    if layout.width != 2 || cells.len() != 2 {
+        return false;
+    }
+    let key = cells[0].to_ascii_lowercase();
+    let numeric = matches!(layout.dialect().parse(&cells[1]), Cell::Number(_));
+    ["xaxis", "yaxis", "x unit", "y unit"].iter().any(|start| key.starts_with(start))
+        || (numeric && !words::names_wavelengths(&cells[0]))
 }
 
 /// The cells of a header line, unescaped, without empty ones at the end.
@@ -207,7 +249,11 @@ fn is_unit_row(cells: &[String]) -> bool {
 }
 
 fn looks_like_unit(cell: &str) -> bool {
-    cell.is_empty()
-        || cell.contains(['%', '/'])
-        || matches!(cell.to_ascii_lowercase().as_str(), "a.u." | "counts" | "1" | "-")
+    // `leaf (%)` is a name with its unit, `(%)` a unit.
+    let named = !cell.starts_with(['[', '(']) && cell.contains(['[', '(']);
+    !named
+        && (cell.is_empty()
+            || cell.starts_with(['[', '('])
+            || cell.contains(['%', '/'])
+            || matches!(cell.to_ascii_lowercase().as_str(), "a.u." | "counts" | "1" | "-"))
 }

@@ -2,7 +2,7 @@
 
 use super::grid::Grid;
 use super::text::Lines;
-use super::{Decided, Decision, Role, Warning};
+use super::{Decided, Decision, Quantity, Role, Values};
 
 /// Lines that are looked at for marks.
 const LOOK: usize = 60;
@@ -43,20 +43,20 @@ impl Mark {
 }
 
 /// Names the program that wrote a table, and takes over what only its own words say.
-pub(super) fn recognize(text: &str, grid: &mut Grid, warnings: &mut Vec<Warning>) -> Option<Decision> {
+pub(super) fn recognize(text: &str, grid: &mut Grid) -> Option<Decision> {
     let lines = || Lines::new(text).take(LOOK).filter(|(_, line)| line.len() <= LONGEST);
     if let Some((line, mode)) = lines().take(4).find_map(|(line, text)| Some((line, stellarnet_mode(text)?))) {
-        take_mode(line, mode, grid, warnings);
+        take_mode(line, mode, grid);
         return Some(decision("StellarNet SpectraWiz", line));
-    }
-    let decibels = |line: &str| line.trim_start_matches('#').to_ascii_lowercase().starts_with("yaxisunit;dbm");
-    if let Some((line, _)) = lines().find(|(_, line)| decibels(line)) {
-        warnings.push(Warning::Decibels { line });
     }
     let (line, program) = lines().find_map(|(number, line)| {
         let mark = MARKS.iter().find(|(mark, _)| mark.fits(line));
         mark.map(|(_, program)| (number, *program))
     })?;
+    if program.starts_with("Thorlabs") {
+        grid.role
+            .get_or_insert_with(|| Decided::guess(Role::Illuminant, format!("Line {line} is of an analyzer of light")));
+    }
     if let Some(name) = lines().find_map(|(_, line)| library_name(line)) {
         grid.header.note("title", name);
         if let [only] = grid.curves.as_mut_slice()
@@ -84,17 +84,23 @@ fn stellarnet_mode(line: &str) -> Option<&str> {
     rest.contains("Wave:").then_some(mode.trim())
 }
 
-fn take_mode(line: usize, mode: &str, grid: &mut Grid, warnings: &mut Vec<Warning>) {
-    let why = || format!("Line {line} says {mode}");
-    match mode.to_ascii_uppercase().as_str() {
-        "TRANS" | "REFL" | "TRM" => {
-            grid.role = Some(Decided::certain(Role::Reflectance, why()));
-            grid.header.percent = Some((line, true));
+fn take_mode(line: usize, mode: &str, grid: &mut Grid) {
+    let why = format!("Line {line} says {mode}");
+    let (quantity, values) = match mode.to_ascii_uppercase().as_str() {
+        "TRANS" | "TRM" => (Quantity::Transmittance, Some(Values::Percent)),
+        "REFL" | "REFLECT" => (Quantity::Reflectance, Some(Values::Percent)),
+        "ABSORB" | "ABS" => {
+            grid.role = Some(Decided::guess(Role::Transmittance, &*why));
+            grid.header.values = Some((line, Values::Absorbance));
+            return;
         }
-        "ABSORB" | "ABS" => warnings.push(Warning::Absorbance { line }),
-        "SCOPE" | "IRRAD" | "IRR" | "WATTS" | "LUMENS" => {
-            grid.role = Some(Decided::certain(Role::Illuminant, why()));
-        }
-        _ => {}
-    }
+        "SCOPE" => (Quantity::Counts, None),
+        "IRRAD" | "IRR" => (Quantity::Irradiance, None),
+        "WATTS" => (Quantity::RadiantFlux, None),
+        "LUMENS" => (Quantity::SpectralPower, None),
+        _ => return,
+    };
+    grid.role = quantity.role().map(|role| Decided::certain(role, &*why));
+    grid.header.values = values.map(|values| (line, values)).or(grid.header.values);
+    grid.quantity = Some(Decided::certain(quantity, why));
 }

@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use super::{DecimalMark, Delimiter, WavelengthUnit};
+use serde::{Deserialize, Serialize};
+
+use super::{DecimalMark, Delimiter, Quantity, Values, WavelengthUnit};
 
 /// How sure a decision is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -47,6 +49,11 @@ impl<T> Decided<T> {
 
     pub(super) fn chosen(value: T) -> Self {
         Self { value, certainty: Certainty::Chosen, why: "Chosen by hand".to_owned() }
+    }
+
+    /// The same decision with its value told in words.
+    pub(super) fn told(&self, value: &str) -> Decided<String> {
+        Decided { value: value.to_owned(), certainty: self.certainty, why: self.why.clone() }
     }
 
     /// The caller's choice if there is one, else what `decide` finds.
@@ -106,7 +113,8 @@ impl fmt::Display for Encoding {
 }
 
 /// Where the wavelengths stand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Orientation {
     /// Down a column; every other column is a curve.
     Down,
@@ -124,7 +132,8 @@ impl fmt::Display for Orientation {
 }
 
 /// Which reader took the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Reader {
     /// The general reader of numbers in rows and columns.
@@ -165,6 +174,40 @@ impl fmt::Display for Reader {
         })
     }
 }
+
+/// In what the wavelengths of a file are measured. They are taken as they are: the difference is 0.03 %.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Medium {
+    /// Air.
+    Air,
+    /// Vacuum.
+    Vacuum,
+}
+
+impl fmt::Display for Medium {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Air => "wavelengths in air, taken as they are",
+            Self::Vacuum => "wavelengths in vacuum, taken as they are",
+        })
+    }
+}
+
+/// One of several tables, blocks or groups in a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// The line where its numbers begin, from 1.
+    pub line: usize,
+    /// Its name in the file, or an empty text.
+    pub name: String,
+    /// Curves in it.
+    pub curves: usize,
+    /// Rows of numbers in it (samples, where wavelengths run down).
+    pub rows: usize,
+}
+
+/// How many parts of a file are listed and can be chosen.
+pub(super) const MAX_PARTS: usize = 1000;
 
 /// Why a row is in no curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -236,8 +279,18 @@ pub struct Reading {
     pub orientation: Decided<Orientation>,
     /// The unit of the wavelengths as written.
     pub wavelength_unit: Decided<WavelengthUnit>,
-    /// Whether the values (or the columns the header marks) were percent and are divided by 100.
-    pub percent: Decided<bool>,
+    /// The column of the wavelengths, from 1, where they run down one.
+    pub wavelength_column: Option<usize>,
+    /// What the values (or those of the columns that the header marks) stood for.
+    pub values: Decided<Values>,
+    /// The physical quantity of the values.
+    pub quantity: Decided<Quantity>,
+    /// For camera sensitivities, whether they are responses per photon and not per energy.
+    pub per_photon: Option<Decided<bool>>,
+    /// The tables, blocks or groups of the file that have spectra, in its order; the first thousand. At least one.
+    pub parts: Vec<Part>,
+    /// Which of the parts was taken, from 1; 0 where all were, side by side.
+    pub part: Decided<usize>,
     /// Decisions that only some families of files ask for, such as which block was taken.
     pub notes: Vec<Decision>,
     /// The comments above the table, `# key: value`, in order; the first thousand.
@@ -263,11 +316,6 @@ pub struct Reading {
 impl Reading {
     /// Every decision, in the order in which they were made.
     pub fn decisions(&self) -> Vec<Decision> {
-        let scale = Decided {
-            value: if self.percent.value { "percent" } else { "plain numbers, not percent" },
-            certainty: self.percent.certainty,
-            why: self.percent.why.clone(),
-        };
         let mut all = Vec::new();
         if self.reader.value != Reader::Table || self.reader.certainty == Certainty::Chosen {
             all.push(Decision::new("Layout", &self.reader));
@@ -278,8 +326,16 @@ impl Reading {
             Decision::new("Decimal mark", &self.decimal_mark),
             Decision::new("Orientation", &self.orientation),
             Decision::new("Wavelengths", &self.wavelength_unit),
-            Decision::new("Values", &scale),
+            Decision::new("Values", &self.values),
+            Decision::new("Quantity", &self.quantity),
         ]);
+        if let Some(per_photon) = &self.per_photon {
+            let what = if per_photon.value { "responses per photon" } else { "responses per energy" };
+            all.push(Decision::new("Response", &per_photon.told(what)));
+        }
+        if self.parts.len() > 1 {
+            all.push(Decision::new("Part", &self.part.told(&self.told_part())));
+        }
         all.extend(self.notes.iter().cloned());
         all
     }
@@ -287,6 +343,16 @@ impl Reading {
     /// The value of a comment, such as `title`, whatever the case of its key.
     pub fn comment(&self, key: &str) -> Option<&str> {
         self.header.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, value)| value.as_str())
+    }
+
+    fn told_part(&self) -> String {
+        let count = self.parts.len();
+        match self.part.value.checked_sub(1).map(|index| (index, self.parts.get(index))) {
+            None => format!("curves side by side, from all {count} parts"),
+            Some((index, part)) => {
+                format!("part {} of {count}, from line {}", index + 1, part.map_or(1, |part| part.line))
+            }
+        }
     }
 
     fn encoding_evidence(&self) -> &'static str {

@@ -2,20 +2,35 @@
 
 use std::fmt;
 
-use super::grid::Grid;
+use serde::{Deserialize, Serialize};
+
+use super::grid::{Grid, RawCurve};
 use super::warning::Warning;
+use super::watch::Log;
 use super::words::{self, Channel};
 use super::{Certainty, Curve, Decided, ReadOptions};
 
 /// What the curves of a table are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Role {
     /// Sensitivities of a camera, or color matching functions.
     Camera,
-    /// Reflectances, or transmittances of filters: fractions of one.
+    /// Reflectances: fractions of one.
     Reflectance,
+    /// Transmittances of filters: fractions of one.
+    Transmittance,
     /// Spectral power of lights, in any unit.
     Illuminant,
+    /// Nothing says what they are, and their values suggest nothing.
+    Unknown,
+}
+
+impl Role {
+    /// Whether the curves are fractions of the light that falls on something.
+    pub fn is_fraction(self) -> bool {
+        matches!(self, Self::Reflectance | Self::Transmittance)
+    }
 }
 
 impl fmt::Display for Role {
@@ -23,7 +38,34 @@ impl fmt::Display for Role {
         f.write_str(match self {
             Self::Camera => "camera sensitivities",
             Self::Reflectance => "reflectances",
+            Self::Transmittance => "transmittances",
             Self::Illuminant => "illuminants",
+            Self::Unknown => "spectra of an unknown kind",
+        })
+    }
+}
+
+/// What the values stand for as written, and so what is done to them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Values {
+    /// Taken as they are: fractions of one where the curves are reflectances or transmittances.
+    Plain,
+    /// Percent: divided by 100.
+    Percent,
+    /// Decadic absorbances A: taken as the fraction 10^−A.
+    Absorbance,
+    /// Decibels L of power: taken as the power 10^(L/10).
+    Decibels,
+}
+
+impl fmt::Display for Values {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Plain => "plain numbers, not percent",
+            Self::Percent => "percent",
+            Self::Absorbance => "absorbances, of which fractions are made",
+            Self::Decibels => "decibels, of which powers are made",
         })
     }
 }
@@ -32,16 +74,16 @@ impl fmt::Display for Role {
 #[derive(Debug)]
 pub(super) struct Scale {
     pub(super) role: Decided<Role>,
-    pub(super) percent: Decided<bool>,
+    pub(super) values: Decided<Values>,
     divided: Divided,
 }
 
 #[derive(Debug, PartialEq)]
 enum Divided {
     None,
-    All,
-    /// Only the curves whose own header says percent.
-    Headed,
+    All(Values),
+    /// Only the curves whose own headers say so.
+    Headed(Role),
 }
 
 /// Where reflectances are judged: outside, instruments are noisy.
@@ -115,8 +157,8 @@ pub(super) fn decide(grid: &Grid, options: &ReadOptions) -> Scale {
             .or_else(|| role_from_hints(grid, options))
             .unwrap_or_else(|| role_from_values(grid, &span))
     });
-    let (percent, divided) = percent(grid, options, role.value, &span);
-    Scale { role, percent, divided }
+    let (values, divided) = values(grid, options, role.value, &span);
+    Scale { role, values, divided }
 }
 
 fn role_from_header(grid: &Grid) -> Option<Decided<Role>> {
@@ -132,27 +174,61 @@ fn role_from_header(grid: &Grid) -> Option<Decided<Role>> {
         let agree = named.all(|(other, _)| other == role);
         return Some(if agree { Decided::certain(role, why) } else { Decided::guess(role, why) });
     }
-    let names: Vec<&str> = grid.curves.iter().map(|curve| curve.label.as_str()).collect();
-    let (_, letters) = channels(&names)?;
-    Some(if letters {
-        Decided::certain(Role::Camera, format!("The columns are named {}", names.join(", ")))
-    } else {
-        Decided::guess(Role::Camera, format!("The columns are named {}", names.join(", ")))
+    let names: Vec<&str> = grid.curves.iter().take(MOST_CHANNELS + 1).map(|curve| curve.label.as_str()).collect();
+    if let Some((_, letters)) = channels(&names) {
+        let why = format!("The columns are named {}", names.join(", "));
+        return Some(if letters { Decided::certain(Role::Camera, why) } else { Decided::guess(Role::Camera, why) });
+    }
+    role_from_quantity(grid)
+}
+
+/// The role that a quantity leaves, such as none for counts: the sensitivity of the detector is still in them.
+fn role_from_quantity(grid: &Grid) -> Option<Decided<Role>> {
+    if let Some((line, quantity)) = grid.header.quantity
+        && let Some(role) = quantity.role()
+    {
+        return Some(Decided::certain(role, format!("Line {line} says {quantity}")));
+    }
+    let says_counts = |curve: &RawCurve| {
+        words::says_counts(&curve.label) || curve.unit.as_ref().is_some_and(|unit| words::says_counts(unit))
+    };
+    let counts = !grid.curves.is_empty() && grid.curves.iter().all(says_counts);
+    counts.then(|| {
+        Decided::certain(Role::Unknown, "The columns are headed counts, which a detector's own sensitivity shapes")
     })
 }
 
 fn role_from_hints(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
-    if options.percent == Some(true) {
-        return Some(Decided::guess(Role::Reflectance, "Percent was chosen"));
-    }
-    let headed = grid.curves.iter().any(|curve| words::says_percent(&curve.label));
-    if headed || matches!(grid.header.percent, Some((_, true))) {
-        return Some(Decided::guess(Role::Reflectance, "The header says percent"));
-    }
-    if let Some((line, role)) = grid.header.mentioned {
+    let (values, why) = match (options.values, grid.header.values) {
+        (Some(values), _) => (Some(values), "It was chosen what the values stand for".to_owned()),
+        (None, Some((line, values))) => (Some(values), format!("Line {line} says {values}")),
+        (None, None) => {
+            let headed = grid.curves.iter().find_map(|curve| words::values(&curve.label));
+            (headed.filter(|values| *values != Values::Plain), "The header says what the values stand for".to_owned())
+        }
+    };
+    // What else a file says of its content says more than its scale.
+    if let Some((line, role)) = grid.header.mentioned.filter(|(_, role)| suits(*role, values)) {
         return Some(Decided::guess(role, format!("Line {line} mentions it")));
     }
-    grid.role.clone()
+    if let Some(role) = grid.role.as_ref().filter(|role| suits(role.value, values)) {
+        return Some(role.clone());
+    }
+    match values? {
+        Values::Plain => None,
+        Values::Percent => Some(Decided::guess(Role::Reflectance, why)),
+        // Most spectrometers derive absorbances from what passes a sample.
+        Values::Absorbance => Some(Decided::guess(Role::Transmittance, why)),
+        Values::Decibels => Some(Decided::guess(Role::Illuminant, why)),
+    }
+}
+
+/// Whether curves of a role may be written so. Lights in percent are not told from reflectances by a mere mention.
+fn suits(role: Role, values: Option<Values>) -> bool {
+    match values {
+        Some(Values::Percent | Values::Absorbance) => role.is_fraction(),
+        _ => true,
+    }
 }
 
 fn role_from_values(grid: &Grid, span: &Span) -> Decided<Role> {
@@ -171,50 +247,71 @@ fn role_from_values(grid: &Grid, span: &Span) -> Decided<Role> {
     } else if anchored {
         Decided::guess(Role::Illuminant, "Values are 100 at 560 nm")
     } else {
-        Decided::guess(Role::Illuminant, span.evidence())
+        Decided::guess(Role::Unknown, format!("{}, and nothing says what they are", span.evidence()))
     }
 }
 
-fn percent(grid: &Grid, options: &ReadOptions, role: Role, span: &Span) -> (Decided<bool>, Divided) {
-    if role != Role::Reflectance {
-        return (Decided::certain(false, "Only reflectances are scaled"), Divided::None);
-    }
-    let all = |percent: bool| if percent { Divided::All } else { Divided::None };
-    if let Some(chosen) = options.percent {
+fn values(grid: &Grid, options: &ReadOptions, role: Role, span: &Span) -> (Decided<Values>, Divided) {
+    let all = |values: Values| if values == Values::Plain { Divided::None } else { Divided::All(values) };
+    if let Some(chosen) = options.values {
         return (Decided::chosen(chosen), all(chosen));
     }
-    if let Some((line, percent)) = grid.header.percent {
-        return (Decided::certain(percent, format!("Line {line} says so")), all(percent));
+    if let Some((line, values)) = grid.header.values.filter(|(_, values)| role.is_fraction() || is_power(*values)) {
+        return (Decided::certain(values, format!("Line {line} says so")), all(values));
     }
-    let headed = grid.curves.iter().filter(|curve| words::says_percent(&curve.label)).count();
-    if headed > 0 {
-        let whole = headed == grid.curves.len();
+    let headed = |curve: &RawCurve| headed(curve, role);
+    let marks = grid.curves.iter().filter_map(headed);
+    if let Some(first) = marks.clone().next() {
+        let whole = marks.clone().count() == grid.curves.len() && marks.clone().all(|values| values == first);
         let why =
-            if whole { "The columns are headed percent" } else { "Some columns are headed percent, and only they" };
-        return (Decided::certain(true, why), if whole { Divided::All } else { Divided::Headed });
+            format!("{} headed {first}", if whole { "The columns are" } else { "Some columns, and only they, are" });
+        return (Decided::certain(first, why), if whole { Divided::All(first) } else { Divided::Headed(role) });
     }
-    let percent = span.percent();
-    (Decided::guess(percent, span.evidence()), all(percent))
+    if !role.is_fraction() {
+        return (Decided::certain(Values::Plain, "Only reflectances and transmittances are scaled"), Divided::None);
+    }
+    let values = if span.percent() { Values::Percent } else { Values::Plain };
+    (Decided::guess(values, span.evidence()), all(values))
 }
 
-/// Divides what is percent by 100.
-pub(super) fn divide(grid: &mut Grid, scale: &Scale) {
+/// Whether values are powers of ten of any quantity, not only of fractions.
+fn is_power(values: Values) -> bool {
+    values == Values::Decibels
+}
+
+/// What the header of a curve says that its values stand for, as far as that goes with its role.
+fn headed(curve: &RawCurve, role: Role) -> Option<Values> {
+    let said = words::values(&curve.label);
+    said.filter(|values| *values != Values::Plain && (role.is_fraction() || is_power(*values)))
+}
+
+/// Makes plain numbers of what is written.
+pub(super) fn convert(grid: &mut Grid, scale: &Scale) {
     for curve in &mut grid.curves {
-        let divided = match scale.divided {
-            Divided::None => false,
-            Divided::All => true,
-            Divided::Headed => words::says_percent(&curve.label),
+        let values = match scale.divided {
+            Divided::All(values) => values,
+            Divided::Headed(role) => match headed(curve, role) {
+                Some(values) => values,
+                None => continue,
+            },
+            Divided::None => continue,
         };
-        if divided {
-            curve.values.iter_mut().for_each(|value| *value /= 100.0);
-        }
+        let plain = |value: f64| match values {
+            Values::Plain => value,
+            Values::Percent => value / 100.0,
+            Values::Absorbance => 10_f64.powf(-value),
+            Values::Decibels => 10_f64.powf(value / 10.0),
+        };
+        // What no number can hold is a gap.
+        let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
+        curve.values.iter_mut().for_each(|value| *value = finite(plain(*value)));
     }
 }
 
 /// Warns of reflectances that cannot be.
-pub(super) fn warn(scale: &Scale, curves: &[Curve], warnings: &mut Vec<Warning>) {
+pub(super) fn warn(scale: &Scale, curves: &[Curve], log: &mut Log<'_>) {
     const LARGEST: f64 = 2.0;
-    if scale.role.value != Role::Reflectance {
+    if !scale.role.value.is_fraction() {
         return;
     }
     let max = |curve: &Curve| {
@@ -223,14 +320,17 @@ pub(super) fn warn(scale: &Scale, curves: &[Curve], warnings: &mut Vec<Warning>)
     };
     let mut bright = curves.iter().map(|curve| (curve, max(curve))).filter(|(_, max)| *max > LARGEST);
     if let Some((curve, max)) = bright.next() {
-        warnings.push(Warning::NotReflectances { count: 1 + bright.count(), first: curve.name.clone(), max });
+        log.push(Warning::NotReflectances { count: 1 + bright.count(), first: curve.name.clone(), max });
     }
 }
+
+/// Channels that a camera may have.
+const MOST_CHANNELS: usize = 4;
 
 /// Which of three or four names are red, green and blue, and whether all are letters. A fourth curve may be beside
 /// them, such as an infrared or a clear channel.
 fn channels(names: &[&str]) -> Option<([usize; 3], bool)> {
-    if !(3..=4).contains(&names.len()) {
+    if !(3..=MOST_CHANNELS).contains(&names.len()) {
         return None;
     }
     let mut found: [Option<usize>; 3] = [None; 3];
@@ -256,7 +356,7 @@ pub(super) fn camera_columns(role: Role, curves: &[Curve]) -> Option<[usize; 3]>
     if role != Role::Camera {
         return None;
     }
-    let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).take(5).collect();
+    let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).take(MOST_CHANNELS + 1).collect();
     channels(&names).map(|(columns, _)| columns).or_else(|| by_peak(curves))
 }
 

@@ -1,7 +1,7 @@
 //! Decides how a text is laid out: separators, decimal mark, orientation, and the line where the numbers begin.
 
 use super::dialect::{DecimalMark, Delimiter, Dialect};
-use super::text::{Lines, comment};
+use super::text::{Lines, Section, comment};
 use super::trial::{Across, Shape, Trial};
 use super::warning::Warning;
 use super::{Decided, Orientation, ReadError, ReadOptions};
@@ -18,6 +18,8 @@ pub(super) struct Layout {
     pub(super) width: usize,
     /// The header of wavelengths, if they run across.
     pub(super) across: Option<Across>,
+    /// The column of the wavelengths, from 1, if the caller chose one.
+    pub(super) wavelength_column: Option<usize>,
     pub(super) warnings: Vec<Warning>,
 }
 
@@ -36,6 +38,7 @@ impl Layout {
             first_line,
             width: 0,
             across: None,
+            wavelength_column: None,
             warnings: Vec::new(),
         }
     }
@@ -60,6 +63,9 @@ const SAMPLE_ROWS_LONG: usize = 3;
 /// What stands above the numbers must end before this many bytes, so that hostile text is given up soon.
 const LONGEST_HEADER: usize = 4 << 20;
 
+/// The same between one table and the next, of which there may be a thousand.
+const LONGEST_HEADER_LATER: usize = 16 << 10;
+
 /// All ways to split a line; where several fit equally, the first is taken.
 const CANDIDATES: [(Delimiter, DecimalMark); 9] = [
     (Delimiter::Semicolon, DecimalMark::Point),
@@ -74,23 +80,23 @@ const CANDIDATES: [(Delimiter, DecimalMark); 9] = [
 ];
 
 /// Decides the layout from the beginning of a text, as far as it takes to find the numbers.
-pub(super) fn sniff(text: &str, options: &ReadOptions) -> Result<Layout, ReadError> {
-    let trials = try_all(text, options);
+pub(super) fn sniff(section: Section<'_>, options: &ReadOptions) -> Result<Layout, ReadError> {
+    let trials = try_all(section, options);
     let Some(best) = choose(&trials, options) else {
         let single = trials.iter().find(|trial| trial.single >= 2);
         return Err(single.map_or(ReadError::NoNumbers, |trial| ReadError::OneColumn { line: trial.single_line }));
     };
     let orientation = Decided::or_chosen(options.orientation, || orientation(best));
     if orientation.value == Orientation::Across {
-        return lay_across(text, options, best, orientation);
+        return lay_across(section, options, best, orientation);
     }
     if best.best.rows == 0 {
         return Err(ReadError::NoNumbers);
     }
-    lay_down(text, options, best, orientation)
+    lay_down(section, options, best, orientation)
 }
 
-fn try_all(text: &str, options: &ReadOptions) -> Vec<Trial> {
+fn try_all(section: Section<'_>, options: &ReadOptions) -> Vec<Trial> {
     let wanted = |(delimiter, mark): &(Delimiter, DecimalMark)| {
         options.delimiter.is_none_or(|chosen| chosen == *delimiter)
             && options.decimal_mark.is_none_or(|chosen| chosen == *mark)
@@ -98,7 +104,7 @@ fn try_all(text: &str, options: &ReadOptions) -> Vec<Trial> {
     let dialects = CANDIDATES.iter().filter(|candidate| wanted(candidate));
     let mut trials: Vec<Trial> = dialects.map(|&(delimiter, mark)| Trial::new(Dialect { delimiter, mark })).collect();
     let (mut lines, mut bytes) = (0, 0);
-    for (number, line) in content(text) {
+    for (number, line) in content(section) {
         for trial in &mut trials {
             trial.take(number, line);
         }
@@ -108,7 +114,7 @@ fn try_all(text: &str, options: &ReadOptions) -> Vec<Trial> {
         let enough = match rows {
             SAMPLE_ROWS.. => lines >= SAMPLE_LINES || bytes >= SAMPLE_BYTES,
             SAMPLE_ROWS_LONG.. => bytes >= SAMPLE_BYTES,
-            _ => bytes >= LONGEST_HEADER,
+            _ => bytes >= if section.line == 1 { LONGEST_HEADER } else { LONGEST_HEADER_LATER },
         };
         if enough {
             break;
@@ -118,8 +124,8 @@ fn try_all(text: &str, options: &ReadOptions) -> Vec<Trial> {
 }
 
 /// The lines that are neither blank nor comments.
-fn content(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    Lines::new(text).filter(|(_, line)| !line.trim_ascii().is_empty() && comment(line).is_none())
+fn content(section: Section<'_>) -> impl Iterator<Item = (usize, &str)> {
+    Lines::of(section).filter(|(_, line)| !line.trim_ascii().is_empty() && comment(line).is_none())
 }
 
 /// The trial that understands most rows, then the one in best order, then the first.
@@ -151,26 +157,28 @@ fn orientation(trial: &Trial) -> Decided<Orientation> {
 }
 
 fn lay_across(
-    text: &str,
+    section: Section<'_>,
     options: &ReadOptions,
     trial: &Trial,
     orientation: Decided<Orientation>,
 ) -> Result<Layout, ReadError> {
     let across = trial.across.clone().filter(|across| across.rows > 0).ok_or(ReadError::NoNumbers)?;
-    let evidence = format!("A header of {} wavelengths with {} rows below it", across.count, across.rows);
+    let rows = if across.rows == 1 { "one row".to_owned() } else { format!("{} rows", across.rows) };
+    let evidence = format!("A header of {} wavelengths with {rows} below it", across.count);
     Ok(Layout {
         delimiter: Decided::or_chosen(options.delimiter, || Decided::certain(trial.dialect.delimiter, evidence)),
-        decimal_mark: decimal_mark(text, options, trial, across.line),
+        decimal_mark: decimal_mark(section, options, trial, across.line),
         orientation,
         first_line: across.first_row,
         width: across.width(),
         across: Some(across),
+        wavelength_column: None,
         warnings: Vec::new(),
     })
 }
 
 fn lay_down(
-    text: &str,
+    section: Section<'_>,
     options: &ReadOptions,
     trial: &Trial,
     orientation: Decided<Orientation>,
@@ -192,17 +200,18 @@ fn lay_down(
     let decide = || if commas_only { Decided::guess(delimiter, why) } else { Decided::certain(delimiter, why) };
     Ok(Layout {
         delimiter: Decided::or_chosen(options.delimiter, decide),
-        decimal_mark: decimal_mark(text, options, trial, run.line),
+        decimal_mark: decimal_mark(section, options, trial, run.line),
         orientation,
-        first_line: first_line(text, trial, &mut warnings),
+        first_line: first_line(section, trial, &mut warnings),
         width: run.filled,
         across: None,
+        wavelength_column: options.wavelength_column,
         warnings,
     })
 }
 
 /// The decimal mark; where the sample holds whole numbers only, the first mark after it decides.
-fn decimal_mark(text: &str, options: &ReadOptions, trial: &Trial, from: usize) -> Decided<DecimalMark> {
+fn decimal_mark(section: Section<'_>, options: &ReadOptions, trial: &Trial, from: usize) -> Decided<DecimalMark> {
     Decided::or_chosen(options.decimal_mark, || {
         let Dialect { delimiter, mark } = trial.dialect;
         if trial.marks > 0 {
@@ -212,8 +221,8 @@ fn decimal_mark(text: &str, options: &ReadOptions, trial: &Trial, from: usize) -
             };
             return Decided::certain(mark, why);
         }
-        let later = Lines::new(text)
-            .skip(from.saturating_sub(1))
+        let later = Lines::of(section)
+            .skip_while(|(number, _)| *number < from)
             .filter(|(_, line)| line.trim_ascii_start().starts_with(|c: char| c.is_ascii_digit()))
             .find_map(|(_, line)| line.bytes().find(|b| matches!(b, b'.' | b',')));
         match later {
@@ -228,12 +237,12 @@ fn decimal_mark(text: &str, options: &ReadOptions, trial: &Trial, from: usize) -
 
 /// The first line of the table: where the rows of numbers begin, even if a broken row soon interrupts them, so that
 /// the reader sees the broken row. Lone numbers further up that do not continue the table are left out.
-fn first_line(text: &str, trial: &Trial, warnings: &mut Vec<Warning>) -> usize {
+fn first_line(section: Section<'_>, trial: &Trial, warnings: &mut Vec<Warning>) -> usize {
     let run = &trial.best;
     let step = (run.last - run.first) / run.rows.max(2).saturating_sub(1) as f64;
     let mut fragment: Option<(usize, usize)> = None; // first line, rows
     let mut stray = None;
-    for (number, line) in content(text).take_while(|(number, _)| *number < run.line) {
+    for (number, line) in content(section).take_while(|(number, _)| *number < run.line) {
         let shape = Shape::of(trial.dialect, line);
         let steps_away = shape.first.map_or(f64::NAN, |first| (run.first - first) / step);
         let near = steps_away > 0.0 && steps_away <= 4.0 * (run.line - number) as f64;

@@ -132,6 +132,31 @@ fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
     }
 }
 
+/// A part of a text that knows where in the text it stands.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Section<'a> {
+    pub(super) text: &'a str,
+    /// The number of its first line.
+    pub(super) line: usize,
+    /// The byte where it begins.
+    pub(super) byte: usize,
+}
+
+impl<'a> Section<'a> {
+    pub(super) fn whole(text: &'a str) -> Self {
+        Self { text, line: 1, byte: 0 }
+    }
+
+    /// What is left of it from a line on.
+    pub(super) fn after(self, line: usize) -> Self {
+        let mut lines = Lines::of(self);
+        for _ in self.line..line {
+            lines.next();
+        }
+        Self { text: lines.rest, line, byte: self.byte + self.text.len() - lines.rest.len() }
+    }
+}
+
 /// The lines of a text with their numbers from 1. `\n`, `\r\n` and a lone `\r` each end a line.
 #[derive(Debug, Clone)]
 pub(super) struct Lines<'a> {
@@ -141,7 +166,11 @@ pub(super) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     pub(super) fn new(text: &'a str) -> Self {
-        Self { rest: text, number: 0 }
+        Self::of(Section::whole(text))
+    }
+
+    pub(super) fn of(section: Section<'a>) -> Self {
+        Self { rest: section.text, number: section.line - 1 }
     }
 }
 

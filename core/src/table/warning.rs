@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::ReadError;
+
 /// Line numbers, of which the first few are kept.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LineList {
@@ -115,6 +117,13 @@ pub enum Warning {
         /// Where it begins.
         line: usize,
     },
+    /// Rows of numbers below the table make no table that can be read.
+    BrokenTable {
+        /// Where they begin.
+        line: usize,
+        /// Why.
+        error: Box<ReadError>,
+    },
     /// The file announces another number of values than it holds.
     CountDiffers {
         /// Where it is announced.
@@ -124,17 +133,7 @@ pub enum Warning {
         /// As found.
         found: usize,
     },
-    /// A column of decadic absorbances, which are no reflectances.
-    Absorbance {
-        /// The line that says so.
-        line: usize,
-    },
-    /// Values in decibels of power, which no curve here is.
-    Decibels {
-        /// The line that says so.
-        line: usize,
-    },
-    /// Curves read as reflectances that reach values no reflectance has.
+    /// Curves read as fractions of light that reach values no such fraction has.
     NotReflectances {
         /// How many.
         count: usize,
@@ -143,6 +142,28 @@ pub enum Warning {
         /// Its largest value.
         max: f64,
     },
+}
+
+impl Warning {
+    /// The first line it is about, from 1; `None` where it concerns whole curves.
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            Self::Gaps { lines, .. }
+            | Self::RepeatedRows { lines }
+            | Self::NoWavelength { lines }
+            | Self::Averaged { lines, .. } => lines.first().first().copied(),
+            Self::Sorted { line }
+            | Self::NumbersAbove { line }
+            | Self::TextBelow { line }
+            | Self::MoreTables { line }
+            | Self::BrokenTable { line, .. }
+            | Self::CountDiffers { line, .. } => Some(*line),
+            Self::EmptyCurves { .. }
+            | Self::SkippedColumns { .. }
+            | Self::CommasOnly
+            | Self::NotReflectances { .. } => None,
+        }
+    }
 }
 
 impl fmt::Display for Warning {
@@ -167,17 +188,18 @@ impl fmt::Display for Warning {
             Self::Averaged { name, lines } => {
                 write!(f, "{lines}: “{name}” has several values at one wavelength: their mean is taken")
             }
+            Self::BrokenTable { line, error } => {
+                write!(f, "line {line}: another table that cannot be read: left out ({error})")
+            }
             Self::MoreTables { line } => write!(f, "line {line}: another table with spectra: left out"),
             Self::CountDiffers { line, expected, found } => {
                 write!(f, "line {line} announces {expected} values, but there are {found}")
             }
-            Self::Decibels { line } => write!(f, "line {line}: these are decibels, not a linear scale"),
-            Self::Absorbance { line } => write!(f, "line {line}: these are absorbances, not reflectances"),
             Self::NotReflectances { count: 1, first, max } => {
-                write!(f, "“{first}” reaches {max}, more than a reflectance can")
+                write!(f, "“{first}” reaches {max}, more than a fraction of light can")
             }
             Self::NotReflectances { count, first, max } => {
-                write!(f, "{count} curves reach more than a reflectance can, the first “{first}” {max}")
+                write!(f, "{count} curves reach more than a fraction of light can, the first “{first}” {max}")
             }
         }
     }

@@ -2,21 +2,32 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use super::grid::Grid;
 use super::reading::clean;
 use super::warning::{LineList, Warning};
+use super::watch::Log;
 use super::words::XUnit;
 use super::{Decided, Dropped, ReadError, ReadOptions};
 
 /// The unit in which wavelengths are written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum WavelengthUnit {
     /// nm.
+    #[serde(alias = "nanometers")]
     Nanometer,
     /// µm: 1000 nm.
+    #[serde(alias = "micrometers")]
     Micrometer,
     /// Å: 0.1 nm.
+    #[serde(alias = "angstroms")]
     Angstrom,
+    /// Wave numbers σ in 1/cm, taken as the vacuum wavelength 10⁷ nm/σ.
+    Wavenumber,
+    /// Frequencies ν in THz, taken as the vacuum wavelength c/ν with c = 299 792.458 nm THz.
+    Terahertz,
 }
 
 impl fmt::Display for WavelengthUnit {
@@ -25,6 +36,8 @@ impl fmt::Display for WavelengthUnit {
             Self::Nanometer => "nanometers",
             Self::Micrometer => "micrometers",
             Self::Angstrom => "ångströms",
+            Self::Wavenumber => "wave numbers in 1/cm",
+            Self::Terahertz => "frequencies in terahertz",
         })
     }
 }
@@ -41,19 +54,40 @@ impl WavelengthUnit {
             // U+00B5 and U+03BC, and the former misread as Windows-1252.
             "um" | "µm" | "μm" | "âµm" | "micron" | "microns" | "micro" | "micrometer" | "micrometers"
             | "micrometre" | "micrometres" => Some(Self::Micrometer),
+            "cm-1" | "cm^-1" | "1/cm" | "cm⁻¹" | "wavenumbers" => Some(Self::Wavenumber),
+            "thz" | "terahertz" => Some(Self::Terahertz),
             "å" | "ångström" | "ångströms" | "angstrom" | "angstroms" => Some(Self::Angstrom),
             _ => None,
         }
     }
 
-    fn nanometers(self, value: f64) -> f64 {
+    /// The wavelength in nanometers that a number in this unit means, to 1e-9 nm.
+    pub fn nanometers(self, value: f64) -> f64 {
         match self {
             Self::Nanometer => value,
             Self::Micrometer => clean(value * 1000.0),
             Self::Angstrom => clean(value / 10.0),
+            Self::Wavenumber => clean(1e7 / value),
+            Self::Terahertz => clean(SPEED_OF_LIGHT_NM_THZ / value),
         }
     }
+
+    /// The number in this unit that means a wavelength in nanometers, to 1e-9 of the unit: what
+    /// [`nanometers`](Self::nanometers) was given.
+    pub fn from_nanometers(self, nm: f64) -> f64 {
+        let number = match self {
+            Self::Nanometer => return nm,
+            Self::Micrometer => nm / 1000.0,
+            Self::Angstrom => nm * 10.0,
+            Self::Wavenumber => 1e7 / nm,
+            Self::Terahertz => SPEED_OF_LIGHT_NM_THZ / nm,
+        };
+        clean(number)
+    }
 }
+
+/// The speed of light in vacuum in nm THz, exact.
+const SPEED_OF_LIGHT_NM_THZ: f64 = 299_792.458;
 
 /// What the wavelengths may be, in nanometers: beyond what any instrument for light measures.
 const RANGE_NM: std::ops::RangeInclusive<f64> = 100.0..=20_000.0;
@@ -77,21 +111,25 @@ pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<Wavelen
     match grid.header.x_unit {
         Some((line, XUnit::Wavelength(unit))) => Ok(Decided::certain(unit, format!("Line {line} names the unit"))),
         Some((line, XUnit::Other)) => Err(ReadError::NotWavelengths { line }),
-        None => Ok(unit_from_range(&grid.wavelengths)),
+        None => unit_from_range(grid),
     }
 }
 
-fn unit_from_range(wavelengths: &[f64]) -> Decided<WavelengthUnit> {
+/// The unit that a range suggests. Where it fits ångströms and wave numbers, only a person knows.
+fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
+    let wavelengths = &grid.wavelengths;
     let min = wavelengths.iter().copied().fold(f64::INFINITY, f64::min);
     let max = wavelengths.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let unit = if min >= 0.2 && max <= 20.0 {
         WavelengthUnit::Micrometer
     } else if (2000.0..=20_000.0).contains(&min) && (3000.0..=20_000.0).contains(&max) {
-        WavelengthUnit::Angstrom
+        return Err(ReadError::AmbiguousUnit { line: grid.line(0), min, max });
+    } else if min > 20_000.0 && max <= 50_000.0 {
+        WavelengthUnit::Wavenumber
     } else {
         WavelengthUnit::Nanometer
     };
-    Decided::guess(unit, format!("Wavelengths run from {min} to {max}"))
+    Ok(Decided::guess(unit, format!("Wavelengths run from {min} to {max}")))
 }
 
 /// Converts the wavelengths of a grid to nanometers and checks their range.
@@ -107,7 +145,7 @@ pub(super) fn to_nanometers(grid: &mut Grid, unit: WavelengthUnit) -> Result<(),
 }
 
 /// Brings a grid into ascending order without repeats. Returns whether it was descending.
-pub(super) fn sort(grid: &mut Grid, warnings: &mut Vec<Warning>) -> Result<bool, ReadError> {
+pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> Result<bool, ReadError> {
     let wavelengths = &grid.wavelengths;
     let falls = wavelengths.windows(2).filter(|pair| pair[1] < pair[0]).count();
     let rises = wavelengths.windows(2).filter(|pair| pair[1] > pair[0]).count();
@@ -115,33 +153,19 @@ pub(super) fn sort(grid: &mut Grid, warnings: &mut Vec<Warning>) -> Result<bool,
     if falls > 0 && rises > 0 {
         let wrong = |pair: &[f64]| if descending { pair[1] > pair[0] } else { pair[1] < pair[0] };
         let at = wavelengths.windows(2).position(wrong).unwrap_or(0);
-        refuse_second_pass(grid, rises, falls, at)?;
-        warnings.push(Warning::Sorted { line: grid.line(at + 1) });
+        log.push(Warning::Sorted { line: grid.line(at + 1) });
     }
     if falls > 0 {
         let mut order: Vec<usize> = (0..wavelengths.len()).collect();
         order.sort_by(|&a, &b| wavelengths[a].total_cmp(&wavelengths[b]));
         grid.reorder(&order);
     }
-    merge_repeats(grid, warnings)?;
+    merge_repeats(grid, log)?;
     Ok(descending)
 }
 
-/// Two or more passes over the same range, one below the other, are two tables, not one in disorder.
-fn refuse_second_pass(grid: &Grid, rises: usize, falls: usize, at: usize) -> Result<(), ReadError> {
-    const FEWEST: usize = 5;
-    let w = &grid.wavelengths;
-    let restart = rises.min(falls) == 1 && at + 1 >= FEWEST && w.len() - at > FEWEST;
-    let overlap = restart && {
-        let (before, after) = (&w[..=at], &w[at + 1..]);
-        let (first, last) = (before[0].min(before[at]), before[0].max(before[at]));
-        after.iter().all(|x| (first..=last).contains(x)) && after.iter().any(|x| before.contains(x))
-    };
-    if overlap { Err(ReadError::SecondTable { line: grid.line(at + 1) }) } else { Ok(()) }
-}
-
 /// Leaves one of rows that are the same; rows that differ at one wavelength are an error.
-fn merge_repeats(grid: &mut Grid, warnings: &mut Vec<Warning>) -> Result<(), ReadError> {
+fn merge_repeats(grid: &mut Grid, log: &mut Log<'_>) -> Result<(), ReadError> {
     let mut repeats = vec![false; grid.wavelengths.len()];
     let mut lines = Vec::new();
     let mut kept = 0;
@@ -166,7 +190,30 @@ fn merge_repeats(grid: &mut Grid, warnings: &mut Vec<Warning>) -> Result<(), Rea
             list.add(line);
             grid.drop_row(line, Dropped::Repeated);
         }
-        warnings.push(Warning::RepeatedRows { lines: list });
+        log.push(Warning::RepeatedRows { lines: list });
     }
     Ok(())
+}
+
+/// Where a second pass over the wavelengths of a first one begins, if rows do: that is another table, not disorder.
+pub(super) fn second_pass(wavelengths: &[f64]) -> Option<usize> {
+    const FEWEST: usize = 5;
+    let steps = || wavelengths.windows(2);
+    let falls = steps().filter(|pair| pair[1] < pair[0]).count();
+    let rises = steps().filter(|pair| pair[1] > pair[0]).count();
+    let back = |pair: &[f64]| if falls > rises { pair[1] > pair[0] } else { pair[1] < pair[0] };
+    let starts: Vec<usize> = steps().enumerate().filter(|(_, pair)| back(pair)).map(|(at, _)| at + 1).collect();
+    let first = *starts.first()?;
+    let ends = starts.iter().copied().skip(1).chain([wavelengths.len()]);
+    let whole = first >= FEWEST && starts.iter().zip(ends).all(|(start, end)| end - start >= FEWEST);
+    if !whole {
+        return None;
+    }
+    let (before, after) =
+        (&wavelengths[..first], &wavelengths[first..starts.get(1).copied().unwrap_or(wavelengths.len())]);
+    let (low, high) = (before[0].min(before[first - 1]), before[0].max(before[first - 1]));
+    let order = |x: &f64, wanted: f64| if falls > rises { wanted.total_cmp(x) } else { x.total_cmp(&wanted) };
+    let shared = |wanted: &f64| before.binary_search_by(|x| order(x, *wanted)).is_ok();
+    let within = before[0] == after[0] || after.iter().all(|x| (low..=high).contains(x));
+    (within && after.iter().any(shared)).then_some(first)
 }

@@ -4,26 +4,30 @@ use super::dialect::{Cell, Dialect};
 use super::grid::{Grid, RawCurve};
 use super::header;
 use super::sniff::Layout;
-use super::text::{Lines, comment, excerpt};
+use super::text::{Lines, Section, comment, excerpt};
 use super::trial::Across;
 use super::warning::{LineList, Warning};
+use super::watch::Log;
 use super::{MAX_CURVES, MAX_SAMPLES, Orientation, ReadError, WavelengthUnit, words};
 
 /// Reads the header row and the rows of a layout.
-pub(super) fn read(text: &str, layout: &Layout, warnings: &mut Vec<Warning>) -> Result<Grid, ReadError> {
+pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Grid, ReadError> {
     debug_assert_eq!(layout.orientation.value, Orientation::Across);
     let Some(across) = &layout.across else { return Err(ReadError::NoNumbers) };
-    let mut lines = Lines::new(text).skip(across.line - 1);
+    let mut lines = Lines::of(section).skip_while(|(number, _)| *number < across.line);
     let Some((_, header_line)) = lines.next() else { return Err(ReadError::NoNumbers) };
     let dialect = layout.dialect();
     let (wavelengths, label_unit) = wavelengths(dialect, header_line, across)?;
     let leading: Vec<&str> = dialect.cells(header_line).take(across.start).collect();
-    let mut header = header::read(text, layout);
+    let mut header = header::read(section, layout);
     let named_unit = leading.iter().filter(|cell| words::names_wavelengths(cell)).find_map(|cell| words::x_unit(cell));
     header.x_unit = named_unit.map(|unit| (across.line, unit)).or(header.x_unit);
     header.line = Some(across.line);
     let mut rows = Rows::new(dialect, across, name_column(&leading));
+    let mut read = section.byte;
     for (number, line) in lines {
+        read += line.len() + 1;
+        log.at(read)?;
         if !line.trim_ascii().is_empty() && comment(line).is_none() {
             rows.take(number, line)?;
         }
@@ -32,13 +36,16 @@ pub(super) fn read(text: &str, layout: &Layout, warnings: &mut Vec<Warning>) -> 
         if is_row {
             return Err(error);
         }
-        warnings.push(Warning::TextBelow { line });
+        log.push(Warning::TextBelow { line });
     }
     if rows.gaps > 0 {
-        warnings.push(Warning::Gaps { cells: rows.gaps, lines: rows.gap_lines });
+        log.push(Warning::Gaps { cells: rows.gaps, lines: rows.gap_lines });
     }
     header.mentioned = rows.mentioned.or(header.mentioned);
     let count = rows.curves.len();
+    for curve in &mut rows.curves {
+        curve.unit.clone_from(&header.unit);
+    }
     let lines = vec![across.line];
     Ok(Grid { wavelengths, lines, curves: rows.curves, header, label_unit, rows: count, ..Grid::default() })
 }
@@ -150,7 +157,7 @@ impl<'a> Rows<'a> {
         let name = if names.0.is_empty() { names.1 } else { names.0 };
         let named = !name.is_empty();
         let name = if named { name.replace("\"\"", "\"") } else { format!("Row {}", self.curves.len() + 1) };
-        Ok(Some(RawCurve { name, named, label: String::new(), values }))
+        Ok(Some(RawCurve { name, named, label: String::new(), unit: None, values }))
     }
 
     /// Whether a line has as many cells as a row.

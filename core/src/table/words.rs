@@ -1,6 +1,8 @@
 //! What the words of a header say about units and quantities.
 
-use super::scale::Role;
+use super::quantity::Quantity;
+use super::reading::Medium;
+use super::scale::{Role, Values};
 use super::wavelengths::WavelengthUnit;
 
 /// Longer header lines are prose, or hostile.
@@ -10,7 +12,7 @@ const LONGEST: usize = 2000;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum XUnit {
     Wavelength(WavelengthUnit),
-    /// Wave numbers or frequencies.
+    /// Something that is not converted, such as photon energies.
     Other,
 }
 
@@ -23,38 +25,67 @@ fn words(lower: &str) -> impl Iterator<Item = &str> {
     lower.split(|c: char| !c.is_alphanumeric() && c != '-' && c != '^' && c != '/').filter(|word| !word.is_empty())
 }
 
-/// The first unit of length (or of wave number) in a piece of text.
+/// The first unit of length, of wave number or of frequency in a piece of text.
 pub(super) fn x_unit(text: &str) -> Option<XUnit> {
-    let text = lower(text);
-    if text.contains("wavenumber") || text.contains("wave number") {
-        return Some(XUnit::Other);
-    }
-    words(&text).find_map(|word| match word {
-        "cm-1" | "cm^-1" | "1/cm" | "thz" => Some(XUnit::Other),
+    let text = lower(text).replace('⁻', "-").replace('¹', "1");
+    let energies = text.contains("energ") || words(&text).count() == 1;
+    let unit = words(&text).find_map(|word| match word {
+        "ev" | "kev" | "mev" if energies => Some(XUnit::Other),
+        "hz" | "ghz" | "phz" | "1/nm" | "1/m" | "m-1" => Some(XUnit::Other),
         _ => WavelengthUnit::from_symbol(word).map(XUnit::Wavelength),
-    })
+    });
+    let wave_numbers = text.contains("wavenumber") || text.contains("wave number");
+    unit.or_else(|| wave_numbers.then_some(XUnit::Wavelength(WavelengthUnit::Wavenumber)))
+}
+
+/// Whether a text says that wavelengths are those in air or in vacuum.
+pub(super) fn medium(text: &str) -> Option<Medium> {
+    let text = lower(text);
+    if text.contains("nm_air") || text.contains("nm (air)") {
+        Some(Medium::Air)
+    } else if text.contains("nm_vac") || text.contains("nm (vac") {
+        Some(Medium::Vacuum)
+    } else {
+        None
+    }
 }
 
 /// The unit that a line of free text gives for wavelengths: the first unit after the word.
 pub(super) fn x_unit_in_prose(text: &str) -> Option<XUnit> {
     let text = lower(text);
-    let start = ["wavelength", "x unit", "xunit", "x axis", "xaxis"].iter().find_map(|word| text.find(word))?;
+    let start = ["wavelength", "wavenumber", "wave number", "x unit", "xunit", "x axis", "xaxis"]
+        .iter()
+        .find_map(|word| text.find(word))?;
     x_unit(&text[start..])
 }
 
-/// Whether a column's header names wavelengths.
+/// Whether a column's header names wavelengths, wave numbers or frequencies of light.
 pub(super) fn names_wavelengths(text: &str) -> bool {
+    // As other languages call them, and as their unit alone does.
+    const CALLED: [&str; 7] =
+        ["wellenl", "longueur d", "longitud de onda", "lunghezza d", "comprimento de onda", "波長", "波长"];
+    const UNITS: [&str; 10] = ["[nm]", "(nm)", "[µm]", "(µm)", "[μm]", "(μm)", "[um]", "(um)", "[cm-1]", "(cm-1)"];
     let text = lower(text);
+    if CALLED.iter().chain(&UNITS).any(|part| text.contains(part)) {
+        return true;
+    }
     text.contains("wavelength")
+        || text.contains("wavenumber")
+        || text.contains("wave number")
+        || (text.contains("frequency") && words(&text).any(|word| word == "thz"))
         || text.contains("lambda")
         || text.contains('λ')
-        || words(&text).next().is_some_and(|word| matches!(word, "wave" | "wl" | "nm" | "um" | "µm" | "μm"))
+        || words(&text)
+            .next()
+            .is_some_and(|word| matches!(word, "wave" | "wl" | "nm" | "um" | "µm" | "μm" | "cm-1" | "1/cm" | "thz"))
 }
 
 /// Whether a header says percent.
 pub(super) fn says_percent(text: &str) -> bool {
     let text = lower(text);
-    text.contains('%') || words(&text).any(|word| matches!(word, "percent" | "pct" | "percentage"))
+    // `50% gray` is a name: only a sign that follows no figure is a unit.
+    let sign = text.match_indices('%').any(|(at, _)| !text[..at].trim_end().ends_with(|c: char| c.is_ascii_digit()));
+    sign || words(&text).any(|word| matches!(word, "percent" | "pct" | "percentage"))
 }
 
 /// Whether a header says that values are fractions of one.
@@ -63,14 +94,77 @@ pub(super) fn says_fraction(text: &str) -> bool {
     words(&text).any(|word| matches!(word, "fraction" | "0-1" | "1"))
 }
 
+/// What a header says that the values stand for.
+pub(super) fn values(text: &str) -> Option<Values> {
+    let short = lower(text);
+    if short.contains("absorban") || short.contains("optical density") {
+        Some(Values::Absorbance)
+    } else if words(&short).any(|word| matches!(word, "dbm" | "db")) {
+        Some(Values::Decibels)
+    } else if says_percent(text) {
+        Some(Values::Percent)
+    } else if says_fraction(text) {
+        Some(Values::Plain)
+    } else {
+        None
+    }
+}
+
+/// Whether a header says that values are what a detector counted.
+pub(super) fn says_counts(text: &str) -> bool {
+    words(&lower(text)).any(|word| matches!(word, "count" | "counts" | "adc" | "dn"))
+}
+
+/// The physical quantity that a header names.
+pub(super) fn quantity(text: &str) -> Option<Quantity> {
+    let text = lower(text);
+    let any = |parts: &[&str]| parts.iter().any(|part| text.contains(part));
+    let word = |wanted: &[&str]| words(&text).any(|word| wanted.contains(&word));
+    let found = if any(&["quantum eff"]) || word(&["qe"]) {
+        Quantity::QuantumEfficiency
+    } else if any(&["sensitiv", "responsiv", "color match", "colour match", "color-match", "cone fund"]) {
+        Quantity::Sensitivity
+    } else if any(&["absorptan"]) {
+        Quantity::Absorptance
+    } else if any(&["reflect", "r-factor"]) {
+        Quantity::Reflectance
+    } else if any(&["transmit", "transmiss", "t-factor"]) {
+        Quantity::Transmittance
+    } else if any(&["irradian", "exitance"]) {
+        Quantity::Irradiance
+    } else if any(&["radiance"]) {
+        Quantity::Radiance
+    } else if any(&["radiant intensity"]) {
+        Quantity::RadiantIntensity
+    } else if any(&["radiant flux", "spectral flux"]) {
+        Quantity::RadiantFlux
+    } else if any(&["spectral power", "emission"]) || word(&["spd"]) {
+        Quantity::SpectralPower
+    } else if says_counts(&text) {
+        Quantity::Counts
+    } else if word(&["relative"]) {
+        Quantity::Relative
+    } else {
+        return None;
+    };
+    Some(found)
+}
+
 /// What a header says the values are.
 pub(super) fn role(text: &str) -> Option<Role> {
     let text = lower(text);
     let any = |parts: &[&str]| parts.iter().any(|part| text.contains(part));
-    if any(&["sensitiv", "responsiv", "quantum eff", "color match", "colour match", "color-match", "cone fund"]) {
+    let word = |wanted: &str| words(&text).any(|word| word == wanted);
+    if any(&["absorptan"]) {
+        Some(Role::Unknown)
+    } else if word("qe")
+        || any(&["sensitiv", "responsiv", "quantum eff", "color match", "colour match", "color-match", "cone fund"])
+    {
         Some(Role::Camera)
-    } else if any(&["reflect", "transmit", "transmiss", "r-factor"]) {
+    } else if any(&["reflect", "r-factor"]) {
         Some(Role::Reflectance)
+    } else if any(&["transmit", "transmiss", "t-factor"]) {
+        Some(Role::Transmittance)
     } else if any(&["radian", "illuminan", "spectral power", "emission", "light source"])
         || words(&text).any(|word| matches!(word, "lux" | "cct" | "spd"))
     {
@@ -78,6 +172,12 @@ pub(super) fn role(text: &str) -> Option<Role> {
     } else {
         None
     }
+}
+
+/// Whether a text is the word for what is measured and nothing else.
+pub(super) fn is_quantity(text: &str) -> bool {
+    let word = !text.trim().contains(|c: char| !c.is_alphabetic());
+    word && (quantity(text).is_some() || matches!(lower(text).as_str(), "value" | "values" | "intensity" | "signal"))
 }
 
 /// How a name points to a channel of a camera.

@@ -6,14 +6,16 @@ use egui::{RichText, Ui};
 
 use super::{
     assumptions, buttons, copy_text, difference_words, failure, head, held_words, measured_words, no_difference, note,
-    reading, show_assumptions, truth_id,
+    show_assumptions, truth_id,
 };
 use crate::catalog::{Kind, Place};
+use crate::command::Command;
 use crate::document::{Light, REFERENCE};
 use crate::panes::PaneContext;
 use crate::scene::Scene;
 use crate::theme::UNIT;
 use crate::thing::SourceId;
+use crate::view::import::ImportItem;
 use crate::widgets::facts::{self, Fact, range_words};
 use crate::widgets::lines::fixed;
 
@@ -47,9 +49,10 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, context: &mut PaneContext<'_>) {
     }
     let label = super::source_of(&scene, id).map_or_else(|| id.name.clone(), |source| source.label);
     show_assumptions(ui, &theme, assumptions(&scene, id, &label));
-    if matches!(entry.place, Place::Own(_)) {
-        ui.separator();
-        reading::show(ui, &id.name, context);
+    if matches!(entry.place, Place::Own(_))
+        && ui.button("Reading…").on_hover_text("How its file was read; change it").clicked()
+    {
+        context.push(Command::ShowImport(ImportItem::Set(id.name.clone()), None));
     }
 }
 
@@ -130,7 +133,7 @@ pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 }
                 measured.extend(facts::of(&scene, &entry, false));
                 if entry.is_own() && ui.button("Reading…").clicked() {
-                    context.view.reading = Some(name.clone());
+                    context.push(Command::ShowImport(ImportItem::Set(name.clone()), None));
                 }
             }
         }

@@ -4,10 +4,12 @@ use egui::{Id, Key, Rect, Response, Sense, TextEdit, TextStyle, Ui, Vec2};
 
 use crate::action::{Action, CompareAction};
 use crate::catalog::Kind;
+use crate::command::Command;
 use crate::panes::PaneContext;
 use crate::scene::Source;
 use crate::theme::{FADED, ROW, UNIT};
 use crate::thing::{SourceId, Thing};
+use crate::view::import::ImportItem;
 use crate::widgets::{focus_rim, lines};
 use crate::workspaces::PaneKind;
 
@@ -164,9 +166,9 @@ fn menu(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
         context.view.selected = Some(thing(source));
         show_inspector(context);
     }
+    super::save::save_as(ui, source.kind, &source.name, context);
     if source.is_own && offer(ui, "Reading…", true) {
-        context.view.reading = Some(source.name.clone());
-        show_inspector(context);
+        context.push(Command::ShowImport(ImportItem::Set(source.name.clone()), None));
     }
 }
 

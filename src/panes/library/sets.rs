@@ -2,12 +2,14 @@
 
 use egui::{Rect, Response, ScrollArea, Sense, TextStyle, Ui, Vec2};
 
-use super::compared::show_inspector;
-use crate::action::{Action, CompareAction, OwnAction, SceneAction};
+use super::save;
+use crate::action::{Action, CompareAction, SceneAction};
 use crate::catalog::{Entry, Kind, names};
+use crate::command::Command;
 use crate::document::Light;
 use crate::panes::PaneContext;
 use crate::theme::{ROW, UNIT};
+use crate::view::import::ImportItem;
 use crate::widgets::{facts, focus_rim, lines};
 
 /// Width that a scroll bar lies over.
@@ -51,7 +53,7 @@ pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
         let own = document.own.iter().map(Entry::from_own).filter(|entry| entry.kind == kind && matches(entry));
         let built_in = catalog.of_kind(kind).filter(|entry| matches(entry)).map(Row::BuiltIn);
         let found: Vec<Row<'a>> = own.map(|entry| Row::Own(Box::new(entry))).chain(built_in).collect();
-        if searching && found.is_empty() {
+        if found.is_empty() && (searching || kind == Kind::Unsorted) {
             continue;
         }
         let open = searching || !context.view.saved.folded.contains(kind.plural());
@@ -120,6 +122,7 @@ const fn title(kind: Kind) -> &'static str {
         Kind::Chart => "Charts",
         Kind::Illuminant => "Illuminants",
         Kind::Material => "Materials",
+        Kind::Unsorted => "Unsorted",
     }
 }
 
@@ -140,17 +143,23 @@ fn state(entry: &Entry, context: &PaneContext<'_>) -> (bool, bool) {
         }
         Kind::Chart | Kind::Material => (document.chart == entry.name, true),
         Kind::Illuminant => (document.light == Light::Set(entry.name.clone()), true),
+        Kind::Unsorted => (false, true),
     }
 }
 
 /// Puts a set to use, or a compared one off.
 pub(super) fn choose(entry: &Entry, on: bool, context: &mut PaneContext<'_>) {
     let name = entry.name.clone();
+    if entry.kind == Kind::Unsorted {
+        // What it is has to be said first.
+        context.push(Command::ShowImport(ImportItem::Set(name), None));
+        return;
+    }
     context.push(match entry.kind {
         Kind::Camera | Kind::Observer if on => Action::Compare(CompareAction::Add(entry.kind, name)),
         Kind::Camera | Kind::Observer => Action::Compare(CompareAction::Remove(entry.kind, name)),
         Kind::Chart | Kind::Material => Action::Scene(SceneAction::SetChart(name)),
-        Kind::Illuminant => Action::Scene(SceneAction::SetLight(Light::Set(name))),
+        Kind::Illuminant | Kind::Unsorted => Action::Scene(SceneAction::SetLight(Light::Set(name))),
     });
 }
 
@@ -164,22 +173,24 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     if entry.is_own() {
         row.max.x -= lines::DOTS + UNIT + SCROLL_BAR;
     }
-    let response = ui.interact(row, id, if enabled { Sense::click() } else { Sense::hover() });
+    let response = ui.interact(row, id, Sense::click());
     let role = if ticks { egui::Role::CheckBox } else { egui::Role::RadioButton };
     response.widget_info(|| egui::WidgetInfo::selected(role, enabled, on, &entry.name));
     rim(ui, row, &response, context);
     let mark = egui::pos2(row.left() + 11.0, row.center().y);
     draw_mark(ui, mark, ticks, on, enabled, context);
     let mut words = Rect::from_min_max(row.min + Vec2::new(6.0 * UNIT, 0.0), row.max);
+    let place = egui::pos2(rect.right() - SCROLL_BAR - lines::DOTS, row.top());
+    let shown = save::menu_of(ui, Rect::from_min_size(place, Vec2::new(lines::DOTS, ROW)), &response, entry, context);
     if entry.is_own() {
         words.max.x -= lines::right_aligned(ui, words, "yours", TextStyle::Small, context.theme.weak) + UNIT;
-        let dots = Rect::from_min_size(egui::pos2(row.right() + UNIT, row.top()), Vec2::new(lines::DOTS, ROW));
-        own_menu(ui, dots, id, entry, context);
+    } else if shown {
+        words.max.x = place.x - UNIT;
     }
     let color = if enabled { context.theme.text } else { context.theme.weak };
     let shown = if entry.kind == Kind::Illuminant && entry.name == "E" { "E, equal energy" } else { &entry.name };
     lines::elided(ui, words, shown, TextStyle::Body, color);
-    if response.clicked() && (ticks || !on) {
+    if enabled && response.clicked() && (ticks || !on) {
         choose(entry, !on, context);
     }
     let (scene, theme) = (context.scene, context.theme);
@@ -211,20 +222,4 @@ fn draw_mark(ui: &Ui, at: egui::Pos2, ticks: bool, on: bool, enabled: bool, cont
             painter.circle_filled(at, 3.5, color);
         }
     }
-}
-
-/// What can be done with a set of the user's.
-fn own_menu(ui: &Ui, rect: Rect, id: egui::Id, entry: &Entry, context: &mut PaneContext<'_>) {
-    let button = lines::dots(ui, rect, id.with("dots"), &format!("Menu of your {}", entry.name));
-    egui::Popup::menu(&button).show(|ui| {
-        if ui.button("Reading…").clicked() {
-            context.view.reading = Some(entry.name.clone());
-            show_inspector(context);
-            ui.close();
-        }
-        if ui.button("Remove").clicked() {
-            context.push(Action::Own(OwnAction::Remove(entry.name.clone())));
-            ui.close();
-        }
-    });
 }

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::*;
 
 /// What must hold of whatever is read.
-fn check(bytes: &[u8], options: &ReadOptions) {
+pub(super) fn check(bytes: &[u8], options: &ReadOptions) {
     let Ok(table) = read(bytes, options) else { return };
     assert!(!table.curves.is_empty());
     for curve in &table.curves {
@@ -29,23 +29,35 @@ fn options() -> impl Strategy<Value = ReadOptions> {
         prop::option::weighted(0.2, prop::sample::select(delimiters)),
         prop::option::weighted(0.2, prop::sample::select(vec![Mark::Point, Mark::Comma])),
         prop::option::weighted(0.2, prop::sample::select(vec![Orientation::Down, Orientation::Across])),
-        prop::option::weighted(0.2, prop::sample::select(vec![Unit::Nanometer, Unit::Micrometer, Unit::Angstrom])),
-        prop::option::weighted(0.2, any::<bool>()),
-        prop::option::weighted(0.2, prop::sample::select(vec![Role::Camera, Role::Reflectance, Role::Illuminant])),
+        prop::option::weighted(
+            0.2,
+            prop::sample::select(vec![
+                Unit::Nanometer,
+                Unit::Micrometer,
+                Unit::Angstrom,
+                Unit::Wavenumber,
+                Unit::Terahertz,
+            ]),
+        ),
+        prop::option::weighted(
+            0.2,
+            prop::sample::select(vec![Values::Plain, Values::Percent, Values::Absorbance, Values::Decibels]),
+        ),
+        prop::option::weighted(0.2, prop::sample::select(vec![Role::Camera, Role::Reflectance, Role::Unknown])),
     )
-        .prop_map(|(delimiter, decimal_mark, orientation, wavelength_unit, percent, role)| ReadOptions {
+        .prop_map(|(delimiter, decimal_mark, orientation, wavelength_unit, values, role)| ReadOptions {
             delimiter,
             decimal_mark,
             orientation,
             wavelength_unit,
-            percent,
+            values,
             role,
             ..ReadOptions::default()
         })
 }
 
 /// Sound files to damage.
-const SOUND: [&str; 7] = [
+pub(super) const SOUND: [&str; 7] = [
     "# title: a\n# unit: percent\nwavelength_nm,R,G,B\n380,0.1,0.2,0.3\n390,0.2,0.3,0.4\n400,,0.4,0.5\n",
     "Wave ;Sample;Reflectance\r\n[nm] ;[counts];[%]\r\n\r\n 300,00; -6,893;52,5\r\n 301,00; -7,474; 0,0\r\n",
     "\" File: x\n\" T->  Wave:7.2nm\n 339.00  1.0000E-003\n 339.50  1.0000E-003\n 340.00  NaN\n",

@@ -1,6 +1,6 @@
 //! Tables of numbers as instruments write them: what stands around the numbers, and which columns are taken.
 
-use chromascope_core::table::{Certainty, Orientation, ReadOptions, Role, Warning, read};
+use chromascope_core::table::{Certainty, Orientation, Quantity, ReadOptions, Role, Values, Warning, read};
 
 use super::{names, note, ok, samples};
 
@@ -20,12 +20,17 @@ fn stellarnet_says_what_it_measured() {
     };
     let table = ok(&file("TRANS"));
     assert_eq!(samples(&table, 0), [(339.0, 1e-5), (339.5, -0.77101), (340.0, 0.5)]);
-    assert_eq!((table.role.value, table.role.certainty), (Role::Reflectance, Certainty::Certain));
-    assert_eq!(table.reading.percent.certainty, Certainty::Certain);
+    assert_eq!((table.role.value, table.role.certainty), (Role::Transmittance, Certainty::Certain));
+    assert_eq!(table.reading.values.certainty, Certainty::Certain);
     assert_eq!(note(&table, "Program"), Some("a file of StellarNet SpectraWiz"));
     let scope = ok(&file("SCOPE"));
-    assert_eq!((scope.role.value, scope.curves[0].values[2]), (Role::Illuminant, 50.0));
-    assert_eq!(ok(&file("ABSORB")).warnings[0], Warning::Absorbance { line: 2 });
+    assert_eq!((scope.role.value, scope.curves[0].values[2]), (Role::Unknown, 50.0));
+    assert_eq!(scope.reading.quantity.value, Quantity::Counts);
+    assert_eq!(ok(&file("REFL")).role.value, Role::Reflectance);
+    assert_eq!(ok(&file("IRRAD")).reading.quantity.value, Quantity::Irradiance);
+    let absorbed = ok(&file("ABSORB").replace("-7.7101E+001", "1.0"));
+    assert_eq!((absorbed.role.value, absorbed.role.certainty), (Role::Transmittance, Certainty::Guess));
+    assert_eq!((absorbed.reading.values.value, absorbed.curves[0].values[1]), (Values::Absorbance, 0.1));
 }
 
 #[test]
@@ -93,7 +98,7 @@ fn spectral_library_in_micrometers() {
     assert_eq!((names(&table), table.reading.descending), (vec!["Made-up grass"], true));
     assert_eq!(table.curves[0].wavelengths_nm, [380.49, 390.49, 400.49]);
     assert_eq!(table.curves[0].values, [14.546 / 100.0, 14.251 / 100.0, 14.249 / 100.0]);
-    assert_eq!((table.role.certainty, table.reading.percent.certainty), (Certainty::Certain, Certainty::Certain));
+    assert_eq!((table.role.certainty, table.reading.values.certainty), (Certainty::Certain, Certainty::Certain));
 }
 
 #[test]
@@ -108,7 +113,11 @@ fn optical_spectrum_analyzer() {
     assert_eq!(samples(&table, 0), [(999.743_347_2, -60.0), (1_000.743_347, -50.0)]);
     assert_eq!(table.reading.wavelength_unit.certainty, Certainty::Certain);
     assert!(note(&table, "Program").is_some_and(|program| program.contains("no real file")));
-    assert_eq!(ok(&file("dBm")).warnings[0], Warning::Decibels { line: 5 });
+    assert_eq!(table.role.value, Role::Illuminant);
+    assert_eq!(note(&table, "Medium"), Some("wavelengths in air, taken as they are"));
+    let power = ok(&file("dBm"));
+    assert_eq!((power.reading.values.value, power.role.value), (Values::Decibels, Role::Illuminant));
+    assert_eq!((power.curves[0].values[1], power.reading.values.certainty), (1e-5, Certainty::Certain));
 }
 
 #[test]

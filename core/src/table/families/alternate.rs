@@ -4,7 +4,8 @@ use super::super::dialect::{Cell, Dialect};
 use super::super::header::Header;
 use super::super::sniff::Layout;
 use super::super::text::{Lines, excerpt};
-use super::super::{Decided, DecimalMark, Delimiter, Orientation, ReadError, Reader, Role, Warning};
+use super::super::watch::Log;
+use super::super::{Decided, DecimalMark, Delimiter, Orientation, ReadError, Reader, Role};
 use super::Found;
 use super::spectra::{self, Sample, Spectrum};
 
@@ -32,12 +33,13 @@ fn number(cell: &str) -> Option<f64> {
 }
 
 /// Reads the pairs of lines.
-pub(super) fn read(text: &str, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
+pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut header = Header::default();
     let mut samples = Vec::new();
     let mut wavelength = None;
     let mut comma = false;
     for (line, cell) in Lines::new(text).map(|(line, text)| (line, text.trim())).filter(|(_, cell)| !cell.is_empty()) {
+        log.at(cell.as_ptr() as usize - text.as_ptr() as usize)?;
         if let Some(title) = cell.strip_prefix('#') {
             if title.trim() != "No Title" {
                 header.note("title", title.trim());
@@ -63,7 +65,7 @@ pub(super) fn read(text: &str, warnings: &mut Vec<Warning>) -> Result<Found, Rea
         return Err(ReadError::UnevenRow { line, found: 1, expected: 2 });
     }
     let first_line = samples.first().map(|sample| sample.line).ok_or(ReadError::NoNumbers)?;
-    let mut grid = spectra::grid(vec![Spectrum { samples, ..Spectrum::default() }], header, warnings)?;
+    let mut grid = spectra::grid(vec![Spectrum { samples, ..Spectrum::default() }], header, log)?;
     grid.role = Some(Decided::guess(Role::Illuminant, "Meters that write such files measure light"));
     let mark = if comma { DecimalMark::Comma } else { DecimalMark::Point };
     let why = "The first line begins with @, and single numbers follow";

@@ -71,7 +71,7 @@ fn entries(line: &str) -> Result<Vec<(Kind, f64)>, &str> {
         let end = end(body);
         let number = match (first, &body[..end]) {
             ('?', "") => f64::NAN,
-            (_, digits) => format!("{lead}{digits}").parse().ok().filter(|n: &f64| n.is_finite()).ok_or(rest)?,
+            (_, digits) => number(lead, digits).ok_or(rest)?,
         };
         found.push((kind, number));
         if found.len() > MOST_VALUES {
@@ -103,23 +103,35 @@ fn end(body: &str) -> usize {
     at
 }
 
+/// The number that a first character and the digits after it stand for.
+fn number(lead: (bool, Option<u8>), digits: &str) -> Option<f64> {
+    // On the stack: a file holds millions of entries, of a few letters each.
+    const LONGEST: usize = 48;
+    let mut buffer = [0; LONGEST];
+    let mut length = 0;
+    let (negative, first) = lead;
+    for byte in negative.then_some(b'-').into_iter().chain(first).chain(digits.bytes()) {
+        *buffer.get_mut(length)? = byte;
+        length += 1;
+    }
+    std::str::from_utf8(&buffer[..length]).ok()?.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
 /// What the first character of an entry says: its kind, its sign and its first digit.
-fn lead(first: char) -> Option<(Kind, String)> {
-    let digit = |from: u8, negative: bool| {
-        let digit = u32::from(first).wrapping_sub(u32::from(from)) + 1;
-        format!("{}{digit}", if negative { "-" } else { "" })
-    };
+fn lead(first: char) -> Option<(Kind, (bool, Option<u8>))> {
+    let digit = |from: u8| Some((first as u8).wrapping_sub(from) + b'1');
     Some(match first {
-        '0'..='9' | '.' | '-' => (Kind::Value, first.to_string()),
-        '+' | '?' => (Kind::Value, String::new()),
-        '@' => (Kind::Value, "0".to_owned()),
-        'A'..='I' => (Kind::Value, digit(b'A', false)),
-        'a'..='i' => (Kind::Value, digit(b'a', true)),
-        '%' => (Kind::Difference, "0".to_owned()),
-        'J'..='R' => (Kind::Difference, digit(b'J', false)),
-        'j'..='r' => (Kind::Difference, digit(b'j', true)),
-        'S'..='Z' => (Kind::Repeat, digit(b'S', false)),
-        's' => (Kind::Repeat, "9".to_owned()),
+        '0'..='9' | '.' => (Kind::Value, (false, Some(first as u8))),
+        '-' => (Kind::Value, (true, None)),
+        '+' | '?' => (Kind::Value, (false, None)),
+        '@' => (Kind::Value, (false, Some(b'0'))),
+        'A'..='I' => (Kind::Value, (false, digit(b'A'))),
+        'a'..='i' => (Kind::Value, (true, digit(b'a'))),
+        '%' => (Kind::Difference, (false, Some(b'0'))),
+        'J'..='R' => (Kind::Difference, (false, digit(b'J'))),
+        'j'..='r' => (Kind::Difference, (true, digit(b'j'))),
+        'S'..='Z' => (Kind::Repeat, (false, digit(b'S'))),
+        's' => (Kind::Repeat, (false, Some(b'9'))),
         _ => return None,
     })
 }

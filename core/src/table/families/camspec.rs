@@ -6,6 +6,7 @@ use super::super::grid::{Grid, RawCurve};
 use super::super::header::Header;
 use super::super::sniff::Layout;
 use super::super::text::Lines;
+use super::super::watch::Log;
 use super::super::{
     Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, Orientation, ReadError, Reader, Role, WavelengthUnit,
 };
@@ -39,11 +40,12 @@ fn values(line: &str) -> Option<Vec<f64>> {
 }
 
 /// Reads three curves for each camera.
-pub(super) fn read(text: &str) -> Result<Found, ReadError> {
+pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut lines = Lines::new(text).filter(|(_, line)| !line.trim().is_empty()).peekable();
     let first_line = lines.peek().map_or(1, |(line, _)| line + 1);
     let mut cameras: Vec<(String, [Vec<f64>; 3])> = Vec::new();
     while let Some((_, name)) = lines.next() {
+        log.at(name.as_ptr() as usize - text.as_ptr() as usize)?;
         let mut channel = || {
             let (line, text) = lines.next().unwrap_or_default();
             let found = text.split_ascii_whitespace().count();
@@ -62,7 +64,7 @@ pub(super) fn read(text: &str) -> Result<Found, ReadError> {
     let curves = cameras.into_iter().flat_map(|(camera, channels)| {
         channels.into_iter().zip(CHANNELS).map(move |(values, channel)| {
             let name = if alone { channel.to_owned() } else { format!("{camera} {channel}") };
-            RawCurve { name, named: true, label: String::new(), values }
+            RawCurve { name, named: true, label: String::new(), unit: None, values }
         })
     });
     let why = "Three lines of 33 values under each name";

@@ -9,32 +9,39 @@ use tokens::Token;
 use super::super::dialect::{Cell, Dialect};
 use super::super::grid::{Grid, RawCurve};
 use super::super::header::Header;
+use super::super::reading::MAX_PARTS;
 use super::super::sniff::Layout;
 use super::super::text::{Lines, excerpt};
+use super::super::watch::Log;
 use super::super::words;
 use super::super::{
-    Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, ReadError, Reader, Role, Warning,
-    WavelengthUnit,
+    Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, Part, ReadError, ReadOptions,
+    Reader, Role, Values, Warning, WavelengthUnit,
 };
 use super::Found;
 
-/// Reads the first table that has spectral fields.
-pub(super) fn read(text: &str, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
-    let mut file = File::default();
+/// Reads the table with spectral fields that was chosen, else the first.
+pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+    let mut file = File { wanted: options.part.unwrap_or(1), ..File::default() };
     let mut place = Place::Keywords;
     for (number, line) in Lines::new(text) {
-        let mut tokens = tokens::of(line).peekable();
+        let mut tokens = tokens::of(line);
         while let Some(token) = tokens.next() {
+            log.at(token.start() as usize - text.as_ptr() as usize)?;
             place = match (place, token.bare().unwrap_or_default()) {
                 (_, "BEGIN_DATA_FORMAT") => {
                     file.begin_format(number);
                     Place::Format
                 }
                 (_, "BEGIN_DATA") => {
-                    file.begin_data(number, warnings);
+                    file.begin_data(number);
                     Place::Data
                 }
-                (Place::Format, "END_DATA_FORMAT") | (Place::Data, "END_DATA") => Place::Keywords,
+                (Place::Format, "END_DATA_FORMAT") => Place::Keywords,
+                (Place::Data, "END_DATA") => {
+                    file.end_data();
+                    Place::Keywords
+                }
                 (Place::Keywords, _) => {
                     file.keyword(number, &token, tokens.next());
                     break;
@@ -44,7 +51,7 @@ pub(super) fn read(text: &str, warnings: &mut Vec<Warning>) -> Result<Found, Rea
             };
         }
     }
-    file.finish(warnings)
+    file.finish(options, log)
 }
 
 /// Which part of a file a token stands in.
@@ -74,21 +81,32 @@ struct File {
     row_name: String,
     row_wavelengths: Vec<f64>,
     last_line: usize,
-    /// Whether the table that is kept has begun, and whether it has ended.
+    /// Fields in a set of the table that is kept.
+    width: usize,
+    /// Which of the tables with spectral fields is kept, from 1.
+    wanted: usize,
+    /// Whether the table that is kept has begun, and whether it is the one being read.
     done: bool,
-    closed: bool,
-    /// The fields of a table after it.
-    later: Vec<String>,
+    open: bool,
+    /// All tables with spectral fields.
+    parts: Vec<Part>,
+    /// What the keywords call the table to come.
+    title: String,
+    /// The values of one that is not kept, which are only counted.
+    counted: Option<usize>,
 }
 
 impl File {
     fn keyword(&mut self, line: usize, key: &Token, value: Option<Token>) {
-        let (key, value) = (key.text(), value.map_or_else(String::new, |value| value.text()));
+        if key.bare() == Some("DESCRIPTOR") {
+            self.title = value.as_ref().map_or_else(String::new, |value| value.text().into_owned());
+        }
+        let (key, value) = (key.text(), value.map_or_else(String::new, |value| value.text().into_owned()));
         if self.done || key == "KEYWORD" {
             return;
         }
         let number = value.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-        match key.as_str() {
+        match &*key {
             "SPECTRAL_BANDS" => self.declared.bands = number,
             "SPECTRAL_START_NM" => self.declared.start = number,
             "SPECTRAL_END_NM" => self.declared.end = number,
@@ -108,46 +126,60 @@ impl File {
     }
 
     fn begin_format(&mut self, line: usize) {
-        if self.done {
-            self.closed = true;
-            self.later.clear();
-        } else {
+        self.end_data();
+        self.fields.clear();
+        if !self.done {
             self.format_line = line;
-            self.fields.clear();
         }
     }
 
     fn field(&mut self, line: usize, token: &Token) -> Result<Place, ReadError> {
-        let fields = if self.done { &mut self.later } else { &mut self.fields };
-        fields.push(token.text());
-        if fields.len() > MAX_CURVES {
+        self.fields.push(token.text().into_owned());
+        if self.fields.len() > MAX_CURVES {
             return Err(ReadError::TooManyCurves { line });
         }
         Ok(Place::Format)
     }
 
-    fn begin_data(&mut self, line: usize, warnings: &mut Vec<Warning>) {
-        let fields = if self.done { &self.later } else { &self.fields };
-        let bands = Bands::of(fields, self.declared);
-        if self.done {
-            self.closed = true;
-            if bands.is_some() && !warnings.iter().any(|warning| matches!(warning, Warning::MoreTables { .. })) {
-                warnings.push(Warning::MoreTables { line });
-            }
+    fn begin_data(&mut self, line: usize) {
+        self.end_data();
+        let Some(bands) = Bands::of(&self.fields, self.declared).filter(|_| self.parts.len() < MAX_PARTS) else {
+            return;
+        };
+        let name = std::mem::take(&mut self.title);
+        self.parts.push(Part { line: line + 1, name, curves: 0, rows: bands.count() });
+        if self.parts.len() != self.wanted {
+            self.counted = Some(0);
             return;
         }
-        self.done = bands.is_some();
-        self.bands = bands;
-        self.data_line = line;
+        (self.done, self.open, self.width, self.data_line) = (true, true, self.fields.len(), line);
+        self.bands = Some(bands);
         let named = |wanted: &&str| self.fields.iter().position(|field| field.eq_ignore_ascii_case(wanted));
         self.name_fields = ["SAMPLE_NAME", "SAMPLE_LOC", "SAMPLE_ID", "SampleID"].iter().filter_map(named).collect();
     }
 
+    /// Ends a table, whether or not the file says so.
+    fn end_data(&mut self) {
+        self.open = false;
+        if let (Some(values), Some(part)) = (self.counted.take(), self.parts.last_mut()) {
+            part.curves = values / self.fields.len().max(1);
+            // What the keywords say of one table is not said of the next.
+            if !self.done {
+                (self.declared, self.scale, self.header) = Default::default();
+            }
+        }
+    }
+
     fn value(&mut self, line: usize, token: &Token) -> Result<Place, ReadError> {
-        let Some(bands) = self.bands.as_ref().filter(|_| self.is_open()) else { return Ok(Place::Data) };
+        if let Some(values) = &mut self.counted {
+            *values += 1;
+        }
+        let Some(bands) = self.bands.as_ref().filter(|_| self.open && self.width > self.at) else {
+            return Ok(Place::Data);
+        };
         self.last_line = line;
         if self.name_fields.first() == Some(&self.at) {
-            self.row_name = token.text();
+            self.row_name = token.text().into_owned();
         }
         if bands.is_value(self.at) {
             self.values.push(number(token, line, self.at)?);
@@ -155,15 +187,10 @@ impl File {
             self.row_wavelengths.push(number(token, line, self.at)?);
         }
         self.at += 1;
-        if self.at == self.fields.len() {
+        if self.at == self.width {
             self.end_row(line)?;
         }
         Ok(Place::Data)
-    }
-
-    /// Whether the table that is kept is the one being read.
-    fn is_open(&self) -> bool {
-        self.done && !self.closed && self.fields.len() > self.at
     }
 
     fn end_row(&mut self, line: usize) -> Result<(), ReadError> {
@@ -180,22 +207,24 @@ impl File {
         if agrees { Ok(()) } else { Err(ReadError::SecondTable { line }) }
     }
 
-    fn finish(self, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
+    fn finish(mut self, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+        self.end_data();
+        let parts = self.settle_parts(options, log)?;
         let bands = self.bands.ok_or(ReadError::NoWavelengths { line: self.format_line.max(1) })?;
         if self.at > 0 {
-            let (found, expected) = (self.at, self.fields.len());
+            let (found, expected) = (self.at, self.width);
             return Err(ReadError::UnevenRow { line: self.last_line, found, expected });
         }
         let mut header = self.header;
         header.line = Some(self.format_line);
         if bands.percent {
-            header.percent = Some((self.format_line, true));
+            header.values = Some((self.format_line, Values::Percent));
         }
         let mut notes = vec![bands.decision()];
         let mut scale = 1.0;
         if let Some((line, norm)) = self.scale {
             scale = norm;
-            header.percent = Some((line, false));
+            header.values = Some((line, Values::Plain));
             let divided = Decided::certain(format!("divided by {norm}"), format!("Line {line} gives the scale"));
             notes.push(Decision::new("Scale", &divided));
         }
@@ -206,13 +235,15 @@ impl File {
             let given = Some(name).filter(|name| !name.is_empty()).or_else(|| title.clone());
             let named = given.is_some();
             let name = given.unwrap_or_else(|| format!("Set {}", i + 1));
-            RawCurve { name, named, label: String::new(), values: values.iter().map(|value| value / scale).collect() }
+            RawCurve { name, named, values: values.iter().map(|value| value / scale).collect(), ..RawCurve::default() }
         });
         let curves: Vec<RawCurve> = curves.collect();
-        warn_gaps(&curves, self.data_line, warnings);
+        warn_gaps(&curves, self.data_line, log);
         let lines = vec![self.format_line];
         let unit = Some(Decided::certain(WavelengthUnit::Nanometer, "CGATS prescribes it"));
-        let grid = Grid { unit, wavelengths: bands.wavelengths, lines, curves, header, rows, ..Grid::default() };
+        let part = Some(Decided::guess(self.wanted, format!("{} tables have spectral fields", parts.len())));
+        let wavelengths = bands.wavelengths;
+        let grid = Grid { wavelengths, lines, curves, header, unit, parts, part, rows, ..Grid::default() };
         let dialect = (Delimiter::Spaces, DecimalMark::Point);
         let layout = Layout::fixed(dialect, Orientation::Across, self.data_line + 1, "CGATS prescribes it");
         let why = format!("Line {} begins a data format", self.format_line);
@@ -220,12 +251,29 @@ impl File {
     }
 }
 
-fn warn_gaps(curves: &[RawCurve], line: usize, warnings: &mut Vec<Warning>) {
+impl File {
+    /// The list of tables, with a word on those that are left out.
+    fn settle_parts(&mut self, options: &ReadOptions, log: &mut Log<'_>) -> Result<Vec<Part>, ReadError> {
+        let mut parts = std::mem::take(&mut self.parts);
+        if let Some(part) = options.part.filter(|part| !parts.is_empty() && !(1..=parts.len()).contains(part)) {
+            return Err(ReadError::NoSuchPart { part, parts: parts.len() });
+        }
+        if let Some(kept) = self.wanted.checked_sub(1).and_then(|index| parts.get_mut(index)) {
+            kept.curves = self.names.len();
+        }
+        if let Some(second) = parts.get(1).filter(|_| options.part.is_none()) {
+            log.push(Warning::MoreTables { line: second.line });
+        }
+        Ok(parts)
+    }
+}
+
+fn warn_gaps(curves: &[RawCurve], line: usize, log: &mut Log<'_>) {
     let cells = curves.iter().flat_map(|curve| &curve.values).filter(|value| value.is_nan()).count();
     if cells > 0 {
         let mut lines = super::super::warning::LineList::default();
         lines.add(line);
-        warnings.push(Warning::Gaps { cells, lines });
+        log.push(Warning::Gaps { cells, lines });
     }
 }
 

@@ -1,45 +1,72 @@
 //! JCAMP-DX: labeled records, blocks of blocks, points or compressed ordinates.
 
 use super::super::header::Header;
-use super::super::reading::clean;
+use super::super::quantity;
+use super::super::reading::{MAX_PARTS, clean};
 use super::super::sniff::Layout;
 use super::super::text::{Lines, excerpt};
+use super::super::watch::Log;
 use super::super::words;
 use super::super::{
-    Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, ReadError, ReadOptions, Reader,
-    Warning,
+    Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, Part, ReadError, ReadOptions,
+    Reader, Values, Warning,
 };
 use super::spectra::{self, Sample, Spectrum};
 use super::{Found, asdf};
 
 /// Reads the processed spectrum, or all spectra if none is a raw one beside it.
-pub(super) fn read(text: &str, options: &ReadOptions, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
-    let mut blocks = blocks(text)?;
+pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+    let mut blocks = blocks(text, log)?;
     blocks.retain(|block| !block.samples.is_empty());
+    let parts: Vec<Part> = blocks.iter().take(MAX_PARTS).map(Block::part).collect();
     let mut notes = Vec::new();
-    let raw = blocks.iter().filter(|block| block.is_raw()).count();
-    if raw > 0 && raw < blocks.len() && options.raw != Some(true) {
-        let why = format!("{} blocks, of which {raw} are dark or reference spectra", blocks.len());
-        blocks.retain(|block| !block.is_raw());
-        let taken = format!("“{}” alone", blocks[0].title);
-        notes.push(Decision::new(
-            "Blocks",
-            &Decided::or_chosen(options.raw, || Decided::certain(false, why)).named(taken),
-        ));
-    }
+    let part = choose(&mut blocks, options, &mut notes)?;
     let first_line = blocks.first().map(|block| block.data_line + 1).ok_or(ReadError::NoNumbers)?;
     for block in &blocks {
-        block.warn(warnings);
+        block.warn(log);
     }
     let comma = blocks.iter().any(|block| block.comma);
     let header = blocks[0].header();
+    let units: Vec<Option<String>> = blocks.iter().map(|block| quantity::unit(&block.y_units.1)).collect();
     let spectra = blocks.into_iter().map(Block::spectrum).collect();
-    let grid = spectra::grid(spectra, header, warnings)?;
+    let mut grid = spectra::grid(spectra, header, log)?;
+    grid.curves.iter_mut().zip(units).for_each(|(curve, unit)| curve.unit = unit);
+    (grid.parts, grid.part) = (parts, Some(part));
     let dialect =
         if comma { (Delimiter::CommaSpace, DecimalMark::Comma) } else { (Delimiter::Comma, DecimalMark::Point) };
     let layout = Layout::fixed(dialect, Orientation::Down, first_line, "JCAMP-DX prescribes it");
     let reader = Decided::certain(Reader::Jcamp, "The file begins with ## labels");
     Ok(Found { grid, layout, reader, notes })
+}
+
+/// Leaves the block that was chosen, else those that are not raw; 0 stands for several.
+fn choose(
+    blocks: &mut Vec<Block>,
+    options: &ReadOptions,
+    notes: &mut Vec<Decision>,
+) -> Result<Decided<usize>, ReadError> {
+    let count = blocks.len();
+    if let Some(part) = options.part {
+        if !(1..=count.min(MAX_PARTS)).contains(&part) && count > 0 {
+            return Err(ReadError::NoSuchPart { part, parts: count.min(MAX_PARTS) });
+        }
+        *blocks = blocks.drain(..).skip(part.saturating_sub(1)).take(1).collect();
+        return Ok(Decided::chosen(part));
+    }
+    let raw = blocks.iter().filter(|block| block.is_raw()).count();
+    let all = usize::from(count == 1);
+    if raw == 0 || raw == count || options.raw == Some(true) {
+        return Ok(Decided::certain(all, format!("{count} blocks hold spectra")));
+    }
+    let first = blocks.iter().position(|block| !block.is_raw()).map_or(0, |index| index + 1);
+    let why = format!("{count} blocks, of which {raw} are dark or reference spectra");
+    blocks.retain(|block| !block.is_raw());
+    let taken = format!("“{}” alone", blocks[0].title);
+    notes.push(Decision::new(
+        "Blocks",
+        &Decided::or_chosen(options.raw, || Decided::certain(false, why.clone())).told(&taken),
+    ));
+    Ok(Decided::certain(if count - raw == 1 { first } else { 0 }, why))
 }
 
 /// How the data of a block is written.
@@ -72,12 +99,13 @@ struct Block {
 }
 
 /// All blocks that have a title of their own, in the order of the file.
-fn blocks(text: &str) -> Result<Vec<Block>, ReadError> {
+fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
     let mut all: Vec<Block> = Vec::new();
     let mut total = 0;
     // Repetitions make more of a file than it is long, but no sound file makes this much of little.
     let most = MAX_SAMPLES.min(1_000_000 + 10 * text.len());
     for (number, line) in Lines::new(text) {
+        log.at(line.as_ptr() as usize - text.as_ptr() as usize)?;
         let line = line.split_once("$$").map_or(line, |(before, _)| before);
         if let Some((key, value)) = line.trim_start().strip_prefix("##").and_then(|record| record.split_once('=')) {
             let key = label(key);
@@ -199,16 +227,17 @@ impl Block {
         last.contains("dark") || last.contains("reference") || last.contains("raw")
     }
 
-    fn warn(&self, warnings: &mut Vec<Warning>) {
+    fn warn(&self, log: &mut Log<'_>) {
         let found = self.samples.len();
         if let (line, Some(expected)) = self.points
             && expected != found
         {
-            warnings.push(Warning::CountDiffers { line, expected, found });
+            log.push(Warning::CountDiffers { line, expected, found });
         }
-        if self.y_units.1.to_ascii_lowercase().contains("absorb") {
-            warnings.push(Warning::Absorbance { line: self.y_units.0 });
-        }
+    }
+
+    fn part(&self) -> Part {
+        Part { line: self.data_line + 1, name: self.title.clone(), curves: 1, rows: self.samples.len() }
     }
 
     fn header(&self) -> Header {
@@ -216,7 +245,9 @@ impl Block {
         let mut header = Header {
             x_unit: words::x_unit(&self.x_units.1).map(|unit| (self.x_units.0, unit)),
             role: words::role(units).map(|role| (*line, role)),
-            percent: words::says_percent(units).then_some((*line, true)),
+            values: words::values(units).filter(|values| *values != Values::Plain).map(|values| (*line, values)),
+            quantity: words::quantity(units).map(|quantity| (*line, quantity)),
+            medium: words::medium(&self.x_units.1).map(|medium| (self.x_units.0, medium)),
             ..Header::default()
         };
         for (key, value) in &self.records {
@@ -228,13 +259,6 @@ impl Block {
     fn spectrum(self) -> Spectrum {
         let name = Some(self.title).filter(|title| !title.is_empty());
         Spectrum { name, label: String::new(), samples: self.samples }
-    }
-}
-
-impl<T> Decided<T> {
-    /// The same decision with its value told in other words.
-    fn named(self, value: String) -> Decided<String> {
-        Decided { value, certainty: self.certainty, why: self.why }
     }
 }
 

@@ -2,15 +2,20 @@
 
 mod comments;
 mod document;
+mod watched;
 
 use document::{Aces, File};
+use watched::Watched;
 
 use super::super::family::Family;
 use super::super::header::Header;
+use super::super::reading::{MAX_PARTS, clean};
 use super::super::sniff::Layout;
+use super::super::text::excerpt;
+use super::super::watch::Log;
 use super::super::{
-    Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, ReadError, Reader, Role, Warning,
-    WavelengthUnit,
+    Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, Part, ReadError, ReadOptions,
+    Reader, Role, WavelengthUnit, quantity, words,
 };
 use super::Found;
 use super::spectra::{self, Sample, Spectrum};
@@ -18,37 +23,61 @@ use super::spectra::{self, Sample, Spectrum};
 /// The fewest bytes for each quotation mark in a file of spectra.
 const FEWEST_BYTES: usize = 5;
 
+/// Samples that are put in place between two looks at the watch: some milliseconds.
+const SAMPLES_BETWEEN_LOOKS: usize = 1 << 17;
+
 /// Reads a document of either layout.
-pub(super) fn read(text: &str, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
+pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     // Every list and every text has a name of its own; hostile text, which has nothing else, would need many times its size.
     if text.bytes().filter(|byte| *byte == b'"').count() > text.len() / FEWEST_BYTES + 1000 {
         return Err(ReadError::Unsupported { family: Family::Json });
     }
-    let bare = comments::blank(text);
-    let file: File = serde_json::from_str(&bare).map_err(|error| malformed(text, &error))?;
-    let parts = match file {
-        File { spectral_data: Some(data), header, .. } => aces(data, &header.unwrap_or_default().0),
+    let file = parse(text, log)?;
+    let content = match file {
+        File { spectral_data: Some(data), header, .. } => aces(text, data, &header.unwrap_or_default().0, options, log),
         File {
             ssf_bands: Some(bands), red_ssf: Some(r), green_ssf: Some(g), blue_ssf: Some(b), camera_name, ..
-        } => camera(&bands, [r, g, b], camera_name.as_deref()),
-        File { bands: Some(bands), spectrum: Some(values), scale, .. } => spectrum(&bands, values, scale),
+        } => camera(text, &bands, [r, g, b], camera_name.as_deref()),
+        File { bands: Some(bands), spectrum: Some(values), scale, .. } => spectrum(text, &bands, values, scale),
         _ => return Err(ReadError::Unsupported { family: Family::Json }),
     };
-    let Parts { spectra, header, reader, role, notes } = parts.map_err(|error| placed(text, error))?;
-    let mut grid = spectra::grid(spectra, header, warnings)?;
+    let Content { spectra, header, reader, role, notes, parts, part } = content.map_err(|error| placed(text, error))?;
+    let mut grid = spectra::grid(spectra, header, log)?;
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "Both layouts prescribe it"));
     grid.role = role;
+    (grid.parts, grid.part) = (parts, part);
+    let unit = grid.header.unit.clone();
+    grid.curves.iter_mut().for_each(|curve| curve.unit.clone_from(&unit));
     let dialect = (Delimiter::Comma, DecimalMark::Point);
     let layout = Layout::fixed(dialect, Orientation::Down, 1, "JSON prescribes it");
     Ok(Found { grid, layout, reader, notes })
+}
+
+fn parse(text: &str, log: &Log<'_>) -> Result<File, ReadError> {
+    let bare = comments::blank(text, log)?;
+    log.look(0)?;
+    serde_json::from_reader(Watched::new(bare.as_bytes(), log)).map_err(|error| {
+        // Nothing else fails in a reader of bytes that are there.
+        if error.is_io() { ReadError::Stopped } else { malformed(text, &error) }
+    })
+}
+
+/// The line in which a name stands between quotes, if it does.
+fn line_of(text: &str, name: &str) -> Option<usize> {
+    let at = text.find(&format!("\"{name}\""))?;
+    Some(1 + text[..at].bytes().filter(|byte| *byte == b'\n').count())
+}
+
+/// Evidence: the line that has a member of this name.
+fn says(text: &str, name: &str) -> String {
+    line_of(text, name).map_or_else(|| format!("The document has “{name}”"), |line| format!("Line {line} has “{name}”"))
 }
 
 /// An error about a list with the line where the list is named.
 fn placed(text: &str, error: ReadError) -> ReadError {
     match error {
         ReadError::WrongCount { name, found, expected, .. } => {
-            let at = text.find(&format!("\"{name}\"")).unwrap_or(0);
-            let line = 1 + text[..at].bytes().filter(|byte| *byte == b'\n').count();
+            let line = line_of(text, &name).unwrap_or(1);
             ReadError::WrongCount { line, name, found, expected }
         }
         other => other,
@@ -56,12 +85,14 @@ fn placed(text: &str, error: ReadError) -> ReadError {
 }
 
 /// What the layouts have in common.
-struct Parts {
+struct Content {
     spectra: Vec<Spectrum>,
     header: Header,
     reader: Decided<Reader>,
     role: Option<Decided<Role>>,
     notes: Vec<Decision>,
+    parts: Vec<Part>,
+    part: Option<Decided<usize>>,
 }
 
 fn malformed(text: &str, error: &serde_json::Error) -> ReadError {
@@ -77,25 +108,68 @@ fn has_marks(text: &str) -> bool {
 }
 
 /// Wavelengths are the keys of one object, each with a value for every name of the index.
-fn aces(data: Aces, comments: &[(String, String)]) -> Result<Parts, ReadError> {
-    let mut header = Header::default();
+fn aces(
+    text: &str,
+    data: Aces,
+    comments: &[(String, String)],
+    options: &ReadOptions,
+    log: &Log<'_>,
+) -> Result<Content, ReadError> {
+    let (mut header, mut notes) = (Header::default(), Vec::new());
     for (key, value) in comments {
         header.note(key, value);
     }
-    let camera = match (header.comment("manufacturer"), header.comment("model")) {
-        (Some(maker), Some(model)) => Some(format!("{maker} {model}")),
-        (None, Some(model)) => Some(model.to_owned()),
-        _ => None,
-    };
-    let title = camera.or_else(|| header.comment("type").or(header.comment("description")).map(str::to_owned));
-    if let Some(title) = title {
-        header.note("title", &title);
+    title(text, &mut header, &mut notes);
+    if let Some(units) = data.units.as_deref().filter(|units| !units.is_empty()) {
+        header.note("unit", units);
+        header.unit = quantity::unit_cell(units);
+        header.values = words::values(units).map(|values| (line_of(text, "units").unwrap_or(1), values));
+        header.quantity = words::quantity(units).map(|quantity| (line_of(text, "units").unwrap_or(1), quantity));
+        notes.push(Decision::new("Unit", &Decided::certain(units.to_owned(), says(text, "units"))));
     }
-    header.note("unit", data.units.as_deref().unwrap_or_default());
-    let names = main(data.index).unwrap_or_default();
-    let rows = main(data.data).ok_or(ReadError::NoNumbers)?.0;
+    let groups = &data.data.0;
+    let list = groups.iter().take(MAX_PARTS).map(|(name, rows)| Part {
+        line: line_of(text, name).unwrap_or(1),
+        name: name.clone(),
+        curves: rows.0.first().map_or(0, |(_, values)| values.len()),
+        rows: rows.0.len(),
+    });
+    let parts: Vec<Part> = list.collect();
+    let first = groups.iter().position(|(name, _)| name == "main").map_or(1, |index| index + 1);
+    let part = options.part.unwrap_or(first);
+    let group = part.checked_sub(1).and_then(|at| data.data.0.into_iter().nth(at));
+    let (name, rows) = group.ok_or(match parts.len() {
+        0 => ReadError::NoNumbers,
+        parts => ReadError::NoSuchPart { part, parts },
+    })?;
+    let mut index = data.index.0;
+    let at = index.iter().position(|(key, _)| *key == name).unwrap_or(0);
+    let names = if at < index.len() { index.swap_remove(at).1 } else { Vec::new() };
     let power = names.len() == 1 && names[0] == "power";
-    let role = power.then(|| Decided::certain(Role::Illuminant, "The only value is called “power”"));
+    let role = power.then(|| Decided::certain(Role::Illuminant, format!("{} as its only value", says(text, "power"))));
+    let spectra = curves(rows.0, &names, log)?;
+    let reader = Decided::certain(Reader::Rawtoaces, says(text, "spectral_data"));
+    let part = Decided::certain(part, format!("{} groups of data, of which “main” comes first", parts.len()));
+    Ok(Content { spectra, header, reader, role, notes, parts, part: Some(part) })
+}
+
+/// The name of what was measured: a camera's maker and model, a light's type, else its description.
+fn title(text: &str, header: &mut Header, notes: &mut Vec<Decision>) {
+    let (what, key, title) = match (header.comment("manufacturer"), header.comment("model")) {
+        (Some(maker), Some(model)) => ("Camera", "model", format!("{maker} {model}")),
+        (None, Some(model)) => ("Camera", "model", model.to_owned()),
+        _ => match (header.comment("type"), header.comment("description")) {
+            (Some(kind), _) => ("Name", "type", kind.to_owned()),
+            (None, Some(description)) => ("Name", "description", description.to_owned()),
+            (None, None) => return,
+        },
+    };
+    notes.push(Decision::new(what, &Decided::certain(title.clone(), says(text, key))));
+    header.note("title", &title);
+}
+
+/// One spectrum for each value of the rows.
+fn curves(rows: Vec<(String, Vec<Option<f64>>)>, names: &[String], log: &Log<'_>) -> Result<Vec<Spectrum>, ReadError> {
     let width = rows.first().map_or(0, |(_, values)| values.len());
     if width > MAX_CURVES {
         return Err(ReadError::TooManyCurves { line: 1 });
@@ -109,13 +183,19 @@ fn aces(data: Aces, comments: &[(String, String)]) -> Result<Parts, ReadError> {
             samples: Vec::with_capacity(rows.len()),
         })
         .collect();
+    let mut since = 0;
     for (key, values) in rows {
+        since += values.len();
+        if since > SAMPLES_BETWEEN_LOOKS {
+            since = 0;
+            log.look(usize::MAX)?;
+        }
         let wavelength: f64 = key
             .trim()
             .parse()
             .ok()
             .filter(|value: &f64| value.is_finite())
-            .ok_or_else(|| ReadError::NotANumber { line: 1, column: 1, text: super::super::text::excerpt(&key) })?;
+            .ok_or_else(|| ReadError::NotANumber { line: 1, column: 1, text: excerpt(&key) })?;
         if values.len() != width {
             return Err(ReadError::WrongCount { line: 1, name: key, found: values.len(), expected: width });
         }
@@ -123,41 +203,39 @@ fn aces(data: Aces, comments: &[(String, String)]) -> Result<Parts, ReadError> {
             spectrum.samples.extend(value.map(|value| Sample { wavelength, value, line: 1 }));
         }
     }
-    let reader = Decided::certain(Reader::Rawtoaces, "The document has “spectral_data”");
-    Ok(Parts { spectra: all, header, reader, role, notes: Vec::new() })
+    Ok(all)
 }
 
-/// The part called "main", else the first.
-fn main<T>(mut parts: std::collections::BTreeMap<String, T>) -> Option<T> {
-    parts.remove("main").or_else(|| parts.into_values().next())
-}
-
-fn camera(bands: &[f64], curves: [Vec<f64>; 3], name: Option<&str>) -> Result<Parts, ReadError> {
-    let (wavelengths, note) = wavelengths(bands, "ssf_bands")?;
+fn camera(text: &str, bands: &[f64], curves: [Vec<f64>; 3], name: Option<&str>) -> Result<Content, ReadError> {
+    let (wavelengths, note) = wavelengths(text, bands, "ssf_bands")?;
     let mut header = Header::default();
+    let mut notes = vec![note];
+    if let Some(name) = name {
+        notes.push(Decision::new("Camera", &Decided::certain(name.to_owned(), says(text, "camera_name"))));
+    }
     header.note("title", name.unwrap_or_default());
     let names = [("R", "red_ssf"), ("G", "green_ssf"), ("B", "blue_ssf")];
     let mut all = Vec::with_capacity(3);
     for (values, (short, long)) in curves.into_iter().zip(names) {
         all.push(on(&wavelengths, &values, long)?.named(short));
     }
-    let reader = Decided::certain(Reader::Dcamprof, "The document has “ssf_bands”");
-    let role = Some(Decided::certain(Role::Camera, "Its lists are called “red_ssf”, “green_ssf” and “blue_ssf”"));
-    Ok(Parts { spectra: all, header, reader, role, notes: vec![note] })
+    let reader = Decided::certain(Reader::Dcamprof, says(text, "ssf_bands"));
+    let role = Some(Decided::certain(Role::Camera, says(text, "red_ssf")));
+    Ok(Content { spectra: all, header, reader, role, notes, parts: Vec::new(), part: None })
 }
 
-fn spectrum(bands: &[f64], mut values: Vec<f64>, scale: Option<f64>) -> Result<Parts, ReadError> {
-    let (wavelengths, note) = wavelengths(bands, "bands")?;
+fn spectrum(text: &str, bands: &[f64], mut values: Vec<f64>, scale: Option<f64>) -> Result<Content, ReadError> {
+    let (wavelengths, note) = wavelengths(text, bands, "bands")?;
     let mut notes = vec![note];
     if let Some(scale) = scale.filter(|scale| *scale > 0.0 && *scale != 1.0) {
         for value in &mut values {
             *value /= scale;
         }
-        notes.push(Decision::new("Scale", &Decided::certain(format!("divided by {scale}"), "“scale” says so")));
+        notes.push(Decision::new("Scale", &Decided::certain(format!("divided by {scale}"), says(text, "scale"))));
     }
     let spectra = vec![on(&wavelengths, &values, "spectrum")?];
-    let reader = Decided::certain(Reader::Dcamprof, "The document has “bands” and “spectrum”");
-    Ok(Parts { spectra, header: Header::default(), reader, role: None, notes })
+    let reader = Decided::certain(Reader::Dcamprof, says(text, "spectrum"));
+    Ok(Content { spectra, header: Header::default(), reader, role: None, notes, parts: Vec::new(), part: None })
 }
 
 impl Spectrum {
@@ -176,9 +254,9 @@ fn on(wavelengths: &[f64], values: &[f64], name: &str) -> Result<Spectrum, ReadE
 }
 
 /// Three numbers are the ends of a range and its step, unless the third goes on from the second.
-fn wavelengths(bands: &[f64], key: &str) -> Result<(Vec<f64>, Decision), ReadError> {
+fn wavelengths(text: &str, bands: &[f64], key: &str) -> Result<(Vec<f64>, Decision), ReadError> {
     let listed = |bands: &[f64]| {
-        let listed = Decided::certain(format!("{} wavelengths", bands.len()), format!("“{key}” lists them"));
+        let listed = Decided::certain(format!("{} wavelengths", bands.len()), says(text, key));
         Ok((bands.to_vec(), Decision::new("Grid", &listed)))
     };
     let &[first, last, step] = bands else { return listed(bands) };
@@ -189,10 +267,10 @@ fn wavelengths(bands: &[f64], key: &str) -> Result<(Vec<f64>, Decision), ReadErr
     if !(1.0..=MAX_SAMPLES as f64).contains(&steps) {
         return Err(ReadError::NoWavelengths { line: 1 });
     }
-    let grid = (0..=steps as usize).map(|i| super::super::reading::clean(first + step * i as f64)).collect();
+    let grid = (0..=steps as usize).map(|i| clean(first + step * i as f64)).collect();
     let range = Decided::certain(
         format!("{first} to {last} nm in steps of {step}"),
-        format!("Three numbers in “{key}” are a range"),
+        format!("{}, and three numbers are a range", says(text, key)),
     );
     Ok((grid, Decision::new("Grid", &range)))
 }

@@ -2,10 +2,12 @@
 
 use super::super::dialect::{Cell, Dialect};
 use super::super::header::Header;
+use super::super::reading::MAX_PARTS;
 use super::super::sniff::Layout;
 use super::super::text::{Lines, excerpt};
+use super::super::watch::Log;
 use super::super::{
-    Decided, DecimalMark, Decision, Delimiter, Orientation, ReadError, Reader, Role, Warning, WavelengthUnit,
+    Decided, DecimalMark, Decision, Delimiter, Orientation, Part, ReadError, ReadOptions, Reader, Role, WavelengthUnit,
 };
 use super::Found;
 use super::spectra::{self, Sample, Spectrum};
@@ -31,11 +33,15 @@ pub(super) fn recognize(text: &str) -> bool {
 }
 
 /// Reads the finest block of samples.
-pub(super) fn read(text: &str, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
+pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut header = Header::default();
-    let (blocks, delimiter, mark) = blocks(text, &mut header)?;
+    let (blocks, delimiter, mark) = blocks(text, &mut header, log)?;
     let finest = blocks.iter().enumerate().max_by_key(|(at, block)| (block.len(), std::cmp::Reverse(*at)));
-    let at = finest.map(|(at, _)| at).ok_or(ReadError::NoNumbers)?;
+    let finest = finest.map(|(at, _)| at + 1).ok_or(ReadError::NoNumbers)?;
+    let part = options.part.unwrap_or(finest);
+    let parts: Vec<Part> = blocks.iter().take(MAX_PARTS).map(|block| self::part(block)).collect();
+    let at = part.checked_sub(1).filter(|at| *at < blocks.len());
+    let at = at.ok_or(ReadError::NoSuchPart { part, parts: parts.len() })?;
     let mut notes = Vec::new();
     let count = blocks.len();
     let Some(samples) = blocks.into_iter().nth(at) else { return Err(ReadError::NoNumbers) };
@@ -43,9 +49,12 @@ pub(super) fn read(text: &str, warnings: &mut Vec<Warning>) -> Result<Found, Rea
     if count > 1 {
         let why = format!("{count} blocks of samples, this one with the most");
         let taken = format!("the {} samples from line {first_line} on", samples.len());
-        notes.push(Decision::new("Block", &Decided::certain(taken, why)));
+        let decided = Decided::or_chosen(options.part, || Decided::certain(part, why));
+        notes.push(Decision::new("Block", &decided.told(&taken)));
     }
-    let mut grid = spectra::grid(vec![Spectrum { samples, ..Spectrum::default() }], header, warnings)?;
+    let mut grid = spectra::grid(vec![Spectrum { samples, ..Spectrum::default() }], header, log)?;
+    grid.part = Some(Decided::certain(part, format!("{count} blocks of samples, this one with the most")));
+    grid.parts = parts;
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "The unit stands in the labels"));
     grid.role = Some(Decided::guess(Role::Illuminant, "Meters that write such files measure light"));
     let why = format!("Labels such as the one in line {first_line} end with a wavelength");
@@ -53,14 +62,19 @@ pub(super) fn read(text: &str, warnings: &mut Vec<Warning>) -> Result<Found, Rea
     Ok(Found { grid, layout, reader: Decided::certain(Reader::Labels, why), notes })
 }
 
+fn part(block: &[Sample]) -> Part {
+    Part { line: block.first().map_or(1, |sample| sample.line), name: String::new(), curves: 1, rows: block.len() }
+}
+
 type Blocks = (Vec<Vec<Sample>>, Delimiter, DecimalMark);
 
 /// Blocks of samples of one label and rising wavelengths; other lines are kept as comments.
-fn blocks(text: &str, header: &mut Header) -> Result<Blocks, ReadError> {
+fn blocks(text: &str, header: &mut Header, log: &mut Log<'_>) -> Result<Blocks, ReadError> {
     let mut all: Vec<Vec<Sample>> = vec![Vec::new()];
     let mut label = None;
     let (mut delimiter, mut mark) = (Delimiter::Comma, DecimalMark::Point);
     for (number, line) in Lines::new(text) {
+        log.at(line.as_ptr() as usize - text.as_ptr() as usize)?;
         let Some(found) = sample(line) else {
             if let Some((key, value)) = line.split_once([',', ';', '\t']) {
                 let key = if key.eq_ignore_ascii_case("title") { "title" } else { key };

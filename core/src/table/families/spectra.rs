@@ -3,23 +3,24 @@
 use super::super::grid::{Grid, RawCurve};
 use super::super::header::Header;
 use super::super::warning::LineList;
+use super::super::watch::Log;
 use super::super::{MAX_CURVES, MAX_SAMPLES, ReadError, Warning};
 
 /// One sample and the line it stands in.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sample {
-    pub(super) wavelength: f64,
-    pub(super) value: f64,
-    pub(super) line: usize,
+pub(in super::super) struct Sample {
+    pub(in super::super) wavelength: f64,
+    pub(in super::super) value: f64,
+    pub(in super::super) line: usize,
 }
 
 /// A spectrum as it stands in the file.
 #[derive(Debug, Default)]
-pub(super) struct Spectrum {
-    pub(super) name: Option<String>,
+pub(in super::super) struct Spectrum {
+    pub(in super::super) name: Option<String>,
     /// What the file says the values are.
-    pub(super) label: String,
-    pub(super) samples: Vec<Sample>,
+    pub(in super::super) label: String,
+    pub(in super::super) samples: Vec<Sample>,
 }
 
 impl Spectrum {
@@ -34,12 +35,12 @@ impl Spectrum {
     }
 
     /// Brings the samples into ascending order, one for each wavelength.
-    fn settle(&mut self, name: &str, warnings: &mut Vec<Warning>) {
+    fn settle(&mut self, name: &str, log: &mut Log<'_>) {
         let back = |pair: &[Sample]| pair[1].wavelength < pair[0].wavelength;
         if !self.falls()
             && let Some(at) = self.samples.windows(2).position(back)
         {
-            warnings.push(Warning::Sorted { line: self.samples[at + 1].line });
+            log.push(Warning::Sorted { line: self.samples[at + 1].line });
         }
         self.samples.sort_by(|a, b| a.wavelength.total_cmp(&b.wavelength));
         let mut lines = Vec::new();
@@ -64,13 +65,13 @@ impl Spectrum {
             for line in lines {
                 list.add(line);
             }
-            warnings.push(Warning::Averaged { name: name.to_owned(), lines: list });
+            log.push(Warning::Averaged { name: name.to_owned(), lines: list });
         }
     }
 }
 
 /// The grid of all wavelengths of all spectra; a spectrum has gaps where only others have values.
-pub(super) fn grid(mut spectra: Vec<Spectrum>, header: Header, warnings: &mut Vec<Warning>) -> Result<Grid, ReadError> {
+pub(in super::super) fn grid(mut spectra: Vec<Spectrum>, header: Header, log: &mut Log<'_>) -> Result<Grid, ReadError> {
     let rows = spectra.iter().map(|spectrum| spectrum.samples.len()).sum();
     let line = spectra.first().map_or(1, Spectrum::line);
     if spectra.len() > MAX_CURVES {
@@ -80,15 +81,18 @@ pub(super) fn grid(mut spectra: Vec<Spectrum>, header: Header, warnings: &mut Ve
     let title = header.comment("title").filter(|_| spectra.len() == 1).map(str::to_owned);
     let mut names = Vec::with_capacity(spectra.len());
     for (index, spectrum) in spectra.iter_mut().enumerate() {
+        log.look(usize::MAX)?;
         let given = spectrum.name.take().or_else(|| title.clone());
         let name = given.clone().unwrap_or_else(|| format!("Spectrum {}", index + 1));
-        spectrum.settle(&name, warnings);
+        spectrum.settle(&name, log);
         names.push((name, given.is_some()));
     }
+    log.look(usize::MAX)?;
     let samples = spectra.iter().flat_map(|spectrum| &spectrum.samples);
     let mut wavelengths: Vec<f64> = samples.map(|sample| sample.wavelength).collect();
     wavelengths.sort_unstable_by(f64::total_cmp);
     wavelengths.dedup();
+    log.look(usize::MAX)?;
     if wavelengths.len().saturating_mul(spectra.len()) > MAX_SAMPLES {
         return Err(ReadError::TooManySamples { line });
     }
@@ -100,6 +104,7 @@ pub(super) fn grid(mut spectra: Vec<Spectrum>, header: Header, warnings: &mut Ve
         name,
         named,
         label: spectrum.label,
+        unit: None,
         values: onto(&wavelengths, &spectrum.samples),
     });
     let curves = curves.collect();

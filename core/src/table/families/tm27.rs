@@ -1,80 +1,116 @@
 //! IES TM-27: spectra of light sources in XML, one element for each sample.
 
-use roxmltree::Node;
-
 use super::super::header::Header;
 use super::super::sniff::Layout;
-use super::super::{Decided, DecimalMark, Delimiter, Orientation, ReadError, Reader, Role, Warning, WavelengthUnit};
+use super::super::watch::Log;
+use super::super::{
+    Decided, DecimalMark, Delimiter, MAX_CURVES, Orientation, Quantity, ReadError, Reader, Role, WavelengthUnit,
+};
 use super::Found;
 use super::spectra::{self, Sample, Spectrum};
-use super::xml::{self, LineIndex, content, elements};
+use super::xml::{Element, Step, Walk};
 
 /// Reads all spectra of a document. Only local names are compared: the namespace differs between editions.
-pub(super) fn read(text: &str, warnings: &mut Vec<Warning>) -> Result<Found, ReadError> {
-    let document = xml::parse(text)?;
-    let lines = LineIndex::new(text);
-    let root = document.root_element();
-    let mut header = header(root);
-    let mut all = Vec::new();
-    for distribution in elements(root, "SpectralDistribution") {
-        let spectrum = spectrum(distribution, &lines, &mut header)?;
-        if !spectrum.samples.is_empty() {
-            all.push(spectrum);
+pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
+    let mut walk = Walk::new(text);
+    let mut content = Content::default();
+    while let Some(step) = walk.next(log)? {
+        let inside = walk.innermost().map_or("", Element::name);
+        match step {
+            Step::Open if inside == "SpectralDistribution" => content.current = Some(Spectrum::default()),
+            Step::Open => {}
+            Step::Close(element) => content.take(&element, inside)?,
         }
     }
+    let Content { header, spectra: all, quantity, .. } = content;
     let first_line = all.first().and_then(|spectrum| spectrum.samples.first()).map(|sample| sample.line);
     let first_line = first_line.ok_or(ReadError::NoNumbers)?;
-    let mut grid = spectra::grid(all, header, warnings)?;
+    let mut grid = spectra::grid(all, header, log)?;
+    let said = quantity.as_ref().and_then(|quantity| Some((quantity.value.role()?, quantity.why.clone())));
     // Most such files are of lamps, but "relative" and "other" do not say so.
-    grid.role = Some(Decided::guess(Role::Illuminant, "TM-27 is mostly used for lamps"));
+    let guess = || Decided::guess(Role::Illuminant, "TM-27 is mostly used for lamps");
+    grid.role = Some(said.map_or_else(guess, |(role, why)| Decided::certain(role, why)));
+    grid.quantity = quantity;
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "TM-27 prescribes it"));
     let dialect = (Delimiter::Elements, DecimalMark::Point);
     let layout = Layout::fixed(dialect, Orientation::Down, first_line, "TM-27 prescribes it");
-    let why = format!("The root element is “{}”", root.tag_name().name());
+    let why = format!("The root element is “{}”", walk.root());
     Ok(Found { grid, layout, reader: Decided::certain(Reader::Tm27, why), notes: Vec::new() })
 }
 
-/// The entries of the document's header as comments, with the description as title.
-fn header(root: Node) -> Header {
-    let mut header = Header::default();
-    let entries = elements(root, "Header").flat_map(|node| node.children()).filter(Node::is_element);
-    for entry in entries {
-        header.note(entry.tag_name().name(), content(entry));
-    }
-    if let Some(description) = header.comment("Description").map(str::to_owned) {
-        header.note("title", &description);
-    }
-    header
+/// What was read until now.
+#[derive(Default)]
+struct Content {
+    header: Header,
+    spectra: Vec<Spectrum>,
+    /// What the first spectrum is of.
+    quantity: Option<Decided<Quantity>>,
+    /// The spectrum that is open.
+    current: Option<Spectrum>,
 }
 
-fn spectrum(node: Node, lines: &LineIndex, header: &mut Header) -> Result<Spectrum, ReadError> {
-    let quantity = elements(node, "SpectralQuantity").next();
-    if let Some(quantity) = quantity {
-        let line = lines.line(quantity);
-        header.note("quantity", content(quantity));
-        header.role = header.role.or_else(|| role(content(quantity)).map(|role| (line, role)));
+impl Content {
+    /// Takes an element that is complete, and the name of the one around it.
+    fn take(&mut self, element: &Element<'_>, inside: &str) -> Result<(), ReadError> {
+        if inside == "Header" {
+            self.header.note(element.name(), element.content());
+        }
+        match element.name() {
+            // The description is the title, whatever else the header says.
+            "Header" => {
+                if let Some(description) = self.header.comment("Description").map(str::to_owned) {
+                    self.header.note("title", &description);
+                }
+            }
+            "SpectralQuantity" => self.quantity(element),
+            "SpectralData" => self.sample(element)?,
+            "SpectralDistribution" => {
+                self.spectra.extend(self.current.take().filter(|spectrum| !spectrum.samples.is_empty()));
+                if self.spectra.len() > MAX_CURVES {
+                    return Err(ReadError::TooManyCurves { line: element.line });
+                }
+            }
+            _ => {}
+        }
+        Ok(())
     }
-    let mut samples = Vec::new();
-    for data in elements(node, "SpectralData") {
-        let line = lines.line(data);
-        let written = data.attribute("wavelength").ok_or_else(|| ReadError::NotANumber {
-            line,
-            column: 1,
-            text: String::new(),
-        })?;
-        let (wavelength, value) = (xml::number(written, line)?, xml::number(content(data), line)?);
-        if !wavelength.is_nan() && !value.is_nan() {
-            samples.push(Sample { wavelength, value, line });
+
+    fn quantity(&mut self, element: &Element<'_>) {
+        let quantity = element.content();
+        if let Some(spectrum) = self.current.as_mut().filter(|spectrum| spectrum.label.is_empty()) {
+            quantity.clone_into(&mut spectrum.label);
+            self.header.note("quantity", quantity);
+            self.quantity = self.quantity.take().or_else(|| {
+                let why = format!("Line {} says {quantity}", element.line);
+                named(quantity).map(|quantity| Decided::certain(quantity, why))
+            });
         }
     }
-    Ok(Spectrum { name: None, label: quantity.map(content).unwrap_or_default().to_owned(), samples })
+
+    fn sample(&mut self, element: &Element<'_>) -> Result<(), ReadError> {
+        let Some(spectrum) = &mut self.current else { return Ok(()) };
+        let line = element.line;
+        let missing = || ReadError::NotANumber { line, column: 1, text: String::new() };
+        let wavelength = element.number_attribute("wavelength")?.ok_or_else(missing)?;
+        let value = element.number()?;
+        if !wavelength.is_nan() && !value.is_nan() {
+            spectrum.samples.push(Sample { wavelength, value, line });
+        }
+        Ok(())
+    }
 }
 
-/// What a quantity of the standard's list is, if it is only one thing.
-fn role(quantity: &str) -> Option<Role> {
+/// A quantity of the standard's list, if it is only one thing.
+fn named(quantity: &str) -> Option<Quantity> {
     match quantity.to_ascii_lowercase().as_str() {
-        "flux" | "intensity" | "irradiance" | "radiance" | "exitance" => Some(Role::Illuminant),
-        "reflectance" | "transmittance" | "absorptance" | "r-factor" | "t-factor" => Some(Role::Reflectance),
+        "flux" => Some(Quantity::RadiantFlux),
+        "intensity" => Some(Quantity::RadiantIntensity),
+        "irradiance" | "exitance" => Some(Quantity::Irradiance),
+        "radiance" => Some(Quantity::Radiance),
+        "reflectance" | "r-factor" => Some(Quantity::Reflectance),
+        "transmittance" | "t-factor" => Some(Quantity::Transmittance),
+        "absorptance" => Some(Quantity::Absorptance),
+        "relative" => Some(Quantity::Relative),
         _ => None,
     }
 }

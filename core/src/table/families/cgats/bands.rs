@@ -67,6 +67,11 @@ impl Bands {
         kinds.contains(&Kind::Value).then_some(Self { wavelengths: Vec::new(), percent, kinds, why, in_rows: true })
     }
 
+    /// How many bands there are.
+    pub(super) fn count(&self) -> usize {
+        self.kinds.iter().filter(|kind| **kind == Kind::Value).count()
+    }
+
     pub(super) fn is_value(&self, field: usize) -> bool {
         self.kinds.get(field) == Some(&Kind::Value)
     }

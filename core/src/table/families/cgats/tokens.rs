@@ -1,5 +1,7 @@
 //! The words of a line: bare, or quoted with `""` for a quote, up to a comment.
 
+use std::borrow::Cow;
+
 /// One word of a line.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Token<'a> {
@@ -18,10 +20,17 @@ impl<'a> Token<'a> {
     }
 
     /// The word as it is meant.
-    pub(super) fn text(&self) -> String {
+    pub(super) fn text(&self) -> Cow<'a, str> {
         match self {
-            Self::Bare(text) => (*text).to_owned(),
-            Self::Quoted(text) => text.replace("\"\"", "\""),
+            Self::Quoted(text) if text.contains("\"\"") => Cow::Owned(text.replace("\"\"", "\"")),
+            Self::Bare(text) | Self::Quoted(text) => Cow::Borrowed(text),
+        }
+    }
+
+    /// Where the word stands in memory.
+    pub(super) fn start(&self) -> *const u8 {
+        match self {
+            Self::Bare(text) | Self::Quoted(text) => text.as_ptr(),
         }
     }
 }

@@ -2,6 +2,12 @@
 
 use std::borrow::Cow;
 
+use super::super::super::ReadError;
+use super::super::super::watch::Log;
+
+/// Bytes between two looks at the watch: some milliseconds.
+const STRIDE: usize = 1 << 20;
+
 /// Where in a document a byte stands.
 #[derive(Clone, Copy, PartialEq)]
 enum In {
@@ -12,13 +18,17 @@ enum In {
 }
 
 /// Comments become spaces, so that lines and columns in errors are those of the file.
-pub(super) fn blank(text: &str) -> Cow<'_, str> {
+pub(super) fn blank<'a>(text: &'a str, log: &Log<'_>) -> Result<Cow<'a, str>, ReadError> {
     if !text.contains("//") && !text.contains("/*") {
-        return Cow::Borrowed(text);
+        return Ok(Cow::Borrowed(text));
     }
     let mut bytes = text.as_bytes().to_vec();
-    let (mut state, mut at) = (In::Code, 0);
+    let (mut state, mut at, mut next_look) = (In::Code, 0, STRIDE);
     while at < bytes.len() {
+        if at >= next_look {
+            next_look = at + STRIDE;
+            log.look(0)?;
+        }
         let pair = (bytes[at], bytes.get(at + 1).copied().unwrap_or(0));
         let (next, width) = match (state, pair) {
             (In::Code, (b'"', _)) => (In::String, 1),
@@ -38,5 +48,5 @@ pub(super) fn blank(text: &str) -> Cow<'_, str> {
         at += width;
     }
     // Comments are replaced whole, so no character is cut.
-    Cow::Owned(String::from_utf8(bytes).unwrap_or_default())
+    Ok(Cow::Owned(String::from_utf8(bytes).unwrap_or_default()))
 }

@@ -1,7 +1,7 @@
 //! The members that the two layouts have; all others are passed over without being kept.
 
-use std::collections::BTreeMap;
 use std::fmt;
+use std::marker::PhantomData;
 
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
@@ -29,8 +29,40 @@ pub(super) struct File {
 pub(super) struct Aces {
     pub(super) units: Option<String>,
     #[serde(default)]
-    pub(super) index: BTreeMap<String, Vec<String>>,
-    pub(super) data: BTreeMap<String, Rows>,
+    pub(super) index: InOrder<Vec<String>>,
+    pub(super) data: InOrder<Rows>,
+}
+
+/// Wavelengths with a value for each curve; `null` is a gap.
+pub(super) type Rows = InOrder<Vec<Option<f64>>>;
+
+/// An object whose members are kept in the order of the file.
+pub(super) struct InOrder<T>(pub(super) Vec<(String, T)>);
+
+impl<T> Default for InOrder<T> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for InOrder<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Entries<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
+            type Value = InOrder<T>;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("an object")
+            }
+            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<InOrder<T>, M::Error> {
+                let mut entries = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    entries.push(entry);
+                }
+                Ok(InOrder(entries))
+            }
+        }
+        deserializer.deserialize_map(Entries(PhantomData))
+    }
 }
 
 /// An object of texts; what is no text is left out.
@@ -98,28 +130,5 @@ impl<'de> Deserialize<'de> for MaybeText {
             }
         }
         deserializer.deserialize_any(Any).map(Self)
-    }
-}
-
-/// An object of lists, in the order of the file; `null` is a gap.
-pub(super) struct Rows(pub(super) Vec<(String, Vec<Option<f64>>)>);
-
-impl<'de> Deserialize<'de> for Rows {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries;
-        impl<'de> Visitor<'de> for Entries {
-            type Value = Rows;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("an object of lists of numbers")
-            }
-            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Rows, M::Error> {
-                let mut rows = Vec::new();
-                while let Some(row) = map.next_entry()? {
-                    rows.push(row);
-                }
-                Ok(Rows(rows))
-            }
-        }
-        deserializer.deserialize_map(Entries)
     }
 }

@@ -1,0 +1,72 @@
+//! Choices made of the first bytes of an input.
+
+use chromascope_core::table::{DecimalMark, Delimiter, Orientation, ReadOptions, Reader, Role, Values, WavelengthUnit};
+
+/// How many bytes make the choices.
+pub const LENGTH: usize = 6;
+
+const READERS: [Reader; 10] = [
+    Reader::Table,
+    Reader::Cgats,
+    Reader::Jcamp,
+    Reader::Tm27,
+    Reader::Cxf,
+    Reader::Rawtoaces,
+    Reader::Dcamprof,
+    Reader::Labels,
+    Reader::Alternate,
+    Reader::Camspec,
+];
+const DELIMITERS: [Delimiter; 6] = [
+    Delimiter::Comma,
+    Delimiter::CommaSpace,
+    Delimiter::Semicolon,
+    Delimiter::Tab,
+    Delimiter::Spaces,
+    Delimiter::Elements,
+];
+const MARKS: [DecimalMark; 2] = [DecimalMark::Point, DecimalMark::Comma];
+const ORIENTATIONS: [Orientation; 2] = [Orientation::Down, Orientation::Across];
+const UNITS: [WavelengthUnit; 5] = [
+    WavelengthUnit::Nanometer,
+    WavelengthUnit::Micrometer,
+    WavelengthUnit::Angstrom,
+    WavelengthUnit::Wavenumber,
+    WavelengthUnit::Terahertz,
+];
+const VALUES: [Values; 4] = [Values::Plain, Values::Percent, Values::Absorbance, Values::Decibels];
+const ROLES: [Role; 5] = [Role::Camera, Role::Reflectance, Role::Transmittance, Role::Illuminant, Role::Unknown];
+
+/// One of several, or none where the number is 0 or beyond them.
+fn pick<T: Copy>(all: &[T], number: u8) -> Option<T> {
+    all.get(usize::from(number).wrapping_sub(1)).copied()
+}
+
+/// The choices and the rest of an input; zeros choose nothing.
+pub fn split(input: &[u8]) -> Option<(ReadOptions, &[u8])> {
+    let ([reader, cells, axis, values, part, column], rest) = input.split_first_chunk::<LENGTH>()?;
+    let options = ReadOptions {
+        reader: pick(&READERS, *reader),
+        delimiter: pick(&DELIMITERS, cells & 15),
+        decimal_mark: pick(&MARKS, cells >> 4),
+        orientation: pick(&ORIENTATIONS, axis & 15),
+        wavelength_unit: pick(&UNITS, axis >> 4),
+        values: pick(&VALUES, values & 15),
+        role: pick(&ROLES, values >> 4),
+        part: (*part & 15 > 0).then_some(usize::from(part & 15)),
+        raw: pick(&[true, false], part >> 4),
+        wavelength_column: (*column > 0).then_some(usize::from(*column)),
+        ..ReadOptions::default()
+    };
+    Some((options, rest))
+}
+
+/// The bytes that choose a reader by its number from 1 and nothing else; 0 for none.
+pub fn only_reader(reader: u8) -> [u8; LENGTH] {
+    [reader, 0, 0, 0, 0, 0]
+}
+
+/// How many readers can be chosen.
+pub const fn readers() -> u8 {
+    READERS.len() as u8
+}

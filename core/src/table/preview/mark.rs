@@ -1,0 +1,156 @@
+//! What a piece of a line is, and how that is said.
+
+use std::fmt;
+use std::ops::Range;
+
+use super::super::{Curve, Table, Values};
+
+/// A piece of a line that was understood.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    /// Its bytes in the line, on the borders of characters. Empty where an empty cell stands for a gap.
+    pub range: Range<usize>,
+    /// What it is.
+    pub what: What,
+}
+
+impl Mark {
+    pub(super) fn new(range: Range<usize>, what: What) -> Self {
+        Self { range, what }
+    }
+}
+
+/// What a piece of a line is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum What {
+    /// A wavelength of the table.
+    Wavelength {
+        /// In nanometers, whatever unit it is written in.
+        nm: f64,
+    },
+    /// A value of a curve.
+    Value {
+        /// Which of the table's curves, from 0.
+        curve: usize,
+        /// Where, in nanometers.
+        nm: f64,
+        /// The value as the table has it.
+        value: f64,
+        /// The number as the file has it; differs from the value in percent, for instance.
+        written: f64,
+    },
+    /// The name of a curve.
+    Name {
+        /// Which of the table's curves, from 0.
+        curve: usize,
+    },
+    /// A unit, of a curve or of the wavelengths.
+    Unit {
+        /// Which of the table's curves, from 0; `None` for the wavelengths.
+        curve: Option<usize>,
+    },
+    /// A setting or a remark that was kept with the reading.
+    Setting,
+    /// A place where a curve has no value.
+    Gap {
+        /// Which of the table's curves, from 0.
+        curve: usize,
+    },
+    /// A line of values so compressed that single numbers have no place in it.
+    Block {
+        /// Which of the table's curves, from 0.
+        curve: usize,
+    },
+    /// Something that is in no curve.
+    LeftOut {
+        /// Why.
+        why: LeftOut,
+    },
+}
+
+/// Why something is in no curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LeftOut {
+    /// A column that is no curve: pixel numbers, raw counts, an empty column.
+    Column,
+    /// The same as an earlier row.
+    Repeated,
+    /// A row with values but no wavelength.
+    NoWavelength,
+    /// A line that is no row of the table: text below it, another table, a curve of fewer than two values.
+    Line,
+}
+
+impl fmt::Display for LeftOut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Column => "a column that is in no curve",
+            Self::Repeated => "the same as an earlier row",
+            Self::NoWavelength => "no wavelength",
+            Self::Line => "no row of this table",
+        })
+    }
+}
+
+impl What {
+    /// The curve it belongs to, from 0, if it belongs to one.
+    pub fn curve(self) -> Option<usize> {
+        match self {
+            Self::Value { curve, .. } | Self::Name { curve } | Self::Gap { curve } | Self::Block { curve } => {
+                Some(curve)
+            }
+            Self::Unit { curve } => curve,
+            Self::Wavelength { .. } | Self::Setting | Self::LeftOut { .. } => None,
+        }
+    }
+
+    /// A short text for hovering: "Canon EOS 10D: 0.431 at 500 nm (written 43.1, percent)".
+    pub fn describe(&self, table: &Table) -> String {
+        let curve = |index: usize| table.curves.get(index);
+        let name = |index: usize| curve(index).map_or("a curve", |curve: &Curve| curve.name.as_str());
+        match *self {
+            Self::Wavelength { nm } => format!("{} nm", plain(nm)),
+            Self::Value { curve, nm, value, written } => {
+                let place = format!("{}: {} at {} nm", name(curve), plain(value), plain(nm));
+                if written == value { place } else { format!("{place} (written {}{})", plain(written), how(table)) }
+            }
+            Self::Name { curve } => format!("name of curve {}", curve + 1),
+            Self::Unit { curve: None } => format!("unit of the wavelengths: {}", table.reading.wavelength_unit.value),
+            Self::Unit { curve: Some(index) } => match curve(index).and_then(|curve| curve.unit.as_deref()) {
+                Some(unit) => format!("unit of {}: {unit}", name(index)),
+                None => format!("unit of {}", name(index)),
+            },
+            Self::Setting => "kept as a setting".to_owned(),
+            Self::Gap { curve } => format!("{}: no value here", name(curve)),
+            Self::Block { curve } => format!("{}: compressed values", name(curve)),
+            Self::LeftOut { why } => format!("left out: {why}"),
+        }
+    }
+}
+
+/// What was done to a number that is not the value.
+fn how(table: &Table) -> &'static str {
+    match table.reading.values.value {
+        Values::Plain => "",
+        Values::Percent => ", percent",
+        Values::Absorbance => ", absorbance",
+        Values::Decibels => ", decibels",
+    }
+}
+
+/// A number with at most six significant digits.
+fn plain(value: f64) -> String {
+    const DIGITS: i32 = 6;
+    if value == 0.0 || !value.is_finite() {
+        return "0".to_owned();
+    }
+    let digits = DIGITS - 1 - value.abs().log10().floor() as i32;
+    if (-6..=12).contains(&digits) {
+        let scale = 10_f64.powi(digits.max(0));
+        format!("{}", (value * scale).round() / scale)
+    } else {
+        format!("{value:.5e}")
+    }
+}

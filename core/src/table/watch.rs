@@ -1,0 +1,67 @@
+//! Reading that is watched: how far it is, and the wish to stop.
+
+use super::{ReadError, Warning};
+
+/// What a caller sees of a reading, and its way to stop it.
+///
+/// The function is told how far the reading is, as a fraction of one, some hundred times a second, always on the thread that
+/// reads; it returns whether to go on.
+#[derive(Clone, Copy)]
+pub struct Watch<'a>(&'a dyn Fn(f32) -> bool);
+
+impl<'a> Watch<'a> {
+    /// Watches with a function.
+    pub fn new(go_on: &'a dyn Fn(f32) -> bool) -> Self {
+        Self(go_on)
+    }
+
+    /// Watches nothing and never stops.
+    pub fn none() -> Self {
+        Self(&|_| true)
+    }
+}
+
+/// What a reader says on its way: warnings, and how far it is.
+pub(super) struct Log<'a> {
+    pub(super) warnings: Vec<Warning>,
+    watch: Watch<'a>,
+    /// How much there is to read, in bytes.
+    whole: usize,
+    /// The watch is looked at again from this byte on.
+    next: usize,
+}
+
+impl<'a> Log<'a> {
+    /// Bytes between two looks at the watch: some milliseconds of reading.
+    const STRIDE: usize = 1 << 18;
+
+    pub(super) fn new(watch: Watch<'a>, whole: usize) -> Self {
+        Self { warnings: Vec::new(), watch, whole, next: Self::STRIDE }
+    }
+
+    /// Adds a warning.
+    pub(super) fn push(&mut self, warning: Warning) {
+        self.warnings.push(warning);
+    }
+
+    /// Adds warnings.
+    pub(super) fn extend(&mut self, warnings: impl IntoIterator<Item = Warning>) {
+        self.warnings.extend(warnings);
+    }
+
+    /// Says that the reader is at a byte of the text; an error where the caller wants no more.
+    #[inline]
+    pub(super) fn at(&mut self, byte: usize) -> Result<(), ReadError> {
+        if byte < self.next {
+            return Ok(());
+        }
+        self.next = byte.saturating_add(Self::STRIDE);
+        self.look(byte)
+    }
+
+    /// The same at once: before and after long steps.
+    pub(super) fn look(&self, byte: usize) -> Result<(), ReadError> {
+        let share = byte.min(self.whole) as f32 / self.whole.max(1) as f32;
+        if (self.watch.0)(share) { Ok(()) } else { Err(ReadError::Stopped) }
+    }
+}

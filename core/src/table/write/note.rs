@@ -1,0 +1,155 @@
+//! What happened to curves on their way out, and why some cannot go.
+
+use std::fmt;
+
+use super::Format;
+
+/// Something in the text that is not as it was in the curves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Note {
+    /// Values were interpolated at multiples of a step.
+    Resampled {
+        /// The step in nanometers.
+        step_nm: f64,
+        /// Whether some of them by Sprague's polynomials, not linearly.
+        smooth: bool,
+    },
+    /// The step is coarser than that of a curve: samples were picked, not averaged, and narrow lines may be lost.
+    Thinned {
+        /// The finest mean step of a curve in nanometers.
+        from_nm: f64,
+        /// The step in nanometers.
+        to_nm: f64,
+    },
+    /// Some curves go on beyond what is written.
+    Clipped {
+        /// The first wavelength written, in nanometers.
+        from_nm: f64,
+        /// The last wavelength written, in nanometers.
+        to_nm: f64,
+    },
+    /// Sensitivities per photon were multiplied by λ / 550 nm, because the format means sensitivities per energy.
+    PerEnergy,
+    /// Curves other than red, green and blue are not in the file.
+    LeftOut {
+        /// How many.
+        count: usize,
+    },
+    /// Curves have no sample at any multiple of the step; their columns are blank.
+    Blank {
+        /// How many.
+        count: usize,
+    },
+    /// Names of curves were blank, or did not fit on a line.
+    Renamed {
+        /// How many.
+        count: usize,
+    },
+    /// The format has no place for the names of curves, or for one beside the title.
+    NoNames,
+    /// rawtoaces finds cameras by maker and model, which are not both known.
+    Unidentified,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Resampled { step_nm, smooth } => {
+                let how = if smooth { "by Sprague's interpolation" } else { "linearly" };
+                write!(f, "resampled to {step_nm} nm, {how}")
+            }
+            Self::Thinned { from_nm, to_nm } => {
+                let from_nm = (from_nm * 1e3).round() / 1e3;
+                write!(f, "steps of {from_nm} nm became {to_nm} nm without averaging: narrow lines may be lost")
+            }
+            Self::Clipped { from_nm, to_nm } => write!(f, "only {from_nm} to {to_nm} nm is written"),
+            Self::PerEnergy => f.write_str("sensitivities per photon became sensitivities per energy"),
+            Self::LeftOut { count: 1 } => f.write_str("one curve beside red, green and blue is not in the file"),
+            Self::LeftOut { count } => write!(f, "{count} curves beside red, green and blue are not in the file"),
+            Self::Blank { count } => {
+                write!(f, "{count} of the columns are blank: no wavelength of the grid is in range")
+            }
+            Self::Renamed { count } => write!(f, "{count} of the names were blank or did not fit on a line"),
+            Self::NoNames => f.write_str("names of curves are not in the file: the format has no place for them"),
+            Self::Unidentified => f.write_str("rawtoaces finds a camera by maker and model, and both are not known"),
+        }
+    }
+}
+
+/// Why curves cannot be written. Curves count from one.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum WriteError {
+    /// There is nothing to write.
+    #[error("there are no curves")]
+    NoCurves,
+    /// A curve has more or fewer values than wavelengths.
+    #[error("curve {curve} has not one value for each wavelength")]
+    Lengths {
+        /// The curve.
+        curve: usize,
+    },
+    /// A curve has fewer than two samples.
+    #[error("curve {curve} has fewer than two samples")]
+    TooShort {
+        /// The curve.
+        curve: usize,
+    },
+    /// Wavelengths are not finite, not above zero or not ascending.
+    #[error("the wavelengths of curve {curve} do not ascend from above zero")]
+    Wavelengths {
+        /// The curve.
+        curve: usize,
+    },
+    /// A value is not finite.
+    #[error("curve {curve} has a value that is no finite number")]
+    NotFinite {
+        /// The curve.
+        curve: usize,
+    },
+    /// Red, green and blue are not three of the curves.
+    #[error("red, green and blue are not three of the curves")]
+    Channels,
+    /// The step of the grid is no number, or below 0.001 nm.
+    #[error("the step must be a number of at least 0.001 nm")]
+    Step,
+    /// A format does not take so many curves, or so few.
+    #[error("{} takes {wanted} of such curves at once, not {found}", format.name())]
+    Count {
+        /// The format.
+        format: Format,
+        /// How many there are.
+        found: usize,
+        /// How many it takes.
+        wanted: usize,
+    },
+    /// A format is for something else.
+    #[error("{} is not for curves of this kind", format.name())]
+    OtherContent {
+        /// The format.
+        format: Format,
+    },
+    /// The program that the format is for would not read this step.
+    #[error("{} cannot be written in steps of {step_nm} nm", format.name())]
+    StepOfFormat {
+        /// The format.
+        format: Format,
+        /// The step in nanometers.
+        step_nm: f64,
+    },
+    /// The program that the format is for would not read so many bands.
+    #[error("{} has at most {most} bands, and these would be {found}", format.name())]
+    Bands {
+        /// The format.
+        format: Format,
+        /// How many there would be.
+        found: usize,
+        /// How many there may be.
+        most: usize,
+    },
+    /// There are not two wavelengths of the grid that every curve reaches and the format can hold.
+    #[error("fewer than two wavelengths are in the range of the curves")]
+    NoOverlap,
+    /// There would be more curves or samples than can be read back.
+    #[error("the table would have too many cells")]
+    TooLarge,
+}

@@ -1,0 +1,241 @@
+//! What is to be written: borrowed curves, and what is known about them.
+
+use std::borrow::Cow;
+
+use super::super::{Curve, MAX_CURVES, MAX_SAMPLES};
+use super::{Note, WriteError, text};
+
+/// A curve to be written: values over wavelength.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trace<'a> {
+    /// Its name. Line breaks become spaces, and a blank name becomes `Curve` and a number.
+    pub name: &'a str,
+    /// Wavelengths in nanometers: finite, above zero, strictly ascending, at least two.
+    pub wavelengths_nm: &'a [f64],
+    /// Values, one for each wavelength: finite.
+    pub values: &'a [f64],
+}
+
+impl<'a> From<&'a Curve> for Trace<'a> {
+    fn from(curve: &'a Curve) -> Self {
+        Self { name: &curve.name, wavelengths_nm: &curve.wavelengths_nm, values: &curve.values }
+    }
+}
+
+/// What the curves are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Content<'a> {
+    /// Sensitivities of a camera.
+    Camera {
+        /// Which curves are red, green and blue; there may be others, which only CSV, `.sp` and CGATS can hold.
+        channels: [usize; 3],
+        /// Whether they are a response to equal numbers of photons (else to equal power); `None` if nobody knows.
+        per_photon: Option<bool>,
+        /// Who made the camera, by which rawtoaces finds it.
+        manufacturer: Option<&'a str>,
+        /// Its model, by which rawtoaces finds it.
+        model: Option<&'a str>,
+    },
+    /// Three color matching functions or cone fundamentals.
+    Observer,
+    /// Reflectances: fractions of one.
+    Reflectance,
+    /// Transmittances: fractions of one.
+    Transmittance,
+    /// Spectral power of lights.
+    Illuminant,
+    /// Anything else.
+    #[default]
+    Other,
+}
+
+impl Content<'_> {
+    /// The unit of the values where nothing else is said.
+    pub(super) fn unit(self) -> Option<&'static str> {
+        (!matches!(self, Self::Illuminant | Self::Other)).then_some("1")
+    }
+
+    /// Whether values are fractions of one, whatever else is said.
+    pub(super) fn is_fraction(self) -> bool {
+        matches!(self, Self::Reflectance | Self::Transmittance)
+    }
+}
+
+/// Curves and what is known about them.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sheet<'a> {
+    /// A title for all; may be empty.
+    pub title: &'a str,
+    /// What the curves are.
+    pub content: Content<'a>,
+    /// The curves, in the order in which they are written.
+    pub curves: &'a [Trace<'a>],
+    /// The unit of the values. Not looked at for reflectances and transmittances, which have none.
+    pub unit: Option<&'a str>,
+    /// When the file is made, as in RFC 3339, for the formats that have a place for it.
+    pub created: Option<&'a str>,
+    /// More to say, such as `("source", …)`, `("license", …)` and `("note", …)`. What is said elsewhere here (title,
+    /// quantity, unit, response) is not taken from it.
+    pub comments: &'a [(String, String)],
+}
+
+impl<'a> Sheet<'a> {
+    /// The unit as it is written.
+    pub(super) fn unit(&self) -> Option<&'a str> {
+        let said = self.unit.filter(|unit| !unit.trim().is_empty() && !self.content.is_fraction());
+        said.or(self.content.unit())
+    }
+
+    /// What the values are of, as the program's own files say it.
+    pub(super) fn quantity(&self) -> Option<&'static str> {
+        let relative = self.unit().is_none_or(|unit| unit.trim() == "1");
+        match self.content {
+            Content::Camera { .. } if relative => Some("relative spectral sensitivity"),
+            Content::Camera { .. } => Some("spectral sensitivity"),
+            Content::Observer => Some("color matching functions"),
+            Content::Reflectance => Some("reflectance factor"),
+            Content::Transmittance => Some("transmittance"),
+            Content::Illuminant if relative => Some("relative spectral power"),
+            Content::Illuminant => Some("spectral power"),
+            Content::Other => None,
+        }
+    }
+
+    /// The comments on one line each, without those that the rest of the sheet says.
+    pub(super) fn comments(&self) -> impl Iterator<Item = (Cow<'a, str>, Cow<'a, str>)> + use<'a> {
+        const SAID: [&str; 4] = ["title", "quantity", "unit", "response"];
+        let lines = self.comments.iter().map(|(key, value)| (text::one_line(key), text::one_line(value)));
+        lines.filter(|(key, value)| {
+            !key.is_empty() && !value.is_empty() && !SAID.iter().any(|said| key.eq_ignore_ascii_case(said))
+        })
+    }
+
+    /// The licenses among the comments, in one text; may be empty.
+    pub(super) fn license(&self) -> String {
+        let licenses = self.comments().filter(|(key, _)| is_license(key)).map(|(_, value)| value);
+        licenses.collect::<Vec<_>>().join("; ")
+    }
+
+    /// All that formats with few members of their own have no other place for, each as `key: value`, licenses aside.
+    pub(super) fn remarks(&self) -> Vec<String> {
+        let own = [("quantity", self.quantity()), ("unit", self.unit().filter(|unit| *unit != "1"))];
+        let own = own.iter().filter_map(|(key, value)| Some(format!("{key}: {}", text::one_line((*value)?))));
+        let rest = self.comments().filter(|(key, _)| !is_license(key)).map(|(key, value)| format!("{key}: {value}"));
+        own.chain(rest).collect()
+    }
+
+    /// The title, or what stands for one.
+    pub(super) fn title(&self) -> Cow<'a, str> {
+        let title = text::one_line(self.title);
+        match self.curves {
+            [only] if title.is_empty() => text::one_line(only.name),
+            _ => title,
+        }
+    }
+
+    /// Notes that the name of a single curve gives way to the title.
+    pub(super) fn note_lone_name(&self, notes: &mut Vec<Note>) {
+        if self.curves.first().is_some_and(|only| text::one_line(only.name) != self.title()) {
+            notes.push(Note::NoNames);
+        }
+    }
+
+    /// Whether the curves are curves.
+    pub(super) fn check(&self) -> Result<(), WriteError> {
+        if self.curves.is_empty() {
+            return Err(WriteError::NoCurves);
+        }
+        if self.curves.len() > MAX_CURVES {
+            return Err(WriteError::TooLarge);
+        }
+        for (index, trace) in self.curves.iter().enumerate() {
+            check(trace, index + 1)?;
+        }
+        if let Content::Camera { channels, .. } = self.content {
+            let [r, g, b] = channels;
+            if channels.iter().any(|&channel| channel >= self.curves.len()) || r == g || g == b || r == b {
+                return Err(WriteError::Channels);
+            }
+        }
+        Ok(())
+    }
+
+    /// Every curve, with a name that fits on a line.
+    pub(super) fn pieces(&self, notes: &mut Vec<Note>) -> Vec<Piece<'a>> {
+        let mut renamed = 0;
+        let pieces = self.curves.iter().enumerate().map(|(index, trace)| {
+            let name = text::name(trace.name, index);
+            renamed += usize::from(name != trace.name);
+            let (wavelengths, values) = (Cow::Borrowed(trace.wavelengths_nm), Cow::Borrowed(trace.values));
+            Piece { name, wavelengths, values }
+        });
+        let pieces = pieces.collect();
+        if renamed > 0 {
+            notes.push(Note::Renamed { count: renamed });
+        }
+        pieces
+    }
+
+    /// Every curve, sensitivities per energy.
+    pub(super) fn energy_pieces(&self, notes: &mut Vec<Note>) -> Vec<Piece<'a>> {
+        let mut pieces = self.pieces(notes);
+        if let Content::Camera { per_photon: Some(true), .. } = self.content {
+            notes.push(Note::PerEnergy);
+            for piece in &mut pieces {
+                let per_energy = |(w, v): (&f64, &f64)| (v * (w / PER_ENERGY_NM)).clamp(f64::MIN, f64::MAX);
+                piece.values = piece.wavelengths.iter().zip(piece.values.iter()).map(per_energy).collect();
+            }
+        }
+        pieces
+    }
+
+    /// The red, green and blue of a camera alone, per energy; every curve of anything else.
+    pub(super) fn channel_pieces(&self, notes: &mut Vec<Note>) -> Vec<Piece<'a>> {
+        let pieces = self.energy_pieces(notes);
+        let Content::Camera { channels, .. } = self.content else { return pieces };
+        if pieces.len() > channels.len() {
+            notes.push(Note::LeftOut { count: pieces.len() - channels.len() });
+        }
+        channels.iter().filter_map(|&channel| pieces.get(channel).cloned()).collect()
+    }
+}
+
+fn is_license(key: &str) -> bool {
+    key.eq_ignore_ascii_case("license")
+}
+
+/// The wavelength in nanometers where sensitivities per photon and per energy have the same value.
+const PER_ENERGY_NM: f64 = 550.0;
+
+/// A curve on its way out.
+#[derive(Debug, Clone)]
+pub(super) struct Piece<'a> {
+    pub(super) name: Cow<'a, str>,
+    pub(super) wavelengths: Cow<'a, [f64]>,
+    pub(super) values: Cow<'a, [f64]>,
+}
+
+impl Piece<'_> {
+    /// The first and the last wavelength.
+    pub(super) fn range(&self) -> [f64; 2] {
+        [self.wavelengths.first(), self.wavelengths.last()].map(|end| end.copied().unwrap_or(0.0))
+    }
+}
+
+fn check(trace: &Trace<'_>, curve: usize) -> Result<(), WriteError> {
+    let (wavelengths, values) = (trace.wavelengths_nm, trace.values);
+    if wavelengths.len() != values.len() {
+        return Err(WriteError::Lengths { curve });
+    }
+    if wavelengths.len() < 2 {
+        return Err(WriteError::TooShort { curve });
+    }
+    if wavelengths.len() > MAX_SAMPLES {
+        return Err(WriteError::TooLarge);
+    }
+    let ascending = wavelengths.windows(2).all(|pair| pair[0] < pair[1]);
+    if !(ascending && wavelengths[0] > 0.0 && wavelengths.iter().all(|w| w.is_finite())) {
+        return Err(WriteError::Wavelengths { curve });
+    }
+    if values.iter().all(|value| value.is_finite()) { Ok(()) } else { Err(WriteError::NotFinite { curve }) }
+}

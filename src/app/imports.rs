@@ -1,0 +1,254 @@
+//! Opening the user's spectra: read first, then put to use; and reading them otherwise, or again.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use super::ChromascopeApp;
+use crate::action::{Action, OwnAction};
+use crate::catalog::import::{Imported, imported};
+use crate::catalog::likeness::Likeness;
+use crate::catalog::opened::{OpenFile, OpenedEvent, Request, Why};
+use crate::document::own::{Fingerprint, OwnSet, Wishes};
+use crate::view::Weight;
+use crate::view::import::{ImportItem, of_a_kind};
+use crate::workspaces::Workspace;
+
+impl ChromascopeApp {
+    /// Begins to read. The document stays as it is until that is done.
+    pub(super) fn open(&mut self, requests: Vec<Request>) {
+        let memory = self.view.saved.import.clone();
+        self.opened.open(requests, move |bytes| {
+            if memory.remembered.is_empty() { Wishes::default() } else { memory.wishes(&Likeness::of(bytes)) }
+        });
+    }
+
+    /// Files that were dropped on the window, all at once.
+    pub(super) fn take_dropped(&mut self, ctx: &egui::Context) {
+        let dropped = ctx.input(|input| input.raw.dropped_files.clone());
+        if dropped.is_empty() {
+            return;
+        }
+        let mut requests = Vec::new();
+        for file in dropped {
+            let path = file.path().to_path_buf();
+            if path.exists() {
+                requests.push(Request::Path(path));
+                continue;
+            }
+            let name = path.file_name().map_or_else(|| "dropped file".to_owned(), |n| n.to_string_lossy().into_owned());
+            match file.bytes() {
+                Ok(bytes) => requests.push(Request::Bytes { name, bytes: bytes.into() }),
+                Err(error) => self.view.fail(format!("{name}: {error}. Nothing was changed.")),
+            }
+        }
+        self.open(requests);
+    }
+
+    /// Takes in what was read.
+    pub(super) fn take_opened(&mut self) {
+        for event in self.opened.poll() {
+            match event {
+                OpenedEvent::Read { sets, message, paths, failed } => {
+                    self.bring_in(sets, message, paths);
+                    if !failed.is_empty() {
+                        self.view.status.weight = Weight::Warning;
+                    }
+                    self.view.import.unseen.extend(failed.into_iter().map(ImportItem::File));
+                }
+                OpenedEvent::Reread { sets, why } => self.put_in_place(sets, why),
+                OpenedEvent::Mesh(path) => self.open_mesh(&path),
+                OpenedEvent::Failed(message, files) => {
+                    self.view.fail(message);
+                    self.view.import.unseen.extend(files.iter().copied().map(ImportItem::File));
+                    self.view.status.change = files.first().map(|file| (ImportItem::File(*file), None));
+                }
+            }
+        }
+        self.settle_wishes();
+        self.follow_files();
+    }
+
+    fn bring_in(&mut self, sets: Vec<Imported>, message: String, paths: Vec<PathBuf>) {
+        for path in paths {
+            self.view.remember_file(path);
+        }
+        let before = self.history.document().own.len();
+        let guessed: Vec<bool> = sets.iter().map(|imported| imported.guessed).collect();
+        let sets = sets.into_iter().map(|imported| imported.set).collect();
+        self.history.apply(&Action::Own(OwnAction::Import(sets)));
+        self.history.end_gesture();
+        // Names may have changed where they were taken.
+        let brought: Vec<ImportItem> =
+            self.history.document().own.iter().skip(before).map(|set| ImportItem::Set(set.name.clone())).collect();
+        self.view.say(message);
+        let doubtful: Vec<ImportItem> =
+            brought.iter().zip(guessed).filter(|(_, guessed)| *guessed).map(|(item, _)| item.clone()).collect();
+        if let Some(first) = doubtful.first().or(brought.first()) {
+            self.view.import.select(first.clone());
+        }
+        self.view.status.change = doubtful.first().map(|first| (first.clone(), None));
+        self.view.import.unseen.extend(doubtful);
+    }
+
+    /// Puts sets that were read again in their places, as one step.
+    fn put_in_place(&mut self, sets: Vec<(String, Result<Imported, String>)>, why: Why) {
+        let (mut with, mut failures) = (Vec::new(), Vec::new());
+        for (name, result) in sets {
+            match result {
+                Ok(imported) => with.push((name.clone(), OwnSet { name, ..imported.set })),
+                Err(sentence) => {
+                    self.view.import.unseen.insert(ImportItem::Set(name));
+                    failures.push(sentence);
+                }
+            }
+        }
+        let names: Vec<String> = with.iter().map(|(name, _)| name.clone()).collect();
+        let which = match names.as_slice() {
+            [] => String::new(),
+            [one] => one.clone(),
+            many => format!("{} sets", many.len()),
+        };
+        if !with.is_empty() {
+            let what = match why {
+                Why::Changed => format!("Read {which} again"),
+                Why::Alike => format!("Read {which} alike"),
+            };
+            self.history.apply(&Action::Own(OwnAction::ReplaceAll { what, with }));
+            self.history.end_gesture();
+        }
+        let done = match why {
+            _ if which.is_empty() => String::new(),
+            Why::Changed => format!("{which} changed on disk and was read again. Ctrl+Z takes it back."),
+            Why::Alike => format!("{which}: read alike. Ctrl+Z takes it back."),
+        };
+        if failures.is_empty() {
+            self.view.say(done);
+        } else {
+            let failures = failures.join(".  ");
+            self.view.fail(format!("{failures}. What was read before stays. {done}").trim_end().to_owned());
+        }
+    }
+
+    /// Carries out what was wished for a set, as soon as its file could be read so. Until then the document stays as it was.
+    fn settle_wishes(&mut self) {
+        let Some((ImportItem::Set(name), wishes)) = self.view.import.pending.clone() else { return };
+        let Some(set) = self.history.document().own.iter().find(|set| set.name == name).cloned() else {
+            self.view.import.pending = None;
+            return;
+        };
+        let Some(file) = set.fingerprint.and_then(|fingerprint| self.opened.file(fingerprint)) else { return };
+        let Some(look) = self.opened.look(&file, &wishes.options).filter(|look| look.options == wishes.options) else {
+            return;
+        };
+        let Ok(table) = &look.table else { return };
+        let fresh = imported(&file.origin, table, &wishes).set;
+        let with = OwnSet { name: name.clone(), file: set.file.clone(), path: set.path.clone(), ..fresh };
+        self.view.import.pending = None;
+        self.view.saved.import.remember(Likeness::of(&file.bytes), &wishes);
+        self.history.apply(&Action::Own(OwnAction::Replace { name, with: Box::new(with) }));
+        self.history.end_gesture();
+    }
+
+    /// Watches the files of the sets there are, and forgets what is beyond memory.
+    fn follow_files(&mut self) {
+        let document = self.history.document();
+        let paths: BTreeSet<PathBuf> = if self.view.saved.import.watch {
+            document.own.iter().filter_map(|set| set.path.clone()).collect()
+        } else {
+            BTreeSet::new()
+        };
+        self.files.watch(paths);
+        let wanted: Vec<Fingerprint> = document.own.iter().filter_map(|set| set.fingerprint).collect();
+        self.opened.keep(&wanted);
+    }
+
+    /// Reads the sets of files that changed on disk again.
+    pub(super) fn read_changed(&mut self, paths: &[PathBuf]) {
+        let own = self.history.document().own.iter();
+        let changed = own.filter(|set| set.path.as_ref().is_some_and(|path| paths.contains(path)));
+        let sets: Vec<OwnSet> = changed.map(|set| (**set).clone()).collect();
+        if !sets.is_empty() {
+            self.opened.reread(sets, Why::Changed);
+        }
+    }
+
+    /// Reads a set's file again, because a person asks.
+    pub(super) fn read_again(&mut self, name: &str) {
+        let Some(set) = self.history.document().own.iter().find(|set| set.name == name) else { return };
+        match &set.path {
+            Some(path) => {
+                let path = path.clone();
+                self.view.say(format!("{} is as it was.", set.file));
+                self.read_changed(&[path]);
+            }
+            None => self.view.fail(format!("{} did not come from a file on disk.", set.file)),
+        }
+    }
+
+    /// Opens Import with a file on show.
+    pub(super) fn show_import(&mut self, item: ImportItem, line: Option<usize>) {
+        self.view.import.select(item);
+        self.view.import.line = line;
+        self.view.saved.workspace = Workspace::Import;
+        self.view.maximized = None;
+        self.view.inspector_over = false;
+    }
+
+    /// Reads every file of an item's kind as it is read, those that failed among them, and remembers.
+    pub(super) fn use_for_alike(&mut self, item: &ImportItem) {
+        let Some((file, wishes)) = self.file_and_wishes(item) else { return };
+        let likeness = Likeness::of(&file.bytes);
+        let wishes = of_a_kind(&wishes);
+        self.view.saved.import.remember(likeness.clone(), &wishes);
+        let alike = |file: &OpenFile| Likeness::of(&file.bytes).is_like(&likeness);
+        let own = &self.history.document().own;
+        let mut sets = Vec::new();
+        for set in own {
+            let known = set.fingerprint.and_then(|fingerprint| self.opened.file(fingerprint));
+            let is_item = *item == ImportItem::Set(set.name.clone());
+            if !is_item && known.is_some_and(|file| alike(&file)) && of_a_kind(&set.wishes) != wishes {
+                let wishes = Wishes { taken: set.wishes.taken.clone(), ..wishes.clone() };
+                sets.push(OwnSet { wishes, ..(**set).clone() });
+            }
+        }
+        let unused: Vec<Request> = self
+            .opened
+            .files()
+            .into_iter()
+            .filter(|file| {
+                let fingerprint = file.origin.fingerprint;
+                !own.iter().any(|set| set.fingerprint == Some(fingerprint)) && alike(file)
+            })
+            .map(|file| Request::Known(file.origin.fingerprint, Box::new(wishes.clone())))
+            .collect();
+        if sets.is_empty() && unused.is_empty() {
+            self.view.say("No other open file is of this kind; the next one will be read like this.");
+            return;
+        }
+        if !sets.is_empty() {
+            self.opened.reread(sets, Why::Alike);
+        }
+        if !unused.is_empty() {
+            self.opened.open(unused, |_| Wishes::default());
+        }
+    }
+
+    /// An item's file and how it is to be read.
+    fn file_and_wishes(&self, item: &ImportItem) -> Option<(OpenFile, Wishes)> {
+        let pending = self.view.import.pending(item).cloned();
+        match item {
+            ImportItem::File(fingerprint) => Some((self.opened.file(*fingerprint)?, pending.unwrap_or_default())),
+            ImportItem::Set(name) => {
+                let set = self.history.document().own.iter().find(|set| set.name == *name)?;
+                Some((self.opened.file(set.fingerprint?)?, pending.unwrap_or_else(|| set.wishes.clone())))
+            }
+        }
+    }
+
+    /// Stops reading, if something is being read.
+    pub(super) fn stop_reading(&mut self) -> bool {
+        let Some(name) = self.opened.stop() else { return false };
+        self.view.say(format!("Reading {name} was stopped. Nothing was changed."));
+        true
+    }
+}

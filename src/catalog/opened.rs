@@ -1,0 +1,321 @@
+//! The spectral files that were opened in this run: read beside the window, kept as bytes so that they can be read otherwise.
+//!
+//! Nothing here changes a document. What came of opening is taken from [`Opened::poll`]; a file stays known whether it could be
+//! read or not, so that a person can look at its text and at what was understood ([`Opened::look`]), flip a switch, and look
+//! again.
+
+mod look;
+mod reading;
+
+pub use look::{Look, LookOf};
+pub use reading::{Request, read_file};
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::import::{Imported, Origin};
+use crate::document::own::{Fingerprint, OwnSet, Wishes};
+use crate::jobs::Background;
+
+/// Files that no set is made of are forgotten, the oldest first, beyond so many bytes in all.
+const REMEMBERED_BYTES: usize = 256_000_000;
+
+/// A file's contents.
+#[derive(Clone, Debug)]
+pub struct OpenFile {
+    /// Where they are from.
+    pub origin: Origin,
+    /// The bytes.
+    pub bytes: Arc<[u8]>,
+    /// Why it could not be read when it was opened, as a sentence with its name.
+    pub failure: Option<String>,
+}
+
+/// What came of reading.
+#[derive(Debug)]
+pub enum OpenedEvent {
+    /// Sets were read.
+    Read {
+        /// The sets, each with what was guessed on reading.
+        sets: Vec<Imported>,
+        /// What was read, and what was decided, in one sentence.
+        message: String,
+        /// The files on disk that they came from.
+        paths: Vec<PathBuf>,
+        /// Files beside them that could not be read, but whose text can be looked at.
+        failed: Vec<Fingerprint>,
+    },
+    /// Sets were read again, for a reason that is told.
+    Reread {
+        /// The sets by the names they had: each as it is now, or why it stays as it was.
+        sets: Vec<(String, Result<Imported, String>)>,
+        /// Why.
+        why: Why,
+    },
+    /// A mesh is to be opened, which is not read yet.
+    Mesh(PathBuf),
+    /// Nothing could be read; nothing was changed. The files whose text can be looked at.
+    Failed(String, Vec<Fingerprint>),
+}
+
+/// Why a set is read again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// Its file changed on disk.
+    Changed,
+    /// It is to be read as another of its kind.
+    Alike,
+}
+
+/// A reading that is going on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// The file that is being read.
+    pub name: String,
+    /// How far it is, as a fraction of one.
+    pub share: f32,
+    /// Which of how many files, from 1.
+    pub file: [usize; 2],
+    /// For how long.
+    pub time: Duration,
+}
+
+/// The files that were opened.
+pub struct Opened {
+    desk: Arc<Desk>,
+    look: Background<LookOf>,
+}
+
+/// What lies between the window and the threads that read.
+struct Desk {
+    state: Mutex<State>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+}
+
+#[derive(Default)]
+struct State {
+    files: Vec<OpenFile>,
+    events: Vec<OpenedEvent>,
+    running: Vec<Arc<Job>>,
+    /// Files that were looked for on disk and are not there as they were.
+    lost: Vec<Fingerprint>,
+}
+
+/// A thread that reads.
+struct Job {
+    name: Mutex<String>,
+    share: AtomicU32,
+    place: [AtomicU32; 2],
+    stop: AtomicBool,
+    begun: Instant,
+}
+
+impl Opened {
+    /// Knows no file yet. `wake` is called when something was read, from the thread that read it.
+    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
+        let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
+        let theirs = Arc::clone(&wake);
+        let look = Background::new("import", move || theirs());
+        Self { desk: Arc::new(Desk { state: Mutex::default(), wake }), look }
+    }
+
+    /// Reads files, folders or bytes; `remembered` says what a person wished for files like one whose text is given.
+    pub fn open(&self, requests: Vec<Request>, remembered: impl Fn(&[u8]) -> Wishes + Send + 'static) {
+        self.begin(move |desk, job| {
+            let events = reading::open(requests, &remembered, desk, job);
+            desk.lock().events.extend(events);
+        });
+    }
+
+    /// Reads the files of sets again: those known here from memory if `why` allows, else from disk.
+    pub fn reread(&self, sets: Vec<OwnSet>, why: Why) {
+        self.begin(move |desk, job| {
+            let sets: Vec<_> = sets.iter().filter_map(|set| reading::reread(set, why, desk, job)).collect();
+            if !sets.is_empty() {
+                desk.lock().events.push(OpenedEvent::Reread { sets, why });
+            }
+        });
+    }
+
+    /// Brings back the contents that a set was made of, if its file is still as it was. Asked for once.
+    pub fn fetch(&self, set: &OwnSet) {
+        let (Some(path), Some(fingerprint)) = (set.path.clone(), set.fingerprint) else { return };
+        let mut state = self.desk.lock();
+        if state.lost.contains(&fingerprint) || state.file(fingerprint).is_some() {
+            return;
+        }
+        // What is being looked for counts as lost until it is found, so that it is looked for once.
+        state.lost.push(fingerprint);
+        drop(state);
+        self.begin(move |desk, _| reading::fetch(&path, fingerprint, desk));
+    }
+
+    /// What came of reading since.
+    pub fn poll(&self) -> Vec<OpenedEvent> {
+        std::mem::take(&mut self.desk.lock().events)
+    }
+
+    /// The reading that has gone on for longest.
+    pub fn progress(&self) -> Option<Progress> {
+        let state = self.desk.lock();
+        let job = state.running.first()?;
+        let [file, count] = [0, 1].map(|i| job.place[i].load(Ordering::Relaxed) as usize);
+        Some(Progress {
+            name: job.name.lock().unwrap_or_else(PoisonError::into_inner).clone(),
+            share: f32::from_bits(job.share.load(Ordering::Relaxed)),
+            file: [file, count],
+            time: job.begun.elapsed(),
+        })
+    }
+
+    /// Stops whatever is being read. Returns the name of a file that was.
+    pub fn stop(&self) -> Option<String> {
+        let progress = self.progress()?;
+        for job in &self.desk.lock().running {
+            job.stop.store(true, Ordering::Relaxed);
+        }
+        Some(progress.name)
+    }
+
+    /// The files known, in the order in which they were opened.
+    pub fn files(&self) -> Vec<OpenFile> {
+        self.desk.lock().files.clone()
+    }
+
+    /// A file by its contents.
+    pub fn file(&self, fingerprint: Fingerprint) -> Option<OpenFile> {
+        self.desk.lock().file(fingerprint).cloned()
+    }
+
+    /// Whether a file's contents were looked for on disk in vain.
+    pub fn is_lost(&self, fingerprint: Fingerprint) -> bool {
+        self.desk.lock().lost.contains(&fingerprint)
+    }
+
+    /// Forgets a file.
+    pub fn forget(&self, fingerprint: Fingerprint) {
+        self.desk.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
+    }
+
+    /// Forgets the oldest files of which no set is made, beyond what is worth remembering.
+    pub fn keep(&self, wanted: &[Fingerprint]) {
+        let mut state = self.desk.lock();
+        let size = |state: &State| state.files.iter().map(|file| file.bytes.len()).sum::<usize>();
+        while size(&state) > REMEMBERED_BYTES {
+            let spare = |file: &OpenFile| !wanted.contains(&file.origin.fingerprint);
+            let Some(oldest) = state.files.iter().position(spare) else { return };
+            state.files.remove(oldest);
+        }
+    }
+
+    /// What is understood of a file when it is read with these switches; the last answer while it is being read.
+    pub fn look(&self, file: &OpenFile, options: &chromascope_core::table::ReadOptions) -> Option<Arc<Look>> {
+        self.look.ask(LookOf::stages(file, options));
+        let shown = self.look.shown()?;
+        (shown.answer.fingerprint == file.origin.fingerprint).then_some(shown.answer)
+    }
+
+    /// Whether [`look`](Self::look) is still at it.
+    pub fn is_looking(&self) -> bool {
+        self.look.busy().is_some()
+    }
+
+    /// For how long [`look`](Self::look) has been at it.
+    pub fn looking(&self) -> Option<Duration> {
+        self.look.busy()
+    }
+
+    /// Nobody looks.
+    pub fn rest(&self) {
+        self.look.rest();
+    }
+
+    /// Waits until everything that was asked for is read. For tests.
+    pub fn wait(&self) {
+        while !self.desk.lock().running.is_empty() {
+            thread::sleep(Duration::from_millis(2));
+        }
+        self.look.wait();
+    }
+
+    fn begin(&self, work: impl FnOnce(&Desk, &Job) + Send + 'static) {
+        let job = Arc::new(Job::new());
+        self.desk.lock().running.push(Arc::clone(&job));
+        let desk = Arc::clone(&self.desk);
+        let theirs = Arc::clone(&job);
+        let run = move || {
+            work(&desk, &theirs);
+            desk.end(&theirs);
+        };
+        if let Err(error) = thread::Builder::new().name("files".to_owned()).spawn(run) {
+            let mut state = self.desk.lock();
+            state.running.retain(|running| !Arc::ptr_eq(running, &job));
+            state.events.push(OpenedEvent::Failed(format!("no thread for reading: {error}"), Vec::new()));
+        }
+    }
+}
+
+impl Drop for Opened {
+    fn drop(&mut self) {
+        self.desk.lock().running.iter().for_each(|job| job.stop.store(true, Ordering::Relaxed));
+    }
+}
+
+impl Desk {
+    /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes a file in, in place of one with the same contents.
+    fn know(&self, file: OpenFile) {
+        let mut state = self.lock();
+        state.lost.retain(|lost| *lost != file.origin.fingerprint);
+        match state.files.iter_mut().find(|known| known.origin.fingerprint == file.origin.fingerprint) {
+            Some(known) => *known = file,
+            None => state.files.push(file),
+        }
+    }
+
+    fn end(&self, job: &Arc<Job>) {
+        self.lock().running.retain(|running| !Arc::ptr_eq(running, job));
+        (self.wake)();
+    }
+}
+
+impl State {
+    fn file(&self, fingerprint: Fingerprint) -> Option<&OpenFile> {
+        self.files.iter().find(|file| file.origin.fingerprint == fingerprint)
+    }
+}
+
+impl Job {
+    fn new() -> Self {
+        Self {
+            name: Mutex::default(),
+            share: AtomicU32::new(0),
+            place: [AtomicU32::new(1), AtomicU32::new(1)],
+            stop: AtomicBool::new(false),
+            begun: Instant::now(),
+        }
+    }
+
+    /// Goes on to a file, one of so many.
+    fn at(&self, path: &Path, file: usize, count: usize) {
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = name;
+        for (place, number) in self.place.iter().zip([file, count]) {
+            place.store(u32::try_from(number).unwrap_or(u32::MAX), Ordering::Relaxed);
+        }
+        self.share.store(0, Ordering::Relaxed);
+    }
+
+    /// Takes in how far it is; says whether to go on.
+    fn go_on(&self, share: f32) -> bool {
+        self.share.store(share.to_bits(), Ordering::Relaxed);
+        !self.stop.load(Ordering::Relaxed)
+    }
+}

@@ -1,0 +1,309 @@
+//! Reading files from the disk, folders among them, each as a person wished for its kind.
+
+use std::fs;
+use std::io::{self, Read as _};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use chromascope_core::table::{MAX_BYTES, ReadError, Watch};
+
+use super::{Desk, Job, OpenFile, OpenedEvent, Why};
+use crate::catalog::import::{Imported, Origin, import_as};
+use crate::catalog::meshes::is_mesh;
+use crate::document::own::{Fingerprint, OwnSet, Wishes};
+use crate::files::reason;
+
+/// How much of a file is looked at to tell a mesh from spectra.
+const LOOK: usize = 1 << 16;
+/// How many files of a folder are read.
+const MAX_FILES: usize = 1000;
+/// How many failures are told one by one.
+const TOLD: usize = 3;
+
+/// Something to open.
+#[derive(Clone, Debug)]
+pub enum Request {
+    /// A file or a folder on disk.
+    Path(PathBuf),
+    /// Bytes from elsewhere: the clipboard, or a drop without a file.
+    Bytes {
+        /// What they are called.
+        name: String,
+        /// The bytes.
+        bytes: Arc<[u8]>,
+    },
+    /// A file whose contents are known, with what a person wishes.
+    Known(Fingerprint, Box<Wishes>),
+}
+
+/// What came of some files.
+#[derive(Default)]
+struct Harvest {
+    sets: Vec<Imported>,
+    failures: Vec<String>,
+    failed: Vec<Fingerprint>,
+    paths: Vec<PathBuf>,
+    meshes: Vec<PathBuf>,
+    notes: Vec<String>,
+}
+
+/// Reads one after the other; what cannot be read changes nothing. A mesh is only named: what shows it reads it.
+pub(super) fn open(
+    requests: Vec<Request>,
+    remembered: &dyn Fn(&[u8]) -> Wishes,
+    desk: &Desk,
+    job: &Job,
+) -> Vec<OpenedEvent> {
+    let mut harvest = Harvest::default();
+    let requests = expand(requests, &mut harvest);
+    let count = requests.len();
+    for (index, request) in requests.into_iter().enumerate() {
+        if !job.go_on(0.0) {
+            harvest.failures.push("reading was stopped".to_owned());
+            break;
+        }
+        let (origin, bytes, wishes) = match contents(request, desk, job, (index + 1, count)) {
+            Ok(Some(contents)) => contents,
+            Ok(None) => continue,
+            Err(Unread::Mesh(path)) => {
+                harvest.meshes.push(path);
+                continue;
+            }
+            Err(Unread::Because(sentence)) => {
+                harvest.failures.push(sentence);
+                continue;
+            }
+        };
+        let wishes = wishes.unwrap_or_else(|| remembered(&bytes));
+        take(origin, bytes, &wishes, desk, job, &mut harvest);
+    }
+    harvest.into_events()
+}
+
+/// Folders become their files, in order of name; hidden ones and folders within are left out.
+fn expand(requests: Vec<Request>, harvest: &mut Harvest) -> Vec<Request> {
+    let mut all = Vec::new();
+    for request in requests {
+        let Request::Path(path) = request else {
+            all.push(request);
+            continue;
+        };
+        // A relative path would mean another file after a start from elsewhere.
+        let path = std::path::absolute(&path).unwrap_or(path);
+        if !path.is_dir() {
+            all.push(Request::Path(path));
+            continue;
+        }
+        match files_of(&path) {
+            Ok(files) if files.is_empty() => harvest.failures.push(format!("{}: no files in it", path.display())),
+            Ok(files) => {
+                if files.len() > MAX_FILES {
+                    harvest.notes.push(format!("Of {} files the first {MAX_FILES} were read.", files.len()));
+                }
+                all.extend(files.into_iter().take(MAX_FILES).map(Request::Path));
+            }
+            Err(error) => harvest.failures.push(format!("{}: {}", path.display(), reason(&error))),
+        }
+    }
+    all
+}
+
+fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let hidden = entry.file_name().to_string_lossy().starts_with('.');
+        if !hidden && entry.path().is_file() {
+            files.push(entry.path());
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// Why there are no bytes.
+enum Unread {
+    /// It is a mesh.
+    Mesh(PathBuf),
+    /// A sentence.
+    Because(String),
+}
+
+type Contents = (Origin, Arc<[u8]>, Option<Wishes>);
+
+fn contents(
+    request: Request,
+    desk: &Desk,
+    job: &Job,
+    (file, count): (usize, usize),
+) -> Result<Option<Contents>, Unread> {
+    match request {
+        Request::Known(fingerprint, wishes) => {
+            let known = desk.lock().file(fingerprint).cloned();
+            Ok(known.map(|file| (file.origin, file.bytes, Some(*wishes))))
+        }
+        Request::Bytes { name, bytes } => {
+            job.at(Path::new(&name), file, count);
+            if is_mesh(Path::new(&name), &bytes[..bytes.len().min(LOOK)]) {
+                let sentence =
+                    format!("{name}: a session remembers where a mesh is, so it must be on disk; save it first");
+                return Err(Unread::Because(sentence));
+            }
+            let origin = Origin { path: None, fingerprint: Fingerprint::of(&bytes), name };
+            Ok(Some((origin, bytes, None)))
+        }
+        Request::Path(path) => {
+            job.at(&path, file, count);
+            if is_mesh(&path, &beginning(&path)) {
+                return Err(Unread::Mesh(path));
+            }
+            let bytes = read_bytes(&path).map_err(Unread::Because)?;
+            Ok(Some((origin(&path, &bytes), bytes, None)))
+        }
+    }
+}
+
+fn origin(path: &Path, bytes: &[u8]) -> Origin {
+    Origin { name: name_of(path), path: Some(path.to_owned()), fingerprint: Fingerprint::of(bytes) }
+}
+
+fn take(origin: Origin, bytes: Arc<[u8]>, wishes: &Wishes, desk: &Desk, job: &Job, harvest: &mut Harvest) {
+    let fingerprint = origin.fingerprint;
+    let read = read_once(&origin, &bytes, wishes, job);
+    let failure = read.as_ref().err().cloned();
+    match read {
+        Ok(imported) => {
+            log::info!("opened {}", imported.message);
+            harvest.sets.push(imported);
+            harvest.paths.extend(origin.path.clone());
+        }
+        Err(sentence) => {
+            log::warn!("{sentence}");
+            harvest.failures.push(sentence);
+            harvest.failed.push(fingerprint);
+        }
+    }
+    desk.know(OpenFile { origin, bytes, failure });
+}
+
+/// Reads; a panic comes out as a failure of this file alone.
+fn read_once(origin: &Origin, bytes: &[u8], wishes: &Wishes, job: &Job) -> Result<Imported, String> {
+    let go_on = |share: f32| job.go_on(share);
+    let read = catch_unwind(AssertUnwindSafe(|| import_as(origin, bytes, wishes, Watch::new(&go_on))));
+    let broken = |_| {
+        let name = &origin.name;
+        Err(format!("{name} could not be read because of a fault in this program; please report it with the file"))
+    };
+    read.map_or_else(broken, |read| read.map_err(|error| unread(&origin.name, &error)))
+}
+
+impl Harvest {
+    fn into_events(self) -> Vec<OpenedEvent> {
+        let mut events: Vec<OpenedEvent> = self.meshes.into_iter().map(OpenedEvent::Mesh).collect();
+        let mut told = self.failures.iter().take(TOLD).cloned().collect::<Vec<_>>().join(".  ");
+        if self.failures.len() > TOLD {
+            told = format!("{told}, and {} more", self.failures.len() - TOLD);
+        }
+        if self.sets.is_empty() {
+            if !self.failures.is_empty() {
+                events.push(OpenedEvent::Failed(format!("{told}. Nothing was changed."), self.failed));
+            }
+            return events;
+        }
+        let mut message = match self.sets.as_slice() {
+            [one] => one.message.clone(),
+            many => format!("{} files read.", many.len()),
+        };
+        for note in self.notes {
+            message = format!("{message} {note}");
+        }
+        if !told.is_empty() {
+            message = format!("{message} Not read: {told}");
+        }
+        events.push(OpenedEvent::Read { sets: self.sets, message, paths: self.paths, failed: self.failed });
+        events
+    }
+}
+
+/// Reads a set's file again, from disk if that changed, else from memory.
+pub(super) fn reread(set: &OwnSet, why: Why, desk: &Desk, job: &Job) -> Option<(String, Result<Imported, String>)> {
+    let name = set.name.clone();
+    let known = set.fingerprint.and_then(|fingerprint| desk.lock().file(fingerprint).cloned());
+    let result = match (why, known, &set.path) {
+        (Why::Alike, Some(file), _) => read_once(&file.origin, &file.bytes, &set.wishes, job),
+        (_, _, Some(path)) => {
+            job.at(path, 1, 1);
+            let bytes = read_bytes(path);
+            bytes
+                .and_then(|bytes| {
+                    let origin = origin(path, &bytes);
+                    if why == Why::Changed && Some(origin.fingerprint) == set.fingerprint {
+                        return Ok(None);
+                    }
+                    let read = read_once(&origin, &bytes, &set.wishes, job);
+                    desk.know(OpenFile { origin, bytes, failure: read.as_ref().err().cloned() });
+                    read.map(Some)
+                })
+                .transpose()?
+        }
+        _ => return None,
+    };
+    Some((name, result))
+}
+
+/// Takes a file in again, if its contents are what they were.
+pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk) {
+    if let Ok(bytes) = read_bytes(path)
+        && Fingerprint::of(&bytes) == fingerprint
+    {
+        desk.know(OpenFile { origin: origin(path, &bytes), bytes, failure: None });
+    }
+}
+
+/// Reads one file without a window; the error is a sentence with its name.
+pub fn read_file(path: &Path) -> Result<Imported, String> {
+    let bytes = read_bytes(path)?;
+    let origin = origin(path, &bytes);
+    let read = import_as(&origin, &bytes, &Wishes::default(), Watch::none());
+    read.map_err(|error| unread(&origin.name, &error))
+}
+
+/// A file's bytes; the error is a sentence with its name.
+fn read_bytes(path: &Path) -> Result<Arc<[u8]>, String> {
+    let name = name_of(path);
+    let failed = |error: io::Error| format!("{name}: {}", reason(&error));
+    let known = fs::metadata(path).map_err(failed)?;
+    if !known.is_file() {
+        return Err(format!("{name} is no file"));
+    }
+    let size = known.len();
+    if size > MAX_BYTES as u64 {
+        let error = ReadError::TooLarge { megabytes: size.div_ceil(1 << 20) as usize, limit: MAX_BYTES >> 20 };
+        return Err(unread(&name, &error));
+    }
+    Ok(fs::read(path).map_err(failed)?.into())
+}
+
+/// The first bytes of a file; none where it cannot be read, which reading it will tell.
+fn beginning(path: &Path) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    // Opening a pipe would wait for somebody to write into it.
+    if path.is_file()
+        && let Ok(file) = fs::File::open(path)
+        && file.take(LOOK as u64).read_to_end(&mut bytes).is_err()
+    {
+        bytes.clear();
+    }
+    bytes
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
+}
+
+fn unread(name: &str, error: &ReadError) -> String {
+    let text = error.to_string();
+    let joint = if text.starts_with("line ") { ", " } else { ": " };
+    format!("{name}{joint}{text}")
+}

@@ -1,0 +1,187 @@
+//! `inspect`: what is in files of spectra, how they were understood, and their curves as plain tables.
+
+pub(super) mod arguments;
+mod json;
+mod out;
+mod report;
+mod samples;
+
+use std::fs;
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
+
+use chromascope_core::table::{self, ReadError, Table};
+
+use self::arguments::InspectArguments;
+use self::out::Out;
+use self::samples::Tabulated;
+use super::request::read;
+use super::{CliError, put, say};
+use crate::files::reason;
+
+/// A file, or why there is nothing to say about it.
+struct Inspected {
+    name: String,
+    result: Result<Understood, Failure>,
+}
+
+/// A file that was read.
+struct Understood {
+    table: Table,
+    /// The curves as they go out, if they do.
+    written: Option<Tabulated>,
+}
+
+/// Why a file could not be read or written.
+enum Failure {
+    /// The system says no.
+    Disk(String),
+    /// The content is not understood.
+    Read(ReadError),
+    /// The curves cannot be written as asked.
+    Write(table::write::WriteError),
+}
+
+impl Failure {
+    /// One sentence: where, what, and what helps.
+    fn sentence(&self, name: &str) -> String {
+        match self {
+            Self::Disk(reason) => format!("{name}: {reason}"),
+            Self::Write(error) => format!("{name}: {error}"),
+            Self::Read(error) => {
+                let text = error.to_string();
+                let line = error.line().map(|line| format!("line {line}"));
+                let rest = line.as_ref().and_then(|line| Some((line, text.strip_prefix(line.as_str())?)));
+                match rest {
+                    Some((line, rest)) => format!("{name}, {line}{rest}"),
+                    None => format!("{name}: {text}"),
+                }
+            }
+        }
+    }
+}
+
+/// Reads the files one by one, and says about each what is asked for. One that fails does not keep the others back.
+pub(super) fn run(arguments: &InspectArguments) -> Result<(), CliError> {
+    let (files, several) = files(&arguments.files)?;
+    let mut out = Out::new(arguments, &files, several)?;
+    let mut failures = Vec::new();
+    if arguments.json && several {
+        put("[\n", None)?;
+    }
+    for (index, name) in files.iter().enumerate() {
+        let inspected = inspect(name, arguments);
+        if arguments.json {
+            let end = if several && index + 1 < files.len() { ",\n" } else { "\n" };
+            put(&(json::of(&inspected) + end), None)?;
+        }
+        let done = match &inspected.result {
+            Ok(understood) => tell(&inspected.name, understood, index > 0, &mut out, arguments),
+            Err(failure) => Err(CliError::File(failure.sentence(&inspected.name))),
+        };
+        if let Err(error) = done {
+            failures.push(error);
+            if files.len() > 1
+                && let Some(error) = failures.last()
+            {
+                say(&format!("chromascope: {error}\n"));
+            }
+        }
+    }
+    if arguments.json && several {
+        put("]\n", None)?;
+    }
+    match failures.pop() {
+        None => Ok(()),
+        Some(only) if files.len() == 1 => Err(only),
+        Some(_) => Err(CliError::Failed { failed: failures.len() + 1, count: files.len() }),
+    }
+}
+
+/// The report where a person looks, the table where it is asked for.
+fn tell(
+    name: &str,
+    understood: &Understood,
+    further: bool,
+    out: &mut Out,
+    arguments: &InspectArguments,
+) -> Result<(), CliError> {
+    if !arguments.json {
+        let gap = if further { "\n" } else { "" };
+        let text = format!("{gap}{}", report::of(name, understood));
+        if out.is_standard_output() { say(&text) } else { put(&text, None)? }
+    }
+    match &understood.written {
+        Some(written) => out.take(name, &written.text),
+        None => Ok(()),
+    }
+}
+
+fn inspect(file: &str, arguments: &InspectArguments) -> Inspected {
+    let name = if file == STANDARD_INPUT { "standard input" } else { file };
+    let result = contents(file).map_err(|error| Failure::Disk(reason(&error))).and_then(|bytes| {
+        let mut table = table::read(&bytes, &arguments.options()).map_err(Failure::Read)?;
+        name_the_only_curve(&mut table, name);
+        let wanted = arguments.csv.is_some() || arguments.step.is_some();
+        let tabulated = wanted.then(|| samples::tabulate(&table, arguments.grid()));
+        Ok(Understood { written: tabulated.transpose().map_err(Failure::Write)?, table })
+    });
+    Inspected { name: name.to_owned(), result }
+}
+
+/// The name that means no file.
+const STANDARD_INPUT: &str = "-";
+
+fn contents(file: &str) -> io::Result<Vec<u8>> {
+    if file != STANDARD_INPUT {
+        return read(file);
+    }
+    let mut bytes = Vec::new();
+    io::stdin().lock().take(table::MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// A title, or the file's name, says more about a curve than "Column 2" does.
+fn name_the_only_curve(table: &mut Table, file: &str) {
+    let title = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty()).map(str::to_owned);
+    if let [curve] = table.curves.as_mut_slice()
+        && !curve.named
+    {
+        let stem = || Path::new(file).file_stem().map_or_else(|| file.to_owned(), |s| s.to_string_lossy().into_owned());
+        curve.name = title.unwrap_or_else(stem);
+    }
+}
+
+/// The files that are meant, and whether there may be several: folders become what is in them, in order of name.
+fn files(named: &[PathBuf]) -> Result<(Vec<String>, bool), CliError> {
+    let mut files = Vec::new();
+    let mut several = named.len() > 1;
+    for path in named {
+        if !path.is_dir() {
+            files.push(path.display().to_string());
+            continue;
+        }
+        several = true;
+        let cannot = |error: &io::Error| CliError::File(format!("{}: {}", path.display(), reason(error)));
+        let within = files_of(path).map_err(|error| cannot(&error))?;
+        if within.is_empty() {
+            return Err(CliError::File(format!("{}: no files in it", path.display())));
+        }
+        files.extend(within);
+    }
+    Ok((files, several))
+}
+
+/// The files in a folder; hidden ones and folders within are left out.
+fn files_of(folder: &Path) -> io::Result<Vec<String>> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let hidden = entry.file_name().to_string_lossy().starts_with('.');
+        if !hidden && entry.path().is_file() {
+            files.push(entry.path().display().to_string());
+        }
+    }
+    files.sort();
+    Ok(files)
+}

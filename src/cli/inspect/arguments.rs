@@ -1,0 +1,148 @@
+//! What `inspect` takes.
+
+use std::path::PathBuf;
+
+use chromascope_core::table::write::Grid;
+use chromascope_core::table::{DecimalMark, Delimiter, Orientation, ReadOptions, Reader, Role, Values, WavelengthUnit};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use serde::Deserialize as _;
+use serde::de::DeserializeOwned;
+use serde::de::IntoDeserializer as _;
+use serde::de::value::{Error, StrDeserializer};
+
+pub(in crate::cli) const EXAMPLES: &str = "\
+Examples:
+  chromascope inspect leaf.txt
+  chromascope inspect leaf.txt --values percent --csv leaf.csv
+  chromascope inspect measured/ --step 5 --csv tables
+  chromascope inspect lamp.spdx --csv - | head
+  chromascope inspect *.sp --json | jq '.[].kind'
+
+Says of each file what was understood, a line for each decision: what, how sure (certain, a guess, chosen), and why. Whatever
+was decided can be overruled by an option of the same name. A folder stands for the files in it, `-` for standard input.
+
+--csv writes `wavelength_nm,<curve>,...`: nanometers, reflectances and transmittances as fractions, a cell left blank where a
+curve has no sample. With `--csv -` the table goes to standard output and what was understood to standard error. OUT is a
+folder where several files or a folder are named.
+
+--json prints an object for a file, an array for several: file, kind (camera, reflectance, transmittance, illuminant, unknown),
+curves [{name, unit, quantity, wavelengths_nm, values, missing}], channels [red, green, blue] as places in curves from 0,
+decisions [{what, value, certainty, why}], warnings [{line, text}], reading {...}, notes on resampling; or file and error
+{line, column, text}. Lines and columns count from 1.
+
+A file that cannot be read is told on standard error, the others are read all the same, and the exit code is 1.";
+
+/// What `inspect` takes.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct InspectArguments {
+    /// Files with spectra, or folders of them
+    #[arg(value_name = "FILE", required = true)]
+    pub(super) files: Vec<PathBuf>,
+    /// Prints all that was read as JSON, curves included
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Where to write the curves as CSV: a file, a folder for several files, or `-` for standard output
+    #[arg(long, value_name = "OUT")]
+    pub(super) csv: Option<PathBuf>,
+    /// Resamples the curves, in CSV and JSON, to whole multiples of so many nanometers
+    #[arg(long, value_name = "NM", value_parser = step)]
+    pub(super) step: Option<f64>,
+    /// What the curves are
+    #[arg(long, value_name = "ROLE", value_parser = named::<Role>(&ROLES), help_heading = READING)]
+    role: Option<Role>,
+    /// What the values are as written
+    #[arg(long, value_name = "VALUES", value_parser = named::<Values>(&VALUES), help_heading = READING)]
+    values: Option<Values>,
+    /// The unit of the wavelengths as written
+    #[arg(long, value_name = "UNIT", value_parser = unit(), help_heading = READING)]
+    unit: Option<WavelengthUnit>,
+    /// What stands between two cells
+    #[arg(long, value_name = "DELIMITER", value_parser = named::<Delimiter>(&DELIMITERS), help_heading = READING)]
+    delimiter: Option<Delimiter>,
+    /// What stands before the fraction of a number
+    #[arg(long, value_name = "MARK", value_parser = named::<DecimalMark>(&MARKS), help_heading = READING)]
+    decimal_mark: Option<DecimalMark>,
+    /// Whether wavelengths run down a column or across a row
+    #[arg(long, value_name = "WAY", value_parser = named::<Orientation>(&WAYS), help_heading = READING)]
+    orientation: Option<Orientation>,
+    /// The column of the wavelengths, from 1
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
+    wavelength_column: Option<u32>,
+    /// Which of several tables, blocks or groups in a file, from 1
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
+    part: Option<u32>,
+    /// Which reader takes the file, whatever it looks like
+    #[arg(long, value_name = "READER", value_parser = named::<Reader>(&READERS), help_heading = READING)]
+    reader: Option<Reader>,
+    /// Whether raw counts are kept beside the curve made of them
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true",
+          help_heading = READING)]
+    raw: Option<bool>,
+}
+
+const READING: &str = "Instead of what is guessed";
+
+const ROLES: [&str; 5] = ["camera", "reflectance", "transmittance", "illuminant", "unknown"];
+const VALUES: [&str; 4] = ["plain", "percent", "absorbance", "decibels"];
+const UNITS: [(&str, &[&str]); 5] = [
+    ("nanometer", &["nm"]),
+    ("micrometer", &["um", "µm"]),
+    ("angstrom", &[]),
+    ("wavenumber", &[]),
+    ("terahertz", &["thz"]),
+];
+const DELIMITERS: [&str; 6] = ["comma", "comma-space", "semicolon", "tab", "spaces", "elements"];
+const MARKS: [&str; 2] = ["point", "comma"];
+const WAYS: [&str; 2] = ["down", "across"];
+const READERS: [&str; 10] =
+    ["table", "cgats", "jcamp", "tm27", "cxf", "rawtoaces", "dcamprof", "labels", "alternate", "camspec"];
+
+/// Takes the names that sessions use too.
+fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
+    names: &'static [&'static str],
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(names).try_map(|name| {
+        let name: StrDeserializer<'_, Error> = name.as_str().into_deserializer();
+        T::deserialize(name)
+    })
+}
+
+/// The same for units, which have symbols too.
+fn unit() -> impl TypedValueParser<Value = WavelengthUnit> {
+    let names = UNITS.map(|(name, symbols)| PossibleValue::new(name).aliases(symbols));
+    PossibleValuesParser::new(names).try_map(|typed| {
+        let known = UNITS.iter().find(|(_, symbols)| symbols.contains(&typed.as_str()));
+        let name: StrDeserializer<'_, Error> = known.map_or(typed.as_str(), |(name, _)| name).into_deserializer();
+        WavelengthUnit::deserialize(name)
+    })
+}
+
+fn step(text: &str) -> Result<f64, String> {
+    const SMALLEST_NM: f64 = 0.001;
+    let step = text.parse::<f64>().ok().filter(|step| step.is_finite() && *step >= SMALLEST_NM);
+    step.ok_or_else(|| "not a number of at least 0.001; write 5 for 5 nm".to_owned())
+}
+
+impl InspectArguments {
+    /// The switches of the reader.
+    pub(super) fn options(&self) -> ReadOptions {
+        ReadOptions {
+            delimiter: self.delimiter,
+            decimal_mark: self.decimal_mark,
+            orientation: self.orientation,
+            wavelength_unit: self.unit,
+            wavelength_column: self.wavelength_column.map(|column| column as usize),
+            values: self.values,
+            part: self.part.map(|part| part as usize),
+            role: self.role,
+            reader: self.reader,
+            raw: self.raw,
+        }
+    }
+
+    /// The wavelengths of what is written.
+    pub(super) fn grid(&self) -> Grid {
+        self.step.map_or(Grid::Native, Grid::Step)
+    }
+}

@@ -1,0 +1,77 @@
+//! What was understood, in lines for a person.
+
+use std::fmt::{Display, Write as _};
+
+use chromascope_core::table::{Curve, DroppedRow, Reading, Table};
+
+use super::Understood;
+
+/// How many curves are named.
+const NAMED: usize = 20;
+/// How many dropped rows are told of one by one.
+const TOLD: usize = 6;
+
+/// The name of the file, and below it a line for each decision, fact and warning.
+pub(super) fn of(name: &str, understood: &Understood) -> String {
+    let Understood { table, written } = understood;
+    let mut text = format!("{name}\n");
+    for decision in table.decisions() {
+        line(&mut text, decision.what, format_args!("{} ({}): {}", decision.value, decision.certainty, decision.why));
+    }
+    facts(&mut text, table);
+    for warning in &table.warnings {
+        line(&mut text, "Warning", warning);
+    }
+    for note in written.iter().flat_map(|written| &written.notes) {
+        line(&mut text, "Written", note);
+    }
+    text
+}
+
+fn line(text: &mut String, what: &str, words: impl Display) {
+    // Writing to a string cannot fail.
+    let _infallible = writeln!(text, "  {what}: {words}");
+}
+
+fn facts(text: &mut String, table: &Table) {
+    let reading = &table.reading;
+    line(text, "Rows", rows(reading));
+    let [first, last] = reading.range_nm;
+    let order = if reading.descending { ", written in descending order" } else { "" };
+    line(text, "Range", format_args!("{first} to {last} nm{order}"));
+    let step = reading.step_nm;
+    if step.min == step.max {
+        line(text, "Step", format_args!("{} nm", step.min));
+    } else {
+        line(text, "Step", format_args!("{} to {} nm, median {} nm", step.min, step.max, step.median));
+    }
+    line(text, "Curves", curves(&table.curves));
+    let units: Vec<&str> = table.curves.iter().filter_map(|curve| curve.unit.as_deref()).collect();
+    if let [unit, rest @ ..] = units.as_slice() {
+        let others = if rest.iter().all(|other| other == unit) { "" } else { " and others" };
+        line(text, "Unit", format_args!("{unit}{others}"));
+    }
+    if let Some(channels) = reading.camera_columns {
+        let [red, green, blue] = channels.map(|index| table.curves.get(index).map_or("", |curve| curve.name.as_str()));
+        line(text, "Channels", format_args!("red is {red}, green is {green}, blue is {blue}"));
+    }
+}
+
+fn rows(reading: &Reading) -> String {
+    let dropped = &reading.dropped_rows;
+    let first = reading.first_data_line;
+    let begin = format!("{}, from line {first}", reading.rows);
+    if dropped.is_empty() {
+        return begin;
+    }
+    let one = |row: &DroppedRow| format!("line {} ({})", row.line, row.why);
+    let told: Vec<String> = dropped.iter().take(TOLD).map(one).collect();
+    let more = if dropped.len() > TOLD { format!(" and {} more", dropped.len() - TOLD) } else { String::new() };
+    format!("{begin}; {} left out: {}{more}", dropped.len(), told.join(", "))
+}
+
+fn curves(curves: &[Curve]) -> String {
+    let names: Vec<&str> = curves.iter().take(NAMED).map(|curve| curve.name.as_str()).collect();
+    let more = if curves.len() > NAMED { format!(" and {} more", curves.len() - NAMED) } else { String::new() };
+    format!("{}: {}{more}", curves.len(), names.join(", "))
+}

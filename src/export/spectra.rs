@@ -1,0 +1,227 @@
+//! A set's curves as a file that other programs open.
+
+use chromascope_core::query::Ask;
+use chromascope_core::spectral::{Header, Response, SpectralDistribution};
+use chromascope_core::table::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
+
+use crate::catalog::load::{FileOf, LoadError};
+use crate::catalog::{Entry, Kind, Place};
+use crate::document::own::{OwnSet, Role};
+
+/// A format, and the step that curves are brought to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Form {
+    /// The format.
+    pub format: Format,
+    /// The step in nanometers; none for the curves as measured.
+    pub step_nm: Option<f64>,
+}
+
+impl Form {
+    /// All that are offered, in the order of a menu.
+    pub const ALL: [Self; 9] = [
+        Self::new(Format::Csv, None),
+        Self::new(Format::Csv, Some(1.0)),
+        Self::new(Format::Csv, Some(5.0)),
+        Self::new(Format::Csv, Some(10.0)),
+        Self::new(Format::RawtoacesJson, None),
+        Self::new(Format::DcamprofJson, None),
+        Self::new(Format::ArgyllSp, None),
+        Self::new(Format::ArgyllCmf, None),
+        Self::new(Format::Cgats, None),
+    ];
+
+    const fn new(format: Format, step_nm: Option<f64>) -> Self {
+        Self { format, step_nm }
+    }
+
+    /// The words of a menu.
+    pub fn name(self) -> String {
+        match (self.format, self.step_nm) {
+            (Format::Csv, None) => "CSV, as measured".to_owned(),
+            (format, None) => format.to_string(),
+            (format, Some(step)) => format!("{}, every {step} nm", format.name()),
+        }
+    }
+}
+
+/// Why a set cannot be saved.
+#[derive(Debug, thiserror::Error)]
+pub enum SpectraError {
+    /// Its curves cannot be had.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// The format does not take them.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+/// A set as a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpectraFile {
+    /// The name offered for it.
+    pub name: String,
+    /// What it holds.
+    pub text: String,
+    /// What is not as it is in the set.
+    pub notes: Vec<Note>,
+}
+
+/// Curves, what they are, and what is known about them.
+struct Facts<'a> {
+    title: &'a str,
+    content: Content<'a>,
+    unit: Option<String>,
+    comments: Vec<(String, String)>,
+}
+
+/// Whether a form is one for such a set, by what the set is and how many curves it has.
+pub fn fits(entry: &Entry, form: Form) -> Result<(), WriteError> {
+    let count = match &entry.place {
+        Place::BuiltIn { column: Some(_), .. } => 1,
+        Place::BuiltIn { column: None, .. } => entry.header.as_ref().map_or(0, |header| header.columns.len()),
+        Place::Own(set) => set.curves.len(),
+    };
+    // What the samples are does not matter; a menu asks in every frame.
+    let curve = Trace { name: "", wavelengths_nm: &[400.0, 700.0], values: &[0.0, 0.0] };
+    let curves = vec![curve; count];
+    form.format.fits(&Sheet { content: content(entry), curves: &curves, ..Sheet::default() })
+}
+
+/// Writes a set in a form.
+pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, SpectraError> {
+    let curves = curves(&entry.place, ask)?;
+    let traces: Vec<Trace<'_>> = curves
+        .iter()
+        .map(|(name, curve)| Trace { name, wavelengths_nm: curve.wavelengths_nm(), values: curve.values() })
+        .collect();
+    let Facts { title, content, unit, comments } = facts(entry);
+    let sheet = Sheet { title, content, curves: &traces, unit: unit.as_deref(), created: None, comments: &comments };
+    let written = write(&sheet, form.format, form.step_nm.map_or(Grid::Native, Grid::Step))?;
+    let name = format!("{}.{}", file_name(&entry.name), form.format.ending());
+    Ok(SpectraFile { name, text: written.text, notes: written.notes })
+}
+
+/// All curves of a set, in nanometers and fractions, but else as measured.
+fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
+    match place {
+        Place::BuiltIn { path, column } => {
+            let file = ask.ask(&FileOf(path));
+            let file = (*file).as_ref().map_err(Clone::clone)?;
+            let named = file.header.columns.iter().cloned().zip(file.curves.iter().cloned()).enumerate();
+            let wanted = named.filter(|(index, _)| column.is_none_or(|column| column == *index));
+            Ok(wanted.map(|(_, curve)| curve).collect())
+        }
+        // A camera would give its red, green and blue alone.
+        Place::Own(set) if set.role == Role::Camera => {
+            Ok(OwnSet { role: Role::Unknown, ..OwnSet::clone(set) }.curves_in_nm()?)
+        }
+        Place::Own(set) => Ok(set.curves_in_nm()?),
+    }
+}
+
+fn content(entry: &Entry) -> Content<'_> {
+    let response = match (&entry.header, &entry.place) {
+        (Some(header), _) => header.response(),
+        (None, Place::Own(set)) => set.response(),
+        (None, Place::BuiltIn { .. }) => Response::Unknown,
+    };
+    match entry.kind {
+        Kind::Camera => {
+            let (manufacturer, model) = maker_and_model(&entry.name);
+            Content::Camera {
+                channels: if let Place::Own(set) = &entry.place { set.channels } else { [0, 1, 2] },
+                per_photon: match response {
+                    Response::PerEnergy => Some(false),
+                    Response::PerPhoton => Some(true),
+                    Response::Unknown => None,
+                },
+                manufacturer,
+                model,
+            }
+        }
+        Kind::Observer => Content::Observer,
+        Kind::Chart | Kind::Material => match &entry.place {
+            Place::Own(set) if set.role == Role::Transmittance => Content::Transmittance,
+            _ => Content::Reflectance,
+        },
+        Kind::Illuminant => Content::Illuminant,
+        Kind::Unsorted => Content::Other,
+    }
+}
+
+fn facts(entry: &Entry) -> Facts<'_> {
+    let (unit, comments) = match (&entry.header, &entry.place) {
+        (Some(header), _) => (Some(header.unit.clone()), header_comments(entry.kind, header)),
+        (None, Place::Own(set)) => (own_unit(set), own_comments(set)),
+        (None, Place::BuiltIn { .. }) => (None, Vec::new()),
+    };
+    Facts { title: &entry.name, content: content(entry), unit, comments }
+}
+
+fn header_comments(kind: Kind, header: &Header) -> Vec<(String, String)> {
+    let mut comments =
+        vec![("source".to_owned(), header.source.clone()), ("license".to_owned(), header.license.clone())];
+    comments.extend(header.notes.iter().map(|note| ("note".to_owned(), note.clone())));
+    // Formats have a place for what a camera responds to; for observers it is said in words.
+    if let Some(response) = header.response.as_ref().filter(|_| kind == Kind::Observer) {
+        comments.push(("note".to_owned(), format!("Responses are {response}.")));
+    }
+    comments
+}
+
+/// Where the set is from, and how its file was read.
+fn own_comments(set: &OwnSet) -> Vec<(String, String)> {
+    let mut comments = vec![("source".to_owned(), set.file.clone())];
+    comments.extend(set.decisions.iter().map(|decision| ("reading".to_owned(), decision.clone())));
+    comments
+}
+
+/// The unit that all curves of a set are in.
+fn own_unit(set: &OwnSet) -> Option<String> {
+    let unit = set.curves.first()?.unit.as_ref()?;
+    set.curves.iter().all(|curve| curve.unit.as_ref() == Some(unit)).then(|| unit.clone())
+}
+
+/// Who made a camera and what they call it, where its name begins with a maker. What stands in parentheses at the end tells
+/// measurements apart, not cameras.
+fn maker_and_model(name: &str) -> (Option<&str>, Option<&str>) {
+    const MAKERS: [&str; 16] = [
+        "ARRI",
+        "Blackmagic",
+        "Canon",
+        "DJI",
+        "Fujifilm",
+        "Hasselblad",
+        "Kodak",
+        "Leica",
+        "Nikon",
+        "Olympus",
+        "Panasonic",
+        "Pentax",
+        "Phase One",
+        "RED",
+        "Sigma",
+        "Sony",
+    ];
+    let name = name.split_once(" (").map_or(name, |(before, _)| before).trim();
+    let found = MAKERS.iter().find_map(|maker| {
+        let (start, rest) = name.split_at_checked(maker.len())?;
+        (start.eq_ignore_ascii_case(maker) && rest.starts_with(' ')).then(|| (start, rest.trim()))
+    });
+    found.filter(|(_, model)| !model.is_empty()).unzip()
+}
+
+/// A set's name as that of a file: what some systems do not take in names becomes a hyphen.
+fn file_name(name: &str) -> String {
+    let plain = |c: char| if c.is_alphanumeric() || ".()_ ".contains(c) { c } else { '-' };
+    let name: String = name.chars().map(plain).collect();
+    let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
+    let name = name.trim_matches(['.', ' ', '-']);
+    if name.is_empty() { "spectra".to_owned() } else { name.to_owned() }
+}
+
+/// What became of the curves on the way, for the end of a sentence: empty if nothing.
+pub fn notes_in_words(notes: &[Note]) -> String {
+    notes.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}

@@ -1,0 +1,175 @@
+//! The curves that a file gives, as the file is understood.
+
+mod drawn;
+mod kept;
+mod on_show;
+
+use chromascope_core::figure::{
+    Anchor, Axis, Cell, Figure, Ink, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Tag,
+    TextSize, finite_runs,
+};
+use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
+
+pub(crate) use drawn::sentence;
+pub use drawn::{Curve, Curves};
+pub use kept::Kept;
+pub use on_show::{OnShow, places};
+
+use crate::number::number;
+use crate::scene::Scene;
+use crate::thing::Things;
+use crate::view::View;
+
+/// At most so many curves are drawn.
+pub const DRAWN: usize = 200;
+/// The size of a saved figure in points.
+const SIZE: [f64; 2] = [640.0, 360.0];
+/// Up to so many curves have a legend of their own.
+const NAMED: usize = 12;
+
+/// The panel for an area of the given size. `hovered` is the place in the file of a curve that stands out.
+pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
+    let x = Axis::new("wavelength (nm)", curves.range_nm());
+    let [low, high] = curves.span();
+    let room = (0.05 * (high - low)).max(1e-12);
+    // Above the curves there is room for what is written there.
+    let range = [if low < 0.0 { low - room } else { 0.0 }, high + 3.0 * room];
+    let y = Axis::new(curves.quantity.clone(), range);
+    let mut panel = Panel::new("curves of the file", Rect::from_min_size([0.0, 0.0], size), x, y);
+    panel.note = curves.beyond().map_or_else(|| curves.note.clone(), |beyond| format!("{}; {beyond}", curves.note));
+    panel.marks.push(visible(range));
+    panel.marks.push(zero(curves.range_nm()));
+    let last = curves.drawn.iter().filter(|curve| Some(curve.place) == hovered);
+    for curve in curves.drawn.iter().filter(|curve| Some(curve.place) != hovered).chain(last) {
+        let on = Some(curve.place) == hovered;
+        panel.marks.extend(marks(curve, curve.points.clone(), on, curves.drawn.len()));
+    }
+    panel
+}
+
+/// What a curve is in a panel. The first tag stands for nothing.
+fn tag(place: usize) -> Tag {
+    Tag(u32::try_from(place).unwrap_or(u32::MAX - 1) + 1)
+}
+
+/// The place in the file of a curve that was hit.
+pub fn place(tag: Tag) -> Option<usize> {
+    tag.0.checked_sub(1).map(|place| place as usize)
+}
+
+/// A curve, and what names it where color alone would not.
+fn marks(curve: &Curve, points: Vec<[f64; 2]>, on: bool, count: usize) -> Vec<Mark> {
+    let tag = tag(curve.place);
+    let ink = ink(curve, count, on);
+    let width = if on {
+        4.0
+    } else if count > 20 {
+        1.0
+    } else {
+        2.0
+    };
+    let alone: Vec<[f64; 2]> = finite_runs(&points).filter(|run| run.len() == 1).map(|run| run[0]).collect();
+    let letter = curve.channel.map(|channel| ["R", "G", "B"][channel.min(2)]);
+    let peak = points.iter().filter(|p| p[1].is_finite()).copied().max_by(|a, b| a[1].total_cmp(&b[1]));
+    let line = Mark::new(tag, &curve.name, Shape::Line { points, closed: false }).with_stroke(ink, width);
+    let mut marks = vec![if on { line.with_halo(Ink::new(InkRole::Plot)) } else { line }];
+    if !alone.is_empty() {
+        // A sample between two gaps has no line.
+        let marker = chromascope_core::figure::Marker::Dot;
+        marks.push(Mark::new(tag, &curve.name, Shape::Points { points: alone, marker, radius: 3.0 }).with_fill(ink));
+    }
+    if let Some((letter, at)) = letter.zip(peak) {
+        let (anchor, ink) = (Anchor::LEFT_TOP, Ink::new(InkRole::Text));
+        let size = TextSize::Body;
+        let shape = Shape::Text { at, text: letter.to_owned(), anchor, offset: [5.0, 0.0], size, ink };
+        marks.push(Mark::new(tag, &curve.name, shape));
+    }
+    marks
+}
+
+/// Red, green and blue for a camera; else one after the other, paler where there are many.
+fn ink(curve: &Curve, count: usize, on: bool) -> Ink {
+    let slot = match curve.channel {
+        Some(channel) => [6, 2, 1][channel.min(2)],
+        None => (5 + curve.order) % 8,
+    };
+    let ink = Ink::new(InkRole::Source(u8::try_from(slot).unwrap_or(0)));
+    if count > 20 && !on { ink.faded(0.6) } else { ink }
+}
+
+/// Where light is seen.
+fn visible(range: [f64; 2]) -> Mark {
+    let shape = Shape::Rect { min: [FIRST_NM, range[0]], max: [LAST_NM, range[1]] };
+    let name = format!("visible range, {FIRST_NM:.0} to {LAST_NM:.0} nm");
+    Mark::new(Things::NONE, name, shape).with_fill(Ink::new(InkRole::Text).faded(0.06))
+}
+
+fn zero(range: [f64; 2]) -> Mark {
+    let points = vec![[range[0], 0.0], [range[1], 0.0]];
+    Mark::new(Things::NONE, "zero", Shape::Line { points, closed: false }).with_stroke(InkRole::Weak, 1.0)
+}
+
+/// What a curve reads near a wavelength: lines of text.
+pub fn describe(curves: &Curves, place: usize, nm: f64) -> Vec<String> {
+    let Some(curve) = curves.drawn.iter().find(|curve| curve.place == place) else { return Vec::new() };
+    let there = curve.points.iter().filter(|point| point[1].is_finite());
+    let nearest = there.min_by(|a, b| (a[0] - nm).abs().total_cmp(&(b[0] - nm).abs()));
+    let unit = curves.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
+    let mut lines = vec![curve.name.clone()];
+    lines.extend(nearest.map(|[nm, value]| format!("{} nm: {}{unit}", number(*nm), number(*value))));
+    lines
+}
+
+/// The figure as it is saved, with the values of all curves that are taken.
+pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
+    let shown = OnShow::of(scene, view)?;
+    let curves = Curves::of(&shown, usize::MAX).ok()?;
+    let mut drawn = curves.clone();
+    drawn.cut(DRAWN);
+    let mut figure = Figure::new(format!("Curves of {}", curves.title), SIZE);
+    let mut panel = panel(&drawn, SIZE, None);
+    panel.name.clone_from(&curves.title);
+    figure.panels.push(panel);
+    if (2..=NAMED).contains(&drawn.drawn.len()) {
+        let entry = |curve: &Curve| LegendEntry {
+            name: curve.name.clone(),
+            stroke: Some(Stroke::solid(ink(curve, drawn.drawn.len(), false), 2.0)),
+            marker: None,
+            fill: None,
+        };
+        figure.legend = drawn.drawn.iter().map(entry).collect();
+        figure.legend_place = LegendPlace::Outside;
+    }
+    figure.caption = format!("{}: {}.", curves.title, curves.quantity);
+    figure.table = numbers(&curves);
+    Some(figure)
+}
+
+/// The values at the wavelengths of the file; nothing where a curve has none.
+pub fn numbers(curves: &Curves) -> Table {
+    let unit = curves.unit.as_ref().map_or_else(String::new, |unit| format!(" ({unit})"));
+    let names = curves.drawn.iter().map(|curve| format!("{}{unit}", curve.name));
+    let mut table = Table::new(std::iter::once("wavelength_nm".to_owned()).chain(names));
+    let mut all: Vec<f64> = curves.drawn.iter().flat_map(|curve| curve.points.iter().map(|point| point[0])).collect();
+    all.sort_unstable_by(f64::total_cmp);
+    all.dedup();
+    let mut next = vec![0_usize; curves.drawn.len()];
+    for nm in all {
+        let cells = curves.drawn.iter().zip(&mut next).map(|(curve, next)| {
+            let mut value = None;
+            // A gap stands between two samples, at a wavelength that may be another's.
+            while let Some([at, v]) = curve.points.get(*next).filter(|point| point[0] <= nm) {
+                if *at == nm && v.is_finite() {
+                    value = Some(*v);
+                }
+                *next += 1;
+            }
+            Cell::from(value)
+        });
+        let row: Vec<Cell> = std::iter::once(Cell::from(nm)).chain(cells).collect();
+        if row.iter().skip(1).any(|cell| *cell != Cell::Empty) {
+            table.push(row);
+        }
+    }
+    table
+}

@@ -1,0 +1,116 @@
+//! The file or set that Import shows, with all that is known about it now.
+
+use std::sync::Arc;
+
+use chromascope_core::query::Shared;
+use chromascope_core::table::{ReadError, Table};
+
+use crate::catalog::import::taken;
+use crate::catalog::opened::{Look, OpenFile, Opened};
+use crate::document::own::{OwnSet, Wishes};
+use crate::scene::Scene;
+use crate::view::View;
+use crate::view::import::ImportItem;
+
+/// What Import shows.
+#[derive(Clone, Debug)]
+pub struct OnShow {
+    /// Which.
+    pub item: ImportItem,
+    /// The document's set.
+    pub set: Option<Shared<OwnSet>>,
+    /// How it is, or is to be, read.
+    pub wishes: Wishes,
+    /// Whether that is not yet so in the document.
+    pub pending: bool,
+    /// The file's contents, if they are at hand.
+    pub file: Option<OpenFile>,
+    /// What the contents were understood as, now or just before.
+    pub look: Option<Arc<Look>>,
+}
+
+impl OnShow {
+    /// The selected item; asks for what is not known yet, and keeps the answer for [`figure`](super::figure).
+    pub fn refresh(scene: &Scene<'_>, view: &mut View, opened: &Opened) -> Option<Self> {
+        let mut shown = Self::of(scene, view)?;
+        let fingerprint = match &shown.item {
+            ImportItem::File(fingerprint) => Some(*fingerprint),
+            ImportItem::Set(_) => shown.set.as_ref().and_then(|set| set.fingerprint),
+        };
+        shown.file = fingerprint.and_then(|fingerprint| opened.file(fingerprint));
+        match (&shown.file, &shown.set) {
+            (Some(file), _) => {
+                if let Some(look) = opened.look(file, &shown.wishes.options) {
+                    shown.look = Some(look);
+                }
+            }
+            (None, Some(set)) => {
+                shown.look = None;
+                opened.fetch(set);
+            }
+            (None, None) => return None,
+        }
+        view.import.look.clone_from(&shown.look);
+        Some(shown)
+    }
+
+    /// The same, as far as it is known.
+    pub fn of(scene: &Scene<'_>, view: &View) -> Option<Self> {
+        let item = view.import.selected.clone()?;
+        let (set, fingerprint) = match &item {
+            ImportItem::Set(name) => {
+                let set = scene.document.own.iter().find(|set| set.name == *name)?;
+                (Some(set.clone()), set.fingerprint)
+            }
+            ImportItem::File(fingerprint) => (None, Some(*fingerprint)),
+        };
+        let tried = view.import.pending(&item).cloned();
+        let pending = tried.is_some();
+        let wishes = tried.or_else(|| set.as_ref().map(|set| set.wishes.clone())).unwrap_or_default();
+        let look = view.import.look.clone().filter(|look| Some(look.fingerprint) == fingerprint);
+        Some(Self { item, set, wishes, pending, file: None, look })
+    }
+
+    /// Whether the curves of another are the same: nothing that they depend on differs.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let look = match (&self.look, &other.look) {
+            (Some(look), Some(other)) => Arc::ptr_eq(look, other),
+            (None, None) => true,
+            _ => false,
+        };
+        look && self.item == other.item
+            && self.pending == other.pending
+            && self.wishes == other.wishes
+            && self.set == other.set
+    }
+
+    /// Whether what is known is of the wishes, not of those before.
+    pub fn is_fresh(&self) -> bool {
+        self.look.as_ref().is_some_and(|look| look.options == self.wishes.options)
+    }
+
+    /// What the contents were understood as.
+    pub fn table(&self) -> Option<&Table> {
+        self.look.as_ref()?.table.as_deref().ok()
+    }
+
+    /// Why the contents cannot be read as wished.
+    pub fn error(&self) -> Option<&ReadError> {
+        self.look.as_ref().filter(|_| self.is_fresh())?.table.as_ref().err()
+    }
+
+    /// The curves taken, by place in the file.
+    pub fn taken(&self) -> Vec<usize> {
+        match (self.table(), &self.set) {
+            (Some(table), _) => taken(table, &self.wishes),
+            (None, Some(set)) => places(set),
+            (None, None) => Vec::new(),
+        }
+    }
+}
+
+/// The places in its file of a set's curves.
+pub fn places(set: &OwnSet) -> Vec<usize> {
+    let wished = set.wishes.taken.clone().filter(|taken| taken.len() == set.curves.len());
+    wished.unwrap_or_else(|| (0..set.curves.len()).collect())
+}

@@ -1,0 +1,97 @@
+//! The curves that a file gives.
+
+use std::time::Duration;
+
+use egui::{Align2, Id, Rect, Ui, Vec2};
+
+use super::PaneContext;
+use crate::figures::curves::{self, Curves, Kept, OnShow};
+use crate::paint::{self, PlotOptions};
+use crate::theme::UNIT;
+use crate::view::import::ImportItem;
+use crate::widgets;
+use crate::workspaces::PaneKind;
+
+/// How near the pointer must be, in points.
+const REACH: f32 = 8.0;
+/// Who waits so long is told that something is going on.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// Shows the pane in its rectangle.
+pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, PaneKind::Curves, rect, context, |_, _| {});
+    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let Some(shown) = OnShow::refresh(&context.scene, context.view, context.opened) else {
+        sentence(ui, body, "Drop files here.", context.theme.weak);
+        return;
+    };
+    if shown.file.is_some() && !shown.is_fresh() {
+        busy_line(ui, body, context);
+    }
+    let kept = Kept::of(&shown, context.view.import.kept.take());
+    match kept.all() {
+        Err(words) => {
+            let color = if shown.error().is_some() { context.theme.error } else { context.theme.weak };
+            sentence(ui, body, words, color);
+        }
+        Ok(curves) if context.view.saved.tables.contains(&PaneKind::Curves) => {
+            widgets::data_table(ui, body, "curves", &curves::numbers(curves));
+        }
+        Ok(curves) => plot(ui, body, &shown.item, [curves, kept.seen().unwrap_or(curves)], context),
+    }
+    context.view.import.kept = Some(kept);
+}
+
+fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2], context: &mut PaneContext<'_>) {
+    let size = [f64::from(body.width()), f64::from(body.height())];
+    let panel = curves::panel(seen, size, context.view.import.hovered_curve);
+    let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
+    let id = Id::unique(("curves", format!("{item:?}")));
+    let shown = paint::plot(ui, id, &panel, &context.theme, body, options);
+    let hit = shown.response.hover_pos().and_then(|at| paint::nearest(&panel, &shown.view, at, REACH));
+    let place = hit.and_then(|hit| curves::place(hit.tag));
+    hover(ui, shown.response.hovered(), place, context);
+    let Some([nm, value]) = shown.hovered else { return };
+    if let Some(place) = place {
+        let lines = curves::describe(curves, place, nm);
+        context.view.point = Some(lines.join("  "));
+        widgets::read_at_pointer(&shown.response, &lines);
+    } else {
+        context.view.point = Some(format!("{nm:.0} nm  {}", crate::number::number(value)));
+    }
+}
+
+/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
+fn hover(ui: &Ui, inside: bool, place: Option<usize>, context: &mut PaneContext<'_>) {
+    let id = Id::unique("pointer over result");
+    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
+    ui.data_mut(|data| data.insert_temp(id, inside));
+    if (inside || was) && context.view.import.hovered_curve != place {
+        context.view.import.hovered_curve = place.filter(|_| inside);
+        ui.ctx().request_repaint();
+    }
+}
+
+/// A sentence in the middle, wrapped.
+fn sentence(ui: &Ui, body: Rect, words: &str, color: egui::Color32) {
+    let font = egui::FontId::proportional(crate::theme::TEXT);
+    let width = (body.width() - 8.0 * UNIT).max(40.0);
+    let galley = ui.painter().layout(words.to_owned(), font, color, width);
+    let rect = Align2::CENTER_CENTER.align_size_within_rect(galley.size(), body);
+    ui.painter().with_clip_rect(body).galley(rect.min, galley, color);
+    let response = ui.interact(rect, ui.scope_id().with("no curves"), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
+}
+
+/// A thin line along the top while a file is read.
+fn busy_line(ui: &Ui, body: Rect, context: &PaneContext<'_>) {
+    let Some(busy) = context.opened.looking() else { return };
+    if let Some(wait) = PATIENCE.checked_sub(busy) {
+        ui.ctx().request_repaint_after(wait);
+        return;
+    }
+    ui.ctx().request_repaint_after(Duration::from_millis(50));
+    let left = body.left() + body.width() * 0.75 * (0.5 - 0.5 * (3.0 * busy.as_secs_f32()).cos());
+    let line = Rect::from_min_size(egui::pos2(left, body.top()), Vec2::new(0.25 * body.width(), 2.0));
+    ui.painter().rect_filled(line, 0.0, context.theme.text);
+}

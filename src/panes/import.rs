@@ -1,0 +1,125 @@
+//! The user's files, and the text of one with what was understood of it.
+
+mod entries;
+mod files;
+mod line;
+mod text;
+
+use std::time::Duration;
+
+use egui::{ProgressBar, Rect, RichText, Ui, UiBuilder, Vec2};
+
+use super::PaneContext;
+use crate::command::Command;
+use crate::figures::curves::OnShow;
+use crate::theme::UNIT;
+use crate::widgets;
+use crate::workspaces::PaneKind;
+
+use entries::Entry;
+
+/// Width of the column of files.
+const FILES: f32 = 184.0;
+/// In a narrower pane the files are a list that drops down.
+const NARROW: f32 = 480.0;
+/// Who waits so long is told that something is going on.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// Shows the pane in its rectangle.
+pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, PaneKind::Import, rect, context, switches);
+    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let entries = entries::all(context);
+    if entries.is_empty() {
+        nothing(ui, body, context);
+        return;
+    }
+    if context.view.saved.tables.contains(&PaneKind::Import) {
+        widgets::data_table(ui, body, "import", &entries::table(&entries));
+        return;
+    }
+    keep_selected(ui, &entries, context);
+    let below = if body.width() < NARROW { files::drop_down(ui, body, &entries, context) } else { body };
+    let text = if body.width() < NARROW {
+        below
+    } else {
+        let cut = body.left() + FILES;
+        let column = Rect::from_min_max(body.min, egui::pos2(cut, body.bottom()));
+        files::column(ui, column, &entries, context);
+        Rect::from_min_max(egui::pos2(cut + 2.0 * UNIT, body.top()), body.max)
+    };
+    match OnShow::refresh(&context.scene, context.view, context.opened) {
+        Some(shown) => text::show(ui, text, &shown, context),
+        // What was selected is gone since the list was made; the next frame shows another.
+        None => ui.ctx().request_repaint(),
+    }
+}
+
+/// Something is always on show: the first file, until a person chooses another.
+fn keep_selected(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) {
+    let selected = context.view.import.selected.as_ref();
+    if selected.is_none_or(|item| !entries.iter().any(|entry| entry.item == *item))
+        && let Some(first) = entries.first()
+    {
+        context.view.import.select(first.item.clone());
+        ui.ctx().request_repaint();
+    }
+}
+
+/// While something is read: what, how far, and a way to stop it.
+fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let Some(progress) = context.opened.progress() else { return };
+    // A worker says only when it is done.
+    ui.ctx().request_repaint_after(PATIENCE);
+    if progress.time < PATIENCE {
+        return;
+    }
+    ui.add_space(UNIT);
+    if ui.button("Stop").on_hover_text("Stop reading (Esc). Nothing is changed.").clicked() {
+        context.push(Command::StopReading);
+    }
+    let [file, count] = progress.file;
+    let percent = (progress.share * 100.0).floor();
+    let bar = ProgressBar::new(progress.share).desired_width(64.0).desired_height(6.0).fill(context.theme.weak);
+    let response = ui.add(bar);
+    let words = if count > 1 {
+        format!("reading {}, {file} of {count}… {percent:.0} %", progress.name)
+    } else {
+        format!("reading {}… {percent:.0} %", progress.name)
+    };
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, &words));
+    ui.add(egui::Label::new(RichText::new(words).small().color(context.theme.weak)).truncate());
+}
+
+/// What can be done where there is no file yet.
+fn nothing(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) {
+    let size = Vec2::new(280.0_f32.min(body.width()), 96.0);
+    let place = Rect::from_center_size(body.center(), size).intersect(body);
+    let layout = egui::Layout::top_down(egui::Align::Center);
+    let mut child = ui.new_child(UiBuilder::new().id_salt("no file").max_rect(place).layout(layout));
+    let ui = &mut child;
+    if let Some(progress) = context.opened.progress() {
+        ui.label(format!("Reading {}…", progress.name));
+        return;
+    }
+    ui.label("Drop files here.");
+    ui.add_space(UNIT);
+    open_buttons(ui, size.x, context);
+    ui.add_space(UNIT);
+    let hint = "Or paste data with Ctrl+V. What is read can be looked at, and read otherwise, here.";
+    ui.label(RichText::new(hint).small().color(context.theme.weak));
+}
+
+/// Two buttons side by side in the middle of a width.
+fn open_buttons(ui: &mut Ui, width: f32, context: &mut PaneContext<'_>) {
+    const TOGETHER: f32 = 172.0;
+    ui.horizontal(|ui| {
+        ui.add_space(((width - TOGETHER) / 2.0).max(0.0));
+        if ui.button("Open…").on_hover_text("Spectral files of any kind (Ctrl+O)").clicked() {
+            context.push(Command::Open);
+        }
+        if ui.button("Open folder…").on_hover_text("All spectral files in a folder").clicked() {
+            context.push(Command::OpenFolder);
+        }
+    });
+}

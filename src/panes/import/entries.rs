@@ -1,0 +1,119 @@
+//! The list of files: the document's own sets, then opened files that no set is made of.
+
+use std::path::PathBuf;
+
+use chromascope_core::figure::{Cell, Table};
+
+use crate::catalog::opened::OpenFile;
+use crate::document::own::{OwnSet, Role};
+use crate::panes::PaneContext;
+use crate::view::import::ImportItem;
+
+/// How a file fares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum State {
+    /// Read without a doubt.
+    Certain,
+    /// Read with a guess that a person has seen.
+    Seen,
+    /// Read with a guess that nobody has looked at.
+    Unseen,
+    /// Not used, though it could be read.
+    Unused,
+    /// Not read.
+    Failed,
+}
+
+impl State {
+    /// In words, for the pointer and for screen readers.
+    pub(super) const fn words(self) -> &'static str {
+        match self {
+            Self::Certain => "read",
+            Self::Seen => "read, with guesses",
+            Self::Unseen => "read, with guesses that nobody has looked at",
+            Self::Unused => "not used",
+            Self::Failed => "not read",
+        }
+    }
+}
+
+/// One file of the list.
+pub(super) struct Entry {
+    /// Which.
+    pub(super) item: ImportItem,
+    /// What it is called.
+    pub(super) name: String,
+    /// How it fares.
+    pub(super) state: State,
+    /// What it holds, or why it was not read.
+    pub(super) note: String,
+    /// Where it is on disk, if it is.
+    pub(super) path: Option<PathBuf>,
+    /// Whether its contents are at hand.
+    pub(super) at_hand: bool,
+}
+
+/// All files.
+pub(super) fn all(context: &PaneContext<'_>) -> Vec<Entry> {
+    let files = context.opened.files();
+    let own = &context.scene.document.own;
+    let sets = own.iter().map(|set| of_set(set, &files, context));
+    let unused = files.iter().filter(|file| !own.iter().any(|set| set.fingerprint == Some(file.origin.fingerprint)));
+    sets.chain(unused.map(of_file)).collect()
+}
+
+fn of_set(set: &OwnSet, files: &[OpenFile], context: &PaneContext<'_>) -> Entry {
+    let item = ImportItem::Set(set.name.clone());
+    // A decision is kept as a sentence that ends with how sure it is; the role's comes first.
+    let guessed = |decision: &String| decision.ends_with("(a guess)");
+    let state = match (set.decisions.iter().any(guessed), context.view.import.unseen.contains(&item)) {
+        (_, true) => State::Unseen,
+        (true, false) => State::Seen,
+        (false, false) => State::Certain,
+    };
+    let curves = if set.curves.len() == 1 { "1 curve".to_owned() } else { format!("{} curves", set.curves.len()) };
+    let doubt = if set.decisions.first().is_some_and(guessed) { "?" } else { "" };
+    let role = role(set.role, set.curves.len() == 1);
+    let at_hand = files.iter().any(|file| Some(file.origin.fingerprint) == set.fingerprint);
+    let note = format!("{curves}, {role}{doubt}");
+    Entry { name: set.name.clone(), state, note, path: set.path.clone(), at_hand, item }
+}
+
+const fn role(role: Role, one: bool) -> &'static str {
+    match (role, one) {
+        (Role::Camera, _) => "a camera",
+        (Role::Reflectance, true) => "reflectance",
+        (Role::Reflectance, false) => "reflectances",
+        (Role::Transmittance, true) => "transmittance",
+        (Role::Transmittance, false) => "transmittances",
+        (Role::Illuminant, true) => "a light",
+        (Role::Illuminant, false) => "lights",
+        (Role::Unknown, _) => "of no known kind",
+    }
+}
+
+fn of_file(file: &OpenFile) -> Entry {
+    let name = file.origin.name.clone();
+    let (state, note) = match &file.failure {
+        Some(failure) => (State::Failed, reason(failure, &name).to_owned()),
+        None => (State::Unused, "not used".to_owned()),
+    };
+    let item = ImportItem::File(file.origin.fingerprint);
+    Entry { item, name, state, note, path: file.origin.path.clone(), at_hand: true }
+}
+
+/// A failure without the name of the file before it.
+fn reason<'a>(failure: &'a str, name: &str) -> &'a str {
+    failure.strip_prefix(name).map_or(failure, |rest| rest.trim_start_matches([',', ':', ' ']))
+}
+
+/// The list as numbers.
+pub(super) fn table(entries: &[Entry]) -> Table {
+    let mut table = Table::new(["file", "state", "holds", "path"].map(str::to_owned));
+    for entry in entries {
+        let path = entry.path.as_ref().map_or(Cell::Empty, |path| Cell::Text(path.display().to_string()));
+        let words = [entry.name.clone(), entry.state.words().to_owned(), entry.note.clone()].map(Cell::Text);
+        table.push(words.into_iter().chain([path]).collect::<Vec<_>>());
+    }
+    table
+}

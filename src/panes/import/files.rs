@@ -1,0 +1,244 @@
+//! The column of files, and the list that stands for it where there is little room.
+
+use egui::{Color32, ComboBox, Event, Id, Key, Painter, Pos2, Rect, Response, ScrollArea, Sense, Shape, Stroke};
+use egui::{TextStyle, Ui, UiBuilder, Vec2};
+
+use super::entries::{Entry, State};
+use crate::action::{Action, OwnAction};
+use crate::command::Command;
+use crate::panes::PaneContext;
+use crate::theme::{ROW, Theme, UNIT};
+use crate::view::import::ImportItem;
+use crate::widgets::{focus_rim, lines};
+use crate::workspaces::PaneKind;
+
+/// Height of a file's two lines.
+const HEIGHT: f32 = 38.0;
+/// Width of the mark before a name.
+const MARK: f32 = 16.0;
+/// Width that a scroll bar lies over.
+const SCROLL_BAR: f32 = 8.0;
+
+/// Shows the files one below the other.
+pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut PaneContext<'_>) {
+    let caption = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
+    let count = if entries.len() == 1 { "1 file".to_owned() } else { format!("{} files", entries.len()) };
+    lines::elided(ui, caption, &count, TextStyle::Small, context.theme.weak);
+    let list = Rect::from_min_max(egui::pos2(rect.left(), caption.bottom()), rect.max);
+    let moved = keys(ui, entries, context);
+    let mut child = ui.new_child(UiBuilder::new().id_salt("files").max_rect(list));
+    child.set_clip_rect(list.intersect(ui.clip_rect()));
+    child.spacing_mut().item_spacing.y = 0.0;
+    let mut area = ScrollArea::vertical().id_salt("files scroll").auto_shrink(false);
+    if let Some(index) = moved {
+        // The one before and the one after stay in sight too.
+        area = area.vertical_scroll_offset((index as f32 * HEIGHT - (list.height() - HEIGHT) / 2.0).max(0.0));
+    }
+    area.show_rows(&mut child, HEIGHT, entries.len(), |ui, range| {
+        for index in range {
+            row(ui, index, entries, context);
+        }
+    });
+}
+
+/// Shows the file on show; the others drop down. Returns what is left below.
+pub(super) fn drop_down(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut PaneContext<'_>) -> Rect {
+    keys(ui, entries, context);
+    let head = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
+    let below = Rect::from_min_max(egui::pos2(rect.left(), head.bottom() + UNIT), rect.max);
+    let selected = context.view.import.selected.clone();
+    let Some(index) = entries.iter().position(|entry| Some(&entry.item) == selected.as_ref()) else { return below };
+    let entry = &entries[index];
+    draw_mark(ui.painter(), egui::pos2(head.left() + 6.0, head.center().y), entry.state, false, &context.theme);
+    let list = Rect::from_min_max(head.min + Vec2::new(MARK, 0.0), head.max - Vec2::new(lines::DOTS + UNIT, 0.0));
+    let mut child = ui.new_child(UiBuilder::new().id_salt("files list").max_rect(list));
+    let combo = ComboBox::from_id_salt("file on show").width(list.width()).truncate();
+    let words = format!("{}  ({})", entry.name, entry.note);
+    let mut chosen = None;
+    let response = combo.selected_text(words).show_ui(&mut child, |ui| {
+        for (index, entry) in entries.iter().enumerate() {
+            // A reason is too long for a list.
+            let note = if entry.state == State::Failed { entry.state.words() } else { &entry.note };
+            let words = format!("{}  ({note})", entry.name);
+            if ui.selectable_label(Some(&entry.item) == selected.as_ref(), words).clicked() {
+                chosen = Some(index);
+            }
+        }
+    });
+    let name = format!("File on show: {}, {}", entry.name, entry.state.words());
+    response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &name));
+    if let Some(index) = chosen {
+        select(ui, entries, index, context);
+    }
+    let dots = Rect::from_min_max(egui::pos2(head.right() - lines::DOTS, head.top()), head.max);
+    menu(ui, dots, index, entries, context);
+    below
+}
+
+fn id(index: usize) -> Id {
+    Id::unique(("file of import", index))
+}
+
+fn select(ui: &Ui, entries: &[Entry], index: usize, context: &mut PaneContext<'_>) {
+    if let Some(entry) = entries.get(index) {
+        context.view.import.unseen.remove(&entry.item);
+        context.view.import.select(entry.item.clone());
+        ui.ctx().request_repaint();
+    }
+}
+
+/// Arrows choose another file, Delete takes one off. Returns the one chosen.
+fn keys(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) -> Option<usize> {
+    let focus = ui.memory(egui::Memory::focused);
+    let on_row = focus.is_some_and(|focus| (0..entries.len()).any(|index| id(index) == focus));
+    let mine = on_row || (focus.is_none() && context.view.focused == Some(PaneKind::Import));
+    if !mine || egui::Popup::is_any_open(ui.ctx()) {
+        return None;
+    }
+    let pressed = |wanted: Key| {
+        ui.input(|input| {
+            let press = |event: &Event| matches!(event, Event::Key { key, pressed: true, modifiers, .. } if *key == wanted && modifiers.is_none());
+            input.events.iter().any(press)
+        })
+    };
+    let selected = context.view.import.selected.clone()?;
+    let now = entries.iter().position(|entry| entry.item == selected)?;
+    if pressed(Key::Delete) {
+        remove(ui, now, entries, context);
+        return None;
+    }
+    let next = match (pressed(Key::ArrowUp), pressed(Key::ArrowDown)) {
+        (true, false) => now.checked_sub(1)?,
+        (false, true) => now + 1,
+        _ => return None,
+    };
+    if next >= entries.len() {
+        return None;
+    }
+    select(ui, entries, next, context);
+    if on_row {
+        ui.memory_mut(|memory| memory.request_focus(id(next)));
+    }
+    Some(next)
+}
+
+/// One file.
+fn row(ui: &mut Ui, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
+    let entry = &entries[index];
+    let theme = context.theme;
+    let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), HEIGHT), Sense::hover());
+    let rect = Rect::from_min_max(rect.min, rect.max - Vec2::new(SCROLL_BAR, 1.0));
+    let response = ui.interact(rect, id(index), Sense::click());
+    let on = context.view.import.selected.as_ref() == Some(&entry.item);
+    let name = format!("{}: {} ({})", entry.name, entry.note, entry.state.words());
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::ListItem, true, on, &name));
+    if response.has_focus() {
+        let filter = egui::EventFilter { vertical_arrows: true, ..egui::EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(id(index), filter));
+    }
+    ground(ui, rect, &response, on, &theme);
+    let middle = rect.center().y;
+    draw_mark(ui.painter(), egui::pos2(rect.left() + 9.0, rect.top() + 10.0), entry.state, on, &theme);
+    let left = rect.left() + MARK + 2.0;
+    let upper = Rect::from_min_max(egui::pos2(left, rect.top() + 1.0), egui::pos2(rect.right() - lines::DOTS, middle));
+    let lower = Rect::from_min_max(egui::pos2(left, middle), egui::pos2(rect.right() - UNIT, rect.bottom() - 2.0));
+    lines::elided(ui, upper, &entry.name, TextStyle::Body, theme.text);
+    let color = match (on, entry.state) {
+        // Neither gray nor red could be read on the ground of what is chosen.
+        (true, _) => theme.text,
+        (false, State::Failed) => theme.error,
+        (false, _) => theme.weak,
+    };
+    lines::elided(ui, lower, &entry.note, TextStyle::Small, color);
+    let dots = Rect::from_min_max(egui::pos2(rect.right() - lines::DOTS, rect.top()), egui::pos2(rect.right(), middle));
+    menu(ui, dots, index, entries, context);
+    if response.clicked() {
+        select(ui, entries, index, context);
+    }
+    response.on_hover_ui(|ui| {
+        ui.label(&entry.name);
+        let small = |ui: &mut Ui, words: String| {
+            ui.label(egui::RichText::new(words).small().color(theme.weak));
+        };
+        small(ui, format!("{}; {}", entry.note, entry.state.words()));
+        if let Some(path) = &entry.path {
+            small(ui, path.display().to_string());
+        }
+    });
+}
+
+fn ground(ui: &Ui, rect: Rect, response: &Response, on: bool, theme: &Theme) {
+    let fill = match (on, response.hovered()) {
+        (true, _) => theme.chosen,
+        (false, true) => theme.control,
+        (false, false) => theme.panel,
+    };
+    if on || response.hovered() || response.has_focus() {
+        ui.painter().rect(rect, 3.0, fill, focus_rim(response, theme), egui::StrokeKind::Inside);
+    }
+}
+
+/// Each state has a form of its own: a dot, a ring, a diamond, a dash, a triangle.
+fn draw_mark(painter: &Painter, at: Pos2, state: State, on: bool, theme: &Theme) {
+    let line = |color: Color32| Stroke::new(1.3, color);
+    let gray = if on { theme.text } else { theme.weak };
+    match state {
+        State::Certain => {
+            painter.circle_filled(at, 3.0, gray);
+        }
+        State::Seen => {
+            painter.circle_stroke(at, 3.2, line(gray));
+        }
+        State::Unseen => {
+            let corners = [(0.0, -5.0), (5.0, 0.0), (0.0, 5.0), (-5.0, 0.0)];
+            let corners = corners.map(|(x, y)| at + Vec2::new(x, y)).to_vec();
+            painter.add(Shape::convex_polygon(corners, theme.warning, Stroke::NONE));
+        }
+        State::Unused => {
+            painter.line_segment([at - Vec2::new(4.0, 0.0), at + Vec2::new(4.0, 0.0)], line(gray));
+        }
+        State::Failed => lines::warning_mark(painter, at, if on { theme.text } else { theme.error }),
+    }
+}
+
+/// What can be done with a file.
+fn menu(ui: &Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
+    let entry = &entries[index];
+    let button = lines::dots(ui, rect, id(index).with("dots"), &format!("Menu of {}", entry.name));
+    egui::Popup::menu(&button).show(|ui| {
+        if ui.button("Remove").on_hover_text("Take it off the list (Delete)").clicked() {
+            remove(ui, index, entries, context);
+            ui.close();
+        }
+        let again = ui.add_enabled(entry.path.is_some(), egui::Button::new("Read again"));
+        if again.on_disabled_hover_text("It did not come from a file on disk").clicked() {
+            context.push(match (&entry.item, &entry.path) {
+                (ImportItem::File(_), Some(path)) => Command::OpenPath(path.clone()),
+                _ => Command::ReadAgain(entry.name.clone()),
+            });
+            ui.close();
+        }
+        let alike =
+            ui.add_enabled(entry.at_hand && entry.state != State::Failed, egui::Button::new("Use for all like it"));
+        let hint = "Read all files of this kind as this one, now and later";
+        if alike.on_hover_text(hint).on_disabled_hover_text("It is not at hand, or cannot be read so").clicked() {
+            context.push(Command::UseForAlike(entry.item.clone()));
+            ui.close();
+        }
+    });
+}
+
+/// Takes a file off the list; the next one is shown.
+fn remove(ui: &Ui, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
+    let entry = &entries[index];
+    let was_shown = context.view.import.selected.as_ref() == Some(&entry.item);
+    context.view.import.unseen.remove(&entry.item);
+    match &entry.item {
+        ImportItem::Set(name) => context.push(Action::Own(OwnAction::Remove(name.clone()))),
+        ImportItem::File(fingerprint) => context.push(Command::ForgetFile(*fingerprint)),
+    }
+    if was_shown && entries.len() > 1 {
+        let next = if index + 1 < entries.len() { index + 1 } else { index - 1 };
+        select(ui, entries, next, context);
+    }
+}

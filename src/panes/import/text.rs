@@ -1,0 +1,281 @@
+//! The text of a file, of which only the lines in sight are laid out.
+
+use std::ops::Range;
+
+use chromascope_core::table::{LONGEST_LINE, Preview};
+use egui::{FontId, Id, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, UiBuilder, Vec2};
+
+use super::line::{Line, Pen, legend};
+use crate::catalog::opened::Look;
+use crate::command::Command;
+use crate::document::own::{Fingerprint, OwnSet};
+use crate::figures::curves::{OnShow, sentence};
+use crate::panes::PaneContext;
+use crate::theme::{MONO, ROW, UNIT};
+use crate::widgets::lines;
+
+/// Height of a line.
+const LINE: f32 = 18.0;
+/// Height of the legend.
+const LEGEND: f32 = 20.0;
+/// So far a long line can be scrolled: what is beyond has to be skipped letter by letter.
+const WIDEST: usize = 50_000;
+const _: () = assert!(WIDEST < LONGEST_LINE, "a line is counted so far");
+/// So many letters of a line are read out.
+const SAID: usize = 200;
+
+/// Shows what is known of the file on show.
+pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &OnShow, context: &mut PaneContext<'_>) {
+    let Some(file) = &shown.file else {
+        if let Some(set) = &shown.set {
+            away(ui, rect, set, context);
+        }
+        return;
+    };
+    let head = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
+    let foot = Rect::from_min_max(egui::pos2(rect.left(), rect.bottom() - LEGEND), rect.max);
+    let body = Rect::from_min_max(egui::pos2(rect.left(), head.bottom()), egui::pos2(rect.right(), foot.top()));
+    let preview = shown.look.as_ref().map(|look| &look.preview);
+    let mut words = format!("{}, {}", file.origin.name, size(file.bytes.len()));
+    if let Some(Ok(preview)) = preview {
+        words = format!("{words}, {}, {}", preview.encoding(), line_count(preview));
+    }
+    lines::elided(ui, head, &words, TextStyle::Body, context.theme.text);
+    ui.painter().rect_filled(body, 0.0, context.theme.plot);
+    match (&shown.look, preview) {
+        (Some(look), Some(Ok(preview))) => {
+            forms(ui, foot, context);
+            lines_of(ui, body, shown, look, preview, context);
+        }
+        (_, Some(Err(error))) => message(ui, body, &sentence(&error.to_string()), context.theme.error),
+        _ => message(ui, body, "Reading…", context.theme.weak),
+    }
+}
+
+/// What the forms of the marks mean.
+fn forms(ui: &Ui, rect: Rect, context: &PaneContext<'_>) {
+    const GAPS: [f32; 3] = [12.0, 8.0, 4.0];
+    let galleys = GAPS.map(|gap| ui.painter().layout_job(legend(&context.theme, gap)));
+    let [_, _, narrowest] = &galleys;
+    let galley = galleys.iter().find(|galley| galley.size().x <= rect.width()).unwrap_or(narrowest);
+    let at = egui::pos2(rect.left(), rect.center().y - galley.size().y / 2.0);
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    painter.galley(at, std::sync::Arc::clone(galley), context.theme.text);
+}
+
+/// A number of bytes for people.
+fn size(bytes: usize) -> String {
+    match bytes {
+        0..1000 => format!("{bytes} bytes"),
+        1000..1_000_000 => format!("{} kB", (bytes + 500) / 1000),
+        _ => format!("{:.1} MB", bytes as f64 / 1e6),
+    }
+}
+
+fn line_count(preview: &Preview) -> String {
+    if preview.line_count() == 1 { "1 line".to_owned() } else { format!("{} lines", preview.line_count()) }
+}
+
+fn message(ui: &mut Ui, rect: Rect, words: &str, color: egui::Color32) {
+    let mut child = ui.new_child(UiBuilder::new().id_salt("no text").max_rect(rect.shrink(2.0 * UNIT)));
+    child.label(RichText::new(words).color(color));
+}
+
+/// A set whose file cannot be found as it was.
+fn away(ui: &mut Ui, rect: Rect, set: &OwnSet, context: &mut PaneContext<'_>) {
+    let mut child = ui.new_child(UiBuilder::new().id_salt("away").max_rect(rect.shrink(UNIT)));
+    let place = set.path.as_ref().map_or(String::new(), |path| format!(" ({})", path.display()));
+    let kept = if set.curves.len() == 1 { "Its curve is" } else { "Its curves are" };
+    child.label(format!("{} is not at hand{place}. {kept} kept in the session.", set.file));
+    child.add_space(UNIT);
+    if child.button("Open…").on_hover_text("Open the file from where it is now").clicked() {
+        context.push(Command::Open);
+    }
+}
+
+/// What the text view keeps from frame to frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Kept {
+    /// The error that was brought into sight last, by its line.
+    error: Option<(Fingerprint, usize)>,
+    /// The line that was asked for last.
+    line: Option<(Fingerprint, usize)>,
+}
+
+/// Where everything stands.
+struct Place {
+    rect: Rect,
+    /// Left edge of the letters.
+    left: f32,
+    /// Width of a letter.
+    letter: f32,
+    gutter: f32,
+}
+
+fn lines_of(ui: &mut Ui, rect: Rect, shown: &OnShow, look: &Look, preview: &Preview, context: &mut PaneContext<'_>) {
+    // All letters of the font have one width; many together tell it more exactly.
+    const SAMPLE: &str = "0000000000000000";
+    let sample = ui.painter().layout_no_wrap(SAMPLE.to_owned(), FontId::monospace(MONO), context.theme.text);
+    let letter = sample.size().x / SAMPLE.len() as f32;
+    let digits = preview.line_count().to_string().len().max(3);
+    let gutter = digits as f32 * letter + 4.0 * UNIT;
+    let place = Place { rect, left: rect.left() + gutter + UNIT, letter, gutter };
+    let error = shown.error().and_then(|error| preview.error_range(error));
+    let target = target(ui, shown, look, error.as_ref(), context);
+    let columns = preview.longest().min(WIDEST) + 2;
+    let content = Vec2::new(gutter + UNIT + columns as f32 * letter, preview.line_count() as f32 * LINE + UNIT);
+    let mut child = ui.new_child(UiBuilder::new().id_salt("text").max_rect(rect));
+    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    let mut area = ScrollArea::both().id_salt(("text of", look.fingerprint)).auto_shrink(false);
+    if let Some((line, column)) = target {
+        let [y, x] = [line.saturating_sub(1) as f32 * LINE, column as f32 * letter];
+        area = area.vertical_scroll_offset((y - rect.height() / 3.0).max(0.0));
+        let width = rect.width() - gutter;
+        area = area.horizontal_scroll_offset(if x < width * 0.8 { 0.0 } else { x - width / 2.0 });
+    }
+    area.show_viewport(&mut child, |ui, viewport| {
+        ui.set_min_size(content);
+        let view = View { preview, look, shown, error: error.as_ref(), viewport };
+        view.lines(ui, &place, context);
+    });
+}
+
+/// The line, and the letter in it, to bring into sight in this frame.
+fn target(
+    ui: &Ui,
+    shown: &OnShow,
+    look: &Look,
+    error: Option<&(usize, Range<usize>)>,
+    context: &mut PaneContext<'_>,
+) -> Option<(usize, usize)> {
+    let id = Id::unique("text of import");
+    let mut kept: Kept = ui.data(|data| data.get_temp(id).unwrap_or_default());
+    let before = kept;
+    let column = |number: usize, byte: usize| {
+        let line = look.preview.as_ref().ok().and_then(|preview| preview.line(number)).unwrap_or("");
+        line.char_indices().take(WIDEST).take_while(|(at, _)| *at < byte).count()
+    };
+    let failed = error.map(|(line, range)| (*line, column(*line, range.start)));
+    let mut target = None;
+    let new_error = failed.map(|(line, _)| (look.fingerprint, line));
+    if shown.is_fresh() && kept.error != new_error {
+        kept.error = new_error;
+        target = failed;
+    }
+    if let Some(line) = context.view.import.line.take() {
+        kept.line = Some((look.fingerprint, line));
+        target = failed.filter(|(failed, _)| *failed == line).or(Some((line, 0)));
+    }
+    if kept != before {
+        ui.data_mut(|data| data.insert_temp(id, kept));
+    }
+    target
+}
+
+/// What is drawn of a text.
+struct View<'a> {
+    preview: &'a Preview,
+    look: &'a Look,
+    shown: &'a OnShow,
+    error: Option<&'a (usize, Range<usize>)>,
+    /// The part in sight.
+    viewport: Rect,
+}
+
+impl View<'_> {
+    /// Draws the lines in sight.
+    fn lines(&self, ui: &mut Ui, place: &Place, context: &mut PaneContext<'_>) {
+        let theme = context.theme;
+        let first = (self.viewport.top() / LINE).floor().max(0.0) as usize;
+        let count = (self.viewport.height() / LINE).ceil() as usize + 1;
+        let last = (first + count).min(self.preview.line_count());
+        let id = Id::unique("text of import");
+        let kept: Kept = ui.data(|data| data.get_temp(id).unwrap_or_default());
+        let asked = kept.line.filter(|(of, _)| *of == self.look.fingerprint).map(|(_, line)| line);
+        let gutter = Rect::from_min_size(place.rect.min, Vec2::new(place.gutter, place.rect.height()));
+        let text = Rect::from_min_max(egui::pos2(gutter.right(), place.rect.top()), place.rect.max);
+        let clip = ui.clip_rect();
+        let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|at| text.contains(*at));
+        let pointer = pointer.filter(|_| ui.rect_contains_pointer(text));
+        let mut curve = None;
+        for number in first + 1..=last {
+            // So far down, the place itself would not be exact to the point.
+            let y = (number - 1) as f64 * f64::from(LINE) - f64::from(self.viewport.top());
+            let y = place.rect.top() + y as f32;
+            let band = Rect::from_min_size(egui::pos2(place.rect.left(), y), Vec2::new(place.rect.width(), LINE));
+            if asked == Some(number) {
+                ui.painter().rect_filled(band, 0.0, theme.control);
+            }
+            let is_wrong = self.error.is_some_and(|(line, _)| *line == number);
+            let color = if is_wrong { theme.error } else { theme.weak };
+            let words = number.to_string();
+            let label = Rect::from_min_max(band.min, egui::pos2(gutter.right() - 2.0 * UNIT, band.bottom()));
+            lines::right_aligned(ui, label, &words, TextStyle::Monospace, color);
+            ui.set_clip_rect(clip.intersect(text));
+            let under = pointer.filter(|at| band.y_range().contains(at.y) && at.y < band.bottom());
+            curve = self.line(ui, number, band, place, under, context).or(curve);
+            ui.set_clip_rect(clip);
+        }
+        ui.painter().vline(gutter.right(), place.rect.y_range(), egui::Stroke::new(1.0, theme.line));
+        hover(ui, pointer.is_some(), curve, context);
+    }
+
+    /// Draws one line. Returns the curve that the pointer is on.
+    fn line(
+        &self,
+        ui: &Ui,
+        number: usize,
+        band: Rect,
+        place: &Place,
+        pointer: Option<egui::Pos2>,
+        context: &mut PaneContext<'_>,
+    ) -> Option<usize> {
+        let from = (self.viewport.left() / place.letter).floor().max(0.0) as usize;
+        let count = (band.width() / place.letter).ceil() as usize + 2;
+        // The last letter that can be scrolled to is followed by an ellipsis.
+        let count = count.min(WIDEST.saturating_sub(from));
+        let part = self.preview.shown(number, from, count)?;
+        let table = self.look.table.as_deref().ok();
+        let marks = match (table, &self.look.marker) {
+            (Some(table), Some(marker)) => self.preview.marks_within(number, part.window.clone(), table, marker),
+            _ => Vec::new(),
+        };
+        let understood = self.look.marker.is_some();
+        // Where all values are of one curve, none stands out.
+        let several = table.is_some_and(|table| table.curves.len() > 1);
+        let hovered = context.view.import.hovered_curve.filter(|_| several);
+        let pen = Pen { theme: &context.theme, understood, hovered };
+        let said: String = part.text.chars().take(SAID).collect();
+        let line = Line::new(ui, part, marks, &pen);
+        let x = place.left + from as f32 * place.letter - self.viewport.left();
+        let at = egui::pos2(x, (band.center().y - line.height() / 2.0).round());
+        let error = self.error.filter(|(line, _)| *line == number).map(|(_, range)| range);
+        line.paint(ui, at, error, &context.theme);
+        let response = ui.interact(band, Id::unique(("line of text", number)), Sense::hover());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("{number}: {said}")));
+        let pointer = pointer?;
+        if let (Some(_), Some(error)) = (error, self.shown.error()) {
+            response.on_hover_text_at_pointer(sentence(&error.to_string()));
+            return None;
+        }
+        let (mark, cell) = line.hit(at, pointer)?;
+        let words = mark.what.describe(table?);
+        ui.painter().rect_stroke(cell, 2.0, egui::Stroke::new(1.0, context.theme.weak), egui::StrokeKind::Outside);
+        context.view.point = Some(words.clone());
+        response.on_hover_text_at_pointer(words);
+        mark.what.curve()
+    }
+}
+
+/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
+fn hover(ui: &Ui, inside: bool, curve: Option<usize>, context: &mut PaneContext<'_>) {
+    let id = Id::unique("pointer over text of import");
+    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
+    if inside != was {
+        ui.data_mut(|data| data.insert_temp(id, inside));
+    }
+    if (inside || was) && context.view.import.hovered_curve != curve {
+        context.view.import.hovered_curve = curve;
+        ui.ctx().request_repaint();
+    }
+}

@@ -1,0 +1,82 @@
+//! The menu of a set: its reading, its removal, and the forms in which it can be saved.
+
+use egui::{Key, Modifiers, Popup, Rect, Response, Sense, Ui};
+
+use crate::action::{Action, OwnAction};
+use crate::catalog::{Entry, Kind};
+use crate::command::Command;
+use crate::export::spectra::{Form, fits};
+use crate::panes::PaneContext;
+use crate::view::import::ImportItem;
+use crate::widgets::lines;
+
+/// The dots at the end of a row and what they open; so do a right click on the row and the menu key. A row of the program's
+/// shows its dots while it is pointed at or has the focus. Returns whether they are on show.
+pub(super) fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, context: &mut PaneContext<'_>) -> bool {
+    let id = row.id.with("dots");
+    let whose = if entry.is_own() { "Menu of your" } else { "Menu in the library of" };
+    let name = format!("{whose} {}", entry.name);
+    let popup = Popup::default_response_id(row).with("menu");
+    let shown = entry.is_own()
+        || row.contains_pointer()
+        || row.has_focus()
+        || ui.memory(|memory| memory.has_focus(id))
+        || Popup::is_id_open(ui.ctx(), popup)
+        || ui.rect_contains_pointer(rect);
+    let button = if shown {
+        lines::dots(ui, rect, id, &name)
+    } else {
+        // Not seen, but there for those who do not point.
+        let button = ui.interact(rect, id, Sense::click());
+        button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+        button
+    };
+    let focused = row.has_focus() || button.has_focus();
+    let key = focused
+        && ui.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Menu) || i.consume_key(Modifiers::SHIFT, Key::F10));
+    let toggled = button.clicked() || key;
+    Popup::menu(&button)
+        .id(popup)
+        .open_memory(toggled.then_some(egui::SetOpenCommand::Toggle))
+        .show(|ui| menu(ui, entry, context));
+    row.context_menu(|ui| menu(ui, entry, context));
+    shown
+}
+
+/// What can be done with a set.
+fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
+    if entry.is_own() && ui.button("Reading…").clicked() {
+        context.push(Command::ShowImport(ImportItem::Set(entry.name.clone()), None));
+        ui.close();
+    }
+    save_as(ui, entry.kind, &entry.name, context);
+    if entry.is_own() && ui.button("Remove").clicked() {
+        context.push(Action::Own(OwnAction::Remove(entry.name.clone())));
+        ui.close();
+    }
+}
+
+/// The forms a set can be saved in; those that are not for such a set say why.
+pub(super) fn save_as(ui: &mut Ui, kind: Kind, name: &str, context: &mut PaneContext<'_>) {
+    ui.menu_button("Save as", |ui| {
+        let Ok(entry) = context.scene.entry(kind, name) else { return };
+        for form in Form::ALL {
+            let fitting = fits(&entry, form);
+            let button = ui.add_enabled(fitting.is_ok(), egui::Button::new(form.name()));
+            if button.clicked() {
+                context.push(Command::SaveSet(kind, name.to_owned(), form));
+                ui.close();
+            }
+            if let Err(error) = fitting {
+                button.on_disabled_hover_text(sentence(&error.to_string()));
+            }
+        }
+    });
+}
+
+/// With a capital at the start and a point at the end.
+fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).chain(['.']).collect()
+}

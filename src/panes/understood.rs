@@ -1,0 +1,185 @@
+//! What a file was understood as, with switches.
+
+mod buttons;
+mod camera;
+mod curves;
+mod kept;
+mod name;
+mod notes;
+mod switches;
+
+use egui::text::LayoutJob;
+use egui::{ComboBox, FontId, Rect, RichText, ScrollArea, TextFormat, Ui, UiBuilder, Vec2};
+
+use super::PaneContext;
+use crate::command::Command;
+use crate::document::own::Wishes;
+use crate::figures::curves::{OnShow, sentence};
+use crate::theme::{ROW, SMALL, TEXT, Theme, UNIT};
+use crate::widgets;
+use crate::workspaces::PaneKind;
+
+/// What the first entry of each list says.
+const CONTENT: &str = "As the content says";
+/// The same where there is little room.
+const CONTENT_SHORT: &str = "By content";
+
+/// Shows the pane in its rectangle.
+pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, PaneKind::Understood, rect, context, |_, _| {});
+    let inner = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
+    let Some(shown) = OnShow::refresh(&context.scene, context.view, context.opened) else {
+        let mut child = ui.new_child(UiBuilder::new().id_salt("nothing understood").max_rect(inner));
+        note(&mut child, &context.theme, "Drop files here.");
+        return;
+    };
+    context.view.import.unseen.remove(&shown.item);
+    let foot = buttons::height(&shown, inner.width());
+    let upper = Rect::from_min_max(inner.min, egui::pos2(inner.right(), inner.bottom() - foot));
+    let mut child = ui.new_child(UiBuilder::new().id_salt("understood").max_rect(upper));
+    child.set_clip_rect(upper.expand2(Vec2::new(2.0 * UNIT, 0.0)).intersect(ui.clip_rect()));
+    let salt = format!("understood {:?}", shown.item);
+    ScrollArea::vertical().id_salt(salt).auto_shrink(false).show(&mut child, |ui| {
+        ui.set_max_width(upper.width());
+        ui.spacing_mut().item_spacing.y = 0.75 * UNIT;
+        content(ui, &shown, context);
+        ui.add_space(2.0 * UNIT);
+    });
+    ui.painter().hline(inner.x_range(), upper.bottom() + 0.5, egui::Stroke::new(1.0, context.theme.line));
+    let lower = Rect::from_min_max(egui::pos2(inner.left(), upper.bottom() + UNIT), inner.max);
+    let mut child = ui.new_child(UiBuilder::new().id_salt("understood foot").max_rect(lower));
+    buttons::show(&mut child, &shown, context);
+}
+
+fn content(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
+    if let (Some(set), None) = (&shown.set, &shown.file) {
+        kept::show(ui, set, context);
+        return;
+    }
+    if let Some(set) = &shown.set {
+        name::show(ui, set, context);
+    }
+    let mut wishes = shown.wishes.clone();
+    switches::show(ui, shown, &mut wishes, &context.theme);
+    // Below the switches, so that they stay where they are.
+    if let Some(error) = shown.error() {
+        trouble(ui, &error.to_string(), error.line(), shown, context);
+    }
+    camera::show(ui, shown, &mut wishes, &context.theme);
+    curves::show(ui, shown, &mut wishes, context);
+    if wishes != shown.wishes {
+        wish(shown, wishes, context);
+    }
+    notes::show(ui, shown, context);
+}
+
+/// Has the file read otherwise.
+fn wish(shown: &OnShow, wishes: Wishes, context: &mut PaneContext<'_>) {
+    context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
+}
+
+/// Why the file cannot be read as wished, with a way back.
+fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &OnShow, context: &mut PaneContext<'_>) {
+    let color = context.theme.error;
+    ui.horizontal_wrapped(|ui| {
+        let (rect, _) = ui.allocate_exact_size(Vec2::new(16.0, 16.0), egui::Sense::hover());
+        widgets::lines::warning_mark(ui.painter(), rect.center(), color);
+        ui.label(RichText::new(sentence(words)).color(color));
+    });
+    ui.horizontal_wrapped(|ui| {
+        if shown.pending && ui.button("Back").on_hover_text("Give up what was tried").clicked() {
+            context.push(Command::TakeWishBack);
+        }
+        if let Some(line) = line
+            && ui.button("Show line").on_hover_text("Show where in the text").clicked()
+        {
+            context.view.import.line = Some(line);
+            ui.ctx().request_repaint();
+        }
+    });
+    if shown.set.is_some() && shown.pending {
+        note(ui, &context.theme, "The set stays as it was until the file can be read so.");
+    }
+}
+
+/// A small line of less weight.
+fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
+    ui.label(RichText::new(words).small().color(theme.weak));
+}
+
+/// What stands above a control; a guess is marked with a dot.
+fn caption(ui: &mut Ui, theme: &Theme, words: &str, guess: bool) {
+    let response = ui.label(RichText::new(words).small().color(theme.weak));
+    if guess {
+        let at = response.rect.right_center() + Vec2::new(8.0, 0.5);
+        ui.painter().circle_filled(at, 3.0, theme.warning);
+    }
+}
+
+/// What the closed list says: a value, and how it came about.
+struct Closed {
+    value: String,
+    how: String,
+    guess: bool,
+    why: String,
+}
+
+impl Closed {
+    fn words(&self) -> String {
+        if self.how.is_empty() { self.value.clone() } else { format!("{} ({})", self.value, self.how) }
+    }
+
+    fn job(&self, theme: &Theme) -> LayoutJob {
+        let format = |size: f32, color| TextFormat {
+            font_id: FontId::proportional(size),
+            color,
+            valign: egui::Align::Center,
+            ..TextFormat::default()
+        };
+        let mut job = LayoutJob::default();
+        job.append(&self.value, 0.0, format(TEXT, theme.text));
+        if !self.how.is_empty() {
+            let color = if self.guess { theme.warning } else { theme.weak };
+            job.append(&format!(" ({})", self.how), 0.0, format(SMALL, color));
+        }
+        job
+    }
+}
+
+/// A list of choices with its caption above it. Returns the place of what was clicked.
+fn list(
+    ui: &mut Ui,
+    theme: &Theme,
+    words: &str,
+    closed: &Closed,
+    entries: &[(String, bool)],
+    width: f32,
+) -> Option<usize> {
+    let mut clicked = None;
+    ui.allocate_ui(Vec2::new(width, 2.0 * ROW), |ui| {
+        ui.set_width(width);
+        ui.vertical(|ui| {
+            ui.spacing_mut().item_spacing.y = 1.0;
+            caption(ui, theme, words, closed.guess);
+            let combo = ComboBox::from_id_salt(words).width(width).truncate().selected_text(closed.job(theme));
+            let response = combo
+                .show_ui(ui, |ui| {
+                    for (index, (entry, on)) in entries.iter().enumerate() {
+                        if ui.selectable_label(*on, entry).clicked() {
+                            clicked = Some(index);
+                        }
+                    }
+                })
+                .response;
+            let label = format!("{words}: {}", closed.words());
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &label));
+            response.on_hover_ui(|ui| {
+                ui.strong(closed.words());
+                if !closed.why.is_empty() {
+                    ui.label(format!("{}.", closed.why));
+                }
+            });
+        });
+    });
+    clicked
+}

@@ -1,0 +1,67 @@
+//! What can be done with the file as a whole.
+
+use egui::Ui;
+
+use crate::action::{Action, OwnAction};
+use crate::command::Command;
+use crate::figures::curves::OnShow;
+use crate::panes::PaneContext;
+use crate::theme::{ROW, UNIT};
+use crate::view::import::ImportItem;
+
+/// Below this width the buttons take one more row.
+const NARROW: f32 = 290.0;
+
+/// The height that the buttons take.
+pub(super) fn height(shown: &OnShow, width: f32) -> f32 {
+    let rows = if on_disk(shown) { 2.0 } else { 1.0 } + if width < NARROW { 1.0 } else { 0.0 };
+    rows * (ROW + UNIT) + 2.0 * UNIT
+}
+
+/// Whether there is a file to look after.
+fn on_disk(shown: &OnShow) -> bool {
+    shown.set.as_ref().is_some_and(|set| set.path.is_some())
+}
+
+/// Shows the buttons.
+pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
+    ui.spacing_mut().item_spacing.x = UNIT;
+    ui.horizontal_wrapped(|ui| match &shown.item {
+        ImportItem::File(fingerprint) => {
+            let reads = shown.is_fresh() && shown.table().is_some();
+            let button = ui.add_enabled(reads, egui::Button::new("Use"));
+            let hint = "Make a set of it and put it to use; Undo takes it back";
+            if button.on_hover_text(hint).on_disabled_hover_text("It cannot be read so").clicked() {
+                context.push(Command::UseFile(*fingerprint, Box::new(shown.wishes.clone())));
+            }
+            alike(ui, shown, context);
+            if ui.button("Do not import").on_hover_text("Take it off the list").clicked() {
+                context.push(Command::ForgetFile(*fingerprint));
+                context.view.import.selected = None;
+            }
+        }
+        ImportItem::Set(name) => {
+            if shown.file.is_some() {
+                alike(ui, shown, context);
+            }
+            if on_disk(shown) && ui.button("Read again").on_hover_text("Read the file from disk again").clicked() {
+                context.push(Command::ReadAgain(name.clone()));
+            }
+            if ui.button("Remove").on_hover_text("Take the set out; Undo brings it back").clicked() {
+                context.push(Action::Own(OwnAction::Remove(name.clone())));
+            }
+        }
+    });
+    if on_disk(shown) {
+        ui.checkbox(&mut context.view.saved.import.watch, "Reload when the file changes")
+            .on_hover_text("Files of your sets are read again when they change on disk; Undo takes it back");
+    }
+}
+
+fn alike(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
+    let hint = "Read all open files of this kind so, and files like it from now on";
+    let reads = shown.is_fresh() && shown.table().is_some();
+    if ui.add_enabled(reads, egui::Button::new("Use for all like it")).on_hover_text(hint).clicked() {
+        context.push(Command::UseForAlike(shown.item.clone()));
+    }
+}

@@ -1,0 +1,72 @@
+//! For a camera: which curves are red, green and blue, and what they count.
+
+use chromascope_core::table::{Certainty, Role};
+use egui::Ui;
+
+use super::{Closed, caption, list};
+use crate::document::own::Wishes;
+use crate::figures::curves::OnShow;
+use crate::theme::{Theme, UNIT};
+use crate::widgets::segmented;
+
+/// So many curves can be chosen from.
+const LISTED: usize = 500;
+
+/// Shows the switches, if the file is a camera's.
+pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, theme: &Theme) {
+    let Some(table) = shown.table().filter(|table| table.role.value == Role::Camera) else { return };
+    let found = table.reading.camera_columns;
+    let mut channels = wishes.channels.or(found).unwrap_or([0, 1, 2]);
+    let width = ((ui.available_width() - 2.0 - 4.0 * UNIT) / 3.0).floor();
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0 * UNIT;
+        for (channel, color) in ["Red", "Green", "Blue"].into_iter().enumerate() {
+            let name = table.curves.get(channels[channel]).map_or("missing", |curve| curve.name.as_str());
+            let guess = wishes.channels.is_none() && found.is_none();
+            let how = if guess { "guess" } else { "" };
+            let why =
+                if wishes.channels.is_some() { "Chosen by hand" } else { "By the names or the peaks of the curves" };
+            let closed = Closed { value: name.to_owned(), how: how.to_owned(), guess, why: why.to_owned() };
+            let entries: Vec<(String, bool)> = table
+                .curves
+                .iter()
+                .take(LISTED)
+                .enumerate()
+                .map(|(place, curve)| (curve.name.clone(), place == channels[channel]))
+                .collect();
+            if let Some(place) = list(ui, theme, color, &closed, &entries, width) {
+                chosen = Some((channel, place));
+            }
+        }
+    });
+    if let Some((channel, place)) = chosen {
+        // Two channels change places rather than being the same curve.
+        if let Some(other) = channels.iter().position(|known| *known == place) {
+            channels[other] = channels[channel];
+        }
+        channels[channel] = place;
+        wishes.channels = Some(channels).filter(|channels| Some(*channels) != found);
+        let mut taken = shown.taken();
+        if !taken.contains(&place) {
+            taken.push(place);
+            taken.sort_unstable();
+            wishes.taken = Some(taken);
+        }
+    }
+    let said = table.reading.per_photon.as_ref();
+    let before = || shown.set.as_ref().is_some_and(|set| set.per_photon);
+    let per_photon = wishes.per_photon.or(said.map(|said| said.value)).unwrap_or_else(before);
+    let guess = wishes.per_photon.is_none() && said.is_none_or(|said| said.certainty == Certainty::Guess);
+    ui.horizontal(|ui| {
+        caption(ui, theme, if guess { "Response (guess)" } else { "Response" }, guess);
+        ui.add_space(3.0 * UNIT);
+        let responses = [
+            (false, "per energy", "To equal power at each wavelength"),
+            (true, "per photon", "To equal numbers of photons, as quantum efficiencies are given"),
+        ];
+        if let Some(per_photon) = segmented(ui, &responses, per_photon) {
+            wishes.per_photon = Some(per_photon);
+        }
+    });
+}

@@ -1,0 +1,135 @@
+//! Which of the file's curves are taken.
+
+use egui::{Id, RichText, ScrollArea, TextEdit, Ui};
+
+use crate::catalog::import::TAKEN_AT_FIRST;
+use crate::document::own::Wishes;
+use crate::figures::curves::OnShow;
+use crate::panes::PaneContext;
+use crate::theme::{ROW, UNIT};
+
+/// So many rows are seen at once.
+const ROWS: usize = 6;
+/// From so many curves on there is a search.
+const SEARCHED: usize = 8;
+/// Why the last curve stays.
+const ONE_STAYS: &str = "One curve has to stay; to take none, remove the file.";
+
+/// Shows the list, if there is more than one curve.
+pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, context: &mut PaneContext<'_>) {
+    let Some(table) = shown.table().filter(|table| table.curves.len() > 1) else {
+        hover(ui, None, false, context);
+        return;
+    };
+    let count = table.curves.len();
+    let mut taken = vec![false; count];
+    for place in shown.taken() {
+        if let Some(taken) = taken.get_mut(place) {
+            *taken = true;
+        }
+    }
+    let before = taken.clone();
+    ui.add_space(UNIT);
+    ui.label(format!("{} of {count} taken", before.iter().filter(|taken| **taken).count()));
+    if count >= SEARCHED {
+        let field = TextEdit::singleline(&mut context.view.import.search).hint_text("Search curves");
+        let field = ui.add(field.desired_width(f32::INFINITY));
+        field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Search curves"));
+    }
+    let wanted = context.view.import.search.trim().to_lowercase();
+    let names = table.curves.iter().enumerate();
+    let found: Vec<usize> = names
+        .filter(|(_, curve)| wanted.is_empty() || curve.name.to_lowercase().contains(&wanted))
+        .map(|(place, _)| place)
+        .collect();
+    let mut refused = buttons(ui, &found, &mut taken);
+    let mut under = None;
+    if found.is_empty() {
+        ui.label(RichText::new("No curve of this name.").small().color(context.theme.weak));
+    }
+    let height = (ROW + ui.spacing().item_spacing.y) * found.len().min(ROWS) as f32;
+    let area = ScrollArea::vertical().id_salt("curves taken").max_height(height).auto_shrink([false, true]);
+    ui.spacing_mut().interact_size.y = ROW;
+    let output = area.show_rows(ui, ROW, found.len(), |ui, rows| {
+        for row in rows {
+            let Some(&place) = found.get(row) else { continue };
+            let curve = &table.curves[place];
+            let mut words = RichText::new(&curve.name);
+            if context.view.import.hovered_curve == Some(place) {
+                words = words.strong();
+            }
+            let response = ui.add(egui::Checkbox::new(&mut taken[place], words));
+            if response.hovered() {
+                under = Some(place);
+            }
+            let [first, last] = [curve.wavelengths_nm.first(), curve.wavelengths_nm.last()];
+            if let Some((first, last)) = first.zip(last) {
+                let gaps =
+                    if curve.missing > 0 { format!(", {} without a value", curve.missing) } else { String::new() };
+                response.on_hover_text(format!(
+                    "{}: {} samples, {first}–{last} nm{gaps}",
+                    curve.name,
+                    curve.values.len()
+                ));
+            }
+        }
+    });
+    let inside = ui.rect_contains_pointer(output.inner_rect);
+    hover(ui, under, inside, context);
+    if !taken.contains(&true) {
+        // What was taken alone stays so.
+        refused = true;
+        taken.clone_from(&before);
+    }
+    if refused {
+        context.view.say(ONE_STAYS);
+    }
+    if taken != before {
+        wishes.taken = Some((0..count).filter(|place| taken[*place]).collect());
+    }
+}
+
+/// All, none, the first of those found. Returns whether the last curve was to go too.
+fn buttons(ui: &mut Ui, found: &[usize], taken: &mut [bool]) -> bool {
+    let mut refused = false;
+    ui.horizontal(|ui| {
+        if ui.button("All").on_hover_text("Take all that are listed").clicked() {
+            set(taken, found, true);
+        }
+        if ui.button("None").on_hover_text("Leave out all that are listed, but for one if no other is taken").clicked()
+        {
+            set(taken, found, false);
+            if let (false, Some(first)) = (taken.contains(&true), found.first()) {
+                taken[*first] = true;
+                refused = true;
+            }
+        }
+        if found.len() > TAKEN_AT_FIRST
+            && ui
+                .button(format!("First {TAKEN_AT_FIRST}"))
+                .on_hover_text("Take only the first that are listed")
+                .clicked()
+        {
+            taken.fill(false);
+            set(taken, &found[..TAKEN_AT_FIRST], true);
+        }
+    });
+    refused
+}
+
+fn set(taken: &mut [bool], places: &[usize], to: bool) {
+    for place in places {
+        taken[*place] = to;
+    }
+}
+
+/// Takes a curve as the one under the pointer, and lets it go when the pointer leaves.
+fn hover(ui: &Ui, place: Option<usize>, inside: bool, context: &mut PaneContext<'_>) {
+    let id = Id::unique("pointer over curves taken");
+    let was = ui.data(|data| data.get_temp(id).unwrap_or(false));
+    ui.data_mut(|data| data.insert_temp(id, inside));
+    if (inside || was) && context.view.import.hovered_curve != place {
+        context.view.import.hovered_curve = place;
+        ui.ctx().request_repaint();
+    }
+}

@@ -1,0 +1,101 @@
+//! A set whose file is not at hand: what can be changed by its values alone.
+
+use egui::{RichText, Ui};
+
+use super::{Closed, caption, list, name, note, switches};
+use crate::action::{Action, OwnAction};
+use crate::catalog::Kind;
+use crate::document::own::{OwnSet, Role};
+use crate::panes::PaneContext;
+use crate::theme::{Theme, UNIT};
+use crate::widgets::segmented;
+
+/// Shows the set with controls; every change is one step of undo.
+pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
+    let theme = context.theme;
+    name::show(ui, set, context);
+    let curves = match set.curves.len() {
+        1 => "curve is".to_owned(),
+        count => format!("{count} curves are"),
+    };
+    note(ui, &theme, format!("{} is not at hand. Its {curves} kept in the session.", set.file));
+    let mut changed = set.clone();
+    choices(ui, &mut changed, &theme);
+    if changed.role == Role::Camera {
+        camera(ui, &mut changed, &theme);
+    }
+    if let Some(sentence) = trouble(set, context) {
+        ui.label(RichText::new(sentence).color(theme.error));
+    }
+    ui.add_space(UNIT);
+    if !set.decisions.is_empty() {
+        ui.label("Decided on reading");
+    }
+    for decision in &set.decisions {
+        ui.label(RichText::new(decision).small());
+    }
+    if changed != *set {
+        context.push(Action::Own(OwnAction::Replace { name: set.name.clone(), with: Box::new(changed) }));
+    }
+}
+
+fn plain(value: &str) -> Closed {
+    Closed { value: value.to_owned(), how: String::new(), guess: false, why: String::new() }
+}
+
+/// A list of which one is on.
+fn choice<T: Copy + PartialEq>(ui: &mut Ui, theme: &Theme, words: &str, choices: &[(T, &str)], value: &mut T) {
+    let width = ui.available_width() - 2.0;
+    let shown = choices.iter().find(|(choice, _)| choice == value).map_or("", |(_, words)| words);
+    let entries: Vec<(String, bool)> = choices.iter().map(|(c, words)| ((*words).to_owned(), c == value)).collect();
+    if let Some((choice, _)) =
+        list(ui, theme, words, &plain(shown), &entries, width).and_then(|index| choices.get(index))
+    {
+        *value = *choice;
+    }
+}
+
+/// Role, unit and percent.
+fn choices(ui: &mut Ui, set: &mut OwnSet, theme: &Theme) {
+    choice(ui, theme, "This is a", &switches::ROLES, &mut set.role);
+    choice(ui, theme, "Wavelengths in", &switches::UNITS, &mut set.unit);
+    if set.role.is_fraction() {
+        ui.checkbox(&mut set.percent, "Values are percent");
+    }
+}
+
+/// Channels, and what they count.
+fn camera(ui: &mut Ui, set: &mut OwnSet, theme: &Theme) {
+    let width = ui.available_width() - 2.0;
+    for (channel, color) in ["Red", "Green", "Blue"].into_iter().enumerate() {
+        let now = set.channels[channel];
+        let shown = set.curves.get(now).map_or_else(|| format!("column {} is missing", now + 1), |c| c.name.clone());
+        let entries: Vec<(String, bool)> =
+            set.curves.iter().enumerate().map(|(index, curve)| (curve.name.clone(), index == now)).collect();
+        if let Some(index) = list(ui, theme, color, &plain(&shown), &entries, width) {
+            set.channels[channel] = index;
+        }
+    }
+    ui.horizontal(|ui| {
+        caption(ui, theme, "Response", false);
+        let responses = [
+            (false, "per energy", "To equal power at each wavelength"),
+            (true, "per photon", "To equal numbers of photons, as quantum efficiencies are given"),
+        ];
+        if let Some(per_photon) = segmented(ui, &responses, set.per_photon) {
+            set.per_photon = per_photon;
+        }
+    });
+}
+
+/// Why the set cannot be used as it is read now, if so.
+fn trouble(set: &OwnSet, context: &PaneContext<'_>) -> Option<String> {
+    match set.role {
+        Role::Camera => context.scene.sensor(Kind::Camera, &set.name).err().map(|error| error.to_string()),
+        _ => match set.curves_in_nm() {
+            Ok(curves) if curves.is_empty() => Some(format!("{}: it has no curve", set.name)),
+            Ok(_) => None,
+            Err(error) => Some(format!("{}: {error}", set.name)),
+        },
+    }
+}

@@ -1,0 +1,109 @@
+//! What should be looked at, what was decided, and where the numbers are from.
+
+use std::fmt::Write as _;
+
+use chromascope_core::table::{Certainty, Reading, Table};
+use egui::{RichText, Ui};
+
+use super::note;
+use crate::figures::curves::{OnShow, sentence};
+use crate::number::number;
+use crate::panes::PaneContext;
+use crate::theme::UNIT;
+use crate::widgets::facts::range_words;
+
+/// So many dropped rows are told one by one.
+const TOLD: usize = 5;
+
+/// Shows the notes.
+pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
+    let theme = context.theme;
+    let Some(table) = shown.table() else { return };
+    ui.add_space(UNIT);
+    let count = table.warnings.len();
+    ui.horizontal(|ui| {
+        ui.label(match count {
+            0 => "No warnings".to_owned(),
+            1 => "1 note".to_owned(),
+            count => format!("{count} notes"),
+        });
+        if ui.small_button("Copy").on_hover_text("Warnings, decisions and where it is from, as text").clicked() {
+            ui.ctx().copy_text(text(shown, table));
+            context.view.say("Understood as: notes copied.");
+        }
+    });
+    for warning in &table.warnings {
+        match warning.line() {
+            Some(line) => {
+                let link = ui.link(RichText::new(sentence(&warning.to_string())).small().color(theme.warning));
+                if link.on_hover_text(format!("Show line {line}")).clicked() {
+                    context.view.import.line = Some(line);
+                    ui.ctx().request_repaint();
+                }
+            }
+            None => {
+                ui.label(RichText::new(sentence(&warning.to_string())).small().color(theme.warning));
+            }
+        }
+    }
+    ui.add_space(UNIT);
+    ui.label("Decided on reading");
+    for decision in table.decisions() {
+        let color = if decision.certainty == Certainty::Guess { theme.warning } else { theme.text };
+        let words = format!("{}: {} ({}).", decision.what, decision.value, decision.certainty);
+        ui.label(RichText::new(words).small().color(color)).on_hover_text(format!("{}.", decision.why));
+        note(ui, &theme, format!("{}.", decision.why));
+    }
+    ui.add_space(UNIT);
+    ui.label("Where it is from");
+    for fact in facts(shown, table) {
+        note(ui, &theme, fact);
+    }
+}
+
+/// Where the numbers are from, a line each.
+fn facts(shown: &OnShow, table: &Table) -> Vec<String> {
+    let reading = &table.reading;
+    let step = reading.step_nm;
+    let mut facts = vec![
+        format!("Reader: {}; {}", reading.reader.value, reading.encoding),
+        format!("{} rows from line {}", reading.rows, reading.first_data_line),
+    ];
+    facts.extend(dropped(reading));
+    let order = if reading.descending { ", written in descending order" } else { "" };
+    facts.push(format!("Range {}{order}", range_words(reading.range_nm)));
+    let [min, median, max] = [step.min, step.median, step.max].map(number);
+    facts.push(format!("Step {min} nm least, {median} nm median, {max} nm largest"));
+    if let Some(file) = &shown.file {
+        let path = file.origin.path.as_ref().map(|path| path.display().to_string());
+        facts.push(path.unwrap_or_else(|| format!("{} (not a file on disk)", file.origin.name)));
+    }
+    facts
+}
+
+/// The rows that are in no curve, and why.
+fn dropped(reading: &Reading) -> Option<String> {
+    let rows = &reading.dropped_rows;
+    let mut words = match rows.len() {
+        0 => return None,
+        1 => "1 row dropped:".to_owned(),
+        count => format!("{count} rows dropped:"),
+    };
+    for (index, row) in rows.iter().take(TOLD).enumerate() {
+        let comma = if index > 0 { "," } else { "" };
+        write!(words, "{comma} line {} ({})", row.line, row.why).ok()?;
+    }
+    if rows.len() > TOLD {
+        words.push_str(" and more");
+    }
+    Some(words)
+}
+
+/// All of it as text.
+fn text(shown: &OnShow, table: &Table) -> String {
+    let mut lines: Vec<String> = table.warnings.iter().map(ToString::to_string).collect();
+    let decisions = table.decisions();
+    lines.extend(decisions.iter().map(|d| format!("{}: {} ({}). {}.", d.what, d.value, d.certainty, d.why)));
+    lines.extend(facts(shown, table));
+    lines.join("\n") + "\n"
+}

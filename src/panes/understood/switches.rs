@@ -1,0 +1,269 @@
+//! The switches of the reader: each says what was decided and how sure that is, and takes another choice.
+
+use chromascope_core::table::{
+    Certainty, Decided, DecimalMark, Delimiter, Orientation, Reader, Role, Table, Values, WavelengthUnit,
+};
+use egui::Ui;
+
+use super::{CONTENT, CONTENT_SHORT, Closed, list};
+use crate::document::own::Wishes;
+use crate::figures::curves::OnShow;
+use crate::theme::{Theme, UNIT};
+
+/// The kinds, as a person calls them.
+pub(super) const ROLES: [(Role, &str); 5] = [
+    (Role::Camera, "Camera sensitivities"),
+    (Role::Reflectance, "Reflectance"),
+    (Role::Transmittance, "Transmittance"),
+    (Role::Illuminant, "Illuminant"),
+    (Role::Unknown, "Unknown"),
+];
+
+/// The units of wavelengths.
+pub(super) const UNITS: [(WavelengthUnit, &str); 5] = [
+    (WavelengthUnit::Nanometer, "nm"),
+    (WavelengthUnit::Micrometer, "µm"),
+    (WavelengthUnit::Angstrom, "Å"),
+    (WavelengthUnit::Wavenumber, "1/cm"),
+    (WavelengthUnit::Terahertz, "THz"),
+];
+
+const VALUES: [(Values, &str); 4] = [
+    (Values::Plain, "Plain numbers"),
+    (Values::Percent, "Percent"),
+    (Values::Absorbance, "Absorbance"),
+    (Values::Decibels, "Decibels"),
+];
+
+const MARKS: [(DecimalMark, &str); 2] = [(DecimalMark::Point, "Point"), (DecimalMark::Comma, "Comma")];
+
+const DELIMITERS: [(Delimiter, &str); 5] = [
+    (Delimiter::Comma, "Comma"),
+    (Delimiter::CommaSpace, "Comma, space"),
+    (Delimiter::Semicolon, "Semicolon"),
+    (Delimiter::Tab, "Tab"),
+    (Delimiter::Spaces, "Spaces"),
+];
+
+const ORIENTATIONS: [(Orientation, &str); 2] =
+    [(Orientation::Down, "Down a column"), (Orientation::Across, "Across a row")];
+
+const READERS: [(Reader, &str); 10] = [
+    (Reader::Table, "Table of numbers"),
+    (Reader::Cgats, "CGATS"),
+    (Reader::Jcamp, "JCAMP-DX"),
+    (Reader::Tm27, "IES TM-27"),
+    (Reader::Cxf, "CxF"),
+    (Reader::Rawtoaces, "rawtoaces"),
+    (Reader::Dcamprof, "dcamprof"),
+    (Reader::Labels, "Labeled lines"),
+    (Reader::Alternate, "Alternate lines"),
+    (Reader::Camspec, "Camera database"),
+];
+
+/// So many columns can be chosen from.
+const COLUMNS: usize = 60;
+/// So many parts can be chosen from.
+const PARTS: usize = 1000;
+
+/// A switch: what is wished, what was decided, what there is to choose from.
+struct Switch<'a, T> {
+    words: &'a str,
+    wish: &'a mut Option<T>,
+    decided: Option<&'a Decided<T>>,
+    choices: &'a [(T, &'a str)],
+}
+
+impl<T: Copy + PartialEq> Switch<'_, T> {
+    fn show(self, ui: &mut Ui, theme: &Theme, width: f32, wordy: bool) {
+        let name = |value: T| {
+            let known = self.choices.iter().find(|(choice, _)| *choice == value);
+            known.map_or_else(|| "Other".to_owned(), |(_, words)| (*words).to_owned())
+        };
+        // Where there is little room, the first word or two tell the choices apart.
+        let name = |value: T| if wordy { name(value) } else { short(&name(value)).to_owned() };
+        let closed = closed(self.wish.map(name), self.decided, name, wordy);
+        let mut entries = vec![(CONTENT.to_owned(), self.wish.is_none())];
+        entries.extend(self.choices.iter().map(|(choice, words)| ((*words).to_owned(), *self.wish == Some(*choice))));
+        if let Some(index) = list(ui, theme, self.words, &closed, &entries, width) {
+            *self.wish = index.checked_sub(1).and_then(|index| self.choices.get(index)).map(|(choice, _)| *choice);
+        }
+    }
+}
+
+/// The closed list: what was chosen, else what the content says, if that is known.
+fn closed<T: Copy>(
+    wish: Option<String>,
+    decided: Option<&Decided<T>>,
+    name: impl Fn(T) -> String,
+    wordy: bool,
+) -> Closed {
+    if let Some(value) = wish {
+        return Closed { value, how: "chosen".to_owned(), guess: false, why: "Chosen by hand".to_owned() };
+    }
+    let Some(decided) = decided.filter(|decided| decided.certainty != Certainty::Chosen) else {
+        let value = if wordy { CONTENT } else { CONTENT_SHORT };
+        return Closed { value: value.to_owned(), how: String::new(), guess: false, why: String::new() };
+    };
+    let guess = decided.certainty == Certainty::Guess;
+    let how = match (guess, wordy) {
+        (true, true) => format!("guess: {}", lower(&decided.why)),
+        (true, false) => "guess".to_owned(),
+        (false, _) => "certain".to_owned(),
+    };
+    Closed { value: name(decided.value), how, guess, why: decided.why.clone() }
+}
+
+/// A choice without what its caption says anyway.
+fn short(words: &str) -> &str {
+    ["Down", "Across", "Table"].into_iter().find(|short| words.starts_with(short)).unwrap_or(words)
+}
+
+/// The same words within a sentence.
+fn lower(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}
+
+/// The switches that matter for the file.
+pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, theme: &Theme) {
+    // What the last look says is told as long as nothing newer is known.
+    let table = shown.table();
+    let reading = table.map(|table| &table.reading);
+    let options = &mut wishes.options;
+    let gap = 2.0 * UNIT;
+    let whole = ui.available_width() - 2.0;
+    let half = ((whole - gap) / 2.0).floor();
+    Switch { words: "This is a", wish: &mut options.role, decided: table.map(|table| &table.role), choices: &ROLES }
+        .show(ui, theme, whole, true);
+    let decided = reading.map(|reading| &reading.values);
+    Switch { words: "Values are", wish: &mut options.values, decided, choices: &VALUES }.show(ui, theme, whole, true);
+    let unit = reading.map(|reading| &reading.wavelength_unit);
+    let columns = columns(table, options.reader);
+    pair(ui, gap, |ui| {
+        Switch { words: "Wavelengths in", wish: &mut options.wavelength_unit, decided: unit, choices: &UNITS }
+            .show(ui, theme, half, false);
+        let decided = reading.map(|reading| &reading.reader);
+        Switch { words: "Read by", wish: &mut options.reader, decided, choices: &READERS }.show(ui, theme, half, false);
+    });
+    if columns {
+        pair(ui, gap, |ui| {
+            let decided = reading.map(|reading| &reading.decimal_mark);
+            Switch { words: "Decimal mark", wish: &mut options.decimal_mark, decided, choices: &MARKS }
+                .show(ui, theme, half, false);
+            let decided = reading.map(|reading| &reading.delimiter);
+            Switch { words: "Columns split by", wish: &mut options.delimiter, decided, choices: &DELIMITERS }
+                .show(ui, theme, half, false);
+        });
+        pair(ui, gap, |ui| {
+            let decided = reading.map(|reading| &reading.orientation);
+            Switch { words: "Wavelengths run", wish: &mut options.orientation, decided, choices: &ORIENTATIONS }
+                .show(ui, theme, half, false);
+            let across = options.orientation == Some(Orientation::Across)
+                || (options.orientation.is_none() && decided.is_some_and(|d| d.value == Orientation::Across));
+            if !across {
+                column(ui, shown, &mut options.wavelength_column, theme, half);
+            }
+        });
+    }
+    part(ui, table, &mut options.part, theme, whole);
+    let mut raw = options.raw == Some(true);
+    if columns
+        && ui
+            .checkbox(&mut raw, "Keep raw columns")
+            .on_hover_text("Dark, reference and sample counts beside the result")
+            .changed()
+    {
+        options.raw = raw.then_some(true);
+    }
+}
+
+fn pair(ui: &mut Ui, gap: f32, add: impl FnOnce(&mut Ui)) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = gap;
+        add(ui);
+    });
+}
+
+/// Whether the file is, or is to be read as, numbers in columns.
+fn columns(table: Option<&Table>, wish: Option<Reader>) -> bool {
+    let known = table.map(|table| table.reading.reader.value);
+    wish.or(known).is_none_or(|reader| reader == Reader::Table)
+}
+
+/// The column of the wavelengths, by number and, where it has one, name.
+fn column(ui: &mut Ui, shown: &OnShow, wish: &mut Option<usize>, theme: &Theme, width: f32) {
+    let table = shown.table();
+    let decided = table.and_then(|table| table.reading.wavelength_column);
+    let curves = table.map_or(0, |table| table.curves.len());
+    let names = header(shown);
+    let known = names.len().max(curves + 1).max(decided.unwrap_or(1)).max(wish.unwrap_or(1));
+    let last = known.clamp(2, COLUMNS);
+    let name = |column: usize| match names.get(column - 1) {
+        Some(name) if !name.is_empty() => format!("{column}: {name}"),
+        _ => format!("Column {column}"),
+    };
+    let value = wish.or(decided);
+    let closed = Closed {
+        value: value.map_or_else(|| CONTENT_SHORT.to_owned(), name),
+        how: if wish.is_some() { "chosen".to_owned() } else { String::new() },
+        guess: false,
+        why: String::new(),
+    };
+    let mut entries = vec![(CONTENT.to_owned(), wish.is_none())];
+    entries.extend((1..=last).map(|column| (name(column), *wish == Some(column))));
+    if let Some(index) = list(ui, theme, "Wavelength column", &closed, &entries, width) {
+        *wish = (index > 0).then_some(index);
+    }
+}
+
+/// The names of the columns, as their line writes them.
+fn header(shown: &OnShow) -> Vec<String> {
+    let line = || {
+        let reading = &shown.table()?.reading;
+        let preview = shown.look.as_ref()?.preview.as_ref().ok()?;
+        Some((preview.line(reading.header_line?)?, reading.delimiter.value))
+    };
+    let Some((line, delimiter)) = line() else { return Vec::new() };
+    let cells: Vec<&str> = match delimiter {
+        Delimiter::Comma => line.split(',').take(COLUMNS).collect(),
+        Delimiter::CommaSpace => line.split(", ").take(COLUMNS).collect(),
+        Delimiter::Semicolon => line.split(';').take(COLUMNS).collect(),
+        Delimiter::Tab => line.split('\t').take(COLUMNS).collect(),
+        // Names may hold spaces too.
+        Delimiter::Spaces | Delimiter::Elements => Vec::new(),
+    };
+    let tidy = |cell: &&str| cell.trim().trim_matches('"').trim_start_matches('#').trim().to_owned();
+    cells.iter().map(tidy).collect()
+}
+
+/// Which of several tables in one file.
+fn part(ui: &mut Ui, table: Option<&Table>, wish: &mut Option<usize>, theme: &Theme, width: f32) {
+    let parts = table.map_or(&[][..], |table| &table.reading.parts);
+    if parts.len() < 2 && wish.is_none() {
+        return;
+    }
+    let name = |part: usize| match part.checked_sub(1) {
+        None => "All, side by side".to_owned(),
+        Some(place) => match parts.get(place) {
+            Some(known) if !known.name.is_empty() => format!("{part}: {}", known.name),
+            Some(known) => format!("{part}: line {}", known.line),
+            None => format!("Part {part}"),
+        },
+    };
+    let told = |part: usize| {
+        let known = part.checked_sub(1).and_then(|place| parts.get(place));
+        known.map_or_else(String::new, |p| format!(", {} of {} rows", count(p.curves, "curve"), p.rows))
+    };
+    let closed = closed(wish.map(name), table.map(|table| &table.reading.part), name, true);
+    let mut entries = vec![(CONTENT.to_owned(), wish.is_none())];
+    let last = parts.len().max(wish.unwrap_or(1)).min(PARTS);
+    entries.extend((1..=last).map(|part| (format!("{}{}", name(part), told(part)), *wish == Some(part))));
+    if let Some(index) = list(ui, theme, "Part", &closed, &entries, width) {
+        *wish = (index > 0).then_some(index);
+    }
+}
+
+fn count(number: usize, word: &str) -> String {
+    if number == 1 { format!("1 {word}") } else { format!("{number} {word}s") }
+}

@@ -1,0 +1,117 @@
+//! The pane Import: the files, and the text of the one on show.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use chromascope::app::ChromascopeApp;
+use chromascope::workspaces::{PaneKind, Workspace};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::own_data::Dropped;
+use crate::screenshots::open;
+
+type Window = Harness<'static, ChromascopeApp>;
+
+const LEAF: &str = "nm;leaf (%)\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n";
+
+/// The window with files that were dropped on it, in Import.
+fn window(size: [f32; 2], theme: egui::Theme, files: &[(&str, Vec<u8>)]) -> Window {
+    let mut window = open(size, theme);
+    window.state_mut().view_mut().saved.workspace = Workspace::Import;
+    for (index, (name, bytes)) in files.iter().enumerate() {
+        let file = Dropped((*name).into(), bytes.clone());
+        window.input_mut().dropped_files.push(Arc::new(file));
+        let start = Instant::now();
+        window.run_steps(1);
+        while window.state().opened().files().len() <= index || window.state().opened().progress().is_some() {
+            assert!(start.elapsed() < Duration::from_secs(20), "{}", window.state().view().status.text);
+            std::thread::sleep(Duration::from_millis(5));
+            window.run_steps(1);
+        }
+    }
+    settle(&mut window);
+    window
+}
+
+/// Until all is looked at and done.
+fn settle(window: &mut Window) {
+    for _ in 0..3 {
+        window.run_steps(2);
+        window.state().opened().wait();
+    }
+    window.run_steps(2);
+}
+
+/// Whether something on screen says this.
+fn says(window: &Window, words: &str) -> bool {
+    let said = |text: Option<String>| text.is_some_and(|text| text.contains(words));
+    window.query_all_by(|node| said(node.label()) || said(node.value())).next().is_some()
+}
+
+#[test]
+fn without_a_file_there_are_ways_to_open_one() {
+    let mut window = open([1280.0, 800.0], egui::Theme::Dark);
+    window.state_mut().view_mut().saved.workspace = Workspace::Import;
+    window.run_steps(2);
+    for words in ["Open…", "Open folder…", "paste data"] {
+        assert!(says(&window, words), "{words}");
+    }
+}
+
+#[test]
+fn a_file_that_failed_shows_the_line_where() {
+    let row = |i: u32| if i == 300 { "700,oops\n".to_owned() } else { format!("{},0.{i}\n", 400 + i) };
+    let text = format!("nm,leaf\n{}", (0..400).map(row).collect::<Vec<_>>().concat());
+    let files = [("leaf.csv", LEAF.as_bytes().to_vec()), ("noisy.csv", text.into_bytes())];
+    let mut window = window([1280.0, 800.0], egui::Theme::Dark, &files);
+    assert!(says(&window, "2: 400;5,0") && !says(&window, "302: 700,oops"));
+    window.get_by_label_contains("noisy.csv: line 302").click();
+    settle(&mut window);
+    assert!(says(&window, "302: 700,oops") && !says(&window, "2: 400;5,0"));
+    window.state_mut().view_mut().focused = Some(PaneKind::Import);
+    window.get_by_label_contains("leaf: ").click();
+    settle(&mut window);
+    assert!(says(&window, "2: 400;5,0"));
+    window.state_mut().view_mut().import.line = Some(5);
+    window.run_steps(2);
+    assert_eq!(window.state().view().import.line, None);
+    window.key_press(egui::Key::ArrowDown);
+    settle(&mut window);
+    assert!(says(&window, "302: 700,oops"));
+    window.key_press(egui::Key::Delete);
+    settle(&mut window);
+    assert!(!says(&window, "noisy.csv: line") && says(&window, "2: 400;5,0"));
+}
+
+#[test]
+fn a_value_under_the_pointer_says_what_it_is() {
+    let mut window = window([1280.0, 800.0], egui::Theme::Light, &[("leaf.csv", LEAF.as_bytes().to_vec())]);
+    let line = window.get_by_label("3: 500;10,0").rect();
+    window.hover_at(egui::pos2(line.left() + 48.0 + 5.5 * 7.5, line.center().y));
+    window.run_steps(3);
+    assert_eq!(window.state().view().import.hovered_curve, Some(0));
+    window.hover_at(egui::pos2(10.0, 10.0));
+    window.run_steps(3);
+    assert_eq!(window.state().view().import.hovered_curve, None);
+}
+
+#[test]
+fn a_long_file_scrolls_at_once() {
+    let row = |i: u32| format!("{}\t0.{:04}\n", 300.0 + f64::from(i) / 100.0, i % 9999);
+    let rows = (0..100_000).map(row).collect::<Vec<_>>().concat();
+    let mut window = window([1280.0, 800.0], egui::Theme::Dark, &[("long.txt", rows.into_bytes())]);
+    window.state_mut().view_mut().maximized = Some(PaneKind::Import);
+    let mut times = Vec::new();
+    for line in (1..100_000).step_by(9_973) {
+        window.state_mut().view_mut().import.line = Some(line);
+        window.run_steps(1);
+        let start = Instant::now();
+        window.run_steps(1);
+        times.push(start.elapsed());
+        assert!(says(&window, &format!("{line}: ")), "{line}");
+    }
+    times.sort_unstable();
+    // A millisecond each where nothing else runs.
+    assert!(times[times.len() / 2] < Duration::from_millis(30), "{times:?}");
+}
