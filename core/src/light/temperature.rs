@@ -8,6 +8,7 @@
 //! curves, for the locus is the sum over them at 1 nm, not a published fit.
 
 mod exact;
+mod lanes;
 mod nearest;
 mod pieces;
 pub mod published;
@@ -18,8 +19,9 @@ use rayon::prelude::*;
 
 use self::exact::ExactLocus;
 use self::nearest::Vertices;
-use self::pieces::{Pieces, UNIT};
-use self::start::Start;
+use self::lanes::{LANES, Lanes};
+use self::pieces::Pieces;
+use self::start::{Start, between};
 use crate::colorimetry::{Uv60, Xy, Xyz};
 use crate::light::RadiationConstants;
 use crate::spectral::{Primaries, Sensor};
@@ -37,10 +39,6 @@ const COLDEST_MIRED: f64 = 1e6 / COLDEST_K;
 /// Rounding must not refuse what was made from a limit itself: so much beyond, relative to it, is let through, unclamped.
 const SLACK: f64 = 1e-11;
 
-/// Steps of Newton's method. From the table's start, within about a third of a mired, the last one is below 1e-7 mired.
-const STEPS: usize = 3;
-/// If the last step was longer than this, in mired, the search has not converged and the careful one decides.
-const CONVERGED: f64 = 1e-6;
 /// Colors per piece of work: enough to outweigh handing it over.
 const CHUNK: usize = 4096;
 
@@ -128,7 +126,7 @@ impl PlanckianLocus {
     /// hot or too cold.
     #[inline]
     pub fn cct(&self, color: Uv60) -> Result<Cct, NoCct> {
-        self.quick(color).unwrap_or_else(|| self.careful(color))
+        self.quick(color).map_or_else(|| self.careful(color), Ok)
     }
 
     /// The same from x and y.
@@ -144,13 +142,26 @@ impl PlanckianLocus {
     /// The same for many, on all cores; the answers do not depend on their number.
     pub fn ccts(&self, colors: &[Uv60]) -> Vec<Result<Cct, NoCct>> {
         let mut answers = vec![Err(NoCct::NoChromaticity); colors.len()];
+        self.ccts_into(colors, &mut answers);
+        answers
+    }
+
+    /// The same into memory that is there already, which saves a third of the time for millions; what of the longer slice is
+    /// beyond the shorter one is left alone.
+    pub fn ccts_into(&self, colors: &[Uv60], answers: &mut [Result<Cct, NoCct>]) {
         let chunks = answers.par_chunks_mut(CHUNK).zip(colors.par_chunks(CHUNK));
         chunks.for_each(|(answers, colors)| {
-            for (answer, &color) in answers.iter_mut().zip(colors) {
-                *answer = self.cct(color);
+            let mut lanes = Lanes::NOTHING;
+            for (answers, colors) in answers.chunks_mut(LANES).zip(colors.chunks(LANES)) {
+                lanes.solve(&self.start, &self.pieces, colors);
+                for (lane, (answer, &color)) in answers.iter_mut().zip(colors).enumerate() {
+                    *answer = match lanes.found(lane).and_then(|found| found.cct()) {
+                        Some(cct) => Ok(cct),
+                        None => self.careful(color),
+                    };
+                }
             }
         });
-        answers
     }
 
     /// The chromaticity of a black body, or none outside [`COLDEST_K`]–[`HOTTEST_K`]. Within 1e-15 of the 1 nm sum.
@@ -172,26 +183,12 @@ impl PlanckianLocus {
     }
 
     /// Newton's method from the table; none if it does not end in the domain.
-    #[inline]
-    fn quick(&self, color: Uv60) -> Option<Result<Cct, NoCct>> {
-        let start = self.start.mired(color)?;
+    fn quick(&self, color: Uv60) -> Option<Cct> {
+        let place = self.start.place(color);
+        let start = between(self.start.cell(place.column, place.row), place.right, place.up);
         let piece = self.pieces.at(start);
-        let stationary = piece.stationary(color);
-        let (mut t, mut step) = (piece.t(start), 0.0);
-        for _ in 0..STEPS {
-            let (value, slope) = stationary.at(t);
-            step = value / slope;
-            t -= step;
-        }
-        let mired = piece.mired(t);
-        // The first two also say that the piece's polynomials hold there; NaN fails them.
-        let found = step.abs() < CONVERGED / UNIT && t.abs() <= 1.0 && is_in_range(mired);
-        let duv = piece.above(color, t);
-        if !(found && duv.abs() <= MAX_DUV * (1.0 + SLACK)) {
-            return None;
-        }
-        let temperature = Kelvin::from_mired(mired).ok()?;
-        Some(Ok(Cct { temperature, duv }))
+        let found = piece.seen(color).solve(piece.t(start), piece.mired);
+        if found.good { found.cct() } else { None }
     }
 
     /// A search over the whole locus that always ends with an answer or the right refusal.
@@ -214,13 +211,14 @@ impl PlanckianLocus {
             return Err(NoCct::TooCold);
         }
         let piece = self.pieces.at(nearest.mired);
-        let duv = piece.above(color, piece.t(nearest.mired));
+        let duv = piece.seen(color).above(piece.t(nearest.mired));
         let temperature = Kelvin::from_mired(nearest.mired).map_err(|_| NoCct::TooHot)?;
         Ok(Cct { temperature, duv })
     }
 }
 
 /// Whether a reciprocal temperature is one that is looked for.
+#[inline]
 fn is_in_range(mired: f64) -> bool {
     (HOTTEST_MIRED * (1.0 - SLACK)..=COLDEST_MIRED * (1.0 + SLACK)).contains(&mired)
 }

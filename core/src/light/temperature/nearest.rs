@@ -1,7 +1,7 @@
 //! The nearest point of the whole locus, found without haste: for refusals, and for the table that fast searches start from.
 
 use super::exact::ExactLocus;
-use super::pieces::{FIRST_MIRED, LAST_MIRED, Pieces};
+use super::pieces::{FIRST_MIRED, LAST_MIRED, Pieces, UNIT};
 use crate::colorimetry::Uv60;
 
 /// Reciprocal temperatures hotter and colder than the pieces at which the locus is kept, in mired.
@@ -68,8 +68,8 @@ impl Vertices {
 pub(super) fn root(pieces: &Pieces, color: Uv60, mut low: f64, mut high: f64) -> Option<f64> {
     let at = |mired: f64| {
         let piece = pieces.at(mired);
-        let (value, slope) = piece.stationary(color).at(piece.t(mired));
-        (value, mired - value / slope * super::pieces::UNIT)
+        let (value, slope) = piece.seen(color).at(piece.t(mired));
+        (value, mired - value / slope * UNIT)
     };
     if !(at(low).0 <= 0.0 && at(high).0 >= 0.0) {
         return None;

@@ -1,8 +1,10 @@
 //! The locus as polynomials in the reciprocal temperature, made so that the nearest point is the root of another.
 
 use super::exact::{ExactLocus, Motion};
+use super::{COLDEST_MIRED, Cct, HOTTEST_MIRED, MAX_DUV, SLACK};
 use crate::colorimetry::Uv60;
 use crate::math::chebyshev::{coefficients, evaluate, nodes};
+use crate::units::Kelvin;
 
 /// Coefficients per polynomial: degree 7.
 pub(super) const TERMS: usize = 8;
@@ -27,33 +29,144 @@ pub(super) const UNIT: f64 = WIDTH * (0.5 + OVERLAP);
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Piece {
     /// `p′·(p − p(0))`, where a distance from p(0) would be stationary.
-    own: [f64; TERMS],
+    pub(super) own: [f64; TERMS],
     /// u′.
-    du: [f64; TERMS],
+    pub(super) du: [f64; TERMS],
     /// v′.
-    dv: [f64; TERMS],
+    pub(super) dv: [f64; TERMS],
     /// p(0).
-    middle: Uv60,
+    pub(super) middle: Uv60,
     /// The reciprocal temperature at t = 0, in mired.
     pub(super) mired: f64,
 }
 
-/// Half the derivative of the squared distance from one color, along one piece: a polynomial.
+/// A color as one piece sees it: where it lies from p(0), and half the derivative of the squared distance from it.
+///
+/// ```text
+/// f(t) = (p(t) − q)·p′(t) = (p − p(0))·p′ − (q − p(0))·p′
+/// ```
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stationary([f64; TERMS]);
+pub(super) struct Seen {
+    pub(super) u: f64,
+    pub(super) v: f64,
+    pub(super) f: [f64; TERMS],
+    pub(super) du: [f64; TERMS],
+    pub(super) dv: [f64; TERMS],
+}
 
-impl Stationary {
-    /// The value and the derivative at t.
+/// The end of Newton's method.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    /// The temperature in kelvins.
+    pub(super) kelvins: f64,
+    /// The distance from the tangent, positive above the locus.
+    pub(super) duv: f64,
+    /// Whether the method converged, within the piece and the domain.
+    pub(super) good: bool,
+}
+
+impl Found {
+    /// As an answer.
     #[inline]
+    pub(super) fn cct(&self) -> Option<Cct> {
+        Some(Cct { temperature: Kelvin::new(self.kelvins).ok()?, duv: self.duv })
+    }
+}
+
+/// If the last step was longer than this, in mired, the search has not converged and the careful one decides.
+const CONVERGED: f64 = 1e-6;
+impl Seen {
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[inline(always)]
+    pub(super) fn new(
+        color: Uv60,
+        middle: Uv60,
+        own: [f64; TERMS],
+        du: [f64; TERMS],
+        dv: [f64; TERMS],
+    ) -> Self {
+        let (u, v) = (color.u - middle.u, color.v - middle.v);
+        let f = std::array::from_fn(|k| own[k] - u * du[k] - v * dv[k]);
+        Self { u, v, f, du, dv }
+    }
+
+    /// f and its derivative at t.
     pub(super) fn at(&self, t: f64) -> (f64, f64) {
-        let c = &self.0;
-        let (mut value, mut slope) = (c[TERMS - 1], 0.0);
-        for k in (0..TERMS - 1).rev() {
+        let (mut value, mut slope) = (0.0, 0.0);
+        for k in (0..TERMS).rev() {
             slope = slope * t + value;
-            value = value * t + c[k];
+            value = value * t + self.f[k];
         }
         (value, slope)
     }
+
+    /// Newton's method from t in the piece around a reciprocal temperature, without a branch.
+    ///
+    /// Three steps. Each takes as many terms as its own error is worth: one term more is about fifty times less. The last
+    /// carries the slope on by the second derivative instead of evaluating it again. Polynomials are summed in pairs, not term
+    /// after term: what limits the speed is how long one operation waits for another.
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[inline(always)]
+    pub(super) fn solve(&self, t: f64, middle: f64) -> Found {
+        let c = &self.f;
+        let value = pair(pair(c[0], c[1], t), pair(c[2], c[3], t), t * t);
+        let slope = c[1] + t * pair(2.0 * c[2], 3.0 * c[3], t);
+        let t = t - value / slope;
+        let t2 = t * t;
+        let value = pair(pair(c[0], c[1], t), pair(pair(c[2], c[3], t), pair(c[4], c[5], t), t2), t2);
+        let rest = pair(pair(3.0 * c[3], 4.0 * c[4], t), 5.0 * c[5], t2);
+        let slope = pair(pair(c[1], 2.0 * c[2], t), rest, t2);
+        let step = value / slope;
+        let slope = slope - 2.0 * step * pair(c[2], 3.0 * c[3], t);
+        let t = t - step;
+        let last = sum_in_pairs(c, t) / slope;
+        let t = t - last;
+        let (mired, duv) = (middle + t * UNIT, self.above(t));
+        // NaN fails each.
+        let good = (last.abs() < CONVERGED / UNIT)
+            & (t.abs() <= 1.0)
+            & (mired >= HOTTEST_MIRED * (1.0 - SLACK))
+            & (mired <= COLDEST_MIRED * (1.0 + SLACK))
+            & (duv.abs() <= MAX_DUV * (1.0 + SLACK));
+        Found { kelvins: 1e6 / mired, duv, good }
+    }
+
+    /// The distance from the tangent at t, positive above the locus.
+    ///
+    /// Where t is the root this is the whole distance, and the tangent's direction counts to second order only: five terms of
+    /// it are plenty.
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[inline(always)]
+    pub(super) fn above(&self, t: f64) -> f64 {
+        let (du, dv) = (direction(&self.du, t), direction(&self.dv, t));
+        let (u, v) = (self.u - integral(&self.du, t), self.v - integral(&self.dv, t));
+        (v * du - u * dv) / (du * du + dv * dv).sqrt()
+    }
+}
+
+/// `a + b t`.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn pair(a: f64, b: f64, t: f64) -> f64 {
+    a + b * t
+}
+
+/// The value at t, summed in pairs of pairs of pairs (Estrin 1960).
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn sum_in_pairs(c: &[f64; TERMS], t: f64) -> f64 {
+    let t2 = t * t;
+    let low = pair(pair(c[0], c[1], t), pair(c[2], c[3], t), t2);
+    let high = pair(pair(c[4], c[5], t), pair(c[6], c[7], t), t2);
+    pair(low, high, t2 * t2)
+}
+
+/// The first five terms.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn direction(c: &[f64; TERMS], t: f64) -> f64 {
+    let t2 = t * t;
+    pair(pair(c[0], c[1], t), pair(pair(c[2], c[3], t), c[4], t2), t2)
 }
 
 impl Piece {
@@ -69,28 +182,9 @@ impl Piece {
         Some(Self { own: coefficients(own), du, dv, middle, mired })
     }
 
-    /// The condition for the point nearest to a color.
-    ///
-    /// ```text
-    /// f(t) = (p(t) − q)·p′(t) = (p − p(0))·p′ − (q − p(0))·p′
-    /// ```
-    #[inline]
-    pub(super) fn stationary(&self, color: Uv60) -> Stationary {
-        let (u, v) = (color.u - self.middle.u, color.v - self.middle.v);
-        let mut f = [0.0; TERMS];
-        for (k, f) in f.iter_mut().enumerate() {
-            *f = self.own[k] - u * self.du[k] - v * self.dv[k];
-        }
-        Stationary(f)
-    }
-
-    /// The distance of a color from the tangent at t, positive above the locus.
-    #[inline]
-    pub(super) fn above(&self, color: Uv60, t: f64) -> f64 {
-        let (du, dv) = (evaluate(&self.du, t), evaluate(&self.dv, t));
-        let u = color.u - self.middle.u - integral(&self.du, t);
-        let v = color.v - self.middle.v - integral(&self.dv, t);
-        (v * du - u * dv) / (du * du + dv * dv).sqrt()
+    /// A color from here.
+    pub(super) fn seen(&self, color: Uv60) -> Seen {
+        Seen::new(color, self.middle, self.own, self.du, self.dv)
     }
 
     /// The locus at t.
@@ -113,13 +207,22 @@ impl Piece {
 }
 
 /// `∫₀ᵗ` of a polynomial.
-#[inline]
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
 fn integral(derivative: &[f64; TERMS], t: f64) -> f64 {
-    let mut sum = 0.0;
-    for k in (0..TERMS).rev() {
-        sum = sum * t + derivative[k] * (1.0 / (k + 1) as f64);
-    }
-    sum * t
+    t * sum_in_pairs(&std::array::from_fn(|k| derivative[k] * (1.0 / (k + 1) as f64)), t)
+}
+
+/// Adding this rounds a small double to an integer, in the low bits of its mantissa.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// The number of the piece of a reciprocal temperature; NaN gets the first.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[allow(clippy::manual_clamp, reason = "clamp keeps what is not a number")]
+#[inline(always)]
+pub(super) fn index(mired: f64) -> u32 {
+    let pieces = (mired - FIRST_MIRED) * (1.0 / WIDTH);
+    ((pieces - 0.5).max(0.0).min((PIECES - 1) as f64) + ROUNDER).to_bits() as u32 & 0xff
 }
 
 /// All pieces, from the hottest to the coldest.
@@ -136,7 +239,12 @@ impl Pieces {
     /// The piece of a reciprocal temperature; those beyond the ends get the first or the last.
     #[inline]
     pub(super) fn at(&self, mired: f64) -> &Piece {
-        let index = (mired - FIRST_MIRED) * (1.0 / WIDTH);
+        self.get(index(mired))
+    }
+
+    /// A piece by number.
+    #[inline]
+    pub(super) fn get(&self, index: u32) -> &Piece {
         &self.0[(index as usize).min(PIECES - 1)]
     }
 

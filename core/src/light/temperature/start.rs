@@ -10,14 +10,28 @@ use crate::colorimetry::Uv60;
 /// The grid's spacing in u and v. Halving it costs the nearest cache, doubling it another step of Newton's.
 const PITCH: f64 = 0.002;
 
-/// Nearest reciprocal temperatures on a square grid around the part of the diagram in which color temperatures exist.
+/// Nearest reciprocal temperatures over a square grid around the part of the diagram in which color temperatures exist.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Start {
     corner: Uv60,
+    /// The last column and row of cells.
+    last: [f64; 2],
     columns: usize,
-    rows: usize,
-    mired: Vec<f64>,
+    /// Each cell's function between its corners: 1, x, y, xy.
+    cells: Vec<[f32; 4]>,
 }
+
+/// A cell of the grid and where in it a color lies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) column: u32,
+    pub(super) row: u32,
+    pub(super) right: f64,
+    pub(super) up: f64,
+}
+
+/// Adding this rounds a small double to an integer, in the low bits of its mantissa.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 impl Start {
     pub(super) fn new(pieces: &Pieces, vertices: &Vertices) -> Self {
@@ -41,25 +55,42 @@ impl Start {
             let color = Uv60 { u: corner.u + column as f64 * PITCH, v: corner.v + row as f64 * PITCH };
             vertices.nearest(pieces, color).mired
         };
-        let mired = (0..rows * columns).into_par_iter().map(node).collect();
-        Self { corner, columns, rows, mired }
+        let nodes: Vec<f64> = (0..rows * columns).into_par_iter().map(node).collect();
+        let cell = |index: usize| {
+            let first = index / (columns - 1) * columns + index % (columns - 1);
+            let [a, b, c, d] = [first, first + 1, first + columns, first + columns + 1].map(|node| nodes[node]);
+            [a, b - a, c - a, (d - c) - (b - a)].map(|v| v as f32)
+        };
+        let cells = (0..(columns - 1) * (rows - 1)).map(cell).collect();
+        Self { corner, last: [(columns - 2) as f64, (rows - 2) as f64], columns: columns - 1, cells }
     }
 
-    /// About where the nearest point lies, in mired: between the values at four corners. None outside the grid and for NaN.
-    #[inline]
-    pub(super) fn mired(&self, color: Uv60) -> Option<f64> {
-        let x = (color.u - self.corner.u) * (1.0 / PITCH);
-        let y = (color.v - self.corner.v) * (1.0 / PITCH);
-        // Written so that NaN falls out.
-        if !(x >= 0.0 && y >= 0.0 && x < (self.columns - 1) as f64 && y < (self.rows - 1) as f64) {
-            return None;
-        }
-        let (column, row) = (x as usize, y as usize);
-        let (right, up) = (x - column as f64, y - row as f64);
-        let first = row * self.columns + column;
-        let [a, b] = self.mired.get(first..first + 2)? else { return None };
-        let [c, d] = self.mired.get(first + self.columns..first + self.columns + 2)? else { return None };
-        let (lower, upper) = (a + right * (b - a), c + right * (d - c));
-        Some(lower + up * (upper - lower))
+    /// Where on the grid a color lies. Colors beyond it are held at its border, and NaN at a corner: searches from there do
+    /// not end near them.
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[allow(clippy::manual_clamp, reason = "clamp keeps what is not a number")]
+    #[inline(always)]
+    pub(super) fn place(&self, color: Uv60) -> Place {
+        let x = ((color.u - self.corner.u) * (1.0 / PITCH)).max(0.0).min(self.last[0] + 1.0);
+        let y = ((color.v - self.corner.v) * (1.0 / PITCH)).max(0.0).min(self.last[1] + 1.0);
+        // To the nearest, half a cell lower: that rounds down, but for the edges between two cells, where either will do.
+        let column = (x - 0.5).max(0.0).min(self.last[0]) + ROUNDER;
+        let row = (y - 0.5).max(0.0).min(self.last[1]) + ROUNDER;
+        let (right, up) = (x - (column - ROUNDER), y - (row - ROUNDER));
+        Place { column: column.to_bits() as u32 & 0xffff, row: row.to_bits() as u32 & 0xffff, right, up }
     }
+
+    /// The function of a cell.
+    #[inline]
+    pub(super) fn cell(&self, column: u32, row: u32) -> [f32; 4] {
+        self.cells.get(row as usize * self.columns + column as usize).copied().unwrap_or_default()
+    }
+}
+
+/// About where the nearest point lies, in mired: between the values at four corners.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+pub(super) fn between(cell: [f32; 4], right: f64, up: f64) -> f64 {
+    let [a, b, c, d] = cell.map(f64::from);
+    (a + right * b) + up * (c + right * d)
 }
