@@ -22,3 +22,4 @@ mod spectral;
 mod support;
 mod table;
 mod table_families;
+mod temperature;

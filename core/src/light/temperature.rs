@@ -18,8 +18,8 @@ pub mod tabulated;
 use rayon::prelude::*;
 
 use self::exact::ExactLocus;
-use self::nearest::Vertices;
 use self::lanes::{LANES, Lanes};
+use self::nearest::Vertices;
 use self::pieces::Pieces;
 use self::start::{Start, between};
 use crate::colorimetry::{Uv60, Xy, Xyz};
@@ -218,7 +218,8 @@ impl PlanckianLocus {
 }
 
 /// Whether a reciprocal temperature is one that is looked for.
-#[inline]
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
 fn is_in_range(mired: f64) -> bool {
     (HOTTEST_MIRED * (1.0 - SLACK)..=COLDEST_MIRED * (1.0 + SLACK)).contains(&mired)
 }

@@ -7,8 +7,8 @@ use crate::colorimetry::Uv60;
 /// Reciprocal temperatures hotter and colder than the pieces at which the locus is kept, in mired.
 const HOTTER: [f64; 5] = [0.0, 5.0, 10.0, 15.0, 20.0];
 const COLDER: [f64; 18] = [
-    1044.0, 1080.0, 1150.0, 1250.0, 1400.0, 1600.0, 1800.0, 2000.0, 2300.0, 2700.0, 3200.0, 4000.0, 5000.0, 7000.0, 1e4,
-    2e4, 1e5, 1e6,
+    1044.0, 1080.0, 1150.0, 1250.0, 1400.0, 1600.0, 1800.0, 2000.0, 2300.0, 2700.0, 3200.0, 4000.0, 5000.0, 7000.0,
+    1e4, 2e4, 1e5, 1e6,
 ];
 /// Steps of a search that has its answer between two bounds; halving them alone would take about fifty.
 const STEPS: usize = 60;

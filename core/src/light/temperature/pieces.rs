@@ -1,7 +1,7 @@
 //! The locus as polynomials in the reciprocal temperature, made so that the nearest point is the root of another.
 
 use super::exact::{ExactLocus, Motion};
-use super::{COLDEST_MIRED, Cct, HOTTEST_MIRED, MAX_DUV, SLACK};
+use super::{Cct, MAX_DUV, SLACK, is_in_range};
 use crate::colorimetry::Uv60;
 use crate::math::chebyshev::{coefficients, evaluate, nodes};
 use crate::units::Kelvin;
@@ -78,13 +78,7 @@ const CONVERGED: f64 = 1e-6;
 impl Seen {
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
-    pub(super) fn new(
-        color: Uv60,
-        middle: Uv60,
-        own: [f64; TERMS],
-        du: [f64; TERMS],
-        dv: [f64; TERMS],
-    ) -> Self {
+    pub(super) fn new(color: Uv60, middle: Uv60, own: [f64; TERMS], du: [f64; TERMS], dv: [f64; TERMS]) -> Self {
         let (u, v) = (color.u - middle.u, color.v - middle.v);
         let f = std::array::from_fn(|k| own[k] - u * du[k] - v * dv[k]);
         Self { u, v, f, du, dv }
@@ -123,11 +117,8 @@ impl Seen {
         let t = t - last;
         let (mired, duv) = (middle + t * UNIT, self.above(t));
         // NaN fails each.
-        let good = (last.abs() < CONVERGED / UNIT)
-            & (t.abs() <= 1.0)
-            & (mired >= HOTTEST_MIRED * (1.0 - SLACK))
-            & (mired <= COLDEST_MIRED * (1.0 + SLACK))
-            & (duv.abs() <= MAX_DUV * (1.0 + SLACK));
+        let converged = last.abs() < CONVERGED / UNIT && t.abs() <= 1.0;
+        let good = converged && is_in_range(mired) && duv.abs() <= MAX_DUV * (1.0 + SLACK);
         Found { kelvins: 1e6 / mired, duv, good }
     }
 
@@ -177,8 +168,7 @@ impl Piece {
             *motion = locus.motion(mired + t * UNIT)?.per_mired.map(|d| d * UNIT);
         }
         let [du, dv] = [0, 1].map(|c: usize| coefficients(motions.map(|motion| motion[c])));
-        let own = nodes::<TERMS>()
-            .map(|t| evaluate(&du, t) * integral(&du, t) + evaluate(&dv, t) * integral(&dv, t));
+        let own = nodes::<TERMS>().map(|t| evaluate(&du, t) * integral(&du, t) + evaluate(&dv, t) * integral(&dv, t));
         Some(Self { own: coefficients(own), du, dv, middle, mired })
     }
 
@@ -197,12 +187,6 @@ impl Piece {
     #[inline]
     pub(super) fn t(&self, mired: f64) -> f64 {
         (mired - self.mired) * (1.0 / UNIT)
-    }
-
-    /// The reciprocal temperature at t, in mired.
-    #[inline]
-    pub(super) fn mired(&self, t: f64) -> f64 {
-        self.mired + t * UNIT
     }
 }
 

@@ -48,7 +48,8 @@ impl Start {
                 }
             }
         }
-        let [columns, rows] = [0, 1].map(|c: usize| ((high[c] - low[c]) / PITCH).ceil().clamp(1.0, 4096.0) as usize + 2);
+        let [columns, rows] =
+            [0, 1].map(|c: usize| ((high[c] - low[c]) / PITCH).ceil().clamp(1.0, 4096.0) as usize + 2);
         let corner = Uv60 { u: low[0] - 0.5 * PITCH, v: low[1] - 0.5 * PITCH };
         let node = |index: usize| {
             let (row, column) = (index / columns, index % columns);
