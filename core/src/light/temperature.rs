@@ -95,7 +95,10 @@ pub enum NoLocus {
 /// Within [`COLDEST_K`]–[`HOTTEST_K`] and [`MAX_DUV`] of the locus the nearest point is unique: for the CIE 1931 observer the
 /// locus nowhere bends with a radius below 0.100.
 ///
-/// Error for CIE observers against the sums themselves, held by tests: below 1e-7 K, below 1e-14 in Duv.
+/// The sums go from 380 to 780 nm, as everywhere here. Over the whole table of the CIE, from 360 to 830 nm, temperatures are
+/// about 2 K lower at 6500 K: that, and not the method, is the difference from other programs.
+///
+/// Error against 50 digits, held by tests for the CIE 1931 observer: below 2e-9 K and 1e-15 in Duv, up to the very ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanckianLocus {
     pieces: Pieces,
@@ -146,8 +149,7 @@ impl PlanckianLocus {
         answers
     }
 
-    /// The same into memory that is there already, which saves a third of the time for millions; what of the longer slice is
-    /// beyond the shorter one is left alone.
+    /// The same into memory that is there already; what of the longer slice is beyond the shorter one is left alone.
     pub fn ccts_into(&self, colors: &[Uv60], answers: &mut [Result<Cct, NoCct>]) {
         let chunks = answers.par_chunks_mut(CHUNK).zip(colors.par_chunks(CHUNK));
         chunks.for_each(|(answers, colors)| {
@@ -164,7 +166,7 @@ impl PlanckianLocus {
         });
     }
 
-    /// The chromaticity of a black body, or none outside [`COLDEST_K`]–[`HOTTEST_K`]. Within 1e-15 of the 1 nm sum.
+    /// The chromaticity of a black body, or none outside [`COLDEST_K`]–[`HOTTEST_K`]. Within 2e-15 of the 1 nm sum.
     pub fn at(&self, temperature: Kelvin) -> Option<Uv60> {
         self.off(Cct { temperature, duv: 0.0 })
     }

@@ -9,8 +9,8 @@ use crate::units::Kelvin;
 /// ```text
 /// T = −449 n³ + 3525 n² − 6823.3 n + 5520.33,   n = (x − 0.3320) / (y − 0.1858)
 /// ```
-/// Claimed to be off by less than 2 K there, from illuminant A to D65, and refused where the result lies further beyond that
-/// than those 2 K; on the locus of today's constants it is off by up to 3 K. It knows no Duv.
+/// Claimed to be off by less than 2 K from illuminant A to D65, and refused where the result lies further beyond those than
+/// 2 K. Measured against the locus of today's constants it is off by up to 10 K (0.28 %, at 3475 K), and it knows no Duv.
 pub fn mccamy_1992(color: Xy) -> Result<Kelvin, NoCct> {
     let n = slope(color, 0.3320, 0.1858)?;
     within(((-449.0 * n + 3525.0) * n - 6823.3) * n + 5520.33, 2854.0, 6506.0)
@@ -21,7 +21,7 @@ pub fn mccamy_1992(color: Xy) -> Result<Kelvin, NoCct> {
 /// ```text
 /// T = A₀ + Σ A_i exp(−n / t_i),   n = (x − x_e) / (y − y_e)
 /// ```
-/// Made for daylight and skylight, to about 1 %; it knows no Duv.
+/// Made for daylight and skylight; measured on the Planckian locus up to 20 000 K it is within 1.4 %. It knows no Duv.
 pub fn hernandez_andres_1999(color: Xy) -> Result<Kelvin, NoCct> {
     let n = slope(color, 0.3366, 0.1735)?;
     let terms = [(6_253.803_38, 0.921_59), (28.705_99, 0.200_39), (0.000_04, 0.071_25)];
@@ -39,7 +39,7 @@ pub fn hernandez_andres_1999(color: Xy) -> Result<Kelvin, NoCct> {
 /// Kang, Moon, Hong, Lee, Cho and Kim 2002: the chromaticity of a black body, for 1667–25 000 K; none outside.
 ///
 /// Cubics in 1/T for x, two of them, and in x for y, three. Only in this direction: the way back was not published as a
-/// formula, and as a search for the nearest point it would be as much work as the real locus.
+/// formula, and as a search for the nearest point it would be as much work as the real locus. Measured: within 6e-4 in xy.
 pub fn kang_2002(temperature: Kelvin) -> Option<Xy> {
     let kelvins = temperature.get();
     if !(1667.0..=25_000.0).contains(&kelvins) {
