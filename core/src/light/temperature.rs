@@ -1,6 +1,6 @@
 //! Correlated color temperature and Duv: which black body a color is nearest to, and how far it is off.
 //!
-//! The nearest point is sought in the CIE 1960 diagram (u = u′, v = 2v′/3 of 1976), as CIE 15:2004, 9.5, has it; Duv is the
+//! The nearest point is sought in the CIE 1960 diagram (u = u′, v = 2v′/3 of 1976), as CIE 15:2004 has it; Duv is the
 //! distance, positive above the locus (greener). CIE 15 wants no color temperature where it exceeds 0.05. The definition is
 //! for the CIE 1931 2° observer; [`PlanckianLocus`] takes any observer that counts in XYZ.
 //!
@@ -31,7 +31,7 @@ use crate::units::Kelvin;
 pub const COLDEST_K: f64 = 1000.0;
 /// The hottest black body that is looked for, in kelvins.
 pub const HOTTEST_K: f64 = 20_000.0;
-/// The largest distance from the locus at which a color temperature means something (CIE 15:2004, 9.5).
+/// The largest distance from the locus at which a color temperature means something (CIE 15:2004).
 pub const MAX_DUV: f64 = 0.05;
 
 const HOTTEST_MIRED: f64 = 1e6 / HOTTEST_K;

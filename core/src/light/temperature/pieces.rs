@@ -198,7 +198,7 @@ fn integral(derivative: &[f64; TERMS], t: f64) -> f64 {
 }
 
 /// Adding this rounds a small double to an integer, in the low bits of its mantissa.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
+pub(super) const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// The number of the piece of a reciprocal temperature; NaN gets the first.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]

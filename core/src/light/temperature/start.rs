@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::nearest::Vertices;
-use super::pieces::Pieces;
+use super::pieces::{Pieces, ROUNDER};
 use super::{COLDEST_MIRED, HOTTEST_MIRED, MAX_DUV};
 use crate::colorimetry::Uv60;
 
@@ -29,9 +29,6 @@ pub(super) struct Place {
     pub(super) right: f64,
     pub(super) up: f64,
 }
-
-/// Adding this rounds a small double to an integer, in the low bits of its mantissa.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 impl Start {
     pub(super) fn new(pieces: &Pieces, vertices: &Vertices) -> Self {
