@@ -8,6 +8,7 @@ mod pictures;
 mod saving;
 mod startup;
 
+use chromascope_core::query::NearestBlackBodyOf;
 use egui::{Align2, CentralPanel, CursorIcon, Event, Frame, Panel, Rect, Sense, Ui};
 
 use crate::catalog::Catalog;
@@ -16,6 +17,7 @@ use crate::catalog::opened::Opened;
 use crate::command::{Command, key_bindings};
 use crate::document::history::History;
 use crate::files::Files;
+use crate::jobs::Background;
 use crate::panes::{self, PaneContext};
 use crate::results::Results;
 use crate::scene::Scene;
@@ -38,6 +40,7 @@ pub struct ChromascopeApp {
     files: Files,
     meshes: MeshStore,
     opened: Opened,
+    radiators: Background<NearestBlackBodyOf>,
     studio: Studio,
     commands: Vec<Command>,
     arrangement: Arrangement,
@@ -49,7 +52,7 @@ impl ChromascopeApp {
     pub fn new(ctx: &egui::Context, history: History, saved: SavedView, mut files: Files) -> Self {
         theme::apply(ctx);
         files.wake(ctx);
-        let (window, also) = (ctx.clone(), ctx.clone());
+        let (window, also, third) = (ctx.clone(), ctx.clone(), ctx.clone());
         Self {
             history,
             catalog: Catalog::built_in(),
@@ -58,6 +61,7 @@ impl ChromascopeApp {
             files,
             meshes: MeshStore::new(move || window.request_repaint()),
             opened: Opened::new(move || also.request_repaint()),
+            radiators: Background::new("black bodies", move || third.request_repaint()),
             studio: Studio::new(ctx),
             commands: Vec::new(),
             arrangement: Arrangement::default(),
@@ -151,9 +155,22 @@ impl ChromascopeApp {
     /// The bars and panes of one frame.
     fn show(&mut self, ui: &mut Ui) {
         let theme = Theme::of(ui.visuals()).with_surround(self.view.saved.surround);
-        let Self { history, catalog, results, view, commands, arrangement, files, meshes, opened, studio, .. } = self;
+        let Self {
+            history,
+            catalog,
+            results,
+            view,
+            commands,
+            arrangement,
+            files,
+            meshes,
+            opened,
+            radiators,
+            studio,
+            ..
+        } = self;
         let scene = Scene { document: history.document(), catalog, results };
-        let mut context = PaneContext { scene, theme, view, meshes, opened, studio, commands };
+        let mut context = PaneContext { scene, theme, view, meshes, opened, radiators, studio, commands };
         let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
             let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
             let frame = Frame::NONE.fill(theme.panel);

@@ -16,11 +16,13 @@ pub mod swatches;
 pub mod understood;
 
 use chromascope_core::figure::Figure;
+use chromascope_core::query::NearestBlackBodyOf;
 use egui::{Rect, Ui};
 
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
 use crate::command::Command;
+use crate::jobs::Background;
 use crate::scene::Scene;
 use crate::studio::Studio;
 use crate::theme::Theme;
@@ -39,6 +41,8 @@ pub struct PaneContext<'a> {
     pub meshes: &'a MeshStore,
     /// The spectral files that were opened.
     pub opened: &'a Opened,
+    /// Tells the nearest black body of a color, once it is asked.
+    pub radiators: &'a Background<NearestBlackBodyOf>,
     /// Where pictures are made.
     pub studio: &'a mut Studio,
     /// What is to be done when the frame is over.

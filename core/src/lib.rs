@@ -11,6 +11,7 @@
 //! camera::rendering          ∫ C S L dλ → balanced RGB → XYZ           Eq 11, 13, 16
 //! camera::locus              ∫ C E(T) dλ                                Eq 14, 15
 //! colorimetry                XYZ → xy, u′v′, L*a*b*, ΔE, sRGB
+//! light::temperature         XYZ → nearest black body, Duv
 //! query                      each of these as a question with all it depends on
 //! figure                     answers as axes, curves and points; SVG
 //! ```

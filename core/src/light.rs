@@ -2,6 +2,8 @@
 
 pub mod daylight;
 pub mod planckian;
+pub mod temperature;
 
 pub use daylight::{DaylightBasis, DaylightError};
 pub use planckian::RadiationConstants;
+pub use temperature::{Cct, NoCct, NoLocus, PlanckianLocus};

@@ -1,5 +1,6 @@
-//! Numerical tools with no knowledge of color: interpolation, Gauss rules, least squares, dot products.
+//! Numerical tools with no knowledge of color: interpolation, Chebyshev polynomials, Gauss rules, least squares, dot products.
 
+pub mod chebyshev;
 pub mod dot;
 pub mod exp;
 pub mod gauss;

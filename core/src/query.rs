@@ -11,7 +11,8 @@ pub mod shared;
 
 pub use compare::{Metric, NoDifference};
 pub use loci::{
-    Locus, LocusOf, LocusPoint, LocusRulesOf, MonochromaticOf, RadiatorSignals, SpectralLocusOf, Temperatures,
+    Locus, LocusOf, LocusPoint, LocusRulesOf, MonochromaticOf, NearestBlackBodyOf, RadiatorSignals, SpectralLocusOf,
+    Temperatures,
 };
 pub use patches::{FitTargetsOf, PatchColor, PatchColorsOf, RenderingOf, WayOf};
 pub use shared::Shared;

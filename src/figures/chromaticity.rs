@@ -15,7 +15,7 @@ use crate::scene::{Scene, Source};
 use crate::thing::{SourceId, Things};
 use crate::view::{DiagramFit, View};
 
-pub use points::{describe, distance_symbol};
+pub use points::{describe, distance_symbol, patch_xy};
 
 /// The diagram with what its marks stand for.
 #[derive(Clone, Debug)]

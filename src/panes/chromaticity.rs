@@ -1,10 +1,14 @@
 //! The diagram and the strip below it.
 
+use chromascope_core::colorimetry::{UvPrime, Xy};
+use chromascope_core::light::{NoCct, RadiationConstants};
+use chromascope_core::query::NearestBlackBodyOf;
 use egui::{Align2, Id, Pos2, Rect, Ui, Vec2};
 
 use super::PaneContext;
 use crate::action::{Action, SceneAction};
-use crate::document::Diagram;
+use crate::catalog::Kind;
+use crate::document::{Diagram, REFERENCE};
 use crate::figures::chromaticity::{self, Built};
 use crate::figures::strip;
 use crate::paint::{self, Emphasis, PlotOptions};
@@ -112,12 +116,41 @@ fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<
         context.view.click(thing.as_ref());
     }
     if let Some(thing) = thing {
-        let lines = chromaticity::describe(&context.scene, &thing);
+        let mut lines = chromaticity::describe(&context.scene, &thing);
+        if let Thing::Patch { source: Some(source), patch } = &thing {
+            let xy = chromaticity::patch_xy(&context.scene, source, patch);
+            lines.extend(xy.and_then(Xy::uv_prime).and_then(|uv| nearest_black_body(uv, context)));
+        }
         widgets::read_at_pointer(&shown.response, &lines);
     } else if let (Some([a, b]), Some(_)) = (shown.hovered, pointer) {
-        let [x, y] = chromaticity::coordinates(context.scene.document.diagram);
-        context.view.point = Some(format!("{x} {a:.4}  {y} {b:.4}").replace('-', "−"));
+        let diagram = context.scene.document.diagram;
+        let [x, y] = chromaticity::coordinates(diagram);
+        let color = match diagram {
+            Diagram::Xy => Xy { x: a, y: b }.uv_prime(),
+            Diagram::UvPrime => Some(UvPrime { u: a, v: b }),
+        };
+        let nearest = color.and_then(|color| nearest_black_body(color, context));
+        let nearest = nearest.map_or_else(String::new, |words| format!("   {words}"));
+        context.view.point = Some(format!("{x} {a:.4}  {y} {b:.4}").replace('-', "−") + &nearest);
     }
+}
+
+/// The correlated color temperature of a color and how far it is from that black body, for the observer of the diagram; none while
+/// that is being found out, and for colors that are like no black body.
+fn nearest_black_body(color: UvPrime, context: &PaneContext<'_>) -> Option<String> {
+    let observer = context.scene.sensor(Kind::Observer, REFERENCE).ok()?;
+    context.radiators.ask(vec![NearestBlackBodyOf { observer, constants: RadiationConstants::Paper }]);
+    let shown = context.radiators.shown()?;
+    let cct = (*shown.answer).as_ref().ok()?.cct(color.uv60());
+    Some(match cct {
+        Ok(cct) => {
+            let sign = if cct.duv < 0.0 { "−" } else { "+" };
+            format!("CCT {:.0} K, Duv {sign}{:.4} ({REFERENCE})", cct.temperature.get(), cct.duv.abs())
+        }
+        Err(NoCct::TooHot) => "CCT above 20000 K".to_owned(),
+        Err(NoCct::TooCold) => "CCT below 1000 K".to_owned(),
+        Err(NoCct::TooFar | NoCct::NoChromaticity) => return None,
+    })
 }
 
 /// A line's thing becomes the black body nearest to the pointer.

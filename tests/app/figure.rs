@@ -371,3 +371,36 @@ fn everything_is_drawn_with_any_emphasis() {
         assert!(colors.len() > 100, "{}", colors.len());
     }
 }
+
+#[test]
+fn the_pointer_reads_the_nearest_black_body() {
+    let mut window = crate::screenshots::open([1280.0, 800.0], egui::Theme::Dark);
+    let mut at = egui::pos2(560.0, 240.0);
+    let start = std::time::Instant::now();
+    let read = loop {
+        window.event(egui::Event::PointerMoved(at));
+        window.run_steps(2);
+        let read = window.state().view().point.clone().unwrap_or_default();
+        if read.contains("Duv +0.00")
+            || read.contains("Duv −0.00")
+            || start.elapsed() > std::time::Duration::from_secs(30)
+        {
+            break read;
+        }
+        // Not every place is near a black body, and some are on a thing.
+        at.x += 5.0;
+        if at.x > 640.0 {
+            at = egui::pos2(400.0, if at.y < 220.0 { 330.0 } else { at.y - 9.0 });
+        }
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    };
+    let number = |key: &str| -> f64 {
+        let rest = read.split(key).nth(1).unwrap_or_else(|| panic!("{key} in {read}"));
+        rest.trim().split(' ').next().unwrap().replace('−', "-").parse().unwrap()
+    };
+    let (x, y, kelvin) = (number("x "), number("y "), number("CCT "));
+    // McCamy (1992), good to some percent this near the locus.
+    let n = (x - 0.3320) / (0.1858 - y);
+    let expected = 449.0 * n.powi(3) + 3525.0 * n * n + 6823.3 * n + 5520.33;
+    assert!((kelvin / expected - 1.0).abs() < 0.05, "{read}: {expected}");
+}

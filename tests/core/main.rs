@@ -24,3 +24,4 @@ mod table;
 mod table_families;
 mod table_preview;
 mod table_write;
+mod temperature;

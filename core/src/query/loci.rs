@@ -4,7 +4,7 @@ use super::{Ask, Query, RenderingOf, Shared};
 use crate::camera::{LocusEvaluator, LocusMethod, NoRendering};
 use crate::colorimetry::diagram::{SpectralPoint, spectral_locus};
 use crate::colorimetry::{UvPrime, Xy, Xyz};
-use crate::light::RadiationConstants;
+use crate::light::{NoLocus, PlanckianLocus, RadiationConstants};
 use crate::spectral::Sensor;
 use crate::spectral::grid::{COUNT, wavelength_nm};
 use crate::units::Kelvin;
@@ -192,6 +192,24 @@ impl Query for MonochromaticOf {
 /// The largest of three magnitudes.
 fn magnitude(v: [f64; 3]) -> f64 {
     v.iter().fold(0.0, |m, x| x.abs().max(m))
+}
+
+/// What tells the nearest black body of any color that an XYZ observer sees?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct NearestBlackBodyOf {
+    /// The observer.
+    pub observer: Shared<Sensor>,
+    /// The constants of Planck's law.
+    pub constants: RadiationConstants,
+}
+
+impl Query for NearestBlackBodyOf {
+    type Answer = Result<PlanckianLocus, NoLocus>;
+    const NAME: &'static str = "nearest black body";
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        PlanckianLocus::new(&self.observer, self.constants)
+    }
 }
 
 /// Where does an XYZ observer see monochromatic light: the diagram's outline?

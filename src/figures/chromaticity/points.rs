@@ -95,6 +95,12 @@ pub fn describe(scene: &Scene<'_>, thing: &Thing) -> Vec<String> {
     }
 }
 
+/// Where a source sees a patch.
+pub fn patch_xy(scene: &Scene<'_>, source: &SourceId, patch: &str) -> Option<Xy> {
+    let index = scene.patches().ok()?.patches().iter().position(|p| p.name == patch)?;
+    scene.patch_colors(source.kind, &source.name).ok()?.get(index)?.xy
+}
+
 fn label(scene: &Scene<'_>, id: &SourceId) -> String {
     let found = scene.sources().into_iter().find(|source| super::id(source) == *id);
     found.map_or_else(|| id.name.clone(), |source| source.label)
