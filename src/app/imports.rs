@@ -113,6 +113,7 @@ impl ChromascopeApp {
                 Why::Changed => format!("Read {which} again"),
                 Why::Alike => format!("Read {which} alike"),
             };
+            log::info!("read again {}", names.join(", "));
             self.history.apply(&Action::Own(OwnAction::ReplaceAll { what, with }));
             self.history.end_gesture();
         }
