@@ -43,6 +43,8 @@ pub struct ChromascopeApp {
     radiators: Background<NearestBlackBodyOf>,
     studio: Studio,
     commands: Vec<Command>,
+    /// The latest reading of each set that was read again.
+    last_read: std::collections::HashMap<String, u64>,
     arrangement: Arrangement,
     first_frame: Option<std::time::Instant>,
 }
@@ -64,6 +66,7 @@ impl ChromascopeApp {
             radiators: Background::new("black bodies", move || third.request_repaint()),
             studio: Studio::new(ctx),
             commands: Vec::new(),
+            last_read: std::collections::HashMap::new(),
             arrangement: Arrangement::default(),
             first_frame: None,
         }

@@ -55,7 +55,7 @@ impl ChromascopeApp {
                     }
                     self.view.import.unseen.extend(failed.into_iter().map(ImportItem::File));
                 }
-                OpenedEvent::Reread { sets, why } => self.put_in_place(sets, why),
+                OpenedEvent::Reread { sets, why, ticket } => self.put_in_place(sets, why, ticket),
                 OpenedEvent::Mesh(path) => self.open_mesh(&path),
                 OpenedEvent::Failed(message, files) => {
                     self.view.fail(message);
@@ -83,7 +83,10 @@ impl ChromascopeApp {
         self.view.say(message);
         let doubtful: Vec<ImportItem> =
             brought.iter().zip(guessed).filter(|(_, guessed)| *guessed).map(|(item, _)| item.clone()).collect();
-        if let Some(first) = doubtful.first().or(brought.first()) {
+        // What is being tried on another file goes on.
+        if let Some(first) = doubtful.first().or(brought.first())
+            && self.view.import.pending.is_none()
+        {
             self.view.import.select(first.clone());
         }
         self.view.status.change = doubtful.first().map(|first| (first.clone(), None));
@@ -91,16 +94,26 @@ impl ChromascopeApp {
     }
 
     /// Puts sets that were read again in their places, as one step.
-    fn put_in_place(&mut self, sets: Vec<(String, Result<Imported, String>)>, why: Why) {
-        let (mut with, mut failures) = (Vec::new(), Vec::new());
+    fn put_in_place(&mut self, sets: Vec<(String, Result<Imported, String>)>, why: Why, ticket: u64) {
+        let (mut with, mut failures, mut again) = (Vec::new(), Vec::new(), Vec::new());
         for (name, result) in sets {
+            // What was renamed or removed meanwhile, or was read anew since, is no longer what this is about.
+            let Some(set) = self.history.document().own.iter().find(|set| set.name == name).cloned() else { continue };
+            if self.last_read.get(&name).is_some_and(|last| *last > ticket) {
+                continue;
+            }
+            self.last_read.insert(name.clone(), ticket);
             match result {
+                Ok(imported) if why == Why::Changed && imported.set.wishes != set.wishes => again.push((*set).clone()),
                 Ok(imported) => with.push((name.clone(), OwnSet { name, ..imported.set })),
                 Err(sentence) => {
                     self.view.import.unseen.insert(ImportItem::Set(name));
                     failures.push(sentence);
                 }
             }
+        }
+        if !again.is_empty() {
+            self.opened.reread(again, why);
         }
         let names: Vec<String> = with.iter().map(|(name, _)| name.clone()).collect();
         let which = match names.as_slice() {
@@ -114,7 +127,7 @@ impl ChromascopeApp {
                 Why::Alike => format!("Read {which} alike"),
             };
             log::info!("read again {}", names.join(", "));
-            self.history.apply(&Action::Own(OwnAction::ReplaceAll { what, with }));
+            self.history.apply_again(&Action::Own(OwnAction::ReplaceAll { what, with }));
             self.history.end_gesture();
         }
         let done = match why {
@@ -122,9 +135,9 @@ impl ChromascopeApp {
             Why::Changed => format!("{which} changed on disk and was read again. Ctrl+Z takes it back."),
             Why::Alike => format!("{which}: read alike. Ctrl+Z takes it back."),
         };
-        if failures.is_empty() {
+        if failures.is_empty() && !done.is_empty() {
             self.view.say(done);
-        } else {
+        } else if !failures.is_empty() {
             let failures = failures.join(".  ");
             self.view.fail(format!("{failures}. What was read before stays. {done}").trim_end().to_owned());
         }

@@ -6,8 +6,12 @@ use crate::document::own::Fingerprint;
 
 /// What the beginning of a file looks like without its figures. The same on every machine, so that it can be kept.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct Likeness(Vec<Fingerprint>);
+pub struct Likeness {
+    /// The lines.
+    shapes: Vec<Fingerprint>,
+    /// Whether some of them hold words.
+    words: bool,
+}
 
 /// How much of a file is looked at.
 const LOOK: usize = 1 << 14;
@@ -23,20 +27,23 @@ impl Likeness {
     pub fn of(bytes: &[u8]) -> Self {
         let text = String::from_utf8_lossy(&bytes[..bytes.len().min(LOOK)]);
         let lines = text.split(['\n', '\r']).map(|line| line.trim_matches(['\0', ' ', '\u{feff}']));
-        let mut shapes: Vec<Fingerprint> = lines
-            .filter(|line| !line.is_empty())
-            .take(LINES)
-            .map(|line| Fingerprint::of(shape(line).as_bytes()))
-            .collect();
+        let lines: Vec<String> = lines.filter(|line| !line.is_empty()).take(LINES).map(shape).collect();
+        let words = lines.iter().any(|line| line.chars().filter(|c| c.is_alphabetic()).count() >= 2);
+        let mut shapes: Vec<Fingerprint> = lines.iter().map(|line| Fingerprint::of(line.as_bytes())).collect();
         shapes.sort_unstable();
         shapes.dedup();
-        Self(shapes)
+        Self { shapes, words }
+    }
+
+    /// Whether there is more than numbers to tell a kind by, so that it is worth remembering.
+    pub fn is_telling(&self) -> bool {
+        self.words
     }
 
     /// Whether two files are of one kind.
     pub fn is_like(&self, other: &Self) -> bool {
-        let common = self.0.iter().filter(|shape| other.0.binary_search(shape).is_ok()).count();
-        let all = self.0.len() + other.0.len() - common;
+        let common = self.shapes.iter().filter(|shape| other.shapes.binary_search(shape).is_ok()).count();
+        let all = self.shapes.len() + other.shapes.len() - common;
         all > 0 && common as f64 >= ALIKE * all as f64
     }
 }

@@ -54,6 +54,8 @@ pub enum OpenedEvent {
         sets: Vec<(String, Result<Imported, String>)>,
         /// Why.
         why: Why,
+        /// A later reading has a larger number.
+        ticket: u64,
     },
     /// A mesh is to be opened, which is not read yet.
     Mesh(PathBuf),
@@ -100,6 +102,8 @@ struct State {
     files: Vec<OpenFile>,
     events: Vec<OpenedEvent>,
     running: Vec<Arc<Job>>,
+    /// How many readings were begun again.
+    tickets: u64,
     /// Files that were looked for on disk and are not there as they were.
     lost: Vec<Fingerprint>,
 }
@@ -132,10 +136,15 @@ impl Opened {
 
     /// Reads the files of sets again: those known here from memory if `why` allows, else from disk.
     pub fn reread(&self, sets: Vec<OwnSet>, why: Why) {
+        let ticket = {
+            let mut state = self.desk.lock();
+            state.tickets += 1;
+            state.tickets
+        };
         self.begin(move |desk, job| {
             let sets: Vec<_> = sets.iter().filter_map(|set| reading::reread(set, why, desk, job)).collect();
             if !sets.is_empty() {
-                desk.lock().events.push(OpenedEvent::Reread { sets, why });
+                desk.lock().events.push(OpenedEvent::Reread { sets, why, ticket });
             }
         });
     }
@@ -150,7 +159,7 @@ impl Opened {
         // What is being looked for counts as lost until it is found, so that it is looked for once.
         state.lost.push(fingerprint);
         drop(state);
-        self.begin(move |desk, _| reading::fetch(&path, fingerprint, desk));
+        self.begin(move |desk, job| reading::fetch(&path, fingerprint, desk, job));
     }
 
     /// What came of reading since.

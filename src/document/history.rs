@@ -11,8 +11,8 @@ const DEPTH: usize = 200;
 struct Step {
     name: String,
     document: Document,
-    /// What later changes of the same gesture must be to belong to this step.
-    action: Action,
+    /// What later changes of the same gesture must be to belong to this step; none for what is no gesture.
+    action: Option<Action>,
 }
 
 /// The document with the steps that led to it.
@@ -44,14 +44,29 @@ impl History {
             return;
         }
         self.redo.clear();
-        let continues = self.gesture && self.undo.last().is_some_and(|step| step.action.is_same_gesture(action));
+        let continues = self.gesture
+            && self
+                .undo
+                .last()
+                .is_some_and(|step| step.action.as_ref().is_some_and(|before| before.is_same_gesture(action)));
         if !continues {
-            self.undo.push(Step { name: action.name(), document: before, action: action.clone() });
+            let kept = action.is_same_gesture(action).then(|| action.clone());
+            self.undo.push(Step { name: action.name(), document: before, action: kept });
             if self.undo.len() > DEPTH {
                 self.undo.remove(0);
             }
         }
         self.gesture = true;
+    }
+
+    /// Carries out an action that repeats the last step, as part of it: undo takes all of them back at once.
+    pub fn apply_again(&mut self, action: &Action) {
+        if self.undo_name() != Some(&action.name()) {
+            self.apply(action);
+            return;
+        }
+        action.apply(&mut self.document);
+        self.redo.clear();
     }
 
     /// The pointer was released, or nothing was dragged: what comes is a new step.

@@ -138,8 +138,7 @@ impl OwnSet {
 
     /// A curve with the units that the user has it in. Unchanged units change no bit.
     fn spectrum(&self, curve: &OwnCurve) -> Result<SpectralDistribution, DistributionError> {
-        let is_percent = self.percent && self.role.is_fraction();
-        let mut values: Vec<f64> = match (is_percent, self.read_as.percent) {
+        let mut values: Vec<f64> = match (self.percent, self.read_as.percent) {
             (true, false) => curve.values.iter().map(|v| v / 100.0).collect(),
             (false, true) => curve.values.iter().map(|v| v * 100.0).collect(),
             _ => curve.values.clone(),

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use super::write_atomically;
@@ -23,11 +24,19 @@ pub(super) struct Keeper {
     seen: Option<Document>,
     saved: Option<Document>,
     changed: Instant,
+    /// Writes beside the window: a document may hold many curves.
+    writer: Option<JoinHandle<Result<(), String>>>,
 }
 
 impl Keeper {
     pub(super) fn new(folder: Option<PathBuf>) -> Self {
-        Self { file: folder.map(|folder| folder.join(FILE)), seen: None, saved: None, changed: Instant::now() }
+        Self {
+            file: folder.map(|folder| folder.join(FILE)),
+            seen: None,
+            saved: None,
+            changed: Instant::now(),
+            writer: None,
+        }
     }
 
     /// The document kept, or the first screen; with a sentence where one was there and could not be read.
@@ -56,7 +65,7 @@ impl Keeper {
 
     /// Notes a change, and writes it when the document has come to rest.
     pub(super) fn watch(&mut self, document: &Document, ctx: &egui::Context) -> Result<(), String> {
-        let Some(file) = &self.file else { return Ok(()) };
+        let Some(file) = self.file.clone() else { return Ok(()) };
         if self.seen.as_ref() != Some(document) {
             // The first sight of a document that was just loaded is no change.
             let fresh = self.seen.is_none() && self.saved.as_ref().is_none_or(|saved| saved == document);
@@ -67,6 +76,9 @@ impl Keeper {
             self.changed = Instant::now();
             *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some((file.clone(), document.clone()));
         }
+        if self.writer.as_ref().is_some_and(JoinHandle::is_finished) {
+            self.written()?;
+        }
         if self.saved.as_ref() == Some(document) {
             return Ok(());
         }
@@ -75,13 +87,35 @@ impl Keeper {
             ctx.request_repaint_after(REST.saturating_sub(rested));
             return Ok(());
         }
-        self.save(document)
+        if self.writer.is_some() {
+            ctx.request_repaint_after(REST);
+            return Ok(());
+        }
+        // Failing again and again would only fill the log.
+        self.saved = Some(document.clone());
+        let (document, ctx) = (document.clone(), ctx.clone());
+        let work = move || {
+            let result = write(&file, &document);
+            ctx.request_repaint();
+            result
+        };
+        match thread::Builder::new().name("keep".to_owned()).spawn(work) {
+            Ok(writer) => self.writer = Some(writer),
+            Err(error) => return Err(format!("no thread for writing: {error}")),
+        }
+        Ok(())
+    }
+
+    /// Waits for what is being written, and says what came of it.
+    fn written(&mut self) -> Result<(), String> {
+        self.writer.take().map_or(Ok(()), |writer| writer.join().unwrap_or_else(|_| Err("writing failed".to_owned())))
     }
 
     /// Writes the document now, unless it is as it was written.
     pub(super) fn save(&mut self, document: &Document) -> Result<(), String> {
+        let before = self.written();
         let Some(file) = self.file.clone() else { return Ok(()) };
-        if self.saved.as_ref() == Some(document) {
+        if self.saved.as_ref() == Some(document) && before.is_ok() {
             return Ok(());
         }
         // Failing again and again would only fill the log.

@@ -39,14 +39,21 @@ impl Watch {
                 // A folder that is gone needs no more watching.
                 let _gone = watcher.unwatch(gone);
             }
-            for new in folders.difference(&self.folders) {
-                if let Err(error) = watcher.watch(new, RecursiveMode::NonRecursive) {
-                    log::warn!("{} cannot be watched: {error}", new.display());
+            self.folders.retain(|known| folders.contains(known));
+            for new in folders {
+                if self.folders.contains(&new) {
+                    continue;
+                }
+                match watcher.watch(&new, RecursiveMode::NonRecursive) {
+                    Ok(()) => {
+                        self.folders.insert(new);
+                    }
+                    // Tried again with the next change of the list.
+                    Err(error) => log::warn!("{} cannot be watched: {error}", new.display()),
                 }
             }
         }
         self.files = files;
-        self.folders = folders;
     }
 
     /// The files that changed and have come to rest; and when to ask again, if some have not.

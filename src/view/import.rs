@@ -103,6 +103,9 @@ impl Default for ImportMemory {
 impl ImportMemory {
     /// Remembers what was wished for a file, for others like it; no wishes forget.
     pub fn remember(&mut self, likeness: Likeness, wishes: &Wishes) {
+        if !likeness.is_telling() {
+            return;
+        }
         self.remembered.retain(|known| !known.likeness.is_like(&likeness));
         let wishes = of_a_kind(wishes);
         if wishes != Wishes::default() {
@@ -119,7 +122,9 @@ impl ImportMemory {
     }
 }
 
-/// The wishes that hold for other files of a kind too: which of many curves are taken does not.
+/// The wishes that hold for other files of a kind too: which curves are taken, and which part and column, do not.
 pub fn of_a_kind(wishes: &Wishes) -> Wishes {
-    Wishes { taken: None, ..wishes.clone() }
+    let mut kind = Wishes { taken: None, ..wishes.clone() };
+    (kind.options.part, kind.options.wavelength_column) = (None, None);
+    kind
 }

@@ -106,3 +106,20 @@ fn what_cannot_be_read_says_the_line() {
     assert_eq!(error.line(), Some(3));
     assert!(import("x.csv", b"", None).is_err());
 }
+
+#[test]
+fn percent_that_was_chosen_holds_for_every_role() {
+    use chromascope::catalog::import::{Origin, import_as};
+    use chromascope::document::own::{ReadOptions, Wishes};
+    use chromascope_core::table::{Values, Watch};
+    let text = b"nm,r,g,b\n400,5,6,7\n500,50,60,70\n600,10,11,12\n";
+    for role in [Role::Camera, Role::Illuminant, Role::Unknown, Role::Transmittance] {
+        let options = ReadOptions { role: Some(role), values: Some(Values::Percent), ..ReadOptions::default() };
+        let wishes = Wishes { options, ..Wishes::default() };
+        let origin = Origin::named("x.csv", text);
+        let mut set = import_as(&origin, text, &wishes, Watch::none()).unwrap().set;
+        assert_eq!(first(&set).1, [0.05, 0.5, 0.1], "{role:?}");
+        set.percent = false;
+        assert_eq!(first(&set).1, [5.0, 50.0, 10.0], "{role:?}");
+    }
+}

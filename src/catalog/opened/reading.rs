@@ -60,7 +60,6 @@ pub(super) fn open(
     let count = requests.len();
     for (index, request) in requests.into_iter().enumerate() {
         if !job.go_on(0.0) {
-            harvest.failures.push("reading was stopped".to_owned());
             break;
         }
         let (origin, bytes, wishes) = match contents(request, desk, job, (index + 1, count)) {
@@ -75,10 +74,12 @@ pub(super) fn open(
                 continue;
             }
         };
+        let from_memory = wishes.is_none();
         let wishes = wishes.unwrap_or_else(|| remembered(&bytes));
-        take(origin, bytes, &wishes, desk, job, &mut harvest);
+        take(origin, bytes, (&wishes, from_memory), desk, job, &mut harvest);
     }
-    harvest.into_events()
+    // Who stopped it wants none of it.
+    if job.go_on(0.0) { harvest.into_events() } else { Vec::new() }
 }
 
 /// Folders become their files, in order of name; hidden ones and folders within are left out.
@@ -168,9 +169,29 @@ fn origin(path: &Path, bytes: &[u8]) -> Origin {
     Origin { name: name_of(path), path: Some(path.to_owned()), fingerprint: Fingerprint::of(bytes) }
 }
 
-fn take(origin: Origin, bytes: Arc<[u8]>, wishes: &Wishes, desk: &Desk, job: &Job, harvest: &mut Harvest) {
+fn take(
+    origin: Origin,
+    bytes: Arc<[u8]>,
+    (wishes, from_memory): (&Wishes, bool),
+    desk: &Desk,
+    job: &Job,
+    harvest: &mut Harvest,
+) {
     let fingerprint = origin.fingerprint;
-    let read = read_once(&origin, &bytes, wishes, job);
+    let mut read = read_once(&origin, &bytes, wishes, job);
+    if !job.go_on(0.0) {
+        return;
+    }
+    if from_memory && *wishes != Wishes::default() {
+        match &mut read {
+            Ok(imported) => {
+                imported.message.push_str(" Read as you chose for a file like it.");
+                imported.guessed = true;
+            }
+            // What fitted another file does not fit this one.
+            Err(_) => read = read_once(&origin, &bytes, &Wishes::default(), job),
+        }
+    }
     let failure = read.as_ref().err().cloned();
     match read {
         Ok(imported) => {
@@ -239,6 +260,7 @@ pub(super) fn reread(set: &OwnSet, why: Why, desk: &Desk, job: &Job) -> Option<(
                 .and_then(|bytes| {
                     let origin = origin(path, &bytes);
                     if why == Why::Changed && Some(origin.fingerprint) == set.fingerprint {
+                        desk.know(OpenFile { origin, bytes, failure: None });
                         return Ok(None);
                     }
                     let read = read_once(&origin, &bytes, &set.wishes, job);
@@ -253,7 +275,8 @@ pub(super) fn reread(set: &OwnSet, why: Why, desk: &Desk, job: &Job) -> Option<(
 }
 
 /// Takes a file in again, if its contents are what they were.
-pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk) {
+pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Job) {
+    job.at(path, 1, 1);
     if let Ok(bytes) = read_bytes(path)
         && Fingerprint::of(&bytes) == fingerprint
     {

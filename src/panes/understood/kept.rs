@@ -1,11 +1,13 @@
 //! A set whose file is not at hand: what can be changed by its values alone.
 
+use chromascope_core::table::Values;
 use egui::{RichText, Ui};
 
 use super::{Closed, caption, list, name, note, switches};
 use crate::action::{Action, OwnAction};
 use crate::catalog::Kind;
 use crate::document::own::{OwnSet, Role};
+use crate::figures::curves::places;
 use crate::panes::PaneContext;
 use crate::theme::{Theme, UNIT};
 use crate::widgets::segmented;
@@ -35,7 +37,29 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
         ui.label(RichText::new(decision).small());
     }
     if changed != *set {
+        follow(set, &mut changed);
         context.push(Action::Own(OwnAction::Replace { name: set.name.clone(), with: Box::new(changed) }));
+    }
+}
+
+/// Has the file, when it comes back, read as the set was changed.
+fn follow(before: &OwnSet, changed: &mut OwnSet) {
+    let places = places(before);
+    let options = &mut changed.wishes.options;
+    if changed.role != before.role {
+        options.role = Some(changed.role);
+    }
+    if changed.unit != before.unit {
+        options.wavelength_unit = Some(changed.unit);
+    }
+    if changed.percent != before.percent {
+        options.values = Some(if changed.percent { Values::Percent } else { Values::Plain });
+    }
+    if changed.per_photon != before.per_photon {
+        changed.wishes.per_photon = Some(changed.per_photon);
+    }
+    if changed.channels != before.channels {
+        changed.wishes.channels = Some(changed.channels.map(|index| places.get(index).copied().unwrap_or(index)));
     }
 }
 
@@ -59,9 +83,7 @@ fn choice<T: Copy + PartialEq>(ui: &mut Ui, theme: &Theme, words: &str, choices:
 fn choices(ui: &mut Ui, set: &mut OwnSet, theme: &Theme) {
     choice(ui, theme, "This is a", &switches::ROLES, &mut set.role);
     choice(ui, theme, "Wavelengths in", &switches::UNITS, &mut set.unit);
-    if set.role.is_fraction() {
-        ui.checkbox(&mut set.percent, "Values are percent");
-    }
+    ui.checkbox(&mut set.percent, "Values are percent");
 }
 
 /// Channels, and what they count.
