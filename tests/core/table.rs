@@ -2,6 +2,7 @@
 
 #![allow(clippy::format_push_string, reason = "files are written as they read")]
 
+mod columns;
 mod damage;
 mod limits;
 mod parts;

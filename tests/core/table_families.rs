@@ -193,6 +193,7 @@ fn rawtoaces() {
     );
     assert_eq!((names(&light), samples(&light, 0)), (vec!["L1"], vec![(380.0, 0.4), (385.0, 0.5)]));
     assert_eq!((light.role.value, light.role.certainty), (Role::Illuminant, Certainty::Certain));
+    assert_eq!((camera.reading.rows, camera.reading.first_data_line), (3, 7));
     let uneven = layouts::RAWTOACES.replace("[0.04, 0.02, 0.01]", "[0.04, 0.02]");
     let wrong = ReadError::WrongCount { line: 7, name: "385".to_owned(), found: 2, expected: 3 };
     assert_eq!(error(&uneven), wrong);
@@ -272,4 +273,58 @@ fn the_reader_can_be_chosen() {
     assert_eq!(said[1], "Layout");
     let options = ReadOptions { reader: Some(Reader::Cgats), ..ReadOptions::default() };
     assert_eq!(read(b"400,1\n500,2\n", &options), Err(ReadError::OtherLayout { reader: Reader::Cgats }));
+}
+
+#[test]
+fn blocks_in_other_units_are_other_parts() {
+    let block = |x: &str, y: &str, data: &str| {
+        format!("##TITLE={y}\n##XUNITS={x}\n##YUNITS={y}\n##XYPOINTS=(XY..XY)\n{data}\n##END=\n")
+    };
+    let start = format!("##TITLE=L\n##DATA TYPE=LINK\n{}", block("NANOMETERS", "TRANSMITTANCE", "400,0.5\n500,0.6"));
+    let second = |options: &ReadOptions, text: &str| read(text.as_bytes(), options).unwrap();
+    let part = ReadOptions { part: Some(2), ..ReadOptions::default() };
+    for (other, wanted) in [
+        (block("NANOMETERS", "ABSORBANCE", "400,1\n500,2"), vec![(400.0, 0.1), (500.0, 0.01)]),
+        (block("1/CM", "TRANSMITTANCE", "20000,0.2\n25000,0.1"), vec![(400.0, 0.1), (500.0, 0.2)]),
+    ] {
+        let text = format!("{start}{other}");
+        let table = ok(&text);
+        assert_eq!((table.curves.len(), samples(&table, 0)), (1, vec![(400.0, 0.5), (500.0, 0.6)]), "{other}");
+        assert_eq!((table.reading.parts.len(), table.reading.part.value), (2, 1));
+        assert_eq!(table.warnings, [Warning::MoreTables { line: 14 }]);
+        assert_eq!(samples(&second(&part, &text), 0), wanted, "{other}");
+    }
+    let same = ok(&format!("{start}{}", block("nm", "Transmittance", "400,0.7\n500,0.8")));
+    assert_eq!((same.curves.len(), same.reading.part.value, same.warnings.len()), (2, 0, 0));
+}
+
+#[test]
+fn distributions_of_other_quantities_are_not_mixed() {
+    let one = |quantity: &str, value: f64| {
+        format!(
+            "<SpectralDistribution><SpectralQuantity>{quantity}</SpectralQuantity>\n<SpectralData wavelength=\"400\">{value}\
+             </SpectralData><SpectralData wavelength=\"500\">{value}</SpectralData></SpectralDistribution>\n"
+        )
+    };
+    let file = |all: &[String]| ok(&format!("<IESTM2714><Header/>\n{}</IESTM2714>", all.concat()));
+    let mixed = file(&[one("transmittance", 0.5), one("irradiance", 55.0)]);
+    assert_eq!((mixed.curves.len(), samples(&mixed, 0)), (1, vec![(400.0, 0.5), (500.0, 0.5)]));
+    assert_eq!((mixed.role.value, mixed.reading.values.value), (Role::Transmittance, Values::Plain));
+    assert_eq!(mixed.warnings, [Warning::MoreTables { line: 5 }]);
+    let same = file(&[one("irradiance", 55.0), one("Irradiance", 66.0)]);
+    assert_eq!((same.curves.len(), same.warnings.len(), same.role.value), (2, 0, Role::Illuminant));
+}
+
+#[test]
+fn warnings_of_one_kind_are_counted_where_there_are_many() {
+    let object = |i: usize| {
+        format!(
+            "<Object Name=\"o{i}\"><CustomSpectrum><SpectralPoint WL=\"400\">0.1</SpectralPoint>\
+             <SpectralPoint WL=\"400\">0.2</SpectralPoint><SpectralPoint WL=\"500\">3</SpectralPoint></CustomSpectrum></Object>\n"
+        )
+    };
+    let table = ok(&format!("<CxF>{}</CxF>", (0..300).map(object).collect::<Vec<_>>().concat()));
+    assert_eq!(table.curves.len(), 300);
+    assert_eq!(table.warnings.last(), Some(&Warning::More { count: 280 }));
+    assert!(table.warnings.len() <= 22, "{}", table.warnings.len());
 }

@@ -16,20 +16,37 @@ pub(super) struct Read {
     pub(super) grid: Grid,
     /// The line after it, if another table follows.
     pub(super) next: Option<usize>,
+    /// Bytes that were looked at.
+    pub(super) bytes: usize,
     /// What its columns are, if that was to decide.
     pub(super) note: Option<Decision>,
 }
+
+/// Bytes between two looks at who watches.
+const LOOK: usize = 1 << 18;
 
 /// Reads the rows of a layout.
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Read, ReadError> {
     let header = header::read(section, layout);
     let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
     let mut columns = Columns::new(layout, chosen.or_else(|| wavelength_column(&header)));
-    let mut read = section.byte;
+    let header_line = header.line.and_then(|names| Lines::of(section).find(|(number, _)| *number == names));
+    let header_line = header_line.map(|(_, line)| line);
+    let mut commented = LineList::default();
+    let (mut read, mut looked) = (section.byte, section.byte);
     for (number, line) in Lines::of(section).skip_while(|(number, _)| *number < layout.first_line) {
         read += line.len() + 1;
-        log.at(read)?;
-        if !line.trim_ascii().is_empty() && comment(line).is_none() {
+        if read >= looked + LOOK {
+            looked = read;
+            log.look(read)?;
+        }
+        if comment(line).is_some() {
+            if columns.is_marked_row(line) {
+                commented.add(number);
+            }
+        } else if header_line.is_some_and(|header| header == line) {
+            columns.take_header(number);
+        } else if !line.trim_ascii().is_empty() {
             if columns.lines.is_empty() {
                 columns.expected_rows = section.text.len() / (line.len() + 1) + 1;
             }
@@ -47,7 +64,14 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
         }
         log.push(Warning::TextBelow { line: broken.line });
     }
-    columns.finish(header, layout, log)
+    if !commented.is_empty() {
+        log.push(Warning::CommentedRows { lines: commented });
+    }
+    if !columns.repeated_headers.is_empty() {
+        log.push(Warning::RepeatedHeader { lines: std::mem::take(&mut columns.repeated_headers) });
+    }
+    let found = columns.finish(header, layout, log)?;
+    Ok(Read { bytes: read - section.byte, ..found })
 }
 
 /// The column that the header names as that of the wavelengths, if it names one.
@@ -60,6 +84,8 @@ struct Broken {
     line: usize,
     begins_with_number: bool,
     has_numbers: bool,
+    /// Whether it is the line of names again.
+    is_header: bool,
     /// Rows of numbers below it that do not fit this table.
     others: usize,
     error: ReadError,
@@ -68,6 +94,8 @@ struct Broken {
 /// The numbers of the rows so far, by column.
 struct Columns {
     dialect: Dialect,
+    /// Which columns are text, and so left out.
+    texts: u128,
     /// Rows must have this many cells; a row with more must not have been preceded by one with fewer.
     width: usize,
     fewest_cells: usize,
@@ -78,6 +106,8 @@ struct Columns {
     named: Option<usize>,
     label_unit: Option<WavelengthUnit>,
     broken: Option<Broken>,
+    /// Lines that are the line of names again.
+    repeated_headers: LineList,
     /// The line after the last row, once another table is seen.
     next: Option<usize>,
 }
@@ -93,6 +123,7 @@ impl Columns {
     fn new(layout: &Layout, named: Option<usize>) -> Self {
         Self {
             dialect: layout.dialect(),
+            texts: layout.texts,
             width: layout.width,
             fewest_cells: usize::MAX,
             cells: vec![Vec::new(); layout.width.min(MAX_CURVES + 1)],
@@ -102,6 +133,7 @@ impl Columns {
             named,
             label_unit: None,
             broken: None,
+            repeated_headers: LineList::default(),
             next: None,
         }
     }
@@ -126,9 +158,37 @@ impl Columns {
                     self.end(true);
                     Ok(())
                 }
+                Some(broken) if broken.is_header => {
+                    self.repeated_headers.add(broken.line);
+                    self.push(number, cells, filled)
+                }
                 Some(broken) => Err(broken.error),
             },
         }
+    }
+
+    /// Takes the line of names, which some programs print again on every page.
+    fn take_header(&mut self, line: usize) {
+        let error = ReadError::NotANumber { line, column: 1, text: String::new() };
+        self.broken.get_or_insert(Broken {
+            line,
+            begins_with_number: false,
+            has_numbers: false,
+            is_header: true,
+            others: 0,
+            error,
+        });
+    }
+
+    /// Whether a comment is a row that somebody took out, or one that begins with `#` for another reason.
+    fn is_marked_row(&self, line: &str) -> bool {
+        let cells = self.dialect.cells(line.trim_start().trim_start_matches('#')).take(MAX_CURVES + 2);
+        let (mut count, mut numbers) = (0, 0);
+        for cell in cells {
+            count += 1;
+            numbers += usize::from(matches!(self.dialect.parse(cell), Cell::Number(_)));
+        }
+        count == self.width && numbers > 0
     }
 
     /// Ends the table, if another one was seen.
@@ -144,6 +204,7 @@ impl Columns {
             let value = match self.dialect.parse(cell) {
                 Cell::Number(value) => value,
                 Cell::Gap => f64::NAN,
+                Cell::Text if cells < 128 && self.texts >> cells & 1 == 1 => f64::NAN,
                 Cell::Text => match self.dialect.parse_label(cell).filter(|_| cells == self.named.unwrap_or(0)) {
                     Some((value, unit)) if self.label_unit.is_none_or(|known| known == unit) => {
                         self.label_unit = Some(unit);
@@ -165,7 +226,7 @@ impl Columns {
         let mut cells = self.dialect.cells(text).take(MAX_CURVES + 2);
         let begins_with_number = self.row.first().is_some_and(|value| !value.is_nan());
         let has_numbers = cells.any(|cell| matches!(self.dialect.parse(cell), Cell::Number(_)));
-        Broken { line, begins_with_number, has_numbers, others: 0, error }
+        Broken { line, begins_with_number, has_numbers, is_header: false, others: 0, error }
     }
 
     /// Whether the row just parsed goes back over wavelengths that were there before.
@@ -225,20 +286,25 @@ impl Columns {
         }
         let at = self.named.filter(|&at| at < columns);
         let at = at.or_else(|| self.cells.iter().position(|column| !empty(column))).unwrap_or(0);
-        if self.cells[..at].iter().any(|column| !empty(column)) {
-            log.push(Warning::SkippedColumns { wavelength_column: at + 1 });
-        }
         self.cut_second_pass(at);
         warn_of_names_without_columns(&header, columns, log);
         let (next, rows, label_unit) = (self.next, self.lines.len(), self.label_unit);
         let values = self.cells.split_off(at + 1);
         let wavelengths = self.cells.pop().unwrap_or_default();
         let more = pairs::more_wavelengths(&header, at, &wavelengths, &values);
+        let is_left = |(column, values): &(usize, Vec<f64>)| {
+            more.is_empty() && !empty(values) && header.name(*column).is_some_and(|name| !words::is_count(name))
+        };
+        let before = std::mem::take(&mut self.cells).into_iter().enumerate();
+        let (left, skipped): (Vec<_>, Vec<_>) = before.partition(is_left);
+        let texts = skipped.iter().any(|(column, _)| *column < 128 && self.texts >> column & 1 == 1);
+        if texts || skipped.iter().any(|(_, column)| !empty(column)) {
+            log.push(Warning::SkippedColumns { wavelength_column: at + 1 });
+        }
         let (mut grid, note) = if more.is_empty() {
-            let only = values.len() == 1;
-            let curves =
-                values.into_iter().zip(at + 1..).map(|(values, column)| raw_curve(&header, column, only, values));
-            let curves = curves.collect();
+            let only = left.len() + values.len() == 1;
+            let all = left.into_iter().chain((at + 1..).zip(values));
+            let curves = all.map(|(column, values)| raw_curve(&header, column, only, values)).collect();
             (Grid { wavelengths, lines: self.lines, curves, header, ..Grid::default() }, None)
         } else {
             pairs::read(header, at, wavelengths, values, &more, &self.lines, log)?
@@ -247,7 +313,7 @@ impl Columns {
         grid.rows = rows;
         grid.wavelength_column = Some(at + 1);
         drop_without_wavelength(&mut grid, log);
-        Ok(Read { grid, next, note })
+        Ok(Read { grid, next, bytes: 0, note })
     }
 
     /// Leaves rows to the next table that go over the same wavelengths again.

@@ -115,11 +115,46 @@ impl Dialect {
         if is_gap(cell) {
             return Cell::Gap;
         }
+        if let Some(value) = self.grouped(cell) {
+            return Cell::Number(value);
+        }
         // The typographic minus, as word processors write it.
         match cell.strip_prefix('\u{2212}').and_then(|rest| self.number(rest)) {
             Some(value) if value.is_finite() && value.is_sign_positive() => Cell::Number(-value),
             _ => Cell::Text,
         }
+    }
+
+    /// A number with thousands set apart, where that cannot mean anything else: `1.234,5`, `1,234.5`, `1 234,5`.
+    fn grouped(self, cell: &str) -> Option<f64> {
+        const LONGEST: usize = 32;
+        let (mark, other) = if self.mark == DecimalMark::Point { ('.', ',') } else { (',', '.') };
+        if cell.len() > LONGEST || !cell.ends_with(|c: char| c.is_ascii_digit()) {
+            return None;
+        }
+        let (sign, digits) = cell.strip_prefix('-').map_or((1.0, cell), |rest| (-1.0, rest));
+        let (whole, fraction) = digits.split_once(mark).unwrap_or((digits, ""));
+        let spaced = matches!(self.delimiter, Delimiter::Semicolon | Delimiter::Tab);
+        let separates =
+            |c: char| c == other || (spaced && matches!(c, ' ' | '\u{a0}' | '\u{202f}' | '\'' | '\u{2019}'));
+        let separator = whole.chars().find(|&c| separates(c))?;
+        let mut groups = whole.split(separator);
+        let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+        let first = groups.next().filter(|first| (1..=3).contains(&first.len()) && digits(first))?;
+        let mut text = first.to_owned();
+        let mut count = 0;
+        for group in groups {
+            if group.len() != 3 || !digits(group) {
+                return None;
+            }
+            text.push_str(group);
+            count += 1;
+        }
+        // `1.234` alone may be a fraction.
+        if !digits(fraction) || (separator == other && count < 2 && fraction.is_empty()) {
+            return None;
+        }
+        format!("{text}.{fraction}0").parse().ok().map(|value: f64| sign * value)
     }
 
     /// A wavelength that carries its unit, such as `380nm` or `380 [nm]`.

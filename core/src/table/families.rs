@@ -88,6 +88,10 @@ fn recognize(text: &str) -> Result<Reader, ReadError> {
     }
 }
 
+/// Bytes that are read to list tables below the one that is taken. Where wavelengths just begin anew, only reading on shows
+/// where, so that each table is read with all that follow.
+const MOST_WORK: usize = 64 << 20;
+
 /// Numbers in columns: the table that was chosen of several below one another, else the first.
 fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let wanted = options.part.unwrap_or(1);
@@ -95,9 +99,11 @@ fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, 
     let mut parts = Vec::new();
     let mut taken: Option<(Layout, columns::Read)> = None;
     let mut begun = None;
+    let (mut budget, mut work) = (sniff::SAMPLE_BUDGET, 0);
     loop {
+        log.look(section.byte)?;
         let warnings = log.warnings.len();
-        let (layout, mut read) = match one(section, options, log) {
+        let (layout, mut read) = match one(section, options, &mut budget, log) {
             Ok(read) => read,
             Err(ReadError::Stopped) => return Err(ReadError::Stopped),
             Err(error) if taken.is_some() => {
@@ -111,13 +117,15 @@ fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, 
             Err(error) => return Err(error),
         };
         let next = read.next.take();
+        let bytes = read.bytes;
         parts.push(part(&layout, &read.grid));
         if parts.len() == wanted {
             taken = Some((layout, read));
         } else {
             log.warnings.truncate(warnings);
         }
-        match next.filter(|_| parts.len() < MAX_PARTS) {
+        work += bytes;
+        match next.filter(|_| parts.len() < MAX_PARTS && (taken.is_none() || work < MOST_WORK)) {
             Some(line) => {
                 begun = Some(line);
                 section = section.after(line);
@@ -146,12 +154,19 @@ fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, 
 }
 
 /// The first table of a section.
-fn one(section: Section<'_>, options: &ReadOptions, log: &mut Log<'_>) -> Result<(Layout, columns::Read), ReadError> {
-    let layout = sniff::sniff(section, options)?;
+fn one(
+    section: Section<'_>,
+    options: &ReadOptions,
+    budget: &mut usize,
+    log: &mut Log<'_>,
+) -> Result<(Layout, columns::Read), ReadError> {
+    let layout = sniff::sniff(section, options, budget, log)?;
     log.extend(layout.warnings.iter().cloned());
     let read = match layout.orientation.value {
         Orientation::Down => columns::read(section, &layout, log)?,
-        Orientation::Across => columns::Read { grid: wide::read(section, &layout, log)?, next: None, note: None },
+        Orientation::Across => {
+            columns::Read { grid: wide::read(section, &layout, log)?, next: None, bytes: 0, note: None }
+        }
     };
     Ok((layout, read))
 }

@@ -184,6 +184,9 @@ impl Header {
                 self.units = cells;
                 continue;
             }
+            if is_measured(layout, &cells) {
+                continue;
+            }
             if self.units.is_empty() {
                 self.take_unit_cell(number, &cells);
             }
@@ -226,6 +229,21 @@ fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
     let numeric = matches!(layout.dialect().parse(&cells[1]), Cell::Number(_));
     ["xaxis", "yaxis", "x unit", "y unit"].iter().any(|start| key.starts_with(start))
         || (numeric && !words::names_wavelengths(&cells[0]))
+}
+
+/// Whether a line above several curves gives a number of each, such as a chromaticity, and no names: names have no fractions.
+fn is_measured(layout: &Layout, cells: &[String]) -> bool {
+    let Some((key, values)) = cells.split_first().filter(|(key, _)| !key.is_empty()) else { return false };
+    let number = |cell: &String| match layout.dialect().parse(cell) {
+        Cell::Number(value) => Some(value),
+        _ => None,
+    };
+    let mut numbers = values.iter().map(number);
+    layout.width > 2
+        && !words::names_wavelengths(key)
+        && number(key).is_none()
+        && numbers.all(|value| value.is_some())
+        && values.iter().filter_map(number).any(|value| value.fract() != 0.0)
 }
 
 /// The cells of a header line, unescaped, without empty ones at the end.

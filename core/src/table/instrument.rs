@@ -10,8 +10,10 @@ const LOOK: usize = 60;
 /// Longer lines hold no marks.
 const LONGEST: usize = 400;
 
+const THORLABS: &str = "Thorlabs (read as described, no real file was at hand)";
+
 /// What a line begins with, or holds, and who writes it.
-const MARKS: [(Mark, &str); 13] = [
+const MARKS: [(Mark, &str); 14] = [
     (Mark::Start("SpectraSuite Data File"), "Ocean SpectraSuite"),
     (Mark::Start("OOIBase32 Version"), "Ocean OOIBase32"),
     (Mark::Start("Jaz Data File"), "Ocean Jaz"),
@@ -23,7 +25,8 @@ const MARKS: [(Mark, &str); 13] = [
     (Mark::Start("ENLIGHTEN Version"), "Wasatch ENLIGHTEN"),
     (Mark::Start("Date,Mode,IntegrationTime(ms)"), "CID SpectraVue"),
     (Mark::Start("LambdaPValue\t"), "a UPRtek meter"),
-    (Mark::Start("#Thorlabs"), "Thorlabs (read as described, no real file was at hand)"),
+    (Mark::Start("#Thorlabs"), THORLABS),
+    (Mark::Start("Thorlabs"), THORLABS),
     (Mark::Start("X Units:"), "the ECOSTRESS library"),
 ];
 
@@ -53,7 +56,7 @@ pub(super) fn recognize(text: &str, grid: &mut Grid) -> Option<Decision> {
         let mark = MARKS.iter().find(|(mark, _)| mark.fits(line));
         mark.map(|(_, program)| (number, *program))
     })?;
-    if program.starts_with("Thorlabs") {
+    if program == THORLABS {
         grid.role
             .get_or_insert_with(|| Decided::guess(Role::Illuminant, format!("Line {line} is of an analyzer of light")));
     }

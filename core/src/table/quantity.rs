@@ -223,3 +223,20 @@ fn repaired(unit: &str) -> String {
     }
     text
 }
+
+/// A name without the signs that are units, not part of a figure such as `50 %`.
+pub(super) fn without_percent_signs(name: &str) -> String {
+    let mut figure = false;
+    let kept = name.chars().filter(|c| {
+        let keep = *c != '%' || figure;
+        figure = c.is_ascii_digit() || (figure && c.is_whitespace());
+        keep
+    });
+    tidy(&kept.collect::<String>())
+}
+
+/// A text without what blanks and brackets the removal of words leaves.
+pub(super) fn tidy(text: &str) -> String {
+    let text = text.replace("()", "").replace("[]", "");
+    text.split_whitespace().collect::<Vec<_>>().join(" ").trim_end_matches([',', ':', ';']).to_owned()
+}

@@ -348,7 +348,7 @@ impl Reading {
     fn told_part(&self) -> String {
         let count = self.parts.len();
         match self.part.value.checked_sub(1).map(|index| (index, self.parts.get(index))) {
-            None => format!("curves side by side, from all {count} parts"),
+            None => format!("curves side by side, not one of the {count} parts alone"),
             Some((index, part)) => {
                 format!("part {} of {count}, from line {}", index + 1, part.map_or(1, |part| part.line))
             }

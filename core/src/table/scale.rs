@@ -5,6 +5,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::grid::{Grid, RawCurve};
+use super::quantity;
+use super::text::excerpt;
 use super::warning::Warning;
 use super::watch::Log;
 use super::words::{self, Channel};
@@ -168,9 +170,9 @@ fn role_from_header(grid: &Grid) -> Option<Decided<Role>> {
     if let Some((line, role)) = grid.header.role {
         return Some(Decided::certain(role, format!("Line {line} says so")));
     }
-    let mut named = grid.curves.iter().filter_map(|curve| Some((words::role(&curve.label)?, &curve.name)));
+    let mut named = grid.curves.iter().filter_map(|curve| Some((words::role(&curve.label)?, &curve.label)));
     if let Some((role, name)) = named.next() {
-        let why = format!("A column is named “{name}”");
+        let why = format!("A column is named “{}”", excerpt(name));
         let agree = named.all(|(other, _)| other == role);
         return Some(if agree { Decided::certain(role, why) } else { Decided::guess(role, why) });
     }
@@ -263,8 +265,12 @@ fn values(grid: &Grid, options: &ReadOptions, role: Role, span: &Span) -> (Decid
     let marks = grid.curves.iter().filter_map(headed);
     if let Some(first) = marks.clone().next() {
         let whole = marks.clone().count() == grid.curves.len() && marks.clone().all(|values| values == first);
-        let why =
-            format!("{} headed {first}", if whole { "The columns are" } else { "Some columns, and only they, are" });
+        let others = marks.clone().find(|values| *values != first);
+        let why = match others {
+            Some(other) => format!("Columns are headed differently, some {first}, others {other}, each read so"),
+            None if whole => format!("The columns are headed {first}"),
+            None => format!("Some columns, and only they, are headed {first}"),
+        };
         return (Decided::certain(first, why), if whole { Divided::All(first) } else { Divided::Headed(role) });
     }
     if !role.is_fraction() {
@@ -287,6 +293,7 @@ fn headed(curve: &RawCurve, role: Role) -> Option<Values> {
 
 /// Makes plain numbers of what is written.
 pub(super) fn convert(grid: &mut Grid, scale: &Scale) {
+    let plain_by_choice = scale.values.certainty == Certainty::Chosen && scale.values.value == Values::Plain;
     for curve in &mut grid.curves {
         let values = match scale.divided {
             Divided::All(values) => values,
@@ -294,8 +301,13 @@ pub(super) fn convert(grid: &mut Grid, scale: &Scale) {
                 Some(values) => values,
                 None => continue,
             },
-            Divided::None => continue,
+            Divided::None => {
+                let denied = |unit: &String| words::values(unit).is_some_and(|said| said != Values::Plain);
+                curve.unit = curve.unit.take().filter(|unit| !(plain_by_choice && denied(unit)));
+                continue;
+            }
         };
+        relabel(curve, values, scale.role.value);
         let plain = |value: f64| match values {
             Values::Plain => value,
             Values::Percent => value / 100.0,
@@ -306,6 +318,46 @@ pub(super) fn convert(grid: &mut Grid, scale: &Scale) {
         let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
         curve.values.iter_mut().for_each(|value| *value = finite(plain(*value)));
     }
+}
+
+/// Gives a curve the unit that its converted values have, and a name that does not say what they were.
+fn relabel(curve: &mut RawCurve, values: Values, role: Role) {
+    let fraction = if role == Role::Reflectance { "Reflectance" } else { "Transmittance" };
+    let renamed = match values {
+        // Percent are so common that what is written to files leaves them out, not what a person sees.
+        Values::Plain | Values::Percent => return,
+        Values::Absorbance => {
+            curve.unit = Some("1".to_owned());
+            replaced(&curve.name, |word| word.starts_with("absorban").then_some(fraction))
+        }
+        Values::Decibels => {
+            // Decibels are powers above a milliwatt, or ratios.
+            let word = |ratio| {
+                move |word: &str| match word {
+                    "dbm" => Some("mW"),
+                    "db" => Some(ratio),
+                    _ => None,
+                }
+            };
+            let milliwatts = || curve.label.to_lowercase().contains("dbm").then_some("dBm");
+            curve.unit = curve.unit.as_deref().or_else(milliwatts).map(|unit| replaced(unit, word("1")));
+            replaced(&curve.name, word(""))
+        }
+    };
+    let misleads = renamed.is_empty() || words::values(&renamed).is_some_and(|said| said != Values::Plain);
+    let whole = if role.is_fraction() { fraction } else { "Power" };
+    curve.name = if misleads { whole.to_owned() } else { renamed };
+}
+
+/// A text with some of its words, given in lower case, replaced, and without what blanks and brackets that leaves.
+fn replaced<'a>(text: &str, by: impl Fn(&str) -> Option<&'a str>) -> String {
+    let mut out = String::with_capacity(text.len());
+    for piece in text.split_inclusive(|c: char| !c.is_alphanumeric()) {
+        let word = piece.trim_end_matches(|c: char| !c.is_alphanumeric());
+        out.push_str(by(&word.to_lowercase()).unwrap_or(word));
+        out.push_str(&piece[word.len()..]);
+    }
+    quantity::tidy(&out)
 }
 
 /// Warns of reflectances that cannot be.

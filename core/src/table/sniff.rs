@@ -4,6 +4,7 @@ use super::dialect::{DecimalMark, Delimiter, Dialect};
 use super::text::{Lines, Section, comment};
 use super::trial::{Across, Shape, Trial};
 use super::warning::Warning;
+use super::watch::Log;
 use super::{Decided, Orientation, ReadError, ReadOptions};
 
 /// How a text is laid out.
@@ -14,6 +15,8 @@ pub(super) struct Layout {
     pub(super) orientation: Decided<Orientation>,
     /// The first line of values.
     pub(super) first_line: usize,
+    /// Which columns are text, a bit for each.
+    pub(super) texts: u128,
     /// Columns, as far as seen.
     pub(super) width: usize,
     /// The header of wavelengths, if they run across.
@@ -36,6 +39,7 @@ impl Layout {
             decimal_mark: Decided::certain(mark, why),
             orientation: Decided::certain(orientation, why),
             first_line,
+            texts: 0,
             width: 0,
             across: None,
             wavelength_column: None,
@@ -66,6 +70,13 @@ const LONGEST_HEADER: usize = 4 << 20;
 /// The same between one table and the next, of which there may be a thousand.
 const LONGEST_HEADER_LATER: usize = 16 << 10;
 
+/// What all tables but the first may take together before each has to do with little.
+pub(super) const SAMPLE_BUDGET: usize = 1 << 20;
+const LEAST_LATER: usize = 512;
+
+/// Bytes between two looks at who watches: every line is split nine times.
+const LOOK: usize = 1 << 15;
+
 /// All ways to split a line; where several fit equally, the first is taken.
 const CANDIDATES: [(Delimiter, DecimalMark); 9] = [
     (Delimiter::Semicolon, DecimalMark::Point),
@@ -80,9 +91,25 @@ const CANDIDATES: [(Delimiter, DecimalMark); 9] = [
 ];
 
 /// Decides the layout from the beginning of a text, as far as it takes to find the numbers.
-pub(super) fn sniff(section: Section<'_>, options: &ReadOptions) -> Result<Layout, ReadError> {
-    let trials = try_all(section, options);
+///
+/// Tables after the first are tried with what is left of `budget`, in bytes, so that a thousand of them stay cheap.
+pub(super) fn sniff(
+    section: Section<'_>,
+    options: &ReadOptions,
+    budget: &mut usize,
+    log: &Log<'_>,
+) -> Result<Layout, ReadError> {
+    let trials = try_all(section, options, false, budget, log)?;
     let Some(best) = choose(&trials, options) else {
+        // Names, dates or remarks in every row: only what looks like wavelengths tells such a table from prose.
+        let mixed = try_all(section, options, true, budget, log)?;
+        let mixed: Vec<Trial> = mixed.into_iter().filter(|trial| trial.best.looks_like_wavelengths()).collect();
+        if let Some(best) = choose(&mixed, options).filter(|_| options.orientation != Some(Orientation::Across)) {
+            let orientation = Decided::or_chosen(options.orientation, || {
+                Decided::guess(Orientation::Down, "The first numbers of the rows are in order, with text beside them")
+            });
+            return lay_down(section, options, best, orientation);
+        }
         let single = trials.iter().find(|trial| trial.single >= 2);
         return Err(single.map_or(ReadError::NoNumbers, |trial| ReadError::OneColumn { line: trial.single_line }));
     };
@@ -96,31 +123,51 @@ pub(super) fn sniff(section: Section<'_>, options: &ReadOptions) -> Result<Layou
     lay_down(section, options, best, orientation)
 }
 
-fn try_all(section: Section<'_>, options: &ReadOptions) -> Vec<Trial> {
+fn try_all(
+    section: Section<'_>,
+    options: &ReadOptions,
+    mixed: bool,
+    budget: &mut usize,
+    log: &Log<'_>,
+) -> Result<Vec<Trial>, ReadError> {
     let wanted = |(delimiter, mark): &(Delimiter, DecimalMark)| {
         options.delimiter.is_none_or(|chosen| chosen == *delimiter)
             && options.decimal_mark.is_none_or(|chosen| chosen == *mark)
     };
     let dialects = CANDIDATES.iter().filter(|candidate| wanted(candidate));
-    let mut trials: Vec<Trial> = dialects.map(|&(delimiter, mark)| Trial::new(Dialect { delimiter, mark })).collect();
-    let (mut lines, mut bytes) = (0, 0);
-    for (number, line) in content(section) {
+    let mut trials: Vec<Trial> =
+        dialects.map(|&(delimiter, mark)| Trial::new(Dialect { delimiter, mark }, mixed)).collect();
+    let share = LEAST_LATER.max(LONGEST_HEADER_LATER.min(*budget));
+    let (mut lines, mut bytes, mut looked) = (0, 0, 0);
+    for (number, line) in Lines::of(section).filter(|(_, line)| !line.trim_ascii().is_empty()) {
+        if comment(line).is_some() {
+            for trial in &mut trials {
+                trial.take_marked(number, line);
+            }
+            continue;
+        }
         for trial in &mut trials {
             trial.take(number, line);
         }
         lines += 1;
-        bytes += line.len();
+        bytes += line.len() + 1;
+        if bytes >= looked + LOOK {
+            looked = bytes;
+            log.look(section.byte + bytes)?;
+        }
         let rows = trials.iter().map(|trial| trial.rows(options.orientation)).max().unwrap_or(0);
         let enough = match rows {
+            _ if section.line > 1 => bytes >= if rows == 0 { LONGEST_HEADER_LATER } else { share },
             SAMPLE_ROWS.. => lines >= SAMPLE_LINES || bytes >= SAMPLE_BYTES,
             SAMPLE_ROWS_LONG.. => bytes >= SAMPLE_BYTES,
-            _ => bytes >= if section.line == 1 { LONGEST_HEADER } else { LONGEST_HEADER_LATER },
+            _ => bytes >= LONGEST_HEADER,
         };
-        if enough {
+        if enough || (rows >= SAMPLE_ROWS && lines >= SAMPLE_LINES) {
             break;
         }
     }
-    trials
+    *budget = budget.saturating_sub(if section.line > 1 { bytes } else { 0 });
+    Ok(trials)
 }
 
 /// The lines that are neither blank nor comments.
@@ -170,11 +217,17 @@ fn lay_across(
         decimal_mark: decimal_mark(section, options, trial, across.line),
         orientation,
         first_line: across.first_row,
+        texts: 0,
         width: across.width(),
         across: Some(across),
         wavelength_column: None,
-        warnings: Vec::new(),
+        warnings: thousands(trial, options).into_iter().collect(),
     })
+}
+
+/// What to say where marks may group thousands and nobody chose what they are.
+fn thousands(trial: &Trial, options: &ReadOptions) -> Option<Warning> {
+    (options.decimal_mark.is_none() && trial.may_be_thousands()).then_some(Warning::MaybeThousands)
 }
 
 fn lay_down(
@@ -197,12 +250,14 @@ fn lay_down(
         }
         warnings.push(Warning::CommasOnly);
     }
+    warnings.extend(thousands(trial, options));
     let decide = || if commas_only { Decided::guess(delimiter, why) } else { Decided::certain(delimiter, why) };
     Ok(Layout {
         delimiter: Decided::or_chosen(options.delimiter, decide),
         decimal_mark: decimal_mark(section, options, trial, run.line),
         orientation,
         first_line: first_line(section, trial, &mut warnings),
+        texts: run.texts,
         width: run.filled,
         across: None,
         wavelength_column: options.wavelength_column,
@@ -219,10 +274,11 @@ fn decimal_mark(section: Section<'_>, options: &ReadOptions, trial: &Trial, from
                 DecimalMark::Point => "Fractions stand after points",
                 DecimalMark::Comma => "Fractions stand after commas",
             };
-            return Decided::certain(mark, why);
+            return if trial.may_be_thousands() { Decided::guess(mark, why) } else { Decided::certain(mark, why) };
         }
         let later = Lines::of(section)
             .skip_while(|(number, _)| *number < from)
+            .take(if section.line == 1 { usize::MAX } else { SAMPLE_LINES })
             .filter(|(_, line)| line.trim_ascii_start().starts_with(|c: char| c.is_ascii_digit()))
             .find_map(|(_, line)| line.bytes().find(|b| matches!(b, b'.' | b',')));
         match later {
@@ -249,10 +305,10 @@ fn first_line(section: Section<'_>, trial: &Trial, warnings: &mut Vec<Warning>) 
         if near && shape.leads {
             return number;
         }
-        if !shape.is_row() {
+        if !shape.is_row(trial.mixed) {
             continue;
         }
-        let same = shape.fits(run.cells, run.filled);
+        let same = shape.fits(run.cells, run.filled) && shape.texts == run.texts;
         match &mut fragment {
             Some((_, rows)) if same => *rows += 1,
             Some(_) => {}

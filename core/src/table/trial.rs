@@ -23,8 +23,11 @@ pub(super) struct Shape {
     pub(super) leads: bool,
     /// Whether any cell is text (a wavelength with its unit in the first cell is a number).
     pub(super) text: bool,
-    /// Cells with this dialect's decimal mark.
+    /// Which of the first columns are text, a bit for each; all bits where a later one is.
+    pub(super) texts: u128,
+    /// Cells with this dialect's decimal mark, and those that may be thousands, such as `4.800`.
     marks: usize,
+    grouped: usize,
     /// Whether a cell after the first is written like `05`, as only digits after a decimal mark are.
     padded: bool,
     /// Cells up to and including the last that is text.
@@ -90,6 +93,7 @@ impl Shape {
             return;
         }
         self.text = true;
+        self.texts |= u32::try_from(index).ok().and_then(|index| 1_u128.checked_shl(index)).unwrap_or(u128::MAX);
         self.text_until = index + 1;
         self.tail = Tail { start: index + 1, ..Tail::default() };
     }
@@ -99,20 +103,33 @@ impl Shape {
         self.first = self.first.or(Some(value));
         self.leads |= index == 0;
         self.marks += usize::from(marked);
+        self.grouped += usize::from(marked && index > 0 && may_be_thousands(cell));
         let bytes = cell.as_bytes();
         self.padded |= index > 0 && bytes.len() > 1 && bytes[0] == b'0' && bytes.iter().all(u8::is_ascii_digit);
         self.tail.push(index, value);
     }
 
-    /// Whether the line is a row of numbers.
-    pub(super) fn is_row(&self) -> bool {
-        !self.text && self.numbers > 0 && self.cells > 1
+    /// Whether the line is a row of numbers, or of numbers with columns of text among them.
+    pub(super) fn is_row(&self, mixed: bool) -> bool {
+        let fewest = if mixed { 2 } else { 1 };
+        (mixed || !self.text) && self.texts != u128::MAX && self.numbers >= fewest && self.cells > 1
     }
 
     /// Whether two rows can stand in one table.
     pub(super) fn fits(&self, cells: usize, filled: usize) -> bool {
         self.cells == cells || self.filled == filled
     }
+}
+
+/// Whether a number with a decimal mark may be a whole one with a mark between its thousands.
+fn may_be_thousands(cell: &str) -> bool {
+    let Some((whole, fraction)) = cell.trim_start_matches('-').split_once(['.', ',']) else { return false };
+    let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+    (1..=3).contains(&whole.len())
+        && !whole.starts_with('0')
+        && fraction.len() == 3
+        && digits(whole)
+        && digits(fraction)
 }
 
 /// Rows of numbers in one block.
@@ -122,6 +139,8 @@ pub(super) struct Run {
     pub(super) rows: usize,
     pub(super) cells: usize,
     pub(super) filled: usize,
+    /// Which columns are text.
+    pub(super) texts: u128,
     /// The first numbers of the first and the last row.
     pub(super) first: f64,
     pub(super) last: f64,
@@ -156,6 +175,7 @@ impl Run {
         self.rows += 1;
         self.last = value;
         self.cells = shape.cells;
+        self.texts = shape.texts;
         self.filled = self.filled.max(shape.filled);
     }
 }
@@ -177,18 +197,32 @@ impl Across {
     pub(super) fn width(&self) -> usize {
         self.start + self.count
     }
+
+    fn is_row(&self, shape: &Shape) -> bool {
+        let numeric = shape.text_until <= self.start && shape.numbers > 0;
+        numeric && shape.cells > self.start && shape.filled <= self.width()
+    }
+
+    fn push(&mut self, line: usize) {
+        self.first_row = if self.rows == 0 { line } else { self.first_row };
+        self.rows += 1;
+    }
 }
 
 /// A dialect and what it makes of the lines so far.
 #[derive(Debug, Clone)]
 pub(super) struct Trial {
     pub(super) dialect: Dialect,
+    /// Whether rows may have columns of text.
+    pub(super) mixed: bool,
     run: Run,
     pub(super) best: Run,
     pub(super) across: Option<Across>,
     across_tested: bool,
     /// Cells with the decimal mark, in rows of numbers.
     pub(super) marks: usize,
+    /// Those of them that may be thousands.
+    grouped: usize,
     /// The first row with a cell like `05`.
     pub(super) padded_line: Option<usize>,
     /// Lines of a single number: how many, and the first.
@@ -197,14 +231,16 @@ pub(super) struct Trial {
 }
 
 impl Trial {
-    pub(super) fn new(dialect: Dialect) -> Self {
+    pub(super) fn new(dialect: Dialect, mixed: bool) -> Self {
         Self {
             dialect,
+            mixed,
             run: Run::default(),
             best: Run::default(),
             across: None,
             across_tested: false,
             marks: 0,
+            grouped: 0,
             padded_line: None,
             single: 0,
             single_line: 0,
@@ -215,12 +251,14 @@ impl Trial {
     pub(super) fn take(&mut self, number: usize, line: &str) {
         let shape = Shape::of(self.dialect, line);
         self.take_across(number, &shape);
-        if shape.is_row() {
-            if self.run.rows > 0 && !shape.fits(self.run.cells, self.run.filled) {
+        if shape.is_row(self.mixed) {
+            let fits = shape.fits(self.run.cells, self.run.filled) && shape.texts == self.run.texts;
+            if self.run.rows > 0 && !fits {
                 self.run = Run::default();
             }
             self.run.push(number, &shape);
             self.marks += shape.marks;
+            self.grouped += shape.grouped;
             if shape.padded {
                 self.padded_line = self.padded_line.or(Some(number));
             }
@@ -236,6 +274,17 @@ impl Trial {
         }
     }
 
+    /// Takes in a line that begins with `#`: below a header of wavelengths that can be the name of a sample.
+    pub(super) fn take_marked(&mut self, number: usize, line: &str) {
+        let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) else { return };
+        let shape = Shape::of(self.dialect, line);
+        if across.is_row(&shape) {
+            across.push(number);
+            self.marks += shape.marks;
+            self.grouped += shape.grouped;
+        }
+    }
+
     fn take_across(&mut self, number: usize, shape: &Shape) {
         let tail = &shape.tail;
         if !self.across_tested && shape.numbers >= FEWEST_ACROSS {
@@ -246,15 +295,20 @@ impl Trial {
                 self.across = Some(Across { line: number, start, count, ..Across::default() });
             }
         } else if let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) {
-            let numeric = shape.text_until <= across.start && shape.numbers > 0;
-            if numeric && shape.cells > across.start && shape.filled <= across.width() {
-                across.first_row = if across.rows == 0 { number } else { across.first_row };
-                across.rows += 1;
+            if across.is_row(shape) {
+                across.push(number);
                 self.marks += shape.marks;
+                self.grouped += shape.grouped;
             } else {
                 across.misses += 1;
             }
         }
+    }
+
+    /// Whether every mark may group thousands: three digits after it, one to three before.
+    pub(super) fn may_be_thousands(&self) -> bool {
+        const FEWEST: usize = 4;
+        self.grouped >= FEWEST && self.grouped == self.marks
     }
 
     /// Rows that this dialect understands in an orientation, or in the better; a header of wavelengths counts as one.

@@ -88,6 +88,18 @@ pub enum Warning {
         /// Where.
         lines: LineList,
     },
+    /// Comments inside the table that look like rows: left out.
+    CommentedRows {
+        /// Where.
+        lines: LineList,
+    },
+    /// The line of names again, inside the table: left out.
+    RepeatedHeader {
+        /// Where.
+        lines: LineList,
+    },
+    /// All fractions have three digits, so that their marks may group thousands.
+    MaybeThousands,
     /// Rows without a wavelength: left out.
     NoWavelength {
         /// Where.
@@ -142,6 +154,11 @@ pub enum Warning {
         /// Its largest value.
         max: f64,
     },
+    /// Warnings of kinds that are listed often enough: only counted. Stands last.
+    More {
+        /// How many.
+        count: usize,
+    },
 }
 
 impl Warning {
@@ -151,6 +168,8 @@ impl Warning {
             Self::Gaps { lines, .. }
             | Self::RepeatedRows { lines }
             | Self::NoWavelength { lines }
+            | Self::CommentedRows { lines }
+            | Self::RepeatedHeader { lines }
             | Self::Averaged { lines, .. } => lines.first().first().copied(),
             Self::Sorted { line }
             | Self::NumbersAbove { line }
@@ -161,7 +180,9 @@ impl Warning {
             Self::EmptyCurves { .. }
             | Self::SkippedColumns { .. }
             | Self::CommasOnly
-            | Self::NotReflectances { .. } => None,
+            | Self::MaybeThousands
+            | Self::NotReflectances { .. }
+            | Self::More { .. } => None,
         }
     }
 }
@@ -182,6 +203,13 @@ impl fmt::Display for Warning {
             Self::NoWavelength { lines } => write!(f, "{lines}: no wavelength: left out"),
             Self::NumbersAbove { line } => write!(f, "line {line}: numbers above the table: left out"),
             Self::TextBelow { line } => write!(f, "line {line}: text after the table: left out"),
+            Self::CommentedRows { lines } => {
+                write!(f, "{lines}: rows that begin with # in the table: left out as comments")
+            }
+            Self::RepeatedHeader { lines } => write!(f, "{lines}: the names of the columns again: left out"),
+            Self::MaybeThousands => {
+                f.write_str("Every fraction has three digits: if the marks group thousands, the values are wrong")
+            }
             Self::CommasOnly => {
                 f.write_str("No number has a decimal point: if the commas mark fractions, the columns are wrong")
             }
@@ -201,6 +229,8 @@ impl fmt::Display for Warning {
             Self::NotReflectances { count, first, max } => {
                 write!(f, "{count} curves reach more than a fraction of light can, the first “{first}” {max}")
             }
+            Self::More { count: 1 } => f.write_str("1 more warning like these"),
+            Self::More { count } => write!(f, "{count} more warnings like these"),
         }
     }
 }

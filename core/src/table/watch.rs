@@ -1,5 +1,7 @@
 //! Reading that is watched: how far it is, and the wish to stop.
 
+use std::mem::discriminant;
+
 use super::{ReadError, Warning};
 
 /// What a caller sees of a reading, and its way to stop it.
@@ -32,6 +34,9 @@ pub(super) struct Log<'a> {
 }
 
 impl<'a> Log<'a> {
+    /// Warnings of one kind that are listed; nobody reads more.
+    const MOST_ALIKE: usize = 20;
+
     /// Bytes between two looks at the watch: some milliseconds of reading.
     const STRIDE: usize = 1 << 18;
 
@@ -39,14 +44,23 @@ impl<'a> Log<'a> {
         Self { warnings: Vec::new(), watch, whole, next: Self::STRIDE }
     }
 
-    /// Adds a warning.
+    /// Adds a warning, or counts it where there are many of its kind.
     pub(super) fn push(&mut self, warning: Warning) {
-        self.warnings.push(warning);
+        let kind = discriminant(&warning);
+        let same = self.warnings.iter().filter(|other| discriminant(*other) == kind).count();
+        let counted = matches!(self.warnings.last(), Some(Warning::More { .. }));
+        match self.warnings.last_mut() {
+            Some(Warning::More { count }) if same >= Self::MOST_ALIKE => *count += 1,
+            _ if same >= Self::MOST_ALIKE => self.warnings.push(Warning::More { count: 1 }),
+            // The count of those that are not listed stays the last.
+            _ if counted => self.warnings.insert(self.warnings.len() - 1, warning),
+            _ => self.warnings.push(warning),
+        }
     }
 
     /// Adds warnings.
     pub(super) fn extend(&mut self, warnings: impl IntoIterator<Item = Warning>) {
-        self.warnings.extend(warnings);
+        warnings.into_iter().for_each(|warning| self.push(warning));
     }
 
     /// Says that the reader is at a byte of the text; an error where the caller wants no more.

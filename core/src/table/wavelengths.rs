@@ -124,7 +124,7 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
         WavelengthUnit::Micrometer
     } else if (2000.0..=20_000.0).contains(&min) && (3000.0..=20_000.0).contains(&max) {
         return Err(ReadError::AmbiguousUnit { line: grid.line(0), min, max });
-    } else if min > 20_000.0 && max <= 50_000.0 {
+    } else if min >= 10_000.0 && max > 20_000.0 && max <= 50_000.0 {
         WavelengthUnit::Wavenumber
     } else {
         WavelengthUnit::Nanometer

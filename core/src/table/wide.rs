@@ -28,7 +28,9 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     for (number, line) in lines {
         read += line.len() + 1;
         log.at(read)?;
-        if !line.trim_ascii().is_empty() && comment(line).is_none() {
+        // Names of samples may begin with `#` too.
+        let is_row = || comment(line).is_none() || rows.parse(number, line).is_ok_and(|row| row.is_some());
+        if !line.trim_ascii().is_empty() && line != header_line && is_row() {
             rows.take(number, line)?;
         }
     }

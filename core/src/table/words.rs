@@ -180,6 +180,19 @@ pub(super) fn is_quantity(text: &str) -> bool {
     word && (quantity(text).is_some() || matches!(lower(text).as_str(), "value" | "values" | "intensity" | "signal"))
 }
 
+/// Whether a column's header names what only counts its rows.
+pub(super) fn is_count(name: &str) -> bool {
+    let name = lower(name);
+    let mut words = words(&name);
+    name == "#"
+        || words.next().is_some_and(|word| {
+            matches!(
+                word,
+                "pixel" | "pixels" | "px" | "index" | "no" | "nr" | "number" | "row" | "line" | "id" | "n" | "i"
+            )
+        })
+}
+
 /// How a name points to a channel of a camera.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Channel {

@@ -1,5 +1,6 @@
 //! What headers say of quantities, units and responses, and what flipping a switch does.
 
+use chromascope_core::table::write::{Grid, Sheet, Trace, canonical_csv};
 use chromascope_core::table::{
     Certainty, Delimiter, Medium, Orientation, Quantity, ReadOptions, Role, Values, WavelengthUnit, read,
 };
@@ -67,6 +68,37 @@ fn absorbances_and_decibels() {
     let light = ok("nm,Power (dBm)\n400,-10\n500,-20\n");
     assert_eq!((light.role.value, light.curves[0].values.as_slice()), (Role::Illuminant, &[0.1, 0.01][..]));
     assert_eq!(ok("nm,a (A.U.)\n400,1\n500,1.1\n").reading.values.value, Values::Plain);
+}
+
+#[test]
+fn converted_values_have_other_names_and_units() {
+    for (head, name, unit) in [
+        ("Absorbance of leaf", "Transmittance of leaf", Some("1")),
+        ("Optical density", "Transmittance", Some("1")),
+        ("Signal dBm", "Signal mW", Some("mW")),
+        ("Power (dBm)", "Power", Some("mW")),
+        ("gain dB", "gain", None),
+        ("leaf (a.u.)", "leaf", Some("a.u.")),
+    ] {
+        let table = ok(&format!("wavelength;{head};\n400;1;\n500;2;\n").replace(";\n", "\n"));
+        let [curve] = table.curves.as_slice() else { panic!("{head}") };
+        assert_eq!((curve.name.as_str(), curve.unit.as_deref()), (name, unit), "{head}");
+        let trace = Trace::from(curve);
+        let sheet = Sheet { curves: &[trace], ..Sheet::default() };
+        let again = ok(&canonical_csv(&sheet, Grid::Native).unwrap().text);
+        assert_eq!(again.curves[0].values, curve.values, "{head}");
+    }
+    let plain = ReadOptions { values: Some(Values::Plain), ..ReadOptions::default() };
+    let table = read(b"nm;Power (dBm)\n400;1\n500;2\n", &plain).unwrap();
+    assert_eq!((table.curves[0].values[1], table.curves[0].unit.as_deref()), (2.0, None));
+}
+
+#[test]
+fn evidence_names_columns_as_the_file_does() {
+    let said = |text: &str| ok(text).decisions().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+    assert!(said("nm,Reflectance\n400,0.3\n500,0.4\n").contains("A column is named “Reflectance”"));
+    let mixed = said("nm,Reflectance (%),Absorbance\n400,40,0.5\n500,50,0.5\n");
+    assert!(mixed.contains("some percent, others absorbances") && !mixed.contains("only they"), "{mixed}");
 }
 
 #[test]

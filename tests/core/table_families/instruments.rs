@@ -115,6 +115,8 @@ fn optical_spectrum_analyzer() {
     assert!(note(&table, "Program").is_some_and(|program| program.contains("no real file")));
     assert_eq!(table.role.value, Role::Illuminant);
     assert_eq!(note(&table, "Medium"), Some("wavelengths in air, taken as they are"));
+    let bare = ok(&file("intensity").replace('#', ""));
+    assert_eq!((bare.role.value, bare.reading.values.value), (Role::Illuminant, Values::Plain));
     let power = ok(&file("dBm"));
     assert_eq!((power.reading.values.value, power.role.value), (Values::Decibels, Role::Illuminant));
     assert_eq!((power.curves[0].values[1], power.reading.values.certainty), (1e-5, Certainty::Certain));

@@ -149,3 +149,25 @@ fn a_read_file_goes_out_and_comes_back() {
     let bare = |curve: &Curve| (curve.name.clone(), curve.wavelengths_nm.clone(), curve.values.clone());
     assert!(again.curves.iter().map(bare).eq(table.curves.iter().map(bare)));
 }
+
+#[test]
+fn names_that_mean_other_values_are_replaced() {
+    let curves =
+        Curves::bells(&["wavelength x", "leaf %", "Absorbance", "dBm", "nm", "50% gray"], [400.0, 700.0], 10.0);
+    let traces = curves.traces();
+    for content in [Content::Reflectance, Content::Transmittance, Content::Illuminant, Content::Other] {
+        let plain = canonical_csv(&sheet(content, &traces), Grid::Native).unwrap();
+        let full = written(&sheet(content, &traces), Format::Csv, Grid::Native);
+        let sp = written(&sheet(content, &traces), Format::Cgats, Grid::Native);
+        for written in [plain, full, sp] {
+            assert!(written.notes.contains(&Note::Renamed { count: 5 }), "{:?}", written.notes);
+            let table = back(&written.text);
+            assert_eq!(table.curves.len(), 6, "{content:?}");
+            for (curve, (_, _, values)) in table.curves.iter().zip(&curves.0) {
+                assert_eq!(&curve.values, values, "{content:?} {}", curve.name);
+            }
+            assert_eq!((table.curves[0].name.as_str(), table.curves[5].name.as_str()), ("Curve 1", "50% gray"));
+            assert_eq!(table.curves[1].name, "leaf");
+        }
+    }
+}

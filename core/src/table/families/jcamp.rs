@@ -6,7 +6,7 @@ use super::super::reading::{MAX_PARTS, clean};
 use super::super::sniff::Layout;
 use super::super::text::{Lines, excerpt};
 use super::super::watch::Log;
-use super::super::words;
+use super::super::words::{self, XUnit};
 use super::super::{
     Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, Part, ReadError, ReadOptions,
     Reader, Values, Warning,
@@ -21,6 +21,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     let parts: Vec<Part> = blocks.iter().take(MAX_PARTS).map(Block::part).collect();
     let mut notes = Vec::new();
     let part = choose(&mut blocks, options, &mut notes)?;
+    let part = leave_other_units(&mut blocks, part, &parts, log);
     let first_line = blocks.first().map(|block| block.data_line + 1).ok_or(ReadError::NoNumbers)?;
     for block in &blocks {
         block.warn(log);
@@ -67,6 +68,22 @@ fn choose(
         &Decided::or_chosen(options.raw, || Decided::certain(false, why.clone())).told(&taken),
     ));
     Ok(Decided::certain(if count - raw == 1 { first } else { 0 }, why))
+}
+
+/// Leaves the blocks that are in the units of the first: those of others are parts that must be chosen.
+fn leave_other_units(
+    blocks: &mut Vec<Block>,
+    part: Decided<usize>,
+    parts: &[Part],
+    log: &mut Log<'_>,
+) -> Decided<usize> {
+    let Some(units) = blocks.first().map(Block::units) else { return part };
+    let Some(other) = blocks.iter().find(|block| block.units() != units) else { return part };
+    log.push(Warning::MoreTables { line: other.data_line + 1 });
+    blocks.retain(|block| block.units() == units);
+    let why = format!("{}, not all in the same units", part.why);
+    let alone = parts.iter().position(|listed| listed.line == blocks[0].data_line + 1).map_or(0, |at| at + 1);
+    Decided { value: if blocks.len() == 1 { alone } else { 0 }, why, ..part }
 }
 
 /// How the data of a block is written.
@@ -225,6 +242,13 @@ impl Block {
         let title = self.title.to_ascii_lowercase();
         let last = title.rsplit(':').next().unwrap_or_default();
         last.contains("dark") || last.contains("reference") || last.contains("raw")
+    }
+
+    /// The units of both axes, such that blocks in the same units have the same.
+    fn units(&self) -> (Result<XUnit, String>, String) {
+        let plain = |units: &str| units.trim().to_lowercase();
+        let x = &self.x_units.1;
+        (words::x_unit(x).ok_or_else(|| plain(x)), plain(&self.y_units.1))
     }
 
     fn warn(&self, log: &mut Log<'_>) {

@@ -45,11 +45,14 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     let mut grid = spectra::grid(spectra, header, log)?;
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "Both layouts prescribe it"));
     grid.role = role;
+    // Each wavelength has one value for every curve.
+    grid.rows = grid.wavelengths.len();
     (grid.parts, grid.part) = (parts, part);
     let unit = grid.header.unit.clone();
     grid.curves.iter_mut().for_each(|curve| curve.unit.clone_from(&unit));
     let dialect = (Delimiter::Comma, DecimalMark::Point);
-    let layout = Layout::fixed(dialect, Orientation::Down, 1, "JSON prescribes it");
+    let first_line = ["data", "ssf_bands", "bands"].iter().find_map(|name| line_of(text, name)).unwrap_or(1);
+    let layout = Layout::fixed(dialect, Orientation::Down, first_line, "JSON prescribes it");
     Ok(Found { grid, layout, reader, notes })
 }
 

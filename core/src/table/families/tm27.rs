@@ -4,7 +4,8 @@ use super::super::header::Header;
 use super::super::sniff::Layout;
 use super::super::watch::Log;
 use super::super::{
-    Decided, DecimalMark, Delimiter, MAX_CURVES, Orientation, Quantity, ReadError, Reader, Role, WavelengthUnit,
+    Decided, DecimalMark, Delimiter, MAX_CURVES, Orientation, Quantity, ReadError, Reader, Role, Warning,
+    WavelengthUnit,
 };
 use super::Found;
 use super::spectra::{self, Sample, Spectrum};
@@ -22,7 +23,8 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
             Step::Close(element) => content.take(&element, inside)?,
         }
     }
-    let Content { header, spectra: all, quantity, .. } = content;
+    let quantity = content.leave_other_quantities(log);
+    let Content { header, spectra: all, .. } = content;
     let first_line = all.first().and_then(|spectrum| spectrum.samples.first()).map(|sample| sample.line);
     let first_line = first_line.ok_or(ReadError::NoNumbers)?;
     let mut grid = spectra::grid(all, header, log)?;
@@ -43,7 +45,9 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
 struct Content {
     header: Header,
     spectra: Vec<Spectrum>,
-    /// What the first spectrum is of.
+    /// What each spectrum is of.
+    quantities: Vec<Option<Decided<Quantity>>>,
+    /// What the open spectrum is of.
     quantity: Option<Decided<Quantity>>,
     /// The spectrum that is open.
     current: Option<Spectrum>,
@@ -65,7 +69,11 @@ impl Content {
             "SpectralQuantity" => self.quantity(element),
             "SpectralData" => self.sample(element)?,
             "SpectralDistribution" => {
-                self.spectra.extend(self.current.take().filter(|spectrum| !spectrum.samples.is_empty()));
+                let quantity = self.quantity.take();
+                if let Some(spectrum) = self.current.take().filter(|spectrum| !spectrum.samples.is_empty()) {
+                    self.spectra.push(spectrum);
+                    self.quantities.push(quantity);
+                }
                 if self.spectra.len() > MAX_CURVES {
                     return Err(ReadError::TooManyCurves { line: element.line });
                 }
@@ -80,11 +88,21 @@ impl Content {
         if let Some(spectrum) = self.current.as_mut().filter(|spectrum| spectrum.label.is_empty()) {
             quantity.clone_into(&mut spectrum.label);
             self.header.note("quantity", quantity);
-            self.quantity = self.quantity.take().or_else(|| {
-                let why = format!("Line {} says {quantity}", element.line);
-                named(quantity).map(|quantity| Decided::certain(quantity, why))
-            });
+            let why = format!("Line {} says {quantity}", element.line);
+            self.quantity = named(quantity).map(|quantity| Decided::certain(quantity, why));
         }
+    }
+
+    /// Leaves the spectra of what the first one is of, which is returned: others are other tables.
+    fn leave_other_quantities(&mut self, log: &mut Log<'_>) -> Option<Decided<Quantity>> {
+        let first = self.spectra.first()?.label.to_lowercase();
+        let same = |spectrum: &Spectrum| spectrum.label.to_lowercase() == first;
+        let other = self.spectra.iter().find(|spectrum| !same(spectrum));
+        if let Some(line) = other.and_then(|other| other.samples.first()).map(|sample| sample.line) {
+            log.push(Warning::MoreTables { line });
+            self.spectra.retain(same);
+        }
+        std::mem::take(&mut self.quantities).into_iter().next().flatten()
     }
 
     fn sample(&mut self, element: &Element<'_>) -> Result<(), ReadError> {

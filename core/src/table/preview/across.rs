@@ -42,7 +42,7 @@ impl Across {
         let mut curves = table.curves.iter();
         let mut next = curves.next();
         for (number, line) in
-            preview.lines_from(across.line.saturating_add(1)).filter(|(_, line)| cells::is_content(line))
+            preview.lines_from(across.line.saturating_add(1)).filter(|(_, line)| !line.trim_ascii().is_empty())
         {
             let Some(curve) = next else { break };
             if across.fits(line, curve) {
@@ -95,10 +95,10 @@ impl Across {
         if number == self.line {
             return self.header(line, window);
         }
-        if number < self.line || !cells::is_content(line) {
+        let found = self.rows.binary_search(&number).ok();
+        if number < self.line || (found.is_none() && !cells::is_content(line)) {
             return Vec::new();
         }
-        let found = self.rows.binary_search(&number).ok();
         let marks = found.and_then(|curve| self.row(line, curve, window, table));
         marks.unwrap_or_else(|| {
             let mark = Mark::new(cells::trimmed(line), What::LeftOut { why: LeftOut::Line });

@@ -11,6 +11,9 @@ use super::mark::{LeftOut, Mark, What};
 /// Rows that are compared to find which column is which curve.
 const SAMPLE_ROWS: usize = 48;
 
+/// Lines of so many bytes are looked at as a whole.
+const SHORT: usize = 1 << 15;
+
 /// The most cells that are compared for it.
 const SAMPLE_CELLS: usize = 1 << 20;
 
@@ -100,10 +103,11 @@ impl Down {
                 row.push(Cell::Gap);
                 continue;
             }
-            match self.dialect.parse(cell) {
-                Cell::Text => return None,
-                other => row.push(other),
-            }
+            // Columns of text are none of the curves.
+            row.push(match self.dialect.parse(cell) {
+                Cell::Text => Cell::Gap,
+                other => other,
+            });
         }
         row.truncate(filled);
         Some(Row { nm: nm?, cells: row })
@@ -120,8 +124,9 @@ impl Down {
     fn columns(&self, rows: &[Row], names: &[String], width: usize, table: &Table) -> Vec<Option<usize>> {
         let mut curves = vec![None; width];
         let mut curve = 0;
-        for (column, slot) in curves.iter_mut().enumerate().skip(self.wavelength + 1) {
-            let (columns_left, curves_left) = (width - column, table.curves.len() - curve);
+        for (column, slot) in curves.iter_mut().enumerate().filter(|(column, _)| *column != self.wavelength) {
+            let columns_left = width - column - usize::from(column < self.wavelength);
+            let curves_left = table.curves.len() - curve;
             if curves_left == 0 {
                 break;
             }
@@ -200,12 +205,14 @@ impl Down {
             None => return None,
         };
         let mut marks = Vec::new();
+        // One cell that is not of the table makes the line none of its rows; in a very long line only what is seen is looked at.
+        let looked = if line.len() <= SHORT { 0..usize::MAX } else { window.clone() };
         for (column, cell) in self.dialect.cells(line).enumerate() {
             let range = cells::range(line, cell);
-            if range.start >= window.end {
+            if range.start >= looked.end {
                 break;
             }
-            if !cells::touches(&range, window) {
+            if !cells::touches(&range, &looked) {
                 continue;
             }
             if column == self.wavelength {
@@ -213,7 +220,7 @@ impl Down {
                 continue;
             }
             let what = match (self.dialect.parse(cell), self.curves.get(column).copied().flatten()) {
-                (Cell::Text, _) => return None,
+                (Cell::Text, Some(_)) => return None,
                 (Cell::Gap, None) if cell.is_empty() => continue,
                 (_, None) => What::LeftOut { why: LeftOut::Column },
                 (Cell::Gap, Some(curve)) => What::Gap { curve },
@@ -221,6 +228,7 @@ impl Down {
             };
             marks.push(Mark::new(range, what));
         }
+        marks.retain(|mark| cells::touches(&mark.range, window));
         Some(marks)
     }
 

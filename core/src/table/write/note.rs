@@ -40,7 +40,7 @@ pub enum Note {
         /// How many.
         count: usize,
     },
-    /// Names of curves were blank, or did not fit on a line.
+    /// Names of curves were blank, did not fit on a line, or would have been read as another quantity.
     Renamed {
         /// How many.
         count: usize,
@@ -69,7 +69,9 @@ impl fmt::Display for Note {
             Self::Blank { count } => {
                 write!(f, "{count} of the columns are blank: no wavelength of the grid is in range")
             }
-            Self::Renamed { count } => write!(f, "{count} of the names were blank or did not fit on a line"),
+            Self::Renamed { count } => {
+                write!(f, "{count} of the names were blank, did not fit on a line or meant other values: replaced")
+            }
             Self::NoNames => f.write_str("names of curves are not in the file: the format has no place for them"),
             Self::Unidentified => f.write_str("rawtoaces finds a camera by maker and model, and both are not known"),
         }

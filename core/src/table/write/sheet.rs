@@ -8,7 +8,8 @@ use super::{Note, WriteError, text};
 /// A curve to be written: values over wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trace<'a> {
-    /// Its name. Line breaks become spaces, and a blank name becomes `Curve` and a number.
+    /// Its name. Line breaks become spaces, and a name that is blank, or that would be read as one of wavelengths, absorbances
+    /// or decibels, becomes `Curve` and a number; signs of percent go where values are fractions.
     pub name: &'a str,
     /// Wavelengths in nanometers: finite, above zero, strictly ascending, at least two.
     pub wavelengths_nm: &'a [f64],
@@ -164,7 +165,7 @@ impl<'a> Sheet<'a> {
     pub(super) fn pieces(&self, notes: &mut Vec<Note>) -> Vec<Piece<'a>> {
         let mut renamed = 0;
         let pieces = self.curves.iter().enumerate().map(|(index, trace)| {
-            let name = text::name(trace.name, index);
+            let name = text::name(trace.name, index, self.content);
             renamed += usize::from(name != trace.name);
             let (wavelengths, values) = (Cow::Borrowed(trace.wavelengths_nm), Cow::Borrowed(trace.values));
             Piece { name, wavelengths, values }

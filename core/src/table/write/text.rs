@@ -3,6 +3,9 @@
 use std::borrow::Cow;
 use std::fmt::{Arguments, Write};
 
+use super::super::{Values, quantity, words};
+use super::Content;
+
 /// Appends what a format string makes.
 pub(super) fn push(out: &mut String, arguments: Arguments<'_>) {
     out.write_fmt(arguments).expect("a text takes whatever is written to it");
@@ -36,10 +39,29 @@ pub(super) fn one_line(text: &str) -> Cow<'_, str> {
     Cow::Borrowed(text)
 }
 
-/// The name of a curve: on one line, and not blank.
-pub(super) fn name(text: &str, index: usize) -> Cow<'_, str> {
-    let name = one_line(text);
-    if name.is_empty() { Cow::Owned(format!("Curve {}", index + 1)) } else { name }
+/// The name of a curve: on one line, not blank, and not one that a reader takes for a unit which the values are not in.
+pub(super) fn name<'a>(text: &'a str, index: usize, content: Content<'_>) -> Cow<'a, str> {
+    let mut name = one_line(text);
+    if misleads(&name, content) {
+        name = Cow::Owned(quantity::without_percent_signs(&name));
+    }
+    let bad = name.is_empty() || heads_wavelengths(&name) || misleads(&name, content);
+    if bad { Cow::Owned(format!("Curve {}", index + 1)) } else { name }
+}
+
+/// Whether a reader would convert the values under such a name. What responds to light is never scaled down from percent.
+fn misleads(name: &str, content: Content<'_>) -> bool {
+    match words::values(name) {
+        None | Some(Values::Plain) => false,
+        Some(Values::Decibels) => true,
+        Some(Values::Percent | Values::Absorbance) => !matches!(content, Content::Camera { .. } | Content::Observer),
+    }
+}
+
+/// Whether a reader would take a column of such a name for one of wavelengths.
+fn heads_wavelengths(name: &str) -> bool {
+    const LONGEST_UNIT: usize = 4;
+    words::names_wavelengths(name) || (name.len() <= LONGEST_UNIT && words::x_unit(name).is_some())
 }
 
 /// Appends a text between quotation marks, those inside doubled, as CSV and CGATS have it.

@@ -1,0 +1,116 @@
+//! Columns of text, columns before the wavelengths, lines that begin with `#`, names that come again, thousands.
+
+use std::time::Duration;
+
+use chromascope_core::table::{Certainty, ReadError, ReadOptions, Warning, Watch, WavelengthUnit, read_watched};
+
+use super::{error, names, ok, samples};
+
+#[test]
+#[allow(clippy::disallowed_types, reason = "the test measures what the core must not")]
+fn thousands_of_short_tables_are_quick() {
+    let begun = std::time::Instant::now();
+    let short = "nm,A\n400,1\n410,2\n420,3\n\n".repeat(20_000);
+    assert_eq!(ok(&short).curves[0].values.len(), 3);
+    let whole = "400;1\n410;2\n420;3\n430;4\n440;5\n".repeat(20_000);
+    assert_eq!(ok(&whole).curves[0].values.len(), 5);
+    assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+}
+
+#[test]
+fn short_tables_can_be_stopped() {
+    let text = "nm,A\n400,1\n410,2\n420,3\n\n".repeat(20_000);
+    let looks = std::cell::Cell::new(0);
+    let go_on = |_: f32| {
+        looks.set(looks.get() + 1);
+        looks.get() < 20
+    };
+    let result = read_watched(text.as_bytes(), &ReadOptions::default(), Watch::new(&go_on));
+    assert_eq!((result, looks.get()), (Err(ReadError::Stopped), 20));
+}
+
+#[test]
+fn names_with_a_number_sign_are_rows() {
+    let head = "name,400,410,420,430,440\n";
+    let table = ok(&format!("{head}#0,1,2,3,4,5\n#1,2,3,4,5,6\ns3,3,4,5,6,7\n# by hand\n"));
+    assert_eq!(names(&table), ["#0", "#1", "s3"]);
+    assert_eq!(names(&ok(&format!("{head}#0,1,2,3,4,5\n#1,2,3,4,5,6\n"))), ["#0", "#1"]);
+}
+
+#[test]
+fn rows_behind_a_number_sign_are_told() {
+    let table = ok("nm,a\n540,0.5\n#550,0.55\n560,0.6\n# a remark\n570,0.7\n");
+    assert_eq!(table.curves[0].values.len(), 3);
+    let [Warning::CommentedRows { lines }] = table.warnings.as_slice() else { panic!("{:?}", table.warnings) };
+    assert_eq!((lines.first(), table.warnings[0].line()), (&[3][..], Some(3)));
+}
+
+#[test]
+fn marks_that_may_group_thousands_are_a_guess() {
+    for mark in [',', '.'] {
+        let table = ok(&"nm;a\n400;4_800\n410;5_100\n420;6_250\n430;7_000\n".replace('_', &mark.to_string()));
+        assert_eq!(table.curves[0].values[0], 0.048);
+        assert_eq!(table.reading.decimal_mark.certainty, Certainty::Guess);
+        assert!(table.warnings.contains(&Warning::MaybeThousands), "{:?}", table.warnings);
+    }
+    let fractions = ok("nm;a\n400;4.800\n410;5.100\n420;6.250\n430;0.900\n440;7.000\n");
+    assert!(fractions.warnings.is_empty());
+}
+
+#[test]
+fn thousands_set_apart_are_numbers() {
+    let wanted = [(400.0, 1234.5), (410.0, 2345.5), (420.0, 3456.5)];
+    for text in [
+        "nm;a\n400;1.234,5\n410;2.345,5\n420;3.456,5\n",
+        "nm,a\n400,\"1,234.5\"\n410,\"2,345.5\"\n420,\"3,456.5\"\n",
+        "nm;a\n400;1 234,5\n410;2 345,5\n420;3 456,5\n",
+    ] {
+        assert_eq!(samples(&ok(text).curves[0]), wanted, "{text}");
+    }
+}
+
+#[test]
+fn columns_before_the_wavelengths_are_curves_too() {
+    let table = ok("A,nm,B\n1.5,400,4\n2,410,5\n3,420,6\n");
+    assert_eq!((names(&table), table.warnings.len()), (vec!["A", "B"], 0));
+    let last = ok("A,B,Wavelength\n1.5,4,400\n2,5,410\n3,6,420\n");
+    assert_eq!((names(&last), last.reading.wavelength_column), (vec!["A", "B"], Some(3)));
+    let pixel = ok("Pixel,A,nm\n1,4.5,400\n2,5,410\n3,6,420\n");
+    assert_eq!((names(&pixel), pixel.warnings.len()), (vec!["A"], 1));
+}
+
+#[test]
+fn names_that_come_again_are_left_out() {
+    let table = ok("nm,a\n400,1\n410,2\nnm,a\n420,3\n430,4\n");
+    assert_eq!(table.curves[0].values.len(), 4);
+    let [Warning::RepeatedHeader { lines }] = table.warnings.as_slice() else { panic!("{:?}", table.warnings) };
+    assert_eq!(lines.first(), [4]);
+    assert!(matches!(error("nm,a\n400,1\n410,2\noops,a\n420,3\n"), ReadError::NotANumber { line: 4, .. }));
+}
+
+#[test]
+fn a_row_of_measured_numbers_names_nothing() {
+    let table = ok("Data;s1;s2\nx;0.33;0.34\n380;1.5;2\n390;2;3\n400;3;4\n");
+    assert_eq!(names(&table), ["s1", "s2"]);
+}
+
+#[test]
+fn visible_wave_numbers_are_guessed() {
+    let table = ok("14000,1\n20000,2\n25000,3\n");
+    assert_eq!(table.reading.wavelength_unit.value, WavelengthUnit::Wavenumber);
+}
+
+#[test]
+fn columns_of_text_are_left_out() {
+    for (text, warnings) in [
+        ("nm;remark;a\n400;good;1.5\n410;bad;2\n420;good;3\n", 1),
+        ("date;nm;a\nmon;400;1.5\ntue;410;2\nwed;420;3\n", 1),
+        ("nm,a,remark\n400,1.5,x\n410,2,y\n420,3,z\n", 1),
+    ] {
+        let table = ok(text);
+        assert_eq!(names(&table), ["a"], "{text}");
+        assert_eq!(table.curves[0].values.len(), 3);
+        assert_eq!(table.warnings.len(), warnings, "{:?}", table.warnings);
+    }
+    assert_eq!(error("one;2;x;3\ntwo;1;y;3\nthree;2;z;4\n"), ReadError::NoNumbers);
+}
