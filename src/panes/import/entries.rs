@@ -58,7 +58,12 @@ pub(super) fn all(context: &PaneContext<'_>) -> Vec<Entry> {
     let files = context.opened.files();
     let own = &context.scene.document.own;
     let sets = own.iter().map(|set| of_set(set, &files, context));
-    let unused = files.iter().filter(|file| !own.iter().any(|set| set.fingerprint == Some(file.origin.fingerprint)));
+    // What a file on disk held before it changed is kept for undo; in the list it is the same file.
+    let is_of = |set: &OwnSet, file: &OpenFile| {
+        set.fingerprint == Some(file.origin.fingerprint)
+            || (file.failure.is_none() && set.path.is_some() && set.path == file.origin.path)
+    };
+    let unused = files.iter().filter(|file| !own.iter().any(|set| is_of(set, file)));
     sets.chain(unused.map(of_file)).collect()
 }
 
