@@ -300,9 +300,29 @@ fn replace(document: &mut Document, name: &str, with: &OwnSet) {
     let before = Entry::from_own(&document.own[index]).kind;
     let set = Shared::new(set);
     document.own[index] = set.clone();
-    if Entry::from_own(&set).kind != before || set.name != name {
+    if Entry::from_own(&set).kind != before {
         forget(document, name);
         put_to_use(document, &set);
+    } else if set.name != name {
+        follow(document, name, &set.name);
+    }
+}
+
+/// Keeps a set that has another name now in the uses it had; it gets no others.
+fn follow(document: &mut Document, old: &str, new: &str) {
+    for compared in document.compared.iter_mut().filter(|c| c.kind == Kind::Camera && c.name == old) {
+        new.clone_into(&mut compared.name);
+    }
+    for used in [&mut document.chart, &mut document.render.material] {
+        if used == old {
+            new.clone_into(used);
+        }
+    }
+    if document.light == Light::Set(old.to_owned()) {
+        document.light = Light::Set(new.to_owned());
+    }
+    if document.white == WhiteChoice::Light(old.to_owned()) {
+        document.white = WhiteChoice::Light(new.to_owned());
     }
 }
 

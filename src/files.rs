@@ -58,6 +58,8 @@ pub struct PathPrompt {
     pub text: String,
     /// What is to be saved there; none for opening.
     pub save: Option<SaveRequest>,
+    /// A file that is there already, which a person was told of.
+    pub replaces: Option<PathBuf>,
 }
 
 /// What a thread says.
@@ -163,6 +165,10 @@ impl Files {
     pub fn take_prompt(&mut self) {
         let Some(prompt) = self.prompt.take() else { return };
         let path = PathBuf::from(prompt.text.trim());
+        if prompt.save.is_some() && path.exists() && prompt.replaces.as_ref() != Some(&path) {
+            self.prompt = Some(PathPrompt { replaces: Some(path), ..prompt });
+            return;
+        }
         if path.as_os_str().is_empty() {
             return;
         }
@@ -189,7 +195,7 @@ impl Files {
                 Note::ToOpen(paths) => events.push(FileEvent::Open(paths)),
                 Note::NoDialog(save) => {
                     let text = save.as_ref().map_or_else(String::new, |request| request.name.clone());
-                    self.prompt = Some(PathPrompt { text, save });
+                    self.prompt = Some(PathPrompt { text, save, replaces: None });
                 }
             }
         }

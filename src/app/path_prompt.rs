@@ -24,12 +24,16 @@ pub(super) fn show(ui: &Ui, files: &mut Files) {
             ui.horizontal(|ui| {
                 let field = ui.add(TextEdit::singleline(&mut prompt.text).desired_width(360.0));
                 field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Path"));
+                // Before the focus is taken back: then it would not have been lost.
+                let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
                 if ui.memory(|memory| memory.focused().is_none()) {
                     field.request_focus();
                 }
-                let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
                 done = ui.button(if saving { "Save" } else { "Open" }).clicked() || entered;
             });
+            if prompt.replaces.as_deref() == Some(std::path::Path::new(prompt.text.trim())) {
+                ui.label("That file exists. Save again to replace it, or type another name.");
+            }
             ui.small("For dialogs install a desktop portal or the package zenity.");
         });
     if ui.input(|input| input.key_pressed(Key::Escape)) || !open {

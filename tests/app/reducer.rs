@@ -182,3 +182,19 @@ fn other_sessions_are_refused() {
     assert_eq!(spoiled.temperature_k, 20_000.0);
     assert!(spoiled.compared(Kind::Observer, "CIE 1964 10°").is_some());
 }
+
+#[test]
+fn a_set_that_is_renamed_keeps_its_uses_and_gets_no_others() {
+    let mut document = Document::default();
+    import(&["leaf"], Role::Reflectance).apply(&mut document);
+    import(&["bark"], Role::Reflectance).apply(&mut document);
+    let rename = |from: &str, to: &str, document: &mut Document| {
+        let set = document.own.iter().find(|set| set.name == from).unwrap();
+        let with = Box::new(OwnSet { name: to.to_owned(), ..(**set).clone() });
+        Action::Own(OwnAction::Replace { name: from.to_owned(), with }).apply(document);
+    };
+    rename("leaf", "oak", &mut document);
+    assert_eq!(document.chart, "bark");
+    rename("bark", "stem", &mut document);
+    assert_eq!(document.chart, "stem");
+}
