@@ -25,7 +25,7 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
     let count = if entries.len() == 1 { "1 file".to_owned() } else { format!("{} files", entries.len()) };
     lines::elided(ui, caption, &count, TextStyle::Small, context.theme.weak);
     let list = Rect::from_min_max(egui::pos2(rect.left(), caption.bottom()), rect.max);
-    let moved = keys(ui, entries, context);
+    let moved = keys(ui, entries, context).or_else(|| led_to(ui, list, entries, context));
     let mut child = ui.new_child(UiBuilder::new().id_salt("files").max_rect(list));
     child.set_clip_rect(list.intersect(ui.clip_rect()));
     child.spacing_mut().item_spacing.y = 0.0;
@@ -39,6 +39,17 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
             row(ui, index, entries, context);
         }
     });
+}
+
+/// The file on show, if something other than a row led to it since the last frame and the list may not show it.
+fn led_to(ui: &Ui, list: Rect, entries: &[Entry], context: &PaneContext<'_>) -> Option<usize> {
+    let key = Id::unique("file in sight");
+    let selected = context.view.import.selected.clone();
+    let before: Option<ImportItem> = ui.data(|data| data.get_temp(key));
+    ui.data_mut(|data| selected.clone().map(|item| data.insert_temp(key, item)));
+    let inside = ui.input(|input| input.pointer.interact_pos()).is_some_and(|at| list.contains(at));
+    let index = entries.iter().position(|entry| Some(&entry.item) == selected.as_ref())?;
+    (before != selected && !inside).then_some(index)
 }
 
 /// Shows the file on show; the others drop down. Returns what is left below.
