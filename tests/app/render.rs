@@ -359,9 +359,13 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
         std::thread::sleep(Duration::from_millis(10));
         window.run_steps(1);
     }
+    window.key_press(egui::Key::Escape);
+    // What was made before the key is still taken in with it.
+    window.run_steps(2);
+    assert!(window.state().studio().busy().is_none());
     let before = window.state().view().render.shot.clone().unwrap();
     assert!(!before.is_last);
-    window.key_press(egui::Key::Escape);
+    std::thread::sleep(Duration::from_millis(300));
     window.run_steps(3);
     assert!(window.state().studio().busy().is_none());
     let after = window.state().view().render.shot.clone().unwrap();
