@@ -18,6 +18,7 @@ use crate::command::{Command, key_bindings};
 use crate::document::history::History;
 use crate::files::Files;
 use crate::jobs::Background;
+use crate::laboratory::Laboratory;
 use crate::panes::{self, PaneContext};
 use crate::results::Results;
 use crate::scene::Scene;
@@ -42,6 +43,7 @@ pub struct ChromascopeApp {
     opened: Opened,
     radiators: Background<NearestBlackBodyOf>,
     studio: Studio,
+    laboratory: Laboratory,
     commands: Vec<Command>,
     /// The latest reading of each set that was read again.
     last_read: std::collections::HashMap<String, u64>,
@@ -54,7 +56,7 @@ impl ChromascopeApp {
     pub fn new(ctx: &egui::Context, history: History, saved: SavedView, mut files: Files) -> Self {
         theme::apply(ctx);
         files.wake(ctx);
-        let (window, also, third) = (ctx.clone(), ctx.clone(), ctx.clone());
+        let [window, also, third, fourth] = [(); 4].map(|()| ctx.clone());
         Self {
             history,
             catalog: Catalog::built_in(),
@@ -65,6 +67,7 @@ impl ChromascopeApp {
             opened: Opened::new(move || also.request_repaint()),
             radiators: Background::new("black bodies", move || third.request_repaint()),
             studio: Studio::new(ctx),
+            laboratory: Laboratory::new(move || fourth.request_repaint()),
             commands: Vec::new(),
             last_read: std::collections::HashMap::new(),
             arrangement: Arrangement::default(),
@@ -105,6 +108,11 @@ impl ChromascopeApp {
     /// Where pictures are made.
     pub fn studio(&self) -> &Studio {
         &self.studio
+    }
+
+    /// Where the scene's cost is measured.
+    pub fn laboratory(&self) -> &Laboratory {
+        &self.laboratory
     }
 
     /// Has something done in the next frame.
@@ -170,10 +178,11 @@ impl ChromascopeApp {
             opened,
             radiators,
             studio,
+            laboratory,
             ..
         } = self;
         let scene = Scene { document: history.document(), catalog, results };
-        let mut context = PaneContext { scene, theme, view, meshes, opened, radiators, studio, commands };
+        let mut context = PaneContext { scene, theme, view, meshes, opened, radiators, studio, laboratory, commands };
         let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
             let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
             let frame = Frame::NONE.fill(theme.panel);

@@ -43,6 +43,10 @@ pub enum Command {
     ReadAgain(String),
     /// Stop reading files.
     StopReading,
+    /// Measure what the scene costs.
+    Measure,
+    /// Stop measuring.
+    StopMeasuring,
     /// Read text as if it were a file.
     Paste(String),
     /// Save a pane's figure or numbers.

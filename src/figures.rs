@@ -1,7 +1,9 @@
 //! The scene as figures: the same value is drawn on screen, saved as SVG and PNG, and written as numbers.
 
+pub mod accuracy;
 pub mod chromaticity;
 pub mod curves;
+pub mod pareto;
 pub mod render;
 pub mod spectra;
 pub mod strip;

@@ -20,6 +20,7 @@ pub mod export;
 pub mod figures;
 pub mod files;
 pub mod jobs;
+pub mod laboratory;
 pub mod number;
 pub mod paint;
 pub mod panes;

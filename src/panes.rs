@@ -1,10 +1,12 @@
 //! The panes: each reads the document, asks for answers, and says what is to be done. None knows another.
 
+pub mod accuracy;
 pub mod chromaticity;
 pub mod curves;
 pub mod help;
 pub mod import;
 pub mod inspector;
+pub mod left_out;
 pub mod library;
 pub mod menu;
 pub mod render;
@@ -23,6 +25,8 @@ use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
 use crate::command::Command;
 use crate::jobs::Background;
+use crate::laboratory::{Laboratory, SceneRunOf};
+use crate::results::Count;
 use crate::scene::Scene;
 use crate::studio::Studio;
 use crate::theme::Theme;
@@ -45,6 +49,8 @@ pub struct PaneContext<'a> {
     pub radiators: &'a Background<NearestBlackBodyOf>,
     /// Where pictures are made.
     pub studio: &'a mut Studio,
+    /// Where the scene's cost is measured.
+    pub laboratory: &'a mut Laboratory,
     /// What is to be done when the frame is over.
     pub commands: &'a mut Vec<Command>,
 }
@@ -53,6 +59,22 @@ impl PaneContext<'_> {
     /// Has something done when the frame is over.
     pub fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());
+    }
+
+    /// Takes in what was measured since the last frame.
+    pub fn refresh_run(&mut self) {
+        let own = self.meshes.chosen(&self.scene.document.render.mesh);
+        let scene = SceneRunOf::of(&self.scene, own.as_ref(), self.view.saved.render.orbit);
+        if let Some((run, is_current)) = self.laboratory.shown(&scene) {
+            (self.view.accuracy.run, self.view.accuracy.is_current) = (Some(run), is_current);
+        }
+    }
+
+    /// Hits, misses and times of each kind of question, the window's and the pictures'.
+    pub fn counts(&self) -> Vec<(&'static str, Count)> {
+        let mut counts: Vec<(&'static str, Count)> = self.scene.results.counts().into_iter().collect();
+        counts.extend(self.studio.counts());
+        counts
     }
 }
 
@@ -69,6 +91,8 @@ pub fn show(ui: &mut Ui, pane: PaneKind, rect: Rect, context: &mut PaneContext<'
         PaneKind::Import => import::show(ui, rect, context),
         PaneKind::Curves => curves::show(ui, rect, context),
         PaneKind::Understood => understood::show(ui, rect, context),
+        PaneKind::Accuracy => accuracy::show(ui, rect, context),
+        PaneKind::LeftOut => left_out::show(ui, rect, context),
     }
 }
 
@@ -80,6 +104,8 @@ pub fn figure(pane: PaneKind, scene: &Scene<'_>, view: &View) -> Option<Figure> 
         PaneKind::Spectra => Some(crate::figures::spectra::figure(scene, view)),
         PaneKind::Render => crate::figures::render::figure(scene, view),
         PaneKind::Curves => crate::figures::curves::figure(scene, view),
+        PaneKind::Accuracy => crate::figures::accuracy::figure(view),
+        PaneKind::LeftOut => crate::figures::accuracy::left_out_figure(view),
         PaneKind::Library | PaneKind::Inspector | PaneKind::RenderSetup | PaneKind::Import | PaneKind::Understood => {
             None
         }

@@ -1,5 +1,6 @@
 //! What is looked at and how: selection, panes, layout. Not part of the document, no steps of undo.
 
+pub mod accuracy;
 pub mod import;
 pub mod render;
 
@@ -12,6 +13,7 @@ use crate::paint::Emphasis;
 use crate::theme::Surround;
 use crate::thing::{Standing, Thing, Things};
 use crate::workspaces::{Layout, PaneKind, Workspace};
+use accuracy::AccuracyView;
 use chromascope_core::figure::Tag;
 use import::{ImportItem, ImportMemory, ImportView};
 use render::{RenderLook, RenderView};
@@ -44,6 +46,8 @@ pub struct View {
     pub import: ImportView,
     /// What the Render pane shows now.
     pub render: RenderView,
+    /// What is looked at in Accuracy.
+    pub accuracy: AccuracyView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
     /// The truth stands in for every camera while B is held.

@@ -26,11 +26,15 @@ pub enum PaneKind {
     Curves,
     /// What a file was understood as, with switches.
     Understood,
+    /// Run time against error of the scene.
+    Accuracy,
+    /// What the scene did not compute.
+    LeftOut,
 }
 
 impl PaneKind {
     /// All panes.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Library,
         Self::Chromaticity,
         Self::Swatches,
@@ -41,9 +45,11 @@ impl PaneKind {
         Self::Import,
         Self::Curves,
         Self::Understood,
+        Self::Accuracy,
+        Self::LeftOut,
     ];
     /// The panes that stand in the workspaces' changeable places.
-    pub const CHANGEABLE: [Self; 9] = [
+    pub const CHANGEABLE: [Self; 11] = [
         Self::Chromaticity,
         Self::Swatches,
         Self::Spectra,
@@ -53,6 +59,8 @@ impl PaneKind {
         Self::Import,
         Self::Curves,
         Self::Understood,
+        Self::Accuracy,
+        Self::LeftOut,
     ];
 
     /// Its title.
@@ -68,6 +76,8 @@ impl PaneKind {
             Self::Import => "Import",
             Self::Curves => "Result",
             Self::Understood => "Understood as",
+            Self::Accuracy => "Time against error",
+            Self::LeftOut => "Left out",
         }
     }
 }
@@ -84,11 +94,13 @@ pub enum Workspace {
     Render,
     /// The user's files, and what was understood of them.
     Import,
+    /// What the scene costs by each method, and what was left out.
+    Accuracy,
 }
 
 impl Workspace {
     /// All workspaces, in the order of their tabs and keys.
-    pub const ALL: [Self; 4] = [Self::Compare, Self::Spectra, Self::Render, Self::Import];
+    pub const ALL: [Self; 5] = [Self::Compare, Self::Spectra, Self::Render, Self::Import, Self::Accuracy];
 
     /// The tab's title.
     pub const fn title(self) -> &'static str {
@@ -97,12 +109,13 @@ impl Workspace {
             Self::Spectra => "Spectra",
             Self::Render => "Render",
             Self::Import => "Import",
+            Self::Accuracy => "Accuracy",
         }
     }
 
     /// Whether a narrow window hides the library, so that the right column stays.
     pub const fn keeps_right_column(self) -> bool {
-        matches!(self, Self::Render | Self::Import)
+        matches!(self, Self::Render | Self::Import | Self::Accuracy)
     }
 }
 
@@ -141,6 +154,8 @@ pub struct Layout {
     pub render: [Option<PaneKind>; 4],
     /// Import: center upper, center lower, right upper, right lower.
     pub import: [Option<PaneKind>; 4],
+    /// Accuracy: center upper, center lower, right upper, right lower.
+    pub accuracy: [Option<PaneKind>; 4],
 }
 
 impl Default for Layout {
@@ -160,6 +175,7 @@ impl Default for Layout {
             spectra: [Some(PaneKind::Spectra), None, Some(PaneKind::Inspector), None],
             render: [Some(PaneKind::Render), None, Some(PaneKind::RenderSetup), None],
             import: [Some(PaneKind::Import), Some(PaneKind::Curves), Some(PaneKind::Understood), None],
+            accuracy: [Some(PaneKind::Accuracy), Some(PaneKind::LeftOut), None, None],
         }
     }
 }
@@ -172,6 +188,7 @@ impl Layout {
             Workspace::Spectra => &self.spectra,
             Workspace::Render => &self.render,
             Workspace::Import => &self.import,
+            Workspace::Accuracy => &self.accuracy,
         }
     }
 
@@ -182,6 +199,7 @@ impl Layout {
             Workspace::Spectra => &mut self.spectra,
             Workspace::Render => &mut self.render,
             Workspace::Import => &mut self.import,
+            Workspace::Accuracy => &mut self.accuracy,
         }
     }
 

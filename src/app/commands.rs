@@ -9,12 +9,13 @@ use crate::catalog::opened::Request;
 use crate::command::{Command, Format};
 use crate::export;
 use crate::files::{FileEvent, SaveRequest};
+use crate::laboratory::SceneRunOf;
 use crate::panes;
 use crate::scene::Scene;
 use crate::theme::Theme;
 use crate::view::SavedView;
 use crate::view::render::RenderMode;
-use crate::workspaces::{Layout, PaneKind};
+use crate::workspaces::{Layout, PaneKind, Workspace};
 
 /// Pixels per point in saved and copied pictures.
 const PICTURE_SCALE: f32 = 2.0;
@@ -61,6 +62,8 @@ impl ChromascopeApp {
             Command::StopReading => {
                 self.stop_reading();
             }
+            Command::Measure => self.measure(),
+            Command::StopMeasuring => self.laboratory.stop(),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
@@ -172,6 +175,11 @@ impl ChromascopeApp {
         if std::mem::take(&mut self.view.keeps_escape) || self.stop_opening() || self.stop_reading() {
             return;
         }
+        if self.laboratory.busy().is_some() {
+            self.laboratory.stop();
+            self.view.say("Measuring was stopped. What was measured before stays.");
+            return;
+        }
         let rendering = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Render);
         let view = &mut self.view;
         if view.palette.take().is_some() || view.help.take().is_some() {
@@ -197,6 +205,15 @@ impl ChromascopeApp {
             return;
         }
         view.status = crate::view::Status::default();
+    }
+
+    /// Measures what the scene costs.
+    fn measure(&mut self) {
+        let document = self.history.document();
+        let scene = Scene { document, catalog: &self.catalog, results: &self.results };
+        let own = self.meshes.chosen(&document.render.mesh);
+        self.laboratory.run(SceneRunOf::of(&scene, own.as_ref(), self.view.saved.render.orbit));
+        self.view.saved.workspace = Workspace::Accuracy;
     }
 
     fn next_pane(&mut self) {

@@ -15,6 +15,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
+use chromascope_core::query::Shared;
+use chromascope_core::scene::Mesh;
+
+use crate::document::render::MeshChoice;
 use read::{Stamp, file_name};
 
 /// Meshes that nobody looks at are remembered up to this many bytes, so that undo need not read them again.
@@ -100,6 +104,15 @@ impl MeshStore {
             self.begin(&mut state, path, None);
         }
         MeshState::Loading
+    }
+
+    /// The mesh that a document chose, if it is a file's and was read.
+    pub fn chosen(&self, choice: &MeshChoice) -> Option<Shared<Mesh>> {
+        let MeshChoice::File(path) = choice else { return None };
+        match self.get(path) {
+            MeshState::Ready(mesh) => Some(mesh.mesh.clone()),
+            MeshState::Loading | MeshState::Failed(_) => None,
+        }
     }
 
     /// Opens a file for a person: [`MeshStore::poll`] tells what came of it. What was being opened before is given up.

@@ -1,0 +1,222 @@
+//! Run time against error of the scene on show, as measured.
+
+use chromascope_core::figure::{
+    Anchor, Axis, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Marker, Panel, Rect, Shape, Stroke, Table,
+    Tag, TextSize, Ticks,
+};
+
+use super::pareto::{self, Place, duration};
+use crate::laboratory::{Family, LeftOut, Point, SceneRun, Subject, Trial};
+use crate::number::number;
+use crate::results::Count;
+use crate::view::View;
+
+/// The size of a saved figure in points.
+const SIZE: [f64; 2] = [640.0, 420.0];
+
+/// The methods of a run on one subject.
+pub fn trial(run: &SceneRun, subject: Subject) -> Option<&Trial> {
+    run.trials.iter().find(|trial| trial.subject == subject)
+}
+
+/// The panel for an area of the given size.
+pub fn panel(trial: &Trial, size: [f64; 2]) -> Panel {
+    let front: Vec<&Point> = trial.front();
+    let place = |point: &Point, on_front: bool| {
+        let index = trial.points.iter().position(|p| p == point).unwrap_or(0);
+        Place {
+            name: point.name.clone(),
+            tag: Tag(u32::try_from(index + 1).unwrap_or(u32::MAX)),
+            error: point.max,
+            seconds: point.seconds,
+            marker: marker(point.family),
+            role: role(point.family),
+            on_front,
+        }
+    };
+    let mut places: Vec<Place> = front.iter().map(|point| place(point, true)).collect();
+    places.extend(trial.points.iter().filter(|point| !front.contains(point)).map(|point| place(point, false)));
+    let error = format!("largest error, {}", trial.subject.error_of());
+    let time = format!("time for {}", trial.subject.per());
+    let mut panel = pareto::panel("run time against error", &error, &time, &places, size);
+    panel.note = format!("{} inputs, one thread", trial.inputs);
+    panel
+}
+
+/// The method that a tag stands for.
+pub fn point(trial: &Trial, tag: Tag) -> Option<&Point> {
+    trial.points.get((tag.0 as usize).checked_sub(1)?)
+}
+
+fn marker(family: Family) -> Marker {
+    match family {
+        Family::Sum => Marker::Square,
+        Family::Quality => Marker::Circle,
+        Family::Tolerance => Marker::TriangleUp,
+    }
+}
+
+fn role(family: Family) -> InkRole {
+    match family {
+        Family::Sum => InkRole::Observer,
+        Family::Quality => InkRole::Source(0),
+        Family::Tolerance => InkRole::Source(1),
+    }
+}
+
+/// What is known about a method, a line each.
+pub fn describe(trial: &Trial, point: &Point) -> Vec<String> {
+    let mut lines = vec![point.name.clone()];
+    lines.push(format!("{} for {}", duration(point.seconds), trial.subject.per()));
+    if let Some(reference) = trial.points.first().filter(|reference| *reference != point) {
+        lines.push(format!("{} times the speed of {}", ratio(reference.seconds / point.seconds), reference.name));
+    }
+    lines.push(format!("error: largest {}, RMS {} {}", number(point.max), number(point.rms), trial.subject.error_of()));
+    if let Some(certified) = point.certified {
+        lines.push(format!("promised beforehand: {}", number(certified)));
+    }
+    if point.preparation > 0.0 {
+        lines.push(format!("made once before, for a source: {}", duration(point.preparation)));
+    }
+    lines
+}
+
+fn ratio(value: f64) -> String {
+    if value >= 10.0 { format!("{value:.0}") } else { format!("{value:.1}") }
+}
+
+/// The figure as it is saved; none before anything was measured.
+pub fn figure(view: &View) -> Option<Figure> {
+    let run = view.accuracy.run.as_ref()?;
+    let subject = view.accuracy.subject;
+    let trial = trial(run, subject)?;
+    let mut figure = Figure::new(format!("Run time against error: {}", subject.title()), SIZE);
+    figure.panels.push(panel(trial, SIZE));
+    let families: std::collections::BTreeSet<Family> = trial.points.iter().map(|point| point.family).collect();
+    figure.legend = families.into_iter().map(entry).collect();
+    figure.legend_place = LegendPlace::Outside;
+    figure.caption = format!(
+        "Measured on the scene on show, {} inputs. Times are medians over rounds in which the methods take turns, for {}, on one \
+         thread; errors are against {}, {}. The dashed line joins methods that no other beats in both.",
+        trial.inputs,
+        subject.per(),
+        trial.points.first().map_or("the reference", |point| &point.name),
+        subject.error_of(),
+    );
+    figure.table = table(trial);
+    Some(figure)
+}
+
+/// What was left out as bars over time; none before anything was measured.
+pub fn left_out_figure(view: &View) -> Option<Figure> {
+    let rows = &view.accuracy.run.as_ref()?.left_out;
+    let mut figure = Figure::new("Time saved by what was left out", [SIZE[0], 60.0 + 24.0 * rows.len() as f64]);
+    let saved = |row: &LeftOut| row.saved.max(1e-9).log10();
+    let (low, high) = rows.iter().map(saved).fold((-6.0_f64, -3.0_f64), |(low, high), s| (low.min(s), high.max(s)));
+    let (low, high) = (low.floor(), high.ceil() + 3.0);
+    let ticks = (low as i32..=high as i32).map(|e| (f64::from(e), duration(10_f64.powi(e)))).collect();
+    let x = Axis::new("time saved on this scene", [low, high]).with_ticks(Ticks::At(ticks));
+    let y = Axis::new("", [rows.len() as f64, 0.0]).with_ticks(Ticks::None).with_grid(false);
+    let mut panel = Panel::new("left out", Rect::from_min_size([0.0, 0.0], figure.size), x, y);
+    for (index, row) in rows.iter().enumerate() {
+        let middle = index as f64 + 0.5;
+        let bar = Shape::Rect { min: [low, middle - 0.3], max: [saved(row), middle + 0.3] };
+        panel.marks.push(Mark::new(Tag::default(), row.what, bar).with_fill(InkRole::Weak));
+        let text = Shape::Text {
+            at: [saved(row), middle],
+            text: format!("{}, {}", row.what, duration(row.saved)),
+            anchor: Anchor::LEFT,
+            offset: [6.0, 0.0],
+            size: TextSize::Small,
+            ink: InkRole::Text.into(),
+        };
+        panel.marks.push(Mark::new(Tag::default(), row.what, text));
+    }
+    figure.panels.push(panel);
+    "What the scene on show did not compute, and the time that computing it took.".clone_into(&mut figure.caption);
+    figure.table = left_out_table(rows);
+    Some(figure)
+}
+
+fn entry(family: Family) -> LegendEntry {
+    LegendEntry {
+        name: family.title().to_owned(),
+        stroke: Some(Stroke { width: 0.0, ..Stroke::solid(role(family), 1.5) }),
+        marker: Some(marker(family)),
+        fill: Some(role(family).into()),
+    }
+}
+
+/// The numbers.
+pub fn table(trial: &Trial) -> Table {
+    let mut table = Table::new([
+        "method",
+        "time (ns)",
+        "ratio to the first",
+        "largest error",
+        "RMS error",
+        "promised error",
+        "preparation (ms)",
+    ]);
+    let reference = trial.points.first().map_or(1.0, |point| point.seconds);
+    for point in &trial.points {
+        table.push([
+            point.name.as_str().into(),
+            (point.seconds * 1e9).into(),
+            (point.seconds / reference).into(),
+            point.max.into(),
+            point.rms.into(),
+            point.certified.into(),
+            Cell::Number(point.preparation * 1e3),
+        ]);
+    }
+    table
+}
+
+/// What was left out, as numbers.
+pub fn left_out_table(rows: &[LeftOut]) -> Table {
+    let mut table = Table::new(["left out", "count", "of", "time saved (ms)", "measured by"]);
+    for row in rows {
+        table.push([
+            row.what.into(),
+            Cell::Number(row.count as f64),
+            row.of.map(|of| of as f64).into(),
+            Cell::Number(row.saved * 1e3),
+            row.how.as_str().into(),
+        ]);
+    }
+    table
+}
+
+/// What was left out: as the last run measured it, and what was remembered since the start.
+pub fn left_out(view: &View, counts: &[(&'static str, Count)]) -> Vec<LeftOut> {
+    let mut rows = view.accuracy.run.as_ref().map_or_else(Vec::new, |run| run.left_out.clone());
+    let reused = |&(name, count): &(&'static str, Count)| {
+        let each = count.own_time.as_secs_f64() / count.misses.max(1) as f64;
+        let what = STAGES.iter().find(|(stage, _)| *stage == name)?.1;
+        (count.hits > 0).then(|| LeftOut {
+            what,
+            count: count.hits,
+            of: Some(count.hits + count.misses),
+            saved: each * count.hits as f64,
+            how: format!("remembered since the start; made {} times, {} each", count.misses, pareto::duration(each)),
+        })
+    };
+    rows.extend(counts.iter().filter_map(reused));
+    rows
+}
+
+/// Stages whose answers are worth telling of when they are remembered.
+const STAGES: [(&str, &str); 11] = [
+    ("mesh", "meshes"),
+    ("shadow tree", "shadow trees"),
+    ("visibility", "visibilities of a mesh"),
+    ("geometry", "angles and shadows"),
+    ("shading", "surfaces at all samples"),
+    ("diffuse table", "tables of a camera"),
+    ("camera image", "signals of a camera"),
+    ("picture", "pixels of a picture"),
+    ("locus", "loci"),
+    ("radiator signals", "black bodies through a sensor"),
+    ("patch colors", "patches of a source"),
+];

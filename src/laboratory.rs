@@ -1,0 +1,216 @@
+//! What the scene on show costs by each method, with its error, and what was left out of it: measured, not estimated.
+//!
+//! A run computes with answers of its own, so that nothing remembered makes it look cheap. It is a question like any other,
+//! except that asking again measures again: [`SceneRunOf::run`] tells runs apart.
+
+mod asked;
+mod integral;
+mod left_out;
+mod loci;
+mod stopwatch;
+
+use std::time::Duration;
+
+use chromascope_core::query::render::{PicturesOf, SourceOf};
+use chromascope_core::query::{Ask, LocusOf, PatchColorsOf, Query, Shared};
+use chromascope_core::spectral::Sensor;
+
+use crate::jobs::Background;
+pub use left_out::LeftOut;
+
+/// What does the scene cost by each method, and what was left out?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SceneRunOf {
+    /// The pictures; none where there is nothing to render.
+    pub pictures: Option<PicturesOf>,
+    /// The sources that are not on show.
+    pub hidden: Vec<SourceOf>,
+    /// The sensors on show.
+    pub sensors: Vec<Shared<Sensor>>,
+    /// The loci of the diagram.
+    pub loci: Vec<LocusOf>,
+    /// The patches of the diagram and the swatches.
+    pub patches: Vec<PatchColorsOf>,
+    /// Tells runs of the same scene apart.
+    pub run: u64,
+}
+
+/// What was measured.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneRun {
+    /// Of each kind of work its methods.
+    pub trials: Vec<Trial>,
+    /// What was not computed.
+    pub left_out: Vec<LeftOut>,
+    /// How long measuring took.
+    pub time: Duration,
+}
+
+/// The methods of one kind of work, side by side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// What is computed.
+    pub subject: Subject,
+    /// How many inputs were measured on.
+    pub inputs: usize,
+    /// The methods, the reference first.
+    pub points: Vec<Point>,
+}
+
+/// A kind of work.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Subject {
+    /// The spectral integral of the rendered samples.
+    #[default]
+    Integral,
+    /// Black bodies through a sensor.
+    Loci,
+}
+
+impl Subject {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Integral, Self::Loci];
+
+    /// In words.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Integral => "Spectral integral",
+            Self::Loci => "Planckian loci",
+        }
+    }
+
+    /// What a time is the time of.
+    pub const fn per(self) -> &'static str {
+        match self {
+            Self::Integral => "a sample and source",
+            Self::Loci => "a temperature and source",
+        }
+    }
+
+    /// What an error is relative to.
+    pub const fn error_of(self) -> &'static str {
+        match self {
+            Self::Integral => "of the peak J(κ, 0)",
+            Self::Loci => "of the largest signal",
+        }
+    }
+}
+
+/// Time and error of a method.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// The method.
+    pub name: String,
+    /// What kind of method it is.
+    pub family: Family,
+    /// Seconds for one input and source, on one thread: the median of rounds in which the methods take turns.
+    pub seconds: f64,
+    /// Seconds that were spent before the first input, for one source.
+    pub preparation: f64,
+    /// The largest error.
+    pub max: f64,
+    /// The root of the errors' mean square.
+    pub rms: f64,
+    /// The error that the core promised, where a tolerance was asked for.
+    pub certified: Option<f64>,
+}
+
+/// A kind of method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Family {
+    /// A sum over the grid.
+    Sum,
+    /// One of the program's qualities.
+    Quality,
+    /// The cheapest that meets a tolerance.
+    Tolerance,
+}
+
+impl Family {
+    /// In words.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Sum => "sum over the grid",
+            Self::Quality => "a quality of the program",
+            Self::Tolerance => "cheapest for a tolerance",
+        }
+    }
+}
+
+impl Trial {
+    /// The methods that no other beats in both time and error, by falling error.
+    pub fn front(&self) -> Vec<&Point> {
+        let beaten = |point: &Point| {
+            self.points.iter().any(|other| {
+                other.seconds <= point.seconds
+                    && other.max <= point.max
+                    && (other.seconds < point.seconds || other.max < point.max)
+            })
+        };
+        let mut front: Vec<&Point> = self.points.iter().filter(|point| !beaten(point)).collect();
+        front.sort_by(|a, b| b.max.total_cmp(&a.max));
+        front
+    }
+}
+
+impl Query for SceneRunOf {
+    type Answer = SceneRun;
+    const NAME: &'static str = "scene run";
+    const KEPT: usize = 1;
+
+    fn answer(&self, ask: &impl Ask) -> SceneRun {
+        let start = std::time::Instant::now();
+        let trials = [integral::trial(self, ask), loci::trial(self, ask)].into_iter().flatten().collect();
+        let left_out = left_out::rows(self, ask);
+        SceneRun { trials, left_out, time: start.elapsed() }
+    }
+}
+
+/// Where runs are made, and the last one.
+pub struct Laboratory {
+    worker: Background<SceneRunOf>,
+    asked: Option<SceneRunOf>,
+    runs: u64,
+}
+
+impl Laboratory {
+    /// Starts the worker, which wakes the window when it has measured.
+    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self { worker: Background::new("scene runs", wake), asked: None, runs: 0 }
+    }
+
+    /// Measures a scene, anew even if it is the same.
+    pub fn run(&mut self, scene: SceneRunOf) {
+        self.runs += 1;
+        let scene = SceneRunOf { run: self.runs, ..scene };
+        self.asked = Some(scene.clone());
+        self.worker.ask(vec![scene]);
+    }
+
+    /// Gives up what is being measured.
+    pub fn stop(&mut self) {
+        self.worker.rest();
+    }
+
+    /// The last run, and whether it is of this scene.
+    pub fn shown(&self, scene: &SceneRunOf) -> Option<(std::sync::Arc<SceneRun>, bool)> {
+        let shown = self.worker.shown()?;
+        let same = self.asked.as_ref().is_some_and(|asked| SceneRunOf { run: asked.run, ..scene.clone() } == *asked);
+        Some((shown.answer, same))
+    }
+
+    /// For how long it has been measured, if it still is.
+    pub fn busy(&self) -> Option<Duration> {
+        self.worker.busy()
+    }
+
+    /// Why there is nothing, if measuring failed.
+    pub fn failure(&self) -> Option<String> {
+        self.worker.failure()
+    }
+
+    /// Waits for the run. For tests.
+    pub fn wait(&self) {
+        self.worker.wait();
+    }
+}

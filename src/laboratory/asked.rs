@@ -1,0 +1,59 @@
+//! The scene on show as a question of what it costs.
+
+use chromascope_core::light::RadiationConstants;
+use chromascope_core::query::render::{PicturesOf, SourceOf};
+use chromascope_core::query::{LocusOf, PatchColorsOf, Shared};
+use chromascope_core::render::{RasterSize, Shadows};
+use chromascope_core::scene::Mesh;
+
+use super::SceneRunOf;
+use crate::scene::render::Finish;
+use crate::scene::{Scene, Source};
+use crate::view::render::Orbit;
+
+/// The pictures that are measured on: as large as a pane's, whatever the window's size.
+const WIDTH: u32 = 480;
+const HEIGHT: u32 = 360;
+
+impl SceneRunOf {
+    /// Asks what a scene costs; a file's mesh is `own`, once it was read.
+    pub fn of(scene: &Scene<'_>, own: Option<&Shared<Mesh>>, orbit: Option<Orbit>) -> Self {
+        let sources = scene.sources();
+        let (shown, hidden): (Vec<&Source>, Vec<&Source>) = sources.iter().partition(|source| source.visible);
+        let rendering = |source: &&Source| scene.rendering_of(source.kind, &source.name).ok();
+        let renderings: Vec<_> = shown.iter().filter_map(rendering).collect();
+        let temperatures = Scene::locus_temperatures().ok();
+        let locus = |rendering: &_| {
+            let constants = RadiationConstants::Paper;
+            Some(LocusOf { rendering: Clone::clone(rendering), temperatures: temperatures.clone()?, constants })
+        };
+        let patches = scene.patches().ok();
+        let colors =
+            |rendering: &_| Some(PatchColorsOf { rendering: Clone::clone(rendering), patches: patches.clone()? });
+        Self {
+            pictures: pictures(scene, own, orbit),
+            hidden: hidden.iter().filter_map(rendering).map(|rendering| SourceOf { rendering }).collect(),
+            sensors: shown.iter().filter_map(|source| scene.sensor(source.kind, &source.name).ok()).collect(),
+            loci: renderings.iter().filter_map(locus).collect(),
+            patches: renderings.iter().filter_map(colors).collect(),
+            run: 0,
+        }
+    }
+}
+
+fn pictures(scene: &Scene<'_>, own: Option<&Shared<Mesh>>, orbit: Option<Orbit>) -> Option<PicturesOf> {
+    let sources = scene.rendered_sources();
+    let settings = &scene.document.render;
+    let orbit = orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
+    let viewpoint = orbit.viewpoint(f64::from(WIDTH) / f64::from(HEIGHT))?;
+    let finish = Finish {
+        size: RasterSize { width: WIDTH, height: HEIGHT, samples: 1 }.clamped(),
+        quality: settings.quality.quality(),
+        shadows: Shadows::Full,
+        compared_samples: None,
+    };
+    if sources.is_empty() {
+        return None;
+    }
+    scene.pictures_of(&sources, scene.mesh_of(own)?, viewpoint, finish, None).ok()
+}

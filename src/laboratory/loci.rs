@@ -1,0 +1,138 @@
+//! Black bodies through the sensors on show, by each method.
+
+use chromascope_core::camera::{LocusEvaluator, LocusMethod};
+use chromascope_core::light::RadiationConstants;
+use chromascope_core::query::{Ask, Shared};
+use chromascope_core::spectral::Sensor;
+use chromascope_core::units::Kelvin;
+
+use super::stopwatch::{medians, once};
+use super::{Family, Point, SceneRunOf, Subject, Trial};
+
+/// So many temperatures, evenly in 1/T over the range on show.
+const TEMPERATURES: usize = 200;
+const FROM_K: f64 = 1000.0;
+const TO_K: f64 = 20_000.0;
+/// Of the 1 nm grid each so many-th wavelength is taken.
+const STEPS: [usize; 5] = [1, 2, 5, 10, 20];
+
+/// Measures; none without sensors, and if stopped.
+pub(super) fn trial(run: &SceneRunOf, ask: &impl Ask) -> Option<Trial> {
+    let temperatures: Vec<Kelvin> = (0..TEMPERATURES)
+        .filter_map(|i| {
+            let t = i as f64 / (TEMPERATURES - 1) as f64;
+            Kelvin::new(1.0 / (1.0 / FROM_K + t * (1.0 / TO_K - 1.0 / FROM_K))).ok()
+        })
+        .collect();
+    let mut all: Vec<Point> = Vec::new();
+    for sensor in &run.sensors {
+        let points = measured(sensor, &temperatures, ask)?;
+        if all.is_empty() {
+            all = points;
+            continue;
+        }
+        for (sum, point) in all.iter_mut().zip(points) {
+            sum.seconds += point.seconds;
+            sum.preparation += point.preparation;
+            sum.max = sum.max.max(point.max);
+            sum.rms = sum.rms.max(point.rms);
+            sum.certified = sum.certified.zip(point.certified).map(|(a, b)| a.max(b));
+        }
+    }
+    let sources = run.sensors.len() as f64;
+    for point in &mut all {
+        point.seconds /= sources;
+        point.preparation /= sources;
+    }
+    (!all.is_empty()).then_some(Trial { subject: Subject::Loci, inputs: temperatures.len(), points: all })
+}
+
+struct Method<'a> {
+    name: String,
+    family: Family,
+    preparation: f64,
+    certified: Option<f64>,
+    at: Box<dyn Fn(Kelvin) -> [f64; 3] + 'a>,
+}
+
+fn measured(sensor: &Shared<Sensor>, temperatures: &[Kelvin], ask: &impl Ask) -> Option<Vec<Point>> {
+    let constants = RadiationConstants::Paper;
+    let methods = methods(sensor, constants);
+    let values = |method: &Method<'_>| temperatures.iter().map(|&t| (method.at)(t)).collect::<Vec<_>>();
+    let exact = values(&methods[0]);
+    let work: Vec<Box<dyn Fn() -> Vec<[f64; 3]> + '_>> =
+        methods.iter().map(|method| -> Box<dyn Fn() -> Vec<[f64; 3]> + '_> { Box::new(|| values(method)) }).collect();
+    let seconds = medians(&work, &ask.stop())?;
+    let count = temperatures.len() as f64;
+    let point = |(method, seconds): (&Method<'_>, f64)| {
+        let (mut max, mut squares) = (0.0_f64, 0.0);
+        for (value, exact) in values(method).into_iter().zip(&exact) {
+            let share = off(value, *exact);
+            max = max.max(share);
+            squares += share * share;
+        }
+        Point {
+            name: method.name.clone(),
+            family: method.family,
+            seconds: seconds / count,
+            preparation: method.preparation,
+            max,
+            rms: (squares / count).sqrt(),
+            certified: method.certified,
+        }
+    };
+    Some(methods.iter().zip(seconds).map(point).collect())
+}
+
+/// How far apart two triples of signals are, relative to the largest. Methods may differ by a factor common to the three,
+/// which no chromaticity shows: they are compared as shares of their largest.
+fn off(value: [f64; 3], exact: [f64; 3]) -> f64 {
+    let peak = |v: [f64; 3]| v.iter().fold(0.0_f64, |peak, x| peak.max(x.abs()));
+    let (mine, theirs) = (peak(value), peak(exact));
+    if !(mine > 0.0 && theirs > 0.0) {
+        return if mine == theirs { 0.0 } else { 1.0 };
+    }
+    value.iter().zip(exact).fold(0.0, |worst, (a, b)| worst.max((a / mine - b / theirs).abs()))
+}
+
+/// The methods, the reference first.
+fn methods(sensor: &Shared<Sensor>, constants: RadiationConstants) -> Vec<Method<'static>> {
+    let mut methods: Vec<Method<'static>> = Vec::new();
+    for step in STEPS {
+        let sensor = sensor.clone();
+        let at: Box<dyn Fn(Kelvin) -> [f64; 3]> = if step == 1 {
+            let evaluator = LocusEvaluator::by_sum(sensor, constants);
+            Box::new(move |t| evaluator.raw(t))
+        } else {
+            Box::new(move |t| stepped(&sensor, constants, t, step))
+        };
+        let name = format!("{step} nm sum");
+        methods.push(Method { name, family: Family::Sum, preparation: 0.0, certified: None, at });
+    }
+    let (evaluator, preparation) = once(|| LocusEvaluator::new(sensor.clone(), constants));
+    let (name, certified) = match evaluator.method() {
+        LocusMethod::Nodes { count, error } => (format!("the program's: up to {count} nodes"), Some(error)),
+        LocusMethod::Sum => ("the program's: the sum".to_owned(), None),
+    };
+    let at = Box::new(move |t| evaluator.raw(t));
+    methods.push(Method { name, family: Family::Quality, preparation, certified, at });
+    methods
+}
+
+/// A trapezoid over each so many-th wavelength of the grid, relative to the exitance at its last wavelength.
+fn stepped(sensor: &Sensor, constants: RadiationConstants, t: Kelvin, step: usize) -> [f64; 3] {
+    use chromascope_core::spectral::grid::{COUNT, LAST_NM, wavelength_nm};
+    let scale = constants.second() * 1e9 / t.get();
+    let anchor = -(-scale / LAST_NM).exp_m1();
+    let mut sums = [0.0; 3];
+    for index in (0..COUNT).step_by(step) {
+        let nm = wavelength_nm(index);
+        let gap = (LAST_NM - nm) / (nm * LAST_NM);
+        let e = (-scale * gap).exp() * (LAST_NM / nm).powi(5) * anchor / -(-scale / nm).exp_m1();
+        for (c, sum) in sums.iter_mut().enumerate() {
+            // The grid's weights hold the trapezoid's halves at its ends already.
+            *sum += sensor.weighted(c)[index] * e;
+        }
+    }
+    sums
+}

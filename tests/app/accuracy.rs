@@ -1,0 +1,114 @@
+//! The Accuracy workspace: measured on the scene on show, by a person's wish alone.
+
+use chromascope::action::{Action, CompareAction, SceneAction};
+use chromascope::catalog::Kind;
+use chromascope::command::Command;
+use chromascope::document::Light;
+use chromascope::laboratory::{SceneRun, Subject};
+use chromascope::panes;
+use chromascope::scene::Scene;
+use chromascope::workspaces::{PaneKind, Workspace};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+
+use crate::screenshots::open;
+
+type Window = Harness<'static, chromascope::app::ChromascopeApp>;
+
+/// The window in Accuracy, with the scene as it starts measured.
+fn measured() -> Window {
+    let mut window = open([1280.0, 800.0], egui::Theme::Dark);
+    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.run_steps(2);
+    window.get_all_by_label("Run").next().expect("there is a way to measure").click();
+    window.run_steps(2);
+    take_in(&mut window);
+    window
+}
+
+fn take_in(window: &mut Window) {
+    window.state().laboratory().wait();
+    window.run_steps(3);
+}
+
+fn run(window: &Window) -> std::sync::Arc<SceneRun> {
+    window.state().view().accuracy.run.clone().expect("something was measured")
+}
+
+#[test]
+fn nothing_is_measured_unasked() {
+    let mut window = open([1280.0, 800.0], egui::Theme::Light);
+    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.run_steps(3);
+    assert!(window.state().laboratory().busy().is_none());
+    assert!(window.state().view().accuracy.run.is_none());
+    assert!(window.query_by_label("Nothing measured yet.").is_some());
+}
+
+#[test]
+fn a_run_has_times_errors_figures_and_what_was_left_out() {
+    let mut window = measured();
+    let measured = run(&window);
+    for subject in Subject::ALL {
+        let trial = measured.trials.iter().find(|trial| trial.subject == subject).expect("both subjects");
+        assert_eq!((trial.points[0].max, trial.points[0].rms), (0.0, 0.0), "the reference");
+        assert!(trial.points.len() >= 6);
+        for point in &trial.points {
+            assert!(point.seconds > 0.0 && point.seconds.is_finite(), "{point:?}");
+            assert!(point.rms <= point.max && point.max.is_finite(), "{point:?}");
+            assert!(point.certified.is_none_or(|certified| point.max <= certified.max(1e-13)), "{point:?}");
+        }
+        let front = trial.front();
+        assert!(front.windows(2).all(|w| w[0].seconds <= w[1].seconds && w[0].max >= w[1].max), "{front:?}");
+    }
+    let of = |what: &str| {
+        let row = measured.left_out.iter().find(|row| row.what == what);
+        row.unwrap_or_else(|| panic!("{what}: {:?}", measured.left_out))
+    };
+    let beside = of("samples beside the mesh");
+    let rest: u64 = ["samples turned from the light", "samples in shadow"].map(|what| of(what).count).iter().sum();
+    let lit = of("mirror terms").of.expect("of the lit samples");
+    assert_eq!(Some(beside.count + rest + lit), beside.of, "every sample is lit or accounted for");
+    assert!(measured.left_out.iter().all(|row| row.saved.is_finite() && row.saved >= 0.0 && !row.how.is_empty()));
+    assert!(window.query_by_label("Run again").is_some());
+    assert!(window.query_by_label("of the scene as it was").is_none());
+    let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
+    let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
+    for pane in [PaneKind::Accuracy, PaneKind::LeftOut] {
+        let figure = panes::figure(pane, &scene, window.state().view()).expect("measured");
+        assert!(figure.table.rows.len() >= 6);
+        let paper = chromascope::export::Paper::default();
+        let svg = chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, paper);
+        assert!(svg.contains("</svg>") && !svg.contains("NaN") && !figure.table.to_csv().contains("NaN"));
+    }
+    window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::BlackBody)));
+    window.run_steps(3);
+    assert!(window.query_by_label("of the scene as it was").is_some());
+}
+
+#[test]
+fn a_hidden_camera_is_told_of() {
+    let mut window = open([1280.0, 800.0], egui::Theme::Dark);
+    let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70".to_owned(), false);
+    window.state_mut().push(Action::Compare(hide));
+    window.run_steps(2);
+    window.state_mut().push(Command::Measure);
+    window.run_steps(2);
+    assert_eq!(window.state().view().saved.workspace, Workspace::Accuracy, "what is measured is shown");
+    take_in(&mut window);
+    let run = run(&window);
+    let row = run.left_out.iter().find(|row| row.what == "sources that are not on show").expect("one is hidden");
+    assert_eq!((row.count, row.saved > 0.0), (1, true));
+}
+
+#[test]
+fn escape_stops_measuring() {
+    let mut window = open([1280.0, 800.0], egui::Theme::Dark);
+    window.state_mut().push(Command::Measure);
+    window.run_steps(1);
+    assert!(window.state().laboratory().busy().is_some());
+    window.key_press(egui::Key::Escape);
+    window.run_steps(2);
+    assert!(window.state().laboratory().busy().is_none());
+    assert!(window.state().view().accuracy.run.is_none());
+}
