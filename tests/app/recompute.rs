@@ -4,9 +4,14 @@ use std::collections::BTreeMap;
 
 use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::catalog::{Catalog, Kind};
-use chromascope::document::{Document, Light};
+use chromascope::document::render::MeshChoice;
+use chromascope::document::{DifferenceChoice, Document, Light, WhiteChoice};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
+use chromascope::scene::render::Finish;
+use chromascope::view::render::Orbit;
+use chromascope_core::query::Ask;
+use chromascope_core::render::{RasterSize, Shadows};
 
 /// A document with its answers, asked for as the window does.
 struct Desk {
@@ -117,4 +122,129 @@ fn the_first_screen_reads_only_what_it_shows() {
     let counts = desk.results.counts();
     // Five sensors, the chart, the light.
     assert_eq!(counts["data file"].misses, 7, "{counts:?}");
+}
+
+/// The pictures of the Render pane on a desk, asked for as its worker does.
+struct Pictures {
+    desk: Desk,
+    worker: Results,
+    orbit: Orbit,
+}
+
+impl Pictures {
+    fn new() -> Self {
+        let mut pictures = Self { desk: Desk::new(), worker: Results::bounded(), orbit: Orbit::default() };
+        pictures.desk.document.render.triangles = 2000;
+        // Smoother than what the closed form holds for, so that tables are needed.
+        pictures.desk.document.render.sigma_um = 0.3;
+        pictures.look();
+        pictures
+    }
+
+    fn look(&self) {
+        let desk = &self.desk;
+        let scene = Scene { document: &desk.document, catalog: &desk.catalog, results: &desk.results };
+        let finish = Finish {
+            size: RasterSize { width: 64, height: 48, samples: 1 },
+            quality: desk.document.render.quality.quality(),
+            shadows: Shadows::Full,
+            compared_samples: Some(500),
+        };
+        let viewpoint = self.orbit.viewpoint(4.0 / 3.0).unwrap();
+        let mesh = scene.mesh_of(None).unwrap();
+        let pictures = scene.pictures_of(&scene.rendered_sources(), mesh, viewpoint, finish, None).unwrap();
+        assert!(matches!(&*self.worker.ask(&pictures), Ok(Some(_))));
+    }
+
+    /// What is computed after a change, in alphabetical order, with how often.
+    fn computed(&mut self, change: impl FnOnce(&mut Self)) -> Vec<(&'static str, u64)> {
+        let before = self.worker.counts();
+        change(self);
+        self.look();
+        let misses = |name: &str| before.get(name).map_or(0, |count| count.misses);
+        let after = self.worker.counts();
+        after.iter().map(|(name, count)| (*name, count.misses - misses(name))).filter(|(_, runs)| *runs > 0).collect()
+    }
+
+    fn done(&mut self, action: &Action) -> Vec<(&'static str, u64)> {
+        self.computed(|pictures| {
+            action.apply(&mut pictures.desk.document);
+        })
+    }
+}
+
+#[test]
+fn a_picture_computes_only_what_an_action_changes() {
+    // The truth and three cameras; CIE 1931 has no picture beside a truth of other primaries.
+    let cases: [(&str, Action, &[(&str, u64)]); 7] = [
+        (
+            "a name",
+            compare(CompareAction::Rename(Kind::Camera, "Nikon D70".to_owned(), "mine".to_owned())),
+            // Nothing: the question is the same.
+            &[],
+        ),
+        ("a measure of difference", Action::Scene(SceneAction::SetDifference(DifferenceChoice::Xy)), &[]),
+        ("a temperature that only marks", Action::Scene(SceneAction::SetTemperature(4000.0)), &[]),
+        (
+            "a camera ticked off",
+            compare(CompareAction::SetVisible(Kind::Camera, "Nikon D70".to_owned(), false)),
+            // The others are put side by side, no more.
+            &[("pictures", 1)],
+        ),
+        ("ticked on again", compare(CompareAction::SetVisible(Kind::Camera, "Nikon D70".to_owned(), true)), &[]),
+        (
+            "another camera",
+            compare(CompareAction::Add(Kind::Camera, "Nikon D850".to_owned())),
+            &[
+                ("camera image", 1),
+                ("difference", 1),
+                ("diffuse table", 1),
+                ("measure", 1),
+                ("picture", 1),
+                ("pictures", 1),
+                ("rendering", 1),
+            ],
+        ),
+        (
+            "a white",
+            Action::Scene(SceneAction::SetWhite(WhiteChoice::Light("D55".to_owned()))),
+            // Signals are before the balance.
+            &[("difference", 4), ("exposure", 1), ("picture", 5), ("pictures", 1), ("rendering", 5)],
+        ),
+    ];
+    let mut pictures = Pictures::new();
+    for (what, action, expected) in cases {
+        assert_eq!(pictures.done(&action), expected, "{what}");
+    }
+}
+
+#[test]
+fn a_surface_a_light_and_a_view_compute_only_what_follows_them() {
+    let mut pictures = Pictures::new();
+    let mut set = |change: fn(&mut Pictures)| pictures.computed(change);
+    let developed = [("picture", 4), ("pictures", 1)];
+    assert_eq!(set(|p| p.desk.document.render.exposure_ev = 1.0), developed, "exposure: the last stage alone");
+    let signals = [("camera image", 4), ("difference", 3), ("exposure", 1), ("picture", 4), ("pictures", 1)];
+    let with = |more: &[(&'static str, u64)]| {
+        let mut all: Vec<(&str, u64)> = signals.iter().chain(more).copied().collect();
+        all.sort_unstable();
+        all
+    };
+    assert_eq!(set(|p| p.desk.document.render.sigma_um = 0.2), with(&[("shading", 1)]), "roughness: no table anew");
+    let material = set(|p| p.desk.document.render.material = "Fern-like bush leaf 024 (Vrhel)".to_owned());
+    // Exposure weighs wavelengths once more for the material, and for a white.
+    assert_eq!(material, with(&[("diffuse table", 4), ("measure", 5)]), "a material: no angles");
+    let light = set(|p| p.desk.document.light = Light::Set("A".to_owned()));
+    assert_eq!(light, with(&[("diffuse table", 4), ("measure", 6), ("rendering", 4)]), "a spectrum: no angles");
+    let without_exposure = |more: &[(&'static str, u64)]| -> Vec<(&str, u64)> {
+        with(more).into_iter().filter(|(name, _)| *name != "exposure").collect()
+    };
+    let place = set(|p| p.desk.document.render.light_up_deg += 10.0);
+    assert_eq!(place, without_exposure(&[("geometry", 1), ("shading", 1)]), "the light's place: nothing seen anew");
+    let orbit = set(|p| p.orbit = p.orbit.turned(10.0, 0.0));
+    let seen = [("geometry", 1), ("shading", 1), ("visibility", 1)];
+    assert_eq!(orbit, without_exposure(&seen), "a view: no mesh, no tree, no table");
+    let mesh = set(|p| p.desk.document.render.mesh = MeshChoice::Sphere);
+    let made = [("geometry", 1), ("mesh", 1), ("shading", 1), ("shadow tree", 1), ("visibility", 1)];
+    assert_eq!(mesh, without_exposure(&made), "a mesh: no table");
 }
