@@ -173,10 +173,13 @@ impl Pictures {
     }
 }
 
+/// What it is, what a person does, what it computes.
+type Case = (&'static str, Action, &'static [(&'static str, u64)]);
+
 #[test]
 fn a_picture_computes_only_what_an_action_changes() {
     // The truth and three cameras; CIE 1931 has no picture beside a truth of other primaries.
-    let cases: [(&str, Action, &[(&str, u64)]); 7] = [
+    let cases: [Case; 7] = [
         (
             "a name",
             compare(CompareAction::Rename(Kind::Camera, "Nikon D70".to_owned(), "mine".to_owned())),
