@@ -30,6 +30,7 @@
 //!
 #![doc = include_str!("sources.md")]
 
+pub mod accuracy;
 pub mod camera;
 pub mod colorimetry;
 pub mod figure;

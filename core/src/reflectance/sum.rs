@@ -17,6 +17,7 @@ mod factorials;
 mod narrow;
 mod saddle;
 
+use crate::accuracy::{Accuracy, Unmet};
 use multiversion::multiversion;
 use saddle::Peak;
 
@@ -33,6 +34,30 @@ pub enum Precision {
 }
 
 impl Precision {
+    /// From the cheapest to the most exact.
+    pub const ALL: [Self; 3] = [Self::Coarse, Self::Fine, Self::Full];
+
+    /// The cheapest that keeps the relative error of S within an accuracy.
+    ///
+    /// Beside it stands what rounding b costs, |ln S| ε, which no precision is without: 7e-15 where S is e^-30, 2e-13 where S is
+    /// 1e-300. Relative to S(g, 0) instead of S it is below 1e-16.
+    ///
+    /// # Errors
+    /// Below 1e-13 none does.
+    pub fn within(accuracy: Accuracy) -> Result<Self, Unmet> {
+        let found = Self::ALL.into_iter().find(|precision| accuracy.allows(precision.max_relative_error()));
+        found.map_or_else(|| accuracy.met_by(Self::Full.max_relative_error()).map(|()| Self::Full), Ok)
+    }
+
+    /// The relative error of S that it keeps, beside |ln S| ε.
+    pub const fn max_relative_error(self) -> f64 {
+        match self {
+            Self::Coarse => 1e-6,
+            Self::Fine => 1e-10,
+            Self::Full => 1e-13,
+        }
+    }
+
     /// The m from which the expansion is within the error.
     const fn switch(self) -> f64 {
         match self {

@@ -1,0 +1,110 @@
+//! How exactly a number is wanted, and what is said where that cannot be had.
+//!
+//! What takes an [`Accuracy`] chooses the cheapest way whose error it has checked, and says [`Unmet`] where none is exact
+//! enough. Relative to what an error is, each says itself: a peak, a value, the largest of three signals.
+
+use std::cmp::Ordering;
+use std::fmt;
+use std::hash::{Hash, Hasher};
+
+/// The largest relative error that is allowed: above 0, below 1. Equal and hashed by its bits, so that questions can hold it.
+#[derive(Clone, Copy, Debug)]
+pub struct Accuracy {
+    max_relative_error: f64,
+}
+
+impl Accuracy {
+    /// Takes a relative error above 0 and below 1.
+    ///
+    /// ```
+    /// use chromascope_core::accuracy::Accuracy;
+    /// assert_eq!(Accuracy::new(1e-6).unwrap().to_string(), "1e-6");
+    /// assert!(Accuracy::new(0.0).is_err());
+    /// ```
+    pub fn new(max_relative_error: f64) -> Result<Self, NotAnAccuracy> {
+        if max_relative_error > 0.0 && max_relative_error < 1.0 {
+            Ok(Self { max_relative_error })
+        } else {
+            Err(NotAnAccuracy { value: max_relative_error })
+        }
+    }
+
+    /// The largest relative error that is allowed.
+    pub const fn max_relative_error(self) -> f64 {
+        self.max_relative_error
+    }
+
+    /// Whether an error is within it. What is no number is not.
+    pub fn allows(self, relative_error: f64) -> bool {
+        relative_error <= self.max_relative_error
+    }
+
+    /// What can be had at best. Errors of 1 and more, and what is no number, count as the largest below 1.
+    pub(crate) fn at_best(relative_error: f64) -> Self {
+        let largest = 1.0 - f64::EPSILON;
+        let clamped = if relative_error < largest { relative_error.max(f64::MIN_POSITIVE) } else { largest };
+        Self { max_relative_error: clamped }
+    }
+
+    /// The same as a refusal, if a way of this error does not meet it.
+    pub(crate) fn met_by(self, relative_error: f64) -> Result<(), Unmet> {
+        if self.allows(relative_error) {
+            Ok(())
+        } else {
+            Err(Unmet { asked: self, best: Self::at_best(relative_error) })
+        }
+    }
+}
+
+impl PartialEq for Accuracy {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Accuracy {}
+
+impl Hash for Accuracy {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.max_relative_error.to_bits().hash(state);
+    }
+}
+
+impl PartialOrd for Accuracy {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Accuracy {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.max_relative_error.total_cmp(&other.max_relative_error)
+    }
+}
+
+impl fmt::Display for Accuracy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(digits) = f.precision() {
+            return write!(f, "{:.digits$e}", self.max_relative_error);
+        }
+        write!(f, "{:e}", self.max_relative_error)
+    }
+}
+
+/// Why a number is no accuracy.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{value} is not a relative error between 0 and 1")]
+pub struct NotAnAccuracy {
+    /// The number that was offered.
+    pub value: f64,
+}
+
+/// A request that no way meets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[error("an error of {asked:.1} cannot be promised; the best that can be is {best:.1}")]
+pub struct Unmet {
+    /// What was asked for.
+    pub asked: Accuracy,
+    /// The smallest error that can be promised.
+    pub best: Accuracy,
+}
