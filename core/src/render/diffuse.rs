@@ -128,7 +128,7 @@ fn lagrange(t: f64) -> [f64; STENCIL] {
 }
 
 /// One place of the table. Sums are scaled by the largest, so that none is lost far down.
-fn cell(nodes: &[Node], kappa: f64, beta: f64) -> Cell {
+pub(super) fn cell(nodes: &[Node], kappa: f64, beta: f64) -> Cell {
     let logs = nodes.iter().map(|node| {
         let g = kappa * node.scale;
         ln_diffuse_sum(g, beta * g, Precision::Fine)

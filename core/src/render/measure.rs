@@ -95,6 +95,11 @@ impl Measure {
         &self.fine
     }
 
+    /// So many wavelengths for all three channels; fewer where the weights themselves are at fewer.
+    pub fn shared(&self, count: usize) -> Vec<Node> {
+        nodes(&self.dense, count)
+    }
+
     /// `M_ck = Σ w_c (λ/λ0)^(2k+2)`: what is left of the spectrum where the surface is rough.
     pub fn moments(&self) -> &[[f64; MOMENTS]; 3] {
         &self.moments

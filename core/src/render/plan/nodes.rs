@@ -1,0 +1,40 @@
+//! Sums over a few wavelengths.
+
+use crate::math::gauss::{Rule, gauss_rule, interpolatory_rule};
+use crate::reflectance::{Precision, diffuse_sum};
+use crate::render::measure::{LAMBDA_0_NM, Node};
+
+/// A rule of one channel's own: (λ0/λ)² and weight.
+pub(super) type OwnRule = Vec<[f64; 2]>;
+
+/// The rules with `count` wavelengths for each channel: Gauss's own where its weights have one sign, else the wavelengths of
+/// the unsigned weights.
+pub(super) fn own_rules(dense: &[Node], count: usize) -> [OwnRule; 3] {
+    let points: Vec<f64> = dense.iter().map(|node| node.wavelength_nm).collect();
+    [0, 1, 2].map(|c: usize| {
+        let masses: Vec<f64> = dense.iter().map(|node| node.weights[c]).collect();
+        let unsigned: Vec<f64> = masses.iter().map(|m| m.abs()).collect();
+        let rule = gauss_rule(&points, &unsigned, count);
+        let Rule { nodes, weights } =
+            if masses.iter().all(|&m| m >= 0.0) { rule } else { interpolatory_rule(&rule.nodes, &points, &masses) };
+        nodes.iter().zip(weights).map(|(nm, weight)| [(LAMBDA_0_NM / nm).powi(2), weight]).collect()
+    })
+}
+
+/// The three integrals by rules of their own.
+pub(super) fn by_own(rules: &[OwnRule; 3], kappa: f64, beta: f64, precision: Precision) -> [f64; 3] {
+    let sum = |rule: &OwnRule| -> f64 {
+        let term = |[scale, weight]: &[f64; 2]| {
+            let g = kappa * scale;
+            weight * diffuse_sum(g, beta * g, precision)
+        };
+        rule.iter().map(term).sum()
+    };
+    [sum(&rules[0]), sum(&rules[1]), sum(&rules[2])]
+}
+
+/// `Σ |w| S` of the channel where it is largest: what a relative error of S is carried by.
+pub(super) fn carried(nodes: &[Node], sums: &[f64]) -> f64 {
+    let of = |c: usize| nodes.iter().zip(sums).map(|(node, sum)| (node.weights[c] * sum).abs()).sum::<f64>();
+    of(0).max(of(1)).max(of(2))
+}

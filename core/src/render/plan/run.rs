@@ -1,0 +1,133 @@
+//! Many samples at once: what takes no sum over wavelengths is done together, so that it vectorizes.
+
+use super::domain::position;
+use super::table::Table;
+use super::Plan;
+use crate::math::exp::exp;
+use crate::render::diffuse::{by_moments, rough_basis};
+use crate::render::measure::MOMENTS;
+use multiversion::multiversion;
+
+/// Samples that are done together.
+pub(in crate::render) const RUN: usize = 64;
+
+/// From this β on moments give nothing: e^-60 of the peak, beyond which the polynomials overflow.
+pub(super) const LAST_BETA: f64 = 60.0;
+
+/// The places of a run of samples.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct Places {
+    pub(in crate::render) kappa: [f64; RUN],
+    pub(in crate::render) beta: [f64; RUN],
+    /// [`position`], of those below the rough.
+    pub(in crate::render) position: [[f64; 2]; RUN],
+    pub(in crate::render) count: usize,
+}
+
+impl Places {
+    pub(in crate::render) const EMPTY: Self =
+        Self { kappa: [1.0; RUN], beta: [0.0; RUN], position: [[0.0; 2]; RUN], count: 0 };
+}
+
+/// Which of the quick ways a sample goes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Quick {
+    Moments,
+    Table,
+    Dark,
+    Neither,
+}
+
+pub(super) fn fill(plan: &Plan, points: &[[f64; 2]], sums: &mut [[f64; 3]]) {
+    let mut places = Places::EMPTY;
+    for (points, sums) in points.chunks(RUN).zip(sums.chunks_mut(RUN)) {
+        places.count = points.len().min(sums.len());
+        let table = plan.table();
+        for (i, &[kappa, beta]) in points.iter().enumerate() {
+            (places.kappa[i], places.beta[i]) = (kappa, beta.max(0.0));
+            if kappa < plan.rough.0 && table.is_some_and(|table| table.holds(kappa)) {
+                places.position[i] = position(kappa, beta);
+            }
+        }
+        let found = plan.run(&places);
+        for (i, sum) in sums.iter_mut().enumerate().take(places.count) {
+            *sum = [found[0][i], found[1][i], found[2][i]];
+        }
+    }
+}
+
+impl Plan {
+    /// The three channels of a run of samples.
+    pub(in crate::render) fn run(&self, places: &Places) -> [[f64; RUN]; 3] {
+        let mut ways = [Quick::Neither; RUN];
+        let (table, rough, demand) = (self.table(), self.rough.0, self.demand);
+        for (i, way) in ways.iter_mut().enumerate().take(places.count) {
+            let kappa = places.kappa[i];
+            *way = if kappa >= rough && demand.holds(kappa) {
+                Quick::Moments
+            } else if table.is_some_and(|table| table.holds(kappa)) {
+                // Written so that what is no number is dark.
+                if places.position[i][1] <= 1.0 { Quick::Table } else { Quick::Dark }
+            } else {
+                Quick::Neither
+            };
+        }
+        let mut sums = [[0.0; RUN]; 3];
+        quick(&self.moments, self.rough.1, table, places, &ways, &mut sums);
+        for i in (0..places.count).filter(|&i| ways[i] == Quick::Neither) {
+            let slow = self.slowly(places.kappa[i], places.beta[i]);
+            (sums[0][i], sums[1][i], sums[2][i]) = (slow[0], slow[1], slow[2]);
+        }
+        sums
+    }
+}
+
+/// Moments and table. Compiled for several instruction sets, the best chosen at run time; no operation is fused, so all of
+/// them give the same bits.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn quick(
+    moments: &[[f64; MOMENTS]; 3],
+    orders: usize,
+    table: Option<&Table>,
+    places: &Places,
+    ways: &[Quick; RUN],
+    sums: &mut [[f64; RUN]; 3],
+) {
+    if let Some(table) = table
+        && ways.contains(&Quick::Table)
+    {
+        match table.degree() {
+            3 => read::<4>(table, places, ways, sums),
+            _ => read::<6>(table, places, ways, sums),
+        }
+    }
+    if ways.contains(&Quick::Moments) {
+        for i in 0..RUN {
+            let mut basis = rough_basis(places.kappa[i], places.beta[i].min(LAST_BETA));
+            basis[orders..].fill(0.0);
+            let found = by_moments(moments, &basis);
+            if ways[i] == Quick::Moments {
+                (sums[0][i], sums[1][i], sums[2][i]) = (found[0], found[1], found[2]);
+            }
+        }
+    }
+}
+
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn read<const N: usize>(table: &Table, places: &Places, ways: &[Quick; RUN], sums: &mut [[f64; RUN]; 3]) {
+    let mut peaks = [0.0; RUN];
+    for i in 0..RUN {
+        if ways[i] == Quick::Table {
+            let [peak, channels @ ..] = table.read::<N>(places.position[i]);
+            peaks[i] = peak;
+            (sums[0][i], sums[1][i], sums[2][i]) = (channels[0], channels[1], channels[2]);
+        }
+    }
+    for i in 0..RUN {
+        let peak = exp(peaks[i]);
+        for channel in sums.iter_mut() {
+            channel[i] *= peak;
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! Which way is the cheapest that keeps the error.
+//!
+//! What is looked at and what it costs does not depend on the accuracy: then the cheapest that meets a smaller error never has
+//! a larger one than the cheapest that meets a larger.
+
+use super::candidate::{Candidate, Explanation, Method, Verdict};
+use super::check::{Check, Point, REFERENCE, off};
+use super::nodes::{by_own, carried, own_rules};
+use super::table::{Size, Table};
+use super::{Against, Below, Demand, Plan, run};
+use crate::accuracy::{Accuracy, Unmet};
+use crate::reflectance::{Precision, diffuse_sum};
+use crate::render::diffuse::{by_moments, by_nodes, rough_basis};
+use crate::render::measure::{MOMENTS, Measure, Node};
+
+/// The most wavelengths that stand for all.
+const MOST_NODES: usize = 24;
+/// The least κ that moments are tried from, and the largest that a table holds.
+const LEAST_ROUGH: f64 = 16.0;
+const LAST_TABLE: f64 = 1024.0;
+/// A table reaches down to this share of the largest κ in it.
+const TABLE_SPAN: f64 = 1e-6;
+/// The finest table: cells of 1/320.
+const LAST_STEP: usize = 16;
+/// An error falls by at most this much from a table to the next finer one, whose cells are smaller by √2: by 2^(degree + 1)/2 and
+/// as much again where it has not begun to fall regularly.
+const STEEPEST: f64 = 64.0;
+
+pub(super) fn plan(measure: &Measure, accuracy: Accuracy, against: Against, demand: Demand) -> Result<Plan, Unmet> {
+    accuracy.met_by(REFERENCE)?;
+    let check = Check::new(measure, against, demand);
+    let mut search = Search { measure, accuracy, demand, check: &check, seen: Vec::new(), best: None };
+    let whole = search.moments();
+    let rough = search.rough();
+    let from = rough.as_ref().map_or(f64::INFINITY, |(_, from)| *from);
+    if whole.is_none() {
+        search.every();
+        search.shared();
+        search.own();
+        search.tables(from);
+    }
+    let Search { mut seen, best, .. } = search;
+    let (chosen, below, rough) = match (whole, best) {
+        (Some(moments), _) => (moments, Below::Nothing, Some((moments, demand.kappa()[0]))),
+        (None, Some((chosen, below))) => (chosen, below, rough),
+        // The sum over all wavelengths meets whatever the reference does.
+        (None, None) => return Err(Unmet { asked: accuracy, best: Accuracy::at_best(REFERENCE) }),
+    };
+    let chosen = Candidate { verdict: Verdict::Chosen, ..chosen };
+    seen.retain(|candidate| candidate.method != chosen.method);
+    let orders = |candidate: &Candidate| if let Method::Moments { orders, .. } = candidate.method { orders } else { 0 };
+    Ok(Plan {
+        demand,
+        rough: rough.as_ref().map_or((f64::INFINITY, 0), |(candidate, from)| (*from, orders(candidate))),
+        moments: *measure.moments(),
+        below,
+        every: measure.dense().to_vec(),
+        explanation: Explanation {
+            asked: accuracy,
+            against,
+            demand,
+            rough: rough.map(|(candidate, _)| Candidate { verdict: Verdict::Chosen, ..candidate }),
+            chosen,
+            rejected: seen,
+        },
+    })
+}
+
+struct Search<'a> {
+    measure: &'a Measure,
+    accuracy: Accuracy,
+    demand: Demand,
+    check: &'a Check,
+    seen: Vec<Candidate>,
+    best: Option<(Candidate, Below)>,
+}
+
+impl Search<'_> {
+    /// Takes a candidate if it is exact enough and the cheapest so far.
+    fn offer(&mut self, mut candidate: Candidate, below: Below) {
+        let meets = candidate.meets(self.accuracy);
+        candidate.verdict = if meets { Verdict::TooSlow } else { Verdict::TooInexact };
+        self.seen.push(candidate);
+        if meets && self.may_win(&candidate) {
+            self.best = Some((candidate, below));
+        }
+    }
+
+    /// Whether a candidate is cheaper than the best so far.
+    fn may_win(&self, candidate: &Candidate) -> bool {
+        let samples = self.demand.samples();
+        self.best.as_ref().is_none_or(|(best, _)| candidate.total_ns(samples) < best.total_ns(samples))
+    }
+
+    fn moments_error(&self, orders: usize, from: f64) -> f64 {
+        let way = |kappa, beta: f64| {
+            let mut basis = rough_basis(kappa, beta.min(run::LAST_BETA));
+            basis[orders..].fill(0.0);
+            by_moments(self.measure.moments(), &basis)
+        };
+        self.check.error(|kappa| kappa >= from, way)
+    }
+
+    /// The fewest moments that do for all of the demand.
+    fn moments(&mut self) -> Option<Candidate> {
+        let from_kappa = self.demand.kappa()[0];
+        if from_kappa < LEAST_ROUGH {
+            return None;
+        }
+        for orders in 1..=MOMENTS {
+            let seen = self.moments_error(orders, from_kappa);
+            let found = Candidate::new(Method::Moments { orders, from_kappa }, seen, self.check.certified(seen));
+            if found.meets(self.accuracy) {
+                return Some(found);
+            }
+            self.seen.push(Candidate { verdict: Verdict::TooInexact, ..found });
+        }
+        None
+    }
+
+    /// All moments, and the power of √2 from which they do, if it lies within the demand.
+    fn rough(&mut self) -> Option<(Candidate, f64)> {
+        let [least, last] = self.demand.kappa();
+        let mut found = None;
+        for step in (0..).map(|i| last * (-0.5 * f64::from(i)).exp2()).skip(1) {
+            if step < LEAST_ROUGH.max(least) {
+                break;
+            }
+            let seen = self.moments_error(MOMENTS, step);
+            let method = Method::Moments { orders: MOMENTS, from_kappa: step };
+            let candidate = Candidate::new(method, seen, self.check.certified(seen));
+            if !candidate.meets(self.accuracy) {
+                self.seen.push(Candidate { verdict: Verdict::TooInexact, ..candidate });
+                break;
+            }
+            found = Some((candidate, step));
+        }
+        found
+    }
+
+    fn every(&mut self) {
+        let carried = self.carried(self.measure.dense());
+        for precision in Precision::ALL {
+            // Compared with itself the most exact would be without error.
+            let full = precision == Precision::Full;
+            let seen = if full { 0.0 } else { carried * precision.max_relative_error() };
+            let candidate = Candidate::new(Method::Every { precision }, seen, seen + REFERENCE);
+            self.offer(candidate, Below::Every(precision));
+        }
+    }
+
+    /// By how much a relative error of S is larger in the integral, at most: half as much again as at some of the places.
+    fn carried(&self, nodes: &[Node]) -> f64 {
+        let of = |point: &Point| {
+            let sum = |node: &Node| {
+                let g = point.kappa * node.scale;
+                diffuse_sum(g, point.beta * g, Precision::Coarse)
+            };
+            let sums: Vec<f64> = nodes.iter().map(sum).collect();
+            let carried = carried(nodes, &sums);
+            if carried == 0.0 { 0.0 } else { carried / point.scale }
+        };
+        1.5 * self.check.points().iter().step_by(48).map(of).fold(1.0, f64::max)
+    }
+
+    /// The fewest wavelengths that do, with each precision of S.
+    fn shared(&mut self) {
+        for count in 2..=MOST_NODES {
+            let nodes = self.measure.shared(count);
+            let seen = self.check.error(|_| true, |kappa, beta| by_nodes(&nodes, kappa, beta, Precision::Full));
+            let method = |precision| Method::Shared { nodes: nodes.len(), precision };
+            let exact = Candidate::new(method(Precision::Full), seen, self.check.certified(seen));
+            let meets = exact.meets(self.accuracy);
+            if meets {
+                let carried = self.carried(&nodes);
+                for precision in [Precision::Coarse, Precision::Fine] {
+                    let rounded = precision.max_relative_error() * carried;
+                    let candidate = Candidate::new(method(precision), seen + rounded, self.check.certified(seen) + rounded);
+                    self.offer(candidate, Below::Shared(nodes.clone(), precision));
+                }
+            }
+            self.offer(exact, Below::Shared(nodes, Precision::Full));
+            if meets {
+                break;
+            }
+        }
+    }
+
+    /// The same with rules of each channel's own, while they are cheaper.
+    fn own(&mut self) {
+        for count in 1..=MOST_NODES / 2 {
+            let rules = own_rules(self.measure.dense(), count);
+            let method = Method::Own { nodes: rules.iter().map(Vec::len).sum(), precision: Precision::Full };
+            let unseen = Candidate::unseen(method);
+            if !self.may_win(&unseen) {
+                self.seen.push(unseen);
+                break;
+            }
+            let seen = self.check.error(|_| true, |kappa, beta| by_own(&rules, kappa, beta, Precision::Full));
+            let candidate = Candidate::new(method, seen, self.check.certified(seen));
+            let meets = candidate.meets(self.accuracy);
+            self.offer(candidate, Below::Own(rules, Precision::Full));
+            if meets {
+                break;
+            }
+        }
+    }
+
+    /// Tables from the coarsest on, while they are cheaper than what there is.
+    fn tables(&mut self, rough: f64) {
+        let [least, last] = self.demand.kappa();
+        let last = last.min(LAST_TABLE);
+        let kappa = [least.max(last * TABLE_SPAN), last];
+        if kappa[0] >= kappa[1] || rough <= kappa[0] {
+            return;
+        }
+        for degree in [3, 5] {
+            let mut known: Option<(usize, f64)> = None;
+            for step in 0..=LAST_STEP {
+                let size = Size::new(kappa, degree, step);
+                let [kappas, betas] = size.places();
+                let method = Method::Table { degree, kappas, betas, nodes: size.nodes };
+                let unseen = Candidate::unseen(method);
+                if !self.may_win(&unseen) {
+                    self.seen.push(unseen);
+                    break;
+                }
+                // Filled in vain if even the steepest fall leaves too much.
+                let hopeless = |(from, error): (usize, f64)| {
+                    self.check.certified(error * STEEPEST.powi((from as i32) - (step as i32))) > self.accuracy.max_relative_error()
+                };
+                if known.is_some_and(hopeless) {
+                    continue;
+                }
+                let plan = self.with(Below::Table(Table::new(&size, kappa, self.measure.shared(size.nodes))));
+                let seen = self.table_error(&plan);
+                known = Some((step, seen));
+                let candidate = Candidate::new(method, seen, self.check.certified(seen));
+                let meets = candidate.meets(self.accuracy);
+                self.offer(candidate, plan.below);
+                if meets {
+                    break;
+                }
+            }
+        }
+    }
+
+    fn table_error(&self, plan: &Plan) -> f64 {
+        let points = self.check.points();
+        let places: Vec<[f64; 2]> = points.iter().map(|point| [point.kappa, point.beta]).collect();
+        let mut sums = vec![[0.0; 3]; places.len()];
+        plan.fill(&places, &mut sums);
+        points.iter().zip(sums).map(|(point, sum)| off(point, sum)).fold(0.0, f64::max)
+    }
+
+    /// A plan of one way alone.
+    fn with(&self, below: Below) -> Plan {
+        let chosen = Candidate::unseen(Method::Nothing);
+        let (asked, demand) = (self.accuracy, self.demand);
+        Plan {
+            demand,
+            rough: (f64::INFINITY, 0),
+            moments: *self.measure.moments(),
+            below,
+            every: Vec::new(),
+            explanation: Explanation {
+                asked,
+                against: Against::Peak,
+                demand,
+                rough: None,
+                chosen,
+                rejected: Vec::new(),
+            },
+        }
+    }
+}
