@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should say so by failing")]
 #![allow(clippy::disallowed_methods, reason = "the tests read the data that the core is given")]
 
+mod accuracy;
 mod camera;
 mod colorimetry;
 mod fern;

@@ -1,6 +1,7 @@
 //! How one sensor's signals become numbers on the diagram and colors on a screen.
 
 use super::White;
+use crate::accuracy::Unmet;
 use crate::colorimetry::adaptation::bradford;
 use crate::colorimetry::rgb::{XYZ_FROM_SRGB, srgb_from_xyz, srgb_white};
 use crate::colorimetry::{Lab, Xyz, lab::lab_from_xyz};
@@ -46,6 +47,9 @@ pub enum NoRendering {
     /// The fit to the reference observer has no answer.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// The integrals cannot be made as exactly as was asked for.
+    #[error(transparent)]
+    Accuracy(#[from] Unmet),
 }
 
 /// Below this share of the unsigned integral a balance is refused: it would be made of cancellation.

@@ -4,14 +4,17 @@
 //! a slider asks again only what depends on it.
 
 pub mod picture;
+pub mod plan;
 
 pub use picture::{Difference, ExposureOf, PictureOf, Pictures, PicturesOf, SourceOf};
+pub use plan::{PlanOf, ReachOf};
 
 use super::{Ask, Query, Shared};
 use crate::camera::{NoRendering, rendering::white_divisors};
 use crate::reflectance::{Reading, Surface, wavelength_power};
+use crate::render::mirror::Reach;
 use crate::render::{
-    CameraImage, DiffuseTable, GeometryImage, Measure, Quality, RasterSize, ShadingImage, ShadowTree, Shadows,
+    Against, CameraImage, DiffuseTable, GeometryImage, Measure, Quality, RasterSize, ShadingImage, ShadowTree, Shadows,
     VertexImage, Visibility,
 };
 use crate::scene::{Lighting, Mesh, Viewpoint, fern, head, roughness::vertex_deviations, shapes};
@@ -257,6 +260,19 @@ impl Query for CameraImageOf {
         let measure = (*measure).as_ref().map_err(|&e| e)?;
         let shading = ask.ask(&self.shading);
         let Some(shading) = (*shading).as_ref() else { return Ok(None) };
+        if let Some(accuracy) = shading.quality().accuracy() {
+            let demand = shading.demand();
+            let plan = demand.map(|demand| {
+                ask.ask(&PlanOf { measure: self.measure.clone(), accuracy, against: Against::Peak, demand })
+            });
+            let plan = plan.as_deref().map(|plan| plan.as_ref().map_err(|&e| e)).transpose()?;
+            let reach = if shading.mirrors().is_empty() {
+                Reach::of(Quality::Exact, measure)
+            } else {
+                (*ask.ask(&ReachOf { measure: self.measure.clone(), accuracy }))?
+            };
+            return Ok(CameraImage::by_plan(shading, measure, plan, reach, &ask.stop()));
+        }
         let table = shading.needs_table().then(|| ask.ask(&DiffuseTableOf(self.measure.clone())));
         let table = table.as_deref().map(|table| table.as_ref().map_err(|&e| e)).transpose()?;
         Ok(CameraImage::new(shading, measure, table, &ask.stop()))

@@ -7,11 +7,112 @@
 //! [`Measure::settled_m`]: super::measure::Measure::settled_m
 
 use super::lobe::mean_sinc_squared_quick;
-use super::measure::Node;
-use super::shading::Mirror;
+use super::measure::{Measure, Node};
+use super::shading::{Mirror, Quality};
+use crate::accuracy::Accuracy;
 use crate::math::exp::exp;
 use crate::reflectance::{Surface, coherent::mean_sinc_squared};
 use std::f64::consts::TAU;
+
+/// Which paths a lobe is still over a few wavelengths at, and at which its oscillation cancels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// Up to this path in meters a few wavelengths are enough.
+    pub still_m: f64,
+    /// From this path in meters on the oscillation cancels.
+    pub settled_m: f64,
+    /// Whether the lobe is read from a table, within 1e-7 of its height.
+    pub quick: bool,
+}
+
+impl Reach {
+    /// That of a quality by name; for an accuracy in numbers see [`Self::within`].
+    pub fn of(quality: Quality, measure: &Measure) -> Self {
+        let (still_m, settled_m) = match quality {
+            // What oscillates in between is a thousandth of the lobe.
+            Quality::Preview => (2e-6, 2e-6),
+            Quality::Full => (1e-6, measure.settled_m()),
+            Quality::Fine => (0.4e-6, f64::INFINITY),
+            Quality::Exact | Quality::Regimes => (0.0, f64::INFINITY),
+            Quality::Within(accuracy) => return Self::within(measure, accuracy),
+        };
+        Self { still_m, settled_m, quick: quality <= Quality::Full }
+    }
+
+    /// The widest that keeps the error of this measure's lobe within an accuracy, relative to its height `front Σ|w|`: each of
+    /// the lobe's table, the few wavelengths and what is left of the oscillation on two axes takes a part.
+    ///
+    /// The few wavelengths are compared with all at lobes along one axis and both and at five κ, with a margin of two; the
+    /// oscillation is bounded by its envelope over the wavelengths.
+    pub fn within(measure: &Measure, accuracy: Accuracy) -> Self {
+        let error = accuracy.max_relative_error();
+        let settled_m = settled(measure.dense(), error / 8.0);
+        let still = |path: &f64| MARGIN * astir(measure, *path, settled_m) <= error / 4.0;
+        let paths = (0..PATHS).map(|i| 3e-6 * (-0.5 * f64::from(i)).exp2());
+        Self { still_m: paths.into_iter().find(still).unwrap_or(0.0), settled_m, quick: LOBE_ERROR <= error / 4.0 }
+    }
+}
+
+/// What is seen at some lobes is taken to be at most this much larger at others.
+const MARGIN: f64 = 2.0;
+/// What two readings of the lobe's table are off by.
+const LOBE_ERROR: f64 = 2e-7;
+/// Paths that few wavelengths are tried for: 3 µm and so many steps of √2 down.
+const PATHS: i32 = 12;
+/// Steps to an octave in which the oscillation's envelope is looked at.
+const STEPS: f64 = 8.0;
+
+/// The path from which on the oscillation of `sinc² u = (1 − cos 2u) / 2u²` over the wavelengths is below a share.
+fn settled(dense: &[Node], share: f64) -> f64 {
+    let unsigned = [0, 1, 2].map(|c: usize| dense.iter().map(|node| node.weights[c].abs()).sum::<f64>());
+    let longest = dense.iter().fold(0.0_f64, |most, node| most.max(node.wavelength_nm)) * 1e-9;
+    // Beyond this one the terms themselves are below it, however they add up.
+    let last = longest / (TAU * (2.0 * share).sqrt());
+    let path = |i: i32| last * (f64::from(-i) / STEPS).exp2();
+    let envelope = |path: f64| {
+        let mut sums = [[0.0; 2]; 3];
+        for node in dense {
+            let u = TAU * path / (node.wavelength_nm * 1e-9);
+            let (sin, cos) = (2.0 * u).sin_cos();
+            for (sum, weight) in sums.iter_mut().zip(node.weights) {
+                sum[0] += weight * cos / (2.0 * u * u);
+                sum[1] += weight * sin / (2.0 * u * u);
+            }
+        }
+        let shares =
+            sums.iter().zip(unsigned).map(|(sum, all)| if all > 0.0 { sum[0].hypot(sum[1]) / all } else { 0.0 });
+        shares.fold(0.0, f64::max)
+    };
+    let unsettled = (1..10 * STEPS as i32).find(|&i| MARGIN * envelope(path(i)) > share);
+    unsettled.map_or(last, |i| path(i - 1))
+}
+
+/// The error of a few wavelengths for lobes up to a path, relative to their height.
+fn astir(measure: &Measure, path: f64, settled_m: f64) -> f64 {
+    let sums = |list: &[Node], kappa: f64, paths: [f64; 2]| {
+        let mut channels = [0.0; 3];
+        for node in list {
+            let axis = |path: f64| {
+                let u = TAU * path / (node.wavelength_nm * 1e-9);
+                if path >= settled_m { 0.5 / (u * u) } else { mean_sinc_squared(u, 0.0) }
+            };
+            let value = axis(paths[0]) * axis(paths[1]) * exp(-kappa * node.scale);
+            channels.iter_mut().zip(node.weights).for_each(|(channel, weight)| *channel += weight * value);
+        }
+        channels
+    };
+    let unsigned = |c: usize| measure.dense().iter().map(|node| node.weights[c].abs()).sum::<f64>();
+    let height = unsigned(0).max(unsigned(1)).max(unsigned(2));
+    let mut worst = 0.0_f64;
+    for kappa in [0.0, 0.4, 3.0, 12.0, 50.0] {
+        for paths in [[path, 0.0], [path, path], [path, settled_m], [path, 0.7 * path]] {
+            let (few, all) = (sums(measure.fine(), kappa, paths), sums(measure.dense(), kappa, paths));
+            let off = few.iter().zip(all).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+            worst = if off == 0.0 { worst } else { worst.max(off / height) };
+        }
+    }
+    worst
+}
 
 /// The wavelengths that an integral may be made of.
 #[derive(Clone, Copy, Debug)]

@@ -30,6 +30,7 @@ mod table;
 pub use candidate::{Candidate, Explanation, Method, Verdict};
 pub use check::MARGIN;
 pub use domain::{Demand, position};
+pub(in crate::render) use run::{Places, RUN};
 
 use super::diffuse::by_nodes;
 use super::measure::{MOMENTS, Measure, Node};
@@ -86,6 +87,11 @@ impl Plan {
     /// What it was made for.
     pub fn demand(&self) -> Demand {
         self.demand
+    }
+
+    /// How much memory it takes, in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.every.as_slice()) + self.table().map_or(0, Table::bytes)
     }
 
     /// What was chosen and why.

@@ -4,7 +4,9 @@ use super::Stop;
 use super::diffuse::{DARK, DiffuseTable, ROUGH};
 use super::geometry::{Angles, GeometryImage};
 use super::measure::LAMBDA_0_NM;
+use super::plan::{self, Demand};
 use super::vertices::VertexImage;
+use crate::accuracy::Accuracy;
 use crate::reflectance::coherent::rho0_squared_bound;
 use crate::reflectance::{
     Geometry, Precision, Reading, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa, ln_diffuse_sum,
@@ -13,8 +15,11 @@ use crate::spectral::grid::{FIRST_NM, LAST_NM};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Mirror terms below this share of a surface facing the light are left out.
+/// Mirror terms below this share of a surface facing the light are left out, unless an accuracy is asked for.
 pub const MIRROR_SHARE: f64 = 1e-7;
+
+/// The share of an accuracy's error that mirror terms left out may take.
+const MIRROR_OF_ERROR: f64 = 0.25;
 
 /// How exactly the spectral integral is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -30,6 +35,22 @@ pub enum Quality {
     Exact,
     /// The sum over 401 wavelengths with the paper's three cases of g: to see their error.
     Regimes,
+    /// The cheapest way that keeps this error, chosen for each camera ([`super::Plan`]): of the diffuse part relative to the peak
+    /// at the sample's κ, of the mirror term relative to its lobe's height, both before signals are rounded to single
+    /// precision (6e-8 of themselves).
+    Within(Accuracy),
+}
+
+impl Quality {
+    /// The accuracy that was asked for in numbers.
+    pub const fn accuracy(self) -> Option<Accuracy> {
+        if let Self::Within(accuracy) = self { Some(accuracy) } else { None }
+    }
+
+    /// Mirror terms below this share of a surface facing the light are left out.
+    fn mirror_share(self) -> f64 {
+        self.accuracy().map_or(MIRROR_SHARE, |accuracy| MIRROR_OF_ERROR * accuracy.max_relative_error())
+    }
 }
 
 /// How a sample's integral is made.
@@ -45,6 +66,8 @@ pub enum Way {
     Table,
     /// By a sum over wavelengths.
     Sum,
+    /// As each camera's plan says.
+    Planned,
 }
 
 /// One lit sample of a surface.
@@ -56,7 +79,7 @@ pub struct Shade {
     pub kappa: f64,
     /// b / g.
     pub beta: f64,
-    /// Where that lies in a camera's table, if it is made by the table.
+    /// Where that lies in a camera's table, if it is made by the table: [`DiffuseTable::position`]; for a plan [`plan::position`].
     pub position: [f64; 2],
     /// How its integral is made.
     pub way: Way,
@@ -64,6 +87,17 @@ pub struct Shade {
 
 impl Shade {
     const DARK: Self = Self { front: 0.0, kappa: 0.0, beta: 0.0, position: [0.0; 2], way: Way::Dark };
+
+    /// A sample whose way each camera decides.
+    fn planned(front: f64, kappa: f64, beta: f64) -> Self {
+        if front <= 0.0 || kappa <= 0.0 {
+            return Self::DARK;
+        }
+        let position = plan::position(kappa, beta);
+        // Written so that what is no number is dark.
+        let way = if position[1] <= 1.0 { Way::Planned } else { Way::Dark };
+        Self { front, kappa, beta, position, way }
+    }
 }
 
 /// A sample with a mirror term worth having.
@@ -92,6 +126,8 @@ pub struct ShadingCounts {
     pub table: u64,
     /// Samples by a sum over wavelengths.
     pub sums: u64,
+    /// Samples as each camera's plan says.
+    pub planned: u64,
     /// Samples with a mirror term.
     pub mirrors: u64,
     /// Samples whose mirror term was left out.
@@ -203,6 +239,15 @@ impl ShadingImage {
         self.counts
     }
 
+    /// What is asked of a camera's plan, if anything is.
+    pub fn demand(&self) -> Option<Demand> {
+        let chunks = self.shades.par_iter().with_min_len(GeometryImage::chunk());
+        let planned = chunks.filter(|shade| shade.way == Way::Planned);
+        let of = |shade: &Shade| ([shade.kappa; 2], u64::from(shade.kappa < ROUGH));
+        let both = |([a, b], n): ([f64; 2], u64), ([c, d], m): ([f64; 2], u64)| ([a.min(c), b.max(d)], n + m);
+        planned.map(of).reduce_with(both).map(|(kappa, samples)| Demand::new(kappa, samples))
+    }
+
     /// Whether a camera needs a table for this.
     pub fn needs_table(&self) -> bool {
         self.counts.table > 0
@@ -225,6 +270,7 @@ fn counts(shades: &[Shade], mirrors: usize) -> ShadingCounts {
                 Way::Moments => &mut counts.moments,
                 Way::Table => &mut counts.table,
                 Way::Sum => &mut counts.sums,
+                Way::Planned => &mut counts.planned,
             } += 1;
         }
         counts
@@ -236,6 +282,7 @@ fn counts(shades: &[Shade], mirrors: usize) -> ShadingCounts {
             moments: a.moments + b.moments,
             table: a.table + b.table,
             sums: a.sums + b.sums,
+            planned: a.planned + b.planned,
             ..a
         });
     ShadingCounts { mirrors: mirrors as u64, mirrors_skipped: (shades.len() - mirrors) as u64, ..all }
@@ -267,7 +314,7 @@ impl Material {
             reading,
             angular_radius,
         );
-        Self { reading, quality, angular_radius, threshold: facing * MIRROR_SHARE }
+        Self { reading, quality, angular_radius, threshold: facing * quality.mirror_share() }
     }
 
     /// The shades of a list of places, and their mirror terms; none if stopped.
@@ -296,6 +343,9 @@ impl Material {
         }
         let front = light * diffuse_prefactor(surface, geometry, self.reading);
         let (kappa, beta) = (kappa(surface, geometry), beta(surface, geometry));
+        if self.quality.accuracy().is_some() {
+            return Shade::planned(front, kappa, beta);
+        }
         let way = self.way(front, kappa, beta);
         let position = if way == Way::Table { DiffuseTable::position(kappa, beta) } else { [0.0; 2] };
         Shade { front, kappa, beta, position, way }

@@ -4,7 +4,8 @@ use super::Stop;
 use super::diffuse::{DiffuseTable, by_moments, by_nodes, by_regimes, rough_basis};
 use super::geometry::Placed;
 use super::measure::{MOMENTS, Measure};
-use super::mirror::{Nodes, mirror_sum};
+use super::mirror::{Nodes, Reach, mirror_sum};
+use super::plan::{Places, Plan, RUN as PLANNED_RUN};
 use super::shading::{Quality, Shade, ShadingImage, Way};
 use crate::reflectance::Precision;
 use multiversion::multiversion;
@@ -22,33 +23,20 @@ impl CameraImage {
     /// Integrates at every lit sample; none if stopped. `table` may be left out where no sample needs it; where one does and
     /// there is none, sums over wavelengths take its place.
     pub fn new(shading: &ShadingImage, measure: &Measure, table: Option<&DiffuseTable>, stop: &Stop) -> Option<Self> {
-        let geometry = shading.geometry();
-        let placed = Arc::clone(geometry.placed());
-        let mut signals = vec![[0.0; 3]; shading.shades().len()];
-        let camera = Camera { measure, table, quality: shading.quality() };
-        let chunk = camera.chunk();
-        signals.par_chunks_mut(chunk).zip(shading.shades().par_chunks(chunk)).for_each(|(signals, shades)| {
-            if !stop.is_set() {
-                camera.diffuse(shades, signals);
-            }
-        });
-        let mirrors = shading.mirrors().par_iter().with_min_len(64).map(|mirror| {
-            if stop.is_set() {
-                return [0.0; 3];
-            }
-            mirror_sum(mirror, shading.surface(), camera.mirror_nodes(), geometry.angular_radius())
-        });
-        let mirrors: Vec<[f64; 3]> = mirrors.collect();
-        for (mirror, sums) in shading.mirrors().iter().zip(mirrors) {
-            for (signal, sum) in signals[mirror.index as usize].iter_mut().zip(sums) {
-                *signal += sum as f32;
-            }
-        }
-        let signals = match shading.vertices() {
-            Some(vertices) => vertices.mixed(&signals),
-            None => signals,
-        };
-        (!stop.is_set()).then(|| Self { placed, signals: Arc::new(signals) })
+        let quality = shading.quality();
+        Camera { measure, table, quality, plan: None, reach: Reach::of(quality, measure) }.image(shading, stop)
+    }
+
+    /// The same by a plan, for a shading at [`Quality::Within`]; `reach` says how the mirror's lobe is made. What the plan was not
+    /// made for is summed over all wavelengths.
+    pub fn by_plan(
+        shading: &ShadingImage,
+        measure: &Measure,
+        plan: Option<&Plan>,
+        reach: Reach,
+        stop: &Stop,
+    ) -> Option<Self> {
+        Camera { measure, table: None, quality: shading.quality(), plan, reach }.image(shading, stop)
     }
 
     /// Where its samples are.
@@ -66,13 +54,51 @@ struct Camera<'a> {
     measure: &'a Measure,
     table: Option<&'a DiffuseTable>,
     quality: Quality,
+    plan: Option<&'a Plan>,
+    reach: Reach,
 }
 
 impl Camera<'_> {
+    fn image(&self, shading: &ShadingImage, stop: &Stop) -> Option<CameraImage> {
+        let geometry = shading.geometry();
+        let placed = Arc::clone(geometry.placed());
+        let mut signals = vec![[0.0; 3]; shading.shades().len()];
+        let chunk = self.chunk();
+        signals.par_chunks_mut(chunk).zip(shading.shades().par_chunks(chunk)).for_each(|(signals, shades)| {
+            if !stop.is_set() {
+                self.diffuse(shades, signals);
+            }
+        });
+        let mirrors = shading.mirrors().par_iter().with_min_len(64).map(|mirror| {
+            if stop.is_set() {
+                return [0.0; 3];
+            }
+            mirror_sum(mirror, shading.surface(), self.mirror_nodes(), geometry.angular_radius())
+        });
+        let mirrors: Vec<[f64; 3]> = mirrors.collect();
+        for (mirror, sums) in shading.mirrors().iter().zip(mirrors) {
+            for (signal, sum) in signals[mirror.index as usize].iter_mut().zip(sums) {
+                *signal += sum as f32;
+            }
+        }
+        let signals = match shading.vertices() {
+            Some(vertices) => vertices.mixed(&signals),
+            None => signals,
+        };
+        (!stop.is_set()).then(|| CameraImage { placed, signals: Arc::new(signals) })
+    }
+
     /// Samples between two looks at the stop signal: about a millisecond's work.
     fn chunk(&self) -> usize {
         match self.quality {
             Quality::Preview | Quality::Full => 4096,
+            Quality::Within(_) => {
+                if self.plan.is_some() {
+                    1024
+                } else {
+                    64
+                }
+            }
             Quality::Fine => 512,
             Quality::Exact | Quality::Regimes => 64,
         }
@@ -84,10 +110,14 @@ impl Camera<'_> {
                 Way::Flat => *signal = scaled(self.measure.totals(), shade.front),
                 Way::Sum => *signal = scaled(self.sum(shade), shade.front),
                 Way::Table if self.table.is_none() => *signal = scaled(self.sum(shade), shade.front),
-                Way::Table | Way::Moments | Way::Dark => {}
+                Way::Planned if self.plan.is_none() => *signal = scaled(self.sum(shade), shade.front),
+                Way::Table | Way::Moments | Way::Planned | Way::Dark => {}
             }
         }
-        quick(shades, self.measure.moments(), self.table, signals);
+        match self.plan {
+            Some(plan) => planned(plan, shades, signals),
+            None => quick(shades, self.measure.moments(), self.table, signals),
+        }
     }
 
     fn sum(&self, shade: &Shade) -> [f64; 3] {
@@ -95,21 +125,35 @@ impl Camera<'_> {
         match self.quality {
             Quality::Preview | Quality::Full => by_nodes(self.measure.coarse(), kappa, beta, Precision::Fine),
             Quality::Fine => by_nodes(self.measure.fine(), kappa, beta, Precision::Full),
-            Quality::Exact => by_nodes(self.measure.dense(), kappa, beta, Precision::Full),
+            Quality::Exact | Quality::Within(_) => by_nodes(self.measure.dense(), kappa, beta, Precision::Full),
             Quality::Regimes => by_regimes(self.measure.dense(), kappa, beta),
         }
     }
 
     fn mirror_nodes(&self) -> Nodes<'_> {
-        let (still_m, settled_m) = match self.quality {
-            // What oscillates in between is a thousandth of the lobe.
-            Quality::Preview => (2e-6, 2e-6),
-            Quality::Full => (1e-6, self.measure.settled_m()),
-            Quality::Fine => (0.4e-6, f64::INFINITY),
-            Quality::Exact | Quality::Regimes => (0.0, f64::INFINITY),
-        };
-        let quick = self.quality <= Quality::Full;
+        let Reach { still_m, settled_m, quick } = self.reach;
         Nodes { smooth: self.measure.fine(), every: self.measure.dense(), still_m, settled_m, quick }
+    }
+}
+
+/// The samples that go as a plan says.
+fn planned(plan: &Plan, shades: &[Shade], signals: &mut [[f32; 3]]) {
+    let mut places = Places::EMPTY;
+    for (shades, signals) in shades.chunks(PLANNED_RUN).zip(signals.chunks_mut(PLANNED_RUN)) {
+        if shades.iter().all(|shade| shade.way != Way::Planned) {
+            continue;
+        }
+        places.count = shades.len();
+        for (i, shade) in shades.iter().enumerate() {
+            (places.kappa[i], places.beta[i], places.position[i]) = (shade.kappa, shade.beta, shade.position);
+            places.wanted[i] = shade.way == Way::Planned;
+        }
+        let sums = plan.run(&places);
+        for (i, (shade, signal)) in shades.iter().zip(signals).enumerate() {
+            if shade.way == Way::Planned {
+                *signal = scaled([sums[0][i], sums[1][i], sums[2][i]], shade.front);
+            }
+        }
     }
 }
 

@@ -3,6 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use chromascope_core::accuracy::Accuracy;
+use chromascope_core::camera::NoRendering;
 use chromascope_core::query::render::{DeviationsOf, MeshOf, Pictures, Roughness};
 use chromascope_core::query::{Ask, Direct, Shared};
 use chromascope_core::reflectance::Reading;
@@ -41,6 +43,34 @@ fn every_quality_keeps_its_error_against_401_wavelengths() {
                 assert!(error < bound, "{reading:?}, σ = {sigma_m}, {quality:?}: {error:.1e}");
             }
         }
+    }
+}
+
+#[test]
+fn a_picture_keeps_the_error_that_was_asked_for() {
+    for reading in [Reading::Radiometric, Reading::Paper, Reading::Lambertian] {
+        for sigma_m in [5e-6, 0.4e-6, 0.06e-6, 2e-9] {
+            let with = |quality| Studio { reading, sigma_m, quality, size: RasterSize::new(20, 20), ..Studio::new() };
+            let exact = with(Quality::Exact).take(&Direct);
+            for tolerance in [1e-3, 1e-5, 1e-7, 1e-11] {
+                let found = with(Quality::Within(Accuracy::new(tolerance).unwrap())).take(&Direct);
+                assert_eq!(found.shading.planned == 0, reading == Reading::Lambertian, "{:?}", found.shading);
+                let error = apart(&found, &exact);
+                // Signals are kept in single precision.
+                assert!(error <= tolerance + 1.2e-7, "{reading:?}, σ = {sigma_m}, {tolerance:e}: {error:.1e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_no_plan_can_promise_is_said() {
+    let quality = Quality::Within(Accuracy::new(1e-14).unwrap());
+    let studio = Studio { quality, ..Studio::new() };
+    let pictures = Direct.ask(&studio.question());
+    let pictures = (*pictures).as_ref().unwrap().as_ref().unwrap();
+    for picture in &pictures.pictures {
+        assert!(matches!(picture, Err(NoRendering::Accuracy(_))));
     }
 }
 

@@ -1,10 +1,11 @@
 //! What a change asks for anew, and what it does not.
 
+use chromascope_core::accuracy::Accuracy;
 use chromascope_core::camera::White;
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Shared;
 use chromascope_core::reflectance::Reading;
-use chromascope_core::render::Shadows;
+use chromascope_core::render::{Quality, Shadows};
 use chromascope_core::spectral::GridSpectrum;
 
 use super::studio::{Counting, Studio};
@@ -51,6 +52,20 @@ fn a_rougher_surface_asks_for_no_geometry_and_no_table() {
     let made = after(&smooth, |studio| studio.sigma_m = 0.35e-6);
     let names: Vec<&str> = made.iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["camera image", "difference", "exposure", "picture", "pictures", "shading"]);
+}
+
+#[test]
+fn at_a_chosen_accuracy_a_little_rougher_asks_for_no_plan() {
+    let quality = Quality::Within(Accuracy::new(1e-5).unwrap());
+    let start = Studio { sigma_m: 0.3e-6, quality, ..Studio::new() };
+    let made = after(&start, |studio| studio.sigma_m = 0.305e-6);
+    let names: Vec<&str> = made.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["camera image", "difference", "exposure", "picture", "pictures", "shading"]);
+    let ask = Counting::default();
+    start.take(&ask);
+    let made = ask.made();
+    assert_eq!(made["plan"], 4);
+    assert!(!made.contains_key("diffuse table"));
 }
 
 #[test]

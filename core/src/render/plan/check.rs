@@ -16,12 +16,13 @@ pub(super) const REFERENCE: f64 = 1e-13;
 /// How many κ there are, and how many β at each.
 const KAPPAS: usize = 96;
 const BETAS: usize = 16;
-/// Ways whose error is smooth in κ and β, as that of sums over a few wavelengths, are compared at each fourth point.
-const SMOOTH_STRIDE: usize = 4;
+/// Ways whose error is smooth in κ and β, as that of sums over a few wavelengths, are compared at each third point. Strides have
+/// no divisor in common with the number of β, so that none is left out.
+const SMOOTH_STRIDE: usize = 3;
 
 /// The wavelengths that may stand for all in the check, if they are compared with all at each of this many points.
 const STAND_INS: [usize; 2] = [20, 28];
-const COMPARED_STRIDE: usize = 24;
+const COMPARED_STRIDE: usize = 25;
 
 /// A place and what the integral is there.
 pub(super) struct Point {
@@ -39,7 +40,7 @@ pub(super) struct Check {
 }
 
 impl Check {
-    /// By the sum over all wavelengths; where 20 or 28 wavelengths are as good as that at each 24th point, by those.
+    /// By the sum over all wavelengths; where 20 or 28 wavelengths are as good as that at each 25th point, by those.
     pub(super) fn new(measure: &Measure, against: Against, demand: Demand) -> Self {
         let few = points(measure.dense(), against, demand, COMPARED_STRIDE);
         for count in STAND_INS {

@@ -34,7 +34,9 @@ pub(super) fn of_making(method: &Method) -> f64 {
     match *method {
         // A logarithm is taken where elsewhere a product is.
         Method::Table { kappas, betas, nodes, .. } => {
-            (kappas * betas * nodes) as f64 * (sum_ns(Precision::Full) + 20.0)
+            let places = (kappas * betas) as f64 * nodes as f64;
+            // The coarser ones, filled before to see their errors, cost as much again.
+            2.0 * places * (sum_ns(Precision::Full) + 20.0)
         }
         _ => 0.0,
     }

@@ -1,8 +1,8 @@
 //! Many samples at once: what takes no sum over wavelengths is done together, so that it vectorizes.
 
+use super::Plan;
 use super::domain::position;
 use super::table::Table;
-use super::Plan;
 use crate::math::exp::exp;
 use crate::render::diffuse::{by_moments, rough_basis};
 use crate::render::measure::MOMENTS;
@@ -21,12 +21,14 @@ pub(in crate::render) struct Places {
     pub(in crate::render) beta: [f64; RUN],
     /// [`position`], of those below the rough.
     pub(in crate::render) position: [[f64; 2]; RUN],
+    /// Which are wanted.
+    pub(in crate::render) wanted: [bool; RUN],
     pub(in crate::render) count: usize,
 }
 
 impl Places {
     pub(in crate::render) const EMPTY: Self =
-        Self { kappa: [1.0; RUN], beta: [0.0; RUN], position: [[0.0; 2]; RUN], count: 0 };
+        Self { kappa: [1.0; RUN], beta: [0.0; RUN], position: [[0.0; 2]; RUN], wanted: [true; RUN], count: 0 };
 }
 
 /// Which of the quick ways a sample goes.
@@ -63,7 +65,9 @@ impl Plan {
         let (table, rough, demand) = (self.table(), self.rough.0, self.demand);
         for (i, way) in ways.iter_mut().enumerate().take(places.count) {
             let kappa = places.kappa[i];
-            *way = if kappa >= rough && demand.holds(kappa) {
+            *way = if !places.wanted[i] {
+                Quick::Dark
+            } else if kappa >= rough && demand.holds(kappa) {
                 Quick::Moments
             } else if table.is_some_and(|table| table.holds(kappa)) {
                 // Written so that what is no number is dark.

@@ -160,7 +160,7 @@ impl Search<'_> {
             let carried = carried(nodes, &sums);
             if carried == 0.0 { 0.0 } else { carried / point.scale }
         };
-        1.5 * self.check.points().iter().step_by(48).map(of).fold(1.0, f64::max)
+        1.5 * self.check.points().iter().step_by(47).map(of).fold(1.0, f64::max)
     }
 
     /// The fewest wavelengths that do, with each precision of S.
@@ -175,7 +175,8 @@ impl Search<'_> {
                 let carried = self.carried(&nodes);
                 for precision in [Precision::Coarse, Precision::Fine] {
                     let rounded = precision.max_relative_error() * carried;
-                    let candidate = Candidate::new(method(precision), seen + rounded, self.check.certified(seen) + rounded);
+                    let candidate =
+                        Candidate::new(method(precision), seen + rounded, self.check.certified(seen) + rounded);
                     self.offer(candidate, Below::Shared(nodes.clone(), precision));
                 }
             }
@@ -227,7 +228,8 @@ impl Search<'_> {
                 }
                 // Filled in vain if even the steepest fall leaves too much.
                 let hopeless = |(from, error): (usize, f64)| {
-                    self.check.certified(error * STEEPEST.powi((from as i32) - (step as i32))) > self.accuracy.max_relative_error()
+                    self.check.certified(error * STEEPEST.powi((from as i32) - (step as i32)))
+                        > self.accuracy.max_relative_error()
                 };
                 if known.is_some_and(hopeless) {
                     continue;

@@ -80,6 +80,10 @@ impl Table {
         &self.nodes
     }
 
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(self.cells.as_slice())
+    }
+
     pub(super) fn degree(&self) -> usize {
         self.degree
     }
