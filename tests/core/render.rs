@@ -2,6 +2,7 @@
 
 mod diffuse;
 mod images;
+mod shadow;
 mod skipping;
 mod studio;
 mod visibility;

@@ -1,7 +1,7 @@
 //! Which places of a mesh the light does not reach.
 
 use crate::scene::Mesh;
-use glam::DVec3;
+use glam::{DVec3, Vec3A};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh_from_tris};
 use obvhs::{BvhBuildParams, ray::Ray, triangle::Triangle};
 
@@ -45,15 +45,18 @@ impl ShadowTree {
 
     /// Whether something stands between a point and what lies `distance` away in a direction of unit length.
     ///
-    /// What lies nearer than 2e-6 radii is not in the way: it is the surface itself.
+    /// What lies nearer than 2e-6 radii is not in the way: it is the surface itself. Nothing is in the way of what is no
+    /// direction.
     pub fn is_blocked(&self, point: DVec3, direction: DVec3, distance: f64) -> bool {
         const NEAREST: f32 = 2e-6;
         let origin = ((point - self.center) * self.scale).as_vec3a();
         let farthest = (distance * self.scale) as f32;
-        if !origin.is_finite() || farthest <= NEAREST {
+        // Written so that a distance that is no number falls out too.
+        if !(origin.is_finite() && direction.is_finite() && farthest > NEAREST) {
             return false;
         }
-        let ray = Ray::new(origin, direction.as_vec3a(), NEAREST, farthest);
+        // Plus zero, because the tree takes a direction of −0 for positive and its inverse for negative: whole branches are lost.
+        let ray = Ray::new(origin, direction.as_vec3a() + Vec3A::ZERO, NEAREST, farthest);
         !self.tree.ray_traverse_miss(ray, |ray, id| self.triangles[id].intersect(ray))
     }
 }

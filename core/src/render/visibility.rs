@@ -45,12 +45,12 @@ impl RasterSize {
 
     /// Samples across.
     pub fn columns(self) -> usize {
-        (self.width * self.samples) as usize
+        self.width as usize * self.samples as usize
     }
 
     /// Samples down.
     pub fn rows(self) -> usize {
-        (self.height * self.samples) as usize
+        self.height as usize * self.samples as usize
     }
 
     /// Tiles across and down.
