@@ -168,3 +168,21 @@ fn daylight_is_refused_outside_its_range() {
     assert!(chromaticity(kelvin(4000.0)).is_ok() && chromaticity(kelvin(25_000.0)).is_ok());
     assert_eq!(DaylightBasis::new(&dataset("illuminants/e.csv")), Err(DaylightError::Basis));
 }
+
+#[test]
+fn exitance_is_a_number_at_any_wavelength_and_temperature() {
+    for nm in [5e-324, 1e-300, 1e-60, 1.0, 1e60, 1e300] {
+        for t in [5e-324, 1e-300, 1.0, 1e100, 1e300] {
+            let e = exitance(Nanometers::new(nm).unwrap(), kelvin(t), RadiationConstants::Paper);
+            assert!(e.is_finite() && e >= 0.0, "{nm} nm, {t} K: {e}");
+        }
+    }
+}
+
+#[test]
+fn no_black_body_is_subnormal() {
+    for t in 1..200 {
+        let body = black_body(kelvin(0.25 * f64::from(t)), RadiationConstants::Paper);
+        assert!(body.values().iter().all(|v| !v.is_subnormal()), "{} K", 0.25 * f64::from(t));
+    }
+}

@@ -47,7 +47,8 @@ const BOLTZMANN: f64 = 1.380_649e-23;
 /// E(λ, T) = c₁ / (λ⁵ (exp(c₂ / (λ T)) − 1))
 /// ```
 /// Exitance, since c₁ = 2πhc²; divide by π for radiance per steradian. Relative error below 1e-14 and, in the
-/// conditioning of the exponent, `c₂/(λT) ε`. Where the exponent overflows, E is zero, which is right to within 1e-300.
+/// conditioning of the exponent, `c₂/(λT) ε`. Where the exponent overflows, E is zero, which is right to within 1e-300; what is
+/// beyond all doubles is the largest of them.
 ///
 /// ```
 /// use chromascope_core::light::{RadiationConstants, planckian::exitance};
@@ -59,7 +60,9 @@ const BOLTZMANN: f64 = 1.380_649e-23;
 pub fn exitance(wavelength: crate::units::Nanometers, temperature: Kelvin, constants: RadiationConstants) -> f64 {
     let meters = wavelength.get() * 1e-9;
     let exponent = constants.second() / (meters * temperature.get());
-    constants.first() / (meters.powi(5) * exponent.exp_m1())
+    let value = constants.first() / (meters.powi(5) * exponent.exp_m1());
+    // Where λ⁵ underflows the exponent decides: NaN is 0 times infinity.
+    if value.is_nan() { 0.0 } else { value.min(f64::MAX) }
 }
 
 /// Exitance relative to that at `anchor_nm`, which no temperature can overflow or blank.
@@ -67,7 +70,7 @@ pub fn exitance(wavelength: crate::units::Nanometers, temperature: Kelvin, const
 /// ```text
 /// E(λ,T) / E(λ₀,T) = exp(−(x − x₀)) · expm1(−x₀) / expm1(−x) · (λ₀/λ)⁵,   x = c₂/(λT)
 /// ```
-/// For wavelengths up to the anchor the exponential is at most 1. Checked from 1 K to 10¹⁵ K.
+/// For wavelengths up to the anchor the exponential is at most 1. Checked from 1 K to 10¹⁵ K. Never subnormal: 0 in place of it.
 pub fn relative_exitance(
     wavelength_nm: f64,
     anchor_nm: f64,
@@ -79,7 +82,9 @@ pub fn relative_exitance(
     let (x, x0) = (scale / wavelength_nm, scale / anchor_nm);
     // (x - x0) without cancellation: both are large at low temperatures.
     let difference = scale * (anchor_nm - wavelength_nm) / (wavelength_nm * anchor_nm);
-    (-difference).exp() * ((-x0).exp_m1() / (-x).exp_m1()) * (anchor_nm / wavelength_nm).powi(5)
+    let value = (-difference).exp() * ((-x0).exp_m1() / (-x).exp_m1()) * (anchor_nm / wavelength_nm).powi(5);
+    // A light of subnormal numbers would be slow to compute with.
+    if value < f64::MIN_POSITIVE { 0.0 } else { value }
 }
 
 /// A black body as a light on the grid, relative to its power at 780 nm below 3715 K and at its peak above that.
