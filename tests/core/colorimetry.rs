@@ -275,3 +275,10 @@ proptest! {
         prop_assert!((srgb_inverse_transfer(srgb_transfer(v)) - v).abs() < 4e-8, "the standard's two pieces meet to 3e-8");
     }
 }
+
+#[test]
+fn infinite_whites_and_adaptations_beyond_all_numbers_are_refused() {
+    let usual = Xyz::new(0.95, 1.0, 1.09);
+    assert_eq!(lab_from_xyz(usual, Xyz::new(0.95, 1.0, f64::INFINITY)), None);
+    assert_eq!(bradford(Xyz::new(1.0, 0.0, 0.0), Xyz::new(f64::MAX, 0.0, 0.0)), None);
+}

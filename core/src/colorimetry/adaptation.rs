@@ -10,7 +10,8 @@ const BRADFORD: DMat3 = DMat3::from_cols(
     DVec3::new(-0.1614, 0.0367, 1.0296),
 );
 
-/// The linear Bradford adaptation from one white to another, or none where the first has a response of zero.
+/// The linear Bradford adaptation from one white to another, or none where the first has a response of zero or the
+/// matrix's numbers would overflow.
 ///
 /// ```text
 /// A = B⁻¹ diag(B w′ / B w) B
@@ -20,5 +21,6 @@ pub fn bradford(from: Xyz, to: Xyz) -> Option<DMat3> {
     let (a, b) = (BRADFORD * from.to_vector(), BRADFORD * to.to_vector());
     let gains = b / a;
     let possible = a.abs().min_element() > 1e-9 * a.abs().max_element();
-    (possible && gains.is_finite()).then(|| BRADFORD.inverse() * DMat3::from_diagonal(gains) * BRADFORD)
+    let adaptation = BRADFORD.inverse() * DMat3::from_diagonal(gains) * BRADFORD;
+    (possible && adaptation.is_finite()).then_some(adaptation)
 }

@@ -13,7 +13,8 @@ pub struct Lab {
     pub b: f64,
 }
 
-/// L*a*b* of a color relative to a white (CIE 15:2004, 8.2.1), or none where the white has a component that is not positive.
+/// L*a*b* of a color relative to a white (CIE 15:2004, 8.2.1), or none where the white has a component that is not
+/// positive or is infinite.
 ///
 /// ```text
 /// L* = 116 f(Y/Yₙ) − 16,   a* = 500 (f(X/Xₙ) − f(Y/Yₙ)),   b* = 200 (f(Y/Yₙ) − f(Z/Zₙ))
@@ -21,7 +22,7 @@ pub struct Lab {
 /// f(t) = t (29/6)² / 3 + 4/29   otherwise, negative values included
 /// ```
 pub fn lab_from_xyz(color: Xyz, white: Xyz) -> Option<Lab> {
-    let positive = white.x > 0.0 && white.y > 0.0 && white.z > 0.0;
+    let positive = [white.x, white.y, white.z].iter().all(|&w| w > 0.0 && w.is_finite());
     let [x, y, z] = [color.x / white.x, color.y / white.y, color.z / white.z].map(f);
     let lab = Lab { l: 116.0 * y - 16.0, a: 500.0 * (x - y), b: 200.0 * (y - z) };
     (positive && lab.l.is_finite() && lab.a.is_finite() && lab.b.is_finite()).then_some(lab)
