@@ -247,3 +247,21 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_table_without_a_place_or_a_spacing_is_refused() {
+    let samples = [1.0; 8];
+    for [start, step] in
+        [[f64::NAN, 5.0], [f64::INFINITY, 5.0], [380.0, f64::NAN], [380.0, f64::INFINITY], [380.0, 0.0]]
+    {
+        assert!(Sprague::new(start, step, &samples).is_none(), "{start} {step}");
+    }
+}
+
+#[test]
+fn a_tiny_white_is_kept_as_exactly_as_any() {
+    let samples = [DVec3::new(1.0, 0.2, 0.1), DVec3::new(0.1, 1.0, 0.3), DVec3::new(0.3, 0.1, 1.0)];
+    let (white, image) = (DVec3::new(3e-156, 0.0, 0.0), DVec3::new(0.9, 1.0, 1.1));
+    let matrix = matrix_keeping(&samples, &samples, white, image).unwrap();
+    assert!((matrix * white - image).abs().max_element() < 1e-14);
+}

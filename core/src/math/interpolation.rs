@@ -54,9 +54,11 @@ impl Sprague {
     /// The fewest samples the end formulas need.
     pub const MIN_SAMPLES: usize = 6;
 
-    /// Prepares a table that starts at `start` with spacing `step`; none with fewer than six samples or without spacing.
+    /// Prepares a table that starts at `start` with spacing `step`; none with fewer than six samples, without spacing, or where
+    /// one of the two is no finite number.
     pub fn new(start: f64, step: f64, samples: &[f64]) -> Option<Self> {
-        if samples.len() < Self::MIN_SAMPLES || step <= 0.0 {
+        // Written so that NaN falls out too.
+        if samples.len() < Self::MIN_SAMPLES || !(step > 0.0 && step.is_finite() && start.is_finite()) {
             return None;
         }
         let n = samples.len();

@@ -21,7 +21,9 @@ pub enum FitError {
 ///
 /// Refuses with [`FitError::Dependent`] when a channel carries less than 1e-10 of new information, or none that is finite.
 pub fn matrix_keeping(samples: &[DVec3], targets: &[DVec3], white: DVec3, image: DVec3) -> Result<DMat3, FitError> {
-    let length = white.length();
+    // By its largest component, because the squares of a tiny white underflow.
+    let largest = white.abs().max_element();
+    let length = if largest > 0.0 { largest * (white / largest).length() } else { 0.0 };
     if length == 0.0 || !length.is_finite() {
         return Err(FitError::NoWhite);
     }
