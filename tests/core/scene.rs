@@ -79,3 +79,13 @@ fn a_light_moves_with_the_eye() {
     let (_, distance) = near.seen_from(DVec3::ZERO).unwrap();
     assert!((distance - 0.2).abs() < 1e-6, "{distance}");
 }
+
+#[test]
+fn the_largest_vertices_have_bounds_and_unevenness() {
+    let x = 2e38;
+    let positions =
+        vec![Vec3::new(x, x, x), Vec3::new(1.1 * x, x, -x), Vec3::new(1.2 * x, -x, x), Vec3::new(x, 1.5 * x, x)];
+    let mesh = Mesh::with_smooth_normals(positions, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
+    assert!(mesh.bounds().center().is_finite() && mesh.bounds().radius.is_finite());
+    assert!(vertex_deviations(&mesh).iter().all(|d| d.is_finite()));
+}

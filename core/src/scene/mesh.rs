@@ -47,7 +47,8 @@ pub struct Bounds {
 impl Bounds {
     /// The middle of the box.
     pub fn center(self) -> Vec3 {
-        self.min.midpoint(self.max)
+        // In double precision: the sum of the largest overflows in single.
+        self.min.as_dvec3().midpoint(self.max.as_dvec3()).as_vec3()
     }
 }
 
@@ -168,6 +169,7 @@ fn bounds(positions: &[Vec3], triangles: &[[u32; 3]]) -> Bounds {
     }
     // In double precision: the squares of a tiny mesh's distances underflow in single.
     let center = bounds.center().as_dvec3();
-    bounds.radius = corners().map(|p| p.as_dvec3().distance_squared(center)).fold(0.0, f64::max).sqrt() as f32;
+    bounds.radius =
+        corners().map(|p| p.as_dvec3().distance_squared(center)).fold(0.0, f64::max).sqrt().min(f32::MAX.into()) as f32;
     bounds
 }

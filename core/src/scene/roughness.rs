@@ -23,5 +23,6 @@ pub fn vertex_deviations(mesh: &Mesh) -> Vec<f32> {
             }
         }
     }
-    sums.into_iter().map(|(sum, count)| (sum / f64::from(count.max(1))).sqrt() as f32).collect()
+    let deviation = |(sum, count): (f64, u32)| (sum / f64::from(count.max(1))).sqrt().min(f32::MAX.into()) as f32;
+    sums.into_iter().map(deviation).collect()
 }
