@@ -182,6 +182,8 @@ fn by_sum(nodes: &[Node], kappa: f64, sum: impl Fn(f64) -> f64) -> [f64; 3] {
 #[inline]
 pub fn rough_basis(kappa: f64, beta: f64) -> [f64; MOMENTS] {
     let t = 1.0 / kappa;
+    // The exponential is 0 from there on, the polynomials would go on to infinity.
+    let beta = beta.min(700.0);
     let front = exp(-beta) * t;
     let q1 = 1.0 + beta * (-2.0 + beta * 0.5);
     let q2 = 2.0 + beta * (-9.0 + beta * (7.5 + beta * (-11.0 / 6.0 + beta * 0.125)));
