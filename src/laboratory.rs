@@ -7,6 +7,7 @@ mod asked;
 mod integral;
 mod left_out;
 mod loci;
+pub mod plans;
 mod stopwatch;
 
 use std::time::Duration;
@@ -17,6 +18,7 @@ use chromascope_core::spectral::Sensor;
 
 use crate::jobs::Background;
 pub use left_out::LeftOut;
+use plans::PlansOf;
 
 /// What does the scene cost by each method, and what was left out?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -169,14 +171,27 @@ impl Query for SceneRunOf {
 /// Where runs are made, and the last one.
 pub struct Laboratory {
     worker: Background<SceneRunOf>,
+    plans: Background<PlansOf>,
     asked: Option<SceneRunOf>,
     runs: u64,
 }
 
 impl Laboratory {
     /// Starts the worker, which wakes the window when it has measured.
-    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self { worker: Background::new("scene runs", wake), asked: None, runs: 0 }
+    pub fn new(wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
+        let also = wake.clone();
+        Self {
+            worker: Background::new("scene runs", wake),
+            plans: Background::new("plans", also),
+            asked: None,
+            runs: 0,
+        }
+    }
+
+    /// The plans of these pictures' sources, as far as they are known; the last ones while others are made.
+    pub fn plans(&self, pictures: &PicturesOf) -> Option<std::sync::Arc<<PlansOf as Query>::Answer>> {
+        self.plans.ask(vec![PlansOf(pictures.clone())]);
+        self.plans.shown().map(|shown| shown.answer)
     }
 
     /// Measures a scene, anew even if it is the same.
@@ -212,5 +227,6 @@ impl Laboratory {
     /// Waits for the run. For tests.
     pub fn wait(&self) {
         self.worker.wait();
+        self.plans.wait();
     }
 }

@@ -15,10 +15,14 @@ pub mod scene_bar;
 pub mod spectra;
 pub mod status_bar;
 pub mod swatches;
+pub mod tolerance;
 pub mod understood;
 
+use chromascope_core::accuracy::Accuracy;
 use chromascope_core::figure::Figure;
 use chromascope_core::query::NearestBlackBodyOf;
+use chromascope_core::query::render::PicturesOf;
+use chromascope_core::render::Quality;
 use egui::{Rect, Ui};
 
 use crate::catalog::meshes::MeshStore;
@@ -70,6 +74,13 @@ impl PaneContext<'_> {
         }
     }
 
+    /// The pictures as they would be made within the document's tolerance.
+    pub fn planned_pictures(&self) -> Option<PicturesOf> {
+        let own = self.meshes.chosen(&self.scene.document.render.mesh);
+        let quality = Accuracy::new(self.scene.document.render.tolerance).ok().map(Quality::Within)?;
+        SceneRunOf::pictures_of(&self.scene, own.as_ref(), self.view.saved.render.orbit, quality)
+    }
+
     /// Hits, misses and times of each kind of question, the window's and the pictures'.
     pub fn counts(&self) -> Vec<(&'static str, Count)> {
         let mut counts: Vec<(&'static str, Count)> = self.scene.results.counts().into_iter().collect();
@@ -93,6 +104,7 @@ pub fn show(ui: &mut Ui, pane: PaneKind, rect: Rect, context: &mut PaneContext<'
         PaneKind::Understood => understood::show(ui, rect, context),
         PaneKind::Accuracy => accuracy::show(ui, rect, context),
         PaneKind::LeftOut => left_out::show(ui, rect, context),
+        PaneKind::Tolerance => tolerance::show(ui, rect, context),
     }
 }
 
@@ -106,8 +118,11 @@ pub fn figure(pane: PaneKind, scene: &Scene<'_>, view: &View) -> Option<Figure> 
         PaneKind::Curves => crate::figures::curves::figure(scene, view),
         PaneKind::Accuracy => crate::figures::accuracy::figure(view),
         PaneKind::LeftOut => crate::figures::accuracy::left_out_figure(view),
-        PaneKind::Library | PaneKind::Inspector | PaneKind::RenderSetup | PaneKind::Import | PaneKind::Understood => {
-            None
-        }
+        PaneKind::Tolerance
+        | PaneKind::Library
+        | PaneKind::Inspector
+        | PaneKind::RenderSetup
+        | PaneKind::Import
+        | PaneKind::Understood => None,
     }
 }

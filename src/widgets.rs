@@ -80,7 +80,7 @@ fn header_buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
     if icon_button(ui, Icon::Maximize, &format!("{words} {} (F)", kind.title())).clicked() {
         context.push(Command::Maximize(kind));
     }
-    if matches!(kind, PaneKind::Inspector | PaneKind::RenderSetup | PaneKind::Understood) {
+    if matches!(kind, PaneKind::Inspector | PaneKind::RenderSetup | PaneKind::Understood | PaneKind::Tolerance) {
         return;
     }
     export_menu(ui, kind, context);

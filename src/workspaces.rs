@@ -30,11 +30,13 @@ pub enum PaneKind {
     Accuracy,
     /// What the scene did not compute.
     LeftOut,
+    /// How large errors may be.
+    Tolerance,
 }
 
 impl PaneKind {
     /// All panes.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Library,
         Self::Chromaticity,
         Self::Swatches,
@@ -47,9 +49,10 @@ impl PaneKind {
         Self::Understood,
         Self::Accuracy,
         Self::LeftOut,
+        Self::Tolerance,
     ];
     /// The panes that stand in the workspaces' changeable places.
-    pub const CHANGEABLE: [Self; 11] = [
+    pub const CHANGEABLE: [Self; 12] = [
         Self::Chromaticity,
         Self::Swatches,
         Self::Spectra,
@@ -61,6 +64,7 @@ impl PaneKind {
         Self::Understood,
         Self::Accuracy,
         Self::LeftOut,
+        Self::Tolerance,
     ];
 
     /// Its title.
@@ -78,6 +82,7 @@ impl PaneKind {
             Self::Understood => "Understood as",
             Self::Accuracy => "Time against error",
             Self::LeftOut => "Left out",
+            Self::Tolerance => "Tolerance",
         }
     }
 }
@@ -175,7 +180,7 @@ impl Default for Layout {
             spectra: [Some(PaneKind::Spectra), None, Some(PaneKind::Inspector), None],
             render: [Some(PaneKind::Render), None, Some(PaneKind::RenderSetup), None],
             import: [Some(PaneKind::Import), Some(PaneKind::Curves), Some(PaneKind::Understood), None],
-            accuracy: [Some(PaneKind::Accuracy), Some(PaneKind::LeftOut), None, None],
+            accuracy: [Some(PaneKind::Accuracy), Some(PaneKind::LeftOut), Some(PaneKind::Tolerance), None],
         }
     }
 }

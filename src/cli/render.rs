@@ -25,6 +25,7 @@ use self::setup::Setup;
 use super::{CliError, put, say, write_to};
 use crate::document::WhiteChoice;
 use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
+use crate::laboratory::plans;
 use crate::results::{Count, Results};
 use crate::scene::{Scene, SceneError, Source};
 
@@ -48,7 +49,7 @@ pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(
         put(&lines, None)?;
     }
     match &arguments.stats {
-        Some(path) => put(&patiently("measuring", || stats::json(arguments, &made, &counts, &times)), Some(path)),
+        Some(path) => put(&patiently("measuring", || stats::json(&made, &counts, &times)), Some(path)),
         None => Ok(()),
     }
 }
@@ -160,7 +161,10 @@ impl<'a> Made<'a> {
     /// A line for each picture, and one for all.
     fn lines(&self, counts: &BTreeMap<&'static str, Count>, times: &Times) -> String {
         let pictures = self.files.iter().enumerate();
-        let lines = pictures.map(|(index, path)| [path.display().to_string(), self.difference(index)].join(": "));
+        let lines = pictures.map(|(index, path)| {
+            let plan = self.plan(index).map_or_else(String::new, |plan| format!("; {plan}"));
+            format!("{}: {}{plan}", path.display(), self.difference(index))
+        });
         let mut lines: Vec<String> = lines.collect();
         let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
         let stages = counts.iter().map(|(name, count)| (*name, count.own_time));
@@ -181,6 +185,12 @@ impl<'a> Made<'a> {
         ));
         lines.push(String::new());
         lines.join("\n")
+    }
+
+    /// How a picture was made within a tolerance, in words.
+    fn plan(&self, index: usize) -> Option<String> {
+        let explanation = plans::explanation(&self.query, &self.query.sources[index], self.scene.results).ok()??;
+        Some(format!("{}, error below {:.1e}", plans::sentence(&explanation), explanation.certified()))
     }
 
     /// How far a picture is from the truth, in words.

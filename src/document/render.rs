@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
+use chromascope_core::accuracy::Accuracy;
 use chromascope_core::query::render::Roughness;
 use chromascope_core::reflectance::{Reading, Surface, SurfaceError};
 use chromascope_core::render::Quality;
@@ -20,6 +21,18 @@ pub const BALANCE: &str = "D55";
 
 /// How many triangles the program's own meshes may have.
 pub const TRIANGLES: RangeInclusive<usize> = 2_000..=2_000_000;
+
+/// The tolerances that can be chosen; beyond, S itself is not exact enough.
+pub const TOLERANCES: RangeInclusive<f64> = 1e-13..=1e-1;
+/// The tolerance before one was chosen.
+pub const TOLERANCE: f64 = 1e-6;
+
+/// The power of ten nearest to a tolerance: each makes plans of its own.
+pub fn decade(tolerance: f64) -> f64 {
+    let power = tolerance.max(*TOLERANCES.start()).min(*TOLERANCES.end()).log10().round() as i32;
+    // Through its text: `powi` is not exact for negative powers.
+    format!("1e{power}").parse().unwrap_or(TOLERANCE)
+}
 
 /// The settings of the rendered scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,6 +58,8 @@ pub struct RenderSettings {
     pub reading: ReadingChoice,
     /// How exactly integrals are made.
     pub quality: QualityChoice,
+    /// The error that [`QualityChoice::Tolerance`] allows, relative to the peak.
+    pub tolerance: f64,
     /// The light above the view axis, in degrees.
     pub light_up_deg: f64,
     /// The light to the right of the view axis (negative: left), in degrees.
@@ -73,6 +88,7 @@ impl Default for RenderSettings {
             index: 1.40,
             reading: ReadingChoice::Radiometric,
             quality: QualityChoice::Full,
+            tolerance: TOLERANCE,
             light_up_deg: 25.0,
             light_right_deg: -25.0,
             light_distance: None,
@@ -89,6 +105,9 @@ impl RenderSettings {
         let usual = Self::default();
         self.triangles = self.triangles.clamp(*TRIANGLES.start(), *TRIANGLES.end());
         self.exposure_ev = if self.exposure_ev.is_finite() { self.exposure_ev.clamp(-20.0, 20.0) } else { 0.0 };
+        if !TOLERANCES.contains(&self.tolerance) {
+            self.tolerance = usual.tolerance;
+        }
         if self.surface().is_err() {
             let Self { sigma_um, tau_um, half_sides_um, index, .. } = usual;
             *self = Self { sigma_um, tau_um, half_sides_um, index, ..self.clone() };
@@ -102,6 +121,19 @@ impl RenderSettings {
     /// The paper's fern under sunlight.
     pub fn fern() -> Self {
         Self { mesh: MeshChoice::Fern, material: LEAF.to_owned(), index: 1.45, ..Self::default() }
+    }
+
+    /// How exactly integrals are made.
+    pub fn quality(&self) -> Quality {
+        match self.quality {
+            QualityChoice::Preview => Quality::Preview,
+            QualityChoice::Full => Quality::Full,
+            QualityChoice::Fine => Quality::Fine,
+            QualityChoice::Exact => Quality::Exact,
+            QualityChoice::Regimes => Quality::Regimes,
+            // Outside the range only until the session was mended.
+            QualityChoice::Tolerance => Accuracy::new(self.tolerance).map_or(Quality::Exact, Quality::Within),
+        }
     }
 
     /// The surface in meters.
@@ -237,22 +269,13 @@ pub enum QualityChoice {
     Exact,
     /// All 401 wavelengths with the paper's three cases of g.
     Regimes,
+    /// The cheapest within [`RenderSettings::tolerance`], camera by camera.
+    Tolerance,
 }
 
 impl QualityChoice {
     /// All of them, in the order they are listed.
-    pub const ALL: [Self; 5] = [Self::Preview, Self::Full, Self::Fine, Self::Exact, Self::Regimes];
-
-    /// The core's quality.
-    pub const fn quality(self) -> Quality {
-        match self {
-            Self::Preview => Quality::Preview,
-            Self::Full => Quality::Full,
-            Self::Fine => Quality::Fine,
-            Self::Exact => Quality::Exact,
-            Self::Regimes => Quality::Regimes,
-        }
-    }
+    pub const ALL: [Self; 6] = [Self::Preview, Self::Full, Self::Fine, Self::Exact, Self::Tolerance, Self::Regimes];
 
     /// What it is called.
     pub const fn label(self) -> &'static str {
@@ -262,6 +285,7 @@ impl QualityChoice {
             Self::Fine => "Fine, error < 1e-9",
             Self::Exact => "Exact, 401 wavelengths",
             Self::Regimes => "Paper's three cases of g",
+            Self::Tolerance => "Within a tolerance",
         }
     }
 }

@@ -216,5 +216,6 @@ pub const fn quality_name(quality: Quality) -> &'static str {
         Quality::Fine => "fine",
         Quality::Exact => "exact",
         Quality::Regimes => "regimes",
+        Quality::Within(_) => "tolerance",
     }
 }

@@ -20,7 +20,7 @@ pub fn trial(run: &SceneRun, subject: Subject) -> Option<&Trial> {
 }
 
 /// The panel for an area of the given size.
-pub fn panel(trial: &Trial, size: [f64; 2]) -> Panel {
+pub fn panel(trial: &Trial, is_current: bool, size: [f64; 2]) -> Panel {
     let front: Vec<&Point> = trial.front();
     let place = |point: &Point, on_front: bool| {
         let index = trial.points.iter().position(|p| p == point).unwrap_or(0);
@@ -39,7 +39,8 @@ pub fn panel(trial: &Trial, size: [f64; 2]) -> Panel {
     let error = format!("largest error, {}", trial.subject.error_of());
     let time = format!("time for {}", trial.subject.per());
     let mut panel = pareto::panel("run time against error", &error, &time, &places, size);
-    panel.note = format!("{} inputs, one thread", trial.inputs);
+    let when = if is_current { "" } else { ", of the scene as it was" };
+    panel.note = format!("{} inputs, one thread{when}", trial.inputs);
     panel
 }
 
@@ -91,7 +92,7 @@ pub fn figure(view: &View) -> Option<Figure> {
     let subject = view.accuracy.subject;
     let trial = trial(run, subject)?;
     let mut figure = Figure::new(format!("Run time against error: {}", subject.title()), SIZE);
-    figure.panels.push(panel(trial, SIZE));
+    figure.panels.push(panel(trial, view.accuracy.is_current, SIZE));
     let families: std::collections::BTreeSet<Family> = trial.points.iter().map(|point| point.family).collect();
     figure.legend = families.into_iter().map(entry).collect();
     figure.legend_place = LegendPlace::Outside;

@@ -3,7 +3,7 @@
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::query::render::{PicturesOf, SourceOf};
 use chromascope_core::query::{LocusOf, PatchColorsOf, Shared};
-use chromascope_core::render::{RasterSize, Shadows};
+use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_core::scene::Mesh;
 
 use super::SceneRunOf;
@@ -31,7 +31,7 @@ impl SceneRunOf {
         let colors =
             |rendering: &_| Some(PatchColorsOf { rendering: Clone::clone(rendering), patches: patches.clone()? });
         Self {
-            pictures: pictures(scene, own, orbit),
+            pictures: Self::pictures_of(scene, own, orbit, scene.document.render.quality()),
             hidden: hidden.iter().filter_map(rendering).map(|rendering| SourceOf { rendering }).collect(),
             sensors: shown.iter().filter_map(|source| scene.sensor(source.kind, &source.name).ok()).collect(),
             loci: renderings.iter().filter_map(locus).collect(),
@@ -39,21 +39,27 @@ impl SceneRunOf {
             run: 0,
         }
     }
-}
 
-fn pictures(scene: &Scene<'_>, own: Option<&Shared<Mesh>>, orbit: Option<Orbit>) -> Option<PicturesOf> {
-    let sources = scene.rendered_sources();
-    let settings = &scene.document.render;
-    let orbit = orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
-    let viewpoint = orbit.viewpoint(f64::from(WIDTH) / f64::from(HEIGHT))?;
-    let finish = Finish {
-        size: RasterSize { width: WIDTH, height: HEIGHT, samples: 1 }.clamped(),
-        quality: settings.quality.quality(),
-        shadows: Shadows::Full,
-        compared_samples: None,
-    };
-    if sources.is_empty() {
-        return None;
+    /// The pictures that are measured on, at a quality; none where there is nothing to render.
+    pub fn pictures_of(
+        scene: &Scene<'_>,
+        own: Option<&Shared<Mesh>>,
+        orbit: Option<Orbit>,
+        quality: Quality,
+    ) -> Option<PicturesOf> {
+        let sources = scene.rendered_sources();
+        let settings = &scene.document.render;
+        let orbit = orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
+        let viewpoint = orbit.viewpoint(f64::from(WIDTH) / f64::from(HEIGHT))?;
+        let finish = Finish {
+            size: RasterSize { width: WIDTH, height: HEIGHT, samples: 1 }.clamped(),
+            quality,
+            shadows: Shadows::Full,
+            compared_samples: None,
+        };
+        if sources.is_empty() {
+            return None;
+        }
+        scene.pictures_of(&sources, scene.mesh_of(own)?, viewpoint, finish, None).ok()
     }
-    scene.pictures_of(&sources, scene.mesh_of(own)?, viewpoint, finish, None).ok()
 }

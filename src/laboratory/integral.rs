@@ -1,16 +1,20 @@
 //! The spectral integral of the rendered samples, by each method.
 
+use chromascope_core::accuracy::Accuracy;
 use chromascope_core::query::Ask;
+use chromascope_core::query::render::PicturesOf;
 use chromascope_core::reflectance::{Precision, Reading};
 use chromascope_core::render::diffuse::{DARK, ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::shading::Way;
-use chromascope_core::render::{DiffuseTable, Measure, ShadingImage};
+use chromascope_core::render::{Against, Demand, DiffuseTable, Measure, Plan, ShadingImage};
 
 use super::stopwatch::{medians, once};
 use super::{Family, Point, SceneRunOf, Subject, Trial};
 
 /// At most so many samples are measured on.
 const SAMPLES: usize = 300;
+/// The tolerances that are tried, as powers of ten.
+const TOLERANCES: [i32; 6] = [-3, -5, -7, -9, -11, -13];
 
 /// Samples of the scene through one source.
 struct Bench<'a> {
@@ -18,6 +22,8 @@ struct Bench<'a> {
     places: &'a [[f64; 2]],
     /// The source's weights over wavelength.
     measure: &'a Measure,
+    /// What is asked of a plan.
+    demand: Demand,
 }
 
 /// A way of integrating.
@@ -26,7 +32,19 @@ struct Method<'a> {
     family: Family,
     preparation: f64,
     certified: Option<f64>,
-    at: Box<dyn Fn(f64, f64) -> [f64; 3] + 'a>,
+    fill: Fill<'a>,
+}
+
+/// Integrates at each κ and β.
+type Fill<'a> = Box<dyn Fn(&[[f64; 2]], &mut [[f64; 3]]) + 'a>;
+
+/// One place after the other.
+fn each<'a>(at: impl Fn(f64, f64) -> [f64; 3] + 'a) -> Fill<'a> {
+    Box::new(move |places, sums| {
+        for ([kappa, beta], sum) in places.iter().zip(sums) {
+            *sum = at(*kappa, *beta);
+        }
+    })
 }
 
 /// Measures; none where nothing is rendered, where no sample takes an integral, and if stopped.
@@ -40,12 +58,13 @@ pub(super) fn trial(run: &SceneRunOf, ask: &impl Ask) -> Option<Trial> {
     if places.is_empty() {
         return None;
     }
+    let demand = Demand::new(range(&places), lit(pictures));
     let mut sums: Vec<Sums> = Vec::new();
     let mut sources = 0.0;
     for source in &pictures.sources {
         let measure = ask.ask(&pictures.image(&source.rendering).measure);
         let Ok(measure) = &*measure else { continue };
-        let bench = Bench { places: &places, measure };
+        let bench = Bench { places: &places, measure, demand };
         let points = bench.measured(ask)?;
         sources += 1.0;
         for (index, point) in points.into_iter().enumerate() {
@@ -68,6 +87,17 @@ fn places(shading: &ShadingImage) -> Vec<[f64; 2]> {
         .map(|shade| [shade.kappa, shade.beta])
         .collect();
     lit.iter().step_by(lit.len().div_ceil(SAMPLES).max(1)).copied().collect()
+}
+
+/// The least and the largest κ.
+fn range(places: &[[f64; 2]]) -> [f64; 2] {
+    places.iter().fold([f64::INFINITY, 0.0], |[low, high], [kappa, _]| [low.min(*kappa), high.max(*kappa)])
+}
+
+/// About how many samples a picture has whose integral is made.
+fn lit(pictures: &PicturesOf) -> u64 {
+    let size = pictures.shading.geometry.visibility.size;
+    (size.columns() * size.rows()) as u64
 }
 
 /// The worst and the sum of several sources' points.
@@ -93,7 +123,24 @@ impl Bench<'_> {
     /// All methods through this source; none if stopped.
     fn measured(&self, ask: &impl Ask) -> Option<Vec<Point>> {
         let (table, build) = once(|| DiffuseTable::new(self.measure));
-        let methods = methods(self.measure, &table, build);
+        let mut methods = methods(self.measure, &table, build);
+        for exponent in TOLERANCES {
+            let Ok(accuracy) = Accuracy::new(10_f64.powi(exponent)) else { continue };
+            let (plan, preparation) = once(|| Plan::new(self.measure, accuracy, Against::Peak, self.demand));
+            let Ok(plan) = plan else { continue };
+            let certified = Some(plan.explanation().certified());
+            let fill: Fill<'_> = Box::new(move |places, sums| plan.fill(places, sums));
+            methods.push(Method {
+                name: format!("within 1e{exponent}").replace('-', "−"),
+                family: Family::Tolerance,
+                preparation,
+                certified,
+                fill,
+            });
+            if ask.stop().is_set() {
+                return None;
+            }
+        }
         let exact = self.values(&methods[0]);
         // One thread: what a sample costs, not what a machine does.
         let work: Vec<Box<dyn Fn() -> Vec<[f64; 3]> + '_>> = methods
@@ -129,7 +176,9 @@ impl Bench<'_> {
     }
 
     fn values(&self, method: &Method<'_>) -> Vec<[f64; 3]> {
-        self.places.iter().map(|&[kappa, beta]| (method.at)(kappa, beta)).collect()
+        let mut sums = vec![[0.0; 3]; self.places.len()];
+        (method.fill)(self.places, &mut sums);
+        sums
     }
 }
 
@@ -144,14 +193,14 @@ fn methods<'a>(measure: &'a Measure, table: &'a DiffuseTable, build: f64) -> Vec
         family: Family::Sum,
         preparation: 0.0,
         certified: None,
-        at: Box::new(move |kappa, beta| by_nodes(measure.dense(), kappa, beta, precision)),
+        fill: each(move |kappa, beta| by_nodes(measure.dense(), kappa, beta, precision)),
     };
-    let quality = |name: &str, preparation, at: Box<dyn Fn(f64, f64) -> [f64; 3] + 'a>| Method {
+    let quality = |name: &str, preparation, fill: Fill<'a>| Method {
         name: name.to_owned(),
         family: Family::Quality,
         preparation,
         certified: None,
-        at,
+        fill,
     };
     vec![
         sum("401 wavelengths, S to 1e-13", Precision::Full),
@@ -160,14 +209,14 @@ fn methods<'a>(measure: &'a Measure, table: &'a DiffuseTable, build: f64) -> Vec
         quality(
             "401 wavelengths, the paper's cases",
             0.0,
-            Box::new(|kappa, beta| by_regimes(measure.dense(), kappa, beta)),
+            each(|kappa, beta| by_regimes(measure.dense(), kappa, beta)),
         ),
         quality(
             "Fine: 15 wavelengths",
             0.0,
-            Box::new(|kappa, beta| by_nodes(measure.fine(), kappa, beta, Precision::Full)),
+            each(|kappa, beta| by_nodes(measure.fine(), kappa, beta, Precision::Full)),
         ),
-        quality("Full: moments, table", build, Box::new(move |kappa, beta| full(measure, table, kappa, beta))),
+        quality("Full: moments, table", build, each(move |kappa, beta| full(measure, table, kappa, beta))),
     ]
 }
 

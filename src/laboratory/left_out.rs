@@ -94,7 +94,8 @@ fn of_pictures(pictures: &PicturesOf, ask: &impl Ask) -> Option<Vec<LeftOut>> {
 
 /// Seconds of a lit sample through all sources, from angles to signals, on one thread.
 fn sample_cost(sources: &Sources<'_>) -> Option<f64> {
-    use chromascope_core::render::{CameraImage, DiffuseTable, Stop};
+    use chromascope_core::render::mirror::Reach;
+    use chromascope_core::render::{Against, CameraImage, DiffuseTable, Plan, Stop};
     let lit = sources.shading.geometry().angles().len();
     let thinned = std::sync::Arc::new(sources.shading.geometry().thinned(lit.div_ceil(SAMPLES).max(1)));
     let count = thinned.angles().len();
@@ -104,11 +105,20 @@ fn sample_cost(sources: &Sources<'_>) -> Option<f64> {
     let of = &sources.pictures.shading;
     let tables: Vec<Option<DiffuseTable>> =
         sources.measures().map(|measure| sources.shading.needs_table().then(|| DiffuseTable::new(measure))).collect();
+    let demand = sources.shading.demand().zip(of.quality.accuracy());
+    let plan = |measure| demand.and_then(|(demand, accuracy)| Plan::new(measure, accuracy, Against::Peak, demand).ok());
+    let plans: Vec<Option<Plan>> = sources.measures().map(plan).collect();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().ok()?;
     let work = || {
         let shading = ShadingImage::new(thinned.clone(), of.surface, of.reading, of.quality, &Stop::NEVER)?;
-        for (measure, table) in sources.measures().zip(&tables) {
-            CameraImage::new(&shading, measure, table.as_ref(), &Stop::NEVER)?;
+        for ((measure, table), plan) in sources.measures().zip(&tables).zip(&plans) {
+            match plan {
+                Some(plan) => {
+                    let reach = Reach::of(of.quality, measure);
+                    CameraImage::by_plan(&shading, measure, Some(plan), reach, &Stop::NEVER)?
+                }
+                None => CameraImage::new(&shading, measure, table.as_ref(), &Stop::NEVER)?,
+            };
         }
         Some(())
     };

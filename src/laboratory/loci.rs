@@ -1,5 +1,6 @@
 //! Black bodies through the sensors on show, by each method.
 
+use chromascope_core::accuracy::Accuracy;
 use chromascope_core::camera::{LocusEvaluator, LocusMethod};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::query::{Ask, Shared};
@@ -15,6 +16,8 @@ const FROM_K: f64 = 1000.0;
 const TO_K: f64 = 20_000.0;
 /// Of the 1 nm grid each so many-th wavelength is taken.
 const STEPS: [usize; 5] = [1, 2, 5, 10, 20];
+/// The tolerances that are tried, as powers of ten.
+const TOLERANCES: [i32; 5] = [-2, -4, -6, -9, -12];
 
 /// Measures; none without sensors, and if stopped.
 pub(super) fn trial(run: &SceneRunOf, ask: &impl Ask) -> Option<Trial> {
@@ -116,6 +119,18 @@ fn methods(sensor: &Shared<Sensor>, constants: RadiationConstants) -> Vec<Method
     };
     let at = Box::new(move |t| evaluator.raw(t));
     methods.push(Method { name, family: Family::Quality, preparation, certified, at });
+    for exponent in TOLERANCES {
+        let Ok(accuracy) = Accuracy::new(10_f64.powi(exponent)) else { continue };
+        let (evaluator, preparation) = once(|| LocusEvaluator::within(sensor.clone(), constants, accuracy));
+        let Ok(evaluator) = evaluator else { continue };
+        methods.push(Method {
+            name: format!("within 1e{exponent}").replace('-', "−"),
+            family: Family::Tolerance,
+            preparation,
+            certified: Some(accuracy.max_relative_error()),
+            at: Box::new(move |t| evaluator.raw(t)),
+        });
+    }
     methods
 }
 

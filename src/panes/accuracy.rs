@@ -49,7 +49,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     }
     let size = [f64::from(body.width()), f64::from(body.height())];
-    let panel = accuracy::panel(trial, size);
+    let panel = accuracy::panel(trial, context.view.accuracy.is_current, size);
     let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
     let id = Id::unique(("run time against error", subject.title()));
     let shown = paint::plot(ui, id, &panel, &context.theme, body, options);
@@ -85,9 +85,6 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let hint = "Measures the methods on this scene, and what was left out of it. Takes some seconds.";
     if ui.button(if again { "Run again" } else { "Run" }).on_hover_text(hint).clicked() {
         context.push(Command::Measure);
-    }
-    if again && !context.view.accuracy.is_current {
-        ui.label(RichText::new("of the scene as it was").small().color(context.theme.warning));
     }
 }
 

@@ -234,13 +234,14 @@ fn render_facts(context: &PaneContext<'_>) -> Vec<String> {
         facts.push(format!("updated in {} ms", fixed(milliseconds, usize::from(milliseconds < 100.0))));
     }
     let error = match shot.query.shading.quality {
-        Quality::Preview => "preview",
-        Quality::Full => "error < 1e−5",
-        Quality::Fine => "error < 1e−9",
-        Quality::Exact => "1 nm sums",
-        Quality::Regimes => "the paper's three cases of g",
+        Quality::Preview => "preview".to_owned(),
+        Quality::Full => "error < 1e−5".to_owned(),
+        Quality::Fine => "error < 1e−9".to_owned(),
+        Quality::Exact => "1 nm sums".to_owned(),
+        Quality::Regimes => "the paper's three cases of g".to_owned(),
+        Quality::Within(accuracy) => format!("error < {accuracy}").replace('-', "−"),
     };
-    facts.push(error.to_owned());
+    facts.push(error);
     let cameras = shot.sources.iter().filter(|source| source.kind == Kind::Camera).count();
     facts.push(format!("{cameras} {}", if cameras == 1 { "camera" } else { "cameras" }));
     facts

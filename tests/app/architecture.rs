@@ -15,24 +15,38 @@ use rust_text::{code, functions, paths};
 
 /// What a module of the core may use beside itself.
 const CORE_LAYERS: &[(&str, &[&str])] = &[
+    ("accuracy", &[]),
     ("units", &["math"]),
     ("math", &["units"]),
     ("table", &["units", "math", "spectral"]),
     ("spectral", &["units", "math", "table"]),
     ("colorimetry", &["units", "math", "spectral"]),
-    ("light", &["units", "math", "table", "spectral", "colorimetry"]),
+    ("light", &["accuracy", "units", "math", "table", "spectral", "colorimetry"]),
     ("object", &["units", "math", "table", "spectral", "colorimetry", "light"]),
-    ("camera", &["units", "math", "table", "spectral", "colorimetry", "light", "object"]),
-    ("reflectance", &["units", "math", "table", "spectral", "colorimetry", "light", "object"]),
+    ("camera", &["accuracy", "units", "math", "table", "spectral", "colorimetry", "light", "object"]),
+    ("reflectance", &["accuracy", "units", "math", "table", "spectral", "colorimetry", "light", "object"]),
     ("scene", &["units", "math", "table", "spectral", "colorimetry", "light", "object", "camera", "reflectance"]),
     (
         "render",
-        &["units", "math", "table", "spectral", "colorimetry", "light", "object", "camera", "reflectance", "scene"],
+        &[
+            "accuracy",
+            "units",
+            "math",
+            "table",
+            "spectral",
+            "colorimetry",
+            "light",
+            "object",
+            "camera",
+            "reflectance",
+            "scene",
+        ],
     ),
     ("figure", &["units", "math", "colorimetry"]),
     (
         "query",
         &[
+            "accuracy",
             "units",
             "math",
             "table",

@@ -270,6 +270,29 @@ fn qualities_agree_and_readings_do_not() {
 }
 
 #[test]
+fn a_tolerance_is_kept_and_said() {
+    let folder = folder("tolerance");
+    let common = [&SMALL[..], &D70[..], &["--sigma", "0.3e-6", "--stats", "-"]].concat();
+    for (tolerance, error) in [("1e-3", 1e-3), ("1e-7", 1.6e-7)] {
+        let said = rendered(&folder, &[&common[..], &["--tolerance", tolerance]].concat());
+        let json: Value = serde_json::from_str(&said).unwrap();
+        assert_eq!(
+            (&json["settings"]["quality"], &json["settings"]["tolerance"]),
+            (&"tolerance".into(), &tolerance.parse::<f64>().unwrap().into())
+        );
+        for source in json["sources"].as_array().unwrap() {
+            assert!(source["plan"]["certified_error"].as_f64().unwrap() <= tolerance.parse().unwrap());
+            // Signals are kept in single precision, 6e-8 of themselves.
+            assert!(source["error_to_peak"]["max"].as_f64().unwrap() <= error, "{source}");
+        }
+    }
+    let words = rendered(&folder, &[&SMALL[..], &D70[..], &["--tolerance", "1e-6"]].concat());
+    assert!(words.contains("error below"), "{words}");
+    refused(&self::folder("tolerance refused"), &["--tolerance", "1e-15"], 2, &["1e-15", "1e-13"]);
+    refused(&self::folder("tolerance and quality"), &["--tolerance", "1e-5", "--quality", "fine"], 2, &["--quality"]);
+}
+
+#[test]
 fn meshes_and_materials_come_from_files() {
     let folder = folder("files");
     std::fs::write(folder.join("My Square.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n").unwrap();

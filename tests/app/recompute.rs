@@ -146,7 +146,7 @@ impl Pictures {
         let scene = Scene { document: &desk.document, catalog: &desk.catalog, results: &desk.results };
         let finish = Finish {
             size: RasterSize { width: 64, height: 48, samples: 1 },
-            quality: desk.document.render.quality.quality(),
+            quality: desk.document.render.quality(),
             shadows: Shadows::Full,
             compared_samples: Some(500),
         };

@@ -5,9 +5,12 @@ use std::time::{Duration, Instant};
 
 use chromascope_core::camera::NoRendering;
 use chromascope_core::query::Ask as _;
-use chromascope_core::query::render::{DiffuseTableOf, Roughness};
+use chromascope_core::query::render::{DiffuseTableOf, MeasureOf, PlanOf, Roughness};
 use chromascope_core::reflectance::{Reading, Surface};
-use chromascope_core::render::{CameraImage, DiffuseTable, GeometryImage, Measure, Quality, ShadingImage, Stop};
+use chromascope_core::render::mirror::Reach;
+use chromascope_core::render::{
+    Against, CameraImage, DiffuseTable, GeometryImage, Measure, Plan, Quality, ShadingImage, Stop,
+};
 use rayon::ThreadPoolBuilder;
 
 use super::Made;
@@ -18,7 +21,7 @@ const SAMPLES: usize = 2000;
 const AT_LEAST: Duration = Duration::from_millis(20);
 
 /// What was measured.
-pub(super) struct Accuracy {
+pub(super) struct Measured {
     /// Each how many of the lit samples were taken.
     pub(super) stride: usize,
     /// How many they are.
@@ -66,10 +69,12 @@ struct Bench {
 struct Camera {
     measure: Arc<Result<Measure, NoRendering>>,
     table: Option<Arc<Result<DiffuseTable, NoRendering>>>,
+    /// What a tolerance takes.
+    planned: Option<(Arc<Result<Plan, NoRendering>>, Reach)>,
 }
 
 /// Measures; none where nothing is lit, and where samples lie between vertices of different roughness.
-pub(super) fn measure(made: &Made<'_>) -> Option<Accuracy> {
+pub(super) fn measure(made: &Made<'_>) -> Option<Measured> {
     let geometry = &made.pictures.angles;
     let lit = geometry.samples().len();
     if lit == 0 || made.query.shading.roughness == Roughness::Mesh {
@@ -88,7 +93,7 @@ pub(super) fn measure(made: &Made<'_>) -> Option<Accuracy> {
         ns: run.time.as_secs_f64() * 1e9 / (samples * run.signals.len().max(1)) as f64,
         errors: (0..peaks.len()).map(|i| errors(&run.signals[i], &exact.signals[i], peaks[i])).collect(),
     };
-    Some(Accuracy { stride, samples, chosen: cost(&chosen), exact: cost(&exact), regimes: cost(&regimes) })
+    Some(Measured { stride, samples, chosen: cost(&chosen), exact: cost(&exact), regimes: cost(&regimes) })
 }
 
 impl Bench {
@@ -97,7 +102,9 @@ impl Bench {
         let cameras = made.query.sources.iter().map(|source| {
             let of = made.query.image(&source.rendering).measure;
             let table = needs_table.then(|| made.scene.results.ask(&DiffuseTableOf(of.clone())));
-            Camera { measure: made.scene.results.ask(&of), table }
+            let measure = made.scene.results.ask(&of);
+            let planned = planned(made, &of, (*measure).as_ref().ok());
+            Camera { measure, table, planned }
         });
         let of = &made.query.shading;
         Self { geometry, surface: of.surface, reading: of.reading, cameras: cameras.collect() }
@@ -118,6 +125,10 @@ impl Bench {
         let geometry = Arc::clone(&self.geometry);
         let shading = ShadingImage::new(geometry, self.surface, self.reading, quality, &Stop::NEVER)?;
         let image = |camera: &Camera| {
+            if let (Quality::Within(_), Some((plan, reach))) = (quality, &camera.planned) {
+                let (measure, plan) = ((*camera.measure).as_ref().ok()?, (**plan).as_ref().ok());
+                return CameraImage::by_plan(&shading, measure, plan, *reach, &Stop::NEVER);
+            }
             let table = camera.table.as_deref().and_then(|table| table.as_ref().ok());
             CameraImage::new(&shading, (*camera.measure).as_ref().ok()?, table, &Stop::NEVER)
         };
@@ -125,6 +136,20 @@ impl Bench {
         let time = start.elapsed();
         Some(Run { signals: images.iter().map(|image| image.signals().to_vec()).collect(), time })
     }
+}
+
+/// A source's plan for the whole picture, if a tolerance was asked for.
+fn planned(
+    made: &Made<'_>,
+    of: &MeasureOf,
+    measure: Option<&Measure>,
+) -> Option<(Arc<Result<Plan, NoRendering>>, Reach)> {
+    let quality = made.setup.finish.quality;
+    let accuracy = quality.accuracy()?;
+    let shading = made.scene.results.ask(&made.query.shading);
+    let demand = (*shading).as_ref()?.demand()?;
+    let plan = PlanOf { measure: of.clone(), accuracy, against: Against::Peak, demand };
+    Some((made.scene.results.ask(&plan), Reach::of(quality, measure?)))
 }
 
 /// The largest signal of a picture; 0 for a black one.

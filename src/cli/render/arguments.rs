@@ -6,7 +6,7 @@ use chromascope_core::render::visibility::MAX_SIDE;
 use clap::{Args, ValueEnum};
 
 use crate::cli::arguments::SourceArguments;
-use crate::document::render::{QualityChoice, ReadingChoice};
+use crate::document::render::{QualityChoice, ReadingChoice, TOLERANCES};
 
 pub(in crate::cli) const EXAMPLES: &str = "\
 Examples:
@@ -76,6 +76,10 @@ pub(in crate::cli) struct RenderArguments {
     /// How exactly the sums over wavelengths are made
     #[arg(long, value_enum, default_value_t = QualityName::Full, help_heading = PICTURE)]
     pub(super) quality: QualityName,
+    /// The largest error of the spectral integral, relative to its peak: the cheapest way that keeps it is taken for each
+    /// camera, and named with the error it is certified for
+    #[arg(long, value_name = "ERROR", value_parser = tolerance, conflicts_with = "quality", help_heading = PICTURE)]
+    pub(super) tolerance: Option<f64>,
     /// Pixels across and down
     #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = size, help_heading = PICTURE)]
     pub(super) size: [u32; 2],
@@ -151,17 +155,6 @@ impl QualityName {
             Self::Regimes => QualityChoice::Regimes,
         }
     }
-
-    /// As it is typed.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Preview => "preview",
-            Self::Full => "full",
-            Self::Fine => "fine",
-            Self::Exact => "exact",
-            Self::Regimes => "regimes",
-        }
-    }
 }
 
 /// A kind of files.
@@ -186,6 +179,15 @@ impl Format {
 fn finite(text: &str) -> Result<f64, String> {
     let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
     number.ok_or_else(|| format!("\"{text}\" is no number; write one like 0.5 or 5e-6"))
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let number = finite(text)?;
+    let (least, largest) = (TOLERANCES.start(), TOLERANCES.end());
+    let within = TOLERANCES.contains(&number);
+    within
+        .then_some(number)
+        .ok_or_else(|| format!("an error of {text} cannot be asked for; give {least:e} to {largest:e}"))
 }
 
 fn ev(text: &str) -> Result<f64, String> {

@@ -14,7 +14,7 @@ use super::arguments::RenderArguments;
 use crate::catalog::meshes;
 use crate::cli::request::Request;
 use crate::cli::{CliError, say};
-use crate::document::render::{BALANCE, MeshChoice, RenderSettings, RoughnessChoice, SUN};
+use crate::document::render::{BALANCE, MeshChoice, QualityChoice, RenderSettings, RoughnessChoice, SUN};
 use crate::document::{Compared, FIRST_SOURCES, Light, REFERENCE, WhiteChoice};
 use crate::scene::render::Finish;
 use crate::view::render::Orbit;
@@ -65,7 +65,7 @@ impl Setup {
             MeshChoice::File(path) => Some(read_mesh(path)?),
             _ => None,
         };
-        let quality = arguments.quality.choice().quality();
+        let quality = request.document.render.quality();
         let shadows = if quality == Quality::Preview { Shadows::Coarse } else { Shadows::Full };
         let finish = Finish { size, quality, shadows, compared_samples: Some(usize::MAX) };
         let mesh_name = mesh_name(&request.document.render.mesh);
@@ -131,7 +131,8 @@ fn settings(arguments: &RenderArguments, mesh: MeshChoice) -> Result<RenderSetti
         half_sides_um: arguments.patch.map_or(usual.half_sides_um, |sides| sides.map(|side| side * MICRO)),
         index: arguments.ior.unwrap_or(usual.index),
         reading: arguments.reading.choice(),
-        quality: arguments.quality.choice(),
+        quality: if arguments.tolerance.is_some() { QualityChoice::Tolerance } else { arguments.quality.choice() },
+        tolerance: arguments.tolerance.unwrap_or(usual.tolerance),
         shadows: !arguments.no_shadows,
         exposure_ev: arguments.exposure,
         ..usual

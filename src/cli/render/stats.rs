@@ -3,25 +3,22 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
+use chromascope_core::accuracy::Accuracy;
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::Roughness;
+use chromascope_core::render::plan::Candidate;
 use chromascope_core::render::{Measure, Quality, ShadingCounts};
 use chromascope_core::spectral::grid::COUNT;
 use serde_json::{Value, json};
 
-use super::accuracy::{self, Accuracy, Cost, Errors};
-use super::arguments::RenderArguments;
+use super::accuracy::{self, Cost, Errors, Measured};
 use super::{Made, Times, white_name};
-use crate::export::render::reading_name;
+use crate::export::render::{quality_name, reading_name};
+use crate::laboratory::plans;
 use crate::results::Count;
 
 /// The figures, as text with a line break at its end.
-pub(super) fn json(
-    arguments: &RenderArguments,
-    made: &Made<'_>,
-    counts: &BTreeMap<&'static str, Count>,
-    times: &Times,
-) -> String {
+pub(super) fn json(made: &Made<'_>, counts: &BTreeMap<&'static str, Count>, times: &Times) -> String {
     let accuracy = accuracy::measure(made);
     let size = made.setup.finish.size;
     let mesh = made.scene.results.ask(&made.query.shading.geometry.visibility.mesh);
@@ -35,7 +32,7 @@ pub(super) fn json(
         },
         "size": { "width": size.width, "height": size.height, "samples_per_side": size.samples },
         "threads": rayon::current_num_threads(),
-        "settings": settings(arguments, made),
+        "settings": settings(made),
         "time_ms": {
             "all": milliseconds(times.all),
             "reading_mesh": milliseconds(times.reading),
@@ -45,7 +42,7 @@ pub(super) fn json(
         "samples": samples(made),
         "tables": { "built": table.misses, "reused": table.hits },
         "sources": (0..made.sources.len()).map(|index| source(made, index, accuracy.as_ref())).collect::<Vec<_>>(),
-        "accuracy": accuracy.as_ref().map(|accuracy| summary(arguments, accuracy)),
+        "accuracy": accuracy.as_ref().map(|accuracy| summary(made, accuracy)),
     });
     format!("{value:#}\n")
 }
@@ -63,7 +60,7 @@ fn stage(count: &Count) -> Value {
     })
 }
 
-fn settings(arguments: &RenderArguments, made: &Made<'_>) -> Value {
+fn settings(made: &Made<'_>) -> Value {
     let (document, viewpoint) = (made.scene.document, made.setup.viewpoint);
     let shading = &made.query.shading;
     let surface = shading.surface;
@@ -72,7 +69,8 @@ fn settings(arguments: &RenderArguments, made: &Made<'_>) -> Value {
         "illuminant": made.scene.light_name(),
         "white": white_name(&document.white),
         "reading": reading_name(shading.reading),
-        "quality": arguments.quality.name(),
+        "quality": quality_name(shading.quality),
+        "tolerance": shading.quality.accuracy().map(Accuracy::max_relative_error),
         "sigma_m": plain(surface.sigma_m()),
         "sigma_from_mesh": shading.roughness == Roughness::Mesh,
         "tau_m": plain(surface.tau_m()),
@@ -109,13 +107,14 @@ fn samples(made: &Made<'_>) -> Value {
         "by_moments": shading.moments,
         "by_table": shading.table,
         "by_sums": shading.sums,
+        "by_plans": shading.planned,
         "mirror_terms": shading.mirrors,
         "mirror_terms_skipped": shading.mirrors_skipped,
         "shadow_rays": geometry.rays,
     })
 }
 
-fn source(made: &Made<'_>, index: usize, accuracy: Option<&Accuracy>) -> Value {
+fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
     let (source, pictures) = (&made.sources[index], &made.pictures);
     let difference = pictures.differences[index].as_ref().filter(|_| made.not_comparable[index].is_none());
     let measure = made.scene.results.ask(&made.query.image(&made.query.sources[index].rendering).measure);
@@ -129,11 +128,31 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Accuracy>) -> Value {
             json!({ "mean": difference.mean, "max": difference.max, "samples": difference.map.len() })
         }),
         "clipped_samples": pictures.pictures[index].as_ref().ok().map(|picture| picture.clipped),
+        "plan": plan(made, index),
         "peak_signal": pictures.images[index].as_ref().map(accuracy::peak),
         "wavelengths": (*measure).as_ref().ok().map(|measure| wavelengths(measure, made)),
         "error_to_peak": accuracy.map(|accuracy| of(&accuracy.chosen)),
         "error_to_peak_by_regimes": accuracy.map(|accuracy| of(&accuracy.regimes)),
     })
+}
+
+/// How a source's integrals were made within a tolerance.
+fn plan(made: &Made<'_>, index: usize) -> Option<Value> {
+    let explanation = plans::explanation(&made.query, &made.query.sources[index], made.scene.results).ok()??;
+    let candidate = |candidate: &Candidate| {
+        json!({
+            "way": plans::words(&candidate.method),
+            "certified_error": candidate.certified,
+            "sample_ns_by_model": candidate.sample_ns,
+            "making_ms_by_model": candidate.making_ns / 1e6,
+        })
+    };
+    Some(json!({
+        "certified_error": explanation.certified(),
+        "rough": explanation.rough.as_ref().map(candidate),
+        "chosen": candidate(&explanation.chosen),
+        "rejected": explanation.rejected.iter().map(candidate).collect::<Vec<_>>(),
+    }))
 }
 
 /// How many wavelengths of the grid's 401 were looked at. Moments are sums over all, made once for any number of samples.
@@ -143,7 +162,7 @@ fn wavelengths(measure: &Measure, made: &Made<'_>) -> Value {
     let of_sum = match quality {
         Quality::Preview | Quality::Full => measure.coarse().len(),
         Quality::Fine => measure.fine().len(),
-        Quality::Exact | Quality::Regimes => measure.dense().len(),
+        Quality::Exact | Quality::Regimes | Quality::Within(_) => measure.dense().len(),
     };
     let where_any = |count: u64, wavelengths: usize| (count > 0).then_some(wavelengths);
     let ways = [
@@ -168,7 +187,7 @@ fn errors(errors: Errors) -> Value {
 }
 
 /// Of all sources together. Ratios are to the sum over all wavelengths.
-fn summary(arguments: &RenderArguments, accuracy: &Accuracy) -> Value {
+fn summary(made: &Made<'_>, accuracy: &Measured) -> Value {
     let cost = |name: &str, cost: &Cost| {
         let worst = cost
             .errors
@@ -188,7 +207,7 @@ fn summary(arguments: &RenderArguments, accuracy: &Accuracy) -> Value {
         "samples": accuracy.samples,
         "stride": accuracy.stride,
         "threads": 1,
-        "chosen": cost(arguments.quality.name(), &accuracy.chosen),
+        "chosen": cost(quality_name(made.setup.finish.quality), &accuracy.chosen),
         "exact": cost("exact", &accuracy.exact),
         "regimes": cost("regimes", &accuracy.regimes),
     })

@@ -9,7 +9,7 @@ use egui::Ui;
 
 use super::cells::Stand;
 use crate::catalog::meshes::MeshState;
-use crate::document::render::{MeshChoice, QualityChoice};
+use crate::document::render::{MeshChoice, QualityChoice, RenderSettings};
 use crate::panes::PaneContext;
 use crate::scene::render::Finish;
 use crate::view::render::{Orbit, RenderMode};
@@ -21,6 +21,8 @@ const COMPARED: [usize; 2] = [2048, 16384];
 /// Samples along the side of a pixel in the finest pictures, and the most in all: beyond, there are fewer to a pixel.
 const SAMPLES: u32 = 3;
 const MOST_SAMPLES: u64 = 6_000_000;
+/// Below this tolerance a sample takes sums over wavelengths.
+const TABLES_REACH: f64 = 1e-8;
 
 /// Asks for the pictures that stand here. Says why there are none.
 pub(super) fn ask(ui: &Ui, stand: &Stand, context: &mut PaneContext<'_>) -> Result<(), String> {
@@ -110,13 +112,13 @@ impl Wish<'_, '_> {
 
     /// At rest, before the slow part.
     fn middle(&self) -> Finish {
-        let chosen = self.context.scene.document.render.quality;
+        let chosen = &self.context.scene.document.render;
         let quality = if is_slow(chosen) { Quality::Full } else { chosen.quality() };
         Finish { size: self.size(1), quality, shadows: Shadows::Full, compared_samples: Some(self.compared(1)) }
     }
 
     fn last(&self) -> Finish {
-        let chosen = self.context.scene.document.render.quality;
+        let chosen = &self.context.scene.document.render;
         // Maps compare every sample, which costs more than all else: one a pixel is enough for them.
         let one = is_slow(chosen) || self.stand.mode == RenderMode::Difference;
         let [width, height] = self.stand.pixels.map(u64::from);
@@ -140,6 +142,11 @@ impl Wish<'_, '_> {
 }
 
 /// Whether a quality sums over wavelengths at every sample.
-fn is_slow(quality: QualityChoice) -> bool {
-    matches!(quality, QualityChoice::Fine | QualityChoice::Exact | QualityChoice::Regimes)
+fn is_slow(settings: &RenderSettings) -> bool {
+    match settings.quality {
+        QualityChoice::Preview | QualityChoice::Full => false,
+        QualityChoice::Fine | QualityChoice::Exact | QualityChoice::Regimes => true,
+        // Tables reach that far.
+        QualityChoice::Tolerance => settings.tolerance < TABLES_REACH,
+    }
 }

@@ -27,6 +27,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let (geometry, shading) = (made.geometry, made.shading);
     let quality = shot.query.shading.quality;
     let wavelengths = match quality {
+        Quality::Within(_) => "as each camera's plan says",
         Quality::Preview | Quality::Full if shading.table == 0 && shading.sums == 0 => "closed form, none of 401",
         Quality::Preview | Quality::Full => "9 of 401 for the table",
         Quality::Fine => "15 of 401",
@@ -43,6 +44,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ("Closed form", shading.moments.to_string()),
             ("By table", shading.table.to_string()),
             ("By sums", shading.sums.to_string()),
+            ("By a plan", shading.planned.to_string()),
             ("Mirror terms", format!("{}, {} left out", shading.mirrors, shading.mirrors_skipped)),
             ("Wavelengths", wavelengths.to_owned()),
         ],

@@ -3,7 +3,7 @@
 use egui::{ComboBox, RichText, Ui};
 
 use super::{Dial, set};
-use crate::document::render::QualityChoice;
+use crate::document::render::{QualityChoice, TOLERANCES, decade};
 use crate::panes::PaneContext;
 use crate::view::render::Orbit;
 
@@ -41,6 +41,15 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ui.ctx().request_repaint();
         }
     });
+    if settings.quality == QualityChoice::Tolerance {
+        let hint =
+            "The largest error of the spectral integral, relative to its peak. Accuracy says how each camera keeps it.";
+        let dial =
+            Dial { name: "Tolerance", range: TOLERANCES, logarithmic: Some(1e-14), unit: "", hint, beyond: false };
+        if let Some(to) = dial.show(ui, settings.tolerance) {
+            set(context, "Tolerance", |settings| settings.tolerance = decade(to));
+        }
+    }
     without_picture(ui, context);
 }
 
