@@ -86,7 +86,8 @@ pub enum RenderAction {
 /// Changes to the user's own sets.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OwnAction {
-    /// Brings sets in and puts them to use. Names that are taken get a number.
+    /// Brings sets in. One alone is put to use; of several, cameras are put on show while there are places, and light and
+    /// chart stay. A name that is taken becomes one that is free.
     Import(Vec<OwnSet>),
     /// Puts another version of a set in its place: another unit, role or name.
     Replace {
@@ -275,18 +276,25 @@ impl OwnAction {
         match self {
             Self::Import(sets) => {
                 for set in sets {
-                    let mut set = set.clone();
-                    set.name = free_name(document, &set.name, None);
-                    let set = Shared::new(set);
-                    put_to_use(document, &set);
+                    let mut set = Shared::new(set.clone());
+                    let name = document.free_name(Entry::from_own(&set).kind, &set.name, None);
+                    if name != set.name {
+                        set = Shared::new(OwnSet { name, ..(*set).clone() });
+                    }
+                    if sets.len() == 1 {
+                        document.put_to_use(&set);
+                    } else {
+                        document.put_beside(&set);
+                    }
                     document.own.push(set);
                 }
             }
             Self::Replace { name, with } => replace(document, name, with),
             Self::ReplaceAll { with, .. } => with.iter().for_each(|(name, with)| replace(document, name, with)),
             Self::Remove(name) => {
-                document.own.retain(|set| set.name != *name);
-                forget(document, name);
+                let Some(index) = document.own.iter().position(|set| set.name == *name) else { return };
+                let set = document.own.remove(index);
+                document.forget_name(Entry::from_own(&set).kind, name);
             }
         }
     }
@@ -295,73 +303,18 @@ impl OwnAction {
 /// Puts another version of a set in its place. What it is used as stays, unless that has become something else.
 fn replace(document: &mut Document, name: &str, with: &OwnSet) {
     let Some(index) = document.own.iter().position(|set| set.name == name) else { return };
-    let mut set = with.clone();
-    set.name = free_name(document, &set.name, Some(index));
     let before = Entry::from_own(&document.own[index]).kind;
-    let set = Shared::new(set);
+    let mut set = Shared::new(with.clone());
+    let kind = Entry::from_own(&set).kind;
+    let free = document.free_name(kind, &set.name, Some(index));
+    if free != set.name {
+        set = Shared::new(OwnSet { name: free, ..with.clone() });
+    }
     document.own[index] = set.clone();
-    if Entry::from_own(&set).kind != before {
-        forget(document, name);
-        put_to_use(document, &set);
+    if kind != before {
+        document.forget_name(before, name);
+        document.put_to_use(&set);
     } else if set.name != name {
-        follow(document, name, &set.name);
-    }
-}
-
-/// Keeps a set that has another name now in the uses it had; it gets no others.
-fn follow(document: &mut Document, old: &str, new: &str) {
-    for compared in document.compared.iter_mut().filter(|c| c.kind == Kind::Camera && c.name == old) {
-        new.clone_into(&mut compared.name);
-    }
-    for used in [&mut document.chart, &mut document.render.material] {
-        if used == old {
-            new.clone_into(used);
-        }
-    }
-    if document.light == Light::Set(old.to_owned()) {
-        document.light = Light::Set(new.to_owned());
-    }
-    if document.white == WhiteChoice::Light(old.to_owned()) {
-        document.white = WhiteChoice::Light(new.to_owned());
-    }
-}
-
-/// A name that no other own set has.
-fn free_name(document: &Document, wanted: &str, except: Option<usize>) -> String {
-    let taken =
-        |name: &str| document.own.iter().enumerate().any(|(index, set)| Some(index) != except && set.name == name);
-    if !taken(wanted) {
-        return wanted.to_owned();
-    }
-    // Among one more names than there are sets, one is free.
-    let numbers = 2..=document.own.len() + 2;
-    numbers.map(|n| format!("{wanted} ({n})")).find(|name| !taken(name)).unwrap_or_else(|| wanted.to_owned())
-}
-
-/// Shows what was just opened: a camera in the list, a chart as the patches, a light as the light.
-fn put_to_use(document: &mut Document, set: &Shared<OwnSet>) {
-    match Entry::from_own(set).kind {
-        Kind::Camera | Kind::Observer => document.compare(&set.name, Kind::Camera),
-        Kind::Chart | Kind::Material => {
-            document.chart.clone_from(&set.name);
-            document.subset = Subset::All;
-        }
-        Kind::Illuminant => document.light = Light::Set(set.name.clone()),
-        Kind::Unsorted => {}
-    }
-}
-
-/// Takes a set that is no more out of use.
-fn forget(document: &mut Document, name: &str) {
-    document.compared.retain(|c| c.kind != Kind::Camera || c.name != name);
-    if document.chart == name {
-        crate::document::CHART.clone_into(&mut document.chart);
-        document.subset = Subset::Five;
-    }
-    if document.light == Light::Set(name.to_owned()) {
-        document.light = Light::Set(crate::document::LIGHT.to_owned());
-    }
-    if document.white == WhiteChoice::Light(name.to_owned()) {
-        document.white = WhiteChoice::Unity;
+        document.follow_name(kind, name, &set.name);
     }
 }

@@ -10,6 +10,8 @@ pub mod meshes;
 pub mod names;
 pub mod opened;
 
+use std::sync::LazyLock;
+
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::{Dataset, Header};
 use include_dir::{Dir, include_dir};
@@ -159,6 +161,17 @@ impl Catalog {
     /// The set of exactly this name.
     pub fn get(&self, kind: Kind, name: &str) -> Option<&Entry> {
         self.of_kind(kind).find(|entry| entry.name == name)
+    }
+}
+
+/// Whether a built-in set has this name, among those of a kind: a user's set of that kind must have another. Patches are chosen
+/// from charts and materials alike.
+pub fn is_built_in(kind: Kind, name: &str) -> bool {
+    static NAMES: LazyLock<Catalog> = LazyLock::new(Catalog::built_in);
+    let has = |kind| NAMES.get(kind, name).is_some();
+    match kind {
+        Kind::Chart | Kind::Material => has(Kind::Chart) || has(Kind::Material),
+        _ => has(kind),
     }
 }
 

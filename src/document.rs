@@ -7,6 +7,7 @@ pub mod history;
 pub mod own;
 pub mod render;
 pub mod session;
+pub mod uses;
 
 use crate::catalog::Kind;
 use chromascope_core::query::{Metric, Shared};

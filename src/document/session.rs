@@ -44,6 +44,7 @@ impl Document {
         if !self.compared.iter().any(|c| c.kind == Kind::Observer && c.name == truth) {
             self.compare(&truth, Kind::Observer);
         }
+        self.part_names();
         let mut seen = std::collections::HashSet::new();
         self.compared.retain(|c| seen.insert((c.kind, c.name.clone())));
         self.render.mend();

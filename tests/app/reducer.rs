@@ -4,10 +4,12 @@ use chromascope::action::{Action, CompareAction, OwnAction, SceneAction};
 use chromascope::catalog::{Catalog, Kind};
 use chromascope::document::history::History;
 use chromascope::document::own::{OwnCurve, OwnSet, ReadAs, Role, WavelengthUnit, Wishes};
+use chromascope::document::uses::PLACES;
 use chromascope::document::{CHART, Document, Light, Subset, TRUTH, WhiteChoice, session};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope_core::figure::{InkRole, Marker};
+use chromascope_core::query::Shared;
 
 /// The document after an action on the first screen, checked.
 fn check(action: &Action, expect: impl Fn(&Document)) {
@@ -89,10 +91,69 @@ fn what_is_opened_is_put_to_use() {
     check(&import(&["mine"], Role::Illuminant), |document| {
         assert_eq!(document.light, Light::Set("mine".to_owned()));
     });
-    check(&import(&["mine", "mine"], Role::Reflectance), |document| {
-        assert_eq!((document.chart.as_str(), document.subset), ("mine (2)", Subset::All));
-        assert_eq!(document.own.len(), 2);
+    check(&import(&["mine"], Role::Reflectance), |document| {
+        assert_eq!((document.chart.as_str(), document.subset), ("mine", Subset::All));
     });
+}
+
+#[test]
+fn of_several_only_cameras_are_put_on_show_while_there_are_places() {
+    for role in [Role::Reflectance, Role::Illuminant, Role::Unknown] {
+        check(&import(&["mine", "mine"], role), |document| {
+            let names: Vec<&str> = document.own.iter().map(|set| set.name.as_str()).collect();
+            assert_eq!(names, ["mine", "mine (2)"]);
+            assert_eq!(Document { own: Vec::new(), ..document.clone() }, Document::default());
+        });
+    }
+    let many: Vec<String> = (0..12).map(|i| format!("camera {i}")).collect();
+    let many: Vec<&str> = many.iter().map(String::as_str).collect();
+    check(&import(&many, Role::Camera), |document| {
+        let shown = document.compared.iter().filter(|compared| compared.kind == Kind::Camera);
+        assert_eq!((shown.count(), document.own.len()), (PLACES, 12));
+    });
+}
+
+#[test]
+fn an_own_set_has_a_name_of_its_own_among_all_of_its_kind() {
+    let mut document = Document::default();
+    for _ in 0..3 {
+        import(&["Nikon D70"], Role::Camera).apply(&mut document);
+    }
+    // A chart may be called as a camera is, not as a material is: patches are chosen from both.
+    let material = Catalog::built_in().of_kind(Kind::Material).next().unwrap().name.clone();
+    import(&["Sony ILCE-7M3", &material], Role::Reflectance).apply(&mut document);
+    let names: Vec<&str> = document.own.iter().map(|set| set.name.as_str()).collect();
+    let marked = format!("{material} (own)");
+    assert_eq!(names, ["Nikon D70 (own)", "Nikon D70 (2)", "Nikon D70 (3)", "Sony ILCE-7M3", &marked]);
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    assert!(!scene.entry(Kind::Camera, "Nikon D70").unwrap().is_own());
+    assert!(scene.entry(Kind::Camera, "Nikon D70 (own)").unwrap().is_own());
+    // A role that makes a name a double gives it up too.
+    let with = Box::new(OwnSet { role: Role::Camera, ..(*document.own[3]).clone() });
+    Action::Own(OwnAction::Replace { name: "Sony ILCE-7M3".to_owned(), with }).apply(&mut document);
+    assert_eq!(document.own[3].name, "Sony ILCE-7M3 (own)");
+    assert!(document.compared(Kind::Camera, "Sony ILCE-7M3 (own)").is_some());
+}
+
+#[test]
+fn what_has_one_name_is_used_by_its_kind() {
+    let mut document = Document::default();
+    import(&["E"], Role::Camera).apply(&mut document);
+    let with = Box::new(own("F", Role::Camera));
+    Action::Own(OwnAction::Replace { name: "E".to_owned(), with }).apply(&mut document);
+    assert_eq!(document.light, Light::Set("E".to_owned()), "the light is another set");
+    assert!(document.compared(Kind::Camera, "F").is_some());
+}
+
+#[test]
+fn own_sets_of_an_older_session_are_told_from_the_built_in_ones() {
+    let mut document = Document::default();
+    document.own.push(Shared::new(own("Nikon D70", Role::Camera)));
+    let again = session::from_json(&session::to_json(&document).unwrap()).unwrap();
+    assert_eq!(again.own[0].name, "Nikon D70 (own)");
+    assert!(again.compared(Kind::Camera, "Nikon D70 (own)").is_some(), "what stood in its place stays on show");
+    assert_eq!(session::from_json(&session::to_json(&again).unwrap()).unwrap(), again);
 }
 
 #[test]
