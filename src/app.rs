@@ -24,6 +24,7 @@ use crate::results::Results;
 use crate::scene::Scene;
 use crate::studio::Studio;
 use crate::theme::{self, Theme};
+use crate::view::import::{ImportItem, ImportView};
 use crate::view::{SavedView, View};
 use crate::workspaces::{Arrangement, PaneKind, Splitter, arrange};
 
@@ -57,14 +58,17 @@ impl ChromascopeApp {
         theme::apply(ctx);
         files.wake(ctx);
         let [window, also, third, fourth] = [(); 4].map(|()| ctx.clone());
+        let opened = Opened::new(move || also.request_repaint());
+        opened.recall(saved.import.failing.clone());
+        let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
         Self {
             history,
             catalog: Catalog::built_in(),
             results: Results::default(),
-            view: View { saved, ..View::default() },
+            view: View { saved, import, ..View::default() },
             files,
             meshes: MeshStore::new(move || window.request_repaint()),
-            opened: Opened::new(move || also.request_repaint()),
+            opened,
             radiators: Background::new("black bodies", move || third.request_repaint()),
             studio: Studio::new(ctx),
             laboratory: Laboratory::new(move || fourth.request_repaint()),
@@ -88,6 +92,19 @@ impl ChromascopeApp {
     /// The same, for tests to set up.
     pub fn view_mut(&mut self) -> &mut View {
         &mut self.view
+    }
+
+    /// What is kept of it between runs.
+    pub fn saved_view(&self) -> SavedView {
+        let mut saved = self.view.saved.clone();
+        saved.import.failing = self.opened.failing();
+        let own = &self.history.document().own;
+        saved.import.unseen.clone_from(&self.view.import.unseen);
+        saved.import.unseen.retain(|item| match item {
+            ImportItem::Set(name) => own.iter().any(|set| set.name == *name),
+            ImportItem::File(file) => saved.import.failing.iter().any(|failing| failing.fingerprint == *file),
+        });
+        saved
     }
 
     /// The answers known, with their counters.
@@ -306,7 +323,7 @@ impl eframe::App for ChromascopeApp {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        eframe::set_value(storage, LAYOUT_KEY, &self.view.saved);
+        eframe::set_value(storage, LAYOUT_KEY, &self.saved_view());
         self.files.save_document(self.history.document());
     }
 }

@@ -33,6 +33,8 @@ pub enum Command {
     Wish(ImportItem, Box<Wishes>),
     /// Give up what was tried on the file on show.
     TakeWishBack,
+    /// Leave all to the content again, for a file and those like it.
+    ForgetChoices(ImportItem),
     /// Make a set of a file that is none yet.
     UseFile(Fingerprint, Box<Wishes>),
     /// Read all files of this one's kind as this one.

@@ -7,6 +7,7 @@ use crate::action::{Action, CompareAction};
 use crate::catalog::Kind;
 use crate::catalog::opened::Request;
 use crate::command::{Command, Format};
+use crate::document::history::History;
 use crate::export;
 use crate::files::{FileEvent, SaveRequest};
 use crate::laboratory::SceneRunOf;
@@ -42,9 +43,9 @@ impl ChromascopeApp {
 
     fn carry_out_one(&mut self, ctx: &egui::Context, command: Command) {
         match command {
-            Command::Do(action) => self.history.apply(&action),
-            Command::Undo => self.history.undo(),
-            Command::Redo => self.history.redo(),
+            Command::Do(action) => self.change(&action),
+            Command::Undo => self.travel(History::undo),
+            Command::Redo => self.travel(History::redo),
             Command::Open => self.files.ask_to_open(),
             Command::OpenFolder => self.files.ask_for_folder(),
             Command::OpenPath(path) => self.open(vec![Request::Path(path)]),
@@ -53,8 +54,14 @@ impl ChromascopeApp {
                 self.open(vec![Request::Bytes { name: "clipboard".to_owned(), bytes }]);
             }
             Command::ShowImport(item, line) => self.show_import(item, line),
-            Command::Wish(item, wishes) => self.view.import.pending = Some((item, *wishes)),
-            Command::TakeWishBack => self.view.import.pending = None,
+            Command::Wish(item, wishes) => {
+                self.view.import.tried.insert(item, *wishes);
+            }
+            Command::TakeWishBack => {
+                let shown = self.view.import.selected.clone();
+                shown.map(|item| self.view.import.tried.remove(&item));
+            }
+            Command::ForgetChoices(item) => self.forget_choices(&item),
             Command::UseFile(fingerprint, wishes) => self.open(vec![Request::Known(fingerprint, wishes)]),
             Command::UseForAlike(item) => self.use_for_alike(&item),
             Command::ForgetFile(fingerprint) => self.opened.forget(fingerprint),

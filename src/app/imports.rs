@@ -3,14 +3,18 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use chromascope_core::query::Shared;
+
 use super::ChromascopeApp;
 use crate::action::{Action, OwnAction};
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{OpenFile, OpenedEvent, Request, Why};
-use crate::document::own::{Fingerprint, OwnSet, Wishes};
-use crate::view::Weight;
+use crate::document::Document;
+use crate::document::history::History;
+use crate::document::own::{Fingerprint, OwnSet, Role, Wishes};
 use crate::view::import::{ImportItem, of_a_kind};
+use crate::view::{Status, Weight};
 use crate::workspaces::Workspace;
 
 impl ChromascopeApp {
@@ -48,14 +52,17 @@ impl ChromascopeApp {
     pub(super) fn take_opened(&mut self) {
         for event in self.opened.poll() {
             match event {
-                OpenedEvent::Read { sets, message, paths, failed } => {
-                    self.bring_in(sets, message, paths);
-                    if !failed.is_empty() {
-                        self.view.status.weight = Weight::Warning;
-                    }
+                OpenedEvent::Read { sets, message, failure, paths, failed } => {
+                    self.bring_in(sets, [message, failure], paths);
                     self.view.import.unseen.extend(failed.into_iter().map(ImportItem::File));
                 }
                 OpenedEvent::Reread { sets, why, ticket } => self.put_in_place(sets, why, ticket),
+                OpenedEvent::Replaced { old, new, path } => {
+                    let own = &self.history.document().own;
+                    let set = own.iter().find(|set| set.path.as_ref() == Some(&path));
+                    let now = set.map_or(ImportItem::File(new), |set| ImportItem::Set(set.name.clone()));
+                    self.view.import.follow(&ImportItem::File(old), &now);
+                }
                 OpenedEvent::Mesh(path) => self.open_mesh(&path),
                 OpenedEvent::Failed(message, files) => {
                     self.view.fail(message);
@@ -68,24 +75,40 @@ impl ChromascopeApp {
         self.follow_files();
     }
 
-    fn bring_in(&mut self, sets: Vec<Imported>, message: String, paths: Vec<PathBuf>) {
+    fn bring_in(&mut self, sets: Vec<Imported>, [message, failure]: [String; 2], paths: Vec<PathBuf>) {
         for path in paths {
             self.view.remember_file(path);
         }
-        let before = self.history.document().own.len();
+        let before = self.history.document().clone();
         let guessed: Vec<bool> = sets.iter().map(|imported| imported.guessed).collect();
-        let sets = sets.into_iter().map(|imported| imported.set).collect();
-        self.history.apply(&Action::Own(OwnAction::Import(sets)));
+        let wanted: Vec<OwnSet> = sets.into_iter().map(|imported| imported.set).collect();
+        self.history.apply(&Action::Own(OwnAction::Import(wanted.clone())));
         self.history.end_gesture();
-        // Names may have changed where they were taken.
-        let brought: Vec<ImportItem> =
-            self.history.document().own.iter().skip(before).map(|set| ImportItem::Set(set.name.clone())).collect();
-        self.view.say(message);
-        let doubtful: Vec<ImportItem> =
-            brought.iter().zip(guessed).filter(|(_, guessed)| *guessed).map(|(item, _)| item.clone()).collect();
+        let after = self.history.document();
+        let brought: Vec<Shared<OwnSet>> = after.own.iter().skip(before.own.len()).cloned().collect();
+        let failed = !failure.is_empty();
+        let told = [message, put_to_use(&before, after, &brought), renamed(&wanted, &brought), failure];
+        self.view.say(told.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" "));
+        if failed {
+            self.view.status.weight = Weight::Warning;
+        }
+        let items: Vec<ImportItem> = brought.iter().map(|set| ImportItem::Set(set.name.clone())).collect();
         // What is being tried on another file goes on.
-        if let Some(first) = doubtful.first().or(brought.first())
-            && self.view.import.pending.is_none()
+        let trying = self.view.import.selected.as_ref().is_some_and(|item| self.view.import.pending(item).is_some());
+        for (set, item) in brought.iter().zip(&items) {
+            self.view.import.tried.remove(item);
+            if let Some(fingerprint) = set.fingerprint {
+                self.view.import.follow(&ImportItem::File(fingerprint), item);
+            }
+            if self.view.import.pending(item).is_some_and(|wishes| *wishes == set.wishes) {
+                self.view.import.tried.remove(item);
+            }
+            self.view.import.unseen.remove(item);
+        }
+        let doubtful: Vec<ImportItem> =
+            items.iter().zip(guessed).filter(|(_, guessed)| *guessed).map(|(item, _)| item.clone()).collect();
+        if let Some(first) = doubtful.first().or(items.first())
+            && !trying
         {
             self.view.import.select(first.clone());
         }
@@ -127,7 +150,7 @@ impl ChromascopeApp {
                 Why::Alike => format!("Read {which} alike"),
             };
             log::info!("read again {}", names.join(", "));
-            self.history.apply_again(&Action::Own(OwnAction::ReplaceAll { what, with }));
+            self.step(|history| history.apply_again(&Action::Own(OwnAction::ReplaceAll { what, with })));
             self.history.end_gesture();
         }
         let done = match why {
@@ -143,31 +166,56 @@ impl ChromascopeApp {
         }
     }
 
-    /// Carries out what was wished for a set, as soon as its file could be read so. Until then the document stays as it was.
+    /// Carries out what was wished for the set on show, as soon as its file could be read so and something is taken of it. Until
+    /// then the document stays as it was.
     fn settle_wishes(&mut self) {
-        let Some((ImportItem::Set(name), wishes)) = self.view.import.pending.clone() else { return };
-        let Some(set) = self.history.document().own.iter().find(|set| set.name == name).cloned() else {
-            self.view.import.pending = None;
-            return;
-        };
+        let Some(ImportItem::Set(name)) = self.view.import.selected.clone() else { return };
+        let item = ImportItem::Set(name.clone());
+        let Some(wishes) = self.view.import.pending(&item).cloned() else { return };
+        let Some(set) = self.history.document().own.iter().find(|set| set.name == name).cloned() else { return };
         let Some(file) = set.fingerprint.and_then(|fingerprint| self.opened.file(fingerprint)) else { return };
         let Some(look) = self.opened.look(&file, &wishes.options).filter(|look| look.options == wishes.options) else {
             return;
         };
         let Ok(table) = &look.table else { return };
         let fresh = imported(&file.origin, table, &wishes).set;
+        if fresh.curves.is_empty() {
+            return;
+        }
         let with = OwnSet { name: name.clone(), file: set.file.clone(), path: set.path.clone(), ..fresh };
-        self.view.import.pending = None;
+        self.view.import.tried.remove(&item);
         self.view.saved.import.remember(Likeness::of(&file.bytes), &wishes);
-        self.history.apply(&Action::Own(OwnAction::Replace { name, with: Box::new(with) }));
+        self.change(&Action::Own(OwnAction::Replace { name, with: Box::new(with) }));
         self.history.end_gesture();
     }
 
-    /// Watches the files of the sets there are, and forgets what is beyond memory.
+    /// Changes the document; what is looked at in Import follows sets to their new names.
+    pub(super) fn change(&mut self, action: &Action) {
+        self.step(|history| history.apply(action));
+    }
+
+    /// Goes to another state of the document; what is looked at in Import follows sets to their new names.
+    pub(super) fn step(&mut self, go: impl FnOnce(&mut History)) {
+        let before = self.history.document().own.clone();
+        go(&mut self.history);
+        self.view.import.follow_names(&before, &self.history.document().own);
+    }
+
+    /// Goes one step back or forward. What was said of a step that is taken back is no longer so.
+    pub(super) fn travel(&mut self, go: impl FnOnce(&mut History)) {
+        let before = self.history.document().clone();
+        self.step(go);
+        if before != *self.history.document() {
+            self.view.status = Status::default();
+        }
+    }
+
+    /// Watches the files of the sets there are and those that could not be read, and forgets what is beyond memory.
     fn follow_files(&mut self) {
         let document = self.history.document();
         let paths: BTreeSet<PathBuf> = if self.view.saved.import.watch {
-            document.own.iter().filter_map(|set| set.path.clone()).collect()
+            let failing = self.opened.failing().into_iter().map(|failing| failing.path);
+            document.own.iter().filter_map(|set| set.path.clone()).chain(failing).collect()
         } else {
             BTreeSet::new()
         };
@@ -176,13 +224,20 @@ impl ChromascopeApp {
         self.opened.keep(&wanted);
     }
 
-    /// Reads the sets of files that changed on disk again.
+    /// Reads the sets of files that changed on disk again, and files that could not be read.
     pub(super) fn read_changed(&mut self, paths: &[PathBuf]) {
-        let own = self.history.document().own.iter();
-        let changed = own.filter(|set| set.path.as_ref().is_some_and(|path| paths.contains(path)));
+        let own = &self.history.document().own;
+        let changed = own.iter().filter(|set| set.path.as_ref().is_some_and(|path| paths.contains(path)));
         let sets: Vec<OwnSet> = changed.map(|set| (**set).clone()).collect();
+        let is_set = |path: &PathBuf| own.iter().any(|set| set.path.as_ref() == Some(path));
+        let failing = self.opened.failing().into_iter().map(|failing| failing.path);
+        let failing: Vec<Request> =
+            failing.filter(|path| paths.contains(path) && !is_set(path)).map(Request::Path).collect();
         if !sets.is_empty() {
             self.opened.reread(sets, Why::Changed);
+        }
+        if !failing.is_empty() {
+            self.open(failing);
         }
     }
 
@@ -247,6 +302,19 @@ impl ChromascopeApp {
         }
     }
 
+    /// Has a file read as its content says, and forgets what was wished for its kind.
+    pub(super) fn forget_choices(&mut self, item: &ImportItem) {
+        if let Some((file, _)) = self.file_and_wishes(item) {
+            self.view.saved.import.forget(&Likeness::of(&file.bytes));
+        }
+        self.view.import.tried.remove(item);
+        let own = &self.history.document().own;
+        let read = |name: &String| own.iter().any(|set| set.name == *name && set.wishes != Wishes::default());
+        if matches!(item, ImportItem::Set(name) if read(name)) {
+            self.view.import.tried.insert(item.clone(), Wishes::default());
+        }
+    }
+
     /// An item's file and how it is to be read.
     fn file_and_wishes(&self, item: &ImportItem) -> Option<(OpenFile, Wishes)> {
         let pending = self.view.import.pending(item).cloned();
@@ -265,4 +333,30 @@ impl ChromascopeApp {
         self.view.say(format!("Reading {name} was stopped. Nothing was changed."));
         true
     }
+}
+
+/// Which sets have another name than their files say, because a set had that already.
+fn renamed(wanted: &[OwnSet], brought: &[Shared<OwnSet>]) -> String {
+    let mut renamed = wanted.iter().zip(brought).filter(|(wanted, set)| wanted.name != set.name);
+    let Some((first, set)) = renamed.next() else { return String::new() };
+    let more = match renamed.count() {
+        0 => String::new(),
+        count => format!(", and {count} more so"),
+    };
+    format!("{} is the name of another set, so this one is {}{more}.", first.name, set.name)
+}
+
+/// What several sets that were opened at once are used as. One alone is used as what it is.
+fn put_to_use(before: &Document, after: &Document, brought: &[Shared<OwnSet>]) -> String {
+    if brought.len() < 2 {
+        return String::new();
+    }
+    let cameras = brought.iter().filter(|set| set.role == Role::Camera).count();
+    let shown = after.compared.len() - before.compared.len();
+    let shown = match (shown, cameras) {
+        (_, 0) => "None is a camera".to_owned(),
+        (shown, cameras) if shown == cameras => format!("{shown} put on show"),
+        (shown, cameras) => format!("{shown} of {cameras} cameras put on show"),
+    };
+    format!("{shown}; light and patches stay. Choose others in the Library.")
 }

@@ -6,6 +6,7 @@ use std::time::Instant;
 use eframe::{NativeOptions, egui::ViewportBuilder};
 
 use super::{ChromascopeApp, LAYOUT_KEY};
+use crate::catalog::opened::Request;
 use crate::document::history::History;
 use crate::files::Files;
 use crate::view::SavedView;
@@ -58,9 +59,7 @@ pub fn run(files: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
             let history = History::new(kept.kept_document());
             let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);
             app.report_first_frame(start);
-            for file in files {
-                app.push(crate::command::Command::OpenPath(file));
-            }
+            app.open(files.into_iter().map(Request::Path).collect());
             Ok(Box::new(app))
         }),
     )?;

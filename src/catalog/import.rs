@@ -81,11 +81,17 @@ pub fn weighty_guesses(table: &Table) -> Vec<table::Decision> {
     decisions.filter(|decision| decision.certainty == Certainty::Guess && weighty(decision.what)).collect()
 }
 
-/// Which curves of a table are taken: those wished for, else the first of them.
+/// Which curves of a table are taken: those wished for, which may be none, else the first of them.
 pub fn taken(table: &Table, wishes: &Wishes) -> Vec<usize> {
     let count = table.curves.len();
-    let wished = wishes.taken.as_ref().map(|taken| taken.iter().copied().filter(|index| *index < count).collect());
-    wished.filter(|taken: &Vec<usize>| !taken.is_empty()).unwrap_or_else(|| (0..count.min(TAKEN_AT_FIRST)).collect())
+    if let Some(wished) = &wishes.taken {
+        let taken: Vec<usize> = wished.iter().copied().filter(|index| *index < count).collect();
+        // Where the file lost all curves that were wished for, the wish means nothing any more.
+        if !taken.is_empty() || wished.is_empty() {
+            return taken;
+        }
+    }
+    (0..count.min(TAKEN_AT_FIRST)).collect()
 }
 
 /// How many curves of what, over which range.
@@ -99,7 +105,10 @@ fn summary(table: &Table) -> String {
 fn own_set(origin: &Origin, table: &Table, wishes: &Wishes, taken: &[usize]) -> OwnSet {
     let title = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty());
     let stem = || Path::new(&origin.name).file_stem().map_or(origin.name.clone(), |s| s.to_string_lossy().into_owned());
-    let name = title.map_or_else(stem, str::to_owned);
+    let mut name = title.map_or_else(stem, str::to_owned);
+    if let Some(part) = part_name(table, wishes) {
+        name = format!("{name}, {part}");
+    }
     let alone = table.curves.len() == 1;
     let curves = taken.iter().filter_map(|&index| table.curves.get(index)).map(|curve| OwnCurve {
         // The file's name says more about its only curve than "Column 2" does.
@@ -129,6 +138,13 @@ fn own_set(origin: &Origin, table: &Table, wishes: &Wishes, taken: &[usize]) -> 
         channels: channels(table, wishes, taken),
         decisions,
     }
+}
+
+/// What the part of a file is called that a person chose of several.
+fn part_name(table: &Table, wishes: &Wishes) -> Option<String> {
+    let part = wishes.options.part.filter(|_| table.reading.parts.len() > 1)?;
+    let known = table.reading.parts.get(part.checked_sub(1)?)?;
+    Some(if known.name.is_empty() { format!("part {part}") } else { known.name.clone() })
 }
 
 /// Which of the curves taken are red, green and blue.

@@ -16,6 +16,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use serde::{Deserialize, Serialize};
+
 use super::import::{Imported, Origin};
 use crate::document::own::{Fingerprint, OwnSet, Wishes};
 use crate::jobs::Background;
@@ -34,6 +36,17 @@ pub struct OpenFile {
     pub failure: Option<String>,
 }
 
+/// A file on disk that could not be read, as it is remembered between runs.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Failing {
+    /// Where it is.
+    pub path: PathBuf,
+    /// What tells its contents from others.
+    pub fingerprint: Fingerprint,
+    /// Why, as a sentence with its name.
+    pub why: String,
+}
+
 /// What came of reading.
 #[derive(Debug)]
 pub enum OpenedEvent {
@@ -43,6 +56,8 @@ pub enum OpenedEvent {
         sets: Vec<Imported>,
         /// What was read, and what was decided, in one sentence.
         message: String,
+        /// How many files beside them could not be read, and why the first could not; may be empty.
+        failure: String,
         /// The files on disk that they came from.
         paths: Vec<PathBuf>,
         /// Files beside them that could not be read, but whose text can be looked at.
@@ -56,6 +71,15 @@ pub enum OpenedEvent {
         why: Why,
         /// A later reading has a larger number.
         ticket: u64,
+    },
+    /// A file that could not be read has other contents now, which stand in its place.
+    Replaced {
+        /// What it held.
+        old: Fingerprint,
+        /// What it holds.
+        new: Fingerprint,
+        /// Where it is.
+        path: PathBuf,
     },
     /// A mesh is to be opened, which is not read yet.
     Mesh(PathBuf),
@@ -160,6 +184,24 @@ impl Opened {
         state.lost.push(fingerprint);
         drop(state);
         self.begin(move |desk, job| reading::fetch(&path, fingerprint, desk, job));
+    }
+
+    /// Reads files that could not be read in an earlier run, so that their text can be looked at again. Nothing comes of it but
+    /// that they are known; those that are no more are not.
+    pub fn recall(&self, failing: Vec<Failing>) {
+        if !failing.is_empty() {
+            self.begin(move |desk, job| reading::recall(failing, desk, job));
+        }
+    }
+
+    /// The files on disk that could not be read.
+    pub fn failing(&self) -> Vec<Failing> {
+        let state = self.desk.lock();
+        let failing = state.files.iter().filter_map(|file| {
+            let (path, why) = (file.origin.path.clone()?, file.failure.clone()?);
+            Some(Failing { path, fingerprint: file.origin.fingerprint, why })
+        });
+        failing.collect()
     }
 
     /// What came of reading since.
@@ -279,9 +321,21 @@ impl Desk {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes a file in, in place of one with the same contents.
+    /// Takes a file in, in place of one with the same contents, and of what could not be read at the same place.
     fn know(&self, file: OpenFile) {
         let mut state = self.lock();
+        let State { files, events, .. } = &mut *state;
+        if let Some(path) = &file.origin.path {
+            let new = file.origin.fingerprint;
+            files.retain(|known| {
+                let old = known.origin.fingerprint;
+                let gone = known.failure.is_some() && known.origin.path.as_ref() == Some(path) && old != new;
+                if gone {
+                    events.push(OpenedEvent::Replaced { old, new, path: path.clone() });
+                }
+                !gone
+            });
+        }
         state.lost.retain(|lost| *lost != file.origin.fingerprint);
         match state.files.iter_mut().find(|known| known.origin.fingerprint == file.origin.fingerprint) {
             Some(known) => *known = file,

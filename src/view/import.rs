@@ -1,20 +1,21 @@
 //! What is looked at in Import.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use chromascope_core::query::Shared;
 use serde::{Deserialize, Serialize};
 
 use crate::catalog::likeness::Likeness;
-use crate::catalog::opened::Look;
-use crate::document::own::{Fingerprint, Wishes};
+use crate::catalog::opened::{Failing, Look};
+use crate::document::own::{Fingerprint, OwnSet, Wishes};
 use crate::figures::curves::Kept;
 
 /// So many kinds of files are remembered.
 const REMEMBERED: usize = 100;
 
 /// Something in the list of files.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum ImportItem {
     /// A set of the document, by name.
     Set(String),
@@ -27,10 +28,14 @@ pub enum ImportItem {
 pub struct ImportView {
     /// The file on show.
     pub selected: Option<ImportItem>,
-    /// How it is to be read, while that is not yet so in the document.
-    pub pending: Option<(ImportItem, Wishes)>,
+    /// How files are to be read, while that is not yet so in the document: what was tried on each is kept.
+    pub tried: BTreeMap<ImportItem, Wishes>,
     /// Files with something guessed or broken that nobody has looked at.
     pub unseen: BTreeSet<ImportItem>,
+    /// The parts of the file on show that are to be taken, each as a set of its own; from 1.
+    pub parts: BTreeSet<usize>,
+    /// What takes the keyboard in this frame.
+    pub focus: Option<Stop>,
     /// The line of the text to bring into sight in this frame.
     pub line: Option<usize>,
     /// What is typed into the search of curves.
@@ -43,34 +48,60 @@ pub struct ImportView {
     pub kept: Option<Kept>,
 }
 
+/// A place in Import where the keyboard stops on its way from pane to pane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The list of files.
+    Files,
+    /// The first of the switches.
+    Switches,
+    /// The list of curves.
+    Picker,
+}
+
 impl ImportView {
-    /// Shows an item. What was tried on another is given up.
+    /// Shows an item. What was tried on another stays with that.
     pub fn select(&mut self, item: ImportItem) {
         if self.selected.as_ref() != Some(&item) {
-            self.pending = None;
             self.line = None;
             self.search.clear();
+            self.parts.clear();
             self.selected = Some(item);
         }
     }
 
     /// What is tried on an item.
     pub fn pending(&self, item: &ImportItem) -> Option<&Wishes> {
-        self.pending.as_ref().filter(|(of, _)| of == item).map(|(_, wishes)| wishes)
+        self.tried.get(item)
     }
 
-    /// Follows a set to its new name.
-    pub fn rename(&mut self, old: &str, new: &str) {
-        let old = ImportItem::Set(old.to_owned());
-        let new = ImportItem::Set(new.to_owned());
-        if self.selected.as_ref() == Some(&old) {
+    /// Whatever is known of an item holds for another from now on: a set has another name, a file other contents.
+    pub fn follow(&mut self, old: &ImportItem, new: &ImportItem) {
+        if old == new {
+            return;
+        }
+        if self.selected.as_ref() == Some(old) {
             self.selected = Some(new.clone());
         }
-        if let Some((item, _)) = self.pending.as_mut().filter(|(item, _)| *item == old) {
-            *item = new.clone();
+        if let Some(wishes) = self.tried.remove(old) {
+            self.tried.insert(new.clone(), wishes);
         }
-        if self.unseen.remove(&old) {
-            self.unseen.insert(new);
+        if self.unseen.remove(old) {
+            self.unseen.insert(new.clone());
+        }
+    }
+
+    /// Follows sets to the names they have after a step.
+    pub fn follow_names(&mut self, before: &[Shared<OwnSet>], after: &[Shared<OwnSet>]) {
+        if before.len() != after.len() {
+            return;
+        }
+        let known = |sets: &[Shared<OwnSet>], name: &str| sets.iter().any(|set| set.name == name);
+        for (old, new) in before.iter().zip(after) {
+            // A set that changes keeps its place; where both names go on there is nothing to follow.
+            if old.name != new.name && !known(after, &old.name) && !known(before, &new.name) {
+                self.follow(&ImportItem::Set(old.name.clone()), &ImportItem::Set(new.name.clone()));
+            }
         }
     }
 }
@@ -92,11 +123,15 @@ pub struct ImportMemory {
     pub remembered: Vec<Remembered>,
     /// Whether files are read again when they change on disk.
     pub watch: bool,
+    /// Files on disk that could not be read.
+    pub failing: Vec<Failing>,
+    /// Files with something guessed or broken that nobody has looked at.
+    pub unseen: BTreeSet<ImportItem>,
 }
 
 impl Default for ImportMemory {
     fn default() -> Self {
-        Self { remembered: Vec::new(), watch: true }
+        Self { remembered: Vec::new(), watch: true, failing: Vec::new(), unseen: BTreeSet::new() }
     }
 }
 
@@ -113,6 +148,11 @@ impl ImportMemory {
         }
         let spare = self.remembered.len().saturating_sub(REMEMBERED);
         self.remembered.drain(..spare);
+    }
+
+    /// Forgets what was wished for files like one.
+    pub fn forget(&mut self, likeness: &Likeness) {
+        self.remembered.retain(|known| !known.likeness.is_like(likeness));
     }
 
     /// What is wished for a file.

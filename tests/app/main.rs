@@ -11,6 +11,7 @@ mod cpu_renderer;
 mod exports;
 mod figure;
 mod import;
+mod import_files;
 mod import_switches;
 mod import_text;
 mod inspector;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use chromascope_core::table::{MAX_BYTES, ReadError, Watch};
 
-use super::{Desk, Job, OpenFile, OpenedEvent, Why};
+use super::{Desk, Failing, Job, OpenFile, OpenedEvent, Why};
 use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
 use crate::document::own::{Fingerprint, OwnSet, Wishes};
@@ -18,8 +18,6 @@ use crate::files::reason;
 const LOOK: usize = 1 << 16;
 /// How many files of a folder are read.
 const MAX_FILES: usize = 1000;
-/// How many failures are told one by one.
-const TOLD: usize = 3;
 
 /// Something to open.
 #[derive(Clone, Debug)]
@@ -46,6 +44,8 @@ struct Harvest {
     paths: Vec<PathBuf>,
     meshes: Vec<PathBuf>,
     notes: Vec<String>,
+    /// How many files were to be read.
+    count: usize,
 }
 
 /// Reads one after the other; what cannot be read changes nothing. A mesh is only named: what shows it reads it.
@@ -58,6 +58,7 @@ pub(super) fn open(
     let mut harvest = Harvest::default();
     let requests = expand(requests, &mut harvest);
     let count = requests.len();
+    harvest.count = count;
     for (index, request) in requests.into_iter().enumerate() {
         if !job.go_on(0.0) {
             break;
@@ -221,29 +222,55 @@ fn read_once(origin: &Origin, bytes: &[u8], wishes: &Wishes, job: &Job) -> Resul
 
 impl Harvest {
     fn into_events(self) -> Vec<OpenedEvent> {
+        let failure = self.failure();
         let mut events: Vec<OpenedEvent> = self.meshes.into_iter().map(OpenedEvent::Mesh).collect();
-        let mut told = self.failures.iter().take(TOLD).cloned().collect::<Vec<_>>().join(".  ");
-        if self.failures.len() > TOLD {
-            told = format!("{told}, and {} more", self.failures.len() - TOLD);
-        }
         if self.sets.is_empty() {
-            if !self.failures.is_empty() {
-                events.push(OpenedEvent::Failed(format!("{told}. Nothing was changed."), self.failed));
-            }
+            let failed = failure.map(|told| OpenedEvent::Failed(format!("{told}. Nothing was changed."), self.failed));
+            events.extend(failed);
             return events;
         }
         let mut message = match self.sets.as_slice() {
             [one] => one.message.clone(),
-            many => format!("{} files read.", many.len()),
+            many if many.len() == self.paths.len() => format!("{} files read.", many.len()),
+            many => format!("{} sets read.", many.len()),
         };
         for note in self.notes {
             message = format!("{message} {note}");
         }
-        if !told.is_empty() {
-            message = format!("{message} Not read: {told}");
-        }
-        events.push(OpenedEvent::Read { sets: self.sets, message, paths: self.paths, failed: self.failed });
+        let failure = failure.map_or_else(String::new, |told| format!("{told}."));
+        events.push(OpenedEvent::Read { sets: self.sets, message, failure, paths: self.paths, failed: self.failed });
         events
+    }
+
+    /// How many of the files could not be read, and why the first could not.
+    fn failure(&self) -> Option<String> {
+        let first = self.failures.first()?;
+        // A folder without files is one of those asked for.
+        let count = self.count.max(self.failures.len() + self.sets.len());
+        if count == 1 {
+            return Some(first.clone());
+        }
+        Some(format!("{} of {count} files could not be read: {first}", self.failures.len()))
+    }
+}
+
+/// Takes files in that could not be read in an earlier run. One that changed since is not used before a person says so.
+pub(super) fn recall(failing: Vec<Failing>, desk: &Desk, job: &Job) {
+    let count = failing.len();
+    for (index, Failing { path, fingerprint, why }) in failing.into_iter().enumerate() {
+        job.at(&path, index + 1, count);
+        let Ok(bytes) = read_bytes(&path) else { continue };
+        let origin = origin(&path, &bytes);
+        let mut failure = Some(why);
+        if origin.fingerprint != fingerprint {
+            failure = read_once(&origin, &bytes, &Wishes::default(), job).err();
+            let new = origin.fingerprint;
+            desk.lock().events.push(OpenedEvent::Replaced { old: fingerprint, new, path });
+        }
+        if !job.go_on(0.0) {
+            return;
+        }
+        desk.know(OpenFile { origin, bytes, failure });
     }
 }
 

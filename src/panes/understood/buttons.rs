@@ -4,6 +4,7 @@ use egui::Ui;
 
 use crate::action::{Action, OwnAction};
 use crate::command::Command;
+use crate::document::own::Wishes;
 use crate::figures::curves::OnShow;
 use crate::panes::PaneContext;
 use crate::theme::{ROW, UNIT};
@@ -14,13 +15,16 @@ const NARROW: f32 = 290.0;
 
 /// The height that the buttons take.
 pub(super) fn height(shown: &OnShow, width: f32) -> f32 {
-    let rows = if on_disk(shown) { 2.0 } else { 1.0 } + if width < NARROW { 1.0 } else { 0.0 };
+    let rows = if on_disk(shown) { 3.0 } else { 2.0 } + if width < NARROW { 1.0 } else { 0.0 };
     rows * (ROW + UNIT) + 2.0 * UNIT
 }
 
 /// Whether there is a file to look after.
 fn on_disk(shown: &OnShow) -> bool {
-    shown.set.as_ref().is_some_and(|set| set.path.is_some())
+    match (&shown.set, &shown.file) {
+        (Some(set), _) => set.path.is_some(),
+        (None, file) => file.as_ref().is_some_and(|file| file.origin.path.is_some()),
+    }
 }
 
 /// Shows the buttons.
@@ -29,12 +33,19 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| match &shown.item {
         ImportItem::File(fingerprint) => {
             let reads = shown.is_fresh() && shown.table().is_some();
-            let button = ui.add_enabled(reads, egui::Button::new("Use"));
+            let none = shown.taken().is_empty();
+            let button = ui.add_enabled(reads && !none, egui::Button::new("Use"));
             let hint = "Make a set of it and put it to use; Undo takes it back";
-            if button.on_hover_text(hint).on_disabled_hover_text("It cannot be read so").clicked() {
+            let why = if reads { "None of its curves is taken" } else { "It cannot be read so" };
+            if button.on_hover_text(hint).on_disabled_hover_text(why).clicked() {
                 context.push(Command::UseFile(*fingerprint, Box::new(shown.wishes.clone())));
             }
             alike(ui, shown, context);
+            if let Some(path) = shown.file.as_ref().and_then(|file| file.origin.path.clone())
+                && ui.button("Read again").on_hover_text("Read the file from disk again").clicked()
+            {
+                context.push(Command::OpenPath(path));
+            }
             if ui.button("Do not import").on_hover_text("Take it off the list").clicked() {
                 context.push(Command::ForgetFile(*fingerprint));
                 context.view.import.selected = None;
@@ -52,9 +63,17 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
             }
         }
     });
+    ui.horizontal(|ui| {
+        let chosen = shown.wishes != Wishes::default();
+        let hint = "Read it as its content says, and other files like it from now on; Undo brings the choices back";
+        let button = ui.add_enabled(chosen, egui::Button::new("Forget choices")).on_hover_text(hint);
+        if button.on_disabled_hover_text("Nothing was chosen for it").clicked() {
+            context.push(Command::ForgetChoices(shown.item.clone()));
+        }
+    });
     if on_disk(shown) {
         ui.checkbox(&mut context.view.saved.import.watch, "Reload when the file changes")
-            .on_hover_text("Files of your sets are read again when they change on disk; Undo takes it back");
+            .on_hover_text("Files of your sets, and those that could not be read, are read again when they change on disk; Undo takes it back");
     }
 }
 

@@ -12,8 +12,6 @@ use crate::theme::{ROW, UNIT};
 const ROWS: usize = 6;
 /// From so many curves on there is a search.
 const SEARCHED: usize = 8;
-/// Why the last curve stays.
-const ONE_STAYS: &str = "One curve has to stay; to take none, remove the file.";
 
 /// Shows the list, if there is more than one curve.
 pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, context: &mut PaneContext<'_>) {
@@ -42,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, context: &m
         .filter(|(_, curve)| wanted.is_empty() || curve.name.to_lowercase().contains(&wanted))
         .map(|(place, _)| place)
         .collect();
-    let mut refused = buttons(ui, &found, &mut taken);
+    buttons(ui, &found, &mut taken);
     let mut under = None;
     if found.is_empty() {
         ui.label(RichText::new("No curve of this name.").small().color(context.theme.weak));
@@ -77,32 +75,22 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, context: &m
     let inside = ui.rect_contains_pointer(output.inner_rect);
     hover(ui, under, inside, context);
     if !taken.contains(&true) {
-        // What was taken alone stays so.
-        refused = true;
-        taken.clone_from(&before);
-    }
-    if refused {
-        context.view.say(ONE_STAYS);
+        let stays = if shown.set.is_some() { " The set stays as it was until one is." } else { "" };
+        ui.label(RichText::new(format!("No curve is taken.{stays}")).small().color(context.theme.warning));
     }
     if taken != before {
         wishes.taken = Some((0..count).filter(|place| taken[*place]).collect());
     }
 }
 
-/// All, none, the first of those found. Returns whether the last curve was to go too.
-fn buttons(ui: &mut Ui, found: &[usize], taken: &mut [bool]) -> bool {
-    let mut refused = false;
+/// All, none, the first of those found.
+fn buttons(ui: &mut Ui, found: &[usize], taken: &mut [bool]) {
     ui.horizontal(|ui| {
         if ui.button("All").on_hover_text("Take all that are listed").clicked() {
             set(taken, found, true);
         }
-        if ui.button("None").on_hover_text("Leave out all that are listed, but for one if no other is taken").clicked()
-        {
+        if ui.button("None").on_hover_text("Leave out all that are listed").clicked() {
             set(taken, found, false);
-            if let (false, Some(first)) = (taken.contains(&true), found.first()) {
-                taken[*first] = true;
-                refused = true;
-            }
         }
         if found.len() > TAKEN_AT_FIRST
             && ui
@@ -114,7 +102,6 @@ fn buttons(ui: &mut Ui, found: &[usize], taken: &mut [bool]) -> bool {
             set(taken, &found[..TAKEN_AT_FIRST], true);
         }
     });
-    refused
 }
 
 fn set(taken: &mut [bool], places: &[usize], to: bool) {

@@ -1,10 +1,11 @@
 //! The name of a set, taken over with Enter or when the field is left.
 
+use chromascope_core::query::Shared;
 use egui::{Id, RichText, TextEdit, Ui};
 
 use super::caption;
 use crate::action::{Action, OwnAction};
-use crate::catalog::Kind;
+use crate::catalog::{Entry, Kind};
 use crate::document::own::OwnSet;
 use crate::panes::PaneContext;
 use crate::thing::Thing;
@@ -15,18 +16,28 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
     let id = Id::unique("name of the set that is read");
     let kept: Option<(String, String)> = ui.data(|data| data.get_temp(id));
     let mut text = kept.filter(|(of, _)| *of == set.name).map_or_else(|| set.name.clone(), |(_, text)| text);
-    let own = &context.scene.document.own;
-    let taken = |name: &str| own.iter().any(|other| other.name == name) && name != set.name;
+    let document = context.scene.document;
+    let index = document.own.iter().position(|other| other.name == set.name);
+    let kind = Entry::from_own(&Shared::new(set.clone())).kind;
+    let holder = |name: &str| document.holder_of(kind, name, index).filter(|_| name != set.name);
     caption(ui, &theme, "Name", false);
     let field = ui.add(TextEdit::singleline(&mut text).id(id.with("field")).desired_width(f32::INFINITY));
     field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Name of the set"));
+    let sentence = match holder(text.trim()) {
+        None => "",
+        Some("yours") => "Another set of yours has this name.",
+        Some(_) => "A built-in set has this name; take another, so that the two are told apart.",
+    };
+    if !sentence.is_empty() {
+        ui.label(RichText::new(sentence).color(theme.error));
+    }
     let mut accepted = None;
     if field.lost_focus() {
-        accepted = Some(text.trim().to_owned()).filter(|name| !name.is_empty() && !taken(name));
+        accepted = Some(text.trim().to_owned()).filter(|name| !name.is_empty() && sentence.is_empty());
+        if !sentence.is_empty() {
+            context.view.fail(format!("{}: {sentence} It is still called {}.", text.trim(), set.name));
+        }
         text = accepted.clone().unwrap_or_else(|| set.name.clone());
-    }
-    if taken(text.trim()) {
-        ui.label(RichText::new("Another set of yours has this name.").color(theme.error));
     }
     ui.data_mut(|data| data.insert_temp(id, (set.name.clone(), text)));
     if let Some(name) = accepted.filter(|name| *name != set.name) {
@@ -36,9 +47,8 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Keeps what is looked at on a set whose name changes.
+/// Keeps the selection on a set whose name changes.
 fn follow(old: &str, new: &str, context: &mut PaneContext<'_>) {
-    context.view.import.rename(old, new);
     if let Some(Thing::Source(id)) = &mut context.view.selected
         && id.kind == Kind::Camera
         && id.name == old
