@@ -243,7 +243,7 @@ impl ChromascopeApp {
         }
         panes::status_bar::show(ui, status, arrangement, &mut context);
         panes::help::show(ui, history, &mut context);
-        path_prompt::show(ui, files);
+        path_prompt::show(ui, &theme, files);
         context.studio.end_frame();
         drop_veil(ui, theme);
     }

@@ -41,6 +41,8 @@ pub enum FileEvent {
 /// Something to save where the user says.
 #[derive(Clone, Debug)]
 pub struct SaveRequest {
+    /// What it is, for the question where to: `Nikon D70 as CSV, as measured`.
+    pub what: String,
     /// The name offered.
     pub name: String,
     /// The ending of such files.
@@ -60,13 +62,26 @@ pub struct PathPrompt {
     pub save: Option<SaveRequest>,
     /// A file that is there already, which a person was told of.
     pub replaces: Option<PathBuf>,
+    /// Why writing to the path typed failed.
+    pub failure: Option<String>,
+    /// Whether the field takes the keyboard in this frame.
+    pub focus: bool,
+}
+
+impl PathPrompt {
+    fn new(save: Option<SaveRequest>) -> Self {
+        let text = save.as_ref().map_or_else(String::new, |request| request.name.clone());
+        Self { text, save, replaces: None, failure: None, focus: true }
+    }
 }
 
 /// What a thread says.
 enum Note {
     Event(FileEvent),
     ToOpen(Vec<PathBuf>),
+    ToSave(SaveRequest),
     NoDialog(Option<SaveRequest>),
+    NotSaved(PathPrompt),
 }
 
 /// The only part of the window that touches the disk.
@@ -75,6 +90,7 @@ pub struct Files {
     receiver: Receiver<Note>,
     keeper: keep::Keeper,
     prompt: Option<PathPrompt>,
+    dialogs: bool,
     wake: Option<egui::Context>,
     watch: watch::Watch,
 }
@@ -88,9 +104,16 @@ impl Files {
             receiver,
             keeper: keep::Keeper::new(folder),
             prompt: None,
+            dialogs: true,
             wake: None,
             watch: watch::Watch::new(None),
         }
+    }
+
+    /// Asks for paths in the window alone, as where the system has no dialogs.
+    #[must_use]
+    pub fn without_dialogs(self) -> Self {
+        Self { dialogs: false, ..self }
     }
 
     /// Has the window drawn when something comes back.
@@ -125,10 +148,25 @@ impl Files {
         self.in_dialog(move || dialog.pick_folder().map(|folder| Note::ToOpen(vec![folder])), None);
     }
 
-    /// Asks where to save.
+    /// Makes something to save beside the window, then asks where to; the error is a sentence.
+    pub fn make_to_save(&self, make: impl FnOnce() -> Result<SaveRequest, String> + Send + 'static) {
+        self.in_background(move || match make() {
+            Ok(request) => [Note::ToSave(request)],
+            Err(sentence) => [Note::Event(FileEvent::Failed(sentence))],
+        });
+    }
+
+    /// Asks where to save. A question that is open already is about this from now on; a path that was typed stays.
     pub fn ask_to_save(&mut self, request: SaveRequest) {
+        if let Some(PathPrompt { text, save: Some(before), replaces, failure, focus }) = &mut self.prompt {
+            if *text == before.name {
+                text.clone_from(&request.name);
+            }
+            (*before, *replaces, *failure, *focus) = (request, None, None, true);
+            return;
+        }
         let dialog = rfd::FileDialog::new()
-            .set_title(format!("Save {}", request.name))
+            .set_title(format!("Save {}", request.what))
             .set_file_name(&request.name)
             .add_filter(request.extension, &[request.extension]);
         let kept = request.clone();
@@ -137,6 +175,10 @@ impl Files {
 
     /// Runs a dialog on a thread (on a Mac they must stay on this one). One that closed at once without an answer was not there.
     fn in_dialog(&self, ask: impl FnOnce() -> Option<Note> + Send + 'static, request: Option<SaveRequest>) {
+        if !self.dialogs {
+            self.note(Note::NoDialog(request));
+            return;
+        }
         let (sender, wake) = (self.sender.clone(), self.wake.clone());
         let run = move || {
             let start = Instant::now();
@@ -166,16 +208,26 @@ impl Files {
         let Some(prompt) = self.prompt.take() else { return };
         let path = PathBuf::from(prompt.text.trim());
         if prompt.save.is_some() && path.exists() && prompt.replaces.as_ref() != Some(&path) {
-            self.prompt = Some(PathPrompt { replaces: Some(path), ..prompt });
+            self.prompt = Some(PathPrompt { replaces: Some(path), failure: None, focus: true, ..prompt });
             return;
         }
         if path.as_os_str().is_empty() {
             return;
         }
-        match prompt.save {
-            None => self.note(Note::ToOpen(vec![path])),
-            Some(request) => self.in_background(move || [save(&path, &request)]),
-        }
+        let Some(request) = prompt.save.clone() else {
+            self.note(Note::ToOpen(vec![path]));
+            return;
+        };
+        self.in_background(move || {
+            let event = save(&path, &request);
+            let again = match &event {
+                FileEvent::Failed(why) => {
+                    Some(Note::NotSaved(PathPrompt { failure: Some(why.clone()), focus: true, ..prompt }))
+                }
+                _ => None,
+            };
+            [Note::Event(event)].into_iter().chain(again)
+        });
     }
 
     /// What happened since.
@@ -193,13 +245,22 @@ impl Files {
             match note {
                 Note::Event(event) => events.push(event),
                 Note::ToOpen(paths) => events.push(FileEvent::Open(paths)),
-                Note::NoDialog(save) => {
-                    let text = save.as_ref().map_or_else(String::new, |request| request.name.clone());
-                    self.prompt = Some(PathPrompt { text, save, replaces: None });
-                }
+                Note::ToSave(request) => self.ask_to_save(request),
+                Note::NoDialog(save) => self.ask_for_path(save),
+                // What was asked for meanwhile goes first.
+                Note::NotSaved(prompt) => self.prompt = self.prompt.take().or(Some(prompt)),
             }
         }
         events
+    }
+
+    /// Asks for a path in the window. What is typed into a question that is open is not lost.
+    fn ask_for_path(&mut self, save: Option<SaveRequest>) {
+        match (&mut self.prompt, save) {
+            (Some(PathPrompt { save: Some(_), .. }), Some(request)) => self.ask_to_save(request),
+            (Some(prompt), None) => prompt.focus = true,
+            (prompt, save) => *prompt = Some(PathPrompt::new(save)),
+        }
     }
 
     /// Watches these files on disk and no others.
@@ -221,11 +282,11 @@ impl Files {
         }
     }
 
-    fn in_background<E: IntoIterator<Item = FileEvent>>(&self, work: impl FnOnce() -> E + Send + 'static) {
+    fn in_background<N: IntoIterator<Item = Note>>(&self, work: impl FnOnce() -> N + Send + 'static) {
         let (sender, wake) = (self.sender.clone(), self.wake.clone());
         self.spawn("files", move || {
-            for event in work() {
-                let _closed = sender.send(Note::Event(event));
+            for note in work() {
+                let _closed = sender.send(note);
             }
             if let Some(ctx) = wake {
                 ctx.request_repaint();

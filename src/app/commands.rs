@@ -257,7 +257,9 @@ impl ChromascopeApp {
         match bytes {
             Ok(bytes) => {
                 let name = format!("{}.{}", pane.title().to_lowercase(), format.extension());
-                self.files.ask_to_save(SaveRequest { name, extension: format.extension(), bytes, note: String::new() });
+                let extension = format.extension();
+                let what = format!("{} as {}", pane.title(), extension.to_uppercase());
+                self.files.ask_to_save(SaveRequest { what, name, extension, bytes, note: String::new() });
             }
             Err(error) => self.view.fail(error.to_string()),
         }

@@ -1,15 +1,17 @@
 //! A path to type, where the system has no file dialog.
 
-use egui::{Align2, Key, TextEdit, Ui, Vec2, Window};
+use egui::{Align2, Key, RichText, TextEdit, Ui, Vec2, Window};
 
 use crate::files::Files;
+use crate::theme::Theme;
 
 /// Shows the question, if one is open.
-pub(super) fn show(ui: &Ui, files: &mut Files) {
+pub(super) fn show(ui: &Ui, theme: &Theme, files: &mut Files) {
     let Some(prompt) = files.prompt_mut() else { return };
     let saving = prompt.save.is_some();
+    let title = prompt.save.as_ref().map_or_else(|| "Open".to_owned(), |request| format!("Save {}", request.what));
     let (mut done, mut open) = (false, true);
-    Window::new(if saving { "Save as" } else { "Open" })
+    Window::new(title)
         .id(egui::Id::unique("path prompt"))
         .open(&mut open)
         .collapsible(false)
@@ -26,11 +28,14 @@ pub(super) fn show(ui: &Ui, files: &mut Files) {
                 field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Path"));
                 // Before the focus is taken back: then it would not have been lost.
                 let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-                if ui.memory(|memory| memory.focused().is_none()) {
+                if std::mem::take(&mut prompt.focus) || ui.memory(|memory| memory.focused().is_none()) {
                     field.request_focus();
                 }
                 done = ui.button(if saving { "Save" } else { "Open" }).clicked() || entered;
             });
+            if let Some(failure) = &prompt.failure {
+                ui.label(RichText::new(failure).color(theme.error));
+            }
             if prompt.replaces.as_deref() == Some(std::path::Path::new(prompt.text.trim())) {
                 ui.label("That file exists. Save again to replace it, or type another name.");
             }

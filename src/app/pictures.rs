@@ -17,7 +17,8 @@ impl ChromascopeApp {
             Some(Ok(bytes)) => {
                 let name: String = source.name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
                 let name = format!("{name}.exr");
-                self.files.ask_to_save(SaveRequest { name, extension: "exr", bytes, note: String::new() });
+                let what = format!("the picture of {}", source.name);
+                self.files.ask_to_save(SaveRequest { what, name, extension: "exr", bytes, note: String::new() });
             }
             Some(Err(why)) => self.view.fail(why),
             None => self.view.fail(format!("{}: there is no picture yet.", source.name)),

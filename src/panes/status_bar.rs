@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use chromascope_core::camera::LocusMethod;
 use chromascope_core::render::Quality;
-use egui::{Align, Button, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
+use egui::{Align, Button, Color32, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::catalog::Kind;
@@ -81,33 +81,44 @@ fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     } else {
         (READY.to_owned(), theme.text)
     };
-    if let Some((item, line)) = status.change.filter(|_| !status.text.is_empty()) {
-        rest.max.x -= CHANGE + UNIT;
-        let galley = egui::WidgetText::from(words.as_str()).into_galley(
-            ui,
-            Some(egui::TextWrapMode::Truncate),
-            rest.width().max(0.0),
-            TextStyle::Body,
-        );
-        let place = egui::pos2(rest.left() + galley.size().x + UNIT, rect.top() + 1.0);
-        let button = Rect::from_min_size(place, Vec2::new(CHANGE, rect.height() - 2.0));
-        let mut child = ui.new_child(
-            UiBuilder::new().id_salt("change").max_rect(button).layout(Layout::left_to_right(Align::Center)),
-        );
-        child.spacing_mut().button_padding.y = 0.0;
-        child.spacing_mut().interact_size.y = button.height();
+    let button = status.change.filter(|_| !status.text.is_empty()).map(|(item, line)| {
         let (title, hint) = if status.weight == Weight::Error {
             ("Show line", "See the text where it could not be read")
         } else {
             ("Change", "See what was decided on reading, and change it")
         };
+        (title, hint, Command::ShowImport(item, line))
+    });
+    line(ui, rest, &words, color, button, context);
+}
+
+/// One line, with a button behind it where something can be done about it.
+fn line(
+    ui: &mut Ui,
+    mut rect: Rect,
+    words: &str,
+    color: Color32,
+    button: Option<(&str, &str, Command)>,
+    context: &mut PaneContext<'_>,
+) {
+    if let Some((title, hint, command)) = button {
+        let right = rect.right();
+        rect.max.x -= CHANGE + UNIT;
+        let wrap = Some(egui::TextWrapMode::Truncate);
+        let galley = egui::WidgetText::from(words).into_galley(ui, wrap, rect.width().max(0.0), TextStyle::Body);
+        let left = (rect.left() + galley.size().x + UNIT).min(right - CHANGE);
+        let place = Rect::from_min_size(egui::pos2(left, rect.top() + 1.0), Vec2::new(CHANGE, rect.height() - 2.0));
+        let layout = Layout::left_to_right(Align::Center);
+        let mut child = ui.new_child(UiBuilder::new().id_salt(title).max_rect(place).layout(layout));
+        child.spacing_mut().button_padding.y = 0.0;
+        child.spacing_mut().interact_size.y = place.height();
         if child.add(Button::new(title)).on_hover_text(hint).clicked() {
-            context.push(Command::ShowImport(item, line));
+            context.push(command);
         }
     }
-    let cut = lines::elided(ui, rest, &words, TextStyle::Body, color);
-    let response = ui.interact(rest, ui.scope_id().with("message"), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, &words));
+    let cut = lines::elided(ui, rect, words, TextStyle::Body, color);
+    let response = ui.interact(rect, ui.scope_id().with("message"), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, words));
     if cut {
         response.on_hover_text(words);
     }
@@ -117,26 +128,8 @@ fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 fn reading(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut PaneContext<'_>) {
     ui.ctx().request_repaint_after(Duration::from_millis(50));
     let words = reading_words(progress);
-    let mut rest = rect;
-    rest.max.x -= CHANGE + UNIT;
-    let galley = egui::WidgetText::from(words.as_str()).into_galley(
-        ui,
-        Some(egui::TextWrapMode::Truncate),
-        rest.width().max(0.0),
-        TextStyle::Body,
-    );
-    let place = egui::pos2(rest.left() + galley.size().x + 2.0 * UNIT, rect.top() + 1.0);
-    lines::elided(ui, rest, &words, TextStyle::Body, context.theme.text);
-    let response = ui.interact(rest, ui.scope_id().with("message"), egui::Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, &words));
-    let button = Rect::from_min_size(place, Vec2::new(CHANGE, rect.height() - 2.0));
-    let layout = Layout::left_to_right(Align::Center);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("stop").max_rect(button).layout(layout));
-    child.spacing_mut().button_padding.y = 0.0;
-    child.spacing_mut().interact_size.y = button.height();
-    if child.add(Button::new("Stop")).on_hover_text("Read no further; nothing is changed (Esc)").clicked() {
-        context.push(Command::StopReading);
-    }
+    let button = ("Stop", "Read no further; nothing is changed (Esc)", Command::StopReading);
+    line(ui, rect, &words, context.theme.text, Some(button), context);
 }
 
 /// What is read, and how far that is.

@@ -22,6 +22,7 @@ mod own_data;
 mod recompute;
 mod reducer;
 mod render;
+mod save_prompt;
 mod save_set;
 mod screenshots;
 mod theme;

@@ -1,0 +1,116 @@
+//! The path that is typed where the system has no file dialog: Enter saves, what exists is asked about, nothing typed is lost.
+
+use std::fs;
+
+use chromascope::app::ChromascopeApp;
+use chromascope::catalog::Kind;
+use chromascope::command::Command;
+use chromascope::document::Document;
+use chromascope::document::history::History;
+use chromascope::export::spectra::Form;
+use chromascope::files::Files;
+use chromascope::view::{SavedView, Weight};
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::cpu_renderer::Cpu;
+use crate::import_switches::{Window, says, until};
+
+/// The window without the system's dialogs.
+fn window() -> Window {
+    let mut window =
+        Harness::builder().with_size([1280.0, 800.0]).with_pixels_per_point(1.0).renderer(Cpu::default()).build_eframe(
+            |cc| {
+                let history = History::new(Document::default());
+                ChromascopeApp::new(&cc.egui_ctx, history, SavedView::default(), Files::new(None).without_dialogs())
+            },
+        );
+    window.run();
+    window
+}
+
+fn save_as(window: &mut Window, name: &str, form: Form) {
+    window.state_mut().push(Command::SaveSet(Kind::Camera, name.to_owned(), form));
+    window.run_steps(2);
+    for _ in 0..400 {
+        if says(window, &format!("Save {name} as {}", form.name())) {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        window.run_steps(1);
+    }
+    assert!(says(window, &format!("Save {name} as {}", form.name())), "the question says what is saved");
+    window.run_steps(2);
+}
+
+fn typed(window: &Window) -> String {
+    window.get_by_role_and_label(Role::TextInput, "Path").value().unwrap_or_default()
+}
+
+fn type_path(window: &mut Window, path: &str) {
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    window.run_steps(1);
+    window.get_by_role_and_label(Role::TextInput, "Path").type_text(path);
+    window.run_steps(2);
+    assert_eq!(typed(window), path);
+}
+
+fn said(window: &mut Window, what: &str) {
+    until(window, what, |app| app.view().status.text.starts_with(what));
+}
+
+#[test]
+fn enter_saves_and_what_exists_is_asked_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("camera.csv");
+    fs::write(&path, "mine").unwrap();
+    let mut window = window();
+    save_as(&mut window, "Nikon D70", Form::ALL[0]);
+    assert_eq!(typed(&window), "Nikon D70.csv");
+    type_path(&mut window, path.to_str().unwrap());
+    window.key_press(egui::Key::Enter);
+    window.run_steps(4);
+    assert!(says(&window, "That file exists"));
+    assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
+    window.key_press(egui::Key::Enter);
+    said(&mut window, "Saved ");
+    assert!(fs::read_to_string(&path).unwrap().contains("# source: "));
+    assert!(window.query_by_role_and_label(Role::TextInput, "Path").is_none());
+}
+
+#[test]
+fn a_second_question_keeps_what_was_typed() {
+    let mut window = window();
+    save_as(&mut window, "Nikon D70", Form::ALL[0]);
+    save_as(&mut window, "Canon EOS 10D", Form::ALL[0]);
+    assert_eq!(typed(&window), "Canon EOS 10D.csv", "what was only offered goes");
+    type_path(&mut window, "/somewhere/x.csv");
+    save_as(&mut window, "Kodak DCS200", Form::ALL[1]);
+    assert_eq!(typed(&window), "/somewhere/x.csv");
+    // The field has the keyboard: typing goes on.
+    window.event(egui::Event::Text("y".to_owned()));
+    window.run_steps(2);
+    assert!(typed(&window).contains('y'), "{}", typed(&window));
+    window.state_mut().push(Command::Open);
+    window.run_steps(3);
+    assert!(says(&window, "Save Kodak DCS200 as"), "opening does not take the question away");
+}
+
+#[test]
+fn what_could_not_be_written_can_be_typed_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let wrong = folder.path().join("no such folder").join("x.csv");
+    let mut window = window();
+    save_as(&mut window, "Nikon D70", Form::ALL[0]);
+    type_path(&mut window, wrong.to_str().unwrap());
+    window.key_press(egui::Key::Enter);
+    said(&mut window, "Cannot write ");
+    assert_eq!(window.state().view().status.weight, Weight::Error);
+    assert_eq!(typed(&window), wrong.to_str().unwrap());
+    let right = folder.path().join("x.csv");
+    type_path(&mut window, right.to_str().unwrap());
+    window.key_press(egui::Key::Enter);
+    said(&mut window, "Saved ");
+    assert!(right.exists());
+}
