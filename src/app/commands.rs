@@ -15,6 +15,7 @@ use crate::panes;
 use crate::scene::Scene;
 use crate::theme::Theme;
 use crate::view::SavedView;
+use crate::view::import::Stop;
 use crate::view::render::RenderMode;
 use crate::workspaces::{Layout, PaneKind, Workspace};
 
@@ -113,7 +114,7 @@ impl ChromascopeApp {
             Command::Pin => self.pin(),
             Command::ToggleDifference => self.toggle_difference(),
             Command::Escape => self.escape(),
-            Command::NextPane => self.next_pane(),
+            Command::NextPane => self.next_pane(ctx),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
     }
@@ -223,14 +224,29 @@ impl ChromascopeApp {
         self.view.saved.workspace = Workspace::Accuracy;
     }
 
-    fn next_pane(&mut self) {
+    /// Goes to the next pane, or to the next part of one that has several; the keyboard goes there too.
+    fn next_pane(&mut self, ctx: &egui::Context) {
         let shown: Vec<PaneKind> = self.arrangement.panes.iter().map(|(pane, _)| *pane).collect();
+        let import = &mut self.view.import;
+        let picks = import.look.as_ref().and_then(|look| look.table.as_ref().ok()).is_some_and(|t| t.curves.len() > 1);
+        if self.view.focused == Some(PaneKind::Understood) && import.stop == Some(Stop::Switches) && picks {
+            (import.stop, import.focus) = (Some(Stop::Picker), Some(Stop::Picker));
+            return;
+        }
         let now = self.view.focused.and_then(|focused| shown.iter().position(|pane| *pane == focused));
         let next = now.map_or(0, |index| (index + 1) % shown.len().max(1));
         self.view.focused = shown.get(next).copied();
+        import.stop = match self.view.focused {
+            Some(PaneKind::Import) => Some(Stop::Files),
+            Some(PaneKind::Understood) => Some(Stop::Switches),
+            _ => None,
+        };
+        import.focus = import.stop;
         if let Some(pane) = self.view.focused {
             self.view.say(format!("{} (F fills the window, Ctrl+E exports)", pane.title()));
         }
+        // Keys that are meant for the next pane must not move what the last one had.
+        ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 
     /// The pane's figure as on screen, or a message that it has none.

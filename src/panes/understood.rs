@@ -4,18 +4,20 @@ mod buttons;
 mod camera;
 mod curves;
 mod kept;
+mod keys;
 mod name;
 mod notes;
 mod switches;
 
 use egui::text::LayoutJob;
-use egui::{ComboBox, FontId, Rect, RichText, ScrollArea, TextFormat, Ui, UiBuilder, Vec2};
+use egui::{ComboBox, FontId, Rect, Response, RichText, ScrollArea, TextFormat, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::command::Command;
 use crate::document::own::Wishes;
 use crate::figures::curves::{OnShow, sentence};
 use crate::theme::{ROW, SMALL, TEXT, Theme, UNIT};
+use crate::view::import::Stop;
 use crate::widgets;
 use crate::workspaces::PaneKind;
 
@@ -34,6 +36,9 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     };
     context.view.import.unseen.remove(&shown.item);
+    if context.view.import.takes_keyboard(Stop::Switches) {
+        keys::to_first(ui);
+    }
     let foot = buttons::height(&shown, inner.width());
     let upper = Rect::from_min_max(inner.min, egui::pos2(inner.right(), inner.bottom() - foot));
     let mut child = ui.new_child(UiBuilder::new().id_salt("understood").max_rect(upper));
@@ -164,13 +169,20 @@ fn list(
             let combo = ComboBox::from_id_salt(words).width(width).truncate().selected_text(closed.job(theme));
             let response = combo
                 .show_ui(ui, |ui| {
-                    for (index, (entry, on)) in entries.iter().enumerate() {
-                        if ui.selectable_label(*on, entry).clicked() {
-                            clicked = Some(index);
-                        }
+                    let on = entries.iter().position(|(_, on)| *on).unwrap_or(0);
+                    let shown: Vec<Response> =
+                        entries.iter().map(|(entry, on)| ui.selectable_label(*on, entry)).collect();
+                    keys::within(ui, &shown, on);
+                    clicked = shown.iter().position(Response::clicked);
+                    if clicked.is_some() {
+                        // Enter is no click that would close the list by itself.
+                        ui.close();
                     }
                 })
                 .response;
+            if clicked.is_some() || keys::first(ui) {
+                response.request_focus();
+            }
             let label = format!("{words}: {}", closed.words());
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &label));
             response.on_hover_ui(|ui| {

@@ -34,6 +34,8 @@ pub struct ImportView {
     pub unseen: BTreeSet<ImportItem>,
     /// The parts of the file on show that are to be taken, each as a set of its own; from 1.
     pub parts: BTreeSet<usize>,
+    /// Where the keyboard stopped on its way from pane to pane.
+    pub stop: Option<Stop>,
     /// What takes the keyboard in this frame.
     pub focus: Option<Stop>,
     /// The line of the text to bring into sight in this frame.
@@ -68,6 +70,15 @@ impl ImportView {
             self.parts.clear();
             self.selected = Some(item);
         }
+    }
+
+    /// Whether the keyboard goes to a place in this frame; asked by that place, once.
+    pub fn takes_keyboard(&mut self, stop: Stop) -> bool {
+        let takes = self.focus == Some(stop);
+        if takes {
+            self.focus = None;
+        }
+        takes
     }
 
     /// What is tried on an item.

@@ -12,6 +12,7 @@ mod exports;
 mod figure;
 mod import;
 mod import_files;
+mod import_keys;
 mod import_switches;
 mod import_text;
 mod inspector;

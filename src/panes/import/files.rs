@@ -6,9 +6,10 @@ use egui::{TextStyle, Ui, UiBuilder, Vec2};
 use super::entries::{Entry, State};
 use crate::action::{Action, OwnAction};
 use crate::command::Command;
+use crate::figures::curves::OnShow;
 use crate::panes::PaneContext;
 use crate::theme::{ROW, Theme, UNIT};
-use crate::view::import::ImportItem;
+use crate::view::import::{ImportItem, Stop};
 use crate::widgets::{focus_rim, lines};
 use crate::workspaces::PaneKind;
 
@@ -25,7 +26,13 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
     let count = if entries.len() == 1 { "1 file".to_owned() } else { format!("{} files", entries.len()) };
     lines::elided(ui, caption, &count, TextStyle::Small, context.theme.weak);
     let list = Rect::from_min_max(egui::pos2(rect.left(), caption.bottom()), rect.max);
-    let moved = keys(ui, entries, context).or_else(|| led_to(ui, list, entries, context));
+    let mut moved = keys(ui, entries, context).or_else(|| led_to(ui, list, entries, context));
+    if context.view.import.takes_keyboard(Stop::Files)
+        && let Some(index) = entries.iter().position(|entry| Some(&entry.item) == context.view.import.selected.as_ref())
+    {
+        ui.memory_mut(|memory| memory.request_focus(id(index)));
+        moved = Some(index);
+    }
     let mut child = ui.new_child(UiBuilder::new().id_salt("files").max_rect(list));
     child.set_clip_rect(list.intersect(ui.clip_rect()));
     child.spacing_mut().item_spacing.y = 0.0;
@@ -78,6 +85,9 @@ pub(super) fn drop_down(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mu
     });
     let name = format!("File on show: {}, {}", entry.name, entry.state.words());
     response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &name));
+    if context.view.import.takes_keyboard(Stop::Files) {
+        response.response.request_focus();
+    }
     if let Some(index) = chosen {
         select(ui, entries, index, context);
     }
@@ -98,7 +108,19 @@ fn select(ui: &Ui, entries: &[Entry], index: usize, context: &mut PaneContext<'_
     }
 }
 
-/// Arrows choose another file, Delete takes one off. Returns the one chosen.
+/// Makes a set of the file on show, if it is none and can be read as it is wished.
+fn take(context: &mut PaneContext<'_>) {
+    let Some(shown) = OnShow::of(&context.scene, context.view) else { return };
+    match shown.item {
+        ImportItem::File(file) if shown.is_fresh() && !shown.taken().is_empty() => {
+            context.push(Command::UseFile(file, Box::new(shown.wishes)));
+        }
+        ImportItem::File(_) => context.view.say("It cannot be read so; see Understood as (F6)."),
+        ImportItem::Set(name) => context.view.say(format!("{name} is a set of yours already.")),
+    }
+}
+
+/// Arrows choose another file, Enter takes it, Delete takes one off. Returns the one chosen.
 fn keys(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) -> Option<usize> {
     let focus = ui.memory(egui::Memory::focused);
     let on_row = focus.is_some_and(|focus| (0..entries.len()).any(|index| id(index) == focus));
@@ -116,6 +138,10 @@ fn keys(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) -> Option<usi
     let now = entries.iter().position(|entry| entry.item == selected)?;
     if pressed(Key::Delete) {
         remove(ui, now, entries, context);
+        return None;
+    }
+    if on_row && pressed(Key::Enter) {
+        take(context);
         return None;
     }
     let next = match (pressed(Key::ArrowUp), pressed(Key::ArrowDown)) {

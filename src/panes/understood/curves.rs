@@ -7,6 +7,9 @@ use crate::document::own::Wishes;
 use crate::figures::curves::OnShow;
 use crate::panes::PaneContext;
 use crate::theme::{ROW, UNIT};
+use crate::view::import::Stop;
+
+use super::keys;
 
 /// So many rows are seen at once.
 const ROWS: usize = 6;
@@ -45,8 +48,14 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, context: &m
     if found.is_empty() {
         ui.label(RichText::new("No curve of this name.").small().color(context.theme.weak));
     }
-    let height = (ROW + ui.spacing().item_spacing.y) * found.len().min(ROWS) as f32;
-    let area = ScrollArea::vertical().id_salt("curves taken").max_height(height).auto_shrink([false, true]);
+    let pitch = ROW + ui.spacing().item_spacing.y;
+    let height = pitch * found.len().min(ROWS) as f32;
+    let mut area = ScrollArea::vertical().id_salt("curves taken").max_height(height).auto_shrink([false, true]);
+    let wanted = wanted_row(ui, found.len(), context);
+    if let Some(row) = wanted {
+        area = area.vertical_scroll_offset((row as f32 * pitch - (height - pitch) / 2.0).max(0.0));
+    }
+    let mut focused = None;
     ui.spacing_mut().interact_size.y = ROW;
     let output = area.show_rows(ui, ROW, found.len(), |ui, rows| {
         for row in rows {
@@ -57,7 +66,14 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, context: &m
                 words = words.strong();
             }
             let response = ui.add(egui::Checkbox::new(&mut taken[place], words));
-            if response.hovered() {
+            if wanted == Some(row) {
+                response.request_focus();
+            }
+            if response.has_focus() {
+                keys::hold(ui, &response);
+                focused = Some(row);
+            }
+            if response.hovered() || response.has_focus() {
                 under = Some(place);
             }
             let [first, last] = [curve.wavelengths_nm.first(), curve.wavelengths_nm.last()];
@@ -72,7 +88,8 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, context: &m
             }
         }
     });
-    let inside = ui.rect_contains_pointer(output.inner_rect);
+    keep_row(ui, focused);
+    let inside = focused.is_some() || ui.rect_contains_pointer(output.inner_rect);
     hover(ui, under, inside, context);
     if !taken.contains(&true) {
         let stays = if shown.set.is_some() { " The set stays as it was until one is." } else { "" };
@@ -81,6 +98,25 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, context: &m
     if taken != before {
         wishes.taken = Some((0..count).filter(|place| taken[*place]).collect());
     }
+}
+
+fn row_with_keyboard() -> Id {
+    Id::unique("curve with the keyboard")
+}
+
+/// Remembers the row that has the keyboard.
+fn keep_row(ui: &Ui, row: Option<usize>) {
+    ui.data_mut(|data| data.insert_temp(row_with_keyboard(), row));
+}
+
+/// The row that is to have the keyboard now: the next one by an arrow, or the first of all when the list is reached.
+fn wanted_row(ui: &Ui, count: usize, context: &mut PaneContext<'_>) -> Option<usize> {
+    if context.view.import.takes_keyboard(Stop::Picker) {
+        return (count > 0).then_some(0);
+    }
+    let row: usize = ui.data(|data| data.get_temp::<Option<usize>>(row_with_keyboard())).flatten()?;
+    let step = keys::step(ui);
+    row.checked_add_signed(step).filter(|row| step != 0 && *row < count)
 }
 
 /// All, none, the first of those found.
