@@ -24,17 +24,25 @@ use crate::view::View;
 pub const DRAWN: usize = 200;
 /// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 360.0];
+/// The height of a line of small text with its margins, and of the labels below a plot.
+const TEXT: f64 = 18.0;
+const TICKS: f64 = 24.0;
 /// Up to so many curves have a legend of their own.
 const NAMED: usize = 12;
 
 /// The panel for an area of the given size. `hovered` is the place in the file of a curve that stands out.
 pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
-    let x = Axis::new("wavelength (nm)", curves.range_nm());
+    let x = Axis::new("", curves.range_nm());
     let [low, high] = curves.span();
-    let room = (0.05 * (high - low)).max(1e-12);
-    // Above the curves there is room for what is written there.
-    let range = [if low < 0.0 { low - room } else { 0.0 }, high + 3.0 * room];
-    let y = Axis::new(curves.quantity.clone(), range);
+    let low = low.min(0.0);
+    let clipped = curves.beyond().is_some();
+    // Above the curves there is room for what is written there, below none: near zero there are curves everywhere.
+    let lines = if clipped { 2.0 } else { 1.0 };
+    let share = (lines * TEXT / (size[1] - TICKS).max(1.0)).clamp(0.05, 0.4);
+    let room = ((high - low) * share / (1.0 - share)).max(1e-12);
+    let below = if low < 0.0 { 0.05 * (high - low) } else { 0.0 };
+    let range = [low - below, (high + room).max(round_above(high).filter(|nice| *nice < 1.4 * high).unwrap_or(high))];
+    let y = Axis::new(format!("{} over wavelength (nm)", curves.quantity), range);
     let mut panel = Panel::new("curves of the file", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.note = curves.beyond().map_or_else(|| curves.note.clone(), |beyond| format!("{}; {beyond}", curves.note));
     panel.marks.push(visible(range));
@@ -42,9 +50,20 @@ pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
     let last = curves.drawn.iter().filter(|curve| Some(curve.place) == hovered);
     for curve in curves.drawn.iter().filter(|curve| Some(curve.place) != hovered).chain(last) {
         let on = Some(curve.place) == hovered;
-        panel.marks.extend(marks(curve, curve.points.clone(), on, curves.drawn.len()));
+        let mut points = curve.points.clone();
+        if clipped {
+            // What swings far beyond the plot would fill it from top to bottom; that it does is said in words.
+            points.iter_mut().filter(|[_, y]| *y < low || *y > high).for_each(|point| point[1] = f64::NAN);
+        }
+        panel.marks.extend(marks(curve, points, on, curves.drawn.len()));
     }
     panel
+}
+
+/// The next of 1, 2, 5, 10, … at or above a value, so that there is a tick above it.
+fn round_above(value: f64) -> Option<f64> {
+    let power = 10_f64.powf(value.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|nice| nice.is_finite() && *nice >= value)
 }
 
 /// What a curve is in a panel. The first tag stands for nothing.

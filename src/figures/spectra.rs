@@ -5,7 +5,7 @@ use std::sync::Arc;
 use chromascope_core::colorimetry::diagram::wavelength_color;
 use chromascope_core::figure::{
     Axis, Cell, Dash, Figure, Image, Ink, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table,
-    Tag, Ticks,
+    Tag, TextSize, Ticks, text_width,
 };
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
@@ -58,6 +58,7 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
     for (note, marks, range, weight) in contents {
         let height = ((size[1] - FOOT) * weight / weights.max(1e-9)).max(24.0);
         let area = Rect::from_min_size([0.0, y], [size[0], height - 4.0]);
+        let range = with_room(&note, &marks, range, [size[0], height - 4.0]);
         let x = Axis::new("", [FIRST_NM, LAST_NM]).with_grid(true).with_ticks(Ticks::None);
         let ticks = if large { Ticks::Auto } else { Ticks::None };
         let axis = Axis::new("", range).with_ticks(ticks).with_grid(large);
@@ -70,6 +71,23 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
     }
     built.panels.push(foot(scene, Rect::from_min_size([0.0, y], [size[0], FOOT]), large));
     built
+}
+
+/// The range with room above what lies under the note at the upper right.
+fn with_room(note: &str, marks: &[Mark], [low, high]: [f64; 2], [width, height]: [f64; 2]) -> [f64; 2] {
+    /// The height of the note with its margins.
+    const TEXT: f64 = 20.0;
+    let share = ((text_width(note, TextSize::Small) + 12.0) / width.max(1.0)).min(1.0);
+    let from = LAST_NM - share * (LAST_NM - FIRST_NM);
+    let lines =
+        marks.iter().filter_map(|mark| if let Shape::Line { points, .. } = &mark.shape { Some(points) } else { None });
+    let top = lines.flat_map(|points| {
+        let under = |pair: &[[f64; 2]]| if pair[1][0] >= from { pair[0][1].max(pair[1][1]) } else { low };
+        points.windows(2).map(under).collect::<Vec<_>>()
+    });
+    let top = top.filter(|value| value.is_finite()).fold(low, f64::max);
+    let free = 1.0 - (TEXT / height.max(1.0)).min(0.5);
+    [low, high.max(low + (top - low) / free)]
 }
 
 /// Faint lines at the hundreds of nanometers, since the axis is written only once, and at zero.

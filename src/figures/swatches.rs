@@ -129,12 +129,12 @@ impl Board<'_> {
             for (column, name) in self.names.clone().into_iter().enumerate() {
                 let x = MARGIN + head + column as f64 * (width + GAP) + width / 2.0;
                 let tag = self.things.tag(Thing::Patch { source: None, patch: name.clone() });
-                self.text(tag, &name, [x, MARGIN + 8.0], Anchor::CENTER);
+                self.text(tag, &elided(&name, width), [x, MARGIN + 8.0], Anchor::CENTER);
             }
         }
         for (index, row) in rows.iter().enumerate() {
             let y = top + index as f64 * pitch;
-            self.row_head(&row.source, [MARGIN, y + (pitch - GAP) / 2.0]);
+            self.row_head(&row.source, [MARGIN, y + (pitch - GAP) / 2.0], head);
             match &row.colors {
                 Err(why) => self.text(Things::NONE, why, [MARGIN + head, y + pitch / 2.0], Anchor::LEFT),
                 Ok(colors) => {
@@ -158,7 +158,7 @@ impl Board<'_> {
         for (index, row) in rows.iter().enumerate() {
             let x = MARGIN + (index % across) as f64 * (chart[0] + 2.0 * MARGIN);
             let y = MARGIN + (index / across) as f64 * (chart[1] + MARGIN);
-            self.row_head(&row.source, [x, y + 8.0]);
+            self.row_head(&row.source, [x, y + 8.0], chart[0] + MARGIN);
             match &row.colors {
                 Err(why) => self.text(Things::NONE, why, [x, y + 32.0], Anchor::LEFT),
                 Ok(colors) => {
@@ -174,15 +174,15 @@ impl Board<'_> {
         MARGIN + rows.len().div_ceil(across) as f64 * (chart[1] + MARGIN)
     }
 
-    /// A source's marker and label.
-    fn row_head(&mut self, source: &Source, at: [f64; 2]) {
+    /// A source's marker and label, no wider than there is room.
+    fn row_head(&mut self, source: &Source, at: [f64; 2], width: f64) {
         let tag = self.things.tag(Thing::Source(id(source)));
         let shape = Shape::Points { points: vec![[at[0] + 7.0, at[1]]], marker: source.marker, radius: 5.0 };
         let mark = Mark::new(tag, source.label.clone(), shape).with_stroke(InkRole::OnSurround, 1.5);
         let filled = source.marker.has_inside();
         self.marks.push(if filled { mark.with_fill(InkRole::OnSurround) } else { mark });
         let label = if source.is_truth { "Truth" } else { &source.label };
-        self.text(tag, label, [at[0] + 18.0, at[1]], Anchor::LEFT);
+        self.text(tag, &elided(label, width - 18.0), [at[0] + 18.0, at[1]], Anchor::LEFT);
     }
 
     /// One swatch: the truth's part, the source's, the bar, the notch.
@@ -237,6 +237,21 @@ impl Board<'_> {
         let shape = Shape::Text { at, text: text.to_owned(), anchor, offset: [0.0, 0.0], size: TextSize::Body, ink };
         self.marks.push(Mark::new(tag, text, shape));
     }
+}
+
+/// A label no wider than there is room; what was cut is read under the pointer.
+fn elided(label: &str, width: f64) -> String {
+    if text_width(label, TextSize::Body) <= width {
+        return label.to_owned();
+    }
+    let mut short: String = label.to_owned();
+    while short.pop().is_some() {
+        let shown = format!("{}…", short.trim_end());
+        if text_width(&shown, TextSize::Body) <= width {
+            return shown;
+        }
+    }
+    String::new()
 }
 
 /// Six for a ColorChecker, else about half again as wide as high.

@@ -28,7 +28,7 @@ const CONTENT_SHORT: &str = "By content";
 
 /// Shows the pane in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::Understood, rect, context, |_, _| {});
+    let body = widgets::pane(ui, PaneKind::Understood, rect, context, notes::button);
     let inner = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
     let Some(shown) = OnShow::refresh(&context.scene, context.view, context.opened) else {
         let mut child = ui.new_child(UiBuilder::new().id_salt("nothing understood").max_rect(inner));

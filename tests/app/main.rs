@@ -13,6 +13,7 @@ mod figure;
 mod import;
 mod import_files;
 mod import_keys;
+mod import_looks;
 mod import_switches;
 mod import_text;
 mod inspector;

@@ -25,6 +25,9 @@ pub(super) enum State {
 }
 
 impl State {
+    /// All of them, in the order of a legend.
+    pub(super) const ALL: [Self; 5] = [Self::Certain, Self::Seen, Self::Unseen, Self::Unused, Self::Failed];
+
     /// In words, for the pointer and for screen readers.
     pub(super) const fn words(self) -> &'static str {
         match self {

@@ -25,6 +25,10 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
     let caption = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
     let count = if entries.len() == 1 { "1 file".to_owned() } else { format!("{} files", entries.len()) };
     lines::elided(ui, caption, &count, TextStyle::Small, context.theme.weak);
+    let response = ui.interact(caption, Id::unique("legend of files"), Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &count));
+    let theme = context.theme;
+    response.on_hover_ui(|ui| legend(ui, &theme));
     let list = Rect::from_min_max(egui::pos2(rect.left(), caption.bottom()), rect.max);
     let mut moved = keys(ui, entries, context).or_else(|| led_to(ui, list, entries, context));
     if context.view.import.takes_keyboard(Stop::Files)
@@ -46,6 +50,17 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
             row(ui, index, entries, context);
         }
     });
+}
+
+/// What the marks before the files mean.
+fn legend(ui: &mut Ui, theme: &Theme) {
+    for state in State::ALL {
+        ui.horizontal(|ui| {
+            let (place, _) = ui.allocate_exact_size(Vec2::splat(MARK), Sense::hover());
+            draw_mark(ui.painter(), place.center(), state, false, theme);
+            ui.label(state.words());
+        });
+    }
 }
 
 /// The file on show, if something other than a row led to it since the last frame and the list may not show it.

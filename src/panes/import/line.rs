@@ -26,6 +26,8 @@ pub(super) struct Pen<'a> {
     pub(super) understood: bool,
     /// The curve under the pointer.
     pub(super) hovered: Option<usize>,
+    /// Which curves are taken, by place in the file.
+    pub(super) taken: &'a [bool],
 }
 
 impl Line {
@@ -129,12 +131,16 @@ fn form(what: Option<What>, pen: &Pen<'_>) -> TextFormat {
     let line = |color| Stroke::new(1.0, color);
     let weak = TextFormat { font_id: FontId::monospace(MONO), color: theme.weak, ..TextFormat::default() };
     let bright = TextFormat { color: theme.text, ..weak.clone() };
+    // Values and names of what is left out by hand are as pale as what is not used.
+    let out = |curve: usize| pen.taken.get(curve) == Some(&false);
     match what {
         None if pen.understood => weak,
         Some(What::Wavelength { .. }) => TextFormat { underline: line(theme.text), ..bright },
         Some(What::Value { curve, .. } | What::Block { curve }) if pen.hovered == Some(curve) => {
             TextFormat { background: theme.hover, ..bright }
         }
+        Some(What::Value { curve, .. } | What::Block { curve } | What::Name { curve }) if out(curve) => weak,
+        Some(What::Unit { curve: Some(curve) }) if out(curve) => TextFormat { italics: true, ..weak },
         Some(What::Name { .. }) => TextFormat { background: theme.control, expand_bg: 1.5, ..bright },
         Some(What::Unit { .. }) => TextFormat { italics: true, ..bright },
         Some(What::Setting) => TextFormat { italics: true, ..weak },
@@ -146,7 +152,7 @@ fn form(what: Option<What>, pen: &Pen<'_>) -> TextFormat {
 
 /// What the forms mean, each word in its own, so far apart.
 pub(super) fn legend(theme: &Theme, gap: f32) -> LayoutJob {
-    let pen = Pen { theme, understood: true, hovered: None };
+    let pen = Pen { theme, understood: true, hovered: None, taken: &[] };
     let mut job = LayoutJob::default();
     let mut first = true;
     let value = What::Value { curve: 0, nm: 0.0, value: 0.0, written: 0.0 };

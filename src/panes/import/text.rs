@@ -135,7 +135,13 @@ fn lines_of(ui: &mut Ui, rect: Rect, shown: &OnShow, look: &Look, preview: &Prev
     }
     area.show_viewport(&mut child, |ui, viewport| {
         ui.set_min_size(content);
-        let view = View { preview, look, shown, error: error.as_ref(), viewport };
+        let mut taken = vec![false; shown.table().map_or(0, |table| table.curves.len())];
+        for place in shown.taken() {
+            if let Some(taken) = taken.get_mut(place) {
+                *taken = true;
+            }
+        }
+        let view = View { preview, look, shown, taken, error: error.as_ref(), viewport };
         view.lines(ui, &place, context);
     });
 }
@@ -177,6 +183,8 @@ struct View<'a> {
     preview: &'a Preview,
     look: &'a Look,
     shown: &'a OnShow,
+    /// Which curves are taken, by place in the file.
+    taken: Vec<bool>,
     error: Option<&'a (usize, Range<usize>)>,
     /// The part in sight.
     viewport: Rect,
@@ -244,7 +252,7 @@ impl View<'_> {
         // Where all values are of one curve, none stands out.
         let several = table.is_some_and(|table| table.curves.len() > 1);
         let hovered = context.view.import.hovered_curve.filter(|_| several);
-        let pen = Pen { theme: &context.theme, understood, hovered };
+        let pen = Pen { theme: &context.theme, understood, hovered, taken: &self.taken };
         let said: String = part.text.chars().take(SAID).collect();
         let line = Line::new(ui, part, marks, &pen);
         let x = place.left + from as f32 * place.letter - self.viewport.left();

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use chromascope_core::table::{Certainty, Reading, Table};
-use egui::{RichText, Ui};
+use egui::{Align, Id, RichText, Ui};
 
 use super::note;
 use crate::figures::curves::{OnShow, sentence};
@@ -15,23 +15,46 @@ use crate::widgets::facts::range_words;
 /// So many dropped rows are told one by one.
 const TOLD: usize = 5;
 
+fn led_to() -> Id {
+    Id::unique("notes are led to")
+}
+
+/// In the head of the pane, where nothing has to be scrolled: how many notes there are, and the way to them.
+pub(super) fn button(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let Some(shown) = OnShow::of(&context.scene, context.view) else { return };
+    let Some(count) = shown.table().map(|table| table.warnings.len()).filter(|count| *count > 0) else { return };
+    ui.add_space(UNIT);
+    let words = RichText::new(counted(count)).color(context.theme.warning);
+    if ui.button(words).on_hover_text("What should be looked at before the curves are trusted").clicked() {
+        ui.data_mut(|data| data.insert_temp(led_to(), true));
+        ui.ctx().request_repaint();
+    }
+}
+
+fn counted(count: usize) -> String {
+    match count {
+        0 => "No warnings".to_owned(),
+        1 => "1 note".to_owned(),
+        count => format!("{count} notes"),
+    }
+}
+
 /// Shows the notes.
 pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     let Some(table) = shown.table() else { return };
     ui.add_space(UNIT);
     let count = table.warnings.len();
-    ui.horizontal(|ui| {
-        ui.label(match count {
-            0 => "No warnings".to_owned(),
-            1 => "1 note".to_owned(),
-            count => format!("{count} notes"),
-        });
+    let head = ui.horizontal(|ui| {
+        ui.label(counted(count));
         if ui.small_button("Copy").on_hover_text("Warnings, decisions and where it is from, as text").clicked() {
             ui.ctx().copy_text(text(shown, table));
             context.view.say("Understood as: notes copied.");
         }
     });
+    if ui.data_mut(|data| data.remove_temp::<bool>(led_to())).unwrap_or(false) {
+        head.response.scroll_to_me(Some(Align::TOP));
+    }
     for warning in &table.warnings {
         match warning.line() {
             Some(line) => {
