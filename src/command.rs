@@ -37,6 +37,8 @@ pub enum Command {
     ForgetChoices(ImportItem),
     /// Make a set of a file that is none yet.
     UseFile(Fingerprint, Box<Wishes>),
+    /// Make a set of each of these parts of a file, from 1.
+    UseParts(Fingerprint, Vec<usize>, Box<Wishes>),
     /// Read all files of this one's kind as this one.
     UseForAlike(ImportItem),
     /// Take a file off the list.

@@ -64,6 +64,7 @@ impl ChromascopeApp {
             }
             Command::ForgetChoices(item) => self.forget_choices(&item),
             Command::UseFile(fingerprint, wishes) => self.open(vec![Request::Known(fingerprint, wishes)]),
+            Command::UseParts(fingerprint, parts, wishes) => self.use_parts(fingerprint, &parts, &wishes),
             Command::UseForAlike(item) => self.use_for_alike(&item),
             Command::ForgetFile(fingerprint) => self.opened.forget(fingerprint),
             Command::ReadAgain(name) => self.read_again(&name),

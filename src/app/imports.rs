@@ -263,6 +263,16 @@ impl ChromascopeApp {
         self.view.inspector_over = false;
     }
 
+    /// Makes a set of each of these parts of a file; which curves are taken was said of another part.
+    pub(super) fn use_parts(&mut self, file: Fingerprint, parts: &[usize], wishes: &Wishes) {
+        let wishes = |part: usize| {
+            let mut wishes = Wishes { taken: None, channels: None, ..wishes.clone() };
+            wishes.options.part = Some(part);
+            wishes
+        };
+        self.open(parts.iter().map(|part| Request::Known(file, Box::new(wishes(*part)))).collect());
+    }
+
     /// Reads every file of an item's kind as it is read, those that failed among them, and remembers.
     pub(super) fn use_for_alike(&mut self, item: &ImportItem) {
         let Some((file, wishes)) = self.file_and_wishes(item) else { return };

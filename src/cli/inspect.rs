@@ -7,10 +7,14 @@ mod report;
 mod samples;
 
 use std::fs;
-use std::io::{self, Read as _};
+use std::io::{self, IsTerminal as _, Read as _};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
 
-use chromascope_core::table::{self, ReadError, Table};
+use chromascope_core::table::{self, Certainty, Decided, ReadError, Role, Table};
 
 use self::arguments::InspectArguments;
 use self::out::Out;
@@ -38,16 +42,27 @@ enum Failure {
     Disk(String),
     /// The content is not understood.
     Read(ReadError),
+    /// Only sensitivities are responses to something.
+    NoCamera(Role),
     /// The curves cannot be written as asked.
     Write(table::write::WriteError),
 }
 
 impl Failure {
+    /// The same without the file's name.
+    fn reason(&self) -> String {
+        match self {
+            Self::Disk(reason) => reason.clone(),
+            Self::Read(error) => error.to_string(),
+            Self::NoCamera(role) => format!("read as {role}, but --per is of camera sensitivities; add --role camera"),
+            Self::Write(error) => error.to_string(),
+        }
+    }
+
     /// One sentence: where, what, and what helps.
     fn sentence(&self, name: &str) -> String {
         match self {
-            Self::Disk(reason) => format!("{name}: {reason}"),
-            Self::Write(error) => format!("{name}: {error}"),
+            Self::Disk(_) | Self::Write(_) | Self::NoCamera(_) => format!("{name}: {}", self.reason()),
             Self::Read(error) => {
                 let text = error.to_string();
                 let line = error.line().map(|line| format!("line {line}"));
@@ -118,10 +133,13 @@ fn tell(
 }
 
 fn inspect(file: &str, arguments: &InspectArguments) -> Inspected {
-    let name = if file == STANDARD_INPUT { "standard input" } else { file };
+    let name = if is_standard_input(file) { "standard input" } else { file };
     let result = contents(file).map_err(|error| Failure::Disk(reason(&error))).and_then(|bytes| {
         let mut table = table::read(&bytes, &arguments.options()).map_err(Failure::Read)?;
         name_the_only_curve(&mut table, name);
+        if let Some(per_photon) = arguments.per_photon() {
+            respond(&mut table, per_photon)?;
+        }
         let wanted = arguments.csv.is_some() || arguments.step.is_some();
         let tabulated = wanted.then(|| samples::tabulate(&table, arguments.grid()));
         Ok(Understood { written: tabulated.transpose().map_err(Failure::Write)?, table })
@@ -129,16 +147,52 @@ fn inspect(file: &str, arguments: &InspectArguments) -> Inspected {
     Inspected { name: name.to_owned(), result }
 }
 
+/// Takes sensitivities as responses per photon or per energy, whatever the file says.
+fn respond(table: &mut Table, per_photon: bool) -> Result<(), Failure> {
+    if table.role.value != Role::Camera {
+        return Err(Failure::NoCamera(table.role.value));
+    }
+    let why = "Asked for by --per".to_owned();
+    table.reading.per_photon = Some(Decided { value: per_photon, certainty: Certainty::Chosen, why });
+    Ok(())
+}
+
 /// The name that means no file.
 const STANDARD_INPUT: &str = "-";
 
 fn contents(file: &str) -> io::Result<Vec<u8>> {
-    if file != STANDARD_INPUT {
+    if !is_standard_input(file) {
         return read(file);
     }
+    let done = Arc::new(AtomicBool::new(false));
+    if io::stdin().is_terminal() {
+        say("Type or paste what is to be read; Ctrl+D ends it.\n");
+    } else {
+        say_if_waiting(&done);
+    }
     let mut bytes = Vec::new();
-    io::stdin().lock().take(table::MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    let read = io::stdin().lock().take(table::MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
+    done.store(true, Ordering::Relaxed);
+    read?;
     Ok(bytes)
+}
+
+fn is_standard_input(file: &str) -> bool {
+    [STANDARD_INPUT, "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"].contains(&file)
+}
+
+/// Who forgot to lead something to standard input sees why nothing happens.
+fn say_if_waiting(done: &Arc<AtomicBool>) {
+    const PATIENCE: Duration = Duration::from_secs(2);
+    let done = Arc::clone(done);
+    let tell = move || {
+        thread::sleep(PATIENCE);
+        if !done.load(Ordering::Relaxed) {
+            say("chromascope: waiting for standard input to end; Ctrl+C stops.\n");
+        }
+    };
+    // Without a thread it waits without a word.
+    let _silent = thread::Builder::new().name("patience".to_owned()).spawn(tell);
 }
 
 /// A title, or the file's name, says more about a curve than "Column 2" does.

@@ -200,11 +200,28 @@ impl Request {
     }
 }
 
-/// A file's bytes, or of an endless one as many as show that it is too large.
+/// A file's bytes, or of an endless one as many as show that it is too large. A named pipe would wait for somebody to write.
 pub(super) fn read(path: &str) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
+    if is_named_pipe(Path::new(path)) {
+        let why = "this is a pipe, in which nothing may ever come; lead it to standard input and write - in its place";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+    }
     fs::File::open(path)?.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+/// Whether a path is a pipe with a name. Those that a shell opens for a command (`<(...)`) are written by somebody.
+#[cfg(unix)]
+fn is_named_pipe(path: &Path) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+    let opened = ["/dev/", "/proc/"].iter().any(|folder| path.starts_with(folder));
+    !opened && fs::metadata(path).is_ok_and(|known| known.file_type().is_fifo())
+}
+
+#[cfg(not(unix))]
+fn is_named_pipe(_: &Path) -> bool {
+    false
 }
 
 /// Whether a file holds as many curves as its use takes.

@@ -7,6 +7,7 @@ mod kept;
 mod keys;
 mod name;
 mod notes;
+mod parts;
 mod switches;
 
 use egui::text::LayoutJob;
@@ -66,6 +67,7 @@ fn content(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
     }
     let mut wishes = shown.wishes.clone();
     switches::show(ui, shown, &mut wishes, &context.theme);
+    parts::show(ui, shown, context);
     // Below the switches, so that they stay where they are.
     if let Some(error) = shown.error() {
         trouble(ui, &error.to_string(), error.line(), shown, context);

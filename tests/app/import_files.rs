@@ -303,3 +303,38 @@ fn none_of_the_curves_means_none() {
     until(&mut window, "a set", |app| !app.history().document().own.is_empty());
     assert_eq!(own(&window)[0].curves.len(), 3);
 }
+
+#[test]
+fn parts_of_a_file_are_taken_side_by_side() {
+    let table = |name: &str, first: u32| {
+        let rows = (0..8).map(|i| format!("{},0.{}\n", 400 + 20 * i, first + i)).collect::<Vec<_>>().concat();
+        format!("{name}\nwavelength (nm),reflectance\n{rows}\n")
+    };
+    let mut window = window();
+    let text = [table("oak", 10), table("elm", 20), table("ash", 30)].concat();
+    drop_file(&mut window, "trees.csv", &text);
+    let before = own(&window);
+    let boxes = |window: &Window| {
+        let parts = window.query_all_by(|node| node.role() == Role::CheckBox);
+        parts
+            .filter_map(|node| node.accesskit_node().label())
+            .filter(|label| label.starts_with(|c: char| c.is_ascii_digit()))
+            .collect::<Vec<_>>()
+    };
+    let parts = boxes(&window);
+    assert_eq!(parts.len(), 3, "{parts:?}");
+    for part in &parts[1..] {
+        window.get_by_role_and_label(Role::CheckBox, part).click();
+        settle(&mut window);
+    }
+    window.get_by_role_and_label(Role::Button, "Take 2 parts").click();
+    until(&mut window, "parts", |app| app.history().document().own.len() == 3);
+    let sets = own(&window);
+    assert_eq!(sets[0], before[0]);
+    let firsts: Vec<f64> = sets[1..].iter().map(|set| set.curves[0].values[0]).collect();
+    assert_eq!(firsts, [0.20, 0.30]);
+    assert!(sets[1].name.starts_with("trees, ") && sets[1].name != sets[2].name, "{} {}", sets[1].name, sets[2].name);
+    assert!(status(&window).0.starts_with("2 sets read."), "{}", status(&window).0);
+    undo(&mut window);
+    assert_eq!(own(&window), before);
+}

@@ -46,6 +46,8 @@ struct Harvest {
     notes: Vec<String>,
     /// How many files were to be read.
     count: usize,
+    /// Whether they were known before, such as the parts of one.
+    from_memory: bool,
 }
 
 /// Reads one after the other; what cannot be read changes nothing. A mesh is only named: what shows it reads it.
@@ -75,6 +77,7 @@ pub(super) fn open(
                 continue;
             }
         };
+        harvest.from_memory |= wishes.is_some();
         let from_memory = wishes.is_none();
         let wishes = wishes.unwrap_or_else(|| remembered(&bytes));
         take(origin, bytes, (&wishes, from_memory), desk, job, &mut harvest);
@@ -231,7 +234,7 @@ impl Harvest {
         }
         let mut message = match self.sets.as_slice() {
             [one] => one.message.clone(),
-            many if many.len() == self.paths.len() => format!("{} files read.", many.len()),
+            many if !self.from_memory => format!("{} files read.", many.len()),
             many => format!("{} sets read.", many.len()),
         };
         for note in self.notes {

@@ -20,7 +20,8 @@ Examples:
   chromascope inspect *.sp --json | jq '.[].kind'
 
 Says of each file what was understood, a line for each decision: what, how sure (certain, a guess, chosen), and why. Whatever
-was decided can be overruled by an option of the same name. A folder stands for the files in it, `-` for standard input.
+was decided can be overruled by an option of the same name. A folder stands for the files in it, `-` for standard input; a pipe
+with a name is refused, since nothing may ever come in it.
 
 --csv writes `wavelength_nm,<curve>,...`: nanometers, reflectances and transmittances as fractions, a cell left blank where a
 curve has no sample. With `--csv -` the table goes to standard output and what was understood to standard error. OUT is a
@@ -72,6 +73,9 @@ pub(in crate::cli) struct InspectArguments {
     /// Which of several tables, blocks or groups in a file, from 1
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
     part: Option<u32>,
+    /// What sensitivities of a camera are a response to: equal power or equal numbers of photons at each wavelength
+    #[arg(long, value_name = "UNIT", value_parser = PossibleValuesParser::new(["energy", "photon"]), help_heading = READING)]
+    per: Option<String>,
     /// Which reader takes the file, whatever it looks like
     #[arg(long, value_name = "READER", value_parser = named::<Reader>(&READERS), help_heading = READING)]
     reader: Option<Reader>,
@@ -139,6 +143,11 @@ impl InspectArguments {
             reader: self.reader,
             raw: self.raw,
         }
+    }
+
+    /// Whether sensitivities are to be taken as responses per photon.
+    pub(super) fn per_photon(&self) -> Option<bool> {
+        self.per.as_ref().map(|per| per == "photon")
     }
 
     /// The wavelengths of what is written.

@@ -95,10 +95,10 @@ fn reading(reading: &Reading) -> Value {
 }
 
 fn error(failure: &Failure) -> Value {
-    let (line, column, text) = match failure {
-        Failure::Read(error) => (error.line(), ReadError::column(error), error.to_string()),
-        Failure::Write(error) => (None, None, error.to_string()),
-        Failure::Disk(reason) => (None, None, reason.clone()),
+    let (line, column) = match failure {
+        Failure::Read(error) => (error.line(), ReadError::column(error)),
+        Failure::Disk(_) | Failure::Write(_) | Failure::NoCamera(_) => (None, None),
     };
+    let text = failure.reason();
     json!({ "line": line, "column": column, "text": text })
 }

@@ -23,7 +23,7 @@ fn content(table: &Table) -> Content<'_> {
     match table.role.value {
         Role::Camera => table.reading.camera_columns.map_or(Content::Observer, |channels| Content::Camera {
             channels,
-            per_photon: None,
+            per_photon: table.reading.per_photon.as_ref().map(|decided| decided.value),
             manufacturer: None,
             model: None,
         }),

@@ -5,7 +5,7 @@ use chromascope_core::table::{
 };
 use egui::Ui;
 
-use super::{CONTENT, CONTENT_SHORT, Closed, list};
+use super::{CONTENT, CONTENT_SHORT, Closed, list, parts};
 use crate::document::own::Wishes;
 use crate::figures::curves::OnShow;
 use crate::theme::{Theme, UNIT};
@@ -239,25 +239,21 @@ fn header(shown: &OnShow) -> Vec<String> {
 
 /// Which of several tables in one file.
 fn part(ui: &mut Ui, table: Option<&Table>, wish: &mut Option<usize>, theme: &Theme, width: f32) {
-    let parts = table.map_or(&[][..], |table| &table.reading.parts);
-    if parts.len() < 2 && wish.is_none() {
+    let known = table.map_or(&[][..], |table| &table.reading.parts);
+    if known.len() < 2 && wish.is_none() {
         return;
     }
     let name = |part: usize| match part.checked_sub(1) {
         None => "All, side by side".to_owned(),
-        Some(place) => match parts.get(place) {
-            Some(known) if !known.name.is_empty() => format!("{part}: {}", known.name),
-            Some(known) => format!("{part}: line {}", known.line),
-            None => format!("Part {part}"),
-        },
+        Some(place) => parts::name(part, known.get(place)),
     };
     let told = |part: usize| {
-        let known = part.checked_sub(1).and_then(|place| parts.get(place));
-        known.map_or_else(String::new, |p| format!(", {} of {} rows", count(p.curves, "curve"), p.rows))
+        let one = part.checked_sub(1).and_then(|place| known.get(place));
+        one.map_or_else(String::new, |p| format!(", {} of {} rows", count(p.curves, "curve"), p.rows))
     };
     let closed = closed(wish.map(name), table.map(|table| &table.reading.part), name, true);
     let mut entries = vec![(CONTENT.to_owned(), wish.is_none())];
-    let last = parts.len().max(wish.unwrap_or(1)).min(PARTS);
+    let last = known.len().max(wish.unwrap_or(1)).min(PARTS);
     entries.extend((1..=last).map(|part| (format!("{}{}", name(part), told(part)), *wish == Some(part))));
     if let Some(index) = list(ui, theme, "Part", &closed, &entries, width) {
         *wish = (index > 0).then_some(index);

@@ -259,3 +259,52 @@ fn wrong_arguments_are_told_from_wrong_files() {
     }
     assert_eq!(read(LEAF.as_bytes(), &ReadOptions::default()).unwrap().role.value, Role::Reflectance);
 }
+
+#[test]
+fn responses_can_be_taken_otherwise() {
+    let folder = folder("per");
+    let camera = put(
+        &folder,
+        "camera.csv",
+        "nm,red,green,blue\n400,0,0.1,0.5\n500,0.1,0.8,0.4\n600,0.9,0.5,0.1\n700,0.5,0.1,0\n",
+    );
+    for (per, value, words) in [("photon", true, "responses per photon"), ("energy", false, "responses per energy")] {
+        let text = done(&[&camera, "--role", "camera", "--per", per]);
+        assert!(text.contains(&format!("{words} (chosen)")), "{text}");
+        let json: Value = serde_json::from_str(&done(&[&camera, "--role", "camera", "--per", per, "--json"])).unwrap();
+        assert_eq!(json["reading"]["per_photon"], value);
+    }
+    let leaf = put(&folder, "leaf.csv", LEAF);
+    refused(&["inspect", &leaf, "--per", "photon"], &["reflectances", "--role camera"]);
+    refused(&["inspect", &leaf, "--per", "quantum"], &["energy", "photon"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_with_a_name_is_refused_and_standard_input_is_read_by_any_name() {
+    use std::io::Write as _;
+    let folder = folder("pipe");
+    let pipe = folder.join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+    assert!(made.success());
+    refused(&["inspect", pipe.to_str().unwrap()], &["this is a pipe", "standard input"]);
+    for name in ["-", "/dev/stdin"] {
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_chromascope"))
+            .args(["inspect", name])
+            .stdin(std::process::Stdio::piped())
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut input = child.stdin.take().unwrap();
+        if name == "-" {
+            // Who waits is told so.
+            std::thread::sleep(std::time::Duration::from_millis(3000));
+        }
+        input.write_all(LEAF.as_bytes()).unwrap();
+        drop(input);
+        let (out, err) = said(&child.wait_with_output().unwrap());
+        assert!(out.starts_with("standard input\n") && out.contains("Role: reflectance"), "{out}");
+        assert_eq!(err.contains("waiting for standard input"), name == "-", "{err}");
+    }
+}
