@@ -40,12 +40,14 @@ mod family;
 mod grid;
 mod header;
 mod instrument;
+mod nearly;
 mod preview;
 mod quantity;
 mod raw;
 mod reading;
 mod scale;
 mod sniff;
+mod switch;
 mod text;
 mod trial;
 mod warning;
@@ -60,12 +62,14 @@ use serde::{Deserialize, Serialize};
 pub use dialect::{DecimalMark, Delimiter};
 pub use error::ReadError;
 pub use family::Family;
+pub use nearly::Nearly;
 pub use preview::{LONGEST_LINE, LeftOut, Mark, Marker, Preview, Shown, What};
 pub use quantity::Quantity;
 pub use reading::{
     Certainty, Decided, Decision, Dropped, DroppedRow, Encoding, Medium, Orientation, Part, Reader, Reading, Steps,
 };
 pub use scale::{Role, Values};
+pub use switch::Switch;
 pub use text::{BinaryKind, MAX_BYTES};
 pub use warning::{LineList, Warning};
 use watch::Log;
@@ -156,6 +160,11 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Table, ReadError> {
 ///
 /// A reading that was stopped ends in [`ReadError::Stopped`], within some milliseconds.
 pub fn read_watched(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Result<Table, ReadError> {
+    read_once(bytes, options, watch).map_err(|error| switch::blame(bytes, options, error, watch))
+}
+
+/// [`read_watched`], without a second look at what an error is due to.
+fn read_once(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Result<Table, ReadError> {
     let (text, encoding) = text::decode(bytes)?;
     let mut log = Log::new(watch, text.len());
     log.look(0)?;

@@ -1,6 +1,9 @@
 //! Reads tables whose wavelengths run down a column.
 
 mod pairs;
+mod texts;
+
+use texts::Texts;
 
 use super::dialect::{Cell, Dialect};
 use super::grid::{Grid, RawCurve};
@@ -94,8 +97,7 @@ struct Broken {
 /// The numbers of the rows so far, by column.
 struct Columns {
     dialect: Dialect,
-    /// Which columns are text, and so left out.
-    texts: u128,
+    texts: Texts,
     /// Rows must have this many cells; a row with more must not have been preceded by one with fewer.
     width: usize,
     fewest_cells: usize,
@@ -123,7 +125,7 @@ impl Columns {
     fn new(layout: &Layout, named: Option<usize>) -> Self {
         Self {
             dialect: layout.dialect(),
-            texts: layout.texts,
+            texts: Texts::new(layout.texts),
             width: layout.width,
             fewest_cells: usize::MAX,
             cells: vec![Vec::new(); layout.width.min(MAX_CURVES + 1)],
@@ -202,9 +204,9 @@ impl Columns {
         let (mut cells, mut filled, mut numbers) = (0, 0, 0);
         for cell in self.dialect.cells(line).take(MAX_CURVES + 2) {
             let value = match self.dialect.parse(cell) {
+                _ if self.texts.contains(cells) => self.texts.take(cells, self.dialect, cell),
                 Cell::Number(value) => value,
                 Cell::Gap => f64::NAN,
-                Cell::Text if cells < 128 && self.texts >> cells & 1 == 1 => f64::NAN,
                 Cell::Text => match self.dialect.parse_label(cell).filter(|_| cells == self.named.unwrap_or(0)) {
                     Some((value, unit)) if self.label_unit.is_none_or(|known| known == unit) => {
                         self.label_unit = Some(unit);
@@ -292,19 +294,22 @@ impl Columns {
         let values = self.cells.split_off(at + 1);
         let wavelengths = self.cells.pop().unwrap_or_default();
         let more = pairs::more_wavelengths(&header, at, &wavelengths, &values);
+        let texts: Vec<usize> = self.texts.left_out().filter(|&column| column < columns && column != at).collect();
         let is_left = |(column, values): &(usize, Vec<f64>)| {
             more.is_empty() && !empty(values) && header.name(*column).is_some_and(|name| !words::is_count(name))
         };
         let before = std::mem::take(&mut self.cells).into_iter().enumerate();
-        let (left, skipped): (Vec<_>, Vec<_>) = before.partition(is_left);
-        let texts = skipped.iter().any(|(column, _)| *column < 128 && self.texts >> column & 1 == 1);
-        if texts || skipped.iter().any(|(_, column)| !empty(column)) {
+        let (left, skipped): (Vec<_>, Vec<_>) = before.filter(|(column, _)| !texts.contains(column)).partition(is_left);
+        if skipped.iter().any(|(_, column)| !empty(column)) {
             log.push(Warning::SkippedColumns { wavelength_column: at + 1 });
         }
+        warn_of_texts(&header, &texts, log);
         let (mut grid, note) = if more.is_empty() {
-            let only = left.len() + values.len() == 1;
-            let all = left.into_iter().chain((at + 1..).zip(values));
-            let curves = all.map(|(column, values)| raw_curve(&header, column, only, values)).collect();
+            let after = (at + 1..).zip(values).filter(|(column, _)| !texts.contains(column));
+            let all: Vec<_> = left.into_iter().chain(after).collect();
+            let only = all.len() == 1;
+            let curve = |(column, values)| self.texts.united(raw_curve(&header, column, only, values), column);
+            let curves = all.into_iter().map(curve).collect();
             (Grid { wavelengths, lines: self.lines, curves, header, ..Grid::default() }, None)
         } else {
             pairs::read(header, at, wavelengths, values, &more, &self.lines, log)?
@@ -334,6 +339,14 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
     let given = named.or(title);
     let name = given.map_or_else(|| format!("Column {}", column + 1), str::to_owned);
     RawCurve { name, named: given.is_some(), label: header.label(column), unit: header.unit(column), values }
+}
+
+/// Names the columns of text, which are in no curve.
+fn warn_of_texts(header: &Header, texts: &[usize], log: &mut Log<'_>) {
+    if let Some(&first) = texts.first() {
+        let name = header.name(first).unwrap_or_default().to_owned();
+        log.push(Warning::TextColumns { count: texts.len(), column: first + 1, name });
+    }
 }
 
 /// A named column that is empty in every row is no column of the rows, but somebody expects it.

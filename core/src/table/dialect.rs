@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::quantity;
 use super::wavelengths::WavelengthUnit;
 
 /// What stands between two cells.
@@ -164,6 +165,18 @@ impl Dialect {
         let unit = unit.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
         let value = self.number(number).filter(|value| value.is_finite())?;
         Some((value, WavelengthUnit::from_symbol(unit)?))
+    }
+
+    /// A value that carries its unit, such as `4.0%` or `12 mW`.
+    pub(super) fn parse_united(self, cell: &str) -> Option<(f64, &str)> {
+        const LONGEST: usize = 64;
+        if cell.len() > LONGEST || !cell.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.')) {
+            return None;
+        }
+        let in_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '-' | '+' | 'e' | 'E');
+        let (number, unit) = cell.split_at(cell.find(|c: char| !in_number(c))?);
+        let value = self.number(number).filter(|value| value.is_finite())?;
+        Some((value, unit.trim())).filter(|(_, unit)| quantity::is_value_unit(unit))
     }
 
     /// Whether a number is written with this dialect's decimal mark.

@@ -1,6 +1,6 @@
 //! Why a file could not be read.
 
-use super::{BinaryKind, Family, MAX_CURVES, MAX_SAMPLES, Reader};
+use super::{BinaryKind, Family, MAX_CURVES, MAX_SAMPLES, Nearly, Reader, Switch};
 
 /// Why a file could not be read: where, what, and what helps. Lines and columns count from 1.
 ///
@@ -65,6 +65,24 @@ pub enum ReadError {
     /// No line holds two numbers, or the chosen separators fit no line.
     #[error("no rows of numbers were found: expected a wavelength and at least one value in each line")]
     NoNumbers,
+    /// No line is a row of numbers, but one nearly is.
+    #[error("line {line}: no rows of numbers: \"{text}\" {why}")]
+    NearlyRow {
+        /// The first such line.
+        line: usize,
+        /// The line, shortened.
+        text: String,
+        /// Why it is none.
+        why: Nearly,
+    },
+    /// An error that was none before a setting was chosen.
+    #[error("{error} (as chosen: {switch})")]
+    AsChosen {
+        /// What was chosen.
+        switch: Switch,
+        /// What that led to.
+        error: Box<ReadError>,
+    },
     /// Every line holds one number only.
     #[error("line {line}: only one number in each line: expected a wavelength and at least one value")]
     OneColumn {
@@ -157,16 +175,6 @@ pub enum ReadError {
         /// The wavelength in the unit decided on.
         wavelength_nm: f64,
     },
-    /// One wavelength twice with different values.
-    #[error("line {line}: wavelength {wavelength_nm} nm again with other values than in line {first_line}: keep one")]
-    RepeatedWavelength {
-        /// The later line.
-        line: usize,
-        /// The earlier line.
-        first_line: usize,
-        /// The wavelength.
-        wavelength_nm: f64,
-    },
     /// More than [`MAX_CURVES`] curves.
     #[error("line {line}: more than {MAX_CURVES} curves: split the file")]
     TooManyCurves {
@@ -194,7 +202,9 @@ impl ReadError {
             | Self::OtherLayout { .. }
             | Self::NotWavelengthColumn { .. } => None,
             Self::Unsupported { .. } => Some(1),
+            Self::AsChosen { ref error, .. } => error.line(),
             Self::OneColumn { line }
+            | Self::NearlyRow { line, .. }
             | Self::Malformed { line, .. }
             | Self::WrongCount { line, .. }
             | Self::NoWavelengths { line }
@@ -206,7 +216,6 @@ impl ReadError {
             | Self::NotWavelengths { line }
             | Self::TooFewSamples { line }
             | Self::WavelengthOutOfRange { line, .. }
-            | Self::RepeatedWavelength { line, .. }
             | Self::TooManyCurves { line }
             | Self::TooManySamples { line } => Some(line),
         }
@@ -215,6 +224,7 @@ impl ReadError {
     /// The column the error is about, from 1, where known.
     pub fn column(&self) -> Option<usize> {
         match *self {
+            Self::AsChosen { ref error, .. } => error.column(),
             Self::NotANumber { column, .. }
             | Self::Malformed { column, .. }
             | Self::NotWavelengthColumn { column, .. } => Some(column),

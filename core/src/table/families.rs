@@ -113,7 +113,11 @@ fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, 
                 }
                 break;
             }
-            Err(ReadError::NoNumbers | ReadError::OneColumn { .. }) if !parts.is_empty() => break,
+            Err(ReadError::NoNumbers | ReadError::NearlyRow { .. } | ReadError::OneColumn { .. })
+                if !parts.is_empty() =>
+            {
+                break;
+            }
             Err(error) => return Err(error),
         };
         let next = read.next.take();

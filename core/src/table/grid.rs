@@ -97,6 +97,19 @@ impl Grid {
         Ok((parts, part))
     }
 
+    /// Puts the means of some rows into the first of them; gaps are in no mean.
+    pub(super) fn average(&mut self, start: usize, count: usize) {
+        for curve in &mut self.curves {
+            let rows = &mut curve.values[start..start + count];
+            let (mut mean, mut seen) = (f64::NAN, 0.0);
+            for &value in rows.iter().filter(|value| !value.is_nan()) {
+                seen += 1.0;
+                mean = if seen == 1.0 { value } else { mean + (value / seen - mean / seen) };
+            }
+            rows[0] = mean;
+        }
+    }
+
     /// Notes a row as left out.
     pub(super) fn drop_row(&mut self, line: usize, why: Dropped) {
         if self.dropped.len() < MAX_DROPPED {

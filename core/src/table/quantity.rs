@@ -126,7 +126,7 @@ pub(super) fn per_photon(grid: &Grid, role: Role, quantity: &Decided<Quantity>) 
 }
 
 /// The quantity that a unit belongs to.
-fn of_unit(unit: &str) -> Option<Quantity> {
+pub(super) fn of_unit(unit: &str) -> Option<Quantity> {
     const LONGEST: usize = 40;
     if unit.len() > LONGEST {
         return None;
@@ -140,6 +140,7 @@ fn of_unit(unit: &str) -> Option<Quantity> {
         (true, true, false) => Some(Quantity::Irradiance),
         (true, false, true) => Some(Quantity::RadiantIntensity),
         (true, false, false) => Some(Quantity::RadiantFlux),
+        _ if matches!(lower.as_str(), "w" | "mw" | "µw" | "μw" | "uw" | "nw") => Some(Quantity::RadiantFlux),
         _ if words::says_counts(&lower) => Some(Quantity::Counts),
         _ if lower == "relative" || lower == "rel." => Some(Quantity::Relative),
         _ => None,
@@ -205,6 +206,15 @@ fn is_unit(text: &str) -> bool {
         || ["w/", "watt", "w m", "w·", "w.m", "mol/", "mol m", "photons/", "j/", "/nm"]
             .iter()
             .any(|part| lower.contains(part))
+}
+
+/// Whether a text can be the unit beside a single value: also one of power, which no header needs a list for.
+pub(super) fn is_value_unit(text: &str) -> bool {
+    const BASES: [&str; 13] = ["w", "watt", "watts", "j", "a", "v", "lm", "lx", "lux", "cd", "mol", "count", "cts"];
+    let lower = text.to_lowercase();
+    let base = lower.split(['/', '·', '*', '.', ' ', '^']).next().unwrap_or_default();
+    let bare = base.strip_prefix(['m', 'µ', 'μ', 'u', 'n', 'p', 'k']).unwrap_or(base);
+    is_unit(text) || (text.chars().count() <= LONGEST_UNIT && (BASES.contains(&base) || BASES.contains(&bare)))
 }
 
 /// A unit whose µ and ² were lost or doubled on the way through encodings, with them restored.

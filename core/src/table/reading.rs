@@ -216,6 +216,8 @@ pub enum Dropped {
     NoWavelength,
     /// It repeats an earlier row exactly.
     Repeated,
+    /// Another row has other values at its wavelength: their mean was taken.
+    Averaged,
 }
 
 impl fmt::Display for Dropped {
@@ -223,6 +225,7 @@ impl fmt::Display for Dropped {
         f.write_str(match self {
             Self::NoWavelength => "no wavelength",
             Self::Repeated => "the same as an earlier row",
+            Self::Averaged => "other values at one wavelength, of which the mean was taken",
         })
     }
 }

@@ -191,6 +191,12 @@ fn role_from_quantity(grid: &Grid) -> Option<Decided<Role>> {
     {
         return Some(Decided::certain(role, format!("Line {line} says {quantity}")));
     }
+    let unit = grid.curves.iter().find_map(|curve| curve.unit.as_deref());
+    if let Some((unit, role)) = unit.and_then(|unit| Some((unit, quantity::of_unit(unit)?.role()?)))
+        && role != Role::Unknown
+    {
+        return Some(Decided::certain(role, format!("The unit is {unit}")));
+    }
     let says_counts = |curve: &RawCurve| {
         words::says_counts(&curve.label) || curve.unit.as_ref().is_some_and(|unit| words::says_counts(unit))
     };

@@ -5,7 +5,7 @@ use super::text::{Lines, Section, comment};
 use super::trial::{Across, Shape, Trial};
 use super::warning::Warning;
 use super::watch::Log;
-use super::{Decided, Orientation, ReadError, ReadOptions};
+use super::{Decided, Orientation, ReadError, ReadOptions, nearly};
 
 /// How a text is laid out.
 #[derive(Debug)]
@@ -64,6 +64,9 @@ const SAMPLE_ROWS: usize = 8;
 const SAMPLE_BYTES: usize = 1 << 20;
 const SAMPLE_ROWS_LONG: usize = 3;
 
+/// Fewer rows of numbers alone are what is left of a table with texts in it, if one is there.
+const FEW_ROWS: usize = SAMPLE_ROWS;
+
 /// What stands above the numbers must end before this many bytes, so that hostile text is given up soon.
 const LONGEST_HEADER: usize = 4 << 20;
 
@@ -100,25 +103,32 @@ pub(super) fn sniff(
     log: &Log<'_>,
 ) -> Result<Layout, ReadError> {
     let trials = try_all(section, options, false, budget, log)?;
-    let Some(best) = choose(&trials, options) else {
-        // Names, dates or remarks in every row: only what looks like wavelengths tells such a table from prose.
+    let best = choose(&trials, options);
+    let rows = best.map_or(0, |best| best.rows(options.orientation));
+    if rows < FEW_ROWS && options.orientation != Some(Orientation::Across) {
+        // Names, dates or remarks in rows: only what looks like wavelengths tells such a table from prose.
         let mixed = try_all(section, options, true, budget, log)?;
-        let mixed: Vec<Trial> = mixed.into_iter().filter(|trial| trial.best.looks_like_wavelengths()).collect();
-        if let Some(best) = choose(&mixed, options).filter(|_| options.orientation != Some(Orientation::Across)) {
+        let mixed: Vec<Trial> = mixed.into_iter().filter(|trial| trial.best.looks_like_passes()).collect();
+        if let Some(best) = choose(&mixed, options).filter(|best| best.best.rows > 2 * rows) {
             let orientation = Decided::or_chosen(options.orientation, || {
                 Decided::guess(Orientation::Down, "The first numbers of the rows are in order, with text beside them")
             });
             return lay_down(section, options, best, orientation);
         }
+    }
+    let Some(best) = best else {
         let single = trials.iter().find(|trial| trial.single >= 2);
-        return Err(single.map_or(ReadError::NoNumbers, |trial| ReadError::OneColumn { line: trial.single_line }));
+        return Err(single.map_or_else(
+            || nearly::error(section, options),
+            |trial| ReadError::OneColumn { line: trial.single_line },
+        ));
     };
     let orientation = Decided::or_chosen(options.orientation, || orientation(best));
     if orientation.value == Orientation::Across {
         return lay_across(section, options, best, orientation);
     }
     if best.best.rows == 0 {
-        return Err(ReadError::NoNumbers);
+        return Err(nearly::error(section, options));
     }
     lay_down(section, options, best, orientation)
 }
@@ -308,7 +318,7 @@ fn first_line(section: Section<'_>, trial: &Trial, warnings: &mut Vec<Warning>) 
         if !shape.is_row(trial.mixed) {
             continue;
         }
-        let same = shape.fits(run.cells, run.filled) && shape.texts == run.texts;
+        let same = run.takes(&shape);
         match &mut fragment {
             Some((_, rows)) if same => *rows += 1,
             Some(_) => {}

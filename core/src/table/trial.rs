@@ -25,6 +25,10 @@ pub(super) struct Shape {
     pub(super) text: bool,
     /// Which of the first columns are text, a bit for each; all bits where a later one is.
     pub(super) texts: u128,
+    /// Which of the first columns are empty.
+    gaps: u128,
+    /// Texts that are a number with a unit.
+    united: u128,
     /// Cells with this dialect's decimal mark, and those that may be thousands, such as `4.800`.
     marks: usize,
     grouped: usize,
@@ -79,7 +83,10 @@ impl Shape {
             }
             match dialect.parse(cell) {
                 Cell::Number(value) => shape.number(index, value, dialect.has_mark(cell), cell),
-                Cell::Gap => shape.tail.interrupted = true,
+                Cell::Gap => {
+                    shape.gaps |= bit(index).unwrap_or(0);
+                    shape.tail.interrupted = true;
+                }
                 Cell::Text => shape.label_or_text(index, dialect, cell),
             }
         }
@@ -93,7 +100,8 @@ impl Shape {
             return;
         }
         self.text = true;
-        self.texts |= u32::try_from(index).ok().and_then(|index| 1_u128.checked_shl(index)).unwrap_or(u128::MAX);
+        self.texts |= bit(index).unwrap_or(u128::MAX);
+        self.united |= bit(index).filter(|_| dialect.parse_united(cell).is_some()).unwrap_or(0);
         self.text_until = index + 1;
         self.tail = Tail { start: index + 1, ..Tail::default() };
     }
@@ -111,14 +119,18 @@ impl Shape {
 
     /// Whether the line is a row of numbers, or of numbers with columns of text among them.
     pub(super) fn is_row(&self, mixed: bool) -> bool {
-        let fewest = if mixed { 2 } else { 1 };
-        (mixed || !self.text) && self.texts != u128::MAX && self.numbers >= fewest && self.cells > 1
+        let enough = if mixed {
+            self.numbers > 0 && self.numbers + self.united.count_ones() as usize > 1
+        } else {
+            self.numbers > 0
+        };
+        (mixed || !self.text) && self.texts != u128::MAX && enough && self.cells > 1
     }
+}
 
-    /// Whether two rows can stand in one table.
-    pub(super) fn fits(&self, cells: usize, filled: usize) -> bool {
-        self.cells == cells || self.filled == filled
-    }
+/// The bit that stands for a column, if there is one.
+fn bit(column: usize) -> Option<u128> {
+    u32::try_from(column).ok().and_then(|column| 1_u128.checked_shl(column))
 }
 
 /// Whether a number with a decimal mark may be a whole one with a mark between its thousands.
@@ -139,8 +151,12 @@ pub(super) struct Run {
     pub(super) rows: usize,
     pub(super) cells: usize,
     pub(super) filled: usize,
-    /// Which columns are text.
+    /// Which columns are text, and which are empty in all rows.
     pub(super) texts: u128,
+    gaps: u128,
+    united: u128,
+    /// Rows that begin anew with the first wavelength.
+    restarts: usize,
     /// The first numbers of the first and the last row.
     pub(super) first: f64,
     pub(super) last: f64,
@@ -159,13 +175,36 @@ impl Run {
 
     /// Whether the first numbers look like wavelengths down a column.
     pub(super) fn looks_like_wavelengths(&self) -> bool {
-        self.rows >= 3 && self.steady() + 1 == self.rows && plausible(self.min, self.max, self.fractions)
+        self.rows >= 3 && self.steady() + 1 == self.rows && self.is_plausible()
+    }
+
+    /// The same for several spectra below one another, which each begin with the same wavelength.
+    pub(super) fn looks_like_passes(&self) -> bool {
+        let (rows, back) = (self.rows, self.rises.min(self.falls));
+        self.looks_like_wavelengths()
+            || (back > 0 && back == self.restarts && self.steady() + back + 1 == rows && rows > 3 * back)
+                && self.is_plausible()
+    }
+
+    fn is_plausible(&self) -> bool {
+        plausible(self.min, self.max, self.fractions)
+    }
+
+    /// Whether a row can stand in the table: one with as many cells, and text in the same columns or nothing. Of numbers
+    /// with units, some may have none.
+    pub(super) fn takes(&self, shape: &Shape) -> bool {
+        let other = self.texts & !(shape.texts | shape.gaps) | shape.texts & !(self.texts | self.gaps);
+        let united = self.united | shape.united;
+        (shape.cells == self.cells || shape.filled == self.filled) && other & !united == 0
     }
 
     fn push(&mut self, line: usize, shape: &Shape) {
         let value = shape.first.unwrap_or(self.last);
         if self.rows == 0 {
-            *self = Self { line, first: value, last: value, min: value, max: value, ..Self::default() };
+            let gaps = u128::MAX;
+            *self = Self { line, first: value, last: value, min: value, max: value, gaps, ..Self::default() };
+        } else if value == self.first {
+            self.restarts += 1;
         }
         self.rises += usize::from(value > self.last);
         self.falls += usize::from(value < self.last);
@@ -175,7 +214,9 @@ impl Run {
         self.rows += 1;
         self.last = value;
         self.cells = shape.cells;
-        self.texts = shape.texts;
+        self.texts |= shape.texts;
+        self.gaps &= shape.gaps;
+        self.united |= shape.united;
         self.filled = self.filled.max(shape.filled);
     }
 }
@@ -252,8 +293,7 @@ impl Trial {
         let shape = Shape::of(self.dialect, line);
         self.take_across(number, &shape);
         if shape.is_row(self.mixed) {
-            let fits = shape.fits(self.run.cells, self.run.filled) && shape.texts == self.run.texts;
-            if self.run.rows > 0 && !fits {
+            if self.run.rows > 0 && !self.run.takes(&shape) {
                 self.run = Run::default();
             }
             self.run.push(number, &shape);

@@ -78,6 +78,15 @@ pub enum Warning {
         /// The column of the wavelengths, from 1.
         wavelength_column: usize,
     },
+    /// Columns that hold text: left out.
+    TextColumns {
+        /// How many.
+        count: usize,
+        /// The first, from 1.
+        column: usize,
+        /// Its name, or an empty text.
+        name: String,
+    },
     /// Rows were neither ascending nor descending: sorted.
     Sorted {
         /// The first line out of order.
@@ -85,6 +94,11 @@ pub enum Warning {
     },
     /// Rows that repeat an earlier row exactly: counted once.
     RepeatedRows {
+        /// Where.
+        lines: LineList,
+    },
+    /// Rows with different values at one wavelength: their mean was taken.
+    AveragedRows {
         /// Where.
         lines: LineList,
     },
@@ -167,6 +181,7 @@ impl Warning {
         match self {
             Self::Gaps { lines, .. }
             | Self::RepeatedRows { lines }
+            | Self::AveragedRows { lines }
             | Self::NoWavelength { lines }
             | Self::CommentedRows { lines }
             | Self::RepeatedHeader { lines }
@@ -179,6 +194,7 @@ impl Warning {
             | Self::CountDiffers { line, .. } => Some(*line),
             Self::EmptyCurves { .. }
             | Self::SkippedColumns { .. }
+            | Self::TextColumns { .. }
             | Self::CommasOnly
             | Self::MaybeThousands
             | Self::NotReflectances { .. }
@@ -198,8 +214,22 @@ impl fmt::Display for Warning {
             Self::SkippedColumns { wavelength_column } => {
                 write!(f, "Wavelengths stand in column {wavelength_column}: the columns before it are left out")
             }
+            Self::TextColumns { count, column, name } => {
+                write!(f, "Column {column}")?;
+                if !name.is_empty() {
+                    write!(f, " (“{name}”)")?;
+                }
+                match count {
+                    1 => f.write_str(" holds text: left out"),
+                    2 => f.write_str(" and another hold text: left out"),
+                    _ => write!(f, " and {} others hold text: left out", count - 1),
+                }
+            }
             Self::Sorted { line } => write!(f, "line {line}: wavelengths out of order: sorted"),
             Self::RepeatedRows { lines } => write!(f, "{lines}: the same as an earlier row: counted once"),
+            Self::AveragedRows { lines } => {
+                write!(f, "{lines}: several rows with different values at one wavelength: their mean is taken")
+            }
             Self::NoWavelength { lines } => write!(f, "{lines}: no wavelength: left out"),
             Self::NumbersAbove { line } => write!(f, "line {line}: numbers above the table: left out"),
             Self::TextBelow { line } => write!(f, "line {line}: text after the table: left out"),

@@ -160,43 +160,54 @@ pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> Result<bool, ReadError
         order.sort_by(|&a, &b| wavelengths[a].total_cmp(&wavelengths[b]));
         grid.reorder(&order);
     }
-    merge_repeats(grid, log)?;
+    merge_repeats(grid, log);
     Ok(descending)
 }
 
-/// Leaves one of rows that are the same; rows that differ at one wavelength are an error.
-fn merge_repeats(grid: &mut Grid, log: &mut Log<'_>) -> Result<(), ReadError> {
+/// Leaves one of rows that are the same, and the mean of rows that differ at one wavelength.
+fn merge_repeats(grid: &mut Grid, log: &mut Log<'_>) {
     let mut repeats = vec![false; grid.wavelengths.len()];
-    let mut lines = Vec::new();
-    let mut kept = 0;
-    for (i, repeat) in repeats.iter_mut().enumerate().skip(1) {
-        if grid.wavelengths[i] != grid.wavelengths[kept] {
-            kept = i;
-            continue;
+    let (mut same, mut averaged) = (Vec::new(), Vec::new());
+    let mut start = 0;
+    while start < repeats.len() {
+        let wavelength = grid.wavelengths[start];
+        let count = grid.wavelengths[start..].iter().take_while(|other| **other == wavelength).count().max(1);
+        let rest = start + 1..start + count;
+        if count > 1 {
+            let mut lines: Vec<usize> = (start..start + count).map(|row| grid.line(row)).collect();
+            lines.sort_unstable();
+            if rest.clone().all(|row| grid.same_values(start, row)) {
+                same.extend(&lines[1..]);
+            } else {
+                averaged.append(&mut lines);
+                grid.average(start, count);
+            }
         }
-        let (a, b) = (grid.line(kept), grid.line(i));
-        if !grid.same_values(kept, i) {
-            let wavelength_nm = grid.wavelengths[i];
-            return Err(ReadError::RepeatedWavelength { line: a.max(b), first_line: a.min(b), wavelength_nm });
-        }
-        *repeat = true;
-        lines.push(a.max(b));
+        repeats[rest].fill(true);
+        start += count;
     }
-    if !lines.is_empty() {
+    if repeats.contains(&true) {
         grid.remove(&repeats);
+    }
+    for (mut lines, why) in [(same, Dropped::Repeated), (averaged, Dropped::Averaged)] {
         lines.sort_unstable();
         let mut list = LineList::default();
         for &line in &lines {
             list.add(line);
-            grid.drop_row(line, Dropped::Repeated);
+            grid.drop_row(line, why);
         }
-        log.push(Warning::RepeatedRows { lines: list });
+        match why {
+            _ if list.is_empty() => {}
+            Dropped::Averaged => log.push(Warning::AveragedRows { lines: list }),
+            _ => log.push(Warning::RepeatedRows { lines: list }),
+        }
     }
-    Ok(())
 }
 
 /// Where a second pass over the wavelengths of a first one begins, if rows do: that is another table, not disorder.
 pub(super) fn second_pass(wavelengths: &[f64]) -> Option<usize> {
+    // What begins with the very same wavelength is no disorder, however short.
+    const FEWEST_AGAIN: usize = 3;
     const FEWEST: usize = 5;
     let steps = || wavelengths.windows(2);
     let falls = steps().filter(|pair| pair[1] < pair[0]).count();
@@ -205,7 +216,9 @@ pub(super) fn second_pass(wavelengths: &[f64]) -> Option<usize> {
     let starts: Vec<usize> = steps().enumerate().filter(|(_, pair)| back(pair)).map(|(at, _)| at + 1).collect();
     let first = *starts.first()?;
     let ends = starts.iter().copied().skip(1).chain([wavelengths.len()]);
-    let whole = first >= FEWEST && starts.iter().zip(ends).all(|(start, end)| end - start >= FEWEST);
+    let again = starts.iter().all(|start| wavelengths[*start] == wavelengths[0]);
+    let fewest = if again { FEWEST_AGAIN } else { FEWEST };
+    let whole = first >= fewest && starts.iter().zip(ends).all(|(start, end)| end - start >= fewest);
     if !whole {
         return None;
     }

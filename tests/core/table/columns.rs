@@ -2,7 +2,9 @@
 
 use std::time::Duration;
 
-use chromascope_core::table::{Certainty, ReadError, ReadOptions, Warning, Watch, WavelengthUnit, read_watched};
+use chromascope_core::table::{
+    Certainty, Delimiter, Nearly, ReadError, ReadOptions, Switch, Warning, Watch, WavelengthUnit, read, read_watched,
+};
 
 use super::{error, names, ok, samples};
 
@@ -112,5 +114,37 @@ fn columns_of_text_are_left_out() {
         assert_eq!(table.curves[0].values.len(), 3);
         assert_eq!(table.warnings.len(), warnings, "{:?}", table.warnings);
     }
-    assert_eq!(error("one;2;x;3\ntwo;1;y;3\nthree;2;z;4\n"), ReadError::NoNumbers);
+    let disorder = error("one;2;x;3\ntwo;1;y;3\nthree;2;z;4\n");
+    assert!(matches!(disorder, ReadError::NearlyRow { line: 1, why: Nearly::Order, .. }), "{disorder}");
+}
+
+#[test]
+fn what_is_nearly_a_row_is_cited() {
+    for (text, line, why) in [
+        ("hello\nnm;R\n400: 0.1\n410: 0.2\n", 3, Nearly::Between(':')),
+        ("400|0.1\n410|0.2\n420|0.3\n", 1, Nearly::Between('|')),
+        ("nm R\n400 abc\n410 def\n420 x\n", 2, Nearly::TextAfter),
+        ("nm;R\n400;\"\n", 2, Nearly::TextAfter),
+    ] {
+        let found = error(text);
+        assert_eq!(found.line(), Some(line), "{found}");
+        assert!(matches!(found, ReadError::NearlyRow { why: found, .. } if found == why), "{text}: {found}");
+    }
+    let said = error("nm;R\n400: 0.1\n410: 0.2\n").to_string();
+    let remedy = "separate them by commas, semicolons, tabs or spaces";
+    assert_eq!(said, format!("line 2: no rows of numbers: \"400: 0.1\" has “:” between its numbers: {remedy}"));
+    assert_eq!(error("The quick brown\nfox jumps over the dog\n"), ReadError::NoNumbers);
+}
+
+#[test]
+fn an_error_that_a_choice_caused_says_so() {
+    let tab = ReadOptions { delimiter: Some(Delimiter::Tab), ..ReadOptions::default() };
+    let found = read(b"400;0.1\n410;0.2\n", &tab).unwrap_err();
+    assert!(matches!(found, ReadError::AsChosen { switch: Switch::Delimiter(Delimiter::Tab), .. }), "{found:?}");
+    assert!(found.to_string().ends_with("choose other separators (as chosen: tab separated)"), "{found}");
+    assert_eq!(found.line(), Some(1));
+    let far = ReadOptions { wavelength_unit: Some(WavelengthUnit::Micrometer), ..ReadOptions::default() };
+    let found = read(b"400;0.1\n410;0.2\n", &far).unwrap_err();
+    assert!(found.to_string().ends_with("(as chosen: micrometers)"), "{found}");
+    assert_eq!(read(b"hello\n", &tab), Err(ReadError::NoNumbers));
 }

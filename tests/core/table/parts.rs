@@ -2,7 +2,9 @@
 
 use std::cell::Cell;
 
-use chromascope_core::table::{Certainty, ReadError, ReadOptions, Reader, Table, Warning, Watch, read, read_watched};
+use chromascope_core::table::{
+    Certainty, ReadError, ReadOptions, Reader, Switch, Table, Warning, Watch, read, read_watched,
+};
 use proptest::prelude::*;
 
 use super::{names, ok, samples};
@@ -87,7 +89,7 @@ fn a_wavelength_column_without_wavelengths() {
         assert_eq!(choose(column), Err(ReadError::NotWavelengthColumn { column, columns: 3 }));
     }
     assert!(choose(1).is_ok());
-    assert!(matches!(choose(3), Err(ReadError::TooFewSamples { .. } | ReadError::WavelengthOutOfRange { .. })));
+    assert!(matches!(choose(3), Err(ReadError::AsChosen { switch: Switch::WavelengthColumn(3), .. })));
 }
 
 #[test]

@@ -47,6 +47,14 @@ pub(super) fn wavelength(dialect: Dialect, unit: WavelengthUnit, cell: &str) -> 
     Some(unit.nanometers(written)).filter(|nm| nm.is_finite())
 }
 
+/// What a cell holds, with its unit or without.
+pub(super) fn parse(dialect: Dialect, cell: &str) -> Cell {
+    match dialect.parse(cell) {
+        Cell::Text => dialect.parse_united(cell).map_or(Cell::Text, |(value, _)| Cell::Number(value)),
+        other => other,
+    }
+}
+
 /// The value of a curve at one of its wavelengths.
 pub(super) fn at(curve: &Curve, nm: f64) -> Option<f64> {
     let index = curve.wavelengths_nm.binary_search_by(|probe| probe.total_cmp(&nm)).ok()?;

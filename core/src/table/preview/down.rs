@@ -104,7 +104,7 @@ impl Down {
                 continue;
             }
             // Columns of text are none of the curves.
-            row.push(match self.dialect.parse(cell) {
+            row.push(match cells::parse(self.dialect, cell) {
                 Cell::Text => Cell::Gap,
                 other => other,
             });
@@ -219,7 +219,7 @@ impl Down {
                 marks.push(Mark::new(range, What::Wavelength { nm }));
                 continue;
             }
-            let what = match (self.dialect.parse(cell), self.curves.get(column).copied().flatten()) {
+            let what = match (cells::parse(self.dialect, cell), self.curves.get(column).copied().flatten()) {
                 (Cell::Text, Some(_)) => return None,
                 (Cell::Gap, None) if cell.is_empty() => continue,
                 (_, None) => What::LeftOut { why: LeftOut::Column },
@@ -288,6 +288,7 @@ fn dropped(table: &Table) -> Vec<(usize, LeftOut)> {
     let why = |why| match why {
         Dropped::NoWavelength => LeftOut::NoWavelength,
         Dropped::Repeated => LeftOut::Repeated,
+        Dropped::Averaged => LeftOut::Averaged,
     };
     let mut all: Vec<(usize, LeftOut)> =
         table.reading.dropped_rows.iter().map(|row| (row.line, why(row.why))).collect();

@@ -77,6 +77,8 @@ pub enum LeftOut {
     Column,
     /// The same as an earlier row.
     Repeated,
+    /// A row at a wavelength at which another row has other values.
+    Averaged,
     /// A row with values but no wavelength.
     NoWavelength,
     /// A line that is no row of the table: text below it, another table, a curve of fewer than two values.
@@ -88,6 +90,7 @@ impl fmt::Display for LeftOut {
         f.write_str(match self {
             Self::Column => "a column that is in no curve",
             Self::Repeated => "the same as an earlier row",
+            Self::Averaged => "one of several values at this wavelength, of which the mean is taken",
             Self::NoWavelength => "no wavelength",
             Self::Line => "no row of this table",
         })
