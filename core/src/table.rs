@@ -5,7 +5,7 @@
 //! decided can be overruled through [`ReadOptions`] by reading again.
 //!
 //! What is read: numbers in columns (wavelengths down the first column, or across a header row), separated by commas,
-//! semicolons, tabs or spaces; points or commas as decimal marks; UTF-8, UTF-16 or Windows-1252; any line ends;
+//! semicolons, tabs or spaces; points or commas as decimal marks; UTF-8, UTF-16, Shift-JIS or Windows-1252; any line ends;
 //! comments (`# key: value`), headers, units in headers, gaps (`NaN`, `---`, empty), any order of wavelengths.
 //!
 //! Families with a grammar of their own are recognized by content and read too: CGATS (Argyll, X-Rite), JCAMP-DX, XML
@@ -32,6 +32,7 @@
 //! `wavelengths` (unit, order, repeats), `scale` (role, percent), `quantity`, and here the curves. A reader for another family of
 //! files is a small file in `families`: it fills the same `Grid`, and all after it is shared.
 
+mod bands;
 mod columns;
 mod dialect;
 mod error;
@@ -187,15 +188,19 @@ fn finish(
     let (parts, part) = grid.settle_parts(options.part, layout.first_line)?;
     let wavelength_unit = wavelengths::unit(&grid, options)?;
     wavelengths::to_nanometers(&mut grid, wavelength_unit.value)?;
+    if (wavelength_unit.value, wavelength_unit.certainty) == (WavelengthUnit::Wavenumber, Certainty::Guess) {
+        warnings.push(Warning::MaybeWavelengths);
+    }
     warnings.look(usize::MAX)?;
     let descending = wavelengths::sort(&mut grid, &mut warnings)?;
     let range_nm = [grid.wavelengths[0], grid.wavelengths[grid.wavelengths.len() - 1]];
     let step_nm = Steps::of(&grid.wavelengths);
     warnings.look(usize::MAX)?;
     let scale = scale::decide(&grid, options);
-    let quantity = quantity::decide(&grid, &scale.role);
+    let quantity = quantity::decide(&grid, &scale.role, &mut warnings);
     let per_photon = quantity::per_photon(&grid, scale.role.value, &quantity);
     scale::convert(&mut grid, &scale);
+    scale::warn(&scale, &grid, &mut warnings);
     warnings.look(usize::MAX)?;
     if let Some((line, medium)) = grid.header.medium {
         notes.push(Decision::new("Medium", &Decided::certain(medium, format!("Line {line} says so"))));
@@ -208,7 +213,6 @@ fn finish(
         return Err(ReadError::TooFewSamples { line: layout.first_line });
     }
     let camera_columns = scale::camera_columns(scale.role.value, &curves);
-    scale::warn(&scale, &curves, &mut warnings);
     let reading = Reading {
         reader,
         encoding,

@@ -2,8 +2,10 @@
 
 #![allow(clippy::format_push_string, reason = "files are written as they read")]
 
+mod bands;
 mod columns;
 mod damage;
+mod doubts;
 mod limits;
 mod parts;
 mod rows;
@@ -233,7 +235,7 @@ fn percent_in_one_column_scales_only_that() {
     assert_eq!(table.curves[0].values, [700.0, 800.0]);
     assert_eq!(table.curves[1].values, [0.4, 0.5]);
     assert_eq!((table.curves[0].unit.as_deref(), table.curves[1].unit.as_deref()), (Some("counts"), Some("%")));
-    let expected = Warning::NotReflectances { count: 1, first: "Sample".to_owned(), max: 800.0 };
+    let expected = Warning::NotReflectances { count: 1, first: "“Sample” (column 2)".to_owned(), max: 800.0 };
     assert_eq!(table.warnings, [expected]);
 }
 
@@ -342,7 +344,7 @@ fn gaps_are_left_out_and_counted() {
     assert_eq!(wavelength.reading.dropped_rows[0].why, Dropped::NoWavelength);
     assert_eq!(wavelength.warnings[0].to_string(), "line 3: no wavelength: left out");
     let empty = ok("nm,a,b\n380,1.5,\n390,2,\n");
-    assert_eq!(empty.warnings, [Warning::EmptyCurves { count: 1, first: "b".to_owned() }]);
+    assert_eq!(empty.warnings, [Warning::EmptyCurves { count: 1, first: "“b” (column 3)".to_owned() }]);
     let blank_rows = ok("380,1.5\n,\n390,2\n,\n");
     assert_eq!((blank_rows.curves[0].missing, blank_rows.reading.rows), (0, 2));
 }

@@ -338,7 +338,8 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
     let named = header.name(column).map(quantity::without_unit).filter(|name| !(only && words::is_quantity(name)));
     let given = named.or(title);
     let name = given.map_or_else(|| format!("Column {}", column + 1), str::to_owned);
-    RawCurve { name, named: given.is_some(), label: header.label(column), unit: header.unit(column), values }
+    let (named, label, unit) = (given.is_some(), header.label(column), header.unit(column));
+    RawCurve { name, named, column: Some(column + 1), label, unit, values }
 }
 
 /// Names the columns of text, which are in no curve.
@@ -351,9 +352,10 @@ fn warn_of_texts(header: &Header, texts: &[usize], log: &mut Log<'_>) {
 
 /// A named column that is empty in every row is no column of the rows, but somebody expects it.
 fn warn_of_names_without_columns(header: &Header, width: usize, log: &mut Log<'_>) {
-    let mut names = header.names.iter().skip(width).filter(|name| !name.is_empty());
-    if let Some(first) = names.next() {
-        log.push(Warning::EmptyCurves { count: 1 + names.count(), first: first.clone() });
+    let mut names = header.names.iter().enumerate().skip(width).filter(|(_, name)| !name.is_empty());
+    if let Some((column, first)) = names.next() {
+        let first = format!("“{first}” (column {})", column + 1);
+        log.push(Warning::EmptyCurves { count: 1 + names.count(), first });
     }
 }
 

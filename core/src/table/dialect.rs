@@ -83,7 +83,9 @@ impl Dialect {
     pub(super) fn cells(self, line: &str) -> Cells<'_> {
         let rest = if self.delimiter == Delimiter::Spaces { line.trim_ascii() } else { line };
         let spaces_only = self.delimiter == Delimiter::Spaces && rest.is_empty();
-        Cells { rest: (!spaces_only).then_some(rest), delimiter: self.delimiter, quotes: true }
+        let joined =
+            if (self.delimiter, self.mark) == (Delimiter::Comma, DecimalMark::Comma) { joined(rest) } else { 0 };
+        Cells { rest: (!spaces_only).then_some(rest), delimiter: self.delimiter, quotes: true, joined, at: 0 }
     }
 
     /// What a cell holds.
@@ -245,12 +247,31 @@ fn is_gap(cell: &str) -> bool {
     GAPS.contains(&lower.as_str()) || lower.trim_start_matches(['-', '+']).starts_with("1.#")
 }
 
+/// Where commas both separate whole numbers and mark fractions, `400,0,060` or `400,5,0,060`: how the pieces belong
+/// together, a bit for each comma that marks a fraction. Each value has a fraction then, or all but the first number.
+fn joined(line: &str) -> u64 {
+    const MOST: usize = 32;
+    let digits = |piece: &str| {
+        let bare = piece.trim().trim_start_matches('-');
+        !bare.is_empty() && bare.bytes().all(|b| b.is_ascii_digit())
+    };
+    let count = line.bytes().filter(|byte| *byte == b',').take(MOST).count() + 1;
+    if !(3..=MOST).contains(&count) || !line.split(',').all(digits) {
+        return 0;
+    }
+    let first = count % 2;
+    (first..count - 1).step_by(2).fold(0, |bits, comma| bits | 1 << comma)
+}
+
 /// Iterator over the cells of a line; made by [`Dialect::cells`].
 #[derive(Debug, Clone)]
 pub(super) struct Cells<'a> {
     rest: Option<&'a str>,
     delimiter: Delimiter,
     quotes: bool,
+    /// Commas, by bits, that mark fractions; and how many have been passed.
+    joined: u64,
+    at: u32,
 }
 
 impl<'a> Iterator for Cells<'a> {
@@ -265,7 +286,17 @@ impl<'a> Iterator for Cells<'a> {
         {
             return Some(cell);
         }
-        let Some((end, width)) = self.delimiter.find(rest) else {
+        let mut found = self.delimiter.find(rest);
+        if self.joined != 0 {
+            if self.joined >> self.at & 1 == 1
+                && let Some((end, width)) = found
+            {
+                self.at += 1;
+                found = self.delimiter.find(&rest[end + width..]).map(|(at, width)| (end + 1 + at, width));
+            }
+            self.at += 1;
+        }
+        let Some((end, width)) = found else {
             self.rest = None;
             return Some(rest.trim_ascii());
         };

@@ -150,7 +150,7 @@ pub enum ReadError {
         max: f64,
     },
     /// Commas separate the cells and mark the fractions.
-    #[error("line {line}: commas both separate numbers and mark fractions: export with semicolons or decimal points")]
+    #[error("line {line}: commas separate numbers and seem to mark fractions: choose decimal commas, or points if not")]
     AmbiguousCommas {
         /// The line that shows it.
         line: usize,

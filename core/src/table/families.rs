@@ -42,7 +42,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
         Reader::Table => table(text, options, log),
         Reader::Cgats => cgats::read(text, options, log),
         Reader::Jcamp => jcamp::read(text, options, log),
-        Reader::Tm27 => tm27::read(text, log),
+        Reader::Tm27 => tm27::read(text, options, log),
         Reader::Cxf => cxf::read(text, log),
         Reader::Rawtoaces | Reader::Dcamprof => json::read(text, options, log),
         Reader::Labels => labels::read(text, options, log),
@@ -122,6 +122,9 @@ fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, 
         };
         let next = read.next.take();
         let bytes = read.bytes;
+        if !read.grid.parts.is_empty() {
+            return Ok(side_by_side(layout, read, options, log));
+        }
         parts.push(part(&layout, &read.grid));
         if parts.len() == wanted {
             taken = Some((layout, read));
@@ -156,6 +159,21 @@ fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, 
     notes.extend(raw::leave_out(&mut grid, options));
     Ok(Found { grid, layout, reader, notes })
 }
+
+/// Groups of columns in one table, one of which was taken.
+fn side_by_side(layout: Layout, read: columns::Read, options: &ReadOptions, log: &mut Log<'_>) -> Found {
+    let mut grid = read.grid;
+    let names: Vec<&str> = grid.parts.iter().map(|part| part.name.as_str()).take(MOST_NAMED).collect();
+    let why = format!("{} groups of columns stand side by side, {}", grid.parts.len(), names.join(", "));
+    grid.part = Some(Decided::guess(1, why));
+    if options.part.is_none() {
+        log.push(Warning::MoreGroups { count: grid.parts.len(), second: grid.parts[1].name.clone() });
+    }
+    Found { grid, layout, reader: Decided::certain(Reader::Table, "Rows of numbers"), notes: Vec::new() }
+}
+
+/// Groups that are named in a decision.
+const MOST_NAMED: usize = 4;
 
 /// The first table of a section.
 fn one(

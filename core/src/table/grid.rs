@@ -46,11 +46,23 @@ pub(super) struct RawCurve {
     pub(super) name: String,
     /// Whether the name is from the file.
     pub(super) named: bool,
+    /// The column it stands in, from 1, where wavelengths run down one.
+    pub(super) column: Option<usize>,
     /// All that the header says about this curve: its name and its unit.
     pub(super) label: String,
     /// The unit of the values as the file names it.
     pub(super) unit: Option<String>,
     pub(super) values: Vec<f64>,
+}
+
+impl RawCurve {
+    /// The name between quotes, and the column if the name does not say it.
+    pub(super) fn told(&self) -> String {
+        match self.column.filter(|_| self.named) {
+            Some(column) => format!("“{}” (column {column})", self.name),
+            None => format!("“{}”", self.name),
+        }
+    }
 }
 
 impl Grid {
@@ -140,7 +152,7 @@ impl Grid {
             if left < 2 {
                 if left > 0 || !raw.label.is_empty() {
                     empty += 1;
-                    first_empty.get_or_insert(raw.name);
+                    first_empty.get_or_insert(raw.told());
                 }
                 continue;
             }

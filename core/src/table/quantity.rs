@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::grid::Grid;
 use super::text::excerpt;
+use super::watch::Log;
 use super::words;
-use super::{Decided, Role};
+use super::{Certainty, Decided, Role, Warning};
 
 /// The physical quantity of values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -79,23 +80,15 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// The quantity of a grid whose role is decided.
-pub(super) fn decide(grid: &Grid, role: &Decided<Role>) -> Decided<Quantity> {
-    if let Some(quantity) = &grid.quantity {
-        return quantity.clone();
-    }
-    // A relative scale of sensitivities is one of sensitivities.
-    let fits = |quantity: Quantity| quantity != Quantity::Relative || !matches!(role.value, Role::Camera);
-    let labeled = grid.curves.iter().find_map(|curve| Some((words::quantity(&curve.label)?, &curve.label)));
-    if let Some((quantity, label)) = labeled.filter(|(quantity, _)| fits(*quantity)) {
-        return Decided::certain(quantity, format!("A column is headed “{}”", excerpt(label)));
-    }
-    if let Some((line, quantity)) = grid.header.quantity.filter(|(_, quantity)| fits(*quantity)) {
-        return Decided::certain(quantity, format!("Line {line} says so"));
-    }
-    let unit = grid.curves.iter().find_map(|curve| curve.unit.as_deref());
-    if let Some((unit, quantity)) = unit.and_then(|unit| Some((unit, of_unit(unit).filter(|unit| fits(*unit))?))) {
-        return Decided::certain(quantity, format!("The unit is {unit}"));
+/// The quantity of a grid whose role is decided. A role that was chosen has its own, whatever the file says.
+pub(super) fn decide(grid: &Grid, role: &Decided<Role>, log: &mut Log<'_>) -> Decided<Quantity> {
+    let said = said(grid, role);
+    let other = |quantity: Quantity| quantity.role().is_some_and(|other| other != role.value);
+    let chosen = role.certainty == Certainty::Chosen && role.value != Role::Unknown;
+    match said {
+        Some(said) if !(chosen && other(said.value)) => return said,
+        Some(said) => log.push(Warning::OtherQuantity { quantity: said.value, role: role.value }),
+        None => {}
     }
     let quantity = match role.value {
         Role::Camera => Quantity::Sensitivity,
@@ -105,6 +98,25 @@ pub(super) fn decide(grid: &Grid, role: &Decided<Role>) -> Decided<Quantity> {
         Role::Unknown => Quantity::Unknown,
     };
     Decided { value: quantity, certainty: role.certainty, why: format!("The curves are {}", role.value) }
+}
+
+/// The quantity that the file names.
+fn said(grid: &Grid, role: &Decided<Role>) -> Option<Decided<Quantity>> {
+    if let Some(quantity) = &grid.quantity {
+        return Some(quantity.clone());
+    }
+    // A relative scale of sensitivities is one of sensitivities.
+    let fits = |quantity: Quantity| quantity != Quantity::Relative || !matches!(role.value, Role::Camera);
+    let labeled = grid.curves.iter().find_map(|curve| Some((words::quantity(&curve.label)?, &curve.label)));
+    if let Some((quantity, label)) = labeled.filter(|(quantity, _)| fits(*quantity)) {
+        return Some(Decided::certain(quantity, format!("A column is headed “{}”", excerpt(label))));
+    }
+    if let Some((line, quantity)) = grid.header.quantity.filter(|(_, quantity)| fits(*quantity)) {
+        return Some(Decided::certain(quantity, format!("Line {line} says so")));
+    }
+    let unit = grid.curves.iter().find_map(|curve| curve.unit.as_deref());
+    let (unit, quantity) = unit.and_then(|unit| Some((unit, of_unit(unit).filter(|unit| fits(*unit))?)))?;
+    Some(Decided::certain(quantity, format!("The unit is {unit}")))
 }
 
 /// Whether sensitivities are responses per photon. Quantum efficiencies are, by their definition.

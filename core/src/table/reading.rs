@@ -93,12 +93,14 @@ impl fmt::Display for Decision {
 pub enum Encoding {
     /// UTF-8, of which ASCII is a part.
     Utf8,
-    /// UTF-16, low byte first, with a byte order mark.
+    /// UTF-16, low byte first.
     Utf16Le,
-    /// UTF-16, high byte first, with a byte order mark.
+    /// UTF-16, high byte first.
     Utf16Be,
-    /// Windows-1252, which holds Latin-1: taken for all that is not UTF-8.
+    /// Windows-1252, which holds Latin-1: taken for all that is none of the others.
     Windows1252,
+    /// Shift-JIS, as Windows writes it.
+    ShiftJis,
 }
 
 impl fmt::Display for Encoding {
@@ -108,6 +110,7 @@ impl fmt::Display for Encoding {
             Self::Utf16Le => "UTF-16 LE",
             Self::Utf16Be => "UTF-16 BE",
             Self::Windows1252 => "Windows-1252",
+            Self::ShiftJis => "Shift-JIS",
         })
     }
 }
@@ -324,7 +327,7 @@ impl Reading {
             all.push(Decision::new("Layout", &self.reader));
         }
         all.extend([
-            Decision::new("Encoding", &Decided::certain(self.encoding, self.encoding_evidence())),
+            Decision::new("Encoding", &self.decided_encoding()),
             Decision::new("Separator", &self.delimiter),
             Decision::new("Decimal mark", &self.decimal_mark),
             Decision::new("Orientation", &self.orientation),
@@ -358,11 +361,13 @@ impl Reading {
         }
     }
 
-    fn encoding_evidence(&self) -> &'static str {
+    fn decided_encoding(&self) -> Decided<Encoding> {
+        let certain = |why: &str| Decided::certain(self.encoding, why);
         match self.encoding {
-            Encoding::Utf8 => "The bytes are valid UTF-8",
-            Encoding::Utf16Le | Encoding::Utf16Be => "The byte order mark says so",
-            Encoding::Windows1252 => "The bytes are not UTF-8",
+            Encoding::Utf8 => certain("The bytes are valid UTF-8"),
+            Encoding::Utf16Le | Encoding::Utf16Be => certain("A byte order mark, or zeros in every other byte, say so"),
+            Encoding::Windows1252 => certain("The bytes are not UTF-8"),
+            Encoding::ShiftJis => Decided::guess(self.encoding, "The bytes are not UTF-8, but sound Japanese"),
         }
     }
 }

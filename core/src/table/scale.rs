@@ -176,9 +176,9 @@ fn role_from_header(grid: &Grid) -> Option<Decided<Role>> {
         let agree = named.all(|(other, _)| other == role);
         return Some(if agree { Decided::certain(role, why) } else { Decided::guess(role, why) });
     }
-    let names: Vec<&str> = grid.curves.iter().take(MOST_CHANNELS + 1).map(|curve| curve.label.as_str()).collect();
+    let names: Vec<&str> = grid.curves.iter().take(MOST_CHANNELS + 1).map(|curve| curve.name.as_str()).collect();
     if let Some((_, letters)) = channels(&names) {
-        let why = format!("The columns are named {}", names.join(", "));
+        let why = format!("The curves are named {}", names.join(", "));
         return Some(if letters { Decided::certain(Role::Camera, why) } else { Decided::guess(Role::Camera, why) });
     }
     role_from_quantity(grid)
@@ -366,19 +366,42 @@ fn replaced<'a>(text: &str, by: impl Fn(&str) -> Option<&'a str>) -> String {
     quantity::tidy(&out)
 }
 
-/// Warns of reflectances that cannot be.
-pub(super) fn warn(scale: &Scale, curves: &[Curve], log: &mut Log<'_>) {
+/// Warns of reflectances that cannot be, and of values further below zero than noise.
+pub(super) fn warn(scale: &Scale, grid: &Grid, log: &mut Log<'_>) {
     const LARGEST: f64 = 2.0;
-    if !scale.role.value.is_fraction() {
+    const NOISE: f64 = 0.05;
+    let role = scale.role.value;
+    if !role.is_fraction() && role != Role::Camera {
         return;
     }
-    let max = |curve: &Curve| {
-        let visible = curve.wavelengths_nm.iter().zip(&curve.values).filter(|(w, _)| VISIBLE_NM.contains(w));
-        visible.map(|(_, value)| *value).fold(f64::NEG_INFINITY, f64::max)
-    };
-    let mut bright = curves.iter().map(|curve| (curve, max(curve))).filter(|(_, max)| *max > LARGEST);
-    if let Some((curve, max)) = bright.next() {
-        log.push(Warning::NotReflectances { count: 1 + bright.count(), first: curve.name.clone(), max });
+    // Outside, instruments are noisy.
+    let all = !grid.wavelengths.iter().any(|w| VISIBLE_NM.contains(w));
+    let (mut bright, mut below) = (0, 0);
+    let (mut first_bright, mut first_below) = (None, None);
+    for curve in &grid.curves {
+        let mut lowest = (f64::INFINITY, 0);
+        let mut max = f64::NEG_INFINITY;
+        for (at, (w, &value)) in grid.wavelengths.iter().zip(&curve.values).enumerate() {
+            if (all || VISIBLE_NM.contains(w)) && !value.is_nan() {
+                max = max.max(value);
+                lowest = if value < lowest.0 { (value, at) } else { lowest };
+            }
+        }
+        if role.is_fraction() && max > LARGEST && !all {
+            bright += 1;
+            first_bright.get_or_insert((curve, max));
+        }
+        if lowest.0 < -NOISE * max.max(0.0) && lowest.0 < 0.0 {
+            below += 1;
+            first_below.get_or_insert((curve, lowest));
+        }
+    }
+    if let Some((curve, max)) = first_bright {
+        log.push(Warning::NotReflectances { count: bright, first: curve.told(), max });
+    }
+    if let Some((curve, (min, at))) = first_below {
+        let line = (grid.lines.len() == grid.wavelengths.len()).then(|| grid.line(at));
+        log.push(Warning::BelowZero { count: below, first: curve.told(), min, line });
     }
 }
 

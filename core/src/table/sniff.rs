@@ -105,7 +105,8 @@ pub(super) fn sniff(
     let trials = try_all(section, options, false, budget, log)?;
     let best = choose(&trials, options);
     let rows = best.map_or(0, |best| best.rows(options.orientation));
-    if rows < FEW_ROWS && options.orientation != Some(Orientation::Across) {
+    let few = if section.line > 1 { 1 } else { FEW_ROWS };
+    if rows < few && options.orientation != Some(Orientation::Across) {
         // Names, dates or remarks in rows: only what looks like wavelengths tells such a table from prose.
         let mixed = try_all(section, options, true, budget, log)?;
         let mixed: Vec<Trial> = mixed.into_iter().filter(|trial| trial.best.looks_like_passes()).collect();
@@ -190,9 +191,14 @@ fn choose<'a>(trials: &'a [Trial], options: &ReadOptions) -> Option<&'a Trial> {
     let mut best: Option<&Trial> = None;
     for trial in trials {
         let Dialect { delimiter, mark } = trial.dialect;
-        let commas_twice = matches!(delimiter, Delimiter::Comma | Delimiter::CommaSpace) && mark == DecimalMark::Comma;
         // Both uses of the comma are believed only where one is seen that does not separate.
-        let unproven = commas_twice && trial.marks == 0 && options.delimiter.is_none();
+        let unproven = match (delimiter, mark) {
+            (Delimiter::Comma, DecimalMark::Comma) => {
+                trial.quoted == 0 && options.decimal_mark != Some(DecimalMark::Comma)
+            }
+            (Delimiter::CommaSpace, DecimalMark::Comma) => trial.marks == 0 && options.delimiter.is_none(),
+            _ => false,
+        };
         let rank = |trial: &Trial| (trial.rows(options.orientation), trial.best.steady());
         if rank(trial).0 > 0 && !unproven && best.is_none_or(|best| rank(trial) > rank(best)) {
             best = Some(trial);
@@ -220,6 +226,7 @@ fn lay_across(
     orientation: Decided<Orientation>,
 ) -> Result<Layout, ReadError> {
     let across = trial.across.clone().filter(|across| across.rows > 0).ok_or(ReadError::NoNumbers)?;
+    let across = across.with_group(options.part.unwrap_or(1).saturating_sub(1));
     let rows = if across.rows == 1 { "one row".to_owned() } else { format!("{} rows", across.rows) };
     let evidence = format!("A header of {} wavelengths with {rows} below it", across.count);
     Ok(Layout {
@@ -252,7 +259,8 @@ fn lay_down(
     let commas_only = (delimiter, mark) == (Delimiter::Comma, DecimalMark::Point)
         && trial.marks == 0
         && run.filled > 2
-        && options.delimiter.is_none();
+        && options.delimiter.is_none()
+        && options.decimal_mark.is_none();
     let mut warnings = Vec::new();
     if commas_only {
         if let Some(line) = trial.padded_line {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use encoding_rs::{UTF_16BE, UTF_16LE, WINDOWS_1252};
+use encoding_rs::{SHIFT_JIS, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
 use super::{Encoding, ReadError};
 
@@ -125,10 +125,59 @@ fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
     if let Some(rest) = bytes.strip_prefix(b"\xFE\xFF") {
         return (UTF_16BE.decode_without_bom_handling(rest).0, Encoding::Utf16Be);
     }
+    match bare_utf16(bytes) {
+        Some(Encoding::Utf16Le) => return (UTF_16LE.decode_without_bom_handling(bytes).0, Encoding::Utf16Le),
+        Some(_) => return (UTF_16BE.decode_without_bom_handling(bytes).0, Encoding::Utf16Be),
+        None => {}
+    }
     let rest = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     match std::str::from_utf8(rest) {
         Ok(text) => (Cow::Borrowed(text), Encoding::Utf8),
-        Err(_) => (WINDOWS_1252.decode_without_bom_handling(rest).0, Encoding::Windows1252),
+        Err(_) => match shift_jis(rest) {
+            Some(text) => (text, Encoding::ShiftJis),
+            None => (WINDOWS_1252.decode_without_bom_handling(rest).0, Encoding::Windows1252),
+        },
+    }
+}
+
+/// Bytes that are sound Shift-JIS and hold more of its common characters than of what accented letters look like in it.
+fn shift_jis(bytes: &[u8]) -> Option<Cow<'_, str>> {
+    const FEWEST: usize = 2;
+    let (mut common, mut rare) = (0, 0);
+    let mut rest = bytes.iter();
+    while let Some(&byte) = rest.next() {
+        match byte {
+            0x81..=0x9F => {
+                common += 1;
+                rest.next();
+            }
+            0xE0..=0xFC => {
+                rare += 1;
+                rest.next();
+            }
+            0x80.. => rare += 1,
+            _ => {}
+        }
+    }
+    if common < FEWEST || common <= rare {
+        return None;
+    }
+    SHIFT_JIS.decode_without_bom_handling_and_without_replacement(bytes)
+}
+
+/// Text of two bytes for each character, most of which are of the first 256, without a byte order mark.
+fn bare_utf16(bytes: &[u8]) -> Option<Encoding> {
+    const LOOK: usize = 4096;
+    const FEWEST: usize = 8;
+    let start = &bytes[..bytes.len().min(LOOK) & !1];
+    let zeros = |from: usize| start.iter().skip(from).step_by(2).filter(|byte| **byte == 0).count();
+    let (even, odd, half) = (zeros(0), zeros(1), start.len() / 2);
+    // Padding leaves zeros in both places.
+    let only = |these: usize, others: usize| half >= FEWEST && these * 2 > half && others == 0;
+    match () {
+        () if only(odd, even) => Some(Encoding::Utf16Le),
+        () if only(even, odd) => Some(Encoding::Utf16Be),
+        () => None,
     }
 }
 

@@ -1,5 +1,6 @@
 //! One way to split lines into cells, tried on the beginning of a file.
 
+use super::bands::{self, Group};
 use super::dialect::{Cell, Dialect};
 use super::wavelengths::plausible;
 use super::{MAX_CURVES, Orientation};
@@ -231,15 +232,36 @@ pub(super) struct Across {
     pub(super) first_row: usize,
     pub(super) rows: usize,
     misses: usize,
+    /// Cells of the header.
+    pub(super) cells: usize,
+    /// Groups of columns whose names hold the wavelengths, if they do; the first is the one above.
+    pub(super) groups: Vec<Group>,
 }
 
 impl Across {
+    /// The same header for another of its groups.
+    pub(super) fn with_group(mut self, index: usize) -> Self {
+        if let Some(Group { start, count, .. }) = self.groups.get(index) {
+            (self.start, self.count) = (*start, *count);
+        }
+        self
+    }
+
     /// The columns up to the last wavelength.
     pub(super) fn width(&self) -> usize {
         self.start + self.count
     }
 
-    fn is_row(&self, shape: &Shape) -> bool {
+    fn is_row(&self, dialect: Dialect, shape: &Shape, line: &str) -> bool {
+        if !self.groups.is_empty() {
+            let mut numbers = 0;
+            let mut cells = dialect.cells(line).skip(self.start).take(self.count).map(|cell| dialect.parse(cell));
+            let numeric = cells.all(|cell| {
+                numbers += usize::from(matches!(cell, Cell::Number(_)));
+                cell != Cell::Text
+            });
+            return numeric && numbers > 0 && shape.cells >= self.width() && shape.filled <= self.cells;
+        }
         let numeric = shape.text_until <= self.start && shape.numbers > 0;
         numeric && shape.cells > self.start && shape.filled <= self.width()
     }
@@ -262,6 +284,8 @@ pub(super) struct Trial {
     across_tested: bool,
     /// Cells with the decimal mark, in rows of numbers.
     pub(super) marks: usize,
+    /// Those between quotes, which cannot separate.
+    pub(super) quoted: usize,
     /// Those of them that may be thousands.
     grouped: usize,
     /// The first row with a cell like `05`.
@@ -281,6 +305,7 @@ impl Trial {
             across: None,
             across_tested: false,
             marks: 0,
+            quoted: 0,
             grouped: 0,
             padded_line: None,
             single: 0,
@@ -291,13 +316,14 @@ impl Trial {
     /// Takes in one line that is neither blank nor a comment.
     pub(super) fn take(&mut self, number: usize, line: &str) {
         let shape = Shape::of(self.dialect, line);
-        self.take_across(number, &shape);
+        self.take_across(number, &shape, line);
         if shape.is_row(self.mixed) {
             if self.run.rows > 0 && !self.run.takes(&shape) {
                 self.run = Run::default();
             }
             self.run.push(number, &shape);
             self.marks += shape.marks;
+            self.quoted += if shape.marks > 0 && line.contains('"') { shape.marks } else { 0 };
             self.grouped += shape.grouped;
             if shape.padded {
                 self.padded_line = self.padded_line.or(Some(number));
@@ -318,26 +344,35 @@ impl Trial {
     pub(super) fn take_marked(&mut self, number: usize, line: &str) {
         let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) else { return };
         let shape = Shape::of(self.dialect, line);
-        if across.is_row(&shape) {
+        if across.is_row(self.dialect, &shape, line) {
             across.push(number);
             self.marks += shape.marks;
             self.grouped += shape.grouped;
         }
     }
 
-    fn take_across(&mut self, number: usize, shape: &Shape) {
+    fn take_across(&mut self, number: usize, shape: &Shape, line: &str) {
         let tail = &shape.tail;
         if !self.across_tested && shape.numbers >= FEWEST_ACROSS {
             self.across_tested = true;
             let header = tail.count >= FEWEST_ACROSS && tail.steady() && plausible(tail.min, tail.max, tail.fractions);
             if header {
                 let Tail { start, count, .. } = *tail;
-                self.across = Some(Across { line: number, start, count, ..Across::default() });
+                let cells = start + count;
+                self.across = Some(Across { line: number, start, count, cells, ..Across::default() });
+            }
+        } else if !self.across_tested && shape.text && shape.cells >= FEWEST_ACROSS {
+            let groups = bands::groups(self.dialect, line);
+            if let Some(&Group { start, count, .. }) = groups.first() {
+                self.across_tested = true;
+                let cells = shape.cells;
+                self.across = Some(Across { line: number, start, count, cells, groups, ..Across::default() });
             }
         } else if let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) {
-            if across.is_row(shape) {
+            if across.is_row(self.dialect, shape, line) {
                 across.push(number);
                 self.marks += shape.marks;
+                self.quoted += if line.contains('"') { shape.marks } else { 0 };
                 self.grouped += shape.grouped;
             } else {
                 across.misses += 1;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::ReadError;
+use super::{Quantity, ReadError, Role};
 
 /// Line numbers, of which the first few are kept.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -70,7 +70,7 @@ pub enum Warning {
     EmptyCurves {
         /// How many.
         count: usize,
-        /// The name of the first.
+        /// The first: its name in quotes, and its column if it has one.
         first: String,
     },
     /// Columns before the wavelengths, such as a pixel number: left out.
@@ -143,6 +143,33 @@ pub enum Warning {
         /// Where it begins.
         line: usize,
     },
+    /// Other spectra of the same samples stand beside those that were read.
+    MoreGroups {
+        /// How many groups of columns there are.
+        count: usize,
+        /// What the second is named.
+        second: String,
+    },
+    /// Numbers without a unit were read as wave numbers.
+    MaybeWavelengths,
+    /// A reflectance or a sensitivity is far below zero.
+    BelowZero {
+        /// How many curves are.
+        count: usize,
+        /// The first of them: its name in quotes, and its column if it has one.
+        first: String,
+        /// Its smallest value.
+        min: f64,
+        /// The line of that value, where each has its own.
+        line: Option<usize>,
+    },
+    /// The curves were chosen to be something that the file says they are not.
+    OtherQuantity {
+        /// What the file says they are.
+        quantity: Quantity,
+        /// What they were chosen to be.
+        role: Role,
+    },
     /// Rows of numbers below the table make no table that can be read.
     BrokenTable {
         /// Where they begin.
@@ -163,7 +190,7 @@ pub enum Warning {
     NotReflectances {
         /// How many.
         count: usize,
-        /// The name of the first.
+        /// The first: its name in quotes, and its column if it has one.
         first: String,
         /// Its largest value.
         max: f64,
@@ -192,7 +219,11 @@ impl Warning {
             | Self::MoreTables { line }
             | Self::BrokenTable { line, .. }
             | Self::CountDiffers { line, .. } => Some(*line),
+            Self::BelowZero { line, .. } => *line,
             Self::EmptyCurves { .. }
+            | Self::MoreGroups { .. }
+            | Self::MaybeWavelengths
+            | Self::OtherQuantity { .. }
             | Self::SkippedColumns { .. }
             | Self::TextColumns { .. }
             | Self::CommasOnly
@@ -207,9 +238,9 @@ impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Gaps { cells, lines } => write!(f, "{cells} missing values, {lines}: left out"),
-            Self::EmptyCurves { count: 1, first } => write!(f, "“{first}” has fewer than two values: left out"),
+            Self::EmptyCurves { count: 1, first } => write!(f, "{first} has fewer than two values: left out"),
             Self::EmptyCurves { count, first } => {
-                write!(f, "{count} curves with fewer than two values, the first “{first}”: left out")
+                write!(f, "{count} curves with fewer than two values, the first {first}: left out")
             }
             Self::SkippedColumns { wavelength_column } => {
                 write!(f, "Wavelengths stand in column {wavelength_column}: the columns before it are left out")
@@ -241,7 +272,7 @@ impl fmt::Display for Warning {
                 f.write_str("Every fraction has three digits: if the marks group thousands, the values are wrong")
             }
             Self::CommasOnly => {
-                f.write_str("No number has a decimal point: if the commas mark fractions, the columns are wrong")
+                f.write_str("No number has a decimal point: if the commas mark fractions, choose decimal commas")
             }
             Self::Averaged { name, lines } => {
                 write!(f, "{lines}: “{name}” has several values at one wavelength: their mean is taken")
@@ -249,15 +280,32 @@ impl fmt::Display for Warning {
             Self::BrokenTable { line, error } => {
                 write!(f, "line {line}: another table that cannot be read: left out ({error})")
             }
+            Self::MoreGroups { count: 2, second } => write!(f, "The columns “{second}” are another table: left out"),
+            Self::MoreGroups { count, second } => {
+                write!(f, "The columns “{second}” and {} more groups are other tables: left out", count - 2)
+            }
+            Self::MaybeWavelengths => {
+                f.write_str("Nothing names the unit of wave numbers: if they are wavelengths, choose nanometers")
+            }
+            Self::BelowZero { count, first, min, line } => {
+                if let Some(line) = line {
+                    write!(f, "line {line}: ")?;
+                }
+                match count {
+                    1 => write!(f, "{first} falls to {min}, further below zero than noise"),
+                    _ => write!(f, "{count} curves fall further below zero than noise, the first {first} to {min}"),
+                }
+            }
+            Self::OtherQuantity { quantity, role } => write!(f, "The numbers look like {quantity}, not like {role}"),
             Self::MoreTables { line } => write!(f, "line {line}: another table with spectra: left out"),
             Self::CountDiffers { line, expected, found } => {
                 write!(f, "line {line} announces {expected} values, but there are {found}")
             }
             Self::NotReflectances { count: 1, first, max } => {
-                write!(f, "“{first}” reaches {max}, more than a fraction of light can")
+                write!(f, "{first} reaches {max}, more than a fraction of light can")
             }
             Self::NotReflectances { count, first, max } => {
-                write!(f, "{count} curves reach more than a fraction of light can, the first “{first}” {max}")
+                write!(f, "{count} curves reach more than a fraction of light can, the first {first} {max}")
             }
             Self::More { count: 1 } => f.write_str("1 more warning like these"),
             Self::More { count } => write!(f, "{count} more warnings like these"),

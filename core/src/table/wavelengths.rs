@@ -92,6 +92,9 @@ const SPEED_OF_LIGHT_NM_THZ: f64 = 299_792.458;
 /// What the wavelengths may be, in nanometers: beyond what any instrument for light measures.
 const RANGE_NM: std::ops::RangeInclusive<f64> = 100.0..=20_000.0;
 
+/// Where spectrometers for the infrared, which write wave numbers, begin.
+const INFRARED_NM: std::ops::RangeInclusive<f64> = 20_000.0..=100_000.0;
+
 /// Whether numbers can be wavelengths at all: in range as nanometers, or as micrometers with fractions.
 pub(super) fn plausible(min: f64, max: f64, fractions: bool) -> bool {
     (RANGE_NM.contains(&min) && RANGE_NM.contains(&max)) || (fractions && min >= 0.2 && max <= 20.0)
@@ -124,6 +127,9 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
         WavelengthUnit::Micrometer
     } else if (2000.0..=20_000.0).contains(&min) && (3000.0..=20_000.0).contains(&max) {
         return Err(ReadError::AmbiguousUnit { line: grid.line(0), min, max });
+    } else if is_bare(grid) && min >= 350.0 && max > 3300.0 && min < 2000.0 && max <= 10_000.0 {
+        // No spectrometer for light reaches so far from there, but those for the infrared all do.
+        WavelengthUnit::Wavenumber
     } else if min >= 10_000.0 && max > 20_000.0 && max <= 50_000.0 {
         WavelengthUnit::Wavenumber
     } else {
@@ -132,11 +138,18 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     Ok(Decided::guess(unit, format!("Wavelengths run from {min} to {max}")))
 }
 
+/// Whether a table is a single curve about which nothing is said.
+fn is_bare(grid: &Grid) -> bool {
+    let named = !grid.header.names.is_empty() || !grid.header.comments.is_empty() || grid.header.mentioned.is_some();
+    grid.curves.len() == 1 && !named
+}
+
 /// Converts the wavelengths of a grid to nanometers and checks their range.
 pub(super) fn to_nanometers(grid: &mut Grid, unit: WavelengthUnit) -> Result<(), ReadError> {
     for i in 0..grid.wavelengths.len() {
         let wavelength_nm = unit.nanometers(grid.wavelengths[i]);
-        if !RANGE_NM.contains(&wavelength_nm) {
+        let infrared = unit == WavelengthUnit::Wavenumber && INFRARED_NM.contains(&wavelength_nm);
+        if !RANGE_NM.contains(&wavelength_nm) && !infrared {
             return Err(ReadError::WavelengthOutOfRange { line: grid.line(i), wavelength_nm });
         }
         grid.wavelengths[i] = wavelength_nm;

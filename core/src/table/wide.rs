@@ -1,14 +1,16 @@
 //! Reads tables whose wavelengths run across a header row: every row is a curve.
 
+use super::bands;
 use super::dialect::{Cell, Dialect};
 use super::grid::{Grid, RawCurve};
 use super::header;
+use super::reading::MAX_PARTS;
 use super::sniff::Layout;
 use super::text::{Lines, Section, comment, excerpt};
 use super::trial::Across;
 use super::warning::{LineList, Warning};
 use super::watch::Log;
-use super::{MAX_CURVES, MAX_SAMPLES, Orientation, ReadError, WavelengthUnit, words};
+use super::{Decided, MAX_CURVES, MAX_SAMPLES, Orientation, Part, ReadError, Role, WavelengthUnit, quantity, words};
 
 /// Reads the header row and the rows of a layout.
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Grid, ReadError> {
@@ -45,11 +47,34 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     }
     header.mentioned = rows.mentioned.or(header.mentioned);
     let count = rows.curves.len();
+    let group = across.groups.iter().position(|group| group.start == across.start);
+    let named = group.map(|group| &across.groups[group]);
+    let suffix = named.map_or("", |group| &*group.suffix);
     for curve in &mut rows.curves {
-        curve.unit.clone_from(&header.unit);
+        suffix.clone_into(&mut curve.label);
+        curve.unit = quantity::unit_cell(suffix).or_else(|| header.unit.clone());
     }
+    let specular = named.map(|group| &*group.prefix).filter(|prefix| words::says_specular(prefix));
+    let role = specular.map(|prefix| Decided::guess(Role::Reflectance, format!("The bands are named {prefix}")));
+    let parts = across.groups.iter().filter(|_| across.groups.len() > 1).map(|group| Part {
+        line: across.first_row,
+        name: group.prefix.clone(),
+        curves: count,
+        rows: count,
+    });
+    let parts: Vec<Part> = parts.take(MAX_PARTS).collect();
     let lines = vec![across.line];
-    Ok(Grid { wavelengths, lines, curves: rows.curves, header, label_unit, rows: count, ..Grid::default() })
+    Ok(Grid {
+        wavelengths,
+        lines,
+        curves: rows.curves,
+        header,
+        label_unit,
+        rows: count,
+        role,
+        parts,
+        ..Grid::default()
+    })
 }
 
 fn wavelengths(dialect: Dialect, line: &str, across: &Across) -> Result<(Vec<f64>, Option<WavelengthUnit>), ReadError> {
@@ -59,6 +84,12 @@ fn wavelengths(dialect: Dialect, line: &str, across: &Across) -> Result<(Vec<f64
         let broken = || ReadError::NotANumber { line: across.line, column: index + 1, text: excerpt(cell) };
         if let Cell::Number(value) = dialect.parse(cell) {
             wavelengths.push(value);
+            continue;
+        }
+        let band = Some(across).filter(|across| !across.groups.is_empty()).and_then(|_| bands::band(dialect, cell));
+        if let Some(band) = band {
+            unit = band.unit;
+            wavelengths.push(band.wavelength);
             continue;
         }
         let (value, label) = dialect.parse_label(cell).ok_or_else(broken)?;
@@ -151,7 +182,7 @@ impl<'a> Rows<'a> {
         if filled == 0 {
             return Ok(None);
         }
-        if cells < width || filled > width {
+        if cells < width || filled > self.across.cells {
             let found = if cells < width { cells } else { filled };
             let error = ReadError::UnevenRow { line: number, found, expected: width };
             return Err((error, values.iter().any(|value| !value.is_nan())));
@@ -159,7 +190,7 @@ impl<'a> Rows<'a> {
         let name = if names.0.is_empty() { names.1 } else { names.0 };
         let named = !name.is_empty();
         let name = if named { name.replace("\"\"", "\"") } else { format!("Row {}", self.curves.len() + 1) };
-        Ok(Some(RawCurve { name, named, label: String::new(), unit: None, values }))
+        Ok(Some(RawCurve { name, named, values, ..RawCurve::default() }))
     }
 
     /// Whether a line has as many cells as a row.

@@ -126,9 +126,9 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
         Quantity::Sensitivity
     } else if any(&["absorptan"]) {
         Quantity::Absorptance
-    } else if any(&["reflect", "r-factor"]) {
+    } else if any(&["reflect", "r-factor", "反射率"]) {
         Quantity::Reflectance
-    } else if any(&["transmit", "transmiss", "t-factor"]) {
+    } else if any(&["transmit", "transmiss", "t-factor", "透過率"]) {
         Quantity::Transmittance
     } else if any(&["irradian", "exitance"]) {
         Quantity::Irradiance
@@ -161,9 +161,9 @@ pub(super) fn role(text: &str) -> Option<Role> {
         || any(&["sensitiv", "responsiv", "quantum eff", "color match", "colour match", "color-match", "cone fund"])
     {
         Some(Role::Camera)
-    } else if any(&["reflect", "r-factor"]) {
+    } else if any(&["reflect", "r-factor", "反射率"]) {
         Some(Role::Reflectance)
-    } else if any(&["transmit", "transmiss", "t-factor"]) {
+    } else if any(&["transmit", "transmiss", "t-factor", "透過率"]) {
         Some(Role::Transmittance)
     } else if any(&["radian", "illuminan", "spectral power", "emission", "light source"])
         || words(&text).any(|word| matches!(word, "lux" | "cct" | "spd"))
@@ -193,12 +193,17 @@ pub(super) fn is_count(name: &str) -> bool {
         })
 }
 
+/// Whether the name of bands says how specular reflection was treated: included (SCI) or excluded (SCE).
+pub(super) fn says_specular(text: &str) -> bool {
+    words(&lower(text)).any(|word| matches!(word, "sci" | "sce" | "spin" | "spex"))
+}
+
 /// How a name points to a channel of a camera.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Channel {
-    /// By a letter, `R`.
+    /// By a letter alone, `R`.
     Letter(usize),
-    /// By a word, `red`, which can also be the color of a thing.
+    /// By a word, `red`, which can also be the color of a thing, or by a part of the name.
     Word(usize),
 }
 
@@ -207,9 +212,11 @@ pub(super) fn channel(name: &str) -> Option<Channel> {
     let name = lower(name);
     let position = |word: &str, list: &[&str]| list.iter().position(|entry| *entry == word);
     let parts = || name.split(|c: char| !c.is_alphanumeric()).filter(|part| !part.is_empty());
+    let alone = parts().count() == 1;
+    let kind = if alone { Channel::Letter } else { Channel::Word };
     parts().find_map(|part| {
         let letters = ["r", "g", "b", "x", "y", "z", "l", "m", "s", "xbar", "ybar", "zbar", "rbar", "gbar", "bbar"];
-        let letter = position(part, &letters).map(|i| Channel::Letter(i % 3));
+        let letter = position(part, &letters).map(|i| kind(i % 3));
         letter.or_else(|| position(part, &["red", "green", "blue"]).map(Channel::Word))
     })
 }

@@ -3,7 +3,8 @@
 use std::cell::Cell;
 
 use chromascope_core::table::{
-    Encoding, Family, MAX_CURVES, ReadError, ReadOptions, Reader, Table, Watch, read, read_watched,
+    Encoding, Family, MAX_CURVES, Quantity, ReadError, ReadOptions, Reader, Role, Table, Warning, Watch, read,
+    read_watched,
 };
 
 use super::{error, layouts, names, ok, samples};
@@ -180,6 +181,23 @@ fn several_lights_in_one_file() {
         body.replace("wavelength=\"410", "wavelength=\"41&#x35;")
     ));
     assert_eq!((table.curves.len(), samples(&table, 0)), (2, THREE.to_vec()));
+}
+
+#[test]
+fn lights_of_another_quantity_are_another_part() {
+    let one =
+        light("<SpectralQuantity>Transmittance</SpectralQuantity><SpectralData wavelength=\"410\">2.5</SpectralData>");
+    let (start, end) = (one.find("<SpectralDistribution>").unwrap(), one.find("</IESTM2714>").unwrap());
+    let other = one[start..end].replace("Transmittance", "Irradiance");
+    let text = format!("{}{other}</IESTM2714>", &one[..end]);
+    let first = ok(&text);
+    assert_eq!((first.curves.len(), first.reading.parts.len()), (1, 2));
+    assert!(matches!(first.warnings.as_slice(), [Warning::MoreTables { .. }]), "{:?}", first.warnings);
+    let part = |part| read(text.as_bytes(), &ReadOptions { part: Some(part), ..ReadOptions::default() });
+    let second = part(2).unwrap();
+    assert_eq!((second.curves.len(), second.role.value), (1, Role::Illuminant));
+    assert_eq!((second.reading.quantity.value, second.warnings.len()), (Quantity::Irradiance, 0));
+    assert_eq!(part(3), Err(ReadError::NoSuchPart { part: 3, parts: 2 }));
 }
 
 #[test]

@@ -88,7 +88,7 @@ fn rawtoaces() {
         "measurement_equipment": null,
         "laboratory": null,
         "document_creation_date": "2026-01-01T00:00:00Z",
-        "comments": "quantity: relative spectral sensitivity; source: made up",
+        "comments": "quantity: relative spectral sensitivity; response: per energy; source: made up",
         "license": "CC0-1.0"
     },
     "spectral_data": {
@@ -149,6 +149,7 @@ fn dcamprof() {
     "camera_name": "Made up",
     "comments": [
         "quantity: relative spectral sensitivity",
+        "response: per energy",
         "source: made up",
         "license: CC0-1.0"
     ],
@@ -175,7 +176,7 @@ fn argyll() {
     let sheet_of = Sheet { comments: &comments, created: Some("2026-01-01"), ..sheet(CAMERA, &curves) };
     let cmf = written(&sheet_of, Format::ArgyllCmf, Grid::Native);
     let wanted = "CMF\n\nDESCRIPTOR \"Made up\"\nORIGINATOR \"Chromascope\"\nCREATED \"2026-01-01\"\n\
-        # quantity: relative spectral sensitivity\n# source: made up\n# license: CC0-1.0\n\n\
+        # quantity: relative spectral sensitivity\n# response: per energy\n# source: made up\n# license: CC0-1.0\n\n\
         KEYWORD \"MEAS_TYPE\"\nMEAS_TYPE \"SENSITIVITY\"\nKEYWORD \"SPECTRAL_BANDS\"\nSPECTRAL_BANDS \"3\"\n\
         KEYWORD \"SPECTRAL_START_NM\"\nSPECTRAL_START_NM \"400.0\"\nKEYWORD \"SPECTRAL_END_NM\"\n\
         SPECTRAL_END_NM \"420.0\"\nKEYWORD \"SPECTRAL_NORM\"\nSPECTRAL_NORM \"1.0\"\n\nNUMBER_OF_FIELDS 3\n\

@@ -3,7 +3,7 @@
 use super::{CAMERA, Curves, back, bell, has, sheet, written};
 use chromascope_core::spectral::{GridSpectrum, Quantity, SpectralDistribution};
 use chromascope_core::table::write::{Content, Format, Grid, Note, Trace, canonical_csv};
-use chromascope_core::table::{Curve, Role};
+use chromascope_core::table::{Certainty, Curve, Role};
 
 const CONTENTS: [Content<'static>; 6] =
     [CAMERA, Content::Observer, Content::Reflectance, Content::Transmittance, Content::Illuminant, Content::Other];
@@ -131,6 +131,13 @@ fn what_they_are_comes_back() {
     for format in [Format::RawtoacesJson, Format::DcamprofJson] {
         let camera = back(&written(&sheet(CAMERA, &three), format, Grid::Native).text);
         assert_eq!((camera.role.value, camera.reading.camera_columns), (Role::Camera, Some([0, 1, 2])));
+    }
+    for format in [Format::RawtoacesJson, Format::DcamprofJson, Format::ArgyllCmf] {
+        let energy = back(&written(&sheet(CAMERA, &three), format, Grid::Native).text).reading.per_photon.unwrap();
+        assert_eq!((energy.value, energy.certainty), (false, Certainty::Certain), "{format}");
+        let open = Content::Camera { channels: [0, 1, 2], per_photon: None, manufacturer: None, model: None };
+        let open = back(&written(&sheet(open, &three), format, Grid::Native).text).reading.per_photon.unwrap();
+        assert_eq!(open.certainty, Certainty::Guess, "{format}");
     }
     let light = back(&written(&sheet(Content::Illuminant, one), Format::RawtoacesJson, Grid::Native).text);
     assert_eq!((light.role.value, light.curves[0].name.as_str()), (Role::Illuminant, "Made up"));

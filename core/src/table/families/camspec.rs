@@ -64,7 +64,7 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let curves = cameras.into_iter().flat_map(|(camera, channels)| {
         channels.into_iter().zip(CHANNELS).map(move |(values, channel)| {
             let name = if alone { channel.to_owned() } else { format!("{camera} {channel}") };
-            RawCurve { name, named: true, label: String::new(), unit: None, values }
+            RawCurve { name, named: true, values, ..RawCurve::default() }
         })
     });
     let why = "Three lines of 33 values under each name";

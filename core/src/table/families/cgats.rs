@@ -11,7 +11,7 @@ use super::super::grid::{Grid, RawCurve};
 use super::super::header::Header;
 use super::super::reading::MAX_PARTS;
 use super::super::sniff::Layout;
-use super::super::text::{Lines, excerpt};
+use super::super::text::{Lines, comment, excerpt};
 use super::super::watch::Log;
 use super::super::words;
 use super::super::{
@@ -25,6 +25,11 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     let mut file = File { wanted: options.part.unwrap_or(1), ..File::default() };
     let mut place = Place::Keywords;
     for (number, line) in Lines::new(text) {
+        if let Some((key, value)) = comment(line).and_then(|comment| comment.split_once(':'))
+            && key.trim().eq_ignore_ascii_case("response")
+        {
+            file.header.note("response", value.trim());
+        }
         let mut tokens = tokens::of(line);
         while let Some(token) = tokens.next() {
             log.at(token.start() as usize - text.as_ptr() as usize)?;

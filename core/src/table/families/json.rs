@@ -36,8 +36,14 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     let content = match file {
         File { spectral_data: Some(data), header, .. } => aces(text, data, &header.unwrap_or_default().0, options, log),
         File {
-            ssf_bands: Some(bands), red_ssf: Some(r), green_ssf: Some(g), blue_ssf: Some(b), camera_name, ..
-        } => camera(text, &bands, [r, g, b], camera_name.as_deref()),
+            ssf_bands: Some(bands),
+            red_ssf: Some(r),
+            green_ssf: Some(g),
+            blue_ssf: Some(b),
+            camera_name,
+            comments,
+            ..
+        } => camera(text, &bands, [r, g, b], camera_name.as_deref(), &comments.0),
         File { bands: Some(bands), spectrum: Some(values), scale, .. } => spectrum(text, &bands, values, scale),
         _ => return Err(ReadError::Unsupported { family: Family::Json }),
     };
@@ -122,6 +128,9 @@ fn aces(
     for (key, value) in comments {
         header.note(key, value);
     }
+    if let Some((_, remarks)) = comments.iter().find(|(key, _)| key == "comments") {
+        note_response(&mut header, remarks.split("; "));
+    }
     title(text, &mut header, &mut notes);
     if let Some(units) = data.units.as_deref().filter(|units| !units.is_empty()) {
         header.note("unit", units);
@@ -154,6 +163,13 @@ fn aces(
     let reader = Decided::certain(Reader::Rawtoaces, says(text, "spectral_data"));
     let part = Decided::certain(part, format!("{} groups of data, of which “main” comes first", parts.len()));
     Ok(Content { spectra, header, reader, role, notes, parts, part: Some(part) })
+}
+
+/// Keeps what remarks say about the response, in the words of this program's own files.
+fn note_response<'a>(header: &mut Header, mut remarks: impl Iterator<Item = &'a str>) {
+    if let Some(response) = remarks.find_map(|remark| remark.strip_prefix("response: ")) {
+        header.note("response", response);
+    }
 }
 
 /// The name of what was measured: a camera's maker and model, a light's type, else its description.
@@ -209,7 +225,13 @@ fn curves(rows: Vec<(String, Vec<Option<f64>>)>, names: &[String], log: &Log<'_>
     Ok(all)
 }
 
-fn camera(text: &str, bands: &[f64], curves: [Vec<f64>; 3], name: Option<&str>) -> Result<Content, ReadError> {
+fn camera(
+    text: &str,
+    bands: &[f64],
+    curves: [Vec<f64>; 3],
+    name: Option<&str>,
+    remarks: &[String],
+) -> Result<Content, ReadError> {
     let (wavelengths, note) = wavelengths(text, bands, "ssf_bands")?;
     let mut header = Header::default();
     let mut notes = vec![note];
@@ -217,6 +239,7 @@ fn camera(text: &str, bands: &[f64], curves: [Vec<f64>; 3], name: Option<&str>) 
         notes.push(Decision::new("Camera", &Decided::certain(name.to_owned(), says(text, "camera_name"))));
     }
     header.note("title", name.unwrap_or_default());
+    note_response(&mut header, remarks.iter().map(String::as_str));
     let names = [("R", "red_ssf"), ("G", "green_ssf"), ("B", "blue_ssf")];
     let mut all = Vec::with_capacity(3);
     for (values, (short, long)) in curves.into_iter().zip(names) {

@@ -104,6 +104,7 @@ pub(in super::super) fn grid(mut spectra: Vec<Spectrum>, header: Header, log: &m
         name,
         named,
         label: spectrum.label,
+        column: None,
         unit: None,
         values: onto(&wavelengths, &spectrum.samples),
     });

@@ -1,18 +1,19 @@
 //! IES TM-27: spectra of light sources in XML, one element for each sample.
 
 use super::super::header::Header;
+use super::super::reading::MAX_PARTS;
 use super::super::sniff::Layout;
 use super::super::watch::Log;
 use super::super::{
-    Decided, DecimalMark, Delimiter, MAX_CURVES, Orientation, Quantity, ReadError, Reader, Role, Warning,
-    WavelengthUnit,
+    Decided, DecimalMark, Delimiter, MAX_CURVES, Orientation, Part, Quantity, ReadError, ReadOptions, Reader, Role,
+    Warning, WavelengthUnit,
 };
 use super::Found;
 use super::spectra::{self, Sample, Spectrum};
 use super::xml::{Element, Step, Walk};
 
 /// Reads all spectra of a document. Only local names are compared: the namespace differs between editions.
-pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
+pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut walk = Walk::new(text);
     let mut content = Content::default();
     while let Some(step) = walk.next(log)? {
@@ -23,7 +24,8 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
             Step::Close(element) => content.take(&element, inside)?,
         }
     }
-    let quantity = content.leave_other_quantities(log);
+    let parts = content.parts();
+    let quantity = content.take_part(&parts, options.part, log)?;
     let Content { header, spectra: all, .. } = content;
     let first_line = all.first().and_then(|spectrum| spectrum.samples.first()).map(|sample| sample.line);
     let first_line = first_line.ok_or(ReadError::NoNumbers)?;
@@ -33,6 +35,10 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let guess = || Decided::guess(Role::Illuminant, "TM-27 is mostly used for lamps");
     grid.role = Some(said.map_or_else(guess, |(role, why)| Decided::certain(role, why)));
     grid.quantity = quantity;
+    if parts.len() > 1 {
+        grid.part = Some(Decided::guess(1, format!("The spectra are of {} quantities", parts.len())));
+        grid.parts = parts;
+    }
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "TM-27 prescribes it"));
     let dialect = (Delimiter::Elements, DecimalMark::Point);
     let layout = Layout::fixed(dialect, Orientation::Down, first_line, "TM-27 prescribes it");
@@ -93,16 +99,42 @@ impl Content {
         }
     }
 
-    /// Leaves the spectra of what the first one is of, which is returned: others are other tables.
-    fn leave_other_quantities(&mut self, log: &mut Log<'_>) -> Option<Decided<Quantity>> {
-        let first = self.spectra.first()?.label.to_lowercase();
-        let same = |spectrum: &Spectrum| spectrum.label.to_lowercase() == first;
-        let other = self.spectra.iter().find(|spectrum| !same(spectrum));
-        if let Some(line) = other.and_then(|other| other.samples.first()).map(|sample| sample.line) {
-            log.push(Warning::MoreTables { line });
-            self.spectra.retain(same);
+    /// The quantities that spectra are of, in the order of the file, each a part of it.
+    fn parts(&self) -> Vec<Part> {
+        let mut parts: Vec<Part> = Vec::new();
+        for spectrum in &self.spectra {
+            let name = spectrum.label.to_lowercase();
+            let rows = spectrum.samples.len();
+            let line = spectrum.samples.first().map_or(1, |sample| sample.line);
+            if let Some(part) = parts.iter_mut().find(|part| part.name == name) {
+                (part.curves, part.rows) = (part.curves + 1, part.rows + rows);
+            } else if parts.len() < MAX_PARTS {
+                parts.push(Part { line, name, curves: 1, rows });
+            }
         }
-        std::mem::take(&mut self.quantities).into_iter().next().flatten()
+        parts
+    }
+
+    /// Leaves the spectra of one quantity, the first if none was chosen, and returns it.
+    fn take_part(
+        &mut self,
+        parts: &[Part],
+        chosen: Option<usize>,
+        log: &mut Log<'_>,
+    ) -> Result<Option<Decided<Quantity>>, ReadError> {
+        if parts.is_empty() {
+            return Ok(None);
+        }
+        let part = chosen.unwrap_or(1);
+        let wanted = part.checked_sub(1).and_then(|at| parts.get(at));
+        let wanted = wanted.ok_or(ReadError::NoSuchPart { part, parts: parts.len() })?;
+        if let Some(other) = parts.get(1).filter(|_| chosen.is_none()) {
+            log.push(Warning::MoreTables { line: other.line });
+        }
+        let is_wanted = |spectrum: &Spectrum| spectrum.label.to_lowercase() == wanted.name;
+        let first = self.spectra.iter().position(is_wanted).unwrap_or(0);
+        self.spectra.retain(is_wanted);
+        Ok(std::mem::take(&mut self.quantities).into_iter().nth(first).flatten())
     }
 
     fn sample(&mut self, element: &Element<'_>) -> Result<(), ReadError> {

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use super::super::bands;
 use super::super::dialect::{Cell, Dialect};
 use super::super::{Curve, Table, words};
 use super::Preview;
@@ -67,6 +68,15 @@ impl Across {
                 written.push(nm);
             }
             goes_on = nm.is_some();
+        }
+        let groups = bands::groups(self.dialect, header);
+        let part = groups.len().min(table.reading.part.value).saturating_sub(1);
+        if let Some(group) = groups.get(part) {
+            self.start = group.start;
+            let cells = self.dialect.cells(header).skip(group.start).take(group.count);
+            let bands = cells.filter_map(|cell| bands::band(self.dialect, cell));
+            let unit = table.reading.wavelength_unit.value;
+            written = bands.map(|band| unit.nanometers(band.wavelength)).collect();
         }
         let mut seen = BTreeSet::new();
         self.wavelengths = written.into_iter().map(|nm| seen.insert(nm.to_bits()).then_some(nm)).collect();

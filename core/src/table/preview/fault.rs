@@ -10,6 +10,7 @@ use super::cells;
 /// The bytes of a line that an error is about; the whole line where nothing closer is known.
 pub(super) fn range(line: &str, error: &ReadError) -> Range<usize> {
     let found = match error {
+        ReadError::AsChosen { error, .. } => return range(line, error),
         ReadError::NotANumber { column, text, .. } => cell(line, *column, text),
         ReadError::Malformed { column, .. } => Some(word(line, *column)),
         _ => None,

@@ -122,7 +122,13 @@ impl<'a> Sheet<'a> {
         let own = [("quantity", self.quantity()), ("unit", self.unit().filter(|unit| *unit != "1"))];
         let own = own.iter().filter_map(|(key, value)| Some(format!("{key}: {}", text::one_line((*value)?))));
         let rest = self.comments().filter(|(key, _)| !is_license(key)).map(|(key, value)| format!("{key}: {value}"));
-        own.chain(rest).collect()
+        let response = self.energy_response().map(|response| format!("response: {response}"));
+        own.chain(response).chain(rest).collect()
+    }
+
+    /// What the sensitivities of formats for responses per energy are, if that is known of those they were made of.
+    pub(super) fn energy_response(&self) -> Option<&'static str> {
+        matches!(self.content, Content::Camera { per_photon: Some(_), .. }).then_some("per energy")
     }
 
     /// The title, or what stands for one.

@@ -15,6 +15,8 @@ pub(super) struct File {
     pub(super) header: Option<Texts>,
     pub(super) spectral_data: Option<Aces>,
     pub(super) camera_name: Option<String>,
+    #[serde(default)]
+    pub(super) comments: Remarks,
     pub(super) ssf_bands: Option<Vec<f64>>,
     pub(super) red_ssf: Option<Vec<f64>>,
     pub(super) green_ssf: Option<Vec<f64>>,
@@ -88,6 +90,52 @@ impl<'de> Deserialize<'de> for Texts {
             }
         }
         deserializer.deserialize_map(Entries)
+    }
+}
+
+/// A list of texts, or one; what is no text is left out.
+#[derive(Default)]
+pub(super) struct Remarks(pub(super) Vec<String>);
+
+impl<'de> Deserialize<'de> for Remarks {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Any;
+        impl<'de> Visitor<'de> for Any {
+            type Value = Vec<String>;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("any value")
+            }
+            fn visit_str<E: Error>(self, text: &str) -> Result<Vec<String>, E> {
+                Ok(vec![text.to_owned()])
+            }
+            fn visit_bool<E: Error>(self, _: bool) -> Result<Vec<String>, E> {
+                Ok(Vec::new())
+            }
+            fn visit_i64<E: Error>(self, _: i64) -> Result<Vec<String>, E> {
+                Ok(Vec::new())
+            }
+            fn visit_u64<E: Error>(self, _: u64) -> Result<Vec<String>, E> {
+                Ok(Vec::new())
+            }
+            fn visit_f64<E: Error>(self, _: f64) -> Result<Vec<String>, E> {
+                Ok(Vec::new())
+            }
+            fn visit_unit<E: Error>(self) -> Result<Vec<String>, E> {
+                Ok(Vec::new())
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<String>, A::Error> {
+                let mut kept = Vec::new();
+                while let Some(entry) = list.next_element::<MaybeText>()? {
+                    kept.extend(entry.0.filter(|_| kept.len() < MAX_ENTRIES));
+                }
+                Ok(kept)
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Vec<String>, A::Error> {
+                while map.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
+                Ok(Vec::new())
+            }
+        }
+        deserializer.deserialize_any(Any).map(Self)
     }
 }
 
