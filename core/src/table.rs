@@ -192,7 +192,7 @@ fn finish(
         warnings.push(Warning::MaybeWavelengths);
     }
     warnings.look(usize::MAX)?;
-    let descending = wavelengths::sort(&mut grid, &mut warnings)?;
+    let descending = wavelengths::sort(&mut grid, &mut warnings);
     let range_nm = [grid.wavelengths[0], grid.wavelengths[grid.wavelengths.len() - 1]];
     let step_nm = Steps::of(&grid.wavelengths);
     warnings.look(usize::MAX)?;

@@ -72,6 +72,9 @@ pub(super) fn error(section: Section<'_>, options: &ReadOptions) -> ReadError {
     ReadError::NoNumbers
 }
 
+/// Prose that begins with a number has more words behind it than a row has texts.
+const MOST_CELLS: usize = 3;
+
 fn nearly(line: &str, options: &ReadOptions) -> Option<Nearly> {
     let chosen = options.delimiter.is_some() || options.decimal_mark.is_some();
     let shapes = WAYS.map(|(delimiter, mark)| {
@@ -92,8 +95,6 @@ fn nearly(line: &str, options: &ReadOptions) -> Option<Nearly> {
     if let Some(between) = between(line) {
         return Some(Nearly::Between(between));
     }
-    // Prose that begins with a number has more words behind it than a row has texts.
-    const MOST_CELLS: usize = 3;
     if shapes.iter().any(|(count, numbers, leads)| *leads && *numbers <= 1 && (2..=MOST_CELLS).contains(count)) {
         return Some(Nearly::TextAfter);
     }

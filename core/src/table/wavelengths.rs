@@ -158,7 +158,7 @@ pub(super) fn to_nanometers(grid: &mut Grid, unit: WavelengthUnit) -> Result<(),
 }
 
 /// Brings a grid into ascending order without repeats. Returns whether it was descending.
-pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> Result<bool, ReadError> {
+pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> bool {
     let wavelengths = &grid.wavelengths;
     let falls = wavelengths.windows(2).filter(|pair| pair[1] < pair[0]).count();
     let rises = wavelengths.windows(2).filter(|pair| pair[1] > pair[0]).count();
@@ -174,7 +174,7 @@ pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> Result<bool, ReadError
         grid.reorder(&order);
     }
     merge_repeats(grid, log);
-    Ok(descending)
+    descending
 }
 
 /// Leaves one of rows that are the same, and the mean of rows that differ at one wavelength.

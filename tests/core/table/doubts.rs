@@ -88,7 +88,7 @@ fn values_far_below_zero_are_told_with_their_line() {
 
 #[test]
 fn a_chosen_role_has_its_own_quantity() {
-    let rows: String = (0..20).map(|i| format!("{},{}\n", 400 + 10 * i, 5000 + i)).collect();
+    let rows = (0..20).map(|i| format!("{},{}\n", 400 + 10 * i, 5000 + i)).collect::<Vec<_>>().concat();
     let options = ReadOptions { role: Some(Role::Reflectance), ..ReadOptions::default() };
     let table = read(format!("nm,counts\n{rows}").as_bytes(), &options).unwrap();
     assert_eq!(table.reading.quantity.value, Quantity::Reflectance);

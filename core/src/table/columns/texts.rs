@@ -55,7 +55,8 @@ impl Texts {
     /// A curve with the unit that stands beside each of its values, where the header names none.
     pub(super) fn united(&self, mut curve: RawCurve, column: usize) -> RawCurve {
         if let Some(unit) = self.unit(column).filter(|_| curve.unit.is_none()) {
-            curve.label = format!("{} {unit}", curve.label).trim_start().to_owned();
+            let before = if curve.label.is_empty() { "" } else { " " };
+            curve.label = format!("{}{before}{unit}", curve.label);
             curve.unit = Some(unit.to_owned());
         }
         curve
