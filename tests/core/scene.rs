@@ -89,3 +89,12 @@ fn the_largest_vertices_have_bounds_and_unevenness() {
     assert!(mesh.bounds().center().is_finite() && mesh.bounds().radius.is_finite());
     assert!(vertex_deviations(&mesh).iter().all(|d| d.is_finite()));
 }
+
+#[test]
+fn a_direction_of_any_size_has_a_length_of_1() {
+    for size in [1e-320, 1e-161, 1e-150, 1.0, 1e160, 1e300] {
+        let light = Lighting::far(DVec3::new(0.6 * size, 0.0, 0.8 * size), 0.0).unwrap();
+        assert!((light.place().length() - 1.0).abs() < 1e-14, "{size}");
+    }
+    assert!(Lighting::far(DVec3::ZERO, 0.0).is_err());
+}

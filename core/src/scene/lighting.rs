@@ -66,7 +66,7 @@ impl Lighting {
         if !(0.0..=0.5).contains(&angular_radius) {
             return Err(LightingError::AngularRadius);
         }
-        match (distance, place.try_normalize()) {
+        match (distance, unit(place)) {
             (Distance::Far, None) => Err(LightingError::NoDirection),
             (Distance::Far, Some(place)) => Ok(Self { distance, place, angular_radius }),
             (Distance::Near, _) => Ok(Self { distance, place, angular_radius }),
@@ -104,6 +104,13 @@ impl Lighting {
     }
 }
 
+/// The same direction with a length of 1; none without direction.
+fn unit(v: DVec3) -> Option<DVec3> {
+    let largest = v.abs().max_element();
+    // Beyond these its squares leave the range of a double.
+    if (1e-140..1e140).contains(&largest) { v.try_normalize() } else { (v / largest).try_normalize() }
+}
+
 /// A light in the mesh's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PlacedLight {
@@ -120,7 +127,7 @@ impl PlacedLight {
             Self::Direction(direction) => Some((direction, f64::INFINITY)),
             Self::Point(place) => {
                 let way = place - point;
-                Some((way.try_normalize()?, way.length()))
+                Some((unit(way)?, way.length()))
             }
         }
     }
