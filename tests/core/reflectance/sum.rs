@@ -144,3 +144,13 @@ proptest! {
         prop_assert!(far <= near + 1e-13 + conditioning(near), "{} {}", near, far);
     }
 }
+
+#[test]
+fn the_logarithm_of_a_subnormal_roughness_is_a_number() {
+    for g in [5e-324, 1.6e-322, 1e-310] {
+        for b in [0.0, 1500.0, 5e4] {
+            let ln = ln_diffuse_sum(g, b, Precision::Full);
+            assert!(ln.is_finite() && ln < -700.0, "g {g}, b {b}: {ln}");
+        }
+    }
+}

@@ -27,7 +27,8 @@ pub(super) fn sum(peak: &Peak, depth: f64) -> (f64, f64) {
     // Between two numbers the larger term, where b decides: t_{n+1} against t_n goes as m² against n (n + 1).
     let floor = m as usize;
     let top = (floor + usize::from(m * m > (floor * (floor + 1)) as f64)).clamp(1, LN_FACTORIALS.len());
-    let ln_ratio = (g / 64.0).ln();
+    // The 64th part of a subnormal number may be 0.
+    let ln_ratio = if g >= f64::MIN_POSITIVE * 64.0 { (g / 64.0).ln() } else { g.ln() - 6.0 * LN_2 };
     let (n0, h0) = (top as f64, LN_FACTORIALS[top - 1]);
     let b0 = b / n0;
     let count = ((last - first) / stride + 1).next_multiple_of(LANES).min(MOST);
