@@ -20,6 +20,7 @@ mod reflectance;
 mod render;
 mod scene;
 mod spectral;
+mod stress;
 mod support;
 mod table;
 mod table_families;
