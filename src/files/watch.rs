@@ -124,7 +124,9 @@ impl Watch {
             // What was put there before it was watched counts as written just now.
             let within: Vec<PathBuf> =
                 self.files.iter().filter(|file| file.parent() == Some(&folder) && file.is_file()).cloned().collect();
-            within.into_iter().for_each(|file| self.wait_for(file, now));
+            for file in within {
+                self.wait_for(file, now);
+            }
             self.lost.remove(&folder);
             self.folders.insert(folder);
         }

@@ -91,7 +91,13 @@ fn what_you_see(ui: &mut Ui) {
         "To diagram: Observer. CIE observers directly; all others through a 3×3 matrix, fitted to the named observer over 190 \
          training reflectances under the chosen light so that white stays white. Then everything can be compared.",
         "Hover to read, click to keep, Esc to let go. Drop files anywhere, or paste numbers: spectra and camera sensitivities \
-         as text, with any delimiter. What was decided on reading is shown and can be changed.",
+         as text, with any delimiter. What was decided on reading is shown and can be changed. One file is put to use as what it \
+         is; of several at once cameras are put on show, and light and patches stay.",
+        "Import. Before each file stands a mark: a dot, read; a ring, read with guesses; a diamond, read with guesses that nobody \
+         has looked at; a dash, not used; a triangle, not read. In the text wavelengths are underlined, names lie on a ground, \
+         units are slanted; what is not used, and curves that are left out, are pale, and rows left out are struck through. \
+         What is tried on a file stays with it until it can be read so, or until Forget choices. F6 leads to the files, the \
+         switches and the curves; arrows move there, Enter takes.",
     ] {
         ui.label(paragraph);
         ui.add_space(2.0 * UNIT);

@@ -32,7 +32,7 @@ fn go_to(window: &mut Window, stop: Stop) {
 
 /// What has the keyboard, in words.
 fn focus(window: &Window) -> String {
-    let found = window.query_all_by(|node| node.is_focused()).last();
+    let found = window.query_all_by(|node| node.is_focused() && node.label().is_some()).last();
     found.and_then(|node| node.accesskit_node().label()).unwrap_or_default()
 }
 

@@ -299,7 +299,7 @@ fn a_pipe_with_a_name_is_refused_and_standard_input_is_read_by_any_name() {
         let mut input = child.stdin.take().unwrap();
         if name == "-" {
             // Who waits is told so.
-            std::thread::sleep(std::time::Duration::from_millis(3000));
+            std::thread::sleep(std::time::Duration::from_secs(3));
         }
         input.write_all(LEAF.as_bytes()).unwrap();
         drop(input);
