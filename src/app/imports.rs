@@ -199,6 +199,26 @@ impl ChromascopeApp {
         let before = self.history.document().own.clone();
         go(&mut self.history);
         self.view.import.follow_names(&before, &self.history.document().own);
+        self.follow_selection(&before);
+    }
+
+    /// Where a step made a set of the file on show, or took the set away, the same contents stay on show.
+    fn follow_selection(&mut self, before: &[Shared<OwnSet>]) {
+        let own = &self.history.document().own;
+        let now = match &self.view.import.selected {
+            Some(ImportItem::Set(name)) if !own.iter().any(|set| set.name == *name) => {
+                let gone = before.iter().find(|set| set.name == *name).and_then(|set| set.fingerprint);
+                gone.filter(|file| self.opened.file(*file).is_some()).map(ImportItem::File)
+            }
+            Some(ImportItem::File(file)) => {
+                let made = own.iter().find(|set| set.fingerprint == Some(*file));
+                made.map(|set| ImportItem::Set(set.name.clone()))
+            }
+            _ => None,
+        };
+        if let Some(now) = now {
+            self.view.import.select(now);
+        }
     }
 
     /// Goes one step back or forward. What was said of a step that is taken back is no longer so.

@@ -9,14 +9,22 @@ use chromascope_core::query::Shared;
 /// So many cameras at once have a color and a marker of their own.
 pub const PLACES: usize = 8;
 
+/// What has a name already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holder {
+    /// Another own set.
+    Own,
+    /// A built-in set of the same kind.
+    BuiltIn,
+}
+
 impl Document {
-    /// What holds a name that an own set of a kind is to have: `built-in` or `yours`; none if it is free. `except` is the place
-    /// of the set itself.
-    pub fn holder_of(&self, kind: Kind, name: &str, except: Option<usize>) -> Option<&'static str> {
+    /// What has a name that an own set of a kind is to have; none if it is free. `except` is the place of the set itself.
+    pub fn holder_of(&self, kind: Kind, name: &str, except: Option<usize>) -> Option<Holder> {
         let own = self.own.iter().enumerate().any(|(index, set)| Some(index) != except && set.name == name);
         match (own, is_built_in(kind, name)) {
-            (true, _) => Some("yours"),
-            (false, true) => Some("built-in"),
+            (true, _) => Some(Holder::Own),
+            (false, true) => Some(Holder::BuiltIn),
             (false, false) => None,
         }
     }
@@ -28,7 +36,7 @@ impl Document {
         let marked = || format!("{wanted} (own)");
         match holder(wanted) {
             None => return wanted.to_owned(),
-            Some("built-in") if holder(&marked()).is_none() => return marked(),
+            Some(Holder::BuiltIn) if holder(&marked()).is_none() => return marked(),
             Some(_) => {}
         }
         let names = (2..).map(|number| format!("{wanted} ({number})"));

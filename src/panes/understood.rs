@@ -182,7 +182,8 @@ fn list(
                     }
                 })
                 .response;
-            if clicked.is_some() || keys::first(ui) {
+            let left = keys::closed(ui, response.id, ComboBox::is_open(ui.ctx(), response.id));
+            if clicked.is_some() || left || keys::first(ui) {
                 response.request_focus();
             }
             let label = format!("{words}: {}", closed.words());

@@ -123,6 +123,20 @@ fn the_selection_follows_a_set_to_its_new_name_and_back() {
 }
 
 #[test]
+fn what_is_on_show_stays_when_a_set_comes_and_goes() {
+    let mut window = window();
+    drop_file(&mut window, "a.csv", CAMERA);
+    drop_file(&mut window, "b.csv", LEAF);
+    let file = own(&window)[1].fingerprint.map(ImportItem::File);
+    assert_eq!(selected(&window), Some(set("b")));
+    undo(&mut window);
+    assert_eq!(selected(&window), file);
+    window.state_mut().push(Command::Redo);
+    settle(&mut window);
+    assert_eq!(selected(&window), Some(set("b")));
+}
+
+#[test]
 fn several_files_at_once_leave_light_and_patches() {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in [("a.csv", CAMERA), ("b.csv", LAMP), ("c.csv", LEAF), ("d.csv", BROKEN), ("e.csv", "")] {

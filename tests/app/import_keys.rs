@@ -67,6 +67,10 @@ fn files_switches_and_curves_are_reached_and_changed_by_keys_alone() {
     until(&mut window, "a role", |app| app.history().document().own[1].role == Kinds::Illuminant);
     assert!(focus(&window).starts_with("This is a: "), "the list has the keyboard again: {}", focus(&window));
 
+    press(&mut window, Key::Enter);
+    press(&mut window, Key::Escape);
+    assert!(focus(&window).starts_with("This is a: "), "a list that is left: {}", focus(&window));
+
     go_to(&mut window, Stop::Picker);
     assert_eq!(focus(&window), "leaf");
     press(&mut window, Key::ArrowDown);

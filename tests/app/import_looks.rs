@@ -139,3 +139,16 @@ fn notes_are_led_to_where_they_are_out_of_sight() {
     assert!(note.into_iter().any(inside), "the note is in sight");
     assert!(says(&window, "Decided on reading"));
 }
+
+#[test]
+fn the_marks_before_files_have_a_legend() {
+    let mut window = open([1280.0, 800.0], egui::Theme::Dark);
+    drop_file(&mut window, "leaf.csv", "nm;leaf\n400;5,5\n500;10,5\n600;20,5\n700;50,5\n");
+    let all = ["read, with guesses that nobody has looked at", "not used", "not read"];
+    assert!(all.iter().all(|words| !says(&window, words)));
+    window.get_by_role_and_label(Role::Label, "1 file").hover();
+    for _ in 0..60 {
+        window.run_steps(1);
+    }
+    assert!(all.iter().all(|words| says(&window, words)));
+}

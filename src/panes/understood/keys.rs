@@ -16,6 +16,16 @@ pub(super) fn first(ui: &Ui) -> bool {
     ui.data_mut(|data| data.remove_temp::<bool>(first_switch())).unwrap_or(false)
 }
 
+/// Whether a list closed since the last frame without a click, which would have been meant for what was clicked.
+pub(super) fn closed(ui: &Ui, list: Id, open: bool) -> bool {
+    let key = list.with("was open");
+    let was: bool = ui.data(|data| data.get_temp(key)).unwrap_or(false);
+    if was != open {
+        ui.data_mut(|data| data.insert_temp(key, open));
+    }
+    was && !open && !ui.input(|input| input.pointer.any_click())
+}
+
 /// The step that arrows make in this frame.
 pub(super) fn step(ui: &Ui) -> isize {
     ui.input(|input| isize::from(input.key_pressed(Key::ArrowDown)) - isize::from(input.key_pressed(Key::ArrowUp)))

@@ -7,6 +7,7 @@ use super::caption;
 use crate::action::{Action, OwnAction};
 use crate::catalog::{Entry, Kind};
 use crate::document::own::OwnSet;
+use crate::document::uses::Holder;
 use crate::panes::PaneContext;
 use crate::thing::Thing;
 
@@ -25,8 +26,8 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
     field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Name of the set"));
     let sentence = match holder(text.trim()) {
         None => "",
-        Some("yours") => "Another set of yours has this name.",
-        Some(_) => "A built-in set has this name; take another, so that the two are told apart.",
+        Some(Holder::Own) => "Another set of yours has this name.",
+        Some(Holder::BuiltIn) => "A built-in set has this name; take another, so that the two are told apart.",
     };
     if !sentence.is_empty() {
         ui.label(RichText::new(sentence).color(theme.error));
