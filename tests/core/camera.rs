@@ -341,3 +341,12 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn an_observer_whose_luminance_is_nothing_beside_the_rest_is_refused() {
+    let curve = |value: f64| SpectralDistribution::new(vec![380.0, 780.0], vec![value; 2]).unwrap();
+    let curves = [curve(1e100), curve(1e-250), curve(1.0)];
+    let observer = Sensor::new(Primaries::Xyz, curves, Response::PerEnergy).unwrap();
+    let answer = Rendering::new(&observer, &GridSpectrum::constant(1.0), White::UNITY, Way::Paper);
+    assert_eq!(answer, Err(NoRendering::BlindToLight { channel: 1 }));
+}

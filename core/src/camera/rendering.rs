@@ -164,6 +164,10 @@ fn direct(sensor: &Sensor, light: &GridSpectrum) -> Result<Rendering, NoRenderin
     let integrals = DVec3::from_array(sensor.integrate(light.values()));
     let divisor = DVec3::splat(y);
     let white = Xyz::from_vector(integrals / divisor);
+    // Beside the other two there is no Y.
+    if !white.to_vector().is_finite() {
+        return Err(NoRendering::BlindToLight { channel: 1 });
+    }
     Ok(Rendering {
         white: DVec3::ONE,
         white_integrals: divisor,

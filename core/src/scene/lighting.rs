@@ -127,7 +127,9 @@ impl PlacedLight {
             Self::Direction(direction) => Some((direction, f64::INFINITY)),
             Self::Point(place) => {
                 let way = place - point;
-                Some((unit(way)?, way.length()))
+                let (direction, length) = (unit(way)?, way.length());
+                // The squares of the nearest and furthest leave the range of a double, their product with the direction does not.
+                Some((direction, if length.is_normal() { length } else { way.dot(direction) }))
             }
         }
     }
