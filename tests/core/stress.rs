@@ -8,6 +8,8 @@
 //! ```
 //! What fails is made as plain as it can be and printed with its seed; `CHROMASCOPE_WALK=name` walks one function alone.
 
+#![allow(clippy::disallowed_types, reason = "a run on demand says how long a case takes")]
+
 mod color;
 mod double;
 mod draw;

@@ -9,7 +9,7 @@ pub(super) struct Double {
     low: f64,
 }
 
-pub(super) const LN_2: Double = Double { high: 0.693_147_180_559_945_3, low: 2.319_046_813_846_299_6e-17 };
+pub(super) const LN_2: Double = Double { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
 /// ln 2π.
 pub(super) const LN_TAU: Double = Double { high: 1.837_877_066_409_345_6, low: -7.756_588_316_134_483e-17 };
 /// π/2.

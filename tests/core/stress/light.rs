@@ -78,7 +78,9 @@ fn range(&[from, to, count, ..]: &Case, v: &mut Verdict) {
     v.holds("another first", count == 0 || all.first() == Some(&from));
     v.holds("another last", count < 2 || all.last() == Some(&to));
     let (low, high) = (from.min(to).get(), from.max(to).get());
-    all.iter().for_each(|t| v.error((low / t.get() - 1.0).max(t.get() / high - 1.0).max(0.0)));
+    for t in all {
+        v.error((low / t.get() - 1.0).max(t.get() / high - 1.0).max(0.0));
+    }
 }
 
 fn draw_body(d: &mut Draw) -> Case {

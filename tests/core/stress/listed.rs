@@ -186,8 +186,8 @@ fn public() -> BTreeSet<String> {
     for path in files {
         let relative = path.strip_prefix(&base).unwrap().with_extension("");
         let name = relative.to_str().unwrap().replace('\\', "/");
-        let elsewhere = |folder: &&str| name == **folder || name.starts_with(&format!("{folder}/"));
-        if !ELSEWHERE.iter().any(|folder| elsewhere(&folder)) {
+        let elsewhere = |folder: &str| name == folder || name.starts_with(&format!("{folder}/"));
+        if !ELSEWHERE.iter().any(|folder| elsewhere(folder)) {
             found.extend(functions(&name, &fs::read_to_string(&path).unwrap()));
         }
     }

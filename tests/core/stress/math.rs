@@ -166,11 +166,13 @@ fn measure(key: f64, size: f64, shape: f64, kind: f64) -> ([f64; 60], [f64; 60])
 }
 
 /// Moments of a rule against those of the measure, over Legendre-like powers of t in −1…1, relative to all of the mass.
-fn moments(rule: (&[f64], &[f64]), points: &[f64], masses: &[f64], degree: usize, v: &mut Verdict) {
+fn moments(rule: (&[f64], &[f64]), points: &[f64], masses: &[f64], degree: u32, v: &mut Verdict) {
     let total: f64 = masses.iter().map(|m| m.abs()).sum();
     let unit = |nm: f64| (nm - 580.0) / 200.0;
-    for power in 0..=degree as i32 {
-        let sum = |x: &[f64], w: &[f64]| x.iter().zip(w).map(|(x, w)| w / total * unit(*x).powi(power)).sum::<f64>();
+    for power in 0..=degree {
+        let sum = |x: &[f64], w: &[f64]| {
+            x.iter().zip(w).map(|(x, w)| w / total * unit(*x).powi(power.cast_signed())).sum::<f64>()
+        };
         if total > 0.0 {
             v.error((sum(rule.0, rule.1) - sum(points, masses)).abs());
         }
@@ -185,7 +187,7 @@ fn gauss(&[key, count, size, shape, kind, ..]: &Case, v: &mut Verdict) {
     v.all_finite(rule.nodes.iter().chain(&rule.weights).copied());
     v.holds("a weight below 0", rule.weights.iter().all(|w| *w >= 0.0));
     v.holds("a node outside", rule.nodes.iter().all(|x| (379.999..=780.001).contains(x)));
-    moments((&rule.nodes, &rule.weights), &points, &positive, 2 * n - 1, v);
+    moments((&rule.nodes, &rule.weights), &points, &positive, 2 * n as u32 - 1, v);
 }
 
 fn interpolatory(&[key, count, size, shape, kind, ..]: &Case, v: &mut Verdict) {
@@ -195,7 +197,7 @@ fn interpolatory(&[key, count, size, shape, kind, ..]: &Case, v: &mut Verdict) {
     let rule = interpolatory_rule(&nodes, &points, &masses);
     v.all_finite(rule.weights.iter().copied());
     if !nodes.is_empty() {
-        moments((&rule.nodes, &rule.weights), &points, &masses, nodes.len() - 1, v);
+        moments((&rule.nodes, &rule.weights), &points, &masses, nodes.len() as u32 - 1, v);
     }
 }
 

@@ -44,7 +44,7 @@ fn reference(g: f64, b: f64) -> Double {
         (low, high) = (high, 2.0 * high);
     }
     while high - low > 1.0 {
-        let middle = ((low + high) / 2.0).floor();
+        let middle = f64::midpoint(low, high).floor();
         if ratio(middle) >= 1.0 {
             low = middle;
         } else {

@@ -82,7 +82,7 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    fn with(mut self, other: Self) -> Self {
+    fn with(mut self, other: &Self) -> Self {
         self.cases += other.cases;
         self.refused += other.refused;
         self.subnormal += other.subnormal;
@@ -107,7 +107,7 @@ impl Walk {
             .into_par_iter()
             .map(|run| self.part(seed, run * RUN..cases.min((run + 1) * RUN)))
             .collect();
-        runs.into_iter().fold(Tally::default(), Tally::with)
+        runs.iter().fold(Tally::default(), Tally::with)
     }
 
     fn part(&self, seed: u64, indices: std::ops::Range<u64>) -> Tally {
