@@ -1,0 +1,179 @@
+//! The kernels: what every frame, every chart and every file is made of.
+
+use std::fmt::Write as _;
+use std::hint::black_box;
+use std::sync::Arc;
+
+use chromascope_core::camera::rendering::{raw, under_light};
+use chromascope_core::camera::{LocusEvaluator, Rendering, Way, White};
+use chromascope_core::colorimetry::{Lab, Uv60, delta_e_2000};
+use chromascope_core::light::PlanckianLocus;
+use chromascope_core::math::dot::dot;
+use chromascope_core::reflectance::{Precision, Reading, Surface, diffuse_sum, wavelength_power};
+use chromascope_core::render::diffuse::{by_moments, by_nodes, rough_basis};
+use chromascope_core::render::{
+    CameraImage, Development, DiffuseTable, GeometryImage, Measure, Quality, RasterSize, ShadingImage, ShadowTree,
+    Shadows, Stop, Visibility, develop,
+};
+use chromascope_core::scene::{Lighting, SUN_RADIUS, Viewpoint, shapes};
+use chromascope_core::spectral::{GridSpectrum, Quantity, Sensor, SpectralDistribution};
+use chromascope_core::table::{ReadOptions, read};
+use chromascope_core::units::Kelvin;
+use glam::DVec3;
+
+use crate::Work;
+use crate::library::{CHART, CONSTANTS, equal_energy, patches, sensor, text};
+
+/// One kernel by its name.
+pub(crate) struct Kernel {
+    pub(crate) name: &'static str,
+    /// How often it runs where it is timed or counted.
+    pub(crate) count: u64,
+    /// Makes what it needs.
+    pub(crate) ready: fn() -> Work,
+}
+
+/// The kernel that times are shown beside.
+pub(crate) const BASELINE: &str = "dot_401";
+
+pub(crate) const KERNELS: &[Kernel] = &[
+    Kernel { name: "dot_401", count: 10_000, ready: dot_401 },
+    Kernel { name: "sum_direct", count: 10_000, ready: || sum(5.0, 7.0) },
+    Kernel { name: "sum_saddle", count: 10_000, ready: || sum(1e3, 2e3) },
+    Kernel { name: "integral_by_nodes", count: 2000, ready: nodes },
+    Kernel { name: "integral_by_moments", count: 10_000, ready: moments },
+    Kernel { name: "integral_by_table", count: 10_000, ready: table },
+    Kernel { name: "table_filled", count: 1, ready: filled },
+    Kernel { name: "locus_evaluator", count: 10_000, ready: || locus(false) },
+    Kernel { name: "locus_sum", count: 500, ready: || locus(true) },
+    Kernel { name: "locus_rules", count: 2, ready: rules },
+    Kernel { name: "chart_24_patches", count: 500, ready: chart },
+    Kernel { name: "delta_e_2000", count: 5000, ready: difference },
+    Kernel { name: "nearest_black_body", count: 5000, ready: nearest },
+    Kernel { name: "sprague_81_to_401", count: 200, ready: sprague },
+    Kernel { name: "csv_4000_samples", count: 2, ready: csv },
+    Kernel { name: "sphere_96", count: 2, ready: sphere },
+];
+
+const CAMERA: &str = "cameras/canon_eos_10d.csv";
+const OBSERVER: &str = "observers/cie_1931_2deg.csv";
+
+fn camera() -> Sensor {
+    sensor(&text(CAMERA))
+}
+
+fn dot_401() -> Work {
+    let a: Vec<f64> = (0..401).map(|i| f64::from(i) * 0.01).collect();
+    let b = a.clone();
+    Box::new(move || dot(black_box(&a), black_box(&b)))
+}
+
+fn sum(g: f64, b: f64) -> Work {
+    Box::new(move || diffuse_sum(black_box(g), black_box(b), Precision::Full))
+}
+
+/// The camera under equal energy before a gray.
+fn measure() -> (Rendering, Measure) {
+    let (camera, light) = (camera(), equal_energy());
+    let rendering = Rendering::new(&camera, &light, White::UNITY, Way::Paper).unwrap();
+    let power = wavelength_power(Reading::Radiometric);
+    let measure = Measure::new(&camera, &light, &GridSpectrum::constant(0.5), rendering.white_integrals, power);
+    (rendering, measure)
+}
+
+fn nodes() -> Work {
+    let (_, measure) = measure();
+    Box::new(move || by_nodes(measure.fine(), black_box(10.0), black_box(3.0), Precision::Fine)[1])
+}
+
+fn moments() -> Work {
+    let (_, measure) = measure();
+    Box::new(move || by_moments(measure.moments(), &rough_basis(black_box(400.0), black_box(3.0)))[1])
+}
+
+fn table() -> Work {
+    let table = DiffuseTable::new(&measure().1);
+    Box::new(move || table.at(black_box(10.0), black_box(3.0))[1])
+}
+
+fn filled() -> Work {
+    let (_, measure) = measure();
+    Box::new(move || DiffuseTable::new(black_box(&measure)).at(1.0, 1.0)[1])
+}
+
+fn locus(by_sum: bool) -> Work {
+    let camera = Arc::new(camera());
+    let evaluator = if by_sum { LocusEvaluator::by_sum } else { LocusEvaluator::new }(camera, CONSTANTS);
+    let t = Kelvin::new(5500.0).unwrap();
+    Box::new(move || evaluator.raw(black_box(t))[1])
+}
+
+fn rules() -> Work {
+    let camera = Arc::new(camera());
+    let t = Kelvin::new(5500.0).unwrap();
+    Box::new(move || LocusEvaluator::new(Arc::clone(&camera), CONSTANTS).raw(t)[1])
+}
+
+/// From reflectances to L*a*b*, the camera's product with the light made once.
+fn chart() -> Work {
+    let (patches, rendering) = (patches(CHART), measure().0);
+    let product = under_light(&camera(), &equal_energy());
+    Box::new(move || {
+        let lightness = black_box(&patches).patches().iter().map(|patch| {
+            let signals = rendering.patch_signals(raw(&product, patch.grid.values()).to_array());
+            rendering.lab(rendering.xyz(signals)).map_or(0.0, |lab| lab.l)
+        });
+        lightness.sum()
+    })
+}
+
+fn difference() -> Work {
+    let (a, b) = (Lab { l: 50.0, a: 2.5, b: -80.0 }, Lab { l: 58.0, a: 24.0, b: 15.0 });
+    Box::new(move || delta_e_2000(black_box(a), black_box(b)))
+}
+
+fn nearest() -> Work {
+    let locus = PlanckianLocus::new(&sensor(&text(OBSERVER)), CONSTANTS).unwrap();
+    let color = Uv60 { u: 0.21, v: 0.33 };
+    Box::new(move || locus.cct(black_box(color)).map_or(0.0, |cct| cct.temperature.get()))
+}
+
+fn sprague() -> Work {
+    let nm: Vec<f64> = (0..81).map(|i| 380.0 + 5.0 * f64::from(i)).collect();
+    let values = nm.iter().map(|nm| 0.5 + 0.4 * (nm / 40.0).sin()).collect();
+    let spectrum = SpectralDistribution::new(nm, values).unwrap();
+    Box::new(move || GridSpectrum::resample(black_box(&spectrum), Quantity::Reflectance).values()[200])
+}
+
+fn csv() -> Work {
+    let mut file = String::from("wavelength (nm),reflectance\n");
+    for i in 0..4000 {
+        let nm = 380.0 + 0.1 * f64::from(i);
+        writeln!(file, "{nm:.1},{:.6}", 0.5 + 0.4 * (nm / 40.0).sin()).unwrap();
+    }
+    Box::new(move || {
+        let table = read(black_box(file.as_bytes()), &ReadOptions::default()).unwrap();
+        table.curves.len() as f64
+    })
+}
+
+/// Every stage from the mesh to pixels, the mesh's tree and the camera's table made once.
+fn sphere() -> Work {
+    let mesh = shapes::sphere(2000);
+    let tree = ShadowTree::new(&mesh);
+    let (rendering, measure) = measure();
+    let table = DiffuseTable::new(&measure);
+    let surface = Surface::new(1e-6, 10e-6, 50e-6, 50e-6, 1.5).unwrap();
+    let lighting = Lighting::far(DVec3::new(0.5, 0.6, 0.8), SUN_RADIUS).unwrap();
+    let viewpoint = Viewpoint::new(0.3, 0.2, 3.0, 0.7).unwrap();
+    Box::new(move || {
+        let (size, stop) = (RasterSize::new(96, 96), Stop::NEVER);
+        let seen = Visibility::new(&mesh, viewpoint.eye(mesh.bounds()), size, &stop).unwrap();
+        let geometry = GeometryImage::new(&mesh, &seen, &lighting, Some((&tree, Shadows::Full)), &stop).unwrap();
+        let shading =
+            ShadingImage::new(Arc::new(geometry), surface, Reading::Radiometric, Quality::Full, &stop).unwrap();
+        let image = CameraImage::new(&shading, &measure, Some(&table), &stop).unwrap();
+        let development = Development::new(&rendering, 1.0, None);
+        develop(&image, &development, &stop).unwrap().rgba.iter().map(|&v| f64::from(v)).sum()
+    })
+}
