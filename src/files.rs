@@ -322,6 +322,13 @@ pub fn reason(error: &io::Error) -> String {
     text[..end].to_lowercase()
 }
 
+/// The processor's name, where the system keeps it in a file.
+pub fn processor() -> Option<String> {
+    let facts = fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = facts.lines().find(|line| line.starts_with("model name"))?;
+    Some(line.split_once(": ")?.1.trim().to_owned())
+}
+
 /// Writes a file whole or not at all: beside it first, then moved into its place.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));

@@ -12,6 +12,7 @@
 
 pub mod action;
 pub mod app;
+pub mod bench;
 pub mod catalog;
 pub mod cli;
 pub mod command;

@@ -1,0 +1,117 @@
+//! All that was measured, and what becomes of it.
+
+use chromascope_core::figure::{Cell, Figure, Table};
+use serde::{Deserialize, Serialize};
+
+use super::{Effort, Machine, Measurement, Workload};
+
+/// All that was measured in one run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// On what.
+    pub machine: Machine,
+    /// How thoroughly.
+    pub effort: Effort,
+    /// Whether nothing stopped it.
+    pub whole: bool,
+    /// What was measured, workload by workload, case by case, the baseline of each case first.
+    pub measurements: Vec<Measurement>,
+}
+
+/// Why a report cannot be written down.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// It cannot be put as JSON.
+    #[error("the measurements cannot be written as JSON: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+impl Report {
+    /// The measurements of a workload.
+    pub fn of(&self, workload: Workload) -> impl Iterator<Item = &Measurement> {
+        self.measurements.iter().filter(move |measurement| measurement.workload == workload)
+    }
+
+    /// The workloads that were measured, in order.
+    pub fn workloads(&self) -> Vec<Workload> {
+        let mut found: Vec<Workload> = Vec::new();
+        for measurement in &self.measurements {
+            if !found.contains(&measurement.workload) {
+                found.push(measurement.workload);
+            }
+        }
+        found
+    }
+
+    /// The run time of a workload's methods against their error; none if it was not measured.
+    pub fn figure(&self, workload: Workload) -> Option<Figure> {
+        super::figure::figure(self, workload)
+    }
+
+    /// All measurements as a table, a row for each.
+    pub fn table(&self) -> Table {
+        table(self.measurements.iter())
+    }
+
+    /// The report as JSON, indented.
+    pub fn to_json(&self) -> Result<String, ReportError> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+}
+
+/// Measurements as a table.
+pub(super) fn table<'a>(measurements: impl Iterator<Item = &'a Measurement>) -> Table {
+    let columns = [
+        "workload",
+        "case",
+        "method",
+        "threads",
+        "item",
+        "items",
+        "rounds",
+        "time per item (s)",
+        "shortest time per item (s)",
+        "spread (quartiles / median)",
+        "time to build (s)",
+        "error of",
+        "max abs error",
+        "rms abs error",
+        "max rel error",
+        "rms rel error",
+        "checked",
+        "refused",
+        "baseline",
+        "time / baseline",
+        "share of memory limit",
+        "share of arithmetic limit",
+    ];
+    let mut table = Table::new(columns);
+    for m in measurements {
+        let count = |number: usize| Cell::from(number as f64);
+        table.push([
+            Cell::from(m.workload.name()),
+            Cell::from(m.case.as_str()),
+            Cell::from(m.method.as_str()),
+            count(m.threads),
+            Cell::from(m.item.as_str()),
+            count(m.items),
+            count(m.rounds),
+            Cell::from(m.seconds_per_item),
+            Cell::from(m.least_seconds_per_item),
+            Cell::from(m.spread),
+            Cell::from(m.build_seconds),
+            Cell::from(m.error.what.as_str()),
+            Cell::from(m.error.max_abs),
+            Cell::from(m.error.rms_abs),
+            Cell::from(m.error.max_rel),
+            Cell::from(m.error.rms_rel),
+            count(m.error.checked),
+            count(m.error.refused),
+            Cell::from(m.baseline.as_str()),
+            Cell::from(m.ratio),
+            Cell::from(m.roof.map(|roof| roof.memory)),
+            Cell::from(m.roof.map(|roof| roof.arithmetic)),
+        ]);
+    }
+    table
+}

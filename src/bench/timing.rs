@@ -1,0 +1,239 @@
+//! Candidates take turns; a median says how long each takes.
+
+use std::time::Instant;
+
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+
+use chromascope_core::render::Stop;
+
+use super::case::{ErrorOf, Measurement, Roof};
+use super::{Effort, Machine, Progress, Workload};
+
+/// Pools of one, two, four, … threads, up to all that the machine runs at a time.
+pub(super) struct Pools(Vec<(usize, ThreadPool)>);
+
+impl Pools {
+    pub(super) fn new() -> Result<Self, ThreadPoolBuildError> {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let mut counts: Vec<usize> = (0..).map(|power| 1 << power).take_while(|&count| count < cores).collect();
+        counts.push(cores);
+        let pool = |threads: usize| Ok((threads, ThreadPoolBuilder::new().num_threads(threads).build()?));
+        Ok(Self(counts.into_iter().map(pool).collect::<Result<_, ThreadPoolBuildError>>()?))
+    }
+
+    /// The numbers of threads there are, ascending.
+    pub(super) fn counts(&self) -> Vec<usize> {
+        self.0.iter().map(|(threads, _)| *threads).collect()
+    }
+
+    /// The largest.
+    pub(super) fn most(&self) -> usize {
+        self.0.last().map_or(1, |(threads, _)| *threads)
+    }
+
+    /// Runs work where its parallel parts have so many threads.
+    pub(super) fn on<T: Send>(&self, threads: usize, work: impl FnOnce() -> T + Send) -> T {
+        match self.0.iter().find(|(count, _)| *count == threads) {
+            Some((_, pool)) => pool.install(work),
+            None => work(),
+        }
+    }
+}
+
+/// What an item moves and computes at the least, for a comparison with the machine's limits.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cost {
+    pub(super) bytes: f64,
+    pub(super) flops: f64,
+}
+
+/// One way of doing a case's work.
+pub(super) struct Candidate<'a> {
+    method: String,
+    threads: usize,
+    items: usize,
+    divisible: bool,
+    build_seconds: f64,
+    error: ErrorOf,
+    cost: Option<Cost>,
+    work: Box<dyn FnMut(usize) + Send + 'a>,
+}
+
+impl<'a> Candidate<'a> {
+    /// A method on one thread. `work` does the first so many of up to `items`.
+    pub(super) fn new(
+        method: impl Into<String>,
+        items: usize,
+        error: ErrorOf,
+        work: impl FnMut(usize) + Send + 'a,
+    ) -> Self {
+        Self {
+            method: method.into(),
+            threads: 1,
+            items,
+            divisible: true,
+            build_seconds: 0.0,
+            error,
+            cost: None,
+            work: Box::new(work),
+        }
+    }
+
+    /// The same on so many threads.
+    pub(super) fn on(self, threads: usize) -> Self {
+        Self { threads, ..self }
+    }
+
+    /// The same, which can only do all of its items at a time.
+    pub(super) fn undivided(self) -> Self {
+        Self { divisible: false, ..self }
+    }
+
+    /// The same with what it takes to make it.
+    pub(super) fn built_in(self, build_seconds: f64) -> Self {
+        Self { build_seconds, ..self }
+    }
+
+    /// The same with what an item costs.
+    pub(super) fn costing(self, cost: Cost) -> Self {
+        Self { cost: Some(cost), ..self }
+    }
+
+    fn seconds(&mut self, pools: &Pools, batch: Batch) -> f64 {
+        let work = &mut self.work;
+        let run = || {
+            let start = Instant::now();
+            for _ in 0..batch.repeats {
+                work(batch.items);
+            }
+            start.elapsed().as_secs_f64()
+        };
+        pools.on(self.threads, run)
+    }
+
+    /// How many items, how often, take about as long as wanted. This also warms up.
+    fn batch(&mut self, pools: &Pools, target: f64) -> Batch {
+        let mut items = if self.divisible { self.items.min(64) } else { self.items };
+        loop {
+            let taken = self.seconds(pools, Batch { items, repeats: 1 });
+            if taken >= target / 8.0 || items == self.items {
+                let wanted = items as f64 * (target / taken.max(1e-9));
+                let most = if self.divisible { wanted.min(self.items as f64) } else { self.items as f64 };
+                let repeats = (wanted / self.items as f64).round().clamp(1.0, 1e6);
+                return Batch { items: (most as usize).max(1), repeats: repeats as usize };
+            }
+            items = (items * 8).min(self.items);
+        }
+    }
+}
+
+/// What is timed at once.
+#[derive(Clone, Copy)]
+struct Batch {
+    items: usize,
+    repeats: usize,
+}
+
+/// What a work that makes something takes, with what it makes.
+pub(super) fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let made = work();
+    (made, start.elapsed().as_secs_f64())
+}
+
+/// A run.
+pub(super) struct Bench<'a> {
+    pub(super) effort: Effort,
+    pub(super) stop: &'a Stop,
+    pub(super) pools: Pools,
+    pub(super) machine: Machine,
+    pub(super) progress: &'a mut dyn FnMut(Progress<'_>),
+    pub(super) measurements: Vec<Measurement>,
+}
+
+/// What is compared.
+#[derive(Clone, Copy)]
+pub(super) struct Case<'a> {
+    pub(super) workload: Workload,
+    pub(super) name: &'a str,
+    pub(super) item: &'a str,
+}
+
+impl Bench<'_> {
+    /// One of three, by how much time may be taken.
+    pub(super) fn pick<T>(&self, trial: T, quick: T, full: T) -> T {
+        match self.effort {
+            Effort::Trial => trial,
+            Effort::Quick => quick,
+            Effort::Full => full,
+        }
+    }
+
+    /// Measures the candidates by turns. The first is the baseline.
+    pub(super) fn compare(&mut self, case: Case<'_>, mut candidates: Vec<Candidate<'_>>) {
+        let target = self.pick(2e-4, 6e-3, 3e-2);
+        let rounds = self.pick(3, 9, 31);
+        let mut batches = Vec::with_capacity(candidates.len());
+        for candidate in &mut candidates {
+            if self.stop.is_set() {
+                return;
+            }
+            batches.push(candidate.batch(&self.pools, target));
+        }
+        let mut times = vec![Vec::with_capacity(rounds); candidates.len()];
+        for round in 0..rounds {
+            for turn in 0..candidates.len() {
+                if self.stop.is_set() {
+                    return;
+                }
+                // Nobody always comes after the same one, which may leave caches cold or the clock low.
+                let which = (turn + round * 7) % candidates.len();
+                let batch = batches[which];
+                let taken = candidates[which].seconds(&self.pools, batch);
+                times[which].push(taken / (batch.items * batch.repeats) as f64);
+            }
+        }
+        let baseline = candidates.first().map(|candidate| candidate.method.clone()).unwrap_or_default();
+        for (index, candidate) in candidates.iter().enumerate() {
+            let ratios = times[index].iter().zip(&times[0]).map(|(time, base)| time / base);
+            let ratio = quantiles(ratios.collect())[1];
+            let [low, middle, high] = quantiles(times[index].clone());
+            let measurement = Measurement {
+                workload: case.workload,
+                case: case.name.to_owned(),
+                method: candidate.method.clone(),
+                threads: candidate.threads,
+                item: case.item.to_owned(),
+                items: batches[index].items,
+                rounds,
+                seconds_per_item: middle,
+                least_seconds_per_item: times[index].iter().copied().fold(f64::INFINITY, f64::min),
+                spread: (high - low) / middle,
+                build_seconds: candidate.build_seconds,
+                error: candidate.error.clone(),
+                baseline: baseline.clone(),
+                ratio,
+                roof: candidate.cost.map(|cost| self.roof(cost, candidate.threads, middle)),
+            };
+            (self.progress)(Progress::Measured(&measurement));
+            self.measurements.push(measurement);
+        }
+    }
+
+    fn roof(&self, cost: Cost, threads: usize, seconds: f64) -> Roof {
+        let [memory, arithmetic] = self.machine.limits(threads);
+        Roof { memory: cost.bytes / seconds / memory, arithmetic: cost.flops / seconds / arithmetic }
+    }
+}
+
+/// The quartiles and, between them, the median.
+fn quantiles(mut values: Vec<f64>) -> [f64; 3] {
+    values.sort_unstable_by(f64::total_cmp);
+    let at = |share: f64| {
+        let place = share * values.len().saturating_sub(1) as f64;
+        let (below, above) = (place.floor() as usize, place.ceil() as usize);
+        let [a, b] = [below, above].map(|index| values.get(index).copied().unwrap_or(0.0));
+        a + (b - a) * place.fract()
+    };
+    [at(0.25), at(0.5), at(0.75)]
+}
