@@ -8,9 +8,16 @@
 //! medians of the ratios to the case's baseline in the same round. No time is reported without an error.
 
 mod case;
+mod difference;
+mod diffuse_sum;
+pub mod double;
+pub mod exact;
 mod figure;
+mod inputs;
+mod locus;
 mod machine;
 mod report;
+mod temperature;
 mod timing;
 
 pub use case::{ErrorOf, ErrorScale, Measurement, Roof};
@@ -142,6 +149,13 @@ pub fn run(
             break;
         }
         (bench.progress)(Progress::Begins(workload));
+        match workload {
+            Workload::Locus => locus::run(&mut bench)?,
+            Workload::DiffuseSum => diffuse_sum::run(&mut bench),
+            Workload::Temperature => temperature::run(&mut bench)?,
+            Workload::Difference => difference::run(&mut bench),
+            _ => {}
+        }
     }
     let Bench { machine, measurements, .. } = bench;
     Ok(Report { machine, effort, whole: !stop.is_set(), measurements })

@@ -1,9 +1,10 @@
-//! The same answers without a window: `locus`, `patches`, `render`, `inspect`, `list`.
+//! The same answers without a window: `locus`, `patches`, `render`, `inspect`, `bench`, `list`.
 //!
 //! Arguments become a [`Document`](crate::document::Document) and are answered through [`Scene`](crate::scene::Scene), as in the
 //! window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
 
 mod arguments;
+mod bench;
 mod inspect;
 mod render;
 mod request;
@@ -68,6 +69,15 @@ pub enum CliError {
         /// Why.
         error: crate::export::render::PictureError,
     },
+    /// Nothing can be measured.
+    #[error(transparent)]
+    Bench(#[from] crate::bench::BenchError),
+    /// What was measured cannot be written down.
+    #[error(transparent)]
+    Report(#[from] crate::bench::ReportError),
+    /// A figure cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] crate::export::ExportError),
     /// The output could not be written.
     #[error("cannot write {}: {}", path.display(), crate::files::reason(error))]
     Output {
@@ -117,6 +127,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         }
         Subcommand::Render(arguments) => render::run(&arguments, matches),
         Subcommand::Inspect(arguments) => inspect::run(&arguments),
+        Subcommand::Bench(arguments) => bench::run(&arguments),
         Subcommand::List { kind } => put(&tables::list(kind), None),
     };
     Outcome::Done(match result {

@@ -1,7 +1,10 @@
 //! Candidates take turns; a median says how long each takes.
 
+use std::hint::black_box;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
+use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use chromascope_core::render::Stop;
@@ -236,4 +239,53 @@ fn quantiles(mut values: Vec<f64>) -> [f64; 3] {
         a + (b - a) * place.fract()
     };
     [at(0.25), at(0.5), at(0.75)]
+}
+
+/// Memory for results that the candidates of a case, which take turns, share.
+pub(super) struct Room<O>(Mutex<Vec<O>>);
+
+impl<O: Clone + Send> Room<O> {
+    pub(super) fn new(items: usize, nothing: &O) -> Self {
+        Self(Mutex::new(vec![nothing.clone(); items]))
+    }
+
+    pub(super) fn lend<T>(&self, work: impl FnOnce(&mut [O]) -> T) -> T {
+        work(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+/// Items per piece of parallel work.
+const CHUNK: usize = 1024;
+
+/// A candidate that answers item by item, in a plain loop or, on several threads, in pieces of it.
+pub(super) fn each<'a, I: Sync, O: Clone + Send>(
+    method: impl Into<String>,
+    [threads, checked]: [usize; 2],
+    inputs: &'a [I],
+    room: &'a Room<O>,
+    error: impl FnOnce(&[O]) -> ErrorOf,
+    answer: impl Fn(&I) -> O + Sync + Send + 'a,
+) -> Candidate<'a> {
+    let first: Vec<O> = spaced(inputs.len(), checked).map(|index| answer(&inputs[index])).collect();
+    let work = move |items: usize| {
+        room.lend(|outputs| {
+            let (inputs, outputs) = (&inputs[..items], &mut outputs[..items]);
+            if threads == 1 {
+                outputs.iter_mut().zip(inputs).for_each(|(output, input)| *output = answer(input));
+            } else {
+                let chunks = outputs.par_chunks_mut(CHUNK).zip(inputs.par_chunks(CHUNK));
+                chunks.for_each(|(outputs, inputs)| {
+                    outputs.iter_mut().zip(inputs).for_each(|(output, input)| *output = answer(input));
+                });
+            }
+            black_box(outputs);
+        });
+    };
+    Candidate::new(method, inputs.len(), error(&first), work).on(threads)
+}
+
+/// The places of some items, evenly among all, the ends included.
+pub(super) fn spaced(items: usize, some: usize) -> impl Iterator<Item = usize> {
+    let some = some.min(items);
+    (0..some).map(move |k| if some < 2 { 0 } else { k * (items - 1) / (some - 1) })
 }

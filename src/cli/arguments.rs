@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, ValueEnum};
 
+use super::bench::BenchArguments;
 use super::inspect::arguments::InspectArguments;
 use super::render::arguments::RenderArguments;
 
@@ -65,6 +66,9 @@ pub(super) enum Subcommand {
     /// What files of spectra hold and how they were understood; their curves as CSV or JSON
     #[command(after_help = super::inspect::arguments::EXAMPLES)]
     Inspect(Box<InspectArguments>),
+    /// Run time against error of every method, measured on this machine: figures, table and JSON
+    #[command(after_help = super::bench::EXAMPLES)]
+    Bench(BenchArguments),
     /// The names of the built-in data sets, one a line
     List {
         /// Which; all if left out

@@ -1,0 +1,210 @@
+//! The workloads' quantities in 106 bits, from their definitions: the references. Nothing of the core computes here but its
+//! constants and data.
+
+use chromascope_core::colorimetry::Lab;
+use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
+use chromascope_core::light::RadiationConstants;
+use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
+use chromascope_core::spectral::{Primaries, Sensor};
+
+use super::double::Double;
+
+/// The three integrals of a black body through a sensor (Eq 14, 15), up to a common factor.
+///
+/// ```text
+/// Σ C(λ) (λ₀/λ)⁵ / (exp(c₂/λT) − 1),   λ₀ = 550 nm
+/// ```
+pub fn black_body(sensor: &Sensor, constants: RadiationConstants, kelvins: Double) -> [Double; 3] {
+    planck(sensor, constants, kelvins).map(|sums| sums[0])
+}
+
+/// Per channel the integral, and its derivative by the reciprocal temperature in units of its own.
+fn planck(sensor: &Sensor, constants: RadiationConstants, kelvins: Double) -> [[Double; 2]; 3] {
+    let second = Double::new(constants.second()) * Double::new(1e9);
+    let mut sums = [[Double::default(); 2]; 3];
+    for index in 0..COUNT {
+        let nm = Double::new(wavelength_nm(index));
+        let rate = second / nm;
+        let below = (rate / kelvins).exp_m1();
+        let law = (Double::new(550.0) / nm).powi(5) / below;
+        // d/dm of 1/(e^x − 1) is −x' e^x/(e^x − 1)² = −x' (1 + 1/(e^x − 1)) / (e^x − 1).
+        let slope = -(law * rate * (Double::ONE + Double::ONE / below));
+        for (channel, [sum, change]) in sums.iter_mut().enumerate() {
+            let weight = Double::new(sensor.weighted(channel)[index]);
+            *sum = *sum + weight * law;
+            *change = *change + weight * slope;
+        }
+    }
+    sums
+}
+
+/// The chromaticity of a black body: an observer's own, or a camera's by Eq 13.
+pub fn black_body_xy(sensor: &Sensor, constants: RadiationConstants, kelvins: f64) -> [Double; 2] {
+    let raw = black_body(sensor, constants, Double::new(kelvins));
+    let xyz = if sensor.primaries() == Primaries::Xyz { raw } else { xyz_of_signals(sensor, raw) };
+    let sum = xyz[0] + xyz[1] + xyz[2];
+    [xyz[0] / sum, xyz[1] / sum]
+}
+
+/// Signals divided by the sensitivities' integrals, then to XYZ as if they were sRGB's.
+fn xyz_of_signals(sensor: &Sensor, raw: [Double; 3]) -> [Double; 3] {
+    let flat = |c: usize| -> Double { sensor.weighted(c).iter().map(|&weight| Double::new(weight)).sum() };
+    let rgb = [0, 1, 2].map(|c: usize| raw[c] / flat(c));
+    let rows = XYZ_FROM_SRGB.transpose();
+    [rows.x_axis, rows.y_axis, rows.z_axis]
+        .map(|row| row.to_array().into_iter().zip(rgb).map(|(m, v)| Double::new(m) * v).sum())
+}
+
+/// A point of the locus in the 1960 diagram with its derivative by m = 1/T.
+fn locus(observer: &Sensor, constants: RadiationConstants, per_kelvin: Double) -> [[Double; 2]; 2] {
+    let [x, y, z] = planck(observer, constants, Double::ONE / per_kelvin);
+    let whole = |k: usize| x[k] + Double::new(15.0) * y[k] + Double::new(3.0) * z[k];
+    let (sum, change) = (whole(0), whole(1));
+    let (u, v) = (Double::new(4.0) * x[0] / sum, Double::new(6.0) * y[0] / sum);
+    let du = (Double::new(4.0) * x[1] - u * change) / sum;
+    let dv = (Double::new(6.0) * y[1] - v * change) / sum;
+    [[u, v], [du, dv]]
+}
+
+/// The color of a temperature and Duv in the 1960 diagram, rounded to doubles.
+pub fn off_locus(observer: &Sensor, constants: RadiationConstants, kelvins: f64, duv: f64) -> [f64; 2] {
+    let [[u, v], [du, dv]] = locus(observer, constants, Double::ONE / Double::new(kelvins));
+    let length = (du * du + dv * dv).sqrt();
+    let duv = Double::new(duv);
+    // Towards colder bodies v′ is on the left of the tangent: above is (−v′, u′).
+    [(u - duv * dv / length).high(), (v + duv * du / length).high()]
+}
+
+/// Temperature in kelvins and Duv of a color near which they are known to lie: secants on the condition that the way to the
+/// nearest point is square to the locus.
+pub fn cct(observer: &Sensor, constants: RadiationConstants, color: [f64; 2], near_kelvins: f64) -> [Double; 2] {
+    let [pu, pv] = color.map(Double::new);
+    let condition = |m: Double| {
+        let [[u, v], [du, dv]] = locus(observer, constants, m);
+        (u - pu) * du + (v - pv) * dv
+    };
+    let mut m = Double::ONE / Double::new(near_kelvins);
+    for relative in [1e-7, 1e-12] {
+        let step = m * Double::new(relative);
+        let here = condition(m);
+        m = m - here * step / (condition(m + step) - here);
+    }
+    let [[u, v], [du, dv]] = locus(observer, constants, m);
+    let duv = ((pv - v) * du - (pu - u) * dv) / (du * du + dv * dv).sqrt();
+    [Double::ONE / m, duv]
+}
+
+/// `S(g, b) = e^-g Σ gⁿ/(n! n) e^(-b/n)`, term by term from the largest outward, for g up to 1e6 and S above 1e-290.
+pub fn diffuse_sum(g: Double, b: Double) -> Double {
+    if g.high() <= 0.0 {
+        return Double::default();
+    }
+    let peak = largest_term(g.high(), b.high());
+    // gⁿ/n! e^-g at the largest term, the exponential taken in parts so that nothing overflows.
+    let (mut weight, mut rest) = (Double::ONE, g);
+    let part = Double::new(-200.0).exp();
+    for n in 1..=peak {
+        weight = weight * g / Double::new(n as f64);
+        while weight.high() > 1e100 && rest.high() > 200.0 {
+            weight = weight * part;
+            rest = rest - Double::new(200.0);
+        }
+    }
+    weight = weight * (-rest).exp();
+    let term = |weight: Double, n: u64| {
+        let n = Double::new(n as f64);
+        weight / n * (-(b / n)).exp()
+    };
+    let mut sum = term(weight, peak);
+    let (mut up, mut n) = (weight, peak);
+    loop {
+        n += 1;
+        up = up * g / Double::new(n as f64);
+        let next = term(up, n);
+        sum = sum + next;
+        if next.high() < 1e-33 * sum.high() || n > peak + 100_000 {
+            break;
+        }
+    }
+    let mut down = weight;
+    for n in (1..peak).rev() {
+        down = down * Double::new((n + 1) as f64) / g;
+        let next = term(down, n);
+        sum = sum + next;
+        if next.high() < 1e-33 * sum.high() {
+            break;
+        }
+    }
+    sum
+}
+
+/// Near which n the terms are largest: where `ln g − ln n + b/n²` changes sign.
+fn largest_term(g: f64, b: f64) -> u64 {
+    let (mut low, mut high) = (1.0_f64, 1e7_f64);
+    for _ in 0..80 {
+        let middle = (low * high).sqrt();
+        if g.ln() - middle.ln() + b / (middle * middle) > 0.0 { low = middle } else { high = middle }
+    }
+    low.round().max(1.0) as u64
+}
+
+/// The CIEDE2000 difference by its published steps (CIE 142-2001).
+pub fn delta_e_2000(first: Lab, second: Lab) -> Double {
+    let d = Double::new;
+    let degree = d(std::f64::consts::PI) / d(180.0) + d(1.224_646_799_147_353_2e-16) / d(180.0);
+    let (l1, a1, b1) = (d(first.l), d(first.a), d(first.b));
+    let (l2, a2, b2) = (d(second.l), d(second.a), d(second.b));
+    let length = |x: Double, y: Double| (x * x + y * y).sqrt();
+    let share = |c: Double| {
+        let c7 = c.powi(7);
+        (c7 / (c7 + d(25.0).powi(7))).sqrt()
+    };
+    let mean = (length(a1, b1) + length(a2, b2)) / d(2.0);
+    let stretch = Double::ONE + (Double::ONE - share(mean)) / d(2.0);
+    let (a1, a2) = (a1 * stretch, a2 * stretch);
+    let (c1, c2) = (length(a1, b1), length(a2, b2));
+    let hue = |a: Double, b: Double| {
+        let h = b.atan2(a) / degree;
+        if h.high() < 0.0 { h + d(360.0) } else { h }
+    };
+    let (h1, h2) = (hue(a1, b1), hue(a2, b2));
+    let gray = c1.high() * c2.high() == 0.0;
+    let apart = h2 - h1;
+    let turn = if gray {
+        Double::default()
+    } else if apart.high() > 180.0 {
+        apart - d(360.0)
+    } else if apart.high() < -180.0 {
+        apart + d(360.0)
+    } else {
+        apart
+    };
+    let mid = if gray {
+        h1 + h2
+    } else if apart.high().abs() <= 180.0 {
+        (h1 + h2) / d(2.0)
+    } else if (h1 + h2).high() < 360.0 {
+        (h1 + h2 + d(360.0)) / d(2.0)
+    } else {
+        (h1 + h2 - d(360.0)) / d(2.0)
+    };
+    let sin = |degrees: Double| (degrees * degree).sin_cos().0;
+    let cos = |degrees: Double| (degrees * degree).sin_cos().1;
+    let hundredths = |value: f64| d(value) / d(100.0);
+    let (l, c) = ((l1 + l2) / d(2.0), (c1 + c2) / d(2.0));
+    let t = Double::ONE - hundredths(17.0) * cos(mid - d(30.0))
+        + hundredths(24.0) * cos(d(2.0) * mid)
+        + hundredths(32.0) * cos(d(3.0) * mid + d(6.0))
+        - hundredths(20.0) * cos(d(4.0) * mid - d(63.0));
+    let lift = (l - d(50.0)) * (l - d(50.0));
+    let sl = Double::ONE + hundredths(1.5) * lift / (d(20.0) + lift).sqrt();
+    let sc = Double::ONE + hundredths(4.5) * c;
+    let sh = Double::ONE + hundredths(1.5) * c * t;
+    let bell = (mid - d(275.0)) / d(25.0);
+    let swing = d(30.0) * (-(bell * bell)).exp();
+    let rt = -(d(2.0) * share(c) * sin(d(2.0) * swing));
+    let dl = (l2 - l1) / sl;
+    let dc = (c2 - c1) / sc;
+    let dh = d(2.0) * (c1 * c2).sqrt() * sin(turn / d(2.0)) / sh;
+    (dl * dl + dc * dc + dh * dh + rt * dc * dh).sqrt()
+}

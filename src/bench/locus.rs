@@ -1,0 +1,153 @@
+//! Chromaticities of black bodies: sums of several steps, Gauss rules of several sizes, what the program takes.
+
+use chromascope_core::camera::LocusEvaluator;
+use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
+use chromascope_core::light::PlanckianLocus;
+use chromascope_core::math::exp::exp;
+use chromascope_core::math::gauss::gauss_rule;
+use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
+use chromascope_core::spectral::{Primaries, Sensor};
+use chromascope_core::units::Kelvin;
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::case::{ErrorOf, ErrorScale, Errors};
+use super::double::{Double, off};
+use super::inputs::{CAMERA, CONSTANTS, OBSERVER, sensor};
+use super::timing::{Bench, Candidate, Case, Room, each, spaced, timed};
+use super::{BenchError, Workload, exact};
+
+type Place = [f64; 2];
+
+pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
+    for (name, path) in [("CIE 1931 2°", OBSERVER), ("Nikon D70", CAMERA)] {
+        one(bench, name, &*sensor(path)?);
+    }
+    Ok(())
+}
+
+/// Where signals lie in the diagram: an observer's as they are, a camera's by Eq 13.
+#[derive(Clone, Copy)]
+struct Diagram {
+    gain: DVec3,
+    matrix: DMat3,
+}
+
+impl Diagram {
+    fn new(sensor: &Sensor) -> Self {
+        if sensor.primaries() == Primaries::Xyz {
+            return Self { gain: DVec3::ONE, matrix: DMat3::IDENTITY };
+        }
+        Self { gain: 1.0 / DVec3::from_array(sensor.integrals()), matrix: XYZ_FROM_SRGB }
+    }
+
+    fn xy(&self, raw: [f64; 3]) -> Place {
+        let xyz = self.matrix * (DVec3::from_array(raw) * self.gain);
+        let sum = xyz.x + xyz.y + xyz.z;
+        [xyz.x / sum, xyz.y / sum]
+    }
+}
+
+/// Wavelengths with weights: one list for the three channels, or one for each.
+enum Rule {
+    Shared(Vec<(f64, [f64; 3])>),
+    Own([Vec<(f64, f64)>; 3]),
+}
+
+/// The constant part of Planck's law at a wavelength: c₂/λ and (550 nm/λ)⁵.
+fn law(nm: f64) -> (f64, f64) {
+    (CONSTANTS.second() * 1e9 / nm, (550.0 / nm).powi(5))
+}
+
+impl Rule {
+    /// Every so many nanometers.
+    fn sum(sensor: &Sensor, step: usize) -> Self {
+        let term = |index: usize| {
+            let (rate, fifth) = law(wavelength_nm(index));
+            (rate, [0, 1, 2].map(|c: usize| sensor.weighted(c)[index] * fifth * step as f64))
+        };
+        Self::Shared((0..COUNT).step_by(step).map(term).collect())
+    }
+
+    /// The Gauss rule of each channel.
+    fn gauss(sensor: &Sensor, count: usize) -> Self {
+        let points: Vec<f64> = (0..COUNT).map(wavelength_nm).collect();
+        Self::Own([0, 1, 2].map(|c: usize| {
+            let rule = gauss_rule(&points, sensor.weighted(c), count);
+            let terms = rule.nodes.iter().zip(&rule.weights).map(|(&nm, &weight)| {
+                let (rate, fifth) = law(nm);
+                (rate, weight * fifth)
+            });
+            terms.collect()
+        }))
+    }
+
+    fn raw(&self, kelvins: f64) -> [f64; 3] {
+        let reciprocal = 1.0 / kelvins;
+        match self {
+            Self::Shared(terms) => {
+                let mut sums = [0.0; 3];
+                for (rate, weights) in terms {
+                    let value = 1.0 / (exp(rate * reciprocal) - 1.0);
+                    sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += weight * value);
+                }
+                sums
+            }
+            Self::Own(channels) => [0, 1, 2].map(|c: usize| {
+                channels[c].iter().map(|(rate, weight)| weight / (exp(rate * reciprocal) - 1.0)).sum::<f64>()
+            }),
+        }
+    }
+}
+
+fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
+    let items = bench.pick(1000, 1_000_000, 1_000_000);
+    let checked = bench.pick(5, 60, 500);
+    let mired = |index: usize| 1000.0 + (50.0 - 1000.0) * index as f64 / (items - 1) as f64;
+    let kelvins: Vec<f64> = (0..items).map(|index| 1e6 / mired(index)).collect();
+    let some: Vec<f64> = spaced(items, checked).map(|index| kelvins[index]).collect();
+    let exact: Vec<[Double; 2]> = bench.pools.on(bench.pools.most(), || {
+        some.par_iter().map(|&kelvins| exact::black_body_xy(sensor, CONSTANTS, kelvins)).collect()
+    });
+    let error = |found: &[Place]| error(found, &exact);
+    let room = Room::new(items, &[0.0; 2]);
+    let diagram = Diagram::new(sensor);
+    let by_rule = |method: String, threads: usize, make: &dyn Fn() -> Rule| {
+        let (rule, seconds) = timed(make);
+        let answer = move |&kelvins: &f64| diagram.xy(rule.raw(kelvins));
+        each(method, [threads, checked], &kelvins, &room, error, answer).built_in(seconds)
+    };
+    let mut candidates: Vec<Candidate<'_>> = [1, 2, 5, 10, 20]
+        .map(|step| by_rule(format!("{step} nm sum"), 1, &|| Rule::sum(sensor, step)))
+        .into_iter()
+        .chain((2..=12).map(|count| by_rule(format!("Gauss {count}"), 1, &|| Rule::gauss(sensor, count))))
+        .collect();
+    for threads in bench.pools.counts() {
+        let (evaluator, seconds) = timed(|| LocusEvaluator::new(sensor, CONSTANTS));
+        let answer = move |&t: &f64| Kelvin::new(t).map_or([f64::NAN; 2], |t| diagram.xy(evaluator.raw(t)));
+        candidates.push(
+            each("checked nodes", [threads, checked], &kelvins, &room, error, answer).built_in(seconds),
+        );
+        // Of an observer the program has the whole curve as polynomials.
+        if let (Ok(locus), seconds) = timed(|| PlanckianLocus::new(sensor, CONSTANTS)) {
+            let answer = move |&t: &f64| {
+                let place = Kelvin::new(t).ok().and_then(|t| locus.at(t));
+                place.map_or([f64::NAN; 2], |uv| {
+                    let d = 2.0 * uv.u - 8.0 * uv.v + 4.0;
+                    [3.0 * uv.u / d, 2.0 * uv.v / d]
+                })
+            };
+            candidates
+                .push(each("polynomials", [threads, checked], &kelvins, &room, error, answer).built_in(seconds));
+        }
+    }
+    bench.compare(Case { workload: Workload::Locus, name, item: "temperature" }, candidates);
+}
+
+fn error(found: &[Place], exact: &[[Double; 2]]) -> ErrorOf {
+    let mut errors = Errors::default();
+    for (found, exact) in found.iter().zip(exact) {
+        found.iter().zip(exact).for_each(|(&found, &exact)| errors.add(off(found, exact), exact.high()));
+    }
+    errors.sum_up("x and y, against the 1 nm sum in 106 bits", ErrorScale::Absolute)
+}

@@ -1,0 +1,161 @@
+//! `bench`: run time against error, as figures, a table and JSON.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use chromascope_core::figure::Figure;
+use chromascope_core::render::Stop;
+use clap::Args;
+
+use super::{CliError, put, say, write_to};
+use crate::bench::{self, Effort, Machine, Measurement, Progress, Report, Workload};
+use crate::export::{Paper, png, png_file, svg};
+use crate::theme::Theme;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  chromascope bench --quick --out measured
+  chromascope bench --only locus,temperature --out measured
+  chromascope bench --list
+
+Writes bench.json, bench.csv and, for each workload, a figure as SVG and PNG. Nothing is written before all is measured.
+A line gives: threads, median time per item, ratio to the case's first method, largest error, what it is an error of.";
+
+/// What `bench` takes.
+#[derive(Debug, Args)]
+pub(super) struct BenchArguments {
+    /// A minute instead of a quarter of an hour
+    #[arg(long)]
+    quick: bool,
+    /// The folder for the files; it is made if it is not there
+    #[arg(long, value_name = "DIR", required_unless_present = "list")]
+    out: Option<PathBuf>,
+    /// These workloads alone
+    #[arg(long, value_name = "NAME", value_delimiter = ',', num_args = 1.., value_parser = workload)]
+    only: Vec<Workload>,
+    /// Print the names of the workloads, and measure nothing
+    #[arg(long)]
+    list: bool,
+    /// As little as can be: to try the command, not to measure
+    #[arg(long, hide = true, conflicts_with = "quick")]
+    trial: bool,
+}
+
+fn workload(name: &str) -> Result<Workload, String> {
+    let names = || Workload::ALL.map(Workload::name).join(", ");
+    Workload::from_name(name).ok_or_else(|| format!("there are: {}", names()))
+}
+
+/// Measures and writes.
+pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
+    let (false, Some(folder)) = (arguments.list, &arguments.out) else {
+        let lines = Workload::ALL.map(|workload| format!("{:<12} {}\n", workload.name(), workload.title()));
+        return put(&lines.concat(), None);
+    };
+    // Better now than after a quarter of an hour.
+    make_folder(folder)?;
+    let plan: Vec<Workload> = Workload::ALL
+        .into_iter()
+        .filter(|workload| arguments.only.is_empty() || arguments.only.contains(workload))
+        .collect();
+    let effort = if arguments.trial {
+        Effort::Trial
+    } else if arguments.quick {
+        Effort::Quick
+    } else {
+        Effort::Full
+    };
+    let mut case = String::new();
+    let report = bench::run(&plan, effort, &Stop::NEVER, &mut |progress| tell(progress, &mut case))?;
+    let files = files(&report, folder)?;
+    for (path, bytes) in &files {
+        write_to(path, bytes).map_err(|error| CliError::Output { path: path.clone(), error })?;
+    }
+    let count = report.measurements.len();
+    put(&format!("{count} measurements in {} files in {}\n", files.len(), folder.display()), None)
+}
+
+/// The folder, made if need be, in which a file can be made.
+fn make_folder(folder: &Path) -> Result<(), CliError> {
+    if folder.exists() && !folder.is_dir() {
+        let reason = format!("{} is a file; give a folder, the files are named by themselves", folder.display());
+        return Err(CliError::Argument { argument: "--out", reason });
+    }
+    let failed = |error| CliError::Output { path: folder.to_owned(), error };
+    fs::create_dir_all(folder).map_err(failed)?;
+    tempfile::tempfile_in(folder).map_err(failed)?;
+    Ok(())
+}
+
+/// A line for each measurement, under its case.
+fn tell(progress: Progress<'_>, case: &mut String) {
+    match progress {
+        Progress::Machine(machine) => say(&machine_line(machine)),
+        Progress::Begins(workload) => {
+            case.clear();
+            say(&format!("\n{}\n", workload.title()));
+        }
+        Progress::Measured(measurement) => {
+            if *case != measurement.case {
+                case.clone_from(&measurement.case);
+                say(&format!("  {case}\n"));
+            }
+            say(&line(measurement));
+        }
+    }
+}
+
+fn machine_line(machine: &Machine) -> String {
+    let Machine { processor, cores, instruction_set, memory_gb_per_s, arithmetic_gflop_per_s } = machine;
+    let [memory, all_memory] = memory_gb_per_s;
+    let [flops, all_flops] = arithmetic_gflop_per_s;
+    format!(
+        "{processor}, {cores} cores, {instruction_set}; memory {memory:.1} GB/s on one, {all_memory:.1} on all; \
+         multiply-adds {flops:.1} Gflop/s on one, {all_flops:.1} on all\n"
+    )
+}
+
+fn line(m: &Measurement) -> String {
+    let roof = m.roof.map_or_else(String::new, |roof| {
+        format!("  {:.0} % of memory, {:.0} % of arithmetic", 100.0 * roof.memory, 100.0 * roof.arithmetic)
+    });
+    let refused = if m.error.refused > 0 { format!(", {} refused", m.error.refused) } else { String::new() };
+    format!(
+        "    {:<32} {:>2} {:>10} a {} {:>9.4}  {:.1e} {}{refused}{roof}\n",
+        m.method,
+        m.threads,
+        time(m.seconds_per_item),
+        m.item,
+        m.ratio,
+        m.error.max(),
+        m.error.what
+    )
+}
+
+/// A time with three digits and the unit that suits it.
+fn time(seconds: f64) -> String {
+    let units = [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")];
+    let (unit, name) = units.into_iter().find(|(unit, _)| seconds >= *unit).unwrap_or((1e-9, "ns"));
+    let value = seconds / unit;
+    let decimals = if value >= 100.0 { 0 } else if value >= 10.0 { 1 } else { 2 };
+    format!("{value:.decimals$} {name}")
+}
+
+/// Every file with its contents.
+fn files(report: &Report, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, CliError> {
+    let mut files = vec![
+        (folder.join("bench.json"), report.to_json()?.into_bytes()),
+        (folder.join("bench.csv"), report.table().to_csv().into_bytes()),
+    ];
+    let figures = report.workloads().into_iter().filter_map(|workload| Some((workload, report.figure(workload)?)));
+    for (workload, figure) in figures {
+        files.extend(pictures(&folder.join(workload.name()), &figure)?);
+    }
+    Ok(files)
+}
+
+fn pictures(stem: &Path, figure: &Figure) -> Result<[(PathBuf, Vec<u8>); 2], CliError> {
+    let text = svg(figure, &Theme::LIGHT, Paper::default());
+    let picture = png_file(&png(&text, 2.0)?)?;
+    Ok([(stem.with_extension("svg"), text.into_bytes()), (stem.with_extension("png"), picture)])
+}
