@@ -13,10 +13,14 @@ mod diffuse_sum;
 pub mod double;
 pub mod exact;
 mod figure;
+mod frames;
 mod inputs;
+mod integral;
 mod locus;
 mod machine;
+mod reading;
 mod report;
+mod responses;
 mod temperature;
 mod timing;
 
@@ -151,10 +155,13 @@ pub fn run(
         (bench.progress)(Progress::Begins(workload));
         match workload {
             Workload::Locus => locus::run(&mut bench)?,
+            Workload::Responses => responses::run(&mut bench)?,
             Workload::DiffuseSum => diffuse_sum::run(&mut bench),
+            Workload::Integral => integral::run(&mut bench)?,
+            Workload::Frames => frames::run(&mut bench)?,
             Workload::Temperature => temperature::run(&mut bench)?,
+            Workload::Reading => reading::run(&mut bench),
             Workload::Difference => difference::run(&mut bench),
-            _ => {}
         }
     }
     let Bench { machine, measurements, .. } = bench;

@@ -15,7 +15,7 @@
 mod asker;
 #[path = "compare/exact.rs"]
 mod exact;
-#[path = "compare/files.rs"]
+#[path = "../../src/bench/reading/files.rs"]
 mod files;
 #[path = "compare/library.rs"]
 mod library;

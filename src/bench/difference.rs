@@ -28,8 +28,7 @@ pub(super) fn run(bench: &mut Bench<'_>) {
     });
     let error = |found: &[f64]| error(found, &exact);
     let room = Room::new(items, &0.0);
-    let mut candidates =
-        vec![each("pair by pair", [1, checked], &pairs, &room, error, |&[a, b]| delta_e_2000(a, b))];
+    let mut candidates = vec![each("pair by pair", [1, checked], &pairs, &room, error, |&[a, b]| delta_e_2000(a, b))];
     candidates.push(each("\u{394}E*ab in its place", [1, checked], &pairs, &room, error, |&[a, b]| delta_e_1976(a, b)));
     for threads in bench.pools.counts().into_iter().skip(1) {
         let answer = |&[a, b]: &[Lab; 2]| delta_e_2000(a, b);

@@ -41,17 +41,20 @@ fn one(bench: &mut Bench<'_>, name: &str, low: f64, high: f64) {
     };
     let points: Vec<(f64, f64)> = (0..items).map(point).collect();
     let some: Vec<(f64, f64)> = spaced(items, checked).map(|index| points[index]).collect();
-    let exact: Vec<Double> = bench.pools.on(bench.pools.most(), || {
-        some.par_iter().map(|&(g, b)| exact::diffuse_sum(g.into(), b.into())).collect()
-    });
+    let exact: Vec<Double> = bench
+        .pools
+        .on(bench.pools.most(), || some.par_iter().map(|&(g, b)| exact::diffuse_sum(g.into(), b.into())).collect());
     let error = |found: &[f64]| error(found, &exact);
     let room = Room::new(items, &0.0);
     let mut candidates = vec![
         each("term by term", [1, checked], &points, &room, error, |&(g, b)| term_by_term(g, b)),
         each("the paper's cases", [1, checked], &points, &room, error, |&(g, b)| diffuse_sum_by_regimes(g, b)),
     ];
-    let precisions =
-        [("uniform, 1e-6", Precision::Coarse), ("uniform, 1e-10", Precision::Fine), ("uniform, 1e-13", Precision::Full)];
+    let precisions = [
+        ("uniform, 1e-6", Precision::Coarse),
+        ("uniform, 1e-10", Precision::Fine),
+        ("uniform, 1e-13", Precision::Full),
+    ];
     for (method, precision) in precisions {
         let threads = if precision == Precision::Full { bench.pools.counts() } else { vec![1] };
         for threads in threads {

@@ -19,7 +19,8 @@ const NOTHING: f64 = 1e-18;
 /// The figure of a workload.
 pub(super) fn figure(report: &Report, workload: Workload) -> Option<Figure> {
     let mut cases: Vec<Vec<&Measurement>> = Vec::new();
-    for measurement in report.of(workload) {
+    // What gives none of the values has no error, and so no place.
+    for measurement in report.of(workload).filter(|measurement| measurement.error.checked > 0) {
         match cases.iter_mut().find(|case| case[0].case == measurement.case) {
             Some(case) => case.push(measurement),
             None => cases.push(vec![measurement]),

@@ -125,9 +125,7 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
     for threads in bench.pools.counts() {
         let (evaluator, seconds) = timed(|| LocusEvaluator::new(sensor, CONSTANTS));
         let answer = move |&t: &f64| Kelvin::new(t).map_or([f64::NAN; 2], |t| diagram.xy(evaluator.raw(t)));
-        candidates.push(
-            each("checked nodes", [threads, checked], &kelvins, &room, error, answer).built_in(seconds),
-        );
+        candidates.push(each("checked nodes", [threads, checked], &kelvins, &room, error, answer).built_in(seconds));
         // Of an observer the program has the whole curve as polynomials.
         if let (Ok(locus), seconds) = timed(|| PlanckianLocus::new(sensor, CONSTANTS)) {
             let answer = move |&t: &f64| {
@@ -137,8 +135,7 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
                     [3.0 * uv.u / d, 2.0 * uv.v / d]
                 })
             };
-            candidates
-                .push(each("polynomials", [threads, checked], &kelvins, &room, error, answer).built_in(seconds));
+            candidates.push(each("polynomials", [threads, checked], &kelvins, &room, error, answer).built_in(seconds));
         }
     }
     bench.compare(Case { workload: Workload::Locus, name, item: "temperature" }, candidates);

@@ -36,7 +36,8 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     let room = Room::new(items, &NOTHING);
     let answers = Room::new(items, &Err(NoCct::NoChromaticity));
     let one = [1, checked];
-    let kelvins = |found: Result<chromascope_core::units::Kelvin, NoCct>| [found.map_or(f64::NAN, |t| t.get()), f64::NAN];
+    let kelvins =
+        |found: Result<chromascope_core::units::Kelvin, NoCct>| [found.map_or(f64::NAN, |t| t.get()), f64::NAN];
     let whole = |found: Result<Cct, NoCct>| found.map_or(NOTHING, |cct| [cct.temperature.get(), cct.duv]);
     let mccamy = move |color: &Uv60| xy(*color).map_or(NOTHING, |xy| kelvins(published::mccamy_1992(xy)));
     let hernandez = move |color: &Uv60| xy(*color).map_or(NOTHING, |xy| kelvins(published::hernandez_andres_1999(xy)));
@@ -61,13 +62,18 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
         let candidate = Candidate::new("nearest point, side by side", items, error(&found), work);
         candidates.push(candidate.on(threads).built_in(locus_seconds));
     }
-    let case = Case { workload: Workload::Temperature, name: "CIE 1931 2°, 1010 to 19 800 K, |Duv| below 0.045", item: "color" };
+    let case = Case {
+        workload: Workload::Temperature,
+        name: "CIE 1931 2°, 1010 to 19 800 K, |Duv| below 0.045",
+        item: "color",
+    };
     bench.compare(case, candidates);
     Ok(())
 }
 
 fn color(locus: &PlanckianLocus, kelvins: f64, duv: f64) -> Uv60 {
-    let there = chromascope_core::units::Kelvin::new(kelvins).ok().and_then(|temperature| locus.off(Cct { temperature, duv }));
+    let there =
+        chromascope_core::units::Kelvin::new(kelvins).ok().and_then(|temperature| locus.off(Cct { temperature, duv }));
     there.unwrap_or(Uv60 { u: f64::NAN, v: f64::NAN })
 }
 
@@ -79,5 +85,6 @@ fn xy(color: Uv60) -> Option<Xy> {
 fn error(found: &[Answer], exact: &[[Double; 2]]) -> ErrorOf {
     let mut errors = Errors::default();
     found.iter().zip(exact).for_each(|(found, exact)| errors.add(off(found[0], exact[0]), exact[0].high()));
-    errors.sum_up("temperature in kelvins, where it answers, against the nearest point in 106 bits", ErrorScale::Absolute)
+    errors
+        .sum_up("temperature in kelvins, where it answers, against the nearest point in 106 bits", ErrorScale::Absolute)
 }

@@ -71,10 +71,10 @@ fn file(name: &'static str, text: String, curves: usize, samples: usize) -> File
 fn columns(curves: usize, samples: usize, separator: char, cell: impl Fn(usize, usize) -> String) -> String {
     let mut text = String::from("nm");
     for curve in 0..curves {
-        write!(text, "{separator}c{curve}").unwrap();
+        write!(text, "{separator}c{curve}").expect("a string takes any text");
     }
     for sample in 0..samples {
-        write!(text, "\n{}", 380 + sample).unwrap();
+        write!(text, "\n{}", 380 + sample).expect("a string takes any text");
         for curve in 0..curves {
             text.push(separator);
             text += &cell(curve, sample);
@@ -105,7 +105,7 @@ fn decimal_comma(bytes: usize) -> File {
 /// The values of a curve in a row.
 fn row(text: &mut String, curve: usize, separator: &str) {
     for sample in 0..WAVELENGTHS {
-        write!(text, "{separator}0.{:06}", whole(curve, sample)).unwrap();
+        write!(text, "{separator}0.{:06}", whole(curve, sample)).expect("a string takes any text");
     }
     text.push('\n');
 }
@@ -119,7 +119,7 @@ fn across(bytes: usize) -> File {
     let curves = bytes / (9 * WAVELENGTHS);
     let mut text = format!("name{}\n", heads(|nm| format!(",{nm}")));
     for curve in 0..curves {
-        write!(text, "c{curve}").unwrap();
+        write!(text, "c{curve}").expect("a string takes any text");
         row(&mut text, curve, ",");
     }
     file("CSV, wavelengths across", text, curves, WAVELENGTHS)
@@ -134,7 +134,7 @@ fn cgats(bytes: usize) -> File {
         WAVELENGTHS + 1
     );
     for curve in 0..curves {
-        write!(text, "c{curve}").unwrap();
+        write!(text, "c{curve}").expect("a string takes any text");
         row(&mut text, curve, " ");
     }
     File { separator: b' ', ..file("CGATS", text + "END_DATA\n", curves, WAVELENGTHS) }
@@ -159,7 +159,7 @@ fn lines(name: &'static str, bytes: usize, line: usize, around: [&str; 2], each:
 fn jcamp_pairs(bytes: usize) -> File {
     let head = "##TITLE= a\n##JCAMP-DX= 5\n##XUNITS= NANOMETERS\n##YUNITS= REFLECTANCE\n##XYPOINTS= (XY..XY)\n";
     lines("JCAMP, pairs", bytes, 19, [head, "##END=\n"], |sample, text| {
-        writeln!(text, "{}, 0.{}", fine(sample), digits(0, sample)).unwrap();
+        writeln!(text, "{}, 0.{}", fine(sample), digits(0, sample)).expect("a string takes any text");
     })
 }
 
@@ -181,7 +181,7 @@ fn jcamp_squeezed(bytes: usize) -> File {
     for start in (0..samples).step_by(IN_LINE) {
         // Every line but the first repeats the last value of the line before.
         let from = start.saturating_sub(1);
-        write!(text, "{}", fine(from)).unwrap();
+        write!(text, "{}", fine(from)).expect("a string takes any text");
         text += &squeezed(whole(0, from).into(), *b"@Aa");
         for sample in from + 1..(start + IN_LINE).min(samples) {
             text += &squeezed(i64::from(whole(0, sample)) - i64::from(whole(0, sample - 1)), *b"%Jj");
@@ -200,7 +200,8 @@ fn tm27(bytes: usize) -> File {
     let around = [head, "\t</SpectralDistribution>\r\n</IESTM2714>\r\n"];
     lines("TM-27", bytes, 63, around, |sample, text| {
         let (wavelength, digits) = (fine(sample), digits(0, sample));
-        writeln!(text, "\t\t<SpectralData wavelength=\"{wavelength}\">0.{digits}</SpectralData>\r").unwrap();
+        writeln!(text, "\t\t<SpectralData wavelength=\"{wavelength}\">0.{digits}</SpectralData>\r")
+            .expect("a string takes any text");
     })
 }
 
@@ -219,7 +220,7 @@ fn cxf_lists(bytes: usize) -> File {
              ColorSpecification=\"s\" StartWL=\"380\">{}</cc:ReflectanceSpectrum></cc:ColorValues></cc:Object>\n",
             values.join(" ")
         )
-        .unwrap();
+        .expect("a string takes any text");
     }
     text += "</cc:ObjectCollection><cc:ColorSpecificationCollection><cc:ColorSpecification Id=\"s\"><cc:WavelengthRange \
              StartWL=\"380\" Increment=\"4\"/></cc:ColorSpecification></cc:ColorSpecificationCollection></cc:Resources></cc:CxF>\n";
@@ -231,10 +232,11 @@ fn cxf_points(bytes: usize) -> File {
     let mut text = CXF.to_owned();
     for curve in 0..curves {
         writeln!(text, "<cc:Object ObjectType=\"Standard\" Name=\"c{curve}\" Id=\"{curve}\"><cc:CustomSpectrum>")
-            .unwrap();
+            .expect("a string takes any text");
         for sample in 0..WAVELENGTHS {
             let (nm, digits) = (380 + sample, digits(curve, sample));
-            writeln!(text, "<cc:SpectralPoint WL=\"{nm}\">0.{digits}</cc:SpectralPoint>").unwrap();
+            writeln!(text, "<cc:SpectralPoint WL=\"{nm}\">0.{digits}</cc:SpectralPoint>")
+                .expect("a string takes any text");
         }
         text += "</cc:CustomSpectrum></cc:Object>\n";
     }
@@ -252,7 +254,7 @@ fn rawtoaces(bytes: usize) -> File {
     for sample in 0..WAVELENGTHS {
         let end = if sample + 1 < WAVELENGTHS { "," } else { "" };
         let values = list(&|curve| format!("0.{}", digits(curve, sample)));
-        writeln!(text, "\"{}\": [{values}]{end}", 380 + sample).unwrap();
+        writeln!(text, "\"{}\": [{values}]{end}", 380 + sample).expect("a string takes any text");
     }
     file("rawtoaces JSON", text + "} } } }\n", curves, WAVELENGTHS)
 }
@@ -263,7 +265,7 @@ fn dcamprof(bytes: usize) -> File {
     let mut text = format!("{{\n\"camera_name\": \"a\", // made up\n\"ssf_bands\": [ 300, {last}, 0.00025 ],\n");
     for (curve, (name, end)) in [("red", ","), ("green", ","), ("blue", "\n}")].into_iter().enumerate() {
         let values: Vec<String> = (0..samples).map(|sample| format!("0.{}", digits(curve, sample))).collect();
-        writeln!(text, "\"{name}_ssf\": [ {} ]{end}", values.join(", ")).unwrap();
+        writeln!(text, "\"{name}_ssf\": [ {} ]{end}", values.join(", ")).expect("a string takes any text");
     }
     file("dcamprof JSON", text, 3, samples)
 }
@@ -271,13 +273,13 @@ fn dcamprof(bytes: usize) -> File {
 fn labels(bytes: usize) -> File {
     let head = "Date Saved,15/03/2021\nTitle,lamp\nTcp [K],3262\n\n";
     lines("labels", bytes, 37, [head, "TM-30 Bin 1,---\n"], |sample, text| {
-        writeln!(text, "Spectral Data {}[nm],0.{}", fine(sample), digits(0, sample)).unwrap();
+        writeln!(text, "Spectral Data {}[nm],0.{}", fine(sample), digits(0, sample)).expect("a string takes any text");
     })
 }
 
 fn alternate(bytes: usize) -> File {
     lines("alternate lines", bytes, 20, ["@19/5/1997\n@12:00\n#lamp\n", ""], |sample, text| {
-        write!(text, " {}\n 0.{}\n", fine(sample), digits(0, sample)).unwrap();
+        write!(text, " {}\n 0.{}\n", fine(sample), digits(0, sample)).expect("a string takes any text");
     })
 }
 
@@ -286,11 +288,11 @@ fn camspec(bytes: usize) -> File {
     let cameras = (bytes / (channels * bands * 9)).min(MAX_CURVES / channels);
     let mut text = String::new();
     for camera in 0..cameras {
-        writeln!(text, "Made up {camera}").unwrap();
+        writeln!(text, "Made up {camera}").expect("a string takes any text");
         for channel in 0..channels {
             let values: Vec<String> =
                 (0..bands).map(|sample| format!("0.{}", digits(camera * channels + channel, sample))).collect();
-            writeln!(text, "{}", values.join("\t")).unwrap();
+            writeln!(text, "{}", values.join("\t")).expect("a string takes any text");
         }
     }
     File { separator: b'\t', ..file("cameras by name", text, cameras * channels, bands) }
