@@ -1,6 +1,8 @@
-//! What a frame waits for: time and error side by side, each against the plain 1 nm sum in the same run.
+//! What a window waits for: whole screens and frames, what a change makes anew, how cost grows, what reading takes.
 //!
-//! `cargo bench -p chromascope-core --bench compare [-- --quick loci patches document slider render integral growth reading]`. Times are medians over rounds in which the candidates take
+//! Methods one beside the other, run time against error, are measured by `chromascope bench`.
+//!
+//! `cargo bench -p chromascope-core --bench compare [-- --quick document slider render growth reading]`. Times are medians over rounds in which the candidates take
 //! turns, so that a slow moment of the machine falls on all of them. Errors are against compensated sums (Neumaier), which a
 //! double cannot tell from exact ones.
 #![allow(
@@ -15,6 +17,7 @@
 mod asker;
 #[path = "compare/exact.rs"]
 mod exact;
+#[allow(dead_code, reason = "what is in the files is compared where it is timed, in the program's own bench")]
 #[path = "../../src/bench/reading/files.rs"]
 mod files;
 #[path = "compare/library.rs"]
@@ -44,13 +47,10 @@ fn main() {
     let cores = std::thread::available_parallelism().map_or(0, usize::from);
     println!("{} · {cores} cores, one used but for pictures · medians of {rounds} rounds", library::processor());
     let named: Vec<&String> = arguments.iter().filter(|argument| !argument.starts_with('-')).collect();
-    let workloads: [Workload; 8] = [
-        ("loci", workloads::loci),
-        ("patches", workloads::patches),
+    let workloads: [Workload; 5] = [
         ("document", workloads::document),
         ("slider", workloads::slider),
         ("render", render::render),
-        ("integral", render::integral),
         ("growth", render::growth),
         ("reading", reading::reading),
     ];

@@ -84,7 +84,7 @@ pub fn cct(observer: &Sensor, constants: RadiationConstants, color: [f64; 2], ne
         (u - pu) * du + (v - pv) * dv
     };
     let mut m = Double::ONE / Double::new(near_kelvins);
-    for relative in [1e-7, 1e-12] {
+    for relative in [1e-6, 1e-9, 1e-12] {
         let step = m * Double::new(relative);
         let here = condition(m);
         m = m - here * step / (condition(m + step) - here);

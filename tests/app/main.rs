@@ -5,6 +5,7 @@
 mod accuracy;
 mod architecture;
 mod assets;
+mod bench;
 mod cli;
 mod cli_render;
 mod cpu_renderer;

@@ -1,4 +1,4 @@
-//! Pictures of the head: a frame beside its aim, the spectral integral beside the plain sum, and how cost grows.
+//! Pictures of the head: a frame beside its aim, and how cost grows.
 
 use crate::asker::Remembering;
 use crate::library::{defaults, shared, sixty};
@@ -86,40 +86,6 @@ pub(crate) fn render(rounds: usize) {
         studio.sources.iter_mut().for_each(|source| source.white = white);
     };
     line("white moved", 1.0, frame(rounds, full(), balance), error(full(), Quality::Full));
-}
-
-/// The spectral integral alone, each way beside the plain sum.
-pub(crate) fn integral(rounds: usize) {
-    for (name, sigma_m) in [("rough: σ 5 µm", 5e-6), ("between: σ 0.3 µm", 0.3e-6), ("smooth: σ 0.05 µm", 0.05e-6)]
-    {
-        println!("\nthe spectral integral of 4 sources, {name}, per lit sample and source");
-        println!("  {:<44} {:>10} {:>9}  max error, of peak", "", "median", "ratio");
-        let mut baseline = f64::NAN;
-        let ways = [
-            ("401 wavelengths (baseline)", Quality::Exact, 64),
-            ("401 wavelengths, the paper's three cases", Quality::Regimes, 64),
-            ("fifteen nodes", Quality::Fine, 128),
-            ("table and moments", Quality::Full, 512),
-        ];
-        for (way, quality, side) in ways {
-            let ask = Remembering::default();
-            let studio = Studio { sigma_m, quality, size: RasterSize::new(side, side), ..studio() };
-            studio.images(&ask);
-            let lit = (*ask.ask(&studio.geometry())).as_ref().unwrap().counts().lit;
-            // Shading is kept; images are made anew.
-            let known = ask.len() - studio.sources.len();
-            let times = (0..rounds.min(9)).map(|_| {
-                ask.keep(known);
-                milliseconds(|| drop(studio.images(&ask)))
-            });
-            let time = median(&mut times.collect::<Vec<_>>()) * 1e6 / (4 * lit) as f64;
-            if baseline.is_nan() {
-                baseline = time;
-            }
-            let error = error(Studio { sigma_m, ..self::studio() }, quality);
-            println!("  {way:<44} {time:>7.1} ns {:>9.5}  {error:.1e}", time / baseline);
-        }
-    }
 }
 
 /// Median times of the stages of a frame, in milliseconds, with everything that a frame does not change known.

@@ -1,103 +1,18 @@
-//! The pieces of work: loci, patches, the first screen, the temperature slider.
+//! The pieces of work: the first screen, the temperature slider.
 
 use crate::asker::Remembering;
 use crate::exact::{Exact, apart, locus_point, plain};
 use crate::library::{
-    CHART, CONSTANTS, DEFAULT, TRAINING, defaults, equal_energy, patches as chart, sensor, shared, sixty, temperatures,
-    text,
+    CHART, CONSTANTS, DEFAULT, TRAINING, defaults, equal_energy, patches as chart, sensor, shared, temperatures, text,
 };
 use crate::stopwatch::{candidate, compare};
 use chromascope_core::camera::{LocusEvaluator, Rendering, Way, White};
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::light::planckian::black_body;
 use chromascope_core::object::{PAPER_FIVE, PatchSet};
-use chromascope_core::query::{Ask, Direct, LocusOf, PatchColorsOf, RadiatorSignals, RenderingOf, Shared, WayOf};
+use chromascope_core::query::{Ask, LocusOf, PatchColorsOf, RadiatorSignals, RenderingOf, Shared, WayOf};
 use chromascope_core::spectral::{GridSpectrum, Sensor};
 use chromascope_core::units::Kelvin;
-
-fn paper(sensor: &Sensor) -> Rendering {
-    Rendering::new(sensor, &equal_energy(), White::UNITY, Way::Paper).unwrap()
-}
-
-/// A locus of 500 temperatures for twelve sources.
-pub(crate) fn loci(rounds: usize) {
-    let mut sensors = defaults();
-    sensors.extend(sixty().into_iter().step_by(8).take(7));
-    let all = temperatures(500).to_vec();
-    let renderings: Vec<Rendering> = sensors.iter().map(|sensor| paper(sensor)).collect();
-    let through = |evaluators: &[LocusEvaluator<&Sensor>]| -> Vec<Xy> {
-        let each = evaluators.iter().zip(&renderings);
-        each.flat_map(|(evaluator, rendering)| all.iter().map(|&t| locus_point(rendering, evaluator.raw(t)))).collect()
-    };
-    let exact: Vec<Xy> = sensors
-        .iter()
-        .flat_map(|sensor| {
-            let exact = Exact::new(sensor, &equal_energy(), Way::Paper);
-            all.iter().map(move |&t| exact.radiator(sensor, t)).collect::<Vec<_>>()
-        })
-        .collect();
-    let make = || -> Vec<LocusEvaluator<&Sensor>> {
-        sensors.iter().map(|sensor| LocusEvaluator::new(&**sensor, CONSTANTS)).collect()
-    };
-    let sums: Vec<_> = sensors.iter().map(|sensor| LocusEvaluator::by_sum(&**sensor, CONSTANTS)).collect();
-    let kept = make();
-    compare(
-        "a locus of 500 temperatures for 12 sources",
-        "max xy error",
-        rounds,
-        vec![
-            candidate("1 nm sum (baseline)", || through(&sums), |found| apart(&found, &exact)),
-            candidate("nodes, made and checked anew", || through(&make()), |found| apart(&found, &exact)),
-            candidate("nodes, already made", || through(&kept), |found| apart(&found, &exact)),
-        ],
-    );
-}
-
-/// The 24 patches through 60 sources.
-pub(crate) fn patches(rounds: usize) {
-    let (sensors, patches, light) = (sixty(), Shared::new(chart(CHART)), Shared::new(equal_energy()));
-    let renderings: Vec<RenderingOf> = sensors
-        .iter()
-        .map(|sensor| RenderingOf {
-            sensor: sensor.clone(),
-            light: light.clone(),
-            white: White::UNITY,
-            way: WayOf::Paper,
-        })
-        .collect();
-    let exact: Vec<Xy> = sensors
-        .iter()
-        .flat_map(|sensor| {
-            let exact = Exact::new(sensor, &light, Way::Paper);
-            patches.patches().iter().map(|patch| exact.patch(sensor, &light, patch.grid.values())).collect::<Vec<_>>()
-        })
-        .collect();
-    let by_sum = || -> Vec<Xy> {
-        let mut found = Vec::new();
-        for sensor in &sensors {
-            let rendering = paper(sensor);
-            for patch in patches.patches() {
-                let signals = rendering.patch_signals(plain(sensor, light.values(), patch.grid.values()).to_array());
-                found.push(rendering.xyz(signals).chromaticity().unwrap());
-            }
-        }
-        found
-    };
-    let by_query = || -> Vec<Xy> {
-        let asked =
-            renderings.iter().map(|r| Direct.ask(&PatchColorsOf { rendering: r.clone(), patches: patches.clone() }));
-        asked.flat_map(|colors| (*colors).clone().unwrap().iter().map(|c| c.xy.unwrap()).collect::<Vec<_>>()).collect()
-    };
-    compare(
-        "24 patches through 60 sources",
-        "max xy error",
-        rounds,
-        vec![
-            candidate("1 nm sum, xy only (baseline)", by_sum, |found| apart(&found, &exact)),
-            candidate("the question: RGB, xy, u'v', Lab, screen", by_query, |found| apart(&found, &exact)),
-        ],
-    );
-}
 
 /// What is asked for one screen.
 struct Screen {

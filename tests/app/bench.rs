@@ -1,0 +1,203 @@
+//! The bench: its references hold 29 digits, every measurement has an error, and the command writes all or nothing.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use chromascope::bench::double::Double;
+use chromascope::bench::{Effort, Progress, Report, Workload, exact, run};
+use chromascope::catalog::Place;
+use chromascope::catalog::load::SensorOf;
+use chromascope::export::{Paper, png, svg};
+use chromascope::theme::Theme;
+use chromascope_core::colorimetry::Lab;
+use chromascope_core::light::RadiationConstants;
+use chromascope_core::query::{Ask as _, Direct, Shared};
+use chromascope_core::render::Stop;
+use chromascope_core::spectral::Sensor;
+
+/// A decimal number with all its digits.
+fn decimal(text: &str) -> Double {
+    let (digits, sign) = text.strip_prefix('-').map_or((text, 1.0), |rest| (rest, -1.0));
+    let (digits, exponent) = digits.split_once('e').map_or((digits, 0), |(d, e)| (d, e.parse::<i32>().unwrap()));
+    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+    let number = whole.bytes().chain(fraction.bytes());
+    let sum = number.fold(Double::default(), |sum, d| sum * Double::new(10.0) + Double::new(f64::from(d - b'0')));
+    let power = exponent - fraction.len() as i32;
+    let scale = Double::new(10.0).powi(power.unsigned_abs());
+    Double::new(sign) * if power < 0 { sum / scale } else { sum * scale }
+}
+
+#[track_caller]
+fn close(found: Double, expected: &str, within: f64) {
+    let expected = decimal(expected);
+    let off = ((found - expected) / expected).high().abs();
+    assert!(off <= within, "{found:?} is off by {off:e} from {expected:?}");
+}
+
+fn observer() -> Shared<Sensor> {
+    let place = Place::BuiltIn { path: "observers/cie_1931_2deg.csv", column: None };
+    (*Direct.ask(&SensorOf(place))).clone().unwrap()
+}
+
+// All literals here: mpmath 1.3.0 with 60 digits.
+
+#[test]
+fn pairs_of_doubles_hold_29_digits() {
+    const WITHIN: f64 = 1e-29;
+    let d = Double::new;
+    close(d(7.6875).exp(), "2180.91545255304930215646604747727455045639", WITHIN);
+    close(d(-31.25).exp(), "2.68100386778180322215487311639059790292747e-14", WITHIN);
+    close((d(1.0) / d(1024.0)).exp_m1(), "0.000977039492416535242845292611606506465851629", WITHIN);
+    close(d(10.0).ln(), "2.3025850929940456840179914546843642076011", WITHIN);
+    close((d(3.0) / d(4096.0)).ln(), "-7.21915387805123402161154022057559311225851", WITHIN);
+    close(d(5.0).sin_cos().0, "-0.958924274663138468893154406155993973352462", WITHIN);
+    close(d(5.0).sin_cos().1, "0.283662185463226264466639171513557308334423", WITHIN);
+    close(d(-1.125).sin_cos().0, "-0.902267594099095162918416128654829100758989", WITHIN);
+    close(d(0.375).atan2(d(-1.25)), "2.850135859111926146467038761846611690694", WITHIN);
+    close(d(-7.0).atan2(d(2.0)), "-1.29249666778978526790309142140708168458531", WITHIN);
+    close(d(10.0).cbrt(), "2.15443469003188372175929356651935049525934", WITHIN);
+    close(d(10.0).sqrt(), "3.16227766016837933199889354443271853371956", WITHIN);
+}
+
+#[test]
+fn references_hold_28_digits() {
+    const WITHIN: f64 = 1e-28;
+    let sum = |g: f64, b: f64| exact::diffuse_sum(g.into(), b.into());
+    close(sum(0.0625, 1.5), "0.0135418905930105428909423759732780104608913", WITHIN);
+    close(sum(7.5, 40.0), "0.000949759135924241254114511349626454642047349", WITHIN);
+    close(sum(450.0, 2000.0), "0.0000262119568478756957758736175339967464204969", WITHIN);
+    let lab = |[l, a, b]: [f64; 3]| Lab { l, a, b };
+    let difference = |a, b| exact::delta_e_2000(lab(a), lab(b));
+    let pair = difference([50.0, 2.5, -3.0], [61.0, -5.0, 29.0]);
+    close(pair, "25.4993596885993915863381155880795140801751", WITHIN);
+    let pair = difference([50.0, 2.0, -80.0], [52.0, -3.5, -76.0]);
+    close(pair, "3.03244426782383516902482944353254828638416", WITHIN);
+    let pair = difference([2.0, 0.0625, -0.5], [90.0, 64.0, -64.0]);
+    close(pair, "89.136961817335920823980056591257748592317", WITHIN);
+    let pair = difference([50.0, 20.0, -3.0], [51.0, 20.0, 4.0]);
+    close(pair, "4.75409917552292431526529344235720602834951", WITHIN);
+}
+
+#[test]
+fn black_bodies_and_their_nearest_hold_24_digits() {
+    let (observer, constants) = (observer(), RadiationConstants::Paper);
+    let [x, y] = exact::black_body_xy(&observer, constants, 5500.0);
+    close(x, "0.332458040673795065696484509251830866928162", 1e-28);
+    close(y, "0.341084706617028822257825490476673480485704", 1e-28);
+    let [kelvins, duv] = exact::cct(&observer, constants, [0.2, 0.325], 5472.0);
+    close(kelvins, "5472.58958556915514818383330829471048564113", 1e-20);
+    close(duv, "0.00954752446180262102149434911714349018852882", 1e-20);
+    let [u, v] = exact::off_locus(&observer, constants, kelvins.high(), duv.high());
+    assert!((u - 0.2).abs() < 1e-15 && (v - 0.325).abs() < 1e-15);
+}
+
+fn trial(plan: &[Workload]) -> Report {
+    run(plan, Effort::Trial, &Stop::NEVER, &mut |_| ()).unwrap()
+}
+
+#[test]
+fn every_measurement_has_an_error_and_a_baseline() {
+    let report = trial(&Workload::ALL);
+    assert!(report.whole && report.workloads() == Workload::ALL);
+    assert!(report.machine.memory_gb_per_s.iter().all(|&rate| rate > 0.0));
+    assert!(report.machine.arithmetic_gflop_per_s.iter().all(|&rate| rate > 0.0));
+    for m in &report.measurements {
+        let error = &m.error;
+        let numbers = [m.seconds_per_item, m.ratio, m.spread, error.max_abs, error.rms_abs, error.max_rel];
+        assert!(numbers.iter().all(|number| number.is_finite() && *number >= 0.0), "{m:?}");
+        assert!(m.seconds_per_item > 0.0 && m.least_seconds_per_item <= m.seconds_per_item, "{m:?}");
+        assert!(error.checked + error.refused > 0 && error.rms_rel <= error.max_rel, "{m:?}");
+        let first = report.of(m.workload).find(|other| other.case == m.case).unwrap();
+        assert_eq!(first.method, m.baseline);
+        assert!(first.ratio == 1.0);
+    }
+    let worst = |workload, method: &str| {
+        let found = report.of(workload).filter(|m| m.method.starts_with(method));
+        found.map(|m| m.error.max()).reduce(f64::max).unwrap()
+    };
+    // What the methods promise, on the few items of a trial.
+    assert!(worst(Workload::Locus, "1 nm sum") < 1e-14);
+    assert!(worst(Workload::Locus, "checked nodes") < 1e-12);
+    assert!(worst(Workload::DiffuseSum, "uniform, 1e-13") < 1e-13);
+    assert!(worst(Workload::DiffuseSum, "uniform, 1e-6") < 1e-6);
+    assert!(worst(Workload::Integral, "401 × uniform, 1e-13") < 1e-13);
+    assert!(worst(Workload::Integral, "table") < 2e-6);
+    assert!(worst(Workload::Temperature, "nearest") < 1e-7);
+    assert!(worst(Workload::Difference, "pair by pair") < 1e-12);
+    assert!(worst(Workload::Responses, "dot products") < 1e-15);
+    assert!(worst(Workload::Reading, "the program's") < 1e-15);
+    figures(&report);
+    let json = report.to_json().unwrap();
+    assert_eq!(serde_json::from_str::<Report>(&json).unwrap().measurements.len(), report.measurements.len());
+    assert_eq!(report.table().rows.len(), report.measurements.len());
+}
+
+fn figures(report: &Report) {
+    for workload in Workload::ALL {
+        let figure = report.figure(workload).unwrap();
+        assert!(!figure.panels.is_empty() && figure.caption.contains(&report.machine.processor));
+        let text = svg(&figure, &Theme::LIGHT, Paper::default());
+        assert!(!text.contains("NaN") && !text.contains("inf\""), "{workload:?}");
+        png(&text, 0.5).unwrap();
+    }
+}
+
+#[test]
+fn what_is_stopped_says_so() {
+    let flag = Arc::new(AtomicBool::new(false));
+    let stop = Stop::at(Arc::clone(&flag));
+    let mut seen = 0;
+    let report = run(&[Workload::Difference, Workload::Locus], Effort::Trial, &stop, &mut |progress| {
+        if matches!(progress, Progress::Measured(_)) {
+            seen += 1;
+            flag.store(true, std::sync::atomic::Ordering::Relaxed);
+        }
+    });
+    let report = report.unwrap();
+    assert!(!report.whole && report.workloads() == [Workload::Difference] && seen == report.measurements.len());
+}
+
+fn bench(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_chromascope"));
+    command.arg("bench").args(arguments).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap()
+}
+
+fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _gone = std::fs::remove_dir_all(&folder);
+    folder
+}
+
+#[test]
+fn the_command_writes_figures_a_table_and_json() {
+    let folder = scratch("bench_files");
+    let output = bench(&["--trial", "--only", "difference", "--out", folder.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut names: Vec<String> =
+        std::fs::read_dir(&folder).unwrap().map(|f| f.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    assert_eq!(names, ["bench.csv", "bench.json", "difference.png", "difference.svg"]);
+    let report: Report = serde_json::from_str(&std::fs::read_to_string(folder.join("bench.json")).unwrap()).unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(report.measurements.iter().all(|m| said.contains(&m.method)), "{said}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("bench_files"));
+}
+
+#[test]
+fn the_command_lists_and_refuses() {
+    let output = bench(&["--list"]);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success() && Workload::ALL.iter().all(|workload| text.contains(workload.name())));
+    for (arguments, words) in [
+        (&["--trial"][..], "--out"),
+        (&["--trial", "--out", concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml")], "is a file"),
+        (&["--trial", "--out", concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml/below")], "cannot write"),
+        (&["--trial", "--only", "loci", "--out", "x"], "difference"),
+    ] {
+        let output = bench(arguments);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && said.contains(words), "{arguments:?}: {said}");
+    }
+}
