@@ -55,21 +55,24 @@ fn of_rows(file: &File, rows: &[Vec<f64>]) -> Curves {
     wide(file.samples)
 }
 
+/// What errors here are of.
+const WHAT: &str = "values, against the numbers written";
+
 /// The differences from the numbers that were written; nothing is right where samples are too many or too few.
 fn error(found: &Curves, file: &File) -> ErrorOf {
     let mut errors = Errors::default();
     let fits = found.len() == file.curves && found.iter().all(|curve| curve.len() == file.samples);
-    for curve in 0..file.curves {
-        for sample in 0..file.samples {
-            if fits {
-                let exact = (file.value)(curve, sample);
-                errors.add(found[curve][sample] - exact, exact);
-            } else {
-                errors.refuse();
-            }
+    if !fits {
+        (0..file.curves * file.samples).for_each(|_| errors.refuse());
+        return errors.sum_up(WHAT, ErrorScale::Absolute);
+    }
+    for (curve, values) in found.iter().enumerate() {
+        for (sample, value) in values.iter().enumerate() {
+            let exact = (file.value)(curve, sample);
+            errors.add(value - exact, exact);
         }
     }
-    errors.sum_up("values, against the numbers written", ErrorScale::Absolute)
+    errors.sum_up(WHAT, ErrorScale::Absolute)
 }
 
 /// Every cell as a number, NaN where it is none, as a program would that knows how the file is laid out.

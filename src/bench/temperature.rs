@@ -3,6 +3,7 @@
 use chromascope_core::colorimetry::{Uv60, UvPrime, Xy};
 use chromascope_core::light::PlanckianLocus;
 use chromascope_core::light::temperature::{Cct, NoCct, published, tabulated};
+use chromascope_core::units::Kelvin;
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};
@@ -36,8 +37,7 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     let room = Room::new(items, &NOTHING);
     let answers = Room::new(items, &Err(NoCct::NoChromaticity));
     let one = [1, checked];
-    let kelvins =
-        |found: Result<chromascope_core::units::Kelvin, NoCct>| [found.map_or(f64::NAN, |t| t.get()), f64::NAN];
+    let kelvins = |found: Result<Kelvin, NoCct>| [found.map_or(f64::NAN, Kelvin::get), f64::NAN];
     let whole = |found: Result<Cct, NoCct>| found.map_or(NOTHING, |cct| [cct.temperature.get(), cct.duv]);
     let mccamy = move |color: &Uv60| xy(*color).map_or(NOTHING, |xy| kelvins(published::mccamy_1992(xy)));
     let hernandez = move |color: &Uv60| xy(*color).map_or(NOTHING, |xy| kelvins(published::hernandez_andres_1999(xy)));
@@ -72,8 +72,7 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
 }
 
 fn color(locus: &PlanckianLocus, kelvins: f64, duv: f64) -> Uv60 {
-    let there =
-        chromascope_core::units::Kelvin::new(kelvins).ok().and_then(|temperature| locus.off(Cct { temperature, duv }));
+    let there = Kelvin::new(kelvins).ok().and_then(|temperature| locus.off(Cct { temperature, duv }));
     there.unwrap_or(Uv60 { u: f64::NAN, v: f64::NAN })
 }
 

@@ -1,6 +1,7 @@
 //! Candidates take turns; a median says how long each takes.
 
 use std::hint::black_box;
+use std::iter::successors;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -18,7 +19,8 @@ pub(super) struct Pools(Vec<(usize, ThreadPool)>);
 impl Pools {
     pub(super) fn new() -> Result<Self, ThreadPoolBuildError> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let mut counts: Vec<usize> = (0..).map(|power| 1 << power).take_while(|&count| count < cores).collect();
+        let mut counts: Vec<usize> =
+            successors(Some(1), |count| Some(2 * count)).take_while(|&count| count < cores).collect();
         counts.push(cores);
         let pool = |threads: usize| Ok((threads, ThreadPoolBuilder::new().num_threads(threads).build()?));
         Ok(Self(counts.into_iter().map(pool).collect::<Result<_, ThreadPoolBuildError>>()?))

@@ -24,7 +24,7 @@ fn decimal(text: &str) -> Double {
     let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
     let number = whole.bytes().chain(fraction.bytes());
     let sum = number.fold(Double::default(), |sum, d| sum * Double::new(10.0) + Double::new(f64::from(d - b'0')));
-    let power = exponent - fraction.len() as i32;
+    let power = exponent - i32::try_from(fraction.len()).unwrap();
     let scale = Double::new(10.0).powi(power.unsigned_abs());
     Double::new(sign) * if power < 0 { sum / scale } else { sum * scale }
 }
