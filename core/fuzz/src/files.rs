@@ -1,7 +1,7 @@
 //! Small sound files of every family, with made-up numbers.
 
 /// Each file with a name for it.
-pub const ALL: [(&str, &str); 23] = [
+pub const ALL: [(&str, &str); 27] = [
     ("commas", "# title: a\n# unit: percent\nwavelength_nm,R,G,B\n380,0.1,0.2,0.3\n390,0.2,0.3,0.4\n400,,0.4,0.5\n"),
     (
         "semicolons",
@@ -13,6 +13,13 @@ pub const ALL: [(&str, &str); 23] = [
     ("quotes", "a,\"b, c\",400,410,420,430,440\nx,\"y \"\"z\",1,2,3,4,5\nx,y,1,2,3,4,5\n"),
     ("pixels", "Pixel,Wavelength,P\n0,380.5,1\n1,381.5,2\n2,382.5,3\n>>>>>End<<<<<\n"),
     ("two tables", "nm,a\n400,1\n410,2\n420,3\n\nnm,b\n400,3\n410,4\n420,5\n"),
+    (
+        "bands",
+        "Name;L*;SCI 360nm;SCI 370nm;SCI 380nm;SCI 390nm;SCI 400nm;Note\na;50,1;1,5;2;3;4;5;x\nb;51,1;2,5;3;4;5;6;\n",
+    ),
+    ("units", "nm,A,note\n400,4.0%,x\n410,5.0%,y\n420,6.5%,\n"),
+    ("again", "sample,nm,R\nleaf,400,0.1\nleaf,410,0.2\nleaf,420,0.3\nbark,400,0.2\nbark,410,0.3\nbark,410,0.4\n"),
+    ("commas twice", "400,0,060\n410,0,070\n420,0,085\n"),
     ("pairs", "Wavelength (nm),%R,Wavelength (nm),%R\n380,1,380,2\n390,1,390,2\n400,5,400,6\n"),
     (
         "argyll",

@@ -11,7 +11,7 @@ pub fn check(table: &Table) {
     for curve in &table.curves {
         assert!(curve.wavelengths_nm.len() >= 2 && curve.wavelengths_nm.len() == curve.values.len());
         assert!(curve.wavelengths_nm.windows(2).all(|pair| pair[0] < pair[1]));
-        assert!(curve.wavelengths_nm.iter().all(|w| (100.0..=20_000.0).contains(w)));
+        assert!(curve.wavelengths_nm.iter().all(|w| (100.0..=25_000.0).contains(w)));
         assert!(curve.values.iter().all(|value| value.is_finite()));
     }
     let reading = &table.reading;

@@ -168,7 +168,7 @@ pub enum ReadError {
         line: usize,
     },
     /// A wavelength that no instrument for light measures.
-    #[error("line {line}: wavelength {wavelength_nm} nm is outside 100 to 20000 nm: check the unit and the column")]
+    #[error("line {line}: wavelength {wavelength_nm} nm is outside 100 to 25000 nm: check the unit and the column")]
     WavelengthOutOfRange {
         /// The line.
         line: usize,

@@ -90,10 +90,7 @@ impl WavelengthUnit {
 const SPEED_OF_LIGHT_NM_THZ: f64 = 299_792.458;
 
 /// What the wavelengths may be, in nanometers: beyond what any instrument for light measures.
-const RANGE_NM: std::ops::RangeInclusive<f64> = 100.0..=20_000.0;
-
-/// Where spectrometers for the infrared, which write wave numbers, begin.
-const INFRARED_NM: std::ops::RangeInclusive<f64> = 20_000.0..=100_000.0;
+const RANGE_NM: std::ops::RangeInclusive<f64> = 100.0..=25_000.0;
 
 /// Whether numbers can be wavelengths at all: in range as nanometers, or as micrometers with fractions.
 pub(super) fn plausible(min: f64, max: f64, fractions: bool) -> bool {
@@ -127,7 +124,7 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
         WavelengthUnit::Micrometer
     } else if (2000.0..=20_000.0).contains(&min) && (3000.0..=20_000.0).contains(&max) {
         return Err(ReadError::AmbiguousUnit { line: grid.line(0), min, max });
-    } else if is_bare(grid) && min >= 350.0 && max > 3300.0 && min < 2000.0 && max <= 10_000.0 {
+    } else if is_bare(grid) && min >= 400.0 && max > 3300.0 && min < 2000.0 && max <= 10_000.0 {
         // No spectrometer for light reaches so far from there, but those for the infrared all do.
         WavelengthUnit::Wavenumber
     } else if min >= 10_000.0 && max > 20_000.0 && max <= 50_000.0 {
@@ -148,8 +145,7 @@ fn is_bare(grid: &Grid) -> bool {
 pub(super) fn to_nanometers(grid: &mut Grid, unit: WavelengthUnit) -> Result<(), ReadError> {
     for i in 0..grid.wavelengths.len() {
         let wavelength_nm = unit.nanometers(grid.wavelengths[i]);
-        let infrared = unit == WavelengthUnit::Wavenumber && INFRARED_NM.contains(&wavelength_nm);
-        if !RANGE_NM.contains(&wavelength_nm) && !infrared {
+        if !RANGE_NM.contains(&wavelength_nm) {
             return Err(ReadError::WavelengthOutOfRange { line: grid.line(i), wavelength_nm });
         }
         grid.wavelengths[i] = wavelength_nm;

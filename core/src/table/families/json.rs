@@ -2,16 +2,18 @@
 
 mod comments;
 mod document;
+mod rows;
 mod watched;
 
 use document::{Aces, File};
+use rows::{Fault, Rows};
 use watched::Watched;
 
 use super::super::family::Family;
+use super::super::grid::{Grid, RawCurve};
 use super::super::header::Header;
 use super::super::reading::{MAX_PARTS, clean};
 use super::super::sniff::Layout;
-use super::super::text::excerpt;
 use super::super::watch::Log;
 use super::super::{
     Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, Part, ReadError, ReadOptions,
@@ -23,9 +25,6 @@ use super::spectra::{self, Sample, Spectrum};
 /// The fewest bytes for each quotation mark in a file of spectra.
 const FEWEST_BYTES: usize = 5;
 
-/// Samples that are put in place between two looks at the watch: some milliseconds.
-const SAMPLES_BETWEEN_LOOKS: usize = 1 << 17;
-
 /// Reads a document of either layout.
 pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     // Every list and every text has a name of its own; hostile text, which has nothing else, would need many times its size.
@@ -34,7 +33,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     }
     let file = parse(text, log)?;
     let content = match file {
-        File { spectral_data: Some(data), header, .. } => aces(text, data, &header.unwrap_or_default().0, options, log),
+        File { spectral_data: Some(data), header, .. } => aces(text, data, &header.unwrap_or_default().0, options),
         File {
             ssf_bands: Some(bands),
             red_ssf: Some(r),
@@ -47,8 +46,11 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
         File { bands: Some(bands), spectrum: Some(values), scale, .. } => spectrum(text, &bands, values, scale),
         _ => return Err(ReadError::Unsupported { family: Family::Json }),
     };
-    let Content { spectra, header, reader, role, notes, parts, part } = content.map_err(|error| placed(text, error))?;
-    let mut grid = spectra::grid(spectra, header, log)?;
+    let Content { curves, header, reader, role, notes, parts, part } = content.map_err(|error| placed(text, error))?;
+    let mut grid = match curves {
+        Curves::Spectra(spectra) => spectra::grid(spectra, header, log)?,
+        Curves::Rows { rows, names } => on_one_grid(rows, &names, header, log).map_err(|error| placed(text, error))?,
+    };
     grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "Both layouts prescribe it"));
     grid.role = role;
     // Each wavelength has one value for every curve.
@@ -93,9 +95,19 @@ fn placed(text: &str, error: ReadError) -> ReadError {
     }
 }
 
+/// Curves as a layout has them.
+enum Curves {
+    Spectra(Vec<Spectrum>),
+    /// All over the same wavelengths.
+    Rows {
+        rows: Rows,
+        names: Vec<String>,
+    },
+}
+
 /// What the layouts have in common.
 struct Content {
-    spectra: Vec<Spectrum>,
+    curves: Curves,
     header: Header,
     reader: Decided<Reader>,
     role: Option<Decided<Role>>,
@@ -117,13 +129,7 @@ fn has_marks(text: &str) -> bool {
 }
 
 /// Wavelengths are the keys of one object, each with a value for every name of the index.
-fn aces(
-    text: &str,
-    data: Aces,
-    comments: &[(String, String)],
-    options: &ReadOptions,
-    log: &Log<'_>,
-) -> Result<Content, ReadError> {
+fn aces(text: &str, data: Aces, comments: &[(String, String)], options: &ReadOptions) -> Result<Content, ReadError> {
     let (mut header, mut notes) = (Header::default(), Vec::new());
     for (key, value) in comments {
         header.note(key, value);
@@ -143,8 +149,8 @@ fn aces(
     let list = groups.iter().take(MAX_PARTS).map(|(name, rows)| Part {
         line: line_of(text, name).unwrap_or(1),
         name: name.clone(),
-        curves: rows.0.first().map_or(0, |(_, values)| values.len()),
-        rows: rows.0.len(),
+        curves: rows.width,
+        rows: rows.wavelengths.len(),
     });
     let parts: Vec<Part> = list.collect();
     let first = groups.iter().position(|(name, _)| name == "main").map_or(1, |index| index + 1);
@@ -159,10 +165,10 @@ fn aces(
     let names = if at < index.len() { index.swap_remove(at).1 } else { Vec::new() };
     let power = names.len() == 1 && names[0] == "power";
     let role = power.then(|| Decided::certain(Role::Illuminant, format!("{} as its only value", says(text, "power"))));
-    let spectra = curves(rows.0, &names, log)?;
     let reader = Decided::certain(Reader::Rawtoaces, says(text, "spectral_data"));
     let part = Decided::certain(part, format!("{} groups of data, of which “main” comes first", parts.len()));
-    Ok(Content { spectra, header, reader, role, notes, parts, part: Some(part) })
+    let curves = Curves::Rows { rows, names };
+    Ok(Content { curves, header, reader, role, notes, parts, part: Some(part) })
 }
 
 /// Keeps what remarks say about the response, in the words of this program's own files.
@@ -187,42 +193,41 @@ fn title(text: &str, header: &mut Header, notes: &mut Vec<Decision>) {
     header.note("title", &title);
 }
 
-/// One spectrum for each value of the rows.
-fn curves(rows: Vec<(String, Vec<Option<f64>>)>, names: &[String], log: &Log<'_>) -> Result<Vec<Spectrum>, ReadError> {
-    let width = rows.first().map_or(0, |(_, values)| values.len());
-    if width > MAX_CURVES {
-        return Err(ReadError::TooManyCurves { line: 1 });
+/// Rows as the grid they are; wavelengths at which no curve has a value are left out.
+fn on_one_grid(rows: Rows, names: &[String], header: Header, log: &Log<'_>) -> Result<Grid, ReadError> {
+    let Rows { wavelengths, values, width, fault } = rows;
+    match fault {
+        Some(Fault::Key(text)) => return Err(ReadError::NotANumber { line: 1, column: 1, text }),
+        Some(Fault::Count { key, found }) => {
+            return Err(ReadError::WrongCount { line: 1, name: key, found, expected: width });
+        }
+        None if width > MAX_CURVES => return Err(ReadError::TooManyCurves { line: 1 }),
+        None if values.len() > MAX_SAMPLES => return Err(ReadError::TooManySamples { line: 1 }),
+        None => {}
     }
+    let gaps: Vec<bool> = values.chunks(width.max(1)).map(|row| row.iter().all(|value| value.is_nan())).collect();
     let single = width == 1;
-    let mut all: Vec<Spectrum> = (0..width)
-        .map(|i| Spectrum {
-            // A single curve goes by the title, which says more than "power".
-            name: names.get(i).filter(|_| !single).cloned(),
-            label: names.get(i).cloned().unwrap_or_default(),
-            samples: Vec::with_capacity(rows.len()),
-        })
-        .collect();
-    let mut since = 0;
-    for (key, values) in rows {
-        since += values.len();
-        if since > SAMPLES_BETWEEN_LOOKS {
-            since = 0;
-            log.look(usize::MAX)?;
-        }
-        let wavelength: f64 = key
-            .trim()
-            .parse()
-            .ok()
-            .filter(|value: &f64| value.is_finite())
-            .ok_or_else(|| ReadError::NotANumber { line: 1, column: 1, text: excerpt(&key) })?;
-        if values.len() != width {
-            return Err(ReadError::WrongCount { line: 1, name: key, found: values.len(), expected: width });
-        }
-        for (spectrum, value) in all.iter_mut().zip(values) {
-            spectrum.samples.extend(value.map(|value| Sample { wavelength, value, line: 1 }));
-        }
+    let title = header.comment("title").filter(|_| single).map(str::to_owned);
+    let mut curves = Vec::with_capacity(width);
+    let mut all = Some(values);
+    for column in 0..width {
+        log.look(usize::MAX)?;
+        let values = match all.as_deref() {
+            Some(values) if !single => values.iter().skip(column).step_by(width).copied().collect(),
+            _ => all.take().unwrap_or_default(),
+        };
+        // A single curve goes by the title, which says more than "power".
+        let given = names.get(column).filter(|_| !single).cloned().or_else(|| title.clone());
+        let name = given.clone().unwrap_or_else(|| format!("Spectrum {}", column + 1));
+        let label = names.get(column).cloned().unwrap_or_default();
+        curves.push(RawCurve { name, named: given.is_some(), label, values, ..RawCurve::default() });
     }
-    Ok(all)
+    drop(all);
+    let mut grid = Grid { wavelengths, lines: vec![1], curves, header, own_wavelengths: true, ..Grid::default() };
+    if gaps.contains(&true) && width > 0 {
+        grid.remove(&gaps);
+    }
+    Ok(grid)
 }
 
 fn camera(
@@ -247,7 +252,7 @@ fn camera(
     }
     let reader = Decided::certain(Reader::Dcamprof, says(text, "ssf_bands"));
     let role = Some(Decided::certain(Role::Camera, says(text, "red_ssf")));
-    Ok(Content { spectra: all, header, reader, role, notes, parts: Vec::new(), part: None })
+    Ok(Content { curves: Curves::Spectra(all), header, reader, role, notes, parts: Vec::new(), part: None })
 }
 
 fn spectrum(text: &str, bands: &[f64], mut values: Vec<f64>, scale: Option<f64>) -> Result<Content, ReadError> {
@@ -261,7 +266,8 @@ fn spectrum(text: &str, bands: &[f64], mut values: Vec<f64>, scale: Option<f64>)
     }
     let spectra = vec![on(&wavelengths, &values, "spectrum")?];
     let reader = Decided::certain(Reader::Dcamprof, says(text, "spectrum"));
-    Ok(Content { spectra, header: Header::default(), reader, role: None, notes, parts: Vec::new(), part: None })
+    let curves = Curves::Spectra(spectra);
+    Ok(Content { curves, header: Header::default(), reader, role: None, notes, parts: Vec::new(), part: None })
 }
 
 impl Spectrum {

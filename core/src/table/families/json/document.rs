@@ -6,6 +6,8 @@ use std::marker::PhantomData;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
+use super::rows::Rows;
+
 /// How many entries of a header are kept.
 const MAX_ENTRIES: usize = 1000;
 
@@ -34,9 +36,6 @@ pub(super) struct Aces {
     pub(super) index: InOrder<Vec<String>>,
     pub(super) data: InOrder<Rows>,
 }
-
-/// Wavelengths with a value for each curve; `null` is a gap.
-pub(super) type Rows = InOrder<Vec<Option<f64>>>;
 
 /// An object whose members are kept in the order of the file.
 pub(super) struct InOrder<T>(pub(super) Vec<(String, T)>);
