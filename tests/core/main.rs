@@ -12,6 +12,7 @@ mod fern;
 mod figure;
 mod head;
 mod light;
+mod locus_table;
 mod math;
 mod mesh_reading;
 mod paper;
