@@ -1,9 +1,11 @@
 //! From spectra to a camera's signals, and from signals to the diagram.
 
+pub mod batch;
 pub mod locus;
 pub mod rendering;
 pub mod white_balance;
 
+pub use batch::{Batch, NoBatch};
 pub use locus::{LocusEvaluator, LocusMethod};
 pub use rendering::{FitTargets, NoRendering, Rendering, Way};
 pub use white_balance::White;

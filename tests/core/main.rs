@@ -6,6 +6,7 @@
 #![allow(clippy::disallowed_methods, reason = "the tests read the data that the core is given")]
 
 mod accuracy;
+mod batch;
 mod camera;
 mod colorimetry;
 mod fern;
