@@ -39,9 +39,11 @@ fn wide(values: &[f32]) -> Vec<f64> {
 
 fn check(length: usize, count: usize, channels: usize) {
     let (spectra, curves) = (numbers(length * count, 1), numbers(length * channels, 2));
-    let answers = Batch::new(&curves, length).unwrap().responses(&spectra).unwrap();
+    let batch = Batch::new(&curves, length).unwrap();
+    let answers = batch.responses(&spectra).unwrap();
     let (thin_spectra, thin_curves) = (narrow(&spectra), narrow(&curves));
-    let thin = Batch::new(&thin_curves, length).unwrap().responses(&thin_spectra).unwrap();
+    let thin_batch = Batch::new(&thin_curves, length).unwrap();
+    let thin = thin_batch.responses(&thin_spectra).unwrap();
     assert_eq!((answers.len(), thin.len()), (count * channels, count * channels));
     let (thin_spectra, thin_curves) = (wide(&thin_spectra), wide(&thin_curves));
     for n in 0..count {
@@ -49,12 +51,11 @@ fn check(length: usize, count: usize, channels: usize) {
             let (s, k) = (n * length..(n + 1) * length, c * length..(c + 1) * length);
             let what = format!("spectrum {n}, channel {c} of {channels}, {length} samples");
             let (exact, size) = compensated(&spectra[s.clone()], &curves[k.clone()]);
-            let bound = |lanes: usize, half: f64| (length.div_ceil(lanes) + 4) as f64 * half * size;
             let off = (answers[n * channels + c] - exact).abs();
-            assert!(off <= bound(4, f64::EPSILON / 2.0), "{what}: {off}");
-            let (exact, _) = compensated(&thin_spectra[s], &thin_curves[k]);
+            assert!(off <= batch.max_error() * size, "{what}: {off}");
+            let (exact, size) = compensated(&thin_spectra[s], &thin_curves[k]);
             let off = (f64::from(thin[n * channels + c]) - exact).abs();
-            assert!(off <= bound(8, f64::from(f32::EPSILON) / 2.0), "{what} in f32: {off}");
+            assert!(off <= thin_batch.max_error() * size, "{what} in f32: {off}");
         }
     }
 }
@@ -92,6 +93,16 @@ fn each_response_is_the_same_alone_and_on_any_number_of_threads() {
             assert_eq!(alone, [answers[n * channels + c]]);
         }
     }
+}
+
+#[test]
+fn spectra_that_no_cache_holds_have_the_same_responses() {
+    let (length, channels) = (81, 3);
+    let (few, curves) = (numbers(length * 499, 3), numbers(length * channels, 4));
+    let batch = Batch::new(&curves, length).unwrap();
+    let once = batch.responses(&few).unwrap();
+    let many = batch.responses(&few.repeat(5)).unwrap();
+    assert!(many.chunks(once.len()).all(|part| part == once));
 }
 
 #[test]

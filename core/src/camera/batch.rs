@@ -6,10 +6,14 @@ use rayon::prelude::*;
 
 pub use kernel::Sample;
 
-/// Spectra per piece of work: their samples fit the second cache, and handing over costs little beside them.
-const CHUNK: usize = 64;
+/// Pieces of work, if there are spectra enough: more than threads, so that none waits long for the last.
+const PIECES: usize = 32;
+/// The most samples of a piece: they fit the second cache.
+const LONGEST: usize = 1 << 16;
+/// Bytes that a cache may still hold when they are asked for again.
+const NEAR: usize = 1 << 20;
 /// Below this many products the work is done where it is asked for: waking other threads takes longer.
-const ALONE: usize = 1 << 19;
+const ALONE: usize = 1 << 20;
 
 /// Why numbers make no batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
@@ -43,10 +47,10 @@ pub enum NoBatch {
 /// What stands in the curves is up to the caller: for `∫ C S L dλ` the products of [`under_light`], which have the weights of
 /// the quadrature in them. Numbers are `f64` or `f32`; products are summed in the same type.
 ///
-/// Each response is the sum of 4 partial sums (8 in `f32`), each of every fourth (eighth) product in order: the error is below
-/// `(⌈L/4⌉ + 4) ε Σ|S C|` (`⌈L/8⌉`) for L samples, ε half the distance from 1 to the next number. Processors that multiply and
-/// add in one rounding do so: between kinds of processors the last bits differ, but never with the number of threads, of
-/// spectra or of channels. Responses that are not finite, because a sample is not or is too large, are given as zero.
+/// Each response is the sum of 4 partial sums (8 in `f32`), each of at most ⌈L/4⌉ (⌈L/8⌉) products of the L samples; its
+/// error is within [`Self::max_error`]. Products and sums are rounded once together, by the processor or, where it cannot
+/// (before 2013), slowly in software: the bits depend on neither the kind of processor nor the number of threads, of spectra
+/// or of channels. Responses that are not finite, because a sample is not or is too large, are given as zero.
 ///
 /// [`under_light`]: super::rendering::under_light
 #[derive(Clone, Debug, PartialEq)]
@@ -72,6 +76,12 @@ impl<T: Sample> Batch<T> {
         self.channels
     }
 
+    /// How far a response may be off, in parts of `Σ|S C|`: `(⌈L/4⌉ + 4) ε` (`⌈L/8⌉` in `f32`), ε half the distance from 1 to
+    /// the next number. So much only where no product is below the normal numbers.
+    pub fn max_error(&self) -> f64 {
+        (self.length.div_ceil(T::LANES) + 4) as f64 * T::ROUNDING
+    }
+
     /// The responses to spectra that lie one after the other: all channels of the first, all of the second, ….
     pub fn responses(&self, spectra: &[T]) -> Result<Vec<T>, NoBatch> {
         let mut answers = vec![T::ZERO; count(spectra.len(), self.length)? * self.channels];
@@ -88,13 +98,17 @@ impl<T: Sample> Batch<T> {
         if wanted == 0 {
             return Ok(());
         }
-        let products = spectra.len().saturating_mul(self.channels);
+        let (length, channels) = (self.length, self.channels);
+        let far = size_of_val(spectra) > NEAR;
+        let products = spectra.len().saturating_mul(channels);
         if products <= ALONE {
-            T::multiply(spectra, self.length, &self.curves, answers, self.channels);
+            T::multiply(spectra, length, &self.curves, answers, channels, far);
             return Ok(());
         }
-        let pieces = answers.par_chunks_mut(CHUNK * self.channels).zip(spectra.par_chunks(CHUNK * self.length));
-        pieces.for_each(|(answers, spectra)| T::multiply(spectra, self.length, &self.curves, answers, self.channels));
+        let count = (wanted / channels / PIECES).min(LONGEST / length).max(ALONE / 8 / (length * channels));
+        let count = count.max(1).next_multiple_of(kernel::ROWS);
+        let pieces = answers.par_chunks_mut(count * channels).zip(spectra.par_chunks(count * length));
+        pieces.for_each(|(answers, spectra)| T::multiply(spectra, length, &self.curves, answers, channels, far));
         Ok(())
     }
 }

@@ -1,7 +1,6 @@
 //! The inner loops: blocks of responses that stay in registers while wavelengths go by.
 
 use multiversion::multiversion;
-use multiversion::target::target_cfg_f;
 
 /// A type of numbers that spectra come in: `f64` or `f32`.
 pub trait Sample: Copy + Send + Sync + PartialEq + sealed::Kernel {}
@@ -19,7 +18,11 @@ pub(super) mod sealed {
     pub trait Kernel: Sized {
         /// Zero.
         const ZERO: Self;
-        /// As many numbers as a register of AVX2 holds.
+        /// How many numbers a register of AVX2 holds.
+        const LANES: usize;
+        /// Half the distance from 1 to the next number.
+        const ROUNDING: f64;
+        /// A register.
         type Lanes: Clone + PartialEq + std::fmt::Debug + Send + Sync;
 
         /// Whether it is neither infinite nor NaN.
@@ -28,36 +31,46 @@ pub(super) mod sealed {
         /// Curves of a length, in the order in which [`Self::multiply`] reads them, filled up with zeros.
         fn pack(curves: &[Self], length: usize) -> Vec<Self::Lanes>;
 
-        /// All responses of some spectra to packed curves; neither the length nor the number of channels is 0.
-        fn multiply(spectra: &[Self], length: usize, curves: &[Self::Lanes], answers: &mut [Self], channels: usize);
+        /// All responses of some spectra to packed curves; neither the length nor the number of channels is 0. Far are spectra
+        /// that no cache holds.
+        fn multiply(
+            spectra: &[Self],
+            length: usize,
+            curves: &[Self::Lanes],
+            answers: &mut [Self],
+            channels: usize,
+            far: bool,
+        );
     }
 }
 
 /// Spectra and channels of a block. Its sums are 12 of the 16 registers of AVX2: enough to hide how long one takes, few
 /// enough that none goes to memory.
-const ROWS: usize = 3;
+pub(super) const ROWS: usize = 3;
 const COLUMNS: usize = 4;
 
-/// How many channels the next block takes when so many are left.
-fn columns(left: usize) -> usize {
-    left.min(COLUMNS)
-}
+/// Registers of a block that need no memory to be asked for, which takes as long as some hundred products.
+const FEW: usize = 96;
 
-/// One register of each curve of a block. Written out: a loop over the channels would be turned into one over scattered
-/// numbers.
+/// One register of each curve of a block. Written out: a loop over the spectra or channels would be turned into one over
+/// scattered numbers.
 macro_rules! step {
-    ($sums:ident, $spectra:expr, $curves:ident, $lanes:literal, $count:ident, $($n:literal)*) => {
-        $(if $n < $count {
-            let curve = $curves[$n].0;
-            for k in 0..$lanes {
-                $sums[0][$n][k] = fused::<FUSED>($spectra[0][k], curve[k], $sums[0][$n][k]);
-            }
-            for k in 0..$lanes {
-                $sums[1][$n][k] = fused::<FUSED>($spectra[1][k], curve[k], $sums[1][$n][k]);
-            }
-            for k in 0..$lanes {
-                $sums[2][$n][k] = fused::<FUSED>($spectra[2][k], curve[k], $sums[2][$n][k]);
-            }
+    ($sums:ident, [$($row:literal $spectrum:ident),*], $curves:ident, $lanes:literal, $count:ident) => {
+        step!(@ $sums, [$($row $spectrum),*], $curves, $lanes, 0);
+        if $count > 1 {
+            step!(@ $sums, [$($row $spectrum),*], $curves, $lanes, 1);
+        }
+        if $count > 2 {
+            step!(@ $sums, [$($row $spectrum),*], $curves, $lanes, 2);
+        }
+        if $count > 3 {
+            step!(@ $sums, [$($row $spectrum),*], $curves, $lanes, 3);
+        }
+    };
+    (@ $sums:ident, [$($row:literal $spectrum:ident),*], $curves:ident, $lanes:literal, $n:literal) => {
+        let curve = $curves[$n].0;
+        $(for k in 0..$lanes {
+            $sums[$row][$n][k] = $spectrum[k].mul_add(curve[k], $sums[$row][$n][k]);
         })*
     };
 }
@@ -67,126 +80,160 @@ macro_rules! kernel {
         pub(super) mod $type {
             use super::*;
 
+            /// What a register holds.
+            type Lanes = Register<[$type; $lanes]>;
+
+            /// Whole registers of the spectra of a block.
+            type Rows<'a> = [&'a [[$type; $lanes]]; ROWS];
+
+            /// Registers of zeros.
+            const NOTHING: Lanes = Register([0.0; $lanes]);
+
             impl sealed::Kernel for $type {
                 const ZERO: Self = 0.0;
-                type Lanes = Register<[$type; $lanes]>;
+                const LANES: usize = $lanes;
+                const ROUNDING: f64 = $type::EPSILON as f64 / 2.0;
+                type Lanes = Lanes;
 
                 fn is_finite(&self) -> bool {
                     $type::is_finite(*self)
                 }
 
-                fn pack(curves: &[Self], length: usize) -> Vec<Self::Lanes> {
+                fn pack(curves: &[Self], length: usize) -> Vec<Lanes> {
                     let registers = length.div_ceil($lanes);
                     let curves: Vec<&[Self]> = curves.chunks(length.max(1)).collect();
                     let mut packed = Vec::with_capacity(curves.len() * registers);
                     for block in curves.chunks(COLUMNS) {
                         for first in (0..length).step_by($lanes) {
-                            let at = |curve: &[Self], i: usize| curve.get(i).copied().unwrap_or(0.0);
-                            let register = |curve| Register(std::array::from_fn(|k| at(curve, first + k)));
-                            packed.extend(block.iter().map(|&curve| register(curve)));
+                            packed.extend(block.iter().map(|curve| Register(register(curve, first))));
                         }
                     }
                     packed
                 }
 
-                fn multiply(
-                    spectra: &[Self],
-                    length: usize,
-                    curves: &[Self::Lanes],
-                    answers: &mut [Self],
-                    channels: usize,
-                ) {
-                    multiply(spectra, length, curves, answers, channels);
+                fn multiply(spectra: &[Self], length: usize, curves: &[Lanes], answers: &mut [Self], channels: usize, far: bool) {
+                    multiply(spectra, length, curves, answers, channels, far);
                 }
             }
 
-            /// Compiled for several instruction sets, the best chosen at run time.
-            #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-            fn multiply(
-                spectra: &[$type],
-                length: usize,
-                curves: &[Register<[$type; $lanes]>],
-                answers: &mut [$type],
-                channels: usize,
-            ) {
-                if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
-                    portable::<true>(spectra, length, curves, answers, channels);
-                } else {
-                    portable::<false>(spectra, length, curves, answers, channels);
+            /// One register of a curve. In the last, what it repeats of the one before counts only once.
+            fn register(curve: &[$type], first: usize) -> [$type; $lanes] {
+                match curve.get(first..first + $lanes) {
+                    Some(whole) => std::array::from_fn(|k| whole[k]),
+                    None if first == 0 => last(curve),
+                    None => {
+                        let mut register = last(curve);
+                        register[..first + $lanes - curve.len()].fill(0.0);
+                        register
+                    }
                 }
+            }
+
+            /// Compiled for several instruction sets, the best chosen at run time. Each rounds a product and its sum once, if
+            /// need be in software, so all of them give the same bits.
+            #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+            fn multiply(spectra: &[$type], length: usize, curves: &[Lanes], answers: &mut [$type], channels: usize, far: bool) {
+                portable(spectra, length, curves, answers, channels, far);
             }
 
             /// The same for any processor.
             #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
             #[inline(always)]
-            pub(super) fn portable<const FUSED: bool>(
+            pub(super) fn portable(
                 spectra: &[$type],
                 length: usize,
-                curves: &[Register<[$type; $lanes]>],
+                curves: &[Lanes],
                 answers: &mut [$type],
                 channels: usize,
+                far: bool,
             ) {
-                let registers = length.div_ceil($lanes);
-                for (spectra, answers) in spectra.chunks(ROWS * length).zip(answers.chunks_mut(ROWS * channels)) {
-                    // Where there are fewer, the first stands for those that are missing.
-                    let row = |r: usize| spectra.get(r * length..(r + 1) * length).unwrap_or(&spectra[..length]);
-                    let rows = [row(0), row(1), row(2)].map(|row| row.as_chunks::<$lanes>());
-                    let rests = rows.map(|(_, rest)| std::array::from_fn(|k| rest.get(k).copied().unwrap_or(0.0)));
-                    let rows = rows.map(|(whole, _)| whole);
-                    for done in (0..channels).step_by(COLUMNS) {
-                        let count = columns(channels - done);
-                        let block = &curves[done * registers..(done + count) * registers];
-                        let places = &mut answers[done..];
-                        match count {
-                            1 => responses::<1, FUSED>(rows, &rests, block, places, channels),
-                            2 => responses::<2, FUSED>(rows, &rests, block, places, channels),
-                            3 => responses::<3, FUSED>(rows, &rests, block, places, channels),
-                            _ => responses::<COLUMNS, FUSED>(rows, &rests, block, places, channels),
+                let whole = length / $lanes;
+                let mut copy = vec![[0.0; $lanes]; if far { ROWS * whole } else { 0 }];
+                let (mut few, mut many) = ([NOTHING; FEW], Vec::new());
+                let sums = room(&mut few, &mut many, ROWS * channels);
+                let (mut spectra, mut answers) = (spectra, answers);
+                while !spectra.is_empty() {
+                    let count = (spectra.len() / length).min(ROWS);
+                    let (these, rest) = spectra.split_at(count * length);
+                    let (places, others) = answers.split_at_mut(count * channels);
+                    // Where spectra are missing, the first stands for them.
+                    let all = [0, 1, 2].map(|row| &these[if row < count { row * length } else { 0 }..][..length]);
+                    let mut rows = all.map(|row| row.as_chunks::<$lanes>().0);
+                    if far {
+                        // One after the other, which hardware foresees as it does not three side by side.
+                        for (to, from) in copy.chunks_exact_mut(whole.max(1)).zip(rows) {
+                            to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
                         }
+                        rows = [0, 1, 2].map(|row| &copy[row * whole..][..whole]);
+                    }
+                    add_up(rows, &all.map(|row| Register(last(row))), curves, sums, channels);
+                    for (place, sums) in places.iter_mut().zip(&*sums) {
+                        let total = total(sums.0);
+                        *place = if total.is_finite() { total } else { 0.0 };
+                    }
+                    (spectra, answers) = (rest, others);
+                }
+            }
+
+            /// As much of the first as is wanted if that is enough, else of the second.
+            fn room<'a>(few: &'a mut [Lanes], many: &'a mut Vec<Lanes>, wanted: usize) -> &'a mut [Lanes] {
+                if wanted <= few.len() {
+                    return &mut few[..wanted];
+                }
+                many.resize(wanted, NOTHING);
+                many
+            }
+
+            /// The last register of numbers that do not fill it: some are in the one before, too.
+            #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
+            #[inline(always)]
+            fn last(numbers: &[$type]) -> [$type; $lanes] {
+                let padded = || std::array::from_fn(|k| numbers.get(k).copied().unwrap_or(0.0));
+                numbers.last_chunk().copied().unwrap_or_else(padded)
+            }
+
+            /// The partial sums of some spectra and all channels.
+            #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
+            #[inline(always)]
+            fn add_up(rows: Rows<'_>, lasts: &[Lanes; ROWS], curves: &[Lanes], sums: &mut [Lanes], channels: usize) {
+                let registers = curves.len() / channels;
+                for done in (0..channels).step_by(COLUMNS) {
+                    let count = (channels - done).min(COLUMNS);
+                    let curves = &curves[done * registers..][..count * registers];
+                    let places = &mut sums[done..];
+                    match count {
+                        1 => some::<1>(rows, lasts, curves, places, channels),
+                        2 => some::<2>(rows, lasts, curves, places, channels),
+                        3 => some::<3>(rows, lasts, curves, places, channels),
+                        _ => some::<COLUMNS>(rows, lasts, curves, places, channels),
                     }
                 }
             }
 
-            /// The responses of the spectra of a block to N channels; those of each are `stride` places further on.
+            /// The same of N channels; the sums of each spectrum are `stride` places further on.
             #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
             #[inline(always)]
-            fn responses<const N: usize, const FUSED: bool>(
-                spectra: [&[[$type; $lanes]]; ROWS],
-                rests: &[[$type; $lanes]; ROWS],
-                curves: &[Register<[$type; $lanes]>],
-                answers: &mut [$type],
+            fn some<const N: usize>(
+                [a, b, c]: Rows<'_>,
+                lasts: &[Lanes; ROWS],
+                curves: &[Lanes],
+                places: &mut [Lanes],
                 stride: usize,
             ) {
                 let mut sums = [[[0.0; $lanes]; N]; ROWS];
-                let [s0, s1, s2] = spectra;
-                let (curves, _) = curves.as_chunks::<N>();
-                for (((s0, s1), s2), curves) in s0.iter().zip(s1).zip(s2).zip(curves) {
-                    step!(sums, [s0, s1, s2], curves, $lanes, N, 0 1 2 3);
+                let curves = curves.as_chunks::<N>().0;
+                for (((a, b), c), curves) in a.iter().zip(b).zip(c).zip(curves) {
+                    step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
                 }
-                if let Some(curves) = curves.get(s0.len()) {
-                    step!(sums, rests, curves, $lanes, N, 0 1 2 3);
+                if let Some(curves) = curves.get(a.len()) {
+                    let [a, b, c] = lasts.each_ref().map(|last| &last.0);
+                    step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
                 }
-                // A copy: what a function is given the place of cannot have been in registers.
-                let kept = sums;
-                write(&kept, answers, stride);
-            }
-
-            /// The totals. On its own, so that how they are added up does not decide in which registers partial sums are kept.
-            #[inline(never)]
-            fn write<const N: usize>(sums: &[[[$type; $lanes]; N]; ROWS], answers: &mut [$type], stride: usize) {
-                for (answers, sums) in answers.chunks_mut(stride).zip(sums) {
-                    for (answer, sums) in answers.iter_mut().zip(sums) {
-                        let total = total(*sums);
-                        *answer = if total.is_finite() { total } else { 0.0 };
+                for (row, sums) in sums.into_iter().enumerate() {
+                    for (place, sum) in places[row * stride..].iter_mut().zip(sums) {
+                        place.0 = sum;
                     }
                 }
-            }
-
-            /// `a b + sum`, in one rounding or in two.
-            #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
-            #[inline(always)]
-            fn fused<const FUSED: bool>(a: $type, b: $type, sum: $type) -> $type {
-                if FUSED { a.mul_add(b, sum) } else { sum + a * b }
             }
 
             /// Partial sums, pairwise.
@@ -214,33 +261,35 @@ mod tests {
     use super::sealed::Kernel;
     use super::*;
 
-    /// Powers of two, whose products and sums are exact: then one rounding or two are the same.
-    fn exact(count: usize, seed: usize) -> Vec<f64> {
-        (0..count).map(|i| f64::from(1_u32 << ((i * 7 + seed) % 11)) * if i % 3 == 0 { -1.0 } else { 1.0 }).collect()
+    /// Numbers without any order.
+    fn numbers(count: usize, seed: u64) -> Vec<f64> {
+        let mut state = seed;
+        let next = |_| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.3
+        };
+        (0..count).map(next).collect()
     }
 
     #[test]
-    fn every_instruction_set_gives_the_same_sums() {
-        for (length, count, channels) in [(1, 1, 1), (3, 2, 2), (81, 7, 13), (401, 4, 60)] {
-            let (spectra, curves) = (exact(length * count, 1), exact(length * channels, 5));
+    fn every_instruction_set_and_way_to_read_gives_the_same_bits() {
+        for (length, count, channels) in [(1, 1, 1), (3, 2, 2), (4, 5, 9), (81, 7, 13), (401, 4, 60)] {
+            let (spectra, curves) = (numbers(length * count, 1), numbers(length * channels, 5));
             let packed = <f64 as Kernel>::pack(&curves, length);
-            let mut answers = [vec![0.0; count * channels], vec![0.0; count * channels]];
-            <f64 as Kernel>::multiply(&spectra, length, &packed, &mut answers[0], channels);
-            f64::portable::<false>(&spectra, length, &packed, &mut answers[1], channels);
-            assert_eq!(answers[0], answers[1]);
-            let narrow = |values: &[f64]| -> Vec<f32> { values.iter().map(|&v| v as f32).collect() };
-            let packed = <f32 as Kernel>::pack(&narrow(&curves), length);
-            for fused in [true, false] {
-                let mut few = vec![0.0; count * channels];
-                if fused {
-                    <f32 as Kernel>::multiply(&narrow(&spectra), length, &packed, &mut few, channels);
-                } else {
-                    f32::portable::<false>(&narrow(&spectra), length, &packed, &mut few, channels);
-                }
-                // Integers to 2²⁴ are exact in single precision, half of those beyond that to 2²⁵.
-                let near = |(few, many): (&f32, &f64)| (f64::from(*few) - many).abs() <= 2.0;
-                assert!(few.iter().zip(&answers[0]).all(near));
+            let mut answers = vec![0.0; count * channels];
+            <f64 as Kernel>::multiply(&spectra, length, &packed, &mut answers, channels, false);
+            for far in [false, true] {
+                let mut others = vec![0.0; count * channels];
+                f64::portable(&spectra, length, &packed, &mut others, channels, far);
+                assert_eq!(answers, others);
             }
+            let narrow = |values: &[f64]| -> Vec<f32> { values.iter().map(|&v| v as f32).collect() };
+            let (spectra, packed) = (narrow(&spectra), <f32 as Kernel>::pack(&narrow(&curves), length));
+            let mut answers = vec![0.0; count * channels];
+            <f32 as Kernel>::multiply(&spectra, length, &packed, &mut answers, channels, true);
+            let mut others = vec![0.0; count * channels];
+            f32::portable(&spectra, length, &packed, &mut others, channels, false);
+            assert_eq!(answers, others);
         }
     }
 }
