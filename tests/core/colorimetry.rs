@@ -2,12 +2,13 @@
 
 use chromascope_core::colorimetry::adaptation::bradford;
 use chromascope_core::colorimetry::diagram::{area_color, spectral_locus, wavelength_color};
+use chromascope_core::colorimetry::difference::DELTA_E_2000_ERROR;
 use chromascope_core::colorimetry::lab::lab_from_xyz;
 use chromascope_core::colorimetry::rgb::{
     GAMUTS, SRGB_FROM_XYZ_PUBLISHED, XYZ_FROM_SRGB, encode_srgb, srgb_from_xyz, srgb_inverse_transfer, srgb_transfer,
     srgb_white,
 };
-use chromascope_core::colorimetry::{Lab, UvPrime, Xy, Xyz, delta_e_1976, delta_e_2000};
+use chromascope_core::colorimetry::{Lab, UvPrime, Xy, Xyz, delta_e_1976, delta_e_2000, delta_e_2000_into};
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 
@@ -26,6 +27,35 @@ fn ciede2000_gives_the_34_published_differences() {
         // Four decimals are printed.
         assert_near(&format!("pair {}", pair + 1), delta_e_2000(a, b), row[6], 5.001e-5);
         assert_near(&format!("pair {} reversed", pair + 1), delta_e_2000(b, a), row[6], 5.001e-5);
+    }
+}
+
+#[test]
+fn ciede2000_matches_fifty_digits_on_both_sides_of_its_leaps() {
+    for row in reference_numbers("ciede2000_exact.csv") {
+        let (a, b) = (Lab { l: row[0], a: row[1], b: row[2] }, Lab { l: row[3], a: row[4], b: row[5] });
+        for found in [delta_e_2000(a, b), delta_e_2000(b, a)] {
+            assert_near(&format!("{a:?} {b:?}"), found, row[6], DELTA_E_2000_ERROR * row[6]);
+        }
+    }
+}
+
+#[test]
+fn many_differences_are_each_to_the_last_bit_on_any_number_of_threads() {
+    let rows = vec![reference_numbers("ciede2000_exact.csv"); 50].concat();
+    let labs = |from: usize| -> Vec<Lab> {
+        rows.iter().map(|row| Lab { l: row[from], a: row[from + 1], b: row[from + 2] }).collect()
+    };
+    let (mut firsts, seconds) = (labs(0), labs(3));
+    firsts[7].a = f64::NAN;
+    let each: Vec<f64> = firsts.iter().zip(&seconds).map(|(&a, &b)| delta_e_2000(a, b)).collect();
+    assert!(each.iter().all(|d| d.is_finite()));
+    for threads in [1, 3] {
+        let mut answers = vec![-1.0; rows.len() + 2];
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| delta_e_2000_into(&firsts, &seconds, &mut answers));
+        assert_eq!(answers[..rows.len()], each);
+        assert_eq!(answers[rows.len()..], [-1.0, -1.0]);
     }
 }
 

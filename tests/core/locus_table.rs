@@ -10,7 +10,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::support::{
-    CANON_10D, CIE_1931, NIKON_D70, TRUTH, assert_near, kelvin, reference_numbers, sensor, sensors, training,
+    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, kelvin, reference_numbers, sensor, sensors, training,
 };
 
 const PAPER: RadiationConstants = RadiationConstants::Paper;
@@ -68,6 +68,28 @@ fn every_sensor_has_a_table_that_keeps_its_own_error() {
         .collect();
     // 66 sensors on two ways; cones have none on the paper's.
     assert_eq!(made.iter().sum::<usize>(), 130);
+}
+
+#[test]
+fn a_larger_error_takes_a_smaller_table_that_keeps_it() {
+    for path in [CIE_1931, CANON_10D, DCS200] {
+        let sensor = sensor(path);
+        let rendering = rendering(&sensor, Way::Paper).unwrap();
+        let exact = LocusTable::new(&sensor, &rendering, PAPER);
+        assert_eq!(LocusTable::within(&sensor, &rendering, PAPER, 0.0), exact);
+        assert_eq!(LocusTable::within(&sensor, &rendering, PAPER, f64::NAN), exact);
+        let mut size = exact.size()[0];
+        for target in [1e-11, 1e-9, 1e-6, 1e-4] {
+            let table = LocusTable::within(&sensor, &rendering, PAPER, target);
+            assert!(table.max_error() <= target && table.size()[0] <= size, "{path}: {:?}", table.size());
+            size = table.size()[0];
+            for t in anywhere(400) {
+                let seen = off(table.xy(t).unwrap(), exact.xy(t).unwrap());
+                assert!(seen <= 1.5 * target, "{path} at {t}: {seen:.1e} of {target:.0e}");
+            }
+        }
+        assert!(2 * size < exact.size()[0]);
+    }
 }
 
 #[test]

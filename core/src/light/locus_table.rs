@@ -61,15 +61,26 @@ impl LocusTable {
 
     /// Tabulates the locus of a sensor and its way to the diagram (Eq 15). Some thousand sums, on all cores.
     pub fn new(sensor: &Sensor, rendering: &Rendering, constants: RadiationConstants) -> Self {
+        Self::within(sensor, rendering, constants, Self::TARGET)
+    }
+
+    /// The same with another error at which pieces are narrow enough than [`Self::TARGET`], which a smaller one is taken for;
+    /// a piece is left out beyond ten times that. Large errors take fewer sums.
+    pub fn within(sensor: &Sensor, rendering: &Rendering, constants: RadiationConstants, target: f64) -> Self {
         let evaluator = LocusEvaluator::by_sum(sensor, constants);
-        Self::of(|temperature| {
+        let exact = |temperature| {
             rendering.xyz(DVec3::from_array(evaluator.raw(temperature)) * rendering.locus_gain).chromaticity()
-        })
+        };
+        Self::made(&exact, target)
     }
 
     /// Tabulates any curve in the diagram that is smooth in the reciprocal temperature.
     pub fn of(exact: impl Fn(Kelvin) -> Option<Xy> + Sync) -> Self {
-        let (pieces, max_error) = Pieces::new(&exact);
+        Self::made(&exact, Self::TARGET)
+    }
+
+    fn made(exact: &(impl Fn(Kelvin) -> Option<Xy> + Sync), target: f64) -> Self {
+        let (pieces, max_error) = Pieces::new(exact, target.max(Self::TARGET));
         Self { pieces, max_error }
     }
 

@@ -17,9 +17,11 @@ const SHIFT: f64 = 256.0;
 const FIRST_EXPONENT: u64 = 1023 + 8;
 /// Doublings from [`SHIFT`] to beyond the coldest body's 10⁶ mired.
 const DOUBLINGS: usize = 12;
-/// Pieces of a doubling, as powers of two: tried, fewest first.
+/// Pieces of a doubling, as powers of two: tried, fewest first. No sensor's locus is so smooth that fewer would do for a
+/// target below the coarse one.
 const FEWEST_BITS: u32 = 4;
 const MOST_BITS: u32 = 7;
+const COARSE: f64 = 1e-10;
 
 /// Bits of a double's mantissa, and its exponent when it lies in 1…2.
 const MANTISSA: u32 = 52;
@@ -56,14 +58,15 @@ impl PartialEq for Pieces {
 
 impl Pieces {
     /// As few as meet the target, with the largest error of those that are kept.
-    pub(super) fn new(exact: &(impl Fn(Kelvin) -> Option<Xy> + Sync)) -> (Self, f64) {
-        let mut bits = FEWEST_BITS;
+    pub(super) fn new(exact: &(impl Fn(Kelvin) -> Option<Xy> + Sync), target: f64) -> (Self, f64) {
+        let limit = target * (LocusTable::LIMIT / LocusTable::TARGET);
+        let mut bits = if target > COARSE { 0 } else { FEWEST_BITS };
         loop {
             let made: Vec<(Piece, f64)> =
                 (0..DOUBLINGS << bits).into_par_iter().map(|i| piece(exact, i, bits)).collect();
             let worst = made.iter().fold(0.0_f64, |worst, (_, error)| worst.max(*error));
-            if worst <= LocusTable::TARGET || bits == MOST_BITS {
-                let kept = |error: f64| error <= LocusTable::LIMIT;
+            if worst <= target || bits == MOST_BITS {
+                let kept = |error: f64| error <= limit;
                 let max_error = made.iter().map(|m| m.1).filter(|&e| kept(e)).fold(0.0, f64::max);
                 let pieces = made.into_iter().map(|(piece, error)| if kept(error) { piece } else { NOTHING }).collect();
                 return (Self { within_bits: MANTISSA - bits, pieces }, max_error);
