@@ -82,7 +82,7 @@ impl Hues {
     fn new([a1, b1, c1]: [f64; 3], [a2, b2, c2]: [f64; 3], cross: f64, turning: f64) -> Self {
         let (dot, size) = (a1 * a2 + b1 * b2, c1 * c2);
         // Of two hues exactly opposite, the one below 180° is the smaller.
-        let upwards = if (b2 < 0.0) | ((b2 == 0.0) & (a2 < 0.0)) { 1.0 } else { -1.0 };
+        let upwards = if b2 < 0.0 || (b2 == 0.0 && a2 < 0.0) { 1.0 } else { -1.0 };
         let sign = if turning == 0.0 { upwards } else { 1.0_f64.copysign(turning) };
         let acute = dot >= 0.0;
         let half = (0.5 * (size + dot.abs())).sqrt();
@@ -142,7 +142,7 @@ fn hue_weight([x, y]: [f64; 2]) -> f64 {
 fn turned([x, y]: [f64; 2]) -> f64 {
     let (cos, sin) = (x * COS_275 + y * SIN_275, y * COS_275 - x * SIN_275);
     // Hues count from 0° to 360°: from 0° on they are far below 275°, not near above it.
-    let none = (cos < UNTURNED) | ((y >= 0.0) & (x > 0.0));
+    let none = cos < UNTURNED || (y >= 0.0 && x > 0.0);
     // Tangents of a half, a quarter and an eighth of the angle, at most 0.37.
     let half = sin / (1.0 + cos.max(UNTURNED));
     let quarter = half / (1.0 + (1.0 + half * half).sqrt());
