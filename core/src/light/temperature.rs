@@ -98,7 +98,8 @@ pub enum NoLocus {
 /// The sums go from 380 to 780 nm, as everywhere here. Over the whole table of the CIE, from 360 to 830 nm, temperatures are
 /// about 2 K lower at 6500 K: that, and not the method, is the difference from other programs.
 ///
-/// Error against 50 digits, held by tests for the CIE 1931 observer: below 2e-9 K and 1e-15 in Duv, up to the very ends.
+/// Error against 50 digits, held by tests for the CIE 1931 observer: below [`Self::MAX_ERROR_K`] and [`Self::MAX_ERROR_DUV`], up
+/// to the very ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanckianLocus {
     pieces: Pieces,
@@ -107,6 +108,11 @@ pub struct PlanckianLocus {
 }
 
 impl PlanckianLocus {
+    /// How far a temperature is off at most, in kelvins.
+    pub const MAX_ERROR_K: f64 = 2e-9;
+    /// How far a Duv is off at most.
+    pub const MAX_ERROR_DUV: f64 = 1e-15;
+
     /// Tabulates the locus of an observer: some 1200 sums over its curves, then a search for each node of the table.
     pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, NoLocus> {
         if observer.primaries() != Primaries::Xyz {
