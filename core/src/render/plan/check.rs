@@ -8,7 +8,7 @@ use crate::render::measure::{Measure, Node};
 use rayon::prelude::*;
 
 /// The largest error between the points of the check is taken to be at most this much larger than at them.
-pub const MARGIN: f64 = 2.0;
+pub const MARGIN: f64 = 3.0;
 
 /// What the sum over all wavelengths is off by: S at full precision.
 pub(super) const REFERENCE: f64 = 1e-13;
@@ -19,6 +19,9 @@ const BETAS: usize = 16;
 /// Ways whose error is smooth in κ and β, as that of sums over a few wavelengths, are compared at each third point. Strides have
 /// no divisor in common with the number of β, so that none is left out.
 const SMOOTH_STRIDE: usize = 3;
+
+/// How many β there are at the least and the largest κ, and where moments begin: errors are largest in the corners.
+const EDGE_BETAS: usize = 64;
 
 /// The wavelengths that may stand for all in the check, if they are compared with all at each of this many points.
 const STAND_INS: [usize; 2] = [20, 28];
@@ -34,7 +37,11 @@ pub(super) struct Point {
 }
 
 pub(super) struct Check {
-    points: Vec<Point>,
+    grid: Vec<Point>,
+    edges: Vec<Point>,
+    /// The wavelengths that `exact` is made of.
+    nodes: Vec<Node>,
+    against: Against,
     /// What `exact` may be off by.
     reference: f64,
 }
@@ -48,21 +55,36 @@ impl Check {
             let off = |point: &Point| off(point, by_nodes(&nodes, point.kappa, point.beta, Precision::Full));
             let apart = few.par_iter().map(off).reduce(|| 0.0, f64::max);
             if apart <= REFERENCE {
-                let points = points(&nodes, against, demand, 1);
-                return Self { points, reference: MARGIN * apart + REFERENCE };
+                return Self::by(nodes, against, demand, MARGIN * apart + REFERENCE);
             }
         }
-        Self { points: points(measure.dense(), against, demand, 1), reference: REFERENCE }
+        Self::by(measure.dense().to_vec(), against, demand, REFERENCE)
+    }
+
+    fn by(nodes: Vec<Node>, against: Against, demand: Demand, reference: f64) -> Self {
+        let grid = points(&nodes, against, demand, 1);
+        let edges = demand.kappa().map(|kappa| edge(&nodes, against, kappa)).into_iter().flatten().collect();
+        Self { grid, edges, nodes, against, reference }
     }
 
     /// The largest error of a way that is smooth in κ and β, over the points for which `asked` holds, without margin.
     pub(super) fn error(&self, asked: impl Fn(f64) -> bool + Sync, way: impl Fn(f64, f64) -> [f64; 3] + Sync) -> f64 {
-        let asked = self.points.par_iter().step_by(SMOOTH_STRIDE).filter(|point| asked(point.kappa));
-        asked.map(|point| off(point, way(point.kappa, point.beta))).reduce(|| 0.0, f64::max)
+        let points = self.grid.par_iter().step_by(SMOOTH_STRIDE).chain(&self.edges);
+        points
+            .filter(|point| asked(point.kappa))
+            .map(|point| off(point, way(point.kappa, point.beta)))
+            .reduce(|| 0.0, f64::max)
     }
 
-    pub(super) fn points(&self) -> &[Point] {
-        &self.points
+    /// The same from some κ on, with that κ itself as an edge.
+    pub(super) fn error_from(&self, from: f64, way: impl Fn(f64, f64) -> [f64; 3] + Sync) -> f64 {
+        let first = edge(&self.nodes, self.against, from);
+        let first = first.iter().map(|point| off(point, way(point.kappa, point.beta))).fold(0.0, f64::max);
+        first.max(self.error(|kappa| kappa >= from, &way))
+    }
+
+    pub(super) fn points(&self) -> impl Iterator<Item = &Point> {
+        self.grid.iter().chain(&self.edges)
     }
 
     /// What an error seen certifies.
@@ -71,29 +93,53 @@ impl Check {
     }
 }
 
-/// Each so manyth point, by a sum over these wavelengths; only where something is promised.
+/// Each so manyth point of the grid, by a sum over these wavelengths; only where something is promised.
 fn points(nodes: &[Node], against: Against, demand: Demand, stride: usize) -> Vec<Point> {
     let [from, to] = demand.kappa();
-    let largest = |kappa: f64, beta: f64| {
-        let sums = by_nodes(nodes, kappa, beta, Precision::Full);
-        (sums, sums.into_iter().map(f64::abs).fold(0.0, f64::max))
-    };
     let row = |i: usize| {
-        let kappa = from * (to / from).powf(i as f64 / (KAPPAS - 1) as f64);
-        let peak = largest(kappa, 0.0).1;
+        let row = Row::new(nodes, against, from * (to / from).powf(i as f64 / (KAPPAS - 1) as f64));
         let shift = (i as f64 * 0.618_033_988_749_894_9).fract();
-        let point = |j: usize| {
-            // The edge itself, then a little beyond v = 1 too; each row lies between the others'.
-            let v = if j == 0 { 0.0 } else { 1.05 * (j as f64 - shift) / (BETAS - 1) as f64 };
-            let beta = beta_at(kappa, v);
-            let (exact, value) = largest(kappa, beta);
-            let scale = if against == Against::Peak { peak } else { value };
-            let promised = against == Against::Peak || value > (-DARK).exp() * peak;
-            promised.then_some(Point { kappa, beta, exact, scale })
-        };
-        (0..BETAS).filter(|j| (i * BETAS + j).is_multiple_of(stride)).filter_map(point).collect::<Vec<_>>()
+        // The edge itself, then a little beyond v = 1 too; each row lies between the others'.
+        let v = |j: usize| if j == 0 { 0.0 } else { 1.05 * (j as f64 - shift) / (BETAS - 1) as f64 };
+        let asked = (0..BETAS).filter(|j| (i * BETAS + j).is_multiple_of(stride));
+        asked.filter_map(|j| row.point(v(j))).collect::<Vec<_>>()
     };
     (0..KAPPAS).into_par_iter().map(row).collect::<Vec<_>>().into_iter().flatten().collect()
+}
+
+/// Many points at one κ.
+fn edge(nodes: &[Node], against: Against, kappa: f64) -> Vec<Point> {
+    let row = Row::new(nodes, against, kappa);
+    (0..EDGE_BETAS).into_par_iter().filter_map(|j| row.point(j as f64 / (EDGE_BETAS - 1) as f64)).collect()
+}
+
+/// All β at one κ.
+struct Row<'a> {
+    nodes: &'a [Node],
+    against: Against,
+    kappa: f64,
+    peak: f64,
+}
+
+impl<'a> Row<'a> {
+    fn new(nodes: &'a [Node], against: Against, kappa: f64) -> Self {
+        Self { nodes, against, kappa, peak: largest(by_nodes(nodes, kappa, 0.0, Precision::Full)) }
+    }
+
+    fn point(&self, v: f64) -> Option<Point> {
+        let beta = beta_at(self.kappa, v);
+        let exact = by_nodes(self.nodes, self.kappa, beta, Precision::Full);
+        let value = largest(exact);
+        let (scale, promised) = match self.against {
+            Against::Peak => (self.peak, true),
+            Against::Value => (value, value > (-DARK).exp() * self.peak),
+        };
+        promised.then_some(Point { kappa: self.kappa, beta, exact, scale })
+    }
+}
+
+fn largest(sums: [f64; 3]) -> f64 {
+    sums.into_iter().map(f64::abs).fold(0.0, f64::max)
 }
 
 /// A point's error. Black is exact if it is black.

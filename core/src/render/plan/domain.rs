@@ -62,7 +62,7 @@ pub(super) fn beta_at(kappa: f64, v: f64) -> f64 {
     (v * ln_last(kappa)).exp_m1()
 }
 
-/// ln(1 + β_last).
+/// The logarithm of 1 + β at v = 1.
 #[inline]
 pub(super) fn ln_last(kappa: f64) -> f64 {
     (DARK * (1.0 + 6.0 / kappa.sqrt() + 3.5 / kappa)).ln_1p()

@@ -21,10 +21,10 @@ const LAST_TABLE: f64 = 1024.0;
 /// A table reaches down to this share of the largest κ in it.
 const TABLE_SPAN: f64 = 1e-6;
 /// The finest table: cells of 1/320.
-const LAST_STEP: usize = 16;
-/// An error falls by at most this much from a table to the next finer one, whose cells are smaller by √2: by 2^(degree + 1)/2 and
-/// as much again where it has not begun to fall regularly.
-const STEEPEST: f64 = 64.0;
+const LAST_STEP: u32 = 16;
+/// An error is taken to fall by at most this much more than by 2^((degree + 1)/2) from a table to the next finer one, whose cells
+/// are smaller by √2.
+const STEEPER: f64 = 2.5;
 
 pub(super) fn plan(measure: &Measure, accuracy: Accuracy, against: Against, demand: Demand) -> Result<Plan, Unmet> {
     accuracy.met_by(REFERENCE)?;
@@ -98,7 +98,7 @@ impl Search<'_> {
             basis[orders..].fill(0.0);
             by_moments(self.measure.moments(), &basis)
         };
-        self.check.error(|kappa| kappa >= from, way)
+        self.check.error_from(from, way)
     }
 
     /// The fewest moments that do for all of the demand.
@@ -160,7 +160,7 @@ impl Search<'_> {
             let carried = carried(nodes, &sums);
             if carried == 0.0 { 0.0 } else { carried / point.scale }
         };
-        1.5 * self.check.points().iter().step_by(47).map(of).fold(1.0, f64::max)
+        1.5 * self.check.points().step_by(47).map(of).fold(1.0, f64::max)
     }
 
     /// The fewest wavelengths that do, with each precision of S.
@@ -215,44 +215,46 @@ impl Search<'_> {
         if kappa[0] >= kappa[1] || rough <= kappa[0] {
             return;
         }
-        for degree in [3, 5] {
-            let mut known: Option<(usize, f64)> = None;
-            for step in 0..=LAST_STEP {
-                let size = Size::new(kappa, degree, step);
-                let [kappas, betas] = size.places();
-                let method = Method::Table { degree, kappas, betas, nodes: size.nodes };
-                let unseen = Candidate::unseen(method);
-                if !self.may_win(&unseen) {
-                    self.seen.push(unseen);
-                    break;
-                }
-                // Filled in vain if even the steepest fall leaves too much.
-                let hopeless = |(from, error): (usize, f64)| {
-                    self.check.certified(error * STEEPEST.powi((from as i32) - (step as i32)))
-                        > self.accuracy.max_relative_error()
-                };
-                if known.is_some_and(hopeless) {
-                    continue;
-                }
-                let plan = self.with(Below::Table(Table::new(&size, kappa, self.measure.shared(size.nodes))));
-                let seen = self.table_error(&plan);
-                known = Some((step, seen));
-                let candidate = Candidate::new(method, seen, self.check.certified(seen));
-                let meets = candidate.meets(self.accuracy);
-                self.offer(candidate, plan.below);
-                if meets {
-                    break;
-                }
+        for degree in [5, 3] {
+            self.tables_of(degree, kappa);
+        }
+    }
+
+    /// Those of one degree.
+    fn tables_of(&mut self, degree: usize, kappa: [f64; 2]) {
+        let steepest = STEEPER * (0.5 * (degree + 1) as f64).exp2();
+        let mut known: Option<(u32, f64)> = None;
+        for step in 0..=LAST_STEP {
+            let size = Size::new(kappa, degree, step);
+            let [kappas, betas] = size.places();
+            let method = Method::Table { degree, kappas, betas, nodes: size.nodes };
+            let unseen = Candidate::unseen(method);
+            if !self.may_win(&unseen) {
+                self.seen.push(unseen);
+                return;
+            }
+            // Filled in vain if even the steepest fall leaves too much.
+            let least = |(from, error): (u32, f64)| error * steepest.powf(f64::from(from) - f64::from(step));
+            if known.is_some_and(|known| !self.accuracy.allows(self.check.certified(least(known)))) {
+                continue;
+            }
+            let plan = self.with(Below::Table(Table::new(&size, kappa, self.measure.shared(size.nodes))));
+            let seen = self.table_error(&plan);
+            known = Some((step, seen));
+            let candidate = Candidate::new(method, seen, self.check.certified(seen));
+            let meets = candidate.meets(self.accuracy);
+            self.offer(candidate, plan.below);
+            if meets {
+                return;
             }
         }
     }
 
     fn table_error(&self, plan: &Plan) -> f64 {
-        let points = self.check.points();
-        let places: Vec<[f64; 2]> = points.iter().map(|point| [point.kappa, point.beta]).collect();
+        let places: Vec<[f64; 2]> = self.check.points().map(|point| [point.kappa, point.beta]).collect();
         let mut sums = vec![[0.0; 3]; places.len()];
         plan.fill(&places, &mut sums);
-        points.iter().zip(sums).map(|(point, sum)| off(point, sum)).fold(0.0, f64::max)
+        self.check.points().zip(sums).map(|(point, sum)| off(point, sum)).fold(0.0, f64::max)
     }
 
     /// A plan of one way alone.

@@ -22,13 +22,13 @@ const ALONG_V: f64 = 1.0;
 
 impl Size {
     /// The size of a table after `step` halvings of its cells.
-    pub(super) fn new(kappa: [f64; 2], degree: usize, step: usize) -> Self {
-        let h = COARSEST * (-0.5 * step as f64).exp2();
+    pub(super) fn new(kappa: [f64; 2], degree: usize, step: u32) -> Self {
+        let h = COARSEST * (-0.5 * f64::from(step)).exp2();
         let ln_kappa = kappa.map(f64::ln);
         let along = |length: f64, h: f64| (length / h).ceil().max(1.0) as usize;
         let intervals = [along(ln_kappa[1] - ln_kappa[0], h), along(ln_last(kappa[0]), ALONG_V * h).max(degree)];
         // The wavelengths keep step with the cells, so that neither alone decides the error.
-        let nodes = if degree == 3 { 4 + step / 2 } else { 4 + 3 * step / 4 };
+        let nodes = 4 + (if degree == 3 { step / 2 } else { 3 * step / 4 }) as usize;
         Self { degree, intervals, nodes, ln_kappa }
     }
 
