@@ -51,7 +51,7 @@ pub enum Against {
     Value,
 }
 
-/// A way to the integral that keeps its error. Cheap to use, costly to make: some ten milliseconds, a table's more.
+/// A way to the integral that keeps its error. Cheap to use, costly to make: some tens of milliseconds, a table's more.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     demand: Demand,
