@@ -16,7 +16,8 @@ pub(super) fn run(bench: &mut Bench<'_>) {
     }
 }
 
-/// The sum as one would write it down: terms until they no longer count, in doubles.
+/// The sum as one would write it down: terms until they no longer count, in doubles. For g below 700, where the first factor is
+/// no longer a number of full length.
 pub(super) fn term_by_term(g: f64, b: f64) -> f64 {
     let (mut weight, mut sum, mut n) = ((-g).exp(), 0.0, 1.0);
     loop {

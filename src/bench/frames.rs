@@ -28,6 +28,9 @@ const SOURCES: [&str; 4] = [
 /// The side of the frames that errors are found on: each has the same peak.
 const CHECKED: u32 = 48;
 
+/// Up to this side slow qualities are measured too: beyond it they take minutes, and as long per pixel.
+const SLOW_UP_TO: u32 = 128;
+
 /// What no frame makes anew.
 struct Studio {
     mesh: Mesh,
@@ -90,15 +93,19 @@ impl Studio {
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     let triangles = bench.pick(2_000, 100_000, 100_000);
-    for (name, sigma_m) in [("\u{3c3} 5 µm", 5e-6), ("\u{3c3} 0.3 µm", 0.3e-6)] {
+    let sides: [&[u32]; 2] = bench.pick(
+        [&[32], &[]],
+        [&[SLOW_UP_TO, 256, 512, 1024], &[256]],
+        [&[SLOW_UP_TO, 256, 512, 1024], &[SLOW_UP_TO, 256, 512, 1024]],
+    );
+    for ((name, sigma_m), sides) in [("\u{3c3} 5 µm", 5e-6), ("\u{3c3} 0.3 µm", 0.3e-6)].into_iter().zip(sides) {
         let most = bench.pools.most();
         let (studio, seconds) = timed(|| bench.pools.on(most, || Studio::new(triangles, sigma_m)));
         let Some(studio) = studio? else { continue };
         let studio = &studio;
-        for side in bench.pick(vec![32], vec![256, 512, 1024], vec![256, 512, 1024]) {
-            // A slow quality would take minutes at the larger sizes: its time per pixel is the same.
+        for &side in sides {
             let mut qualities = vec![("full", Quality::Full), ("preview", Quality::Preview)];
-            if side <= 256 {
+            if side <= SLOW_UP_TO {
                 let slow = [
                     ("401 wavelengths", Quality::Exact),
                     ("401, the paper's cases", Quality::Regimes),

@@ -52,7 +52,9 @@ fn of_rows(file: &File, rows: &[Vec<f64>]) -> Curves {
     if side_by_side.len() == file.samples {
         return (0..file.curves).map(|curve| side_by_side.iter().map(|row| row[curve]).collect()).collect();
     }
-    wide(file.samples)
+    let mut below = wide(file.samples);
+    // A row of wavelengths is numbers too.
+    below.split_off(below.len().saturating_sub(file.curves))
 }
 
 /// What errors here are of.

@@ -57,7 +57,7 @@ pub(super) struct Candidate<'a> {
     method: String,
     threads: usize,
     items: usize,
-    divisible: bool,
+    least: usize,
     build_seconds: f64,
     error: ErrorOf,
     cost: Option<Cost>,
@@ -76,7 +76,7 @@ impl<'a> Candidate<'a> {
             method: method.into(),
             threads: 1,
             items,
-            divisible: true,
+            least: 1,
             build_seconds: 0.0,
             error,
             cost: None,
@@ -91,7 +91,12 @@ impl<'a> Candidate<'a> {
 
     /// The same, which can only do all of its items at a time.
     pub(super) fn undivided(self) -> Self {
-        Self { divisible: false, ..self }
+        Self { least: self.items, ..self }
+    }
+
+    /// The same with no fewer items at a time: so many that caches do not hold them.
+    pub(super) fn at_least(self, items: usize) -> Self {
+        Self { least: items.min(self.items), ..self }
     }
 
     /// The same with what it takes to make it.
@@ -116,16 +121,17 @@ impl<'a> Candidate<'a> {
         pools.on(self.threads, run)
     }
 
-    /// How many items, how often, take about as long as wanted. This also warms up.
-    fn batch(&mut self, pools: &Pools, target: f64) -> Batch {
-        let mut items = if self.divisible { self.items.min(64) } else { self.items };
+    /// How many items, how often, take about as long as wanted, and how many seconds that is. This also warms up.
+    fn batch(&mut self, pools: &Pools, target: f64) -> (Batch, f64) {
+        let mut items = self.items.min(64).max(self.least);
         loop {
             let taken = self.seconds(pools, Batch { items, repeats: 1 });
             if taken >= target / 8.0 || items == self.items {
                 let wanted = items as f64 * (target / taken.max(1e-9));
-                let most = if self.divisible { wanted.min(self.items as f64) } else { self.items as f64 };
-                let repeats = (wanted / self.items as f64).round().clamp(1.0, 1e6);
-                return Batch { items: (most as usize).max(1), repeats: repeats as usize };
+                let most = (wanted as usize).clamp(self.least, self.items);
+                let repeats = (wanted / self.items as f64).round().clamp(1.0, 1e6) as usize;
+                let seconds = taken / items as f64 * (most * repeats) as f64;
+                return (Batch { items: most, repeats }, seconds);
             }
             items = (items * 8).min(self.items);
         }
@@ -177,14 +183,19 @@ impl Bench<'_> {
     /// Measures the candidates by turns. The first is the baseline.
     pub(super) fn compare(&mut self, case: Case<'_>, mut candidates: Vec<Candidate<'_>>) {
         let target = self.pick(2e-4, 6e-3, 3e-2);
-        let rounds = self.pick(3, 9, 31);
+        let mut once = 0.0;
         let mut batches = Vec::with_capacity(candidates.len());
         for candidate in &mut candidates {
             if self.stop.is_set() {
                 return;
             }
-            batches.push(candidate.batch(&self.pools, target));
+            let (batch, seconds) = candidate.batch(&self.pools, target);
+            batches.push(batch);
+            once += seconds;
         }
+        // Where a round takes long, a few must do.
+        let (most, seconds) = self.pick((3, 0.0), (9, 1.5), (31, 25.0));
+        let rounds = ((seconds / once) as usize).clamp(3, most);
         let mut times = vec![Vec::with_capacity(rounds); candidates.len()];
         for round in 0..rounds {
             for turn in 0..candidates.len() {
