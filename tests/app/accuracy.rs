@@ -9,6 +9,7 @@ use chromascope::laboratory::{SceneRun, Subject};
 use chromascope::panes;
 use chromascope::scene::Scene;
 use chromascope::workspaces::{PaneKind, Workspace};
+use chromascope_core::accuracy::Accuracy;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
@@ -120,7 +121,7 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.state().studio().wait();
     window.run_steps(3);
     let shot = window.state().view().render.shot.clone().expect("pictures");
-    assert_eq!(shot.query.shading.quality.accuracy().map(|accuracy| accuracy.max_relative_error()), Some(1e-6));
+    assert_eq!(shot.query.shading.quality.accuracy().map(Accuracy::max_relative_error), Some(1e-6));
     assert!(shot.made().is_some_and(|made| made.shading.planned > 1000));
     window.state_mut().push(Command::Undo);
     window.run_steps(2);
