@@ -2,10 +2,12 @@
 
 pub mod batch;
 pub mod locus;
+pub mod locus_table;
 pub mod rendering;
 pub mod white_balance;
 
 pub use batch::{Batch, NoBatch};
 pub use locus::{LocusEvaluator, LocusMethod};
+pub use locus_table::{LocusTable, NotInTable};
 pub use rendering::{FitTargets, NoRendering, Rendering, Way};
 pub use white_balance::White;

@@ -12,7 +12,7 @@
 //! camera::locus              ∫ C E(T) dλ                                Eq 14, 15
 //! colorimetry                XYZ → xy, u′v′, L*a*b*, ΔE, sRGB
 //! light::temperature         XYZ → nearest black body, Duv
-//! light::locus_table         black bodies → xy, for very many temperatures
+//! camera::locus_table        black bodies → xy, for very many temperatures
 //! camera::batch              ∫ C S L dλ for very many S and C
 //! query                      each of these as a question with all it depends on
 //! figure                     answers as axes, curves and points; SVG

@@ -1,9 +1,10 @@
 //! Tables of black bodies' chromaticities against the 1 nm sum, 50 digits, and curves that no table can hold.
 
+use chromascope_core::camera::locus_table::{COLDEST_K, HOTTEST_K};
 use chromascope_core::camera::{LocusEvaluator, Rendering, Way, White};
+use chromascope_core::camera::{LocusTable, NotInTable};
 use chromascope_core::colorimetry::Xy;
-use chromascope_core::light::locus_table::{COLDEST_K, HOTTEST_K};
-use chromascope_core::light::{LocusTable, NotInTable, RadiationConstants};
+use chromascope_core::light::RadiationConstants;
 use chromascope_core::spectral::{GridSpectrum, Sensor};
 use chromascope_core::units::Kelvin;
 use glam::DVec3;
