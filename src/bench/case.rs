@@ -75,7 +75,7 @@ pub enum ErrorScale {
 pub struct Roof {
     /// Bytes per second over those that a sum over a large array reads.
     pub memory: f64,
-    /// Operations per second over those of multiply-adds in registers.
+    /// Operations per second over those of multiply-adds of doubles in registers; operations on singles count half.
     pub arithmetic: f64,
 }
 

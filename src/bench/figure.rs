@@ -138,7 +138,11 @@ fn labels(case: &[&Measurement], places: &[[f64; 2]], ranges: [[f64; 2]; 2]) -> 
     taken.extend(corners.map(|(x0, y0, x1, y1)| [x0, y0, x1, y1]));
     let mut named: Vec<&str> = Vec::new();
     let mut marks = Vec::new();
-    for (measurement, &at) in case.iter().zip(places) {
+    // What is on the front is named first: it is what one looks for.
+    let front = front(places);
+    let mut order: Vec<(&&Measurement, &[f64; 2])> = case.iter().zip(places).collect();
+    order.sort_by_key(|(_, place)| !front.contains(place));
+    for (measurement, &at) in order {
         if named.contains(&measurement.method.as_str()) {
             continue;
         }

@@ -25,8 +25,10 @@ pub struct Machine {
     pub arithmetic_gflop_per_s: [f64; 2],
 }
 
-/// Doubles in registers that a multiply-add loop keeps busy: enough for two units with a latency of four.
-const LANES: usize = 128;
+/// Doubles in registers that a multiply-add loop keeps busy: enough for two units with a latency of four to five.
+const LANES: usize = 64;
+/// Doubles side by side in the widest register.
+const WIDTH: usize = 8;
 /// Doubles per piece of work of the memory's sum.
 const CHUNK: usize = 1 << 16;
 
@@ -116,12 +118,15 @@ fn sum(values: &[f64]) -> f64 {
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd+fma", "x86_64+avx2+fma", "aarch64+neon"))]
 fn multiply_add(turns: u32, start: f64) -> f64 {
-    let mut lanes: [f64; LANES] = std::array::from_fn(|lane| start + lane as f64);
-    let (factor, term) = (black_box(0.999), black_box(1e-3));
+    let mut lanes: [[f64; WIDTH]; LANES / WIDTH] =
+        std::array::from_fn(|row| std::array::from_fn(|lane| start + (WIDTH * row + lane) as f64));
+    let (factor, term) = ([black_box(0.999); WIDTH], [black_box(1e-3); WIDTH]);
     for _ in 0..turns {
-        for lane in &mut lanes {
-            *lane = lane.mul_add(factor, term);
+        for row in &mut lanes {
+            for lane in 0..WIDTH {
+                row[lane] = row[lane].mul_add(factor[lane], term[lane]);
+            }
         }
     }
-    lanes.iter().sum()
+    lanes.iter().flatten().sum()
 }

@@ -176,7 +176,10 @@ impl<T: Real> Product<T> {
             });
         };
         let size = size_of::<T>() as f64;
-        let cost = Cost { bytes: size * (samples + channels) as f64, flops: 2.0 * (samples * channels) as f64 };
+        // Twice as many singles as doubles fit a register.
+        let registers = size / size_of::<f64>() as f64;
+        let cost =
+            Cost { bytes: size * (samples + channels) as f64, flops: 2.0 * registers * (samples * channels) as f64 };
         let method = format!("{method}, {}", T::NAME);
         let all = if *reflectances > different && channels <= FEW { different } else { 1 };
         Candidate::new(method, *reflectances, error(&first, exact), work).at_least(all).on(threads).costing(cost)
