@@ -1,13 +1,13 @@
 //! Color differences of many pairs.
 
 use chromascope_core::colorimetry::Lab;
-use chromascope_core::colorimetry::difference::{delta_e_1976, delta_e_2000};
+use chromascope_core::colorimetry::difference::{delta_e_1976, delta_e_2000, delta_e_2000_into};
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};
 use super::double::{Double, off};
 use super::inputs::Numbers;
-use super::timing::{Bench, Case, Room, each, spaced};
+use super::timing::{Bench, Candidate, Case, Room, each, spaced};
 use super::{Workload, exact};
 
 pub(super) fn run(bench: &mut Bench<'_>) {
@@ -28,11 +28,22 @@ pub(super) fn run(bench: &mut Bench<'_>) {
     });
     let error = |found: &[f64]| error(found, &exact);
     let room = Room::new(items, &0.0);
+    let [firsts, seconds] = [0, 1].map(|k: usize| pairs.iter().map(|pair| pair[k]).collect::<Vec<Lab>>());
+    let [some_firsts, some_seconds] = [0, 1].map(|k: usize| some.iter().map(|pair| pair[k]).collect::<Vec<Lab>>());
+    let mut found = vec![0.0; some.len()];
+    delta_e_2000_into(&some_firsts, &some_seconds, &mut found);
     let mut candidates = vec![each("pair by pair", [1, checked], &pairs, &room, error, |&[a, b]| delta_e_2000(a, b))];
     candidates.push(each("\u{394}E*ab in its place", [1, checked], &pairs, &room, error, |&[a, b]| delta_e_1976(a, b)));
     for threads in bench.pools.counts().into_iter().skip(1) {
         let answer = |&[a, b]: &[Lab; 2]| delta_e_2000(a, b);
         candidates.push(each("pair by pair", [threads, checked], &pairs, &room, error, answer));
+    }
+    for threads in bench.pools.counts() {
+        let (firsts, seconds, room) = (&firsts, &seconds, &room);
+        let work = move |items: usize| {
+            room.lend(|answers| delta_e_2000_into(&firsts[..items], &seconds[..items], &mut answers[..items]));
+        };
+        candidates.push(Candidate::new("side by side", items, error(&found), work).on(threads));
     }
     bench.compare(Case { workload: Workload::Difference, name: "a million pairs", item: "pair" }, candidates);
 }

@@ -1,8 +1,10 @@
 //! Chromaticities of black bodies: sums of several steps, Gauss rules of several sizes, what the program takes.
 
 use chromascope_core::camera::LocusEvaluator;
+use chromascope_core::colorimetry::Xy;
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::light::PlanckianLocus;
+use chromascope_core::light::locus_table::{LocusTable, NotInTable};
 use chromascope_core::math::exp::exp;
 use chromascope_core::math::gauss::gauss_rule;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
@@ -112,6 +114,14 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
     let error = |found: &[Place]| error(found, &exact);
     let room = Room::new(items, &[0.0; 2]);
     let diagram = Diagram::new(sensor);
+    let temperatures: Vec<Kelvin> = kelvins.iter().filter_map(|&t| Kelvin::new(t).ok()).collect();
+    let answers = Room::new(items, &Err(NotInTable::Outside));
+    let sums = LocusEvaluator::by_sum(sensor, CONSTANTS);
+    let summed = |t: Kelvin| {
+        let [x, y] = diagram.xy(sums.raw(t));
+        Some(Xy { x, y })
+    };
+    let (table, table_seconds) = timed(|| LocusTable::of(summed));
     let by_rule = |method: String, threads: usize, make: &dyn Fn() -> Rule| {
         let (rule, seconds) = timed(make);
         let answer = move |&kelvins: &f64| diagram.xy(rule.raw(kelvins));
@@ -137,6 +147,16 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
             };
             candidates.push(each("polynomials", [threads, checked], &kelvins, &room, error, answer).built_in(seconds));
         }
+    }
+    for threads in bench.pools.counts() {
+        let some: Vec<Kelvin> = spaced(items, checked).map(|index| temperatures[index]).collect();
+        let found: Vec<Place> =
+            table.xys(&some).into_iter().map(|xy| xy.map_or([f64::NAN; 2], |xy| [xy.x, xy.y])).collect();
+        let (table, temperatures, answers) = (&table, &temperatures, &answers);
+        let work =
+            move |items: usize| answers.lend(|answers| table.xys_into(&temperatures[..items], &mut answers[..items]));
+        let candidate = Candidate::new("table in mired", items, error(&found), work);
+        candidates.push(candidate.on(threads).built_in(table_seconds));
     }
     bench.compare(Case { workload: Workload::Locus, name, item: "temperature" }, candidates);
 }

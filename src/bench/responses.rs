@@ -3,6 +3,7 @@
 use std::hint::black_box;
 use std::ops::{AddAssign, Mul};
 
+use chromascope_core::camera::batch::{Batch, Sample};
 use chromascope_core::math::dot::dot;
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::Sensor;
@@ -13,7 +14,7 @@ use rayon::prelude::*;
 use super::case::{ErrorOf, ErrorScale, Errors};
 use super::double::{Double, off};
 use super::inputs::{Numbers, sensor};
-use super::timing::{Bench, Candidate, Case, Cost, Room};
+use super::timing::{Bench, Candidate, Case, Cost, Room, timed};
 use super::{BenchError, Workload};
 use crate::catalog::{Catalog, Kind, Place};
 
@@ -55,7 +56,7 @@ fn curves(sensor: &Sensor, step: usize) -> [Vec<f64>; 3] {
 }
 
 /// A number type of both lengths.
-trait Real: LinalgScalar + AddAssign + Mul<Output = Self> + Send + Sync + Into<f64> {
+trait Real: Sample + LinalgScalar + AddAssign + Mul<Output = Self> + Send + Sync + Into<f64> {
     const NAME: &'static str;
     fn of(value: f64) -> Self;
 }
@@ -122,6 +123,10 @@ fn one(bench: &mut Bench<'_>, channels: &[Vec<f64>], reflectances: usize) {
         candidates.push(double.candidate("matrixmultiply", threads, &room, &exact, tuned));
         candidates.push(single.candidate("matrixmultiply", threads, &room_single, &exact, tuned));
     }
+    for threads in if reflectances < 1000 { vec![1] } else { bench.pools.counts() } {
+        candidates.extend(double.batch(threads, &room, &exact));
+        candidates.extend(single.batch(threads, &room_single, &exact));
+    }
     bench.compare(case, candidates);
 }
 
@@ -175,14 +180,43 @@ impl<T: Real> Product<T> {
                 black_box(responses);
             });
         };
+        let method = format!("{method}, {}", T::NAME);
+        self.priced(Candidate::new(method, *reflectances, error(&first, exact), work).on(threads))
+    }
+
+    /// The program's own product of many, which takes the threads that there are.
+    fn batch<'a>(&'a self, threads: usize, room: &'a Room<T>, exact: &[Exact]) -> Option<Candidate<'a>> {
+        let Self { spectra, curves, samples, channels, reflectances } = self;
+        let (samples, channels) = (*samples, *channels);
+        let (batch, seconds) = timed(|| Batch::new(curves, samples));
+        let batch = batch.ok()?;
+        let different = spectra.len() / samples;
+        let first = batch.responses(&spectra[..exact.len() / channels * samples]).ok()?;
+        let work = move |items: usize| {
+            room.lend(|responses| {
+                for start in (0..items).step_by(different) {
+                    let count = different.min(items - start);
+                    let done = batch.responses_into(&spectra[..count * samples], &mut responses[..count * channels]);
+                    debug_assert!(done.is_ok(), "as many answers as the spectra have");
+                }
+                black_box(responses);
+            });
+        };
+        let method = format!("batch, {}", T::NAME);
+        let candidate = Candidate::new(method, *reflectances, error(&first, exact), work);
+        Some(self.priced(candidate.on(threads).built_in(seconds)))
+    }
+
+    fn priced<'a>(&self, candidate: Candidate<'a>) -> Candidate<'a> {
+        let Self { samples, channels, reflectances, .. } = *self;
+        let different = self.spectra.len() / samples;
         let size = size_of::<T>() as f64;
         // Twice as many singles as doubles fit a register.
         let registers = size / size_of::<f64>() as f64;
         let cost =
             Cost { bytes: size * (samples + channels) as f64, flops: 2.0 * registers * (samples * channels) as f64 };
-        let method = format!("{method}, {}", T::NAME);
-        let all = if *reflectances > different && channels <= FEW { different } else { 1 };
-        Candidate::new(method, *reflectances, error(&first, exact), work).at_least(all).on(threads).costing(cost)
+        let all = if reflectances > different && channels <= FEW { different } else { 1 };
+        candidate.at_least(all).costing(cost)
     }
 }
 
