@@ -3,6 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::action::Action;
+use crate::bench::Workload;
 use crate::catalog::Kind;
 use crate::document::own::{Fingerprint, Wishes};
 use crate::export::spectra::Form;
@@ -49,6 +50,8 @@ pub enum Command {
     StopReading,
     /// Measure what the scene costs.
     Measure,
+    /// Measure a workload of the bench.
+    MeasureWorkload(Workload),
     /// Stop measuring.
     StopMeasuring,
     /// Read text as if it were a file.

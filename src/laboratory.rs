@@ -16,6 +16,7 @@ use chromascope_core::query::render::{PicturesOf, SourceOf};
 use chromascope_core::query::{Ask, LocusOf, PatchColorsOf, Query, Shared};
 use chromascope_core::spectral::Sensor;
 
+use crate::bench::{self, Effort, Report, Workload};
 use crate::jobs::Background;
 pub use left_out::LeftOut;
 use plans::PlansOf;
@@ -76,8 +77,16 @@ impl Subject {
     /// In words.
     pub const fn title(self) -> &'static str {
         match self {
-            Self::Integral => "Spectral integral",
-            Self::Loci => "Planckian loci",
+            Self::Integral => "Integral",
+            Self::Loci => "Loci",
+        }
+    }
+
+    /// The same, said at length.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Integral => "The spectral integral of the samples that the scene on show renders",
+            Self::Loci => "Planckian loci of the sources on show",
         }
     }
 
@@ -139,22 +148,6 @@ impl Family {
     }
 }
 
-impl Trial {
-    /// The methods that no other beats in both time and error, by falling error.
-    pub fn front(&self) -> Vec<&Point> {
-        let beaten = |point: &Point| {
-            self.points.iter().any(|other| {
-                other.seconds <= point.seconds
-                    && other.max <= point.max
-                    && (other.seconds < point.seconds || other.max < point.max)
-            })
-        };
-        let mut front: Vec<&Point> = self.points.iter().filter(|point| !beaten(point)).collect();
-        front.sort_by(|a, b| b.max.total_cmp(&a.max));
-        front
-    }
-}
-
 impl Query for SceneRunOf {
     type Answer = SceneRun;
     const NAME: &'static str = "scene run";
@@ -168,22 +161,44 @@ impl Query for SceneRunOf {
     }
 }
 
-/// Where runs are made, and the last one.
+/// What does the program cost on a workload of its own, whatever the scene?
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct BenchOf {
+    workload: Workload,
+    run: u64,
+}
+
+impl Query for BenchOf {
+    type Answer = Result<Report, String>;
+    const NAME: &'static str = "bench";
+    const KEPT: usize = 1;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let report = bench::run(&[self.workload], Effort::Quick, &ask.stop(), &mut |_| ());
+        report.map_err(|error| error.to_string())
+    }
+}
+
+/// Where runs are made, and the last ones.
 pub struct Laboratory {
     worker: Background<SceneRunOf>,
+    bench: Background<BenchOf>,
     plans: Background<PlansOf>,
     asked: Option<SceneRunOf>,
+    workload: Option<Workload>,
     runs: u64,
 }
 
 impl Laboratory {
     /// Starts the worker, which wakes the window when it has measured.
     pub fn new(wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
-        let also = wake.clone();
+        let (also, third) = (wake.clone(), wake.clone());
         Self {
             worker: Background::new("scene runs", wake),
+            bench: Background::new("bench", third),
             plans: Background::new("plans", also),
             asked: None,
+            workload: None,
             runs: 0,
         }
     }
@@ -202,9 +217,23 @@ impl Laboratory {
         self.worker.ask(vec![scene]);
     }
 
+    /// Measures a workload of the bench.
+    pub fn run_bench(&mut self, workload: Workload) {
+        self.runs += 1;
+        self.workload = Some(workload);
+        self.bench.ask(vec![BenchOf { workload, run: self.runs }]);
+    }
+
+    /// The last report of the bench, or why there is none. One that was stopped is not kept.
+    pub fn report(&self) -> Option<(Workload, std::sync::Arc<Result<Report, String>>)> {
+        let shown = self.bench.shown().filter(|shown| shown.current)?;
+        Some((self.workload?, shown.answer))
+    }
+
     /// Gives up what is being measured.
     pub fn stop(&mut self) {
         self.worker.rest();
+        self.bench.rest();
     }
 
     /// The last run, and whether it is of this scene.
@@ -216,17 +245,18 @@ impl Laboratory {
 
     /// For how long it has been measured, if it still is.
     pub fn busy(&self) -> Option<Duration> {
-        self.worker.busy()
+        self.worker.busy().or_else(|| self.bench.busy())
     }
 
     /// Why there is nothing, if measuring failed.
     pub fn failure(&self) -> Option<String> {
-        self.worker.failure()
+        self.worker.failure().or_else(|| self.bench.failure())
     }
 
     /// Waits for the run. For tests.
     pub fn wait(&self) {
         self.worker.wait();
+        self.bench.wait();
         self.plans.wait();
     }
 }

@@ -72,6 +72,9 @@ impl PaneContext<'_> {
         if let Some((run, is_current)) = self.laboratory.shown(&scene) {
             (self.view.accuracy.run, self.view.accuracy.is_current) = (Some(run), is_current);
         }
+        if let Some((workload, report)) = self.laboratory.report() {
+            self.view.accuracy.reports.insert(workload, report);
+        }
     }
 
     /// The pictures as they would be made within the document's tolerance.

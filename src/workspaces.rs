@@ -80,7 +80,7 @@ impl PaneKind {
             Self::Import => "Import",
             Self::Curves => "Result",
             Self::Understood => "Understood as",
-            Self::Accuracy => "Time against error",
+            Self::Accuracy => "Methods",
             Self::LeftOut => "Left out",
             Self::Tolerance => "Tolerance",
         }

@@ -15,6 +15,7 @@ use crate::panes;
 use crate::scene::Scene;
 use crate::theme::Theme;
 use crate::view::SavedView;
+use crate::view::accuracy::Shows;
 use crate::view::import::Stop;
 use crate::view::render::RenderMode;
 use crate::workspaces::{Layout, PaneKind, Workspace};
@@ -72,6 +73,7 @@ impl ChromascopeApp {
                 self.stop_reading();
             }
             Command::Measure => self.measure(),
+            Command::MeasureWorkload(workload) => self.laboratory.run_bench(workload),
             Command::StopMeasuring => self.laboratory.stop(),
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
@@ -223,6 +225,9 @@ impl ChromascopeApp {
         let own = self.meshes.chosen(&document.render.mesh);
         self.laboratory.run(SceneRunOf::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Accuracy;
+        if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
+            self.view.accuracy.shows = Shows::default();
+        }
     }
 
     /// Goes to the next pane, or to the next part of one that has several; the keyboard goes there too.

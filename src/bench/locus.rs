@@ -1,10 +1,10 @@
 //! Chromaticities of black bodies: sums of several steps, Gauss rules of several sizes, what the program takes.
 
 use chromascope_core::camera::LocusEvaluator;
+use chromascope_core::camera::locus_table::{LocusTable, NotInTable};
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::light::PlanckianLocus;
-use chromascope_core::light::locus_table::{LocusTable, NotInTable};
 use chromascope_core::math::exp::exp;
 use chromascope_core::math::gauss::gauss_rule;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};

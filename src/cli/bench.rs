@@ -10,6 +10,7 @@ use clap::Args;
 use super::{CliError, put, say, write_to};
 use crate::bench::{self, Effort, Machine, Measurement, Progress, Report, Workload};
 use crate::export::{Paper, png, png_file, svg};
+use crate::figures::pareto::duration;
 use crate::theme::Theme;
 
 pub(super) const EXAMPLES: &str = "\
@@ -124,27 +125,12 @@ fn line(m: &Measurement) -> String {
         "    {:<32} {:>2} {:>10} a {} {:>9.4}  {:.1e} {}{refused}{roof}\n",
         m.method,
         m.threads,
-        time(m.seconds_per_item),
+        duration(m.seconds_per_item),
         m.item,
         m.ratio,
         m.error.max(),
         m.error.what
     )
-}
-
-/// A time with three digits and the unit that suits it.
-fn time(seconds: f64) -> String {
-    let units = [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")];
-    let (unit, name) = units.into_iter().find(|(unit, _)| seconds >= *unit).unwrap_or((1e-9, "ns"));
-    let value = seconds / unit;
-    let decimals = if value >= 100.0 {
-        0
-    } else if value >= 10.0 {
-        1
-    } else {
-        2
-    };
-    format!("{value:.decimals$} {name}")
 }
 
 /// Every file with its contents.

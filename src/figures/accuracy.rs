@@ -6,10 +6,12 @@ use chromascope_core::figure::{
 };
 
 use super::pareto::{self, Place, duration};
+use crate::bench::{Measurement, Report, Workload};
 use crate::laboratory::{Family, LeftOut, Point, SceneRun, Subject, Trial};
 use crate::number::number;
 use crate::results::Count;
 use crate::view::View;
+use crate::view::accuracy::Shows;
 
 /// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 420.0];
@@ -21,24 +23,19 @@ pub fn trial(run: &SceneRun, subject: Subject) -> Option<&Trial> {
 
 /// The panel for an area of the given size.
 pub fn panel(trial: &Trial, is_current: bool, size: [f64; 2]) -> Panel {
-    let front: Vec<&Point> = trial.front();
-    let place = |point: &Point, on_front: bool| {
-        let index = trial.points.iter().position(|p| p == point).unwrap_or(0);
-        Place {
-            name: point.name.clone(),
-            tag: Tag(u32::try_from(index + 1).unwrap_or(u32::MAX)),
-            error: point.max,
-            seconds: point.seconds,
-            marker: marker(point.family),
-            role: role(point.family),
-            on_front,
-        }
+    let place = |(index, point): (usize, &Point)| Place {
+        name: point.name.clone(),
+        tag: Tag(u32::try_from(index + 1).unwrap_or(u32::MAX)),
+        error: point.max,
+        seconds: point.seconds,
+        marker: marker(point.family),
+        role: role(point.family),
     };
-    let mut places: Vec<Place> = front.iter().map(|point| place(point, true)).collect();
-    places.extend(trial.points.iter().filter(|point| !front.contains(point)).map(|point| place(point, false)));
+    let places: Vec<Place> = trial.points.iter().enumerate().map(place).collect();
     let error = format!("largest error, {}", trial.subject.error_of());
     let time = format!("time for {}", trial.subject.per());
-    let mut panel = pareto::panel("run time against error", &error, &time, &places, size);
+    let area = Rect::from_min_size([0.0, 0.0], size);
+    let mut panel = pareto::panel("run time against error", [&error, &time], &places, area);
     let when = if is_current { "" } else { ", of the scene as it was" };
     panel.note = format!("{} inputs, one thread{when}", trial.inputs);
     panel
@@ -86,12 +83,20 @@ fn ratio(value: f64) -> String {
     if value >= 10.0 { format!("{value:.0}") } else { format!("{value:.1}") }
 }
 
+/// The last report of a workload.
+pub fn report(view: &View, workload: Workload) -> Option<&Report> {
+    view.accuracy.reports.get(&workload)?.as_ref().as_ref().ok()
+}
+
 /// The figure as it is saved; none before anything was measured.
 pub fn figure(view: &View) -> Option<Figure> {
+    let subject = match view.accuracy.shows {
+        Shows::Scene(subject) => subject,
+        Shows::Bench(workload) => return report(view, workload)?.figure(workload),
+    };
     let run = view.accuracy.run.as_ref()?;
-    let subject = view.accuracy.subject;
     let trial = trial(run, subject)?;
-    let mut figure = Figure::new(format!("Run time against error: {}", subject.title()), SIZE);
+    let mut figure = Figure::new(format!("Run time against error: {}", subject.words()), SIZE);
     figure.panels.push(panel(trial, view.accuracy.is_current, SIZE));
     let families: std::collections::BTreeSet<Family> = trial.points.iter().map(|point| point.family).collect();
     figure.legend = families.into_iter().map(entry).collect();
@@ -221,3 +226,24 @@ const STAGES: [(&str, &str); 11] = [
     ("radiator signals", "black bodies through a sensor"),
     ("patch colors", "patches of a source"),
 ];
+
+/// What is known about a method of the bench, a line each.
+pub fn describe_measurement(m: &Measurement) -> Vec<String> {
+    let threads = if m.threads == 1 { "one thread".to_owned() } else { format!("{} threads", m.threads) };
+    let mut lines = vec![
+        m.method.clone(),
+        format!("{} a {}, {threads}, median of {} rounds", duration(m.seconds_per_item), m.item, m.rounds),
+        format!("{} times the time of {}", number(m.ratio), m.baseline),
+        format!("error: largest {}, RMS {}, of {}", number(m.error.max()), number(m.error.rms()), m.error.what),
+    ];
+    if m.build_seconds > 0.0 {
+        lines.push(format!("made once before: {}", duration(m.build_seconds)));
+    }
+    if let Some(roof) = m.roof {
+        let [memory, arithmetic] = [roof.memory, roof.arithmetic].map(|share| format!("{:.0} %", 100.0 * share));
+        lines.push(format!(
+            "{memory} of what memory can carry, {arithmetic} of what the processor can multiply and add"
+        ));
+    }
+    lines
+}

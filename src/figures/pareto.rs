@@ -5,7 +5,7 @@ use chromascope_core::figure::{
 };
 
 /// Errors below this are drawn there: a double tells them from nothing only by chance.
-pub const LEAST_ERROR: f64 = 1e-17;
+pub const LEAST_ERROR: f64 = 1e-18;
 
 /// A method's place.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,31 +22,49 @@ pub struct Place {
     pub marker: Marker,
     /// In which color.
     pub role: InkRole,
-    /// Whether no other method beats it in both.
-    pub on_front: bool,
 }
 
-/// The panel for an area of the given size. The places on the front come in the order of their errors.
-pub fn panel(name: &str, error_label: &str, time_label: &str, places: &[Place], size: [f64; 2]) -> Panel {
-    let errors = decades(places.iter().map(|place| error_of(place.error)), [-16.0, 0.0]);
-    let times = decades(places.iter().map(|place| place.seconds.max(1e-12)), [-9.0, -3.0]);
+impl Place {
+    /// Whether another beats it in one and is not worse in the other.
+    fn is_beaten(&self, others: &[Self]) -> bool {
+        others.iter().any(|other| {
+            other.seconds <= self.seconds
+                && other.error <= self.error
+                && (other.seconds < self.seconds || other.error < self.error)
+        })
+    }
+
+    fn logarithms(&self) -> [f64; 2] {
+        [error_of(self.error).log10(), self.seconds.max(LEAST_SECONDS).log10()]
+    }
+}
+
+/// A dot less is no time.
+const LEAST_SECONDS: f64 = 1e-15;
+
+/// The panel in an area. Its axes are the decimal logarithms of error and seconds.
+pub fn panel(name: &str, [error_label, time_label]: [&str; 2], places: &[Place], area: Rect) -> Panel {
+    let errors = decades(places.iter().map(|place| place.logarithms()[0]), [-16.0, 0.0]);
+    let times = decades(places.iter().map(|place| place.logarithms()[1]), [-9.0, -3.0]);
     let x = Axis::new(error_label, errors).with_ticks(Ticks::At(error_ticks(errors)));
     let y = Axis::new(time_label, times).with_ticks(Ticks::At(time_ticks(times)));
-    let mut panel = Panel::new(name, Rect::from_min_size([0.0, 0.0], size), x, y);
-    let at = |place: &Place| [error_of(place.error).log10(), place.seconds.max(1e-12).log10()];
-    let front: Vec<[f64; 2]> = places.iter().filter(|place| place.on_front).map(at).collect();
+    let mut panel = Panel::new(name, area, x, y);
+    let (mut front, rest): (Vec<&Place>, Vec<&Place>) = places.iter().partition(|place| !place.is_beaten(places));
+    front.sort_by(|a, b| a.error.total_cmp(&b.error));
     if front.len() > 1 {
-        let line = Shape::Line { points: front, closed: false };
-        let mark = Mark::new(Tag::default(), "cheapest for its error", line).with_stroke(InkRole::Weak, 1.2);
-        panel.marks.push(mark.with_dash(Dash::Dashed));
+        let points = front.iter().map(|place| place.logarithms()).collect();
+        let line = Mark::new(Tag::default(), "what nothing beats", Shape::Line { points, closed: false });
+        panel.marks.push(line.with_stroke(InkRole::Weak, 1.2).with_dash(Dash::Dashed));
     }
-    for place in places {
-        let points = Shape::Points { points: vec![at(place)], marker: place.marker, radius: 5.0 };
+    for (place, on_front) in rest.iter().map(|place| (place, false)).chain(front.iter().map(|place| (place, true))) {
+        let points = Shape::Points { points: vec![place.logarithms()], marker: place.marker, radius: 5.0 };
         let mark = Mark::new(place.tag, place.name.clone(), points).with_stroke(place.role, 1.5);
-        let filled = place.on_front && place.marker.has_inside();
+        let filled = on_front && place.marker.has_inside();
         panel.marks.push(if filled { mark.with_fill(place.role) } else { mark });
     }
-    panel.marks.extend(labels(places, &at, size, errors, times));
+    // What is on the front is named first: it is what one looks for.
+    let order: Vec<&Place> = front.into_iter().chain(rest).collect();
+    panel.marks.extend(labels(&order, [area.width(), area.height()], errors, times));
     panel
 }
 
@@ -54,13 +72,12 @@ fn error_of(error: f64) -> f64 {
     if error > LEAST_ERROR { error } else { LEAST_ERROR }
 }
 
-/// Whole powers of ten around values, as exponents, with room beside the outermost.
+/// Whole powers of ten around logarithms, with room beside the outermost.
 fn decades(values: impl Iterator<Item = f64>, usual: [f64; 2]) -> [f64; 2] {
-    let range =
-        values.filter(|value| value.is_finite()).map(f64::log10).fold(None, |range: Option<[f64; 2]>, value| {
-            Some(range.map_or([value, value], |[low, high]| [low.min(value), high.max(value)]))
-        });
-    let [low, high] = range.unwrap_or(usual);
+    let around = |range: Option<[f64; 2]>, value: f64| {
+        Some(range.map_or([value; 2], |[low, high]| [low.min(value), high.max(value)]))
+    };
+    let [low, high] = values.filter(|value| value.is_finite()).fold(None, around).unwrap_or(usual);
     [(low - 0.4).floor(), (high + 0.4).ceil()]
 }
 
@@ -75,7 +92,7 @@ fn time_ticks([low, high]: [f64; 2]) -> Vec<(f64, String)> {
     (low as i32..=high as i32).map(|exponent| (f64::from(exponent), duration(10_f64.powi(exponent)))).collect()
 }
 
-/// A time in the unit that suits it, two digits or three.
+/// A time with three digits in the unit that suits it.
 pub fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s < 0.9995e-6 => (s * 1e9, "ns"),
@@ -83,58 +100,63 @@ pub fn duration(seconds: f64) -> String {
         s if s < 0.9995 => (s * 1e3, "ms"),
         s => (s, "s"),
     };
-    let decimals =
-        if value >= 99.5 || (value - value.round()).abs() < 0.005 * value { 0 } else { usize::from(value < 9.95) };
+    // A whole number of units is a tick of an axis.
+    let decimals = match value {
+        v if (v - v.round()).abs() < 1e-9 * v || v >= 99.95 => 0,
+        v if v >= 9.995 => 1,
+        _ => 2,
+    };
     format!("{value:.decimals$} {unit}")
 }
 
-/// Names beside points, those on the front first; one without room is left out, and read under the pointer.
-fn labels(
-    places: &[Place],
-    at: &dyn Fn(&Place) -> [f64; 2],
-    size: [f64; 2],
-    errors: [f64; 2],
-    times: [f64; 2],
-) -> Vec<Mark> {
-    // About what axes with labels leave.
-    let inner = [(size[0] - 76.0).max(1.0), (size[1] - 44.0).max(1.0)];
+/// Names beside points, in this order; one without room is left out, and read under the pointer. A name is written once.
+fn labels(places: &[&Place], size: [f64; 2], errors: [f64; 2], times: [f64; 2]) -> Vec<Mark> {
+    const HEIGHT: f64 = 14.0;
+    // About what axes with labels leave; close enough to keep names apart.
+    let inner = [(size[0] - 60.0).max(1.0), (size[1] - 30.0).max(1.0)];
     let on_paper = |p: [f64; 2]| {
-        [(p[0] - errors[0]) / (errors[1] - errors[0]) * inner[0], (times[1] - p[1]) / (times[1] - times[0]) * inner[1]]
+        let share = |value: f64, [low, high]: [f64; 2]| (value - low) / (high - low);
+        [share(p[0], errors) * inner[0], (1.0 - share(p[1], times)) * inner[1]]
     };
-    let around = |p: [f64; 2], r: f64| [p[0] - r, p[1] - r, p[0] + r, p[1] + r];
-    let mut taken: Vec<[f64; 4]> = places.iter().map(|place| around(on_paper(at(place)), 6.0)).collect();
+    let around = |[x, y]: [f64; 2]| [x - 6.0, y - 6.0, x + 6.0, y + 6.0];
+    let mut taken: Vec<[f64; 4]> = places.iter().map(|place| around(on_paper(place.logarithms()))).collect();
+    // The axes' labels and the note.
+    taken.push([0.0, 0.0, inner[0], 18.0]);
+    taken.push([inner[0] * 0.5, inner[1] - 18.0, inner[0], inner[1]]);
+    let mut named: Vec<&str> = Vec::new();
     let mut marks = Vec::new();
-    let mut order: Vec<&Place> = places.iter().collect();
-    order.sort_by_key(|place| !place.on_front);
-    for place in order {
-        let p = on_paper(at(place));
+    for place in places {
+        if named.contains(&place.name.as_str()) {
+            continue;
+        }
+        let [x, y] = on_paper(place.logarithms());
         let width = text_width(&place.name, TextSize::Small);
         // Above to the right first: the line falls to the right, and passes below.
         let choices = [
-            (Anchor::LEFT, [7.0, -9.0], [p[0] + 7.0, p[1] - 16.0]),
-            (Anchor::RIGHT, [-9.0, 0.0], [p[0] - 9.0 - width, p[1] - 7.0]),
-            (Anchor::RIGHT, [-7.0, 10.0], [p[0] - 7.0 - width, p[1] + 3.0]),
-            (Anchor::LEFT, [9.0, 0.0], [p[0] + 9.0, p[1] - 7.0]),
-            (Anchor::LEFT, [7.0, 11.0], [p[0] + 7.0, p[1] + 4.0]),
+            (Anchor::LEFT, [7.0, -9.0], [x + 7.0, y - 16.0]),
+            (Anchor::RIGHT, [-9.0, 0.0], [x - 9.0 - width, y - 7.0]),
+            (Anchor::RIGHT, [-7.0, 10.0], [x - 7.0 - width, y + 3.0]),
+            (Anchor::LEFT, [9.0, 0.0], [x + 9.0, y - 7.0]),
+            (Anchor::LEFT, [7.0, 11.0], [x + 7.0, y + 4.0]),
+            (Anchor::RIGHT, [-7.0, -9.0], [x - 7.0 - width, y - 16.0]),
         ];
-        let free = choices.into_iter().find(|(_, _, min)| {
-            let b = [min[0], min[1], min[0] + width, min[1] + 14.0];
-            let inside = b[0] >= 2.0 && b[1] >= 2.0 && b[2] <= inner[0] - 2.0 && b[3] <= inner[1] - 2.0;
-            inside && taken.iter().all(|t| b[2] < t[0] || t[2] < b[0] || b[3] < t[1] || t[3] < b[1])
+        let free = choices.into_iter().find_map(|(anchor, offset, [left, top])| {
+            let space = [left, top, left + width, top + HEIGHT];
+            let inside = left >= 2.0 && top >= 2.0 && space[2] <= inner[0] - 2.0 && space[3] <= inner[1] - 2.0;
+            (inside && !taken.iter().any(|other| overlap(&space, other))).then_some((anchor, offset, space))
         });
-        let Some((anchor, offset, min)) = free else { continue };
-        taken.push([min[0], min[1], min[0] + width, min[1] + 14.0]);
-        let text = Shape::Text {
-            at: at(place),
-            text: place.name.clone(),
-            anchor,
-            offset,
-            size: TextSize::Small,
-            ink: Ink::new(InkRole::Text),
-        };
-        marks.push(Mark::new(place.tag, place.name.clone(), text));
+        let Some((anchor, offset, space)) = free else { continue };
+        taken.push(space);
+        named.push(&place.name);
+        let (at, text, ink) = (place.logarithms(), place.name.clone(), Ink::new(InkRole::Text));
+        let shape = Shape::Text { at, text, anchor, offset, size: TextSize::Small, ink };
+        marks.push(Mark::new(place.tag, place.name.clone(), shape));
     }
     marks
+}
+
+fn overlap(a: &[f64; 4], b: &[f64; 4]) -> bool {
+    a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
 
 #[cfg(test)]
@@ -144,7 +166,7 @@ mod tests {
     #[test]
     fn times_have_units_that_suit() {
         let all = [1e-9, 1.5e-8, 9.99e-7, 1e-6, 2.5e-6, 1.5e-3, 0.9999, 12.0].map(duration);
-        assert_eq!(all, ["1 ns", "15 ns", "999 ns", "1 µs", "2.5 µs", "1.5 ms", "1 s", "12 s"]);
+        assert_eq!(all, ["1 ns", "15 ns", "999 ns", "1 µs", "2.50 µs", "1.50 ms", "1.00 s", "12 s"]);
     }
 
     #[test]
@@ -156,15 +178,15 @@ mod tests {
             seconds,
             marker: Marker::Circle,
             role: InkRole::Text,
-            on_front: true,
         };
-        let panel = panel("p", "error", "time", &[place(0.0, 1e-6), place(1e-3, 0.0)], [400.0, 300.0]);
+        let area = Rect::from_min_size([0.0, 0.0], [400.0, 300.0]);
+        let panel = panel("p", ["error", "time"], &[place(0.0, 1e-6), place(1e-3, 0.0)], area);
         let finite = |v: &[f64; 2]| v.iter().all(|v| v.is_finite());
         for mark in &panel.marks {
             if let Shape::Points { points, .. } | Shape::Line { points, .. } = &mark.shape {
                 assert!(points.iter().all(finite));
             }
         }
-        assert!(finite(&panel.x.range) && finite(&panel.y.range));
+        assert_eq!((panel.x.range, panel.y.range), ([-19.0, -2.0], [-16.0, -5.0]), "all is within the axes");
     }
 }

@@ -1,20 +1,24 @@
-//! Run time against error of the scene on show.
+//! Run time against error: of the scene on show, or of the program on workloads of its own.
 
 use std::time::Duration;
 
-use egui::{Id, Rect, RichText, Ui, UiBuilder, Vec2};
+use egui::{Align2, ComboBox, FontId, Id, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
+use crate::bench::Workload;
 use crate::command::Command;
 use crate::figures::accuracy;
 use crate::laboratory::Subject;
 use crate::paint::{self, PlotOptions};
 use crate::theme::UNIT;
+use crate::view::accuracy::Shows;
 use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// How near the pointer must be, in points.
 const REACH: f32 = 10.0;
+/// A panel of the bench is at least so large; a wider pane has two side by side.
+const PANEL: Vec2 = Vec2::new(420.0, 280.0);
 
 /// Shows the pane in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
@@ -22,16 +26,17 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, PaneKind::Accuracy, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     if let Some(why) = context.laboratory.failure() {
-        ui.painter().text(
-            body.center(),
-            egui::Align2::CENTER_CENTER,
-            format!("Nothing measured: {why}."),
-            egui::FontId::proportional(crate::theme::TEXT),
-            context.theme.error,
-        );
+        failed(ui, body, &why, context);
         return;
     }
-    let subject = context.view.accuracy.subject;
+    match context.view.accuracy.shows {
+        Shows::Scene(subject) => scene(ui, body, subject, context),
+        Shows::Bench(workload) => bench(ui, body, workload, context),
+    }
+}
+
+/// The methods of the scene on show.
+fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_>) {
     let Some(run) = context.view.accuracy.run.clone() else {
         nothing(ui, body, "Nothing measured yet.", context);
         return;
@@ -64,14 +69,80 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
+/// The methods of the program on a workload, a panel for each case.
+fn bench(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneContext<'_>) {
+    let report = match context.view.accuracy.reports.get(&workload).map(AsRef::as_ref) {
+        None => {
+            nothing(ui, body, "Nothing measured yet. A quick run takes some seconds.", context);
+            return;
+        }
+        Some(Err(why)) => {
+            let why = why.clone();
+            failed(ui, body, &why, context);
+            return;
+        }
+        Some(Ok(report)) => report.clone(),
+    };
+    let Some(figure) = report.figure(workload) else {
+        nothing(ui, body, "Nothing was measured to its end.", context);
+        return;
+    };
+    if context.view.saved.tables.contains(&PaneKind::Accuracy) {
+        widgets::data_table(ui, body, "bench", &figure.table);
+        return;
+    }
+    let mut child = ui.new_child(UiBuilder::new().id_salt("bench").max_rect(body));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    ScrollArea::vertical().id_salt(workload.name()).auto_shrink(false).show(&mut child, |ui| {
+        let across = ((body.width() / PANEL.x).floor() as usize).clamp(1, figure.panels.len());
+        let down = figure.panels.len().div_ceil(across);
+        let each =
+            Vec2::new(body.width() / across as f32, (body.height() / down as f32).max(PANEL.y.min(body.height())));
+        let (area, _) = ui.allocate_exact_size(Vec2::new(body.width(), each.y * down as f32), egui::Sense::hover());
+        for (index, panel) in figure.panels.iter().enumerate() {
+            let corner = Vec2::new((index % across) as f32 * each.x, (index / across) as f32 * each.y);
+            let place = Rect::from_min_size(area.min + corner, each - Vec2::splat(UNIT));
+            let options = PlotOptions { zoomable: false, reset: context.view.reset_plots, ..PlotOptions::default() };
+            let id = Id::unique(("bench", workload.name(), index));
+            let shown = paint::plot(ui, id, panel, &context.theme, place, options);
+            let hit = shown.response.hover_pos().and_then(|at| paint::nearest(panel, &shown.view, at, REACH));
+            let method = hit.and_then(|hit| report.of(workload).nth((hit.tag.0 as usize).checked_sub(1)?));
+            if let Some(method) = method {
+                let lines = accuracy::describe_measurement(method);
+                context.view.point = Some(lines.join("  "));
+                widgets::read_at_pointer(&shown.response, &lines);
+            }
+        }
+    });
+}
+
 /// What is on show, and a way to measure it.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let choices = Subject::ALL.map(|subject| (subject, subject.title(), subject.per()));
-    if let Some(subject) = widgets::segmented(ui, &choices, context.view.accuracy.subject) {
-        context.view.accuracy.subject = subject;
+    let now = context.view.accuracy.shows;
+    run(ui, now, context);
+    ui.add_space(UNIT);
+    let choices = Subject::ALL.map(|subject| (Shows::Scene(subject), subject.title(), subject.words()));
+    let mut chosen = widgets::segmented(ui, &choices, now);
+    let words = if let Shows::Bench(workload) = now { workload.name() } else { "Bench" };
+    let combo = ComboBox::from_id_salt("workload").width(96.0).selected_text(words).show_ui(ui, |ui| {
+        for workload in Workload::ALL {
+            let on = now == Shows::Bench(workload);
+            if ui.selectable_label(on, workload.name()).on_hover_text(workload.title()).clicked() {
+                chosen = Some(Shows::Bench(workload));
+            }
+        }
+    });
+    let said = format!("Workload of the bench: {words}");
+    combo.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
+    combo.response.on_hover_text("The program's methods on inputs of its own, whatever the scene");
+    if let Some(shows) = chosen {
+        context.view.accuracy.shows = shows;
         ui.ctx().request_repaint();
     }
-    ui.add_space(UNIT);
+}
+
+/// A way to measure what is on show, or to stop that.
+fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
     if let Some(busy) = context.laboratory.busy() {
         if ui.button("Stop").on_hover_text("Stop measuring (Esc). What was measured before stays.").clicked() {
             context.push(Command::StopMeasuring);
@@ -81,10 +152,20 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ui.ctx().request_repaint_after(Duration::from_millis(100));
         return;
     }
-    let again = context.view.accuracy.run.is_some();
-    let hint = "Measures the methods on this scene, and what was left out of it. Takes some seconds.";
+    let again = match now {
+        Shows::Scene(_) => context.view.accuracy.run.is_some(),
+        Shows::Bench(workload) => context.view.accuracy.reports.contains_key(&workload),
+    };
+    let hint = "Measures the methods, and on a scene what was left out of it. Takes some seconds.";
     if ui.button(if again { "Run again" } else { "Run" }).on_hover_text(hint).clicked() {
-        context.push(Command::Measure);
+        context.push(measure(now));
+    }
+}
+
+fn measure(shows: Shows) -> Command {
+    match shows {
+        Shows::Scene(_) => Command::Measure,
+        Shows::Bench(workload) => Command::MeasureWorkload(workload),
     }
 }
 
@@ -98,6 +179,12 @@ fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &mut PaneContext<'_>) 
     if context.laboratory.busy().is_some() {
         child.label("Measuring…");
     } else if child.button("Run").clicked() {
-        context.push(Command::Measure);
+        context.push(measure(context.view.accuracy.shows));
     }
+}
+
+fn failed(ui: &Ui, body: Rect, why: &str, context: &PaneContext<'_>) {
+    let font = FontId::proportional(crate::theme::TEXT);
+    let words = format!("Nothing measured: {why}.");
+    ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.error);
 }

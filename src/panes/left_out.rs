@@ -26,10 +26,10 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     ScrollArea::both().id_salt("left out").auto_shrink(false).show(&mut child, |ui| {
         if context.view.accuracy.run.is_none() {
             ui.horizontal(|ui| {
-                ui.label("What was not computed, and the time it would have taken, is measured by computing it.");
                 if context.laboratory.busy().is_none() && ui.button("Run").clicked() {
                     context.push(Command::Measure);
                 }
+                ui.label("measures what was not computed on this scene, by computing it.");
             });
         }
         table(ui, &rows, context);
