@@ -7,6 +7,7 @@ mod asked;
 mod integral;
 mod left_out;
 mod loci;
+mod method;
 pub mod plans;
 mod stopwatch;
 

@@ -59,7 +59,7 @@ fn title_menu(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
     let workspace = context.view.saved.workspace;
     ui.menu_button(kind.title(), |ui| {
         ui.label(RichText::new("Show here").small().color(context.theme.weak));
-        for other in PaneKind::CHANGEABLE {
+        for &other in PaneKind::CHANGEABLE {
             if ui.selectable_label(other == kind, other.title()).clicked() {
                 context.view.saved.layout.replace(workspace, kind, other);
                 ui.close();

@@ -51,21 +51,8 @@ impl PaneKind {
         Self::LeftOut,
         Self::Tolerance,
     ];
-    /// The panes that stand in the workspaces' changeable places.
-    pub const CHANGEABLE: [Self; 12] = [
-        Self::Chromaticity,
-        Self::Swatches,
-        Self::Spectra,
-        Self::Inspector,
-        Self::Render,
-        Self::RenderSetup,
-        Self::Import,
-        Self::Curves,
-        Self::Understood,
-        Self::Accuracy,
-        Self::LeftOut,
-        Self::Tolerance,
-    ];
+    /// The panes that stand in the workspaces' changeable places: all but the library, which comes first.
+    pub const CHANGEABLE: &[Self] = Self::ALL.split_at(1).1;
 
     /// Its title.
     pub const fn title(self) -> &'static str {

@@ -7,7 +7,8 @@ use chromascope_core::query::{Ask, Shared};
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
 
-use super::stopwatch::{medians, once};
+use super::method::{Method, largest, measured, together};
+use super::stopwatch::once;
 use super::{Family, Point, SceneRunOf, Subject, Trial};
 
 /// So many temperatures, evenly in 1/T over the range on show.
@@ -27,71 +28,19 @@ pub(super) fn trial(run: &SceneRunOf, ask: &impl Ask) -> Option<Trial> {
             Kelvin::new(1.0 / (1.0 / FROM_K + t * (1.0 / TO_K - 1.0 / FROM_K))).ok()
         })
         .collect();
-    let mut all: Vec<Point> = Vec::new();
-    for sensor in &run.sensors {
-        let points = measured(sensor, &temperatures, ask)?;
-        if all.is_empty() {
-            all = points;
-            continue;
-        }
-        for (sum, point) in all.iter_mut().zip(points) {
-            sum.seconds += point.seconds;
-            sum.preparation += point.preparation;
-            sum.max = sum.max.max(point.max);
-            sum.rms = sum.rms.max(point.rms);
-            sum.certified = sum.certified.zip(point.certified).map(|(a, b)| a.max(b));
-        }
-    }
-    let sources = run.sensors.len() as f64;
-    for point in &mut all {
-        point.seconds /= sources;
-        point.preparation /= sources;
-    }
-    (!all.is_empty()).then_some(Trial { subject: Subject::Loci, inputs: temperatures.len(), points: all })
-}
-
-struct Method<'a> {
-    name: String,
-    family: Family,
-    preparation: f64,
-    certified: Option<f64>,
-    at: Box<dyn Fn(Kelvin) -> [f64; 3] + 'a>,
-}
-
-fn measured(sensor: &Shared<Sensor>, temperatures: &[Kelvin], ask: &impl Ask) -> Option<Vec<Point>> {
-    let constants = RadiationConstants::Paper;
-    let methods = methods(sensor, constants);
-    let values = |method: &Method<'_>| temperatures.iter().map(|&t| (method.at)(t)).collect::<Vec<_>>();
-    let exact = values(&methods[0]);
-    let work: Vec<Box<dyn Fn() -> Vec<[f64; 3]> + '_>> =
-        methods.iter().map(|method| -> Box<dyn Fn() -> Vec<[f64; 3]> + '_> { Box::new(|| values(method)) }).collect();
-    let seconds = medians(&work, &ask.stop())?;
-    let count = temperatures.len() as f64;
-    let point = |(method, seconds): (&Method<'_>, f64)| {
-        let (mut max, mut squares) = (0.0_f64, 0.0);
-        for (value, exact) in values(method).into_iter().zip(&exact) {
-            let share = off(value, *exact);
-            max = max.max(share);
-            squares += share * share;
-        }
-        Point {
-            name: method.name.clone(),
-            family: method.family,
-            seconds: seconds / count,
-            preparation: method.preparation,
-            max,
-            rms: (squares / count).sqrt(),
-            certified: method.certified,
-        }
+    let through = |sensor: &Shared<Sensor>| {
+        let methods = methods(sensor, RadiationConstants::Paper, &temperatures);
+        measured(&methods, |_, value, exact| off(value, exact), &ask.stop())
     };
-    Some(methods.iter().zip(seconds).map(point).collect())
+    let sources: Vec<Vec<Point>> = run.sensors.iter().map(through).collect::<Option<_>>()?;
+    let points = together(&sources);
+    (!points.is_empty()).then_some(Trial { subject: Subject::Loci, inputs: temperatures.len(), points })
 }
 
 /// How far apart two triples of signals are, relative to the largest. Methods may differ by a factor common to the three,
 /// which no chromaticity shows: they are compared as shares of their largest.
 fn off(value: [f64; 3], exact: [f64; 3]) -> f64 {
-    let peak = |v: [f64; 3]| v.iter().fold(0.0_f64, |peak, x| peak.max(x.abs()));
-    let (mine, theirs) = (peak(value), peak(exact));
+    let (mine, theirs) = (largest(value), largest(exact));
     if !(mine > 0.0 && theirs > 0.0) {
         return if mine == theirs { 0.0 } else { 1.0 };
     }
@@ -99,8 +48,12 @@ fn off(value: [f64; 3], exact: [f64; 3]) -> f64 {
 }
 
 /// The methods, the reference first.
-fn methods(sensor: &Shared<Sensor>, constants: RadiationConstants) -> Vec<Method<'static>> {
-    let mut methods: Vec<Method<'static>> = Vec::new();
+fn methods<'a>(sensor: &Shared<Sensor>, constants: RadiationConstants, temperatures: &'a [Kelvin]) -> Vec<Method<'a>> {
+    let method = |name, family, preparation, certified, at: Box<dyn Fn(Kelvin) -> [f64; 3] + 'a>| {
+        let values = Box::new(move || temperatures.iter().map(|&t| at(t)).collect());
+        Method { name, family, preparation, certified, values }
+    };
+    let mut methods = Vec::new();
     for step in STEPS {
         let sensor = sensor.clone();
         let at: Box<dyn Fn(Kelvin) -> [f64; 3]> = if step == 1 {
@@ -109,27 +62,21 @@ fn methods(sensor: &Shared<Sensor>, constants: RadiationConstants) -> Vec<Method
         } else {
             Box::new(move |t| stepped(&sensor, constants, t, step))
         };
-        let name = format!("{step} nm sum");
-        methods.push(Method { name, family: Family::Sum, preparation: 0.0, certified: None, at });
+        methods.push(method(format!("{step} nm sum"), Family::Sum, 0.0, None, at));
     }
     let (evaluator, preparation) = once(|| LocusEvaluator::new(sensor.clone(), constants));
     let (name, certified) = match evaluator.method() {
         LocusMethod::Nodes { count, error } => (format!("the program's: up to {count} nodes"), Some(error)),
         LocusMethod::Sum => ("the program's: the sum".to_owned(), None),
     };
-    let at = Box::new(move |t| evaluator.raw(t));
-    methods.push(Method { name, family: Family::Quality, preparation, certified, at });
+    methods.push(method(name, Family::Quality, preparation, certified, Box::new(move |t| evaluator.raw(t))));
     for exponent in TOLERANCES {
         let Ok(accuracy) = Accuracy::new(10_f64.powi(exponent)) else { continue };
         let (evaluator, preparation) = once(|| LocusEvaluator::within(sensor.clone(), constants, accuracy));
         let Ok(evaluator) = evaluator else { continue };
-        methods.push(Method {
-            name: format!("within 1e{exponent}").replace('-', "−"),
-            family: Family::Tolerance,
-            preparation,
-            certified: Some(accuracy.max_relative_error()),
-            at: Box::new(move |t| evaluator.raw(t)),
-        });
+        let name = format!("within 1e{exponent}").replace('-', "−");
+        let certified = Some(accuracy.max_relative_error());
+        methods.push(method(name, Family::Tolerance, preparation, certified, Box::new(move |t| evaluator.raw(t))));
     }
     methods
 }

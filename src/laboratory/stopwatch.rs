@@ -12,8 +12,11 @@ const AT_LEAST: Duration = Duration::from_millis(100);
 const AT_MOST: Duration = Duration::from_secs(1);
 
 /// Seconds of each method by its median over the rounds; none if stopped.
-pub(super) fn medians<T>(methods: &[Box<dyn Fn() -> T + '_>], stop: &Stop) -> Option<Vec<f64>> {
+pub(super) fn medians<T>(methods: &[&dyn Fn() -> T], stop: &Stop) -> Option<Vec<f64>> {
     let mut times = vec![Vec::new(); methods.len()];
+    if methods.is_empty() {
+        return Some(Vec::new());
+    }
     let start = Instant::now();
     while times[0].len() < ROUNDS || start.elapsed() < AT_LEAST {
         for (method, times) in methods.iter().zip(&mut times) {
