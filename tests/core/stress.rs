@@ -15,7 +15,9 @@ mod double;
 mod draw;
 mod light;
 mod listed;
+mod many;
 mod math;
+mod plan;
 mod reflectance;
 mod render;
 mod scene;
@@ -38,7 +40,9 @@ fn walks() -> Vec<Walk> {
         light::WALKS,
         color::WALKS,
         spectral::WALKS,
+        many::WALKS,
         render::WALKS,
+        plan::WALKS,
         scene::WALKS,
     ]
     .concat()
@@ -53,6 +57,8 @@ fn every_numeric_function_holds_far_past_the_physical_range() {
     let cases: f64 = asked("CHROMASCOPE_STRESS").map_or(CASES, |n| n.parse().expect("CHROMASCOPE_STRESS is a number"));
     let seed = asked("CHROMASCOPE_SEED").map_or(SEED, |n| n.parse().expect("CHROMASCOPE_SEED is an integer"));
     let only = asked("CHROMASCOPE_WALK");
+    many::ready();
+    plan::ready();
     let all = walks();
     let walks: Vec<&Walk> = all.iter().filter(|walk| only.as_deref().is_none_or(|name| walk.name == name)).collect();
     let shares: f64 = walks.iter().map(|walk| walk.share).sum();

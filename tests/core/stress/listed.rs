@@ -9,7 +9,16 @@ use std::path::{Path, PathBuf};
 
 /// Walked, file by file.
 const WALKED: &[(&str, &str)] = &[
-    ("camera/locus", "LocusEvaluator::new LocusEvaluator::by_sum LocusEvaluator::method LocusEvaluator::raw"),
+    ("accuracy", "Accuracy::new Accuracy::allows Accuracy::max_relative_error"),
+    ("camera/batch", "Batch::new Batch::channels Batch::max_error Batch::responses Batch::responses_into"),
+    (
+        "camera/locus",
+        "LocusEvaluator::new LocusEvaluator::within LocusEvaluator::by_sum LocusEvaluator::method LocusEvaluator::raw",
+    ),
+    (
+        "camera/locus_table",
+        "LocusTable::new LocusTable::within LocusTable::of LocusTable::max_error LocusTable::size LocusTable::xy LocusTable::xys LocusTable::xys_into",
+    ),
     (
         "camera/rendering",
         "Rendering::new Rendering::by_targets Rendering::patch_signals Rendering::xyz Rendering::linear_srgb Rendering::lab white_divisors FitTargets::new under_light raw",
@@ -17,7 +26,7 @@ const WALKED: &[(&str, &str)] = &[
     ("camera/white_balance", "White::from_xyz White::from_chromaticity White::from_light"),
     ("colorimetry/adaptation", "bradford"),
     ("colorimetry/diagram", "spectral_locus area_color wavelength_color"),
-    ("colorimetry/difference", "delta_e_1976 delta_e_2000"),
+    ("colorimetry/difference", "delta_e_1976 delta_e_2000 delta_e_2000_into"),
     ("colorimetry/lab", "lab_from_xyz"),
     ("colorimetry/rgb", "srgb_from_xyz srgb_white encode_srgb srgb_transfer srgb_inverse_transfer"),
     (
@@ -47,7 +56,7 @@ const WALKED: &[(&str, &str)] = &[
     ),
     ("reflectance/power", "factor factor_by diffuse_prefactor coherent_prefactor wavelength_power kappa beta"),
     ("reflectance/regimes", "Regime::of diffuse_sum_by_regimes"),
-    ("reflectance/sum", "diffuse_sum ln_diffuse_sum"),
+    ("reflectance/sum", "diffuse_sum ln_diffuse_sum Precision::within Precision::max_relative_error"),
     (
         "reflectance/surface",
         "Surface::with_sigma Surface::new Surface::sigma_m Surface::tau_m Surface::half_x_m Surface::half_y_m Surface::index Surface::area_m2 Surface::slope Surface::cautions",
@@ -64,12 +73,18 @@ const WALKED: &[(&str, &str)] = &[
     ("render/lobe", "mean_sinc_squared_quick"),
     (
         "render/measure",
-        "Measure::new Measure::dense Measure::coarse Measure::fine Measure::moments Measure::totals Measure::settled_m",
+        "Measure::new Measure::dense Measure::coarse Measure::fine Measure::shared Measure::moments Measure::totals Measure::settled_m",
     ),
-    ("render/mirror", "mirror_sum"),
-    ("render/shading", "ShadingImage::new ShadingImage::by_vertices ShadingImage::needs_table"),
+    ("render/mirror", "mirror_sum Reach::of Reach::within"),
+    ("render/plan", "Plan::new Plan::demand Plan::bytes Plan::explanation Plan::at Plan::fill"),
+    ("render/plan/candidate", "Candidate::total_ns Explanation::certified"),
+    ("render/plan/domain", "Demand::new Demand::kappa Demand::samples Demand::holds position"),
+    (
+        "render/shading",
+        "ShadingImage::new ShadingImage::by_vertices ShadingImage::demand ShadingImage::needs_table Quality::accuracy",
+    ),
     ("render/shadow", "ShadowTree::new ShadowTree::is_blocked"),
-    ("render/signals", "CameraImage::new CameraImage::signals"),
+    ("render/signals", "CameraImage::new CameraImage::by_plan CameraImage::signals"),
     ("render/vertices", "VertexImage::new"),
     (
         "render/visibility",

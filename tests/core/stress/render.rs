@@ -36,9 +36,9 @@ pub(super) const WALKS: &[Walk] = &[
     Walk { name: "a picture", promise: 0.0, share: 0.05, draw: draw_picture, check: picture },
 ];
 
-struct Scene {
+pub(super) struct Scene {
     rendering: Rendering,
-    measure: Measure,
+    pub(super) measure: Measure,
     table: DiffuseTable,
 }
 
@@ -52,7 +52,7 @@ fn scene(path: &str) -> Scene {
 
 static SCENES: LazyLock<[Scene; 2]> = LazyLock::new(|| [CANON_10D, CIE_1931].map(scene));
 
-fn of(which: f64) -> &'static Scene {
+pub(super) fn of(which: f64) -> &'static Scene {
     &SCENES[usize::from(which >= 1.0)]
 }
 
@@ -142,7 +142,7 @@ fn draw_measure(d: &mut Draw) -> Case {
     case([d.key(), d.pick(6), d.pick(2), d.pick(6)])
 }
 
-fn drawn_measure(&[key, kind, power, light, ..]: &Case) -> Option<Measure> {
+pub(super) fn drawn_measure(&[key, kind, power, light, ..]: &Case) -> Option<Measure> {
     let sensor = drawn_sensor(key, Primaries::Camera, 1.0)?;
     let light = drawn_light(key, light, &sensor);
     let reflectance = drawn_light(key + 1.0, kind, &sensor);

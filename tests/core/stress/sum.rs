@@ -36,7 +36,7 @@ fn draw_anything(d: &mut Draw) -> Case {
 }
 
 /// ln S: the terms around the largest, each from its neighbor, the largest itself in two doubles.
-fn reference(g: f64, b: f64) -> Double {
+pub(super) fn reference(g: f64, b: f64) -> Double {
     let ratio = |n: f64| g * (n / ((n + 1.0) * (n + 1.0))) * (b / n / (n + 1.0)).exp();
     // The largest term is where the ratio falls below one.
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
