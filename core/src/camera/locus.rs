@@ -1,10 +1,12 @@
 //! Black bodies through a sensor (Eq 15), by a few nodes instead of 401 samples, with the error that was checked.
 
+mod terms;
+
 use std::ops::Deref;
 
+use self::terms::Terms;
 use crate::accuracy::{Accuracy, Unmet};
 use crate::light::RadiationConstants;
-use crate::math::exp::exp;
 use crate::math::gauss::{Rule, gauss_rule, interpolatory_rule};
 use crate::spectral::Sensor;
 use crate::spectral::grid::{COUNT, wavelength_nm};
@@ -29,10 +31,6 @@ const MARGIN: f64 = 2.0;
 /// What rounding leaves of the 1 nm sum, relative to the largest signal: the exponents that weigh are below 40.
 const SUM_ROUNDING: f64 = 1e-14;
 
-/// The longest wavelength has the smallest exponent c₂/(λT). From here on exp − 1 loses nothing by cancellation, so that the
-/// loops need no branch and vectorize; below (above 50000 K) the standard library's function of that name is taken.
-const PLAIN_FROM: f64 = 0.35;
-
 /// How a locus was computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LocusMethod {
@@ -47,14 +45,8 @@ pub enum LocusMethod {
     Sum,
 }
 
-/// One channel's rule with what depends on no temperature already multiplied.
-#[derive(Clone, Debug, PartialEq)]
-struct Channel {
-    /// c₂/λ in kelvins, at each node.
-    exponents: Vec<f64>,
-    /// The rule's weight times (λ₀/λ)⁵, at each node.
-    weights: Vec<f64>,
-}
+/// One channel's rule: wavelengths in nanometers with their weights.
+type Channel = Vec<(f64, f64)>;
 
 /// Evaluates `∫ C_c(λ) E(λ, T) dλ` for one sensor at any temperature, up to a factor common to the three channels.
 ///
@@ -69,20 +61,9 @@ pub struct LocusEvaluator<S> {
     sensor: S,
     constants: RadiationConstants,
     anchor_nm: f64,
-    grid: Box<[GridTerm; COUNT]>,
-    channels: Option<[Channel; 3]>,
+    all: Terms,
+    nodes: Option<Terms>,
     method: LocusMethod,
-}
-
-/// What the sum needs of a grid wavelength λ, with λ₀ the anchor. Beyond it, where no channel responds, the fifth power is set to zero.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct GridTerm {
-    /// 1/λ, in 1/nm.
-    reciprocal: f64,
-    /// (λ₀ − λ) / (λ λ₀), in 1/nm: the difference of the reciprocals without cancellation.
-    gap: f64,
-    /// (λ₀/λ)⁵.
-    fifth: f64,
 }
 
 impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
@@ -92,17 +73,15 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
     /// Makes the rules for a sensor and checks them. Costs as much as fifty sums or so.
     pub fn new(sensor: S, constants: RadiationConstants) -> Self {
         let mut evaluator = Self::by_sum(sensor, constants);
-        let checks: Vec<(f64, [f64; 3])> =
-            CHECKS_K.iter().filter_map(|&t| Some((t, evaluator.sum(Kelvin::new(t).ok()?)))).collect();
+        let checks = evaluator.sums_at(CHECKS_K.into_iter());
         let mut best = f64::INFINITY;
         for count in COUNTS {
-            let channels = [0, 1, 2].map(|c| evaluator.channel(c, count));
-            let error = evaluator.check(&channels, &checks);
+            let (nodes, count) = evaluator.rules(count);
+            let error = evaluator.check(&nodes, &checks);
             if error < best {
                 best = error;
-                let count = channels.iter().map(|c| c.exponents.len()).max().unwrap_or(count);
                 evaluator.method = LocusMethod::Nodes { count, error };
-                evaluator.channels = Some(channels);
+                evaluator.nodes = Some(nodes);
             }
             if best <= Self::TARGET {
                 return evaluator;
@@ -110,7 +89,7 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
         }
         // A rule that missed the target by little is no reason for a thirty times slower sum; one that failed is.
         if best > 1e-11 {
-            evaluator.channels = None;
+            evaluator.nodes = None;
             evaluator.method = LocusMethod::Sum;
         }
         evaluator
@@ -134,15 +113,13 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
         };
         // Rounding must not carry the ends out of the range.
         let inside = (0..DENSE_CHECKS).map(|i| kelvin(i).clamp(NODES_FROM_K, NODES_TO_K));
-        let checks: Vec<(f64, [f64; 3])> =
-            inside.filter_map(|t| Some((t, evaluator.sum(Kelvin::new(t).ok()?)))).collect();
+        let checks = evaluator.sums_at(inside);
         for count in FEWEST..=MOST {
-            let channels = [0, 1, 2].map(|c| evaluator.channel(c, count));
-            let error = evaluator.check(&channels, &checks);
+            let (nodes, count) = evaluator.rules(count);
+            let error = evaluator.check(&nodes, &checks);
             if accuracy.allows(MARGIN * error + SUM_ROUNDING) {
-                let count = channels.iter().map(|c| c.exponents.len()).max().unwrap_or(count);
                 evaluator.method = LocusMethod::Nodes { count, error };
-                evaluator.channels = Some(channels);
+                evaluator.nodes = Some(nodes);
                 break;
             }
         }
@@ -152,16 +129,13 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
     /// The 1 nm sum, whatever it costs: the reference.
     pub fn by_sum(sensor: S, constants: RadiationConstants) -> Self {
         let anchor_nm = last_response_nm(&sensor);
-        let mut grid = Box::new([GridTerm::default(); COUNT]);
-        for (index, term) in grid.iter_mut().enumerate() {
-            let nm = wavelength_nm(index);
-            term.reciprocal = 1.0 / nm;
-            if nm <= anchor_nm {
-                term.gap = (anchor_nm - nm) / (nm * anchor_nm);
-                term.fifth = (anchor_nm / nm).powi(5);
-            }
-        }
-        Self { sensor, constants, anchor_nm, grid, channels: None, method: LocusMethod::Sum }
+        let weights = |index: usize| [0, 1, 2].map(|c| sensor.weighted(c)[index]);
+        let terms: Vec<(f64, [f64; 3])> = (0..COUNT)
+            .map(|index| (wavelength_nm(index), weights(index)))
+            .take_while(|&(nm, _)| nm <= anchor_nm)
+            .collect();
+        let all = Terms::shared(&terms, anchor_nm);
+        Self { sensor, constants, anchor_nm, all, nodes: None, method: LocusMethod::Sum }
     }
 
     /// How this evaluator works, with its error.
@@ -172,47 +146,20 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
     /// The three raw integrals at a temperature, up to a positive factor common to the three.
     pub fn raw(&self, temperature: Kelvin) -> [f64; 3] {
         let t = temperature.get();
-        match &self.channels {
-            Some(channels) if (NODES_FROM_K..=NODES_TO_K).contains(&t) => self.by_nodes(channels, t),
-            _ => self.sum(temperature),
-        }
+        let terms = self.nodes.as_ref().filter(|_| (NODES_FROM_K..=NODES_TO_K).contains(&t));
+        terms.unwrap_or(&self.all).sums(self.scale(temperature))
     }
 
-    /// The 1 nm sum relative to the exitance at the sensor's last wavelength (the ratio of `relative_exitance`).
-    fn sum(&self, temperature: Kelvin) -> [f64; 3] {
-        let mut spectrum = [0.0; COUNT];
-        // Capped so that temperatures far below any body's stay finite too.
-        let scale = (self.constants.second() * 1e9 / temperature.get()).min(1e300);
-        let anchor = -(-scale / self.anchor_nm).exp_m1();
-        let terms = spectrum.iter_mut().zip(self.grid.iter());
-        if scale / self.anchor_nm > PLAIN_FROM {
-            for (value, term) in terms {
-                *value = exp(-scale * term.gap) * term.fifth * anchor / (1.0 - exp(-scale * term.reciprocal));
-            }
-        } else {
-            for (value, term) in terms {
-                *value = (-scale * term.gap).exp() * term.fifth * anchor / -(-scale * term.reciprocal).exp_m1();
-            }
-        }
-        self.sensor.integrate(&spectrum)
+    /// c₂/T in nanometers, capped so that temperatures far below any body's stay finite too.
+    fn scale(&self, temperature: Kelvin) -> f64 {
+        (self.constants.second() * 1e9 / temperature.get()).min(1e300)
     }
 
-    /// The sum over the nodes, in the same scale as [`Self::sum`].
-    fn by_nodes(&self, channels: &[Channel; 3], t: f64) -> [f64; 3] {
-        let reciprocal = 1.0 / t;
-        let anchor = self.constants.second() * 1e9 / self.anchor_nm * reciprocal;
-        let scale = anchor.exp_m1();
-        let plain = anchor > PLAIN_FROM;
-        [0, 1, 2].map(|c: usize| {
-            let Channel { exponents, weights } = &channels[c];
-            let terms = exponents.iter().zip(weights);
-            let sum: f64 = if plain {
-                terms.map(|(e, w)| w / (exp(e * reciprocal) - 1.0)).sum()
-            } else {
-                terms.map(|(e, w)| w / (e * reciprocal).exp_m1()).sum()
-            };
-            sum * scale
-        })
+    /// The three channels' rules, with the number of nodes of the largest.
+    fn rules(&self, count: usize) -> (Terms, usize) {
+        let channels = [0, 1, 2].map(|c| self.channel(c, count));
+        let largest = channels.iter().map(Vec::len).max().unwrap_or(count);
+        (Terms::own(&channels, self.anchor_nm), largest)
     }
 
     /// One channel's rule with `count` nodes.
@@ -227,18 +174,22 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
             let nodes = gauss_rule(&points, &absolute, count + count / 2).nodes;
             interpolatory_rule(&nodes, &points, masses)
         };
-        let c2 = self.constants.second() * 1e9;
-        let weights = weights.iter().zip(&nodes).map(|(w, nm)| w * (self.anchor_nm / nm).powi(5)).collect();
-        Channel { exponents: nodes.iter().map(|nm| c2 / nm).collect(), weights }
+        nodes.into_iter().zip(weights).collect()
+    }
+
+    /// The sums at temperatures in kelvins.
+    fn sums_at(&self, kelvins: impl Iterator<Item = f64>) -> Vec<(Kelvin, [f64; 3])> {
+        let temperatures = kelvins.filter_map(|kelvins| Kelvin::new(kelvins).ok());
+        temperatures.map(|t| (t, self.all.sums(self.scale(t)))).collect()
     }
 
     /// The largest error of candidate rules against the sum, relative to the largest of the three signals.
-    fn check(&self, channels: &[Channel; 3], checks: &[(f64, [f64; 3])]) -> f64 {
+    fn check(&self, nodes: &Terms, checks: &[(Kelvin, [f64; 3])]) -> f64 {
         let mut worst = 0.0_f64;
-        for &(kelvin, exact) in checks {
-            let nodes = self.by_nodes(channels, kelvin);
+        for &(temperature, exact) in checks {
+            let found = nodes.sums(self.scale(temperature));
             let magnitude = exact.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-            let off = exact.iter().zip(nodes).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+            let off = exact.iter().zip(found).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
             worst = worst.max(if magnitude > 0.0 { off / magnitude } else { f64::INFINITY });
         }
         worst

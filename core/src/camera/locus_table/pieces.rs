@@ -17,11 +17,8 @@ const SHIFT: f64 = 256.0;
 const FIRST_EXPONENT: u64 = 1023 + 8;
 /// Doublings from [`SHIFT`] to beyond the coldest body's 10⁶ mired.
 const DOUBLINGS: usize = 12;
-/// Pieces of a doubling, as powers of two: tried, fewest first. No sensor's locus is so smooth that fewer would do for a
-/// target below the coarse one.
-const FEWEST_BITS: u32 = 4;
+/// The most pieces of a doubling, as a power of two.
 const MOST_BITS: u32 = 7;
-const COARSE: f64 = 1e-10;
 
 /// Bits of a double's mantissa, and its exponent when it lies in 1…2.
 const MANTISSA: u32 = 52;
@@ -60,12 +57,15 @@ impl Pieces {
     /// As few as meet the target, with the largest error of those that are kept.
     pub(super) fn new(exact: &(impl Fn(Kelvin) -> Option<Xy> + Sync), target: f64) -> (Self, f64) {
         let limit = target * (LocusTable::LIMIT / LocusTable::TARGET);
-        let mut bits = if target > COARSE { 0 } else { FEWEST_BITS };
+        let mut bits = fewest_bits(target);
         loop {
-            let made: Vec<(Piece, f64)> =
-                (0..DOUBLINGS << bits).into_par_iter().map(|i| piece(exact, i, bits)).collect();
-            let worst = made.iter().fold(0.0_f64, |worst, (_, error)| worst.max(*error));
-            if worst <= target || bits == MOST_BITS {
+            let is_good = |error: f64| bits == MOST_BITS || error <= target;
+            // The first piece that is too wide ends the attempt.
+            let made: Option<Vec<(Piece, f64)>> = (0..DOUBLINGS << bits)
+                .into_par_iter()
+                .map(|index| Some(piece(exact, index, bits)).filter(|&(_, error)| is_good(error)))
+                .collect();
+            if let Some(made) = made {
                 let kept = |error: f64| error <= limit;
                 let max_error = made.iter().map(|m| m.1).filter(|&e| kept(e)).fold(0.0, f64::max);
                 let pieces = made.into_iter().map(|(piece, error)| if kept(error) { piece } else { NOTHING }).collect();
@@ -149,6 +149,15 @@ fn evaluate(piece: &Piece, t: f64) -> Xy {
         }
     }
     Xy { x: sum[0] + t * sum[2], y: sum[1] + t * sum[3] }
+}
+
+/// How many pieces of a doubling are tried first, as a power of two: no sensor's locus is so smooth that fewer would do.
+fn fewest_bits(target: f64) -> u32 {
+    match target {
+        ..5e-13 => 4,
+        ..1e-10 => 3,
+        _ => 0,
+    }
 }
 
 /// One piece and its error, infinite where the locus has no chromaticity.

@@ -1,0 +1,131 @@
+//! Planck's law at many wavelengths side by side, summed with the channels' weights.
+
+use multiversion::multiversion;
+
+use crate::math::exp::{exp, exp_m1_near};
+use crate::spectral::grid::COUNT;
+
+/// Sums that run side by side: any register's width. Lists are filled up to a multiple.
+const LANES: usize = 8;
+/// Room for the longest list.
+const MOST: usize = COUNT.next_multiple_of(LANES);
+
+/// The longest wavelength λ₀ has the smallest exponent x₀ = c₂/(λ₀T). From here on 1 − e^−x loses nothing by cancellation;
+/// below, which is above 56 000 K, all x − x₀ are within what the exponential near 0 is made for.
+const PLAIN_FROM: f64 = 0.325;
+/// Further than this from x₀ an exponential is 0 beside the last one.
+const DEEPEST: f64 = 700.0;
+
+/// One channel's weights in a list of wavelengths.
+#[derive(Clone, Debug, PartialEq)]
+struct Channel {
+    /// Where in the list they begin.
+    first: usize,
+    /// The weight times (λ₀/λ)⁵, for each wavelength.
+    weights: Vec<f64>,
+}
+
+/// Wavelengths λ up to an anchor λ₀ over which Planck's law is summed for three channels.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Terms {
+    anchor_nm: f64,
+    /// (λ₀ − λ)/(λ λ₀), in 1/nm: the difference of the reciprocals without cancellation.
+    gaps: Vec<f64>,
+    channels: [Channel; 3],
+}
+
+impl Terms {
+    /// The same wavelengths for all channels, in nanometers, each with three weights; from the shortest to the anchor, which is
+    /// the last.
+    pub(super) fn shared(terms: &[(f64, [f64; 3])], anchor_nm: f64) -> Self {
+        let channel = |c: usize| Channel {
+            first: 0,
+            weights: filled(terms.iter().map(|&(nm, weights)| weights[c] * (anchor_nm / nm).powi(5))),
+        };
+        let gaps = filled(terms.iter().map(|&(nm, _)| gap(nm, anchor_nm)));
+        Self { anchor_nm, gaps, channels: [0, 1, 2].map(channel) }
+    }
+
+    /// Wavelengths and weights of each channel's own, none beyond the anchor; in all no more than the grid has.
+    pub(super) fn own(channels: &[Vec<(f64, f64)>; 3], anchor_nm: f64) -> Self {
+        let mut gaps = Vec::new();
+        let channels = [0, 1, 2].map(|c: usize| {
+            let first = gaps.len();
+            gaps.extend(filled(channels[c].iter().map(|&(nm, _)| gap(nm, anchor_nm))));
+            Channel { first, weights: filled(channels[c].iter().map(|&(nm, w)| w * (anchor_nm / nm).powi(5))) }
+        });
+        Self { anchor_nm, gaps, channels }
+    }
+
+    /// `Σ w E(λ, T) / E(λ₀, T)` for each channel, for c₂/T in nanometers.
+    ///
+    /// ```text
+    /// E(λ, T)/E(λ₀, T) = (λ₀/λ)⁵ e^−d (1 − e^−x₀)/(1 − e^−d e^−x₀),   d = x − x₀,  x = c₂/(λT)
+    /// ```
+    /// One exponential a wavelength; d is at least 0, so that nothing overflows.
+    pub(super) fn sums(&self, scale: f64) -> [f64; 3] {
+        let first = scale / self.anchor_nm;
+        let anchor = -(-first).exp_m1();
+        // The gaps of a shared list fall; those of channels' own are never deep.
+        let skip = self.gaps.partition_point(|gap| scale * gap > DEEPEST) / LANES * LANES;
+        if first > PLAIN_FROM { plain(self, skip, scale, anchor) } else { hot(self, skip, scale, anchor) }
+    }
+}
+
+fn gap(nm: f64, anchor_nm: f64) -> f64 {
+    (anchor_nm - nm) / (nm * anchor_nm)
+}
+
+/// A list filled up with zeros, which weigh nothing.
+fn filled(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut list: Vec<f64> = values.collect();
+    list.resize(list.len().next_multiple_of(LANES), 0.0);
+    list
+}
+
+/// Compiled for several instruction sets, the best chosen at run time; no operation is fused, so all of them give the same
+/// bits.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn plain(terms: &Terms, skip: usize, scale: f64, anchor: f64) -> [f64; 3] {
+    let rest = 1.0 - anchor;
+    sums(terms, skip, |gap| {
+        let value = exp(-scale * gap);
+        value / (1.0 - value * rest)
+    })
+    .map(|sum| sum * anchor)
+}
+
+/// The same for small exponents: 1 − e^−x as the sum of two positive numbers.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn hot(terms: &Terms, skip: usize, scale: f64, anchor: f64) -> [f64; 3] {
+    let rest = 1.0 - anchor;
+    sums(terms, skip, |gap| {
+        let less = exp_m1_near(-scale * gap);
+        (1.0 + less) * anchor / (anchor - less * rest)
+    })
+}
+
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn sums(terms: &Terms, skip: usize, law: impl Fn(f64) -> f64) -> [f64; 3] {
+    let mut buffer = [0.0; MOST];
+    let count = terms.gaps.len().min(MOST);
+    let values = &mut buffer[..count];
+    for (value, &gap) in values[skip..].iter_mut().zip(&terms.gaps[skip..]) {
+        *value = law(gap);
+    }
+    let values = &*values;
+    [0, 1, 2].map(|c: usize| {
+        let Channel { first, weights } = &terms.channels[c];
+        let weights = weights.get(skip.saturating_sub(*first)..).unwrap_or_default();
+        let mut lanes = [0.0; LANES];
+        let pairs = weights.as_chunks::<LANES>().0.iter().zip(values[skip.max(*first)..].as_chunks::<LANES>().0);
+        for (weights, values) in pairs {
+            for lane in 0..LANES {
+                lanes[lane] += weights[lane] * values[lane];
+            }
+        }
+        let [a, b, c, d, e, f, g, h] = lanes;
+        ((a + e) + (c + g)) + ((b + f) + (d + h))
+    })
+}
