@@ -219,18 +219,14 @@ fn is_outside(t: Kelvin) -> bool {
 /// What a table says against the sum; refused exactly outside it.
 fn against(answer: Result<Xy, NotInTable>, t: Kelvin, exact: impl Fn() -> Option<Xy>, v: &mut Verdict) -> Option<f64> {
     v.holds("refused or not", is_outside(t) == (answer == Err(NotInTable::Outside)));
-    match answer {
-        Ok(xy) => {
-            v.all_finite([xy.x, xy.y]);
-            let exact = exact();
-            v.holds("a chromaticity of nothing", exact.is_some());
-            exact.map(|exact| (xy.x - exact.x).abs().max((xy.y - exact.y).abs()))
-        }
-        Err(_) => {
-            v.refuse();
-            None
-        }
-    }
+    let Ok(xy) = answer else {
+        v.refuse();
+        return None;
+    };
+    v.all_finite([xy.x, xy.y]);
+    let exact = exact();
+    v.holds("a chromaticity of nothing", exact.is_some());
+    exact.map(|exact| (xy.x - exact.x).abs().max((xy.y - exact.y).abs()))
 }
 
 fn xy(&[which, kelvins, ..]: &Case, v: &mut Verdict) {

@@ -1,7 +1,5 @@
 //! Columns of text, columns before the wavelengths, lines that begin with `#`, names that come again, thousands.
 
-use std::time::Duration;
-
 use chromascope_core::table::{
     Certainty, Delimiter, Nearly, ReadError, ReadOptions, Switch, Warning, Watch, WavelengthUnit, read, read_watched,
 };
@@ -10,13 +8,28 @@ use super::{error, names, ok, samples};
 
 #[test]
 #[allow(clippy::disallowed_types, reason = "the test measures what the core must not")]
-fn thousands_of_short_tables_are_quick() {
-    let begun = std::time::Instant::now();
-    let short = "nm,A\n400,1\n410,2\n420,3\n\n".repeat(20_000);
-    assert_eq!(ok(&short).curves[0].values.len(), 3);
-    let whole = "400;1\n410;2\n420;3\n430;4\n440;5\n".repeat(20_000);
-    assert_eq!(ok(&whole).curves[0].values.len(), 5);
-    assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+fn thousands_of_short_tables_take_time_in_proportion() {
+    let short = |count: usize| {
+        let text = "nm,A\n400,1\n410,2\n420,3\n\n".repeat(count);
+        assert_eq!(ok(&text).curves[0].values.len(), 3);
+    };
+    let whole = |count: usize| {
+        let text = "400;1\n410;2\n420;3\n430;4\n440;5\n".repeat(count);
+        assert_eq!(ok(&text).curves[0].values.len(), 5);
+    };
+    let time = |work: &dyn Fn(usize), count: usize| {
+        let once = || {
+            let begun = std::time::Instant::now();
+            work(count);
+            begun.elapsed()
+        };
+        (0..2).map(|_| once()).min().unwrap_or_default()
+    };
+    // Eight times as many: a time that goes with the square is 64 times as long. Others on the machine are no reason to fail.
+    for work in [&short as &dyn Fn(usize), &whole] {
+        let (few, many) = (time(work, 400), time(work, 3200));
+        assert!(many < few * 30, "{few:?} for 400, {many:?} for 3200");
+    }
 }
 
 #[test]
