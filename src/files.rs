@@ -207,6 +207,11 @@ impl Files {
     pub fn take_prompt(&mut self) {
         let Some(prompt) = self.prompt.take() else { return };
         let path = PathBuf::from(prompt.text.trim());
+        if prompt.save.is_some() && path.is_dir() {
+            let failure = Some(format!("{} is a folder: add a name.", path.display()));
+            self.prompt = Some(PathPrompt { failure, focus: true, ..prompt });
+            return;
+        }
         if prompt.save.is_some() && path.exists() && prompt.replaces.as_ref() != Some(&path) {
             self.prompt = Some(PathPrompt { replaces: Some(path), failure: None, focus: true, ..prompt });
             return;

@@ -46,8 +46,14 @@ impl ChromascopeApp {
     fn carry_out_one(&mut self, ctx: &egui::Context, command: Command) {
         match command {
             Command::Do(action) => self.change(&action),
-            Command::Undo => self.travel(History::undo),
-            Command::Redo => self.travel(History::redo),
+            Command::Undo => {
+                let step = self.history.undo_name().map(|name| format!("Undone: {name}."));
+                self.travel(History::undo, step);
+            }
+            Command::Redo => {
+                let step = self.history.redo_name().map(|name| format!("Done again: {name}."));
+                self.travel(History::redo, step);
+            }
             Command::Open => self.files.ask_to_open(),
             Command::OpenFolder => self.files.ask_for_folder(),
             Command::OpenPath(path) => self.open(vec![Request::Path(path)]),
@@ -183,6 +189,9 @@ impl ChromascopeApp {
     /// One step back: reading a mesh, palette, help, overlay, finer pictures, selection, pixel, pins, maximized pane, single
     /// picture, message.
     fn escape(&mut self) {
+        if self.files.prompt_mut().take().is_some() {
+            return;
+        }
         if std::mem::take(&mut self.view.keeps_escape) || self.stop_opening() || self.stop_reading() {
             return;
         }

@@ -222,11 +222,13 @@ impl ChromascopeApp {
     }
 
     /// Goes one step back or forward. What was said of a step that is taken back is no longer so.
-    pub(super) fn travel(&mut self, go: impl FnOnce(&mut History)) {
+    pub(super) fn travel(&mut self, go: impl FnOnce(&mut History), words: Option<String>) {
         let before = self.history.document().clone();
         self.step(go);
         if before != *self.history.document() {
+            // What was said before may be of what is no more.
             self.view.status = Status::default();
+            self.view.say(words.unwrap_or_default());
         }
     }
 

@@ -41,7 +41,8 @@ pub(super) fn show(ui: &Ui, theme: &Theme, files: &mut Files) {
             }
             ui.small("For dialogs install a desktop portal or the package zenity.");
         });
-    if ui.input(|input| input.key_pressed(Key::Escape)) || !open {
+    // Esc is the program's: it closes what is in front.
+    if !open {
         *files.prompt_mut() = None;
     } else if done {
         files.take_prompt();

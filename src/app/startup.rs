@@ -20,7 +20,7 @@ pub enum WindowError {
     /// There is no screen to open it on.
     #[error(
         "no display: neither DISPLAY nor WAYLAND_DISPLAY is set.\n\
-         Without a window, `chromascope locus`, `chromascope patches` and `chromascope list` give the same numbers.\n\
+         Without a window, `chromascope locus`, `patches`, `render`, `inspect`, `bench` and `list` do the same.\n\
          For a window without a screen, install the Debian package xvfb and run `xvfb-run chromascope`."
     )]
     NoDisplay,
@@ -29,7 +29,7 @@ pub enum WindowError {
         "the window could not be opened: {0}.\n\
          It needs X11 (Debian packages libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0 libgl1) or Wayland \
          (libwayland-client0 libwayland-egl1 libxkbcommon0 libegl1), and libgl1-mesa-dri.\n\
-         Without a window, `chromascope locus`, `chromascope patches` and `chromascope list` give the same numbers."
+         Without a window, `chromascope locus`, `patches`, `render`, `inspect`, `bench` and `list` do the same."
     )]
     Refused(#[from] eframe::Error),
 }

@@ -113,9 +113,12 @@ pub fn figure(view: &View) -> Option<Figure> {
     Some(figure)
 }
 
-/// What was left out as bars over time; none before anything was measured.
+/// What was left out as bars over time; none before anything was measured or remembered.
 pub fn left_out_figure(view: &View) -> Option<Figure> {
-    let rows = &view.accuracy.run.as_ref()?.left_out;
+    let rows = &left_out(view);
+    if rows.is_empty() {
+        return None;
+    }
     let mut figure = Figure::new("Time saved by what was left out", [SIZE[0], 60.0 + 24.0 * rows.len() as f64]);
     let saved = |row: &LeftOut| row.saved.max(1e-9).log10();
     let (low, high) = rows.iter().map(saved).fold((-6.0_f64, -3.0_f64), |(low, high), s| (low.min(s), high.max(s)));
@@ -195,8 +198,14 @@ pub fn left_out_table(rows: &[LeftOut]) -> Table {
 }
 
 /// What was left out: as the last run measured it, and what was remembered since the start.
-pub fn left_out(view: &View, counts: &[(&'static str, Count)]) -> Vec<LeftOut> {
+pub fn left_out(view: &View) -> Vec<LeftOut> {
     let mut rows = view.accuracy.run.as_ref().map_or_else(Vec::new, |run| run.left_out.clone());
+    rows.extend(view.accuracy.remembered.iter().cloned());
+    rows
+}
+
+/// What was remembered since the start, by kind of question.
+pub fn remembered(counts: &[(&'static str, Count)]) -> Vec<LeftOut> {
     let reused = |&(name, count): &(&'static str, Count)| {
         let each = count.own_time.as_secs_f64() / count.misses.max(1) as f64;
         let what = STAGES.iter().find(|(stage, _)| *stage == name)?.1;
@@ -205,11 +214,10 @@ pub fn left_out(view: &View, counts: &[(&'static str, Count)]) -> Vec<LeftOut> {
             count: count.hits,
             of: Some(count.hits + count.misses),
             saved: each * count.hits as f64,
-            how: format!("remembered since the start; made {} times, {} each", count.misses, pareto::duration(each)),
+            how: format!("remembered since the start; made {} times, {} each", count.misses, duration(each)),
         })
     };
-    rows.extend(counts.iter().filter_map(reused));
-    rows
+    counts.iter().filter_map(reused).collect()
 }
 
 /// Stages whose answers are worth telling of when they are remembered.

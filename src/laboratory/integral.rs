@@ -69,7 +69,7 @@ fn through(measure: &Measure, places: &[[f64; 2]], demand: Demand, ask: &impl As
         let (plan, preparation) = once(|| Plan::new(measure, accuracy, Against::Peak, demand));
         let Ok(plan) = plan else { continue };
         methods.push(Method {
-            name: format!("within 1e{exponent}").replace('-', "−"),
+            name: format!("within 1e{exponent}"),
             family: Family::Tolerance,
             preparation,
             certified: Some(plan.explanation().certified()),

@@ -74,7 +74,7 @@ fn methods<'a>(sensor: &Shared<Sensor>, constants: RadiationConstants, temperatu
         let Ok(accuracy) = Accuracy::new(10_f64.powi(exponent)) else { continue };
         let (evaluator, preparation) = once(|| LocusEvaluator::within(sensor.clone(), constants, accuracy));
         let Ok(evaluator) = evaluator else { continue };
-        let name = format!("within 1e{exponent}").replace('-', "−");
+        let name = format!("within 1e{exponent}");
         let certified = Some(accuracy.max_relative_error());
         methods.push(method(name, Family::Tolerance, preparation, certified, Box::new(move |t| evaluator.raw(t))));
     }

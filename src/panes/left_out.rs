@@ -15,7 +15,8 @@ use crate::workspaces::PaneKind;
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     context.refresh_run();
     let body = widgets::pane(ui, PaneKind::LeftOut, rect, context, |_, _| {});
-    let rows = accuracy::left_out(context.view, &context.counts());
+    context.view.accuracy.remembered = accuracy::remembered(&context.counts());
+    let rows = accuracy::left_out(context.view);
     if context.view.saved.tables.contains(&PaneKind::LeftOut) {
         widgets::data_table(ui, body, "left out", &accuracy::left_out_table(&rows));
         return;

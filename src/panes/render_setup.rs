@@ -101,6 +101,8 @@ impl Dial<'_> {
         let clamping = if self.beyond { egui::SliderClamping::Never } else { egui::SliderClamping::Edits };
         let mut slider = egui::Slider::new(&mut value, self.range.clone())
             .clamping(clamping)
+            // Typing is one step when it is done, not one for each key.
+            .update_while_editing(false)
             .text(self.name)
             .step_by(0.0)
             .custom_formatter(move |value, _| format!("{}{unit}", short(value)))

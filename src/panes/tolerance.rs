@@ -36,6 +36,7 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().slider_width = (ui.available_width() - 72.0).max(60.0);
     let slider = Slider::new(&mut power, range)
         .step_by(1.0)
+        .update_while_editing(false)
         .custom_formatter(|power, _| format!("1e{power:.0}").replace('-', "−"))
         .custom_parser(|text| text.trim().replace('−', "-").parse::<f64>().ok().filter(|e| *e > 0.0).map(f64::log10));
     let response = ui.add(slider);

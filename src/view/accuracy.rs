@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::bench::{Report, Workload};
-use crate::laboratory::{SceneRun, Subject};
+use crate::laboratory::{LeftOut, SceneRun, Subject};
 
 /// What is looked at in Accuracy.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +15,8 @@ pub struct AccuracyView {
     pub run: Option<Arc<SceneRun>>,
     /// Whether it is of the scene as it is now.
     pub is_current: bool,
+    /// What was remembered since the start.
+    pub remembered: Vec<LeftOut>,
     /// The last reports of the bench.
     pub reports: BTreeMap<Workload, Arc<Result<Report, String>>>,
 }

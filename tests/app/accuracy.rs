@@ -80,6 +80,9 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     assert!(window.state().view().accuracy.is_current);
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
+    let remembered = window.state().view().accuracy.remembered.len();
+    let figure = panes::figure(PaneKind::LeftOut, &scene, window.state().view()).expect("measured");
+    assert!(remembered > 0 && figure.table.rows.len() == measured.left_out.len() + remembered, "as on screen");
     for pane in [PaneKind::Accuracy, PaneKind::LeftOut] {
         let figure = panes::figure(pane, &scene, window.state().view()).expect("measured");
         assert!(figure.table.rows.len() >= 6);
@@ -130,6 +133,7 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.state_mut().push(Command::Undo);
     window.run_steps(2);
     assert_eq!(render(&window).quality, QualityChoice::Full);
+    assert!(window.state().view().status.text.starts_with("Undone: "), "{}", window.state().view().status.text);
 }
 
 #[test]

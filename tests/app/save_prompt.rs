@@ -114,3 +114,17 @@ fn what_could_not_be_written_can_be_typed_again() {
     said(&mut window, "Saved ");
     assert!(right.exists());
 }
+
+#[test]
+fn escape_closes_the_question_and_a_folder_is_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window();
+    save_as(&mut window, "Nikon D70", Form::ALL[0]);
+    type_path(&mut window, folder.path().to_str().unwrap());
+    window.key_press(egui::Key::Enter);
+    window.run_steps(4);
+    assert!(says(&window, "is a folder: add a name") && !says(&window, "That file exists"));
+    window.key_press(egui::Key::Escape);
+    window.run_steps(3);
+    assert!(window.query_by_role_and_label(Role::TextInput, "Path").is_none());
+}

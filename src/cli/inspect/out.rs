@@ -37,7 +37,7 @@ impl Out {
             Some(path) if path.is_dir() => Place::Folder { path: path.to_owned(), taken: HashSet::new() },
             Some(path) if several => {
                 if path.exists() {
-                    return wrong("is a file; several files need a folder");
+                    return wrong(&format!("{} is a file; several files need a folder", path.display()));
                 }
                 fs::create_dir_all(path).map_err(|error| CliError::Output { path: path.to_owned(), error })?;
                 Place::Folder { path: path.to_owned(), taken: HashSet::new() }
