@@ -18,6 +18,8 @@ mod narrow;
 mod saddle;
 
 use crate::accuracy::{Accuracy, Unmet};
+use crate::math::exp::exp;
+use direct::Choice;
 use multiversion::multiversion;
 use saddle::Peak;
 
@@ -111,12 +113,19 @@ pub(super) const SMALLEST: f64 = 1e-300;
 /// assert!((s * 1e12 / (-2.0_f64).exp() - 1.0).abs() < 1e-11);
 /// ```
 pub fn diffuse_sum(g: f64, b: f64, precision: Precision) -> f64 {
-    let Some((ln_scale, rest)) = parts(g, b, precision) else { return 0.0 };
-    // Far from here even a large rest does not lift the sum above the smallest.
-    if ln_scale < -745.0 {
-        return 0.0;
-    }
-    let value = ln_scale.exp() * rest;
+    value(g, b, precision)
+}
+
+/// Where m δ, which is at least −ln S, is beyond this, S is below the smallest with room for all that is only near.
+const NOTHING: f64 = 760.0;
+
+/// Compiled for several instruction sets, the best chosen at run time; no operation is fused, so all of them give the same
+/// bits.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn value(g: f64, b: f64, precision: Precision) -> f64 {
+    let Some((ln_scale, rest)) = parts(g, b, precision, NOTHING) else { return 0.0 };
+    // The exponential ends at e^−700: no rest lifts that above the smallest.
+    let value = exp(ln_scale) * rest;
     if value < SMALLEST { 0.0 } else { value }
 }
 
@@ -125,24 +134,36 @@ pub fn diffuse_sum(g: f64, b: f64, precision: Precision) -> f64 {
 /// The error of S relative to itself is the absolute error here, below the larger of `precision` and a few |ln S| ε.
 /// Arguments are understood as by [`diffuse_sum`].
 pub fn ln_diffuse_sum(g: f64, b: f64, precision: Precision) -> f64 {
-    parts(g, b, precision).map_or(f64::NEG_INFINITY, |(ln_scale, rest)| ln_scale + rest.ln())
+    logarithm(g, b, precision)
 }
 
-/// S as e to the first times the second, the second positive; none where S is 0.
-///
-/// Compiled for several instruction sets, the best chosen at run time; no operation is fused, so all of them give the same
-/// bits.
+/// Compiled as [`value`] is.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
-fn parts(g: f64, b: f64, precision: Precision) -> Option<(f64, f64)> {
+fn logarithm(g: f64, b: f64, precision: Precision) -> f64 {
+    let parts = parts(g, b, precision, f64::INFINITY);
+    parts.map_or(f64::NEG_INFINITY, |(ln_scale, rest)| ln_scale + rest.ln())
+}
+
+/// S as e to the first times the second, the second positive; none where S is 0 or m δ beyond what is asked for.
+#[expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
+#[inline(always)]
+fn parts(g: f64, b: f64, precision: Precision, nothing: f64) -> Option<(f64, f64)> {
     // Written so that NaN falls out too.
     if !(g > 0.0 && g.is_finite() && b < f64::INFINITY) {
         return None;
     }
-    let near = Peak::near(g, b.max(0.0));
-    if near.m < precision.switch() {
-        return Some(direct::sum(&near, precision.depth()));
+    let b = b.max(0.0);
+    if let Some(choice) = Choice::few(g, b) {
+        return Some(direct::sum(g, b, choice));
     }
-    let peak = near.refined();
-    let narrow = peak.m < precision.variance() * (1.0 + 2.0 * peak.delta);
-    Some(if narrow { narrow::sum(&peak) } else { saddle::sum(&peak, precision.four()) })
+    let near = Peak::near(g, b);
+    if near.m * near.delta > nothing {
+        return None;
+    }
+    if near.m >= precision.switch() {
+        let peak = near.refined();
+        let narrow = peak.m < precision.variance() * (1.0 + 2.0 * peak.delta);
+        return Some(if narrow { narrow::sum(&peak) } else { saddle::sum(&peak, precision.four()) });
+    }
+    Some(direct::sum(g, b, Choice::around(&near, precision.depth())))
 }

@@ -11,7 +11,7 @@
 #![expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
 
 use super::factorials::LN_FACTORIALS;
-use super::saddle::Peak;
+use super::saddle::{Peak, roughly_ln};
 use std::f64::consts::{LN_2, LOG2_E};
 
 /// More terms than any span has; a multiple of [`LANES`].
@@ -19,16 +19,58 @@ const MOST: usize = 128;
 /// Partial sums.
 const LANES: usize = 8;
 
-/// S as e to the first times the second, without the terms below e^−`depth` of the largest.
+/// For ln g + b/2 below this the first term is the largest, and all beyond the sixteenth are together below 1e-14 of it: the n-th
+/// is at most `(g e^(b/2))^(n-1)/(n! n)` of the first.
+const LN_FEW: f64 = 0.18;
+/// Below this the same holds for all beyond the eighth.
+const LN_FEWER: f64 = -2.16;
+
+/// The terms that are added: from the first to the last in steps, and the largest.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Choice {
+    first: usize,
+    last: usize,
+    stride: usize,
+    top: usize,
+}
+
+impl Choice {
+    /// The first eight or sixteen, if they are all of the sum; found without looking for the largest.
+    #[inline(always)]
+    pub(super) fn few(g: f64, b: f64) -> Option<Self> {
+        let size = roughly_ln(g) + 0.5 * b;
+        let last = if size < LN_FEWER { 8 } else { 16 };
+        (size < LN_FEW).then_some(Self { first: 1, last, stride: 1, top: 1 })
+    }
+
+    /// Those above e^−`depth` of the largest.
+    #[inline(always)]
+    pub(super) fn around(peak: &Peak, depth: f64) -> Self {
+        let [first, last, stride] = span(peak, depth);
+        // Between two numbers the larger term, where b decides: t_{n+1} against t_n goes as m² against n (n + 1).
+        let (m, floor) = (peak.m, peak.m as usize);
+        let top = floor + usize::from(m * m > (floor * (floor + 1)) as f64);
+        Self { first, last, stride, top: top.clamp(1, LN_FACTORIALS.len()) }
+    }
+}
+
+/// S as e to the first times the second.
 #[inline(always)]
-pub(super) fn sum(peak: &Peak, depth: f64) -> (f64, f64) {
-    let Peak { g, b, m, .. } = *peak;
-    let [first, last, stride] = span(peak, depth);
-    // Between two numbers the larger term, where b decides: t_{n+1} against t_n goes as m² against n (n + 1).
-    let floor = m as usize;
-    let top = (floor + usize::from(m * m > (floor * (floor + 1)) as f64)).clamp(1, LN_FACTORIALS.len());
+pub(super) fn sum(g: f64, b: f64, choice: Choice) -> (f64, f64) {
     // The 64th part of a subnormal number may be 0.
     let ln_ratio = if g >= f64::MIN_POSITIVE * 64.0 { (g / 64.0).ln() } else { g.ln() - 6.0 * LN_2 };
+    let rest = terms(choice, b, ln_ratio);
+    if choice.top == 1 {
+        return (-g - b, g * rest);
+    }
+    let n0 = choice.top as f64;
+    (n0 * ln_ratio - LN_FACTORIALS[choice.top - 1] - g - b / n0, rest)
+}
+
+/// The sum of the terms, relative to the one at `top`.
+#[inline(always)]
+fn terms(choice: Choice, b: f64, ln_ratio: f64) -> f64 {
+    let Choice { first, last, stride, top } = choice;
     let (n0, h0) = (top as f64, LN_FACTORIALS[top - 1]);
     let b0 = b / n0;
     let count = ((last - first) / stride + 1).next_multiple_of(LANES).min(MOST);
@@ -61,8 +103,7 @@ pub(super) fn sum(peak: &Peak, depth: f64) -> (f64, f64) {
         }
     }
     let pairs = [lanes[0] + lanes[4], lanes[1] + lanes[5], lanes[2] + lanes[6], lanes[3] + lanes[7]];
-    let rest = (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]);
-    (n0 * ln_ratio - h0 - g - b0, rest * stride as f64)
+    ((pairs[0] + pairs[2]) + (pairs[1] + pairs[3])) * stride as f64
 }
 
 /// The first and last term that matter, and the distance between those that are taken.
@@ -85,7 +126,7 @@ fn span(peak: &Peak, depth: f64) -> [usize; 3] {
 fn stride(peak: &Peak, depth: f64) -> usize {
     let Peak { m, delta, .. } = *peak;
     // How far below the largest the first term is: a cut there would show.
-    let edge = m - 1.0 - m.max(1.0).ln() + delta * (m - 1.0) * (m - 1.0);
+    let edge = m - 1.0 - roughly_ln(m.max(1.0)) + delta * (m - 1.0) * (m - 1.0);
     // Every h-th term of a Poisson law of mean m gives its sum but for 2 exp(−2 m sin²(π/h)). With b, m is divided by 1 + 2δ and
     // another 4 to 15 % are lost; for h = 2 nearly half is, next to δ = 0.
     let spread = m / (1.0 + 2.0 * delta);
