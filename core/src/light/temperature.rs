@@ -163,10 +163,11 @@ impl PlanckianLocus {
             for (answers, colors) in answers.chunks_mut(LANES).zip(colors.chunks(LANES)) {
                 lanes.solve(&self.start, &self.pieces, colors);
                 for (lane, (answer, &color)) in answers.iter_mut().zip(colors).enumerate() {
-                    *answer = match lanes.found(lane).and_then(|found| found.cct()) {
-                        Some(cct) => Ok(cct),
-                        None => self.careful(color),
-                    };
+                    // Stored on each way of its own: gathered first, an answer would pass through memory, misaligned.
+                    match lanes.found(lane).and_then(|found| found.cct()) {
+                        Some(cct) => *answer = Ok(cct),
+                        None => *answer = self.careful(color),
+                    }
                 }
             }
         });

@@ -1,5 +1,7 @@
 //! The locus as polynomials in the reciprocal temperature, made so that the nearest point is the root of another.
 
+use rayon::prelude::*;
+
 use super::exact::{ExactLocus, Motion};
 use super::{Cct, MAX_DUV, SLACK, is_in_range};
 use crate::colorimetry::Uv60;
@@ -216,7 +218,8 @@ pub(super) struct Pieces(Box<[Piece; PIECES]>);
 impl Pieces {
     pub(super) fn new(locus: &ExactLocus) -> Option<Self> {
         let middle = |index: usize| FIRST_MIRED + (index as f64 + 0.5) * WIDTH;
-        let pieces: Option<Vec<Piece>> = (0..PIECES).map(|index| Piece::new(locus, middle(index))).collect();
+        let pieces: Option<Vec<Piece>> =
+            (0..PIECES).into_par_iter().map(|index| Piece::new(locus, middle(index))).collect();
         Some(Self(pieces?.into_boxed_slice().try_into().ok()?))
     }
 
