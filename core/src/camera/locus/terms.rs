@@ -13,8 +13,8 @@ const MOST: usize = COUNT.next_multiple_of(LANES);
 /// The longest wavelength λ₀ has the smallest exponent x₀ = c₂/(λ₀T). From here on 1 − e^−x loses nothing by cancellation;
 /// below, which is above 56 000 K, all x − x₀ are within what the exponential near 0 is made for.
 const PLAIN_FROM: f64 = 0.325;
-/// Further than this from x₀ an exponential is 0 beside the last one.
-const DEEPEST: f64 = 700.0;
+/// Terms below e^−this of a channel's last one are left out: all of them together are below its rounding.
+const DEPTH: f64 = 52.0;
 
 /// One channel's weights in a list of wavelengths.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +23,20 @@ struct Channel {
     first: usize,
     /// The weight times (λ₀/λ)⁵, for each wavelength.
     weights: Vec<f64>,
+    /// The gap of the last wavelength that weighs.
+    last_gap: f64,
+    /// How much smaller the exponential of a term must be than the last one's, so that the term is left out: as a logarithm.
+    depth: f64,
+}
+
+impl Channel {
+    /// From the gaps of its wavelengths and their weights.
+    fn new(first: usize, gaps: &[f64], weights: Vec<f64>) -> Self {
+        let largest = weights.iter().fold(0.0_f64, |largest, weight| largest.max(weight.abs()));
+        let last = gaps.iter().zip(&weights).rfind(|&(_, &weight)| weight != 0.0);
+        let (last_gap, depth) = last.map_or((0.0, DEPTH), |(&gap, last)| (gap, DEPTH + (largest / last.abs()).ln()));
+        Self { first, weights, last_gap, depth }
+    }
 }
 
 /// Wavelengths λ up to an anchor λ₀ over which Planck's law is summed for three channels.
@@ -38,12 +52,12 @@ impl Terms {
     /// The same wavelengths for all channels, in nanometers, each with three weights; from the shortest to the anchor, which is
     /// the last.
     pub(super) fn shared(terms: &[(f64, [f64; 3])], anchor_nm: f64) -> Self {
-        let channel = |c: usize| Channel {
-            first: 0,
-            weights: filled(terms.iter().map(|&(nm, weights)| weights[c] * (anchor_nm / nm).powi(5))),
-        };
         let gaps = filled(terms.iter().map(|&(nm, _)| gap(nm, anchor_nm)));
-        Self { anchor_nm, gaps, channels: [0, 1, 2].map(channel) }
+        let channels = [0, 1, 2].map(|c: usize| {
+            let weights = terms.iter().map(|&(nm, weights)| weights[c] * (anchor_nm / nm).powi(5));
+            Channel::new(0, &gaps, filled(weights))
+        });
+        Self { anchor_nm, gaps, channels }
     }
 
     /// Wavelengths and weights of each channel's own, none beyond the anchor; in all no more than the grid has.
@@ -52,7 +66,8 @@ impl Terms {
         let channels = [0, 1, 2].map(|c: usize| {
             let first = gaps.len();
             gaps.extend(filled(channels[c].iter().map(|&(nm, _)| gap(nm, anchor_nm))));
-            Channel { first, weights: filled(channels[c].iter().map(|&(nm, w)| w * (anchor_nm / nm).powi(5))) }
+            let weights = channels[c].iter().map(|&(nm, weight)| weight * (anchor_nm / nm).powi(5));
+            Channel::new(first, &gaps[first..], filled(weights))
         });
         Self { anchor_nm, gaps, channels }
     }
@@ -66,8 +81,9 @@ impl Terms {
     pub(super) fn sums(&self, scale: f64) -> [f64; 3] {
         let first = scale / self.anchor_nm;
         let anchor = -(-first).exp_m1();
-        // The gaps of a shared list fall; those of channels' own are never deep.
-        let skip = self.gaps.partition_point(|gap| scale * gap > DEEPEST) / LANES * LANES;
+        let deepest = self.channels.iter().map(|c| c.last_gap + c.depth / scale).fold(0.0, f64::max);
+        // The gaps of a shared list fall; those of channels' own are all less deep where they are used.
+        let skip = self.gaps.partition_point(|&gap| gap > deepest) / LANES * LANES;
         if first > PLAIN_FROM { plain(self, skip, scale, anchor) } else { hot(self, skip, scale, anchor) }
     }
 }
@@ -116,7 +132,7 @@ fn sums(terms: &Terms, skip: usize, law: impl Fn(f64) -> f64) -> [f64; 3] {
     }
     let values = &*values;
     [0, 1, 2].map(|c: usize| {
-        let Channel { first, weights } = &terms.channels[c];
+        let Channel { first, weights, .. } = &terms.channels[c];
         let weights = weights.get(skip.saturating_sub(*first)..).unwrap_or_default();
         let mut lanes = [0.0; LANES];
         let pairs = weights.as_chunks::<LANES>().0.iter().zip(values[skip.max(*first)..].as_chunks::<LANES>().0);
