@@ -116,7 +116,7 @@ pub fn diffuse_sum(g: f64, b: f64, precision: Precision) -> f64 {
     value(g, b, precision)
 }
 
-/// Where m δ, which is at least −ln S, is beyond this, S is below the smallest with room for all that is only near.
+/// Where m δ, which is at most −E of the largest term, is beyond this, S is below the smallest, though m and δ are only near.
 const NOTHING: f64 = 760.0;
 
 /// Compiled for several instruction sets, the best chosen at run time; no operation is fused, so all of them give the same
