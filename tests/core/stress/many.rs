@@ -23,7 +23,7 @@ pub(super) const WALKS: &[Walk] = &[
     Walk { name: "delta_e_2000_into", promise: 0.0, share: 0.5, draw: draw_pairs, check: pairs },
     Walk { name: "LocusTable::xy", promise: LocusTable::LIMIT, share: 10.0, draw: draw_temperature, check: xy },
     Walk { name: "LocusTable::xys", promise: 0.0, share: 1.0, draw: draw_pairs, check: xys },
-    Walk { name: "LocusTable::within", promise: 1.0, share: 0.002, draw: draw_table, check: any_table },
+    Walk { name: "LocusTable::within", promise: 1.0, share: 0.006, draw: draw_table, check: any_table },
     Walk { name: "LocusTable::of", promise: 1.0, share: 0.02, draw: draw_curve, check: any_curve },
 ];
 
@@ -219,21 +219,23 @@ fn is_outside(t: Kelvin) -> bool {
 /// What a table says against the sum; refused exactly outside it.
 fn against(answer: Result<Xy, NotInTable>, t: Kelvin, exact: impl Fn() -> Option<Xy>, v: &mut Verdict) -> Option<f64> {
     v.holds("refused or not", is_outside(t) == (answer == Err(NotInTable::Outside)));
-    let Ok(xy) = answer else {
-        v.refuse();
-        return None;
-    };
-    v.all_finite([xy.x, xy.y]);
-    let exact = exact();
-    v.holds("a chromaticity of nothing", exact.is_some());
-    exact.map(|exact| (xy.x - exact.x).abs().max((xy.y - exact.y).abs()))
+    match answer {
+        Ok(xy) => {
+            v.all_finite([xy.x, xy.y]);
+            let exact = exact();
+            v.holds("a chromaticity of nothing", exact.is_some());
+            exact.map(|exact| (xy.x - exact.x).abs().max((xy.y - exact.y).abs()))
+        }
+        Err(_) => None,
+    }
 }
 
 fn xy(&[which, kelvins, ..]: &Case, v: &mut Verdict) {
     let Ok(t) = Kelvin::new(kelvins) else { return v.refuse() };
     let seen = &SEEN[(which.max(0.0) as usize).min(4)];
-    if let Some(off) = against(seen.table.xy(t), t, || seen.exact(t), v) {
-        v.error(off);
+    match against(seen.table.xy(t), t, || seen.exact(t), v) {
+        Some(off) => v.error(off),
+        None => v.refuse(),
     }
 }
 

@@ -27,15 +27,15 @@ use super::walk::{Verdict, Walk};
 pub(super) const WALKS: &[Walk] = &[
     Walk { name: "Accuracy", promise: 0.0, share: 10.0, draw: |d| case([d.anything(), d.anything()]), check: accuracy },
     Walk { name: "Precision::within", promise: 1.0, share: 2.0, draw: draw_sum, check: precision },
-    Walk { name: "LocusEvaluator::within", promise: 1.0, share: 0.02, draw: draw_locus, check: locus },
+    Walk { name: "LocusEvaluator::within", promise: 1.0, share: 0.05, draw: draw_locus, check: locus },
     Walk { name: "Measure::shared", promise: 1e-9, share: 0.05, draw: draw_shared, check: shared },
-    Walk { name: "Reach", promise: 1.0, share: 0.002, draw: draw_reach, check: reach },
+    Walk { name: "Reach", promise: 1.0, share: 0.02, draw: draw_reach, check: reach },
     Walk { name: "mirror_sum by Reach", promise: 1.0, share: 0.5, draw: draw_mirror, check: mirror },
     Walk { name: "Demand", promise: 0.0, share: 20.0, draw: draw_demand, check: demand },
     Walk { name: "Plan::at", promise: 1.0, share: 0.5, draw: draw_place, check: place },
     Walk { name: "Plan::fill", promise: 0.0, share: 0.05, draw: draw_fill, check: fill },
-    Walk { name: "Plan::new", promise: 1.0, share: 0.001, draw: draw_plan, check: any_plan },
-    Walk { name: "a picture by plan", promise: 0.0, share: 0.01, draw: draw_picture, check: picture },
+    Walk { name: "Plan::new", promise: 1.0, share: 0.014, draw: draw_plan, check: any_plan },
+    Walk { name: "a picture by plan", promise: 0.0, share: 0.05, draw: draw_picture, check: picture },
 ];
 
 /// An accuracy that may be asked for: as coarse as there is, and far finer than can be had.
