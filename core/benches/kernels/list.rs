@@ -4,16 +4,18 @@ use std::fmt::Write as _;
 use std::hint::black_box;
 use std::sync::Arc;
 
+use chromascope_core::accuracy::Accuracy;
+use chromascope_core::camera::batch::Sample;
 use chromascope_core::camera::rendering::{raw, under_light};
-use chromascope_core::camera::{LocusEvaluator, Rendering, Way, White};
-use chromascope_core::colorimetry::{Lab, Uv60, delta_e_2000};
+use chromascope_core::camera::{Batch, LocusEvaluator, LocusTable, NotInTable, Rendering, Way, White};
+use chromascope_core::colorimetry::{Lab, Uv60, delta_e_2000, delta_e_2000_into};
 use chromascope_core::light::PlanckianLocus;
 use chromascope_core::math::dot::dot;
 use chromascope_core::reflectance::{Precision, Reading, Surface, diffuse_sum, wavelength_power};
 use chromascope_core::render::diffuse::{by_moments, by_nodes, rough_basis};
 use chromascope_core::render::{
-    CameraImage, Development, DiffuseTable, GeometryImage, Measure, Quality, RasterSize, ShadingImage, ShadowTree,
-    Shadows, Stop, Visibility, develop,
+    Against, CameraImage, Demand, Development, DiffuseTable, GeometryImage, Measure, Plan, Quality, RasterSize,
+    ShadingImage, ShadowTree, Shadows, Stop, Visibility, develop,
 };
 use chromascope_core::scene::{Lighting, SUN_RADIUS, Viewpoint, shapes};
 use chromascope_core::spectral::{GridSpectrum, Quantity, Sensor, SpectralDistribution};
@@ -44,11 +46,16 @@ pub(crate) const KERNELS: &[Kernel] = &[
     Kernel { name: "integral_by_moments", count: 10_000, ready: moments },
     Kernel { name: "integral_by_table", count: 10_000, ready: table },
     Kernel { name: "table_filled", count: 1, ready: filled },
+    Kernel { name: "plan_1000_samples", count: 20, ready: planned },
     Kernel { name: "locus_evaluator", count: 10_000, ready: || locus(false) },
     Kernel { name: "locus_sum", count: 500, ready: || locus(true) },
     Kernel { name: "locus_rules", count: 2, ready: rules },
+    Kernel { name: "locus_table_1000", count: 50, ready: tabulated },
     Kernel { name: "chart_24_patches", count: 500, ready: chart },
+    Kernel { name: "batch_96_by_12", count: 20, ready: || batch(|x| x) },
+    Kernel { name: "batch_96_by_12_f32", count: 20, ready: || batch(|x| x as f32) },
     Kernel { name: "delta_e_2000", count: 5000, ready: difference },
+    Kernel { name: "delta_e_2000_1000", count: 10, ready: differences },
     Kernel { name: "nearest_black_body", count: 5000, ready: nearest },
     Kernel { name: "sprague_81_to_401", count: 200, ready: sprague },
     Kernel { name: "csv_4000_samples", count: 2, ready: csv },
@@ -101,6 +108,19 @@ fn filled() -> Work {
     Box::new(move || DiffuseTable::new(black_box(&measure)).at(1.0, 1.0)[1])
 }
 
+/// Samples from smooth to rough and from the peak into the dark, by a plan that took a table and moments.
+fn planned() -> Work {
+    let demand = Demand::new([1e-2, 1e4], 10_000_000);
+    let plan = Plan::new(&measure().1, Accuracy::new(1e-5).unwrap(), Against::Peak, demand).unwrap();
+    let point = |i: u32| [1e-2 * 1e6_f64.powf(f64::from(i) / 999.0), 0.03 * f64::from(i * 389 % 1000)];
+    let points: Vec<[f64; 2]> = (0..1000).map(point).collect();
+    let mut sums = vec![[0.0; 3]; points.len()];
+    Box::new(move || {
+        plan.fill(black_box(&points), &mut sums);
+        sums[500][1]
+    })
+}
+
 fn locus(by_sum: bool) -> Work {
     let camera = Arc::new(camera());
     let evaluator = if by_sum { LocusEvaluator::by_sum } else { LocusEvaluator::new }(camera, CONSTANTS);
@@ -112,6 +132,18 @@ fn rules() -> Work {
     let camera = Arc::new(camera());
     let t = Kelvin::new(5500.0).unwrap();
     Box::new(move || LocusEvaluator::new(Arc::clone(&camera), CONSTANTS).raw(t)[1])
+}
+
+/// Black bodies of 1000 K to 20 000 K in no order.
+fn tabulated() -> Work {
+    let table = LocusTable::new(&camera(), &measure().0, CONSTANTS);
+    let kelvin = |i: u32| Kelvin::new(1e6 / (50.0 + 0.95 * f64::from(i * 389 % 1000))).unwrap();
+    let temperatures: Vec<Kelvin> = (0..1000).map(kelvin).collect();
+    let mut answers = vec![Err(NotInTable::Outside); temperatures.len()];
+    Box::new(move || {
+        table.xys_into(black_box(&temperatures), &mut answers);
+        answers[500].map_or(0.0, |xy| xy.x)
+    })
 }
 
 /// From reflectances to L*a*b*, the camera's product with the light made once.
@@ -130,6 +162,33 @@ fn chart() -> Work {
 fn difference() -> Work {
     let (a, b) = (Lab { l: 50.0, a: 2.5, b: -80.0 }, Lab { l: 58.0, a: 24.0, b: 15.0 });
     Box::new(move || delta_e_2000(black_box(a), black_box(b)))
+}
+
+/// 96 spectra of 401 samples to 12 channels.
+fn batch<T: Sample + Into<f64> + 'static>(number: fn(f64) -> T) -> Work {
+    let numbers = |count: u32| (0..count).map(|i| number(f64::from(i * 389 % 1000) / 1000.0)).collect::<Vec<T>>();
+    let (curves, spectra) = (Batch::new(&numbers(12 * 401), 401).unwrap(), numbers(96 * 401));
+    let mut answers = curves.responses(&spectra).unwrap();
+    Box::new(move || {
+        curves.responses_into(black_box(&spectra), &mut answers).unwrap();
+        answers[500].into()
+    })
+}
+
+/// Pairs far apart, near and equal.
+fn differences() -> Work {
+    let color = |i: u32| Lab {
+        l: f64::from(i * 389 % 1000) / 10.0,
+        a: f64::from(i * 71 % 1000) / 5.0 - 100.0,
+        b: f64::from(i * 953 % 1000) / 5.0 - 100.0,
+    };
+    let firsts: Vec<Lab> = (0..1000).map(color).collect();
+    let seconds: Vec<Lab> = (0..1000).map(|i| color(i + i % 3)).collect();
+    let mut answers = vec![0.0; firsts.len()];
+    Box::new(move || {
+        delta_e_2000_into(black_box(&firsts), black_box(&seconds), &mut answers);
+        answers[500]
+    })
 }
 
 fn nearest() -> Work {
