@@ -41,16 +41,15 @@ impl Keeper {
 
     /// The document kept, or the first screen; with a sentence where one was there and could not be read.
     pub(super) fn load(&mut self) -> (Document, Option<String>) {
-        let Some(text) = self.file.as_ref().and_then(|file| fs::read_to_string(file).ok()) else {
-            return (Document::default(), None);
+        let text = self.file.as_ref().and_then(|file| fs::read_to_string(file).ok());
+        let (document, complaint) = match text.map(|text| session::from_json(&text)) {
+            None => (Document::default(), None),
+            Some(Ok(document)) => (document, None),
+            Some(Err(error)) => (Document::default(), Some(self.set_aside(&error.to_string()))),
         };
-        match session::from_json(&text) {
-            Ok(document) => {
-                self.saved = Some(document.clone());
-                (document, None)
-            }
-            Err(error) => (Document::default(), Some(self.set_aside(&error.to_string()))),
-        }
+        // What is opened before the first frame is a change already.
+        self.saved = Some(document.clone());
+        (document, complaint)
     }
 
     /// A kept document that cannot be read is not overwritten.
@@ -67,11 +66,6 @@ impl Keeper {
     pub(super) fn watch(&mut self, document: &Document, ctx: &egui::Context) -> Result<(), String> {
         let Some(file) = self.file.clone() else { return Ok(()) };
         if self.seen.as_ref() != Some(document) {
-            // The first sight of a document that was just loaded is no change.
-            let fresh = self.seen.is_none() && self.saved.as_ref().is_none_or(|saved| saved == document);
-            if fresh {
-                self.saved = Some(document.clone());
-            }
             self.seen = Some(document.clone());
             self.changed = Instant::now();
             *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some((file.clone(), document.clone()));

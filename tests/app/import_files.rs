@@ -153,7 +153,7 @@ fn several_files_at_once_leave_light_and_patches() {
     assert!(said.contains("2 of 5 files could not be read: d.csv, line 4") && weight == Weight::Warning, "{said}");
     undo(&mut window);
     assert_eq!(*window.state().history().document(), Document::default());
-    assert_eq!(status(&window).0, "", "what was taken back is no longer said");
+    assert_eq!(status(&window).0, "Undone: Open 3 sets.", "what was taken back is no longer said");
     // One alone is put to use.
     open_path(&mut window, &folder.path().join("b.csv"));
     assert_eq!(window.state().history().document().light, Light::Set("Lamp".to_owned()));

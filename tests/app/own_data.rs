@@ -123,3 +123,15 @@ fn files_are_written_whole_or_not_at_all() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left beside it");
     assert!(write_atomically(&folder.path().join("no/such/folder/x"), b"x").is_err());
 }
+
+#[test]
+fn what_was_opened_before_the_first_frame_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut files = Files::new(Some(folder.path().to_owned()));
+    let mut document = files.kept_document();
+    // As a file named on the command line that is read at once.
+    document.temperature_k = 4000.0;
+    files.autosave(&document, &egui::Context::default());
+    files.save_document(&document);
+    assert_eq!(Files::new(Some(folder.path().to_owned())).kept_document(), document);
+}
