@@ -161,3 +161,10 @@ fn an_error_that_a_choice_caused_says_so() {
     assert!(found.to_string().ends_with("(as chosen: micrometers)"), "{found}");
     assert_eq!(read(b"hello\n", &tab), Err(ReadError::NoNumbers));
 }
+
+#[test]
+fn a_named_column_of_the_same_numbers_is_a_curve() {
+    assert_eq!(names(&ok("nm,level,A\n400,400,1\n410,410,2\n420,420,3\n")), ["level", "A"]);
+    assert_eq!(names(&ok("lambda,A,lambda,B\n400,1,400,2\n410,1,410,2\n420,1,420,2\n")), ["A", "B"]);
+    assert_eq!(ok("400,1,400,2\n410,1,410,3\n420,2,420,2\n").curves.len(), 2);
+}

@@ -10,8 +10,11 @@ use super::raw_curve;
 /// Which of the columns right of the wavelengths, from 0, hold wavelengths too.
 pub(super) fn more_wavelengths(header: &Header, at: usize, wavelengths: &[f64], values: &[Vec<f64>]) -> Vec<usize> {
     let is_one = |(index, column): (usize, &Vec<f64>)| {
-        let named = header.name(at + 1 + index).is_some_and(is_name);
-        let same = wavelengths.len() > 1 && column == wavelengths;
+        let name = header.name(at + 1 + index);
+        let named = name.is_some_and(is_name);
+        // A column with a name of its own is a curve, even if it happens to hold the same numbers.
+        let alike = name.is_none_or(|name| header.name(at) == Some(name));
+        let same = wavelengths.len() > 1 && column == wavelengths && alike;
         (named || same).then_some(index)
     };
     values.iter().enumerate().filter_map(is_one).collect()
