@@ -1,4 +1,5 @@
-//! Numerical tools with no knowledge of color: interpolation, Chebyshev polynomials, Gauss rules, least squares, dot products.
+//! Numerical tools with no knowledge of color: interpolation, Chebyshev polynomials, Gauss rules, least squares, dot products,
+//! exponentials and logarithms that vectorize.
 
 pub mod chebyshev;
 pub mod dot;
@@ -6,3 +7,4 @@ pub mod exp;
 pub mod gauss;
 pub mod interpolation;
 pub mod least_squares;
+pub mod ln;

@@ -5,6 +5,7 @@ use chromascope_core::math::exp::exp;
 use chromascope_core::math::gauss::{Rule, gauss_rule, interpolatory_rule};
 use chromascope_core::math::interpolation::{Sprague, linear};
 use chromascope_core::math::least_squares::{FitError, matrix_keeping};
+use chromascope_core::math::ln::{ln, ln_1p};
 use glam::{DMat3, DVec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -27,6 +28,32 @@ fn exp_agrees_with_the_standard_library() {
     assert_eq!(exp(0.0), 1.0);
     assert_eq!(exp(1e300), exp(700.0));
     assert_eq!(exp(f64::NEG_INFINITY), exp(-700.0));
+}
+
+/// How many units in the last place lie between a number and what it should be.
+fn units_apart(found: f64, right: f64) -> u64 {
+    found.to_bits().abs_diff(right.to_bits())
+}
+
+#[test]
+fn logarithms_agree_with_the_standard_library() {
+    let (mut worst, mut worst_1p) = (0, 0);
+    for i in 0..=200_000 {
+        // Powers of e over the whole range, and nearer and nearer to 1 from both sides.
+        let wide = (-708.0 + f64::from(i) * 0.007_083_127_1).exp();
+        let near = (-36.0 + f64::from(i) * 0.000_179_871_3).exp();
+        for x in [wide, 1.0 + near, 1.0 / (1.0 + near), near] {
+            worst = worst.max(units_apart(ln(x), x.ln()));
+            worst_1p = worst_1p.max(units_apart(ln_1p(x), x.ln_1p()));
+        }
+    }
+    for x in [f64::MIN_POSITIVE, 0.5_f64.sqrt(), 2.0_f64.sqrt(), 0.5, 2.0, 1e16, f64::MAX] {
+        worst = worst.max(units_apart(ln(x), x.ln()));
+        worst_1p = worst_1p.max(units_apart(ln_1p(x), x.ln_1p()));
+    }
+    assert!(worst <= 2 && worst_1p <= 2, "{worst} {worst_1p}");
+    assert_eq!((ln(1.0), ln_1p(0.0), ln_1p(-3.0)), (0.0, 0.0, 0.0));
+    assert_eq!((ln(0.0), ln(f64::INFINITY)), (ln(f64::MIN_POSITIVE), ln(f64::MAX)));
 }
 
 proptest! {

@@ -9,7 +9,7 @@
 //!
 //! | way | cost of a sample |
 //! |---|---|
-//! | table of ln J over (ln κ, v), by cubics or quintics | a reading, after it was filled |
+//! | table of ln J over (ln κ, v), by polynomials of degree 3 to 11 | a reading, after it was filled |
 //! | wavelengths shared by the channels | N sums S |
 //! | wavelengths of each channel's own Gauss rule | 3 N sums S |
 //! | all wavelengths of the grid | 401 sums S |
@@ -30,6 +30,7 @@ mod table;
 pub use candidate::{Candidate, Explanation, Method, Verdict};
 pub use check::MARGIN;
 pub use domain::{Demand, position};
+pub(in crate::render) use domain::is_dark;
 pub(in crate::render) use run::{Places, RUN};
 
 use super::diffuse::by_nodes;

@@ -79,7 +79,7 @@ pub struct Shade {
     pub kappa: f64,
     /// b / g.
     pub beta: f64,
-    /// Where that lies in a camera's table, if it is made by the table: [`DiffuseTable::position`]; for a plan [`plan::position`].
+    /// Where that lies in a camera's table, if it is made by the table: [`DiffuseTable::position`].
     pub position: [f64; 2],
     /// How its integral is made.
     pub way: Way,
@@ -93,10 +93,8 @@ impl Shade {
         if front <= 0.0 || kappa <= 0.0 {
             return Self::DARK;
         }
-        let position = plan::position(kappa, beta);
-        // Written so that what is no number is dark.
-        let way = if position[1] <= 1.0 { Way::Planned } else { Way::Dark };
-        Self { front, kappa, beta, position, way }
+        let way = if plan::is_dark(kappa, beta) { Way::Dark } else { Way::Planned };
+        Self { front, kappa, beta, position: [0.0; 2], way }
     }
 }
 

@@ -145,7 +145,7 @@ fn planned(plan: &Plan, shades: &[Shade], signals: &mut [[f32; 3]]) {
         }
         places.count = shades.len();
         for (i, shade) in shades.iter().enumerate() {
-            (places.kappa[i], places.beta[i], places.position[i]) = (shade.kappa, shade.beta, shade.position);
+            (places.kappa[i], places.beta[i]) = (shade.kappa, shade.beta);
             places.wanted[i] = shade.way == Way::Planned;
         }
         let sums = plan.run(&places);

@@ -18,7 +18,7 @@ pub enum Method {
     },
     /// A table.
     Table {
-        /// The degree of its polynomials: three or five.
+        /// The degree of its polynomials: 3, 5, 7, 9 or 11.
         degree: usize,
         /// Places along ln κ.
         kappas: usize,

@@ -22,8 +22,7 @@ pub(super) fn of_sample(method: &Method) -> f64 {
     match *method {
         Method::Nothing => 0.0,
         Method::Moments { orders, .. } => 3.0 + orders as f64,
-        Method::Table { degree: 3, .. } => 35.0,
-        Method::Table { .. } => 50.0,
+        Method::Table { degree, .. } => 10.0 + 0.4 * ((degree + 1) * (degree + 1)) as f64,
         Method::Shared { nodes, precision } | Method::Own { nodes, precision } => nodes as f64 * sum_ns(precision),
         Method::Every { precision } => EVERY * sum_ns(precision),
     }

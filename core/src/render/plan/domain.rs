@@ -1,5 +1,6 @@
 //! Which κ and β are asked for, and where they lie in a table.
 
+use crate::math::ln::{ln, ln_1p};
 use crate::render::diffuse::DARK;
 
 /// The κ of a scene and how many samples lie where a table may serve them, in powers of two: little changes of a scene make no
@@ -51,10 +52,18 @@ impl Demand {
 /// ```text
 /// v = ln(1 + β) / ln(1 + β_last(κ)),  β_last = 30 (1 + 6/√κ + 3.5/κ)
 /// ```
-/// Beyond v = 1 the integral is below e^-30 of its peak, whatever the weights.
+/// Beyond v = 1 the integral is below e^-30 of its peak, whatever the weights. For κ from 1e-300 to 1e300; without branches or
+/// calls, so that a loop over it vectorizes.
 #[inline]
 pub fn position(kappa: f64, beta: f64) -> [f64; 2] {
-    [kappa.ln(), beta.max(0.0).ln_1p() / ln_last(kappa)]
+    [ln(kappa), ln_1p(beta) / ln_last(kappa)]
+}
+
+/// Whether a place lies beyond v = 1, or nowhere.
+#[inline]
+pub(in crate::render) fn is_dark(kappa: f64, beta: f64) -> bool {
+    // Written so that what is no number is dark.
+    !(beta <= last(kappa))
 }
 
 /// β at a v of a κ.
@@ -65,5 +74,11 @@ pub(super) fn beta_at(kappa: f64, v: f64) -> f64 {
 /// The logarithm of 1 + β at v = 1.
 #[inline]
 pub(super) fn ln_last(kappa: f64) -> f64 {
-    (DARK * (1.0 + 6.0 / kappa.sqrt() + 3.5 / kappa)).ln_1p()
+    ln_1p(last(kappa))
+}
+
+/// β at v = 1.
+#[inline]
+fn last(kappa: f64) -> f64 {
+    DARK * (1.0 + 6.0 / kappa.sqrt() + 3.5 / kappa)
 }

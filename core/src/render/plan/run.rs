@@ -1,7 +1,6 @@
 //! Many samples at once: what takes no sum over wavelengths is done together, so that it vectorizes.
 
 use super::Plan;
-use super::domain::position;
 use super::table::Table;
 use crate::math::exp::exp;
 use crate::render::diffuse::{by_moments, rough_basis};
@@ -19,8 +18,6 @@ pub(super) const LAST_BETA: f64 = 60.0;
 pub(in crate::render) struct Places {
     pub(in crate::render) kappa: [f64; RUN],
     pub(in crate::render) beta: [f64; RUN],
-    /// [`position`], of those below the rough.
-    pub(in crate::render) position: [[f64; 2]; RUN],
     /// Which are wanted.
     pub(in crate::render) wanted: [bool; RUN],
     pub(in crate::render) count: usize,
@@ -28,7 +25,7 @@ pub(in crate::render) struct Places {
 
 impl Places {
     pub(in crate::render) const EMPTY: Self =
-        Self { kappa: [1.0; RUN], beta: [0.0; RUN], position: [[0.0; 2]; RUN], wanted: [true; RUN], count: 0 };
+        Self { kappa: [1.0; RUN], beta: [0.0; RUN], wanted: [true; RUN], count: 0 };
 }
 
 /// Which of the quick ways a sample goes.
@@ -44,12 +41,8 @@ pub(super) fn fill(plan: &Plan, points: &[[f64; 2]], sums: &mut [[f64; 3]]) {
     let mut places = Places::EMPTY;
     for (points, sums) in points.chunks(RUN).zip(sums.chunks_mut(RUN)) {
         places.count = points.len().min(sums.len());
-        let table = plan.table();
         for (i, &[kappa, beta]) in points.iter().enumerate() {
             (places.kappa[i], places.beta[i]) = (kappa, beta.max(0.0));
-            if kappa < plan.rough.0 && table.is_some_and(|table| table.holds(kappa)) {
-                places.position[i] = position(kappa, beta);
-            }
         }
         let found = plan.run(&places);
         for (i, sum) in sums.iter_mut().enumerate().take(places.count) {
@@ -70,8 +63,7 @@ impl Plan {
             } else if kappa >= rough && demand.holds(kappa) {
                 Quick::Moments
             } else if table.is_some_and(|table| table.holds(kappa)) {
-                // Written so that what is no number is dark.
-                if places.position[i][1] <= 1.0 { Quick::Table } else { Quick::Dark }
+                Quick::Table
             } else {
                 Quick::Neither
             };
@@ -102,7 +94,10 @@ fn quick(
     {
         match table.degree() {
             3 => read::<4>(table, places, ways, sums),
-            _ => read::<6>(table, places, ways, sums),
+            5 => read::<6>(table, places, ways, sums),
+            7 => read::<8>(table, places, ways, sums),
+            9 => read::<10>(table, places, ways, sums),
+            _ => read::<12>(table, places, ways, sums),
         }
     }
     if ways.contains(&Quick::Moments) {
@@ -120,10 +115,12 @@ fn quick(
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn read<const N: usize>(table: &Table, places: &Places, ways: &[Quick; RUN], sums: &mut [[f64; RUN]; 3]) {
+    let around = table.around::<N>(&places.kappa, &places.beta);
     let mut peaks = [0.0; RUN];
     for i in 0..RUN {
-        if ways[i] == Quick::Table {
-            let [peak, channels @ ..] = table.read::<N>(places.position[i]);
+        // Written so that what is no number is dark.
+        if ways[i] == Quick::Table && around.v[i] <= 1.0 {
+            let [peak, channels @ ..] = table.read(&around, i);
             peaks[i] = peak;
             (sums[0][i], sums[1][i], sums[2][i]) = (channels[0], channels[1], channels[2]);
         }

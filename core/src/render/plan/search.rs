@@ -20,6 +20,8 @@ const LEAST_ROUGH: f64 = 16.0;
 const LAST_TABLE: f64 = 1024.0;
 /// A table reaches down to this share of the largest κ in it.
 const TABLE_SPAN: f64 = 1e-6;
+/// Of which degree tables are, in the order in which they are looked at.
+const DEGREES: [usize; 5] = [5, 7, 9, 3, 11];
 /// The finest table: cells of 1/320.
 const LAST_STEP: u32 = 16;
 /// An error is taken to fall by at most this much more than by 2^((degree + 1)/2) from a table to the next finer one, whose cells
@@ -215,7 +217,7 @@ impl Search<'_> {
         if kappa[0] >= kappa[1] || rough <= kappa[0] {
             return;
         }
-        for degree in [5, 3] {
+        for degree in DEGREES {
             self.tables_of(degree, kappa);
         }
     }

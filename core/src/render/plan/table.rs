@@ -1,6 +1,7 @@
-//! ln J over (ln κ, v), interpolated by cubics or quintics, as fine as is wanted.
+//! ln J over (ln κ, v), interpolated by polynomials of odd degree, as fine as is wanted.
 
-use super::domain::{beta_at, ln_last};
+use super::domain::{beta_at, ln_last, position};
+use super::run::RUN;
 use crate::render::diffuse::cell;
 use crate::render::measure::Node;
 use rayon::prelude::*;
@@ -28,7 +29,7 @@ impl Size {
         let along = |length: f64, h: f64| (length / h).ceil().max(1.0) as usize;
         let intervals = [along(ln_kappa[1] - ln_kappa[0], h), along(ln_last(kappa[0]), ALONG_V * h).max(degree)];
         // The wavelengths keep step with the cells, so that neither alone decides the error.
-        let nodes = 4 + (if degree == 3 { step / 2 } else { 3 * step / 4 }) as usize;
+        let nodes = 4 + step as usize * (degree + 1) / 8;
         Self { degree, intervals, nodes, ln_kappa }
     }
 
@@ -93,70 +94,122 @@ impl Table {
         self.kappa[0] <= kappa && kappa <= self.kappa[1]
     }
 
+    /// Where a run of samples lies between the places.
+    #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+    #[inline(always)]
+    pub(super) fn around<const N: usize>(&self, kappa: &[f64; RUN], beta: &[f64; RUN]) -> Around<N> {
+        let mut around = Around { v: [0.0; RUN], start: [0; RUN], across: [[0.0; RUN]; N], along: [[0.0; RUN]; N] };
+        let last = self.places.map(|count| (count - N) as f64);
+        let (mut t, mut s, width) = ([0.0; RUN], [0.0; RUN], self.places[1] as f64);
+        for i in 0..RUN {
+            let [ln_kappa, v] = position(kappa[i], beta[i]);
+            let (x, y) = (self.offset[0] + self.slope[0] * ln_kappa, self.slope[1] * v);
+            let (row, column) = (first::<N>(x, last[0]), first::<N>(y, last[1]));
+            (around.v[i], t[i], s[i]) = (v, x - row, y - column);
+            // An integer, in the low bits of its mantissa.
+            around.start[i] = (row * width + column + ROUNDER).to_bits() as u32;
+        }
+        lagrange(&t, &mut around.across);
+        lagrange(&s, &mut around.along);
+        around
+    }
+
     /// A cell between the places, by polynomials through `N` of them each way; v from 0 to 1.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
-    pub(super) fn read<const N: usize>(&self, position: [f64; 2]) -> Cell {
-        let (i, across) = place::<N>(self.offset[0] + self.slope[0] * position[0], self.places[0]);
-        let (j, along) = place::<N>(self.slope[1] * position[1], self.places[1]);
+    pub(super) fn read<const N: usize>(&self, around: &Around<N>, i: usize) -> Cell {
+        let along: [f64; N] = std::array::from_fn(|k| around.along[k][i]);
+        let cells = self.cells.get(around.start[i] as usize..).unwrap_or_default();
+        let mut rows = cells.chunks(self.places[1]);
         let mut mixed = [0.0; 4];
-        for (k, u) in across.into_iter().enumerate() {
-            let row = &self.cells[(i + k) * self.places[1] + j..][..N];
+        for across in &around.across {
+            let Some(row) = rows.next().and_then(|row| row.first_chunk::<N>()) else { return mixed };
             let mut line = [0.0; 4];
-            for (cell, v) in row.iter().zip(along) {
+            for k in 0..N {
                 for lane in 0..4 {
-                    line[lane] += v * cell[lane];
+                    line[lane] += along[k] * row[k][lane];
                 }
             }
             for lane in 0..4 {
-                mixed[lane] += u * line[lane];
+                mixed[lane] += across[i] * line[lane];
             }
         }
         mixed
     }
 }
 
-/// The first of the N places around a position, and their weights.
+/// Where a run of samples lies between the places of a table.
+pub(super) struct Around<const N: usize> {
+    /// v, above 1 where it is dark.
+    pub(super) v: [f64; RUN],
+    /// The first of the places around each.
+    start: [u32; RUN],
+    /// Their weights along ln κ and along v.
+    across: [[f64; RUN]; N],
+    along: [[f64; RUN]; N],
+}
+
+/// Adding and subtracting this rounds a double below 2⁵¹ to the nearest integer.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// The first of the N places around a position, not beyond the last.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
-fn place<const N: usize>(position: f64, count: usize) -> (usize, [f64; N]) {
-    let first = (position as usize).saturating_sub(N / 2 - 1).min(count - N);
-    (first, lagrange(position - first as f64))
+fn first<const N: usize>(position: f64, last: f64) -> f64 {
+    let nearest = position - (N - 1) as f64 * 0.5 + ROUNDER - ROUNDER;
+    nearest.max(0.0).min(last)
 }
 
 /// The weights of Lagrange's polynomials on 0, 1, …, N − 1.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
-fn lagrange<const N: usize>(t: f64) -> [f64; N] {
-    // 1/∏(k − j): (−1)^(N−1−k) / (k! (N−1−k)!), from the first to the last.
+fn lagrange<const N: usize>(t: &[f64; RUN], weights: &mut [[f64; RUN]; N]) {
+    // ∏(k − j): (−1)^(N−1−k) k! (N−1−k)!, from the first to the last.
     let mut denominator = 1.0;
     for j in 1..N {
         denominator *= -(j as f64);
     }
-    let (mut before, mut after) = ([1.0; N], [1.0; N]);
-    for k in 1..N {
-        before[k] = before[k - 1] * (t - (k - 1) as f64);
-        after[N - 1 - k] = after[N - k] * (t - (N - k) as f64);
-    }
-    let mut weights = [0.0; N];
+    let mut product = [1.0; RUN];
     for k in 0..N {
-        weights[k] = before[k] * after[k] * (1.0 / denominator);
-        denominator *= -((k + 1) as f64) / (N - 1 - k).max(1) as f64;
+        weights[k] = product;
+        for i in 0..RUN {
+            product[i] *= t[i] - k as f64;
+        }
     }
-    weights
+    let mut product = [1.0; RUN];
+    for k in 0..N {
+        let share = 1.0 / denominator;
+        denominator *= -((k + 1) as f64) / (N - 1 - k).max(1) as f64;
+        for i in 0..RUN {
+            weights[k][i] *= share;
+        }
+    }
+    for k in (0..N).rev() {
+        for i in 0..RUN {
+            weights[k][i] *= product[i];
+            product[i] *= t[i] - k as f64;
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn moment<const N: usize>(t: &[f64; RUN], power: i32, i: usize) -> f64 {
+        let mut weights = [[0.0; RUN]; N];
+        lagrange(t, &mut weights);
+        weights.iter().zip(0..).map(|(w, k)| w[i] * f64::from(k).powi(power)).sum()
+    }
+
     #[test]
     fn polynomials_are_met_exactly() {
-        for t in [-0.4, 0.0, 1.3, 2.5, 4.9] {
-            let cubic: f64 = lagrange::<4>(t).iter().zip(0..).map(|(w, k)| w * f64::from(k).powi(3)).sum();
-            let quintic: f64 = lagrange::<6>(t).iter().zip(0..).map(|(w, k)| w * f64::from(k).powi(5)).sum();
-            assert!((cubic - t.powi(3)).abs() < 1e-12 * 30.0, "{cubic}");
-            assert!((quintic - t.powi(5)).abs() < 1e-12 * 3000.0, "{quintic}");
+        let t = std::array::from_fn(|i| -0.4 + 0.09 * i as f64);
+        for (i, &x) in t.iter().enumerate() {
+            let off = |sum: f64, power: i32| (sum - x.powi(power)).abs() / 12_f64.powi(power);
+            assert!(off(moment::<4>(&t, 3, i), 3) < 1e-13);
+            assert!(off(moment::<6>(&t, 5, i), 5) < 1e-13);
+            assert!(off(moment::<12>(&t, 11, i), 11) < 1e-13);
         }
     }
 }
