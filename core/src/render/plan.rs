@@ -29,8 +29,8 @@ mod table;
 
 pub use candidate::{Candidate, Explanation, Method, Verdict};
 pub use check::MARGIN;
-pub use domain::{Demand, position};
 pub(in crate::render) use domain::is_dark;
+pub use domain::{Demand, position};
 pub(in crate::render) use run::{Places, RUN};
 
 use super::diffuse::by_nodes;

@@ -144,6 +144,11 @@ fn largest(sums: [f64; 3]) -> f64 {
 
 /// A point's error. Black is exact if it is black.
 pub(super) fn off(point: &Point, found: [f64; 3]) -> f64 {
-    let off = point.exact.iter().zip(found).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+    let off = apart(point.exact, found);
     if off == 0.0 { 0.0 } else { off / point.scale }
+}
+
+/// The largest difference of a channel.
+pub(super) fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
 }

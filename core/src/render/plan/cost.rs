@@ -22,7 +22,7 @@ pub(super) fn of_sample(method: &Method) -> f64 {
     match *method {
         Method::Nothing => 0.0,
         Method::Moments { orders, .. } => 3.0 + orders as f64,
-        Method::Table { degree, .. } => 10.0 + 0.4 * ((degree + 1) * (degree + 1)) as f64,
+        Method::Table { degree, .. } => 15.0 + 0.5 * ((degree + 1) * (degree + 1)) as f64,
         Method::Shared { nodes, precision } | Method::Own { nodes, precision } => nodes as f64 * sum_ns(precision),
         Method::Every { precision } => EVERY * sum_ns(precision),
     }
@@ -34,8 +34,8 @@ pub(super) fn of_making(method: &Method) -> f64 {
         // A logarithm is taken where elsewhere a product is.
         Method::Table { kappas, betas, nodes, .. } => {
             let places = (kappas * betas) as f64 * nodes as f64;
-            // The coarser ones, filled before to see their errors, cost as much again.
-            2.0 * places * (sum_ns(Precision::Full) + 20.0)
+            // Looking for its size costs half as much again.
+            1.5 * places * (sum_ns(Precision::Full) + 20.0)
         }
         _ => 0.0,
     }

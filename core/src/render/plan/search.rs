@@ -4,14 +4,15 @@
 //! a larger one than the cheapest that meets a larger.
 
 use super::candidate::{Candidate, Explanation, Method, Verdict};
-use super::check::{Check, Point, REFERENCE, off};
+use super::check::{Check, Point, REFERENCE, apart, off};
 use super::nodes::{by_own, carried, own_rules};
-use super::table::{Size, Table};
+use super::table::{Size, Table, of_cell};
 use super::{Against, Below, Demand, Plan, run};
 use crate::accuracy::{Accuracy, Unmet};
 use crate::reflectance::{Precision, diffuse_sum};
-use crate::render::diffuse::{by_moments, by_nodes, rough_basis};
+use crate::render::diffuse::{by_moments, by_nodes, cell, rough_basis};
 use crate::render::measure::{MOMENTS, Measure, Node};
+use rayon::prelude::*;
 
 /// The most wavelengths that stand for all.
 const MOST_NODES: usize = 24;
@@ -20,13 +21,18 @@ const LEAST_ROUGH: f64 = 16.0;
 const LAST_TABLE: f64 = 1024.0;
 /// A table reaches down to this share of the largest κ in it.
 const TABLE_SPAN: f64 = 1e-6;
-/// Of which degree tables are, in the order in which they are looked at.
-const DEGREES: [usize; 5] = [5, 7, 9, 3, 11];
+/// Of which degree tables are.
+const DEGREES: [usize; 5] = [3, 5, 7, 9, 11];
 /// The finest table: cells of 1/320.
 const LAST_STEP: u32 = 16;
 /// An error is taken to fall by at most this much more than by 2^((degree + 1)/2) from a table to the next finer one, whose cells
 /// are smaller by √2.
 const STEEPER: f64 = 2.5;
+/// Each so manyth place of the check is looked at before a table is filled, by so few wavelengths, and this share of the error
+/// taken for certain.
+const PROBE_STRIDE: usize = 37;
+const PROBE_NODES: usize = 4;
+const PROBED: f64 = 0.9;
 
 pub(super) fn plan(measure: &Measure, accuracy: Accuracy, against: Against, demand: Demand) -> Result<Plan, Unmet> {
     accuracy.met_by(REFERENCE)?;
@@ -209,7 +215,7 @@ impl Search<'_> {
         }
     }
 
-    /// Tables from the coarsest on, while they are cheaper than what there is.
+    /// Tables, while they are cheaper than what there is.
     fn tables(&mut self, rough: f64) {
         let [least, last] = self.demand.kappa();
         let last = last.min(LAST_TABLE);
@@ -217,39 +223,57 @@ impl Search<'_> {
         if kappa[0] >= kappa[1] || rough <= kappa[0] {
             return;
         }
-        for degree in DEGREES {
-            self.tables_of(degree, kappa);
-        }
-    }
-
-    /// Those of one degree.
-    fn tables_of(&mut self, degree: usize, kappa: [f64; 2]) {
-        let steepest = STEEPER * (0.5 * (degree + 1) as f64).exp2();
-        let mut known: Option<(u32, f64)> = None;
-        for step in 0..=LAST_STEP {
-            let size = Size::new(kappa, degree, step);
-            let [kappas, betas] = size.places();
-            let method = Method::Table { degree, kappas, betas, nodes: size.nodes };
-            let unseen = Candidate::unseen(method);
+        let mut next: Vec<Size> = DEGREES.iter().filter_map(|&degree| self.sized(kappa, degree, 0)).collect();
+        // The cheapest first, so that none is filled that is dearer than the one taken.
+        let samples = self.demand.samples();
+        let total = |size: &Size| Candidate::unseen(size.method()).total_ns(samples);
+        while let Some(size) = next.iter().min_by(|a, b| total(a).total_cmp(&total(b))).copied() {
+            next.retain(|other| other.degree != size.degree);
+            let unseen = Candidate::unseen(size.method());
             if !self.may_win(&unseen) {
                 self.seen.push(unseen);
+                self.seen.extend(next.iter().map(|size| Candidate::unseen(size.method())));
                 return;
-            }
-            // Filled in vain if even the steepest fall leaves too much.
-            let least = |(from, error): (u32, f64)| error * steepest.powf(f64::from(from) - f64::from(step));
-            if known.is_some_and(|known| !self.accuracy.allows(self.check.certified(least(known)))) {
-                continue;
             }
             let plan = self.with(Below::Table(Table::new(&size, kappa, self.measure.shared(size.nodes))));
             let seen = self.table_error(&plan);
-            known = Some((step, seen));
-            let candidate = Candidate::new(method, seen, self.check.certified(seen));
-            let meets = candidate.meets(self.accuracy);
-            self.offer(candidate, plan.below);
-            if meets {
-                return;
-            }
+            self.offer(Candidate::new(size.method(), seen, self.check.certified(seen)), plan.below);
+            next.extend(self.sized(kappa, size.degree, size.step + 1));
         }
+    }
+
+    /// The coarsest table of a degree, from some fineness on, that a few places do not tell to leave too much.
+    fn sized(&self, kappa: [f64; 2], degree: usize, from: u32) -> Option<Size> {
+        let steepest = STEEPER * (0.5 * (degree + 1) as f64).exp2();
+        let mut least = 0.0;
+        for size in (from..=LAST_STEP).map(|step| Size::new(kappa, degree, step)) {
+            let dear = !self.may_win(&Candidate::unseen(size.method()));
+            if !self.leaves_too_much(least) && !dear {
+                least = PROBED * self.probed(&size, kappa);
+            }
+            if dear || !self.leaves_too_much(least) {
+                return Some(size);
+            }
+            least /= steepest;
+        }
+        None
+    }
+
+    fn leaves_too_much(&self, seen: f64) -> bool {
+        !self.accuracy.allows(self.check.certified(seen))
+    }
+
+    /// What interpolation alone is off by at some places.
+    fn probed(&self, size: &Size, kappa: [f64; 2]) -> f64 {
+        let nodes = self.measure.shared(PROBE_NODES);
+        let inside = |point: &&Point| kappa[0] <= point.kappa && point.kappa <= kappa[1];
+        let points: Vec<&Point> = self.check.points().filter(inside).step_by(PROBE_STRIDE).collect();
+        let of = |point: &&Point| {
+            let exact = of_cell(cell(&nodes, point.kappa, point.beta));
+            let of_axis = |axis| apart(exact, size.read_along(axis, &nodes, point.kappa, point.beta)) / point.scale;
+            of_axis(0).max(of_axis(1))
+        };
+        points.par_iter().map(of).reduce(|| 0.0, f64::max)
     }
 
     fn table_error(&self, plan: &Plan) -> f64 {

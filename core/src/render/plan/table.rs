@@ -1,7 +1,9 @@
 //! ln J over (ln κ, v), interpolated by polynomials of odd degree, as fine as is wanted.
 
+use super::candidate::Method;
 use super::domain::{beta_at, ln_last, position};
 use super::run::RUN;
+use crate::math::exp::exp;
 use crate::render::diffuse::cell;
 use crate::render::measure::Node;
 use rayon::prelude::*;
@@ -13,6 +15,7 @@ pub(super) struct Size {
     /// Intervals along ln κ and along v.
     intervals: [usize; 2],
     pub(super) nodes: usize,
+    pub(super) step: u32,
     ln_kappa: [f64; 2],
 }
 
@@ -30,7 +33,7 @@ impl Size {
         let intervals = [along(ln_kappa[1] - ln_kappa[0], h), along(ln_last(kappa[0]), ALONG_V * h).max(degree)];
         // The wavelengths keep step with the cells, so that neither alone decides the error.
         let nodes = 4 + step as usize * (degree + 1) / 8;
-        Self { degree, intervals, nodes, ln_kappa }
+        Self { degree, intervals, nodes, step, ln_kappa }
     }
 
     /// Places along ln κ and along v.
@@ -39,10 +42,52 @@ impl Size {
         [self.intervals[0] + 1 + 2 * beside, self.intervals[1] + 1 + beside]
     }
 
+    /// A table of this size as a way.
+    pub(super) fn method(&self) -> Method {
+        let [kappas, betas] = self.places();
+        Method::Table { degree: self.degree, kappas, betas, nodes: self.nodes }
+    }
+
     /// Places beyond an end, so that what is read lies in the middle of what it is read from; not before v = 0, where β ends.
     fn beside(&self) -> usize {
         self.degree / 2
     }
+
+    /// The steps along ln κ and along v.
+    fn steps(&self) -> [f64; 2] {
+        let steps = self.intervals.map(|count| count as f64);
+        [(self.ln_kappa[1] - self.ln_kappa[0]) / steps[0], 1.0 / steps[1]]
+    }
+
+    /// κ and v at a place.
+    fn at(&self, place: [usize; 2]) -> [f64; 2] {
+        let h = self.steps();
+        [(self.ln_kappa[0] + (place[0] as f64 - self.beside() as f64) * h[0]).exp(), place[1] as f64 * h[1]]
+    }
+
+    /// What reading along one of the axes alone makes of J at a place that a table of this size holds, the places beside it
+    /// filled by these wavelengths: the table's error is about the sum of both.
+    pub(super) fn read_along(&self, axis: usize, nodes: &[Node], kappa: f64, beta: f64) -> [f64; 3] {
+        let (position, h) = (position(kappa, beta), self.steps());
+        let places = [(position[0] - self.ln_kappa[0]) / h[0] + self.beside() as f64, position[1] / h[1]];
+        let (count, place) = (self.degree + 1, places[axis]);
+        let from = (place - 0.5 * self.degree as f64).round().clamp(0.0, (self.places()[axis] - count) as f64) as usize;
+        let mut mixed = [0.0; 4];
+        for k in from..from + count {
+            let [kappa, v] = if axis == 0 { [self.at([k, 0])[0], position[1]] } else { [kappa, self.at([0, k])[1]] };
+            let others = (from..from + count).filter(|&j| j != k);
+            let weight: f64 = others.map(|j| (place - j as f64) / (k as f64 - j as f64)).product();
+            let cell = cell(nodes, kappa, beta_at(kappa, v));
+            mixed.iter_mut().zip(cell).for_each(|(sum, value)| *sum += weight * value);
+        }
+        of_cell(mixed)
+    }
+}
+
+/// J as a cell has it.
+pub(super) fn of_cell(cell: Cell) -> [f64; 3] {
+    let peak = exp(cell[0]);
+    [cell[1] * peak, cell[2] * peak, cell[3] * peak]
 }
 
 /// ln of the positive measure's J, and the three channels' J in units of it.
@@ -63,16 +108,17 @@ pub(super) struct Table {
 impl Table {
     /// Fills a table.
     pub(super) fn new(size: &Size, kappa: [f64; 2], nodes: Vec<Node>) -> Self {
-        let steps = size.intervals.map(|count| count as f64);
-        let h = [(size.ln_kappa[1] - size.ln_kappa[0]) / steps[0], 1.0 / steps[1]];
-        let (beside, places) = (size.beside() as f64, size.places());
+        let places = size.places();
         let rows = (0..places[0]).into_par_iter().map(|i| {
-            let kappa = (size.ln_kappa[0] + (i as f64 - beside) * h[0]).exp();
-            (0..places[1]).map(|j| cell(&nodes, kappa, beta_at(kappa, j as f64 * h[1]))).collect::<Vec<_>>()
+            let place = |j| {
+                let [kappa, v] = size.at([i, j]);
+                cell(&nodes, kappa, beta_at(kappa, v))
+            };
+            (0..places[1]).map(place).collect::<Vec<_>>()
         });
         let cells = rows.collect::<Vec<_>>().concat();
-        let slope = h.map(f64::recip);
-        let offset = [beside - size.ln_kappa[0] * slope[0], 0.0];
+        let slope = size.steps().map(f64::recip);
+        let offset = [size.beside() as f64 - size.ln_kappa[0] * slope[0], 0.0];
         Self { degree: size.degree, kappa, offset, slope, places, cells, nodes }
     }
 
