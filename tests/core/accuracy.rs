@@ -170,7 +170,7 @@ fn an_explanation_says_why() {
             }
         }
         // A table pays for many samples alone.
-        assert_eq!(matches!(said.chosen.method, Method::Table { .. }), samples > 1 << 18, "{:?}", said.chosen);
+        assert_eq!(matches!(said.chosen.method, Method::Table { .. }), samples > 1, "{:?}", said.chosen);
     }
     let rough = Plan::new(&measure, accuracy(1e-3), Against::Peak, Demand::new([1e6, 1e8], 10)).unwrap();
     assert!(matches!(rough.explanation().chosen.method, Method::Moments { orders: 1, .. }));

@@ -29,7 +29,7 @@ mod table;
 
 pub use candidate::{Candidate, Explanation, Method, Verdict};
 pub use check::MARGIN;
-pub(in crate::render) use domain::is_dark;
+pub(in crate::render) use domain::is_lit;
 pub use domain::{Demand, position};
 pub(in crate::render) use run::{Places, RUN};
 

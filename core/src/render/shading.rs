@@ -93,7 +93,7 @@ impl Shade {
         if front <= 0.0 || kappa <= 0.0 {
             return Self::DARK;
         }
-        let way = if plan::is_dark(kappa, beta) { Way::Dark } else { Way::Planned };
+        let way = if plan::is_lit(kappa, beta) { Way::Planned } else { Way::Dark };
         Self { front, kappa, beta, position: [0.0; 2], way }
     }
 }

@@ -60,11 +60,10 @@ pub fn position(kappa: f64, beta: f64) -> [f64; 2] {
     [ln(kappa), ln_1p(beta) / ln_last(kappa)]
 }
 
-/// Whether a place lies beyond v = 1, or nowhere.
+/// Whether a place lies within v = 1; what is no number does not.
 #[inline]
-pub(in crate::render) fn is_dark(kappa: f64, beta: f64) -> bool {
-    // Written so that what is no number is dark.
-    !(beta <= last(kappa))
+pub(in crate::render) fn is_lit(kappa: f64, beta: f64) -> bool {
+    beta <= last(kappa)
 }
 
 /// β at a v of a κ.

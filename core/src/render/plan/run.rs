@@ -89,6 +89,20 @@ fn quick(
     ways: &[Quick; RUN],
     sums: &mut [[f64; RUN]; 3],
 ) {
+    quick_portable(moments, orders, table, places, ways, sums);
+}
+
+/// The same for any processor.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn quick_portable(
+    moments: &[[f64; MOMENTS]; 3],
+    orders: usize,
+    table: Option<&Table>,
+    places: &Places,
+    ways: &[Quick; RUN],
+    sums: &mut [[f64; RUN]; 3],
+) {
     if let Some(table) = table
         && ways.contains(&Quick::Table)
     {
@@ -129,6 +143,43 @@ fn read<const N: usize>(table: &Table, places: &Places, ways: &[Quick; RUN], sum
         let peak = exp(peaks[i]);
         for channel in sums.iter_mut() {
             channel[i] *= peak;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::table::Size;
+    use super::*;
+    use crate::render::measure::Node;
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        let node = |scale: f64| Node {
+            wavelength_nm: 550.0 / scale.sqrt(),
+            scale,
+            weights: [0.3 * scale, 0.4, -0.1 / scale],
+            reference: 0.5,
+        };
+        let moments = [[1.0, 1.1, 1.3, 1.7], [0.4, 0.5, 0.7, 0.9], [-0.1, -0.2, -0.3, -0.4]];
+        let kappa = [0.01, 64.0];
+        for degree in [3, 5, 7, 9, 11] {
+            let table = Table::new(&Size::new(kappa, degree, 1), kappa, vec![node(0.7), node(1.4)]);
+            let mut places = Places::EMPTY;
+            places.count = RUN;
+            let mut ways = [Quick::Table; RUN];
+            for (i, way) in ways.iter_mut().enumerate() {
+                places.kappa[i] = 0.01 * 1.14_f64.powf(i as f64);
+                places.beta[i] = 0.3 * ((i * 37) % RUN) as f64;
+                if i % 7 == 6 {
+                    *way = Quick::Moments;
+                }
+            }
+            let (mut chosen, mut portable) = ([[0.0; RUN]; 3], [[0.0; RUN]; 3]);
+            quick(&moments, 4, Some(&table), &places, &ways, &mut chosen);
+            quick_portable(&moments, 4, Some(&table), &places, &ways, &mut portable);
+            assert_eq!(chosen.map(|c| c.map(f64::to_bits)), portable.map(|c| c.map(f64::to_bits)), "{degree}");
+            assert!(chosen[0].iter().all(|sum| sum.is_finite()) && chosen[0][0] > 0.0);
         }
     }
 }

@@ -216,23 +216,18 @@ fn lagrange<const N: usize>(t: &[f64; RUN], weights: &mut [[f64; RUN]; N]) {
         denominator *= -(j as f64);
     }
     let mut product = [1.0; RUN];
-    for k in 0..N {
-        weights[k] = product;
+    for (k, weights) in weights.iter_mut().enumerate() {
+        let share = 1.0 / denominator;
+        denominator *= -((k + 1) as f64) / (N - 1 - k).max(1) as f64;
         for i in 0..RUN {
+            weights[i] = product[i] * share;
             product[i] *= t[i] - k as f64;
         }
     }
     let mut product = [1.0; RUN];
-    for k in 0..N {
-        let share = 1.0 / denominator;
-        denominator *= -((k + 1) as f64) / (N - 1 - k).max(1) as f64;
+    for (k, weights) in weights.iter_mut().enumerate().rev() {
         for i in 0..RUN {
-            weights[k][i] *= share;
-        }
-    }
-    for k in (0..N).rev() {
-        for i in 0..RUN {
-            weights[k][i] *= product[i];
+            weights[i] *= product[i];
             product[i] *= t[i] - k as f64;
         }
     }
