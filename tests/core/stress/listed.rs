@@ -47,6 +47,7 @@ const WALKED: &[(&str, &str)] = &[
     ("math/gauss", "gauss_rule interpolatory_rule"),
     ("math/interpolation", "linear Sprague::new Sprague::at"),
     ("math/least_squares", "matrix_keeping"),
+    ("math/ln", "ln ln_1p"),
     ("query/loci", "Temperatures::to_vec"),
     ("reflectance/coherent", "sinc mean_sinc_squared sine_integral rho0_squared rho0_squared_bound is_negligible"),
     ("reflectance/fresnel", "reflectance transmittance transmittance_by_cosine"),

@@ -6,6 +6,7 @@ use chromascope_core::math::exp::exp;
 use chromascope_core::math::gauss::{gauss_rule, interpolatory_rule};
 use chromascope_core::math::interpolation::{Sprague, linear};
 use chromascope_core::math::least_squares::matrix_keeping;
+use chromascope_core::math::ln::{ln, ln_1p};
 use glam::DVec3;
 
 use super::double::Double;
@@ -22,6 +23,7 @@ pub(super) const WALKS: &[Walk] = &[
         check: exponential,
     },
     Walk { name: "dot", promise: 1.0, share: 10.0, draw: draw_many, check: products },
+    Walk { name: "ln", promise: 4.5e-16, share: 1.0, draw: draw_logarithm, check: logarithm },
     Walk { name: "chebyshev", promise: 2e-13, share: 20.0, draw: draw_many, check: polynomial },
     Walk { name: "linear", promise: 0.0, share: 20.0, draw: draw_table, check: straight },
     Walk { name: "Sprague", promise: 1e-13, share: 20.0, draw: draw_table, check: sprague },
@@ -40,6 +42,18 @@ fn exponential(&[x, ..]: &Case, v: &mut Verdict) {
     } else {
         // The standard library's, itself within half a unit.
         v.relative(value, held.exp(), f64::EPSILON / 2.0);
+    }
+}
+
+fn draw_logarithm(d: &mut Draw) -> Case {
+    case([d.log(1e-320, 1e308)])
+}
+
+/// Against the standard library, itself within a unit.
+fn logarithm(&[x, ..]: &Case, v: &mut Verdict) {
+    for (value, right) in [(ln(x), x.max(f64::MIN_POSITIVE).ln()), (ln_1p(x), x.ln_1p())] {
+        v.finite(value);
+        v.relative(value, right, f64::EPSILON / 2.0);
     }
 }
 
