@@ -50,6 +50,7 @@ mod scale;
 mod sniff;
 mod switch;
 mod text;
+mod thousands;
 mod trial;
 mod warning;
 mod watch;
@@ -201,6 +202,11 @@ fn finish(
     let per_photon = quantity::per_photon(&grid, scale.role.value, &quantity);
     scale::convert(&mut grid, &scale);
     scale::warn(&scale, &grid, &mut warnings);
+    let mut decimal_mark = layout.decimal_mark;
+    if scale.denies_thousands() && warnings.warnings.contains(&Warning::MaybeThousands) {
+        warnings.warnings.retain(|warning| *warning != Warning::MaybeThousands);
+        decimal_mark.certainty = Certainty::Certain;
+    }
     warnings.look(usize::MAX)?;
     if let Some((line, medium)) = grid.header.medium {
         notes.push(Decision::new("Medium", &Decided::certain(medium, format!("Line {line} says so"))));
@@ -217,7 +223,8 @@ fn finish(
         reader,
         encoding,
         delimiter: layout.delimiter,
-        decimal_mark: layout.decimal_mark,
+        decimal_mark,
+        thousands: layout.thousands,
         orientation: layout.orientation,
         wavelength_unit,
         values: scale.values,

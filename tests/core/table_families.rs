@@ -49,6 +49,22 @@ fn argyll_spectrum() {
 }
 
 #[test]
+fn the_kind_of_measurement_is_the_role() {
+    let kinds = [
+        ("EMISSION", Role::Illuminant),
+        ("AMBIENT_FLASH", Role::Illuminant),
+        ("TRANSMISSIVE", Role::Transmittance),
+        ("REFLECTIVE", Role::Reflectance),
+        ("SENSITIVITY", Role::Camera),
+    ];
+    for (kind, role) in kinds {
+        let keyword = format!("SPECT\n\nKEYWORD \"MEAS_TYPE\"\nMEAS_TYPE \"{kind}\"\n");
+        let table = ok(&layouts::ARGYLL_SP.replacen("SPECT", &keyword, 1));
+        assert_eq!((table.role.value, table.role.certainty), (role, Certainty::Certain), "{kind}");
+    }
+}
+
+#[test]
 fn bands_with_a_fractional_step_come_from_the_keywords() {
     let table = ok("CCSS\n\nSPECTRAL_BANDS \"4\"\nSPECTRAL_START_NM \"350.0\"\nSPECTRAL_END_NM \"360.0\"\n\
                     NUMBER_OF_FIELDS 5\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPEC_350 SPEC_353 SPEC_357 SPEC_360\n\

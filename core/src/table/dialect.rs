@@ -70,6 +70,19 @@ pub(super) enum Cell {
 pub(super) struct Dialect {
     pub(super) delimiter: Delimiter,
     pub(super) mark: DecimalMark,
+    /// Whether the other mark groups thousands even where it stands once and without a fraction, `1,000`.
+    pub(super) thousands: bool,
+}
+
+/// Whether a number with one mark may be a whole one with a mark between its thousands: `4.800`, `1,000`.
+pub(super) fn may_be_thousands(cell: &str) -> bool {
+    let Some((whole, fraction)) = cell.trim_start_matches('-').split_once(['.', ',']) else { return false };
+    let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+    (1..=3).contains(&whole.len())
+        && !whole.starts_with('0')
+        && fraction.len() == 3
+        && digits(whole)
+        && digits(fraction)
 }
 
 /// The value that many instruments write for "not measured".
@@ -79,6 +92,10 @@ const GAPS: [&str; 13] =
     ["na", "n/a", "n.a.", "null", "none", "nan", "-", "*", "#n/a", "#div/0!", "#value!", "#num!", "#ref!"];
 
 impl Dialect {
+    pub(super) fn new(delimiter: Delimiter, mark: DecimalMark) -> Self {
+        Self { delimiter, mark, thousands: false }
+    }
+
     /// The cells of a line, trimmed and without the quotes around them.
     pub(super) fn cells(self, line: &str) -> Cells<'_> {
         let rest = if self.delimiter == Delimiter::Spaces { line.trim_ascii() } else { line };
@@ -154,7 +171,8 @@ impl Dialect {
             count += 1;
         }
         // `1.234` alone may be a fraction.
-        if !digits(fraction) || (separator == other && count < 2 && fraction.is_empty()) {
+        let told = self.thousands && !first.starts_with('0');
+        if !digits(fraction) || (separator == other && count < 2 && fraction.is_empty() && !told) {
             return None;
         }
         format!("{text}.{fraction}0").parse().ok().map(|value: f64| sign * value)

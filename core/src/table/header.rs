@@ -102,7 +102,8 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
 }
 
 impl Header {
-    fn take_comment(&mut self, line: usize, key: &str, value: &str) {
+    /// Takes what a comment `# key: value` says.
+    pub(super) fn take_comment(&mut self, line: usize, key: &str, value: &str) {
         let lower = key.to_ascii_lowercase();
         if matches!(lower.as_str(), "unit" | "units" | "quantity" | "y unit" | "y units" | "yunit" | "yunits") {
             self.take_value_unit(line, value);

@@ -78,7 +78,7 @@ const MOST_CELLS: usize = 3;
 fn nearly(line: &str, options: &ReadOptions) -> Option<Nearly> {
     let chosen = options.delimiter.is_some() || options.decimal_mark.is_some();
     let shapes = WAYS.map(|(delimiter, mark)| {
-        let dialect = Dialect { delimiter, mark };
+        let dialect = Dialect::new(delimiter, mark);
         let cells = dialect.cells(line).filter(|cell| !cell.is_empty());
         let is_number = |cell: &str| matches!(dialect.parse(cell), Cell::Number(_));
         let (mut count, mut numbers, mut leads) = (0, 0, false);

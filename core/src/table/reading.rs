@@ -228,7 +228,7 @@ impl fmt::Display for Dropped {
         f.write_str(match self {
             Self::NoWavelength => "no wavelength",
             Self::Repeated => "the same as an earlier row",
-            Self::Averaged => "other values at one wavelength, of which the mean was taken",
+            Self::Averaged => "merged with rows of the same wavelength, of which the mean was taken",
         })
     }
 }
@@ -281,6 +281,8 @@ pub struct Reading {
     pub delimiter: Decided<Delimiter>,
     /// What stands before fractions.
     pub decimal_mark: Decided<DecimalMark>,
+    /// Whether the other mark, where it stands before three digits, was taken to group thousands.
+    pub thousands: bool,
     /// Where the wavelengths stand.
     pub orientation: Decided<Orientation>,
     /// The unit of the wavelengths as written.
@@ -326,11 +328,13 @@ impl Reading {
         if self.reader.value != Reader::Table || self.reader.certainty == Certainty::Chosen {
             all.push(Decision::new("Layout", &self.reader));
         }
+        // The form of JCAMP-DX, among the notes, stands for both: its data are no columns.
+        let columns = self.reader.value != Reader::Jcamp;
+        all.push(Decision::new("Encoding", &self.decided_encoding()));
+        all.extend(columns.then(|| Decision::new("Separator", &self.delimiter)));
+        all.push(Decision::new("Decimal mark", &self.decimal_mark));
+        all.extend(columns.then(|| Decision::new("Orientation", &self.orientation)));
         all.extend([
-            Decision::new("Encoding", &self.decided_encoding()),
-            Decision::new("Separator", &self.delimiter),
-            Decision::new("Decimal mark", &self.decimal_mark),
-            Decision::new("Orientation", &self.orientation),
             Decision::new("Wavelengths", &self.wavelength_unit),
             Decision::new("Values", &self.values),
             Decision::new("Quantity", &self.quantity),

@@ -151,6 +151,15 @@ fn short(value: f64) -> String {
     }
 }
 
+impl Scale {
+    /// Whether values above a thousand are out of question: percent, and fractions of light.
+    pub(super) fn denies_thousands(&self) -> bool {
+        let sure = |certainty| certainty != Certainty::Guess;
+        (self.values.value == Values::Percent && sure(self.values.certainty))
+            || (self.role.value.is_fraction() && sure(self.role.certainty))
+    }
+}
+
 /// Decides what the curves are and whether they are percent.
 pub(super) fn decide(grid: &Grid, options: &ReadOptions) -> Scale {
     let span = Span::of(grid);

@@ -1,17 +1,20 @@
 //! Decides how a text is laid out: separators, decimal mark, orientation, and the line where the numbers begin.
 
-use super::dialect::{DecimalMark, Delimiter, Dialect};
+use super::dialect::{Cell, DecimalMark, Delimiter, Dialect};
 use super::text::{Lines, Section, comment};
 use super::trial::{Across, Shape, Trial};
 use super::warning::Warning;
 use super::watch::Log;
-use super::{Decided, Orientation, ReadError, ReadOptions, nearly};
+use super::wavelengths::plausible;
+use super::{Decided, Orientation, ReadError, ReadOptions, nearly, thousands};
 
 /// How a text is laid out.
 #[derive(Debug)]
 pub(super) struct Layout {
     pub(super) delimiter: Decided<Delimiter>,
     pub(super) decimal_mark: Decided<DecimalMark>,
+    /// Whether the other mark groups thousands even where it stands once.
+    pub(super) thousands: bool,
     pub(super) orientation: Decided<Orientation>,
     /// The first line of values.
     pub(super) first_line: usize,
@@ -37,6 +40,7 @@ impl Layout {
         Self {
             delimiter: Decided::certain(delimiter, why),
             decimal_mark: Decided::certain(mark, why),
+            thousands: false,
             orientation: Decided::certain(orientation, why),
             first_line,
             texts: 0,
@@ -48,7 +52,7 @@ impl Layout {
     }
 
     pub(super) fn dialect(&self) -> Dialect {
-        Dialect { delimiter: self.delimiter.value, mark: self.decimal_mark.value }
+        Dialect { delimiter: self.delimiter.value, mark: self.decimal_mark.value, thousands: self.thousands }
     }
 
     /// The line before which comments and names stand.
@@ -146,8 +150,15 @@ fn try_all(
             && options.decimal_mark.is_none_or(|chosen| chosen == *mark)
     };
     let dialects = CANDIDATES.iter().filter(|candidate| wanted(candidate));
-    let mut trials: Vec<Trial> =
-        dialects.map(|&(delimiter, mark)| Trial::new(Dialect { delimiter, mark }, mixed)).collect();
+    // Who chose points has said what commas within numbers are; else only quotes keep them from separating.
+    let chosen = options.decimal_mark == Some(DecimalMark::Point);
+    let quoted = options.decimal_mark.is_none()
+        && options.delimiter.is_none_or(|chosen| chosen == Delimiter::Comma)
+        && section.text.bytes().take(SAMPLE_BYTES).any(|byte| byte == b'"');
+    let dialects = dialects.map(|&(delimiter, mark)| Dialect { delimiter, mark, thousands: chosen });
+    let grouped = Dialect { delimiter: Delimiter::Comma, mark: DecimalMark::Point, thousands: true };
+    let dialects = dialects.chain(quoted.then_some(grouped));
+    let mut trials: Vec<Trial> = dialects.map(|dialect| Trial::new(dialect, mixed)).collect();
     let share = LEAST_LATER.max(LONGEST_HEADER_LATER.min(*budget));
     let (mut lines, mut bytes, mut looked) = (0, 0, 0);
     for (number, line) in Lines::of(section).filter(|(_, line)| !line.trim_ascii().is_empty()) {
@@ -190,7 +201,7 @@ fn content(section: Section<'_>) -> impl Iterator<Item = (usize, &str)> {
 fn choose<'a>(trials: &'a [Trial], options: &ReadOptions) -> Option<&'a Trial> {
     let mut best: Option<&Trial> = None;
     for trial in trials {
-        let Dialect { delimiter, mark } = trial.dialect;
+        let Dialect { delimiter, mark, .. } = trial.dialect;
         // Both uses of the comma are believed only where one is seen that does not separate.
         let unproven = match (delimiter, mark) {
             (Delimiter::Comma, DecimalMark::Comma) => {
@@ -229,22 +240,49 @@ fn lay_across(
     let across = across.with_group(options.part.unwrap_or(1).saturating_sub(1));
     let rows = if across.rows == 1 { "one row".to_owned() } else { format!("{} rows", across.rows) };
     let evidence = format!("A header of {} wavelengths with {rows} below it", across.count);
+    let (decimal_mark, thousands, warning) = marks(section, options, trial, across.first_row, Orientation::Across);
     Ok(Layout {
         delimiter: Decided::or_chosen(options.delimiter, || Decided::certain(trial.dialect.delimiter, evidence)),
-        decimal_mark: decimal_mark(section, options, trial, across.line),
+        decimal_mark,
+        thousands,
         orientation,
         first_line: across.first_row,
         texts: 0,
         width: across.width(),
         across: Some(across),
         wavelength_column: None,
-        warnings: thousands(trial, options).into_iter().collect(),
+        warnings: warning.into_iter().collect(),
     })
 }
 
-/// What to say where marks may group thousands and nobody chose what they are.
-fn thousands(trial: &Trial, options: &ReadOptions) -> Option<Warning> {
-    (options.decimal_mark.is_none() && trial.may_be_thousands()).then_some(Warning::MaybeThousands)
+/// The decimal mark, whether the other one groups thousands, and what to say of that.
+fn marks(
+    section: Section<'_>,
+    options: &ReadOptions,
+    trial: &Trial,
+    from: usize,
+    orientation: Orientation,
+) -> (Decided<DecimalMark>, bool, Option<Warning>) {
+    let mark = decimal_mark(section, options, trial, from);
+    if options.decimal_mark.is_some() {
+        return (mark, trial.dialect.thousands, None);
+    }
+    let delimiter = trial.dialect.delimiter;
+    let sign = match mark.value {
+        _ if delimiter == Delimiter::Comma => ',',
+        DecimalMark::Comma => ',',
+        DecimalMark::Point => '.',
+    };
+    let possible = trial.marks == 0 || trial.only_grouped();
+    if trial.dialect.thousands || (possible && thousands::groups(section, (delimiter, sign), from, orientation)) {
+        let (mark, fractions) = match sign {
+            ',' => (DecimalMark::Point, DecimalMark::Comma),
+            _ => (DecimalMark::Comma, DecimalMark::Point),
+        };
+        let why = format!("Numbers such as 1{sign}000 stand next to whole ones of three digits");
+        return (Decided::guess(mark, why), true, Some(Warning::GroupedThousands { fractions }));
+    }
+    (mark, false, trial.may_be_thousands().then_some(Warning::MaybeThousands))
 }
 
 fn lay_down(
@@ -256,7 +294,9 @@ fn lay_down(
     let run = &trial.best;
     let (delimiter, mark) = (trial.dialect.delimiter, trial.dialect.mark);
     let why = format!("Rows of {} numbers", run.filled);
-    let commas_only = (delimiter, mark) == (Delimiter::Comma, DecimalMark::Point)
+    let (decimal_mark, thousands, warning) = marks(section, options, trial, run.line, Orientation::Down);
+    let commas_only = !thousands
+        && (delimiter, mark) == (Delimiter::Comma, DecimalMark::Point)
         && trial.marks == 0
         && run.filled > 2
         && options.delimiter.is_none()
@@ -268,11 +308,12 @@ fn lay_down(
         }
         warnings.push(Warning::CommasOnly);
     }
-    warnings.extend(thousands(trial, options));
+    warnings.extend(warning);
     let decide = || if commas_only { Decided::guess(delimiter, why) } else { Decided::certain(delimiter, why) };
     Ok(Layout {
         delimiter: Decided::or_chosen(options.delimiter, decide),
-        decimal_mark: decimal_mark(section, options, trial, run.line),
+        decimal_mark,
+        thousands,
         orientation,
         first_line: first_line(section, trial, &mut warnings),
         texts: run.texts,
@@ -286,7 +327,7 @@ fn lay_down(
 /// The decimal mark; where the sample holds whole numbers only, the first mark after it decides.
 fn decimal_mark(section: Section<'_>, options: &ReadOptions, trial: &Trial, from: usize) -> Decided<DecimalMark> {
     Decided::or_chosen(options.decimal_mark, || {
-        let Dialect { delimiter, mark } = trial.dialect;
+        let Dialect { delimiter, mark, .. } = trial.dialect;
         if trial.marks > 0 {
             let why = match mark {
                 DecimalMark::Point => "Fractions stand after points",
@@ -323,6 +364,9 @@ fn first_line(section: Section<'_>, trial: &Trial, warnings: &mut Vec<Warning>) 
         if near && shape.leads {
             return number;
         }
+        if is_spoiled(trial, &shape, line) {
+            return fragment.map_or(number, |(line, _)| line);
+        }
         if !shape.is_row(trial.mixed) {
             continue;
         }
@@ -343,4 +387,19 @@ fn first_line(section: Section<'_>, trial: &Trial, warnings: &mut Vec<Warning>) 
         warnings.push(Warning::NumbersAbove { line });
     }
     run.line
+}
+
+/// Whether a line would be a row of the table but for cells such as `0.2x`, which begin as numbers do.
+fn is_spoiled(trial: &Trial, shape: &Shape, line: &str) -> bool {
+    let (run, dialect) = (&trial.best, trial.dialect);
+    let before = shape.first.is_some_and(|first| {
+        let falls = run.rows > 1 && run.last < run.first;
+        plausible(first, first, first.fract() != 0.0) && if falls { first > run.first } else { first < run.first }
+    });
+    let begun = |cell: &str| {
+        let digit = cell.trim_start_matches(['-', '+', '.']).starts_with(|c: char| c.is_ascii_digit());
+        dialect.parse(cell) != Cell::Text || (digit && dialect.parse_united(cell).is_none())
+    };
+    let whole = shape.leads && shape.text && shape.cells == run.cells;
+    whole && before && plausible(run.first, run.last, run.first.fract() != 0.0) && dialect.cells(line).all(begun)
 }

@@ -1,7 +1,7 @@
 //! One way to split lines into cells, tried on the beginning of a file.
 
 use super::bands::{self, Group};
-use super::dialect::{Cell, Dialect};
+use super::dialect::{Cell, Dialect, may_be_thousands};
 use super::wavelengths::plausible;
 use super::{MAX_CURVES, Orientation};
 
@@ -132,17 +132,6 @@ impl Shape {
 /// The bit that stands for a column, if there is one.
 fn bit(column: usize) -> Option<u128> {
     u32::try_from(column).ok().and_then(|column| 1_u128.checked_shl(column))
-}
-
-/// Whether a number with a decimal mark may be a whole one with a mark between its thousands.
-fn may_be_thousands(cell: &str) -> bool {
-    let Some((whole, fraction)) = cell.trim_start_matches('-').split_once(['.', ',']) else { return false };
-    let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
-    (1..=3).contains(&whole.len())
-        && !whole.starts_with('0')
-        && fraction.len() == 3
-        && digits(whole)
-        && digits(fraction)
 }
 
 /// Rows of numbers in one block.
@@ -384,6 +373,11 @@ impl Trial {
     pub(super) fn may_be_thousands(&self) -> bool {
         const FEWEST: usize = 4;
         self.grouped >= FEWEST && self.grouped == self.marks
+    }
+
+    /// The same for a single mark.
+    pub(super) fn only_grouped(&self) -> bool {
+        self.grouped > 0 && self.grouped == self.marks
     }
 
     /// Rows that this dialect understands in an orientation, or in the better; a header of wavelengths counts as one.

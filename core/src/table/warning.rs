@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Quantity, ReadError, Role};
+use super::{DecimalMark, Quantity, ReadError, Role};
 
 /// Line numbers, of which the first few are kept.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -114,6 +114,11 @@ pub enum Warning {
     },
     /// All fractions have three digits, so that their marks may group thousands.
     MaybeThousands,
+    /// Marks before three digits were taken to group thousands, because whole numbers stand next to them.
+    GroupedThousands {
+        /// The mark before fractions that must be chosen if they have them.
+        fractions: DecimalMark,
+    },
     /// Rows without a wavelength: left out.
     NoWavelength {
         /// Where.
@@ -228,6 +233,7 @@ impl Warning {
             | Self::TextColumns { .. }
             | Self::CommasOnly
             | Self::MaybeThousands
+            | Self::GroupedThousands { .. }
             | Self::NotReflectances { .. }
             | Self::More { .. } => None,
         }
@@ -270,6 +276,10 @@ impl fmt::Display for Warning {
             Self::RepeatedHeader { lines } => write!(f, "{lines}: the names of the columns again: left out"),
             Self::MaybeThousands => {
                 f.write_str("Every fraction has three digits: if the marks group thousands, the values are wrong")
+            }
+            Self::GroupedThousands { fractions } => {
+                let mark = if *fractions == DecimalMark::Comma { "1,000" } else { "1.000" };
+                write!(f, "Numbers such as {mark} are read as thousands: if they have fractions, choose {fractions}")
             }
             Self::CommasOnly => {
                 f.write_str("No number has a decimal point: if the commas mark fractions, choose decimal commas")

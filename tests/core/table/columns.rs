@@ -1,7 +1,8 @@
 //! Columns of text, columns before the wavelengths, lines that begin with `#`, names that come again, thousands.
 
 use chromascope_core::table::{
-    Certainty, Delimiter, Nearly, ReadError, ReadOptions, Switch, Warning, Watch, WavelengthUnit, read, read_watched,
+    Certainty, DecimalMark, Delimiter, Nearly, ReadError, ReadOptions, Switch, Warning, Watch, WavelengthUnit, read,
+    read_watched,
 };
 
 use super::{error, names, ok, samples};
@@ -70,6 +71,56 @@ fn marks_that_may_group_thousands_are_a_guess() {
     }
     let fractions = ok("nm;a\n400;4.800\n410;5.100\n420;6.250\n430;0.900\n440;7.000\n");
     assert!(fractions.warnings.is_empty());
+}
+
+#[test]
+fn marks_next_to_whole_numbers_of_three_digits_group_thousands() {
+    let counts = [980.0, 990.0, 1000.0, 1010.0];
+    let quoted = "nm,c\n400,980\n410,990\n420,\"1,000\"\n430,\"1,010\"\n";
+    let bare = "nm;c\n400;980\n410;990\n420;1,000\n430;1,010\n";
+    for text in [quoted, bare, &bare.replace(';', "\t"), &bare.replace(',', ".")] {
+        let table = ok(text);
+        assert_eq!(table.curves[0].values, counts, "{text}");
+        assert_eq!(table.reading.decimal_mark.certainty, Certainty::Guess);
+        let [Warning::GroupedThousands { fractions }] = table.warnings.as_slice() else {
+            panic!("{:?}", table.warnings)
+        };
+        let chosen = ReadOptions { decimal_mark: Some(*fractions), ..ReadOptions::default() };
+        assert_eq!(read(text.as_bytes(), &chosen).unwrap().curves[0].values, [980.0, 990.0, 1.0, 1.01], "{text}");
+    }
+    let two = ok("nm,c,d\n400,980,970\n410,990,980\n420,\"1,000\",990\n430,\"1,010\",\"1,000\"\n");
+    assert_eq!((two.curves[0].values.as_slice(), two.curves[1].values[3]), (&counts[..], 1000.0));
+    let across = ok("name;400;410;420;430;440\na;980;990;1,000;1,010;1,020\n");
+    assert_eq!(across.curves[0].values[1..], [990.0, 1000.0, 1010.0, 1020.0]);
+    // Far below the lines that are tried first.
+    let long: String = (0..600).map(|i| format!("{};{}\n", 400 + i, 400 + i)).collect();
+    assert_eq!(ok(&format!("{long}1000;1,000\n")).curves[0].values[600], 1000.0);
+}
+
+#[test]
+fn points_that_are_chosen_leave_commas_to_thousands() {
+    let points = ReadOptions { decimal_mark: Some(DecimalMark::Point), ..ReadOptions::default() };
+    for text in ["nm;c\n400;1,000\n410;1,100\n", "nm,c\n400,\"1,000\"\n410,\"1,100\"\n"] {
+        assert_eq!(read(text.as_bytes(), &points).unwrap().curves[0].values, [1000.0, 1100.0]);
+    }
+    assert!(read(b"nm;c\n400;1,000\n410;1,10\n", &points).is_err());
+}
+
+#[test]
+fn fractions_of_three_digits_are_no_thousands() {
+    let table = ok("nm;%\n400;99.125\n410;100\n420;98.750\n430;97.125\n440;96.500\n");
+    assert_eq!((table.curves[0].values[0], table.warnings.as_slice()), (0.99125, &[][..]));
+    let named = ok("nm;Reflectance\n400;9.125\n410;7.100\n420;8.750\n430;7.125\n440;6.500\n");
+    assert_eq!((named.curves[0].values[0], named.warnings.as_slice()), (0.09125, &[][..]));
+    assert_eq!(ok("nm;c\n400;98,125\n410;100\n420;98,750\n").curves[0].values[0], 0.98125);
+}
+
+#[test]
+fn a_row_with_a_bad_cell_is_no_header() {
+    for text in ["nm,R\n400,0.1\n410,0.2x\n500,0.3\n510,0.4\n", "# a\nnm,a\n400,0.2x\n\n500,0.4\n"] {
+        let error = read(text.as_bytes(), &ReadOptions::default()).unwrap_err();
+        assert_eq!(error, ReadError::NotANumber { line: 3, column: 2, text: "0.2x".to_owned() });
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Every format, content and grid, there and back.
 
-use super::{CAMERA, Curves, back, bell, has, sheet, written};
+use super::{CAMERA, Curves, Sheet, back, bell, has, sheet, written};
 use chromascope_core::spectral::{GridSpectrum, Quantity, SpectralDistribution};
 use chromascope_core::table::write::{Content, Format, Grid, Note, Trace, canonical_csv};
 use chromascope_core::table::{Certainty, Curve, Role};
@@ -146,6 +146,31 @@ fn what_they_are_comes_back() {
     let leaf = back(&written(&sheet(Content::Reflectance, one), Format::Csv, Grid::Native).text);
     assert_eq!(leaf.role.value, Role::Reflectance);
     assert_eq!(leaf.curves[0].values, one[0].values);
+}
+
+#[test]
+fn what_curves_are_is_certain_in_every_format() {
+    let irradiance = Some("W/m²/nm");
+    each(|format, content, names| {
+        let role = match content {
+            CAMERA | Content::Observer => Role::Camera,
+            Content::Reflectance => Role::Reflectance,
+            Content::Transmittance => Role::Transmittance,
+            Content::Illuminant => Role::Illuminant,
+            _ => return,
+        };
+        let curves = Curves::bells(names, [400.0, 700.0], 10.0);
+        let traces = curves.traces();
+        let light = content == Content::Illuminant;
+        for unit in [None, irradiance.filter(|_| light)] {
+            let table = back(&written(&Sheet { unit, ..sheet(content, &traces) }, format, Grid::Native).text);
+            let found = (table.role.value, table.role.certainty);
+            assert_eq!(found, (role, Certainty::Certain), "{format} {content:?} {unit:?}: {}", table.role.why);
+            // rawtoaces has a list of its own for units.
+            let kept = unit.is_some() && format != Format::RawtoacesJson;
+            assert!(!kept || table.curves[0].unit.as_deref() == unit, "{format} {content:?}");
+        }
+    });
 }
 
 #[test]

@@ -25,7 +25,7 @@ pub(super) fn recognize(text: &str) -> bool {
 
 fn number(cell: &str) -> Option<f64> {
     let mark = if cell.contains(',') { DecimalMark::Comma } else { DecimalMark::Point };
-    match (Dialect { delimiter: Delimiter::Spaces, mark }).parse(cell) {
+    match Dialect::new(Delimiter::Spaces, mark).parse(cell) {
         Cell::Number(value) => Some(value),
         Cell::Gap => Some(f64::NAN),
         Cell::Text => None,

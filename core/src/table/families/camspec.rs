@@ -30,7 +30,7 @@ fn is_name(line: &str) -> bool {
 
 /// The values of a line, if it has as many as it must.
 fn values(line: &str) -> Option<Vec<f64>> {
-    let dialect = Dialect { delimiter: Delimiter::Spaces, mark: DecimalMark::Point };
+    let dialect = Dialect::new(Delimiter::Spaces, DecimalMark::Point);
     let number = |cell| match dialect.parse(cell) {
         Cell::Number(value) => Some(value),
         Cell::Gap | Cell::Text => None,

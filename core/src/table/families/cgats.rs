@@ -26,9 +26,9 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     let mut place = Place::Keywords;
     for (number, line) in Lines::new(text) {
         if let Some((key, value)) = comment(line).and_then(|comment| comment.split_once(':'))
-            && key.trim().eq_ignore_ascii_case("response")
+            && !file.done
         {
-            file.header.note("response", value.trim());
+            file.header.take_comment(number, key.trim(), value.trim());
         }
         let mut tokens = tokens::of(line);
         while let Some(token) = tokens.next() {
@@ -121,6 +121,7 @@ impl File {
                 self.header.mentioned = self.header.mentioned.or(Some((line, role)));
             }
             "CCSS" => self.header.role = Some((line, Role::Illuminant)),
+            "MEAS_TYPE" => self.header.role = measured(&value).map(|role| (line, role)).or(self.header.role),
             "DESCRIPTOR" => {
                 self.header.mentioned = words::role(&value).map(|role| (line, role)).or(self.header.mentioned);
                 self.header.note("title", &value);
@@ -240,7 +241,8 @@ impl File {
             let given = Some(name).filter(|name| !name.is_empty()).or_else(|| title.clone());
             let named = given.is_some();
             let name = given.unwrap_or_else(|| format!("Set {}", i + 1));
-            RawCurve { name, named, values: values.iter().map(|value| value / scale).collect(), ..RawCurve::default() }
+            let values = values.iter().map(|value| value / scale).collect();
+            RawCurve { name, named, values, unit: header.unit.clone(), ..RawCurve::default() }
         });
         let curves: Vec<RawCurve> = curves.collect();
         warn_gaps(&curves, self.data_line, log);
@@ -273,6 +275,17 @@ impl File {
     }
 }
 
+/// What a kind of measurement, as Argyll calls them, makes of the curves.
+fn measured(kind: &str) -> Option<Role> {
+    match kind.split('_').next() {
+        Some("EMISSION" | "AMBIENT") => Some(Role::Illuminant),
+        Some("REFLECTIVE") => Some(Role::Reflectance),
+        Some("TRANSMISSIVE") => Some(Role::Transmittance),
+        Some("SENSITIVITY") => Some(Role::Camera),
+        _ => None,
+    }
+}
+
 fn warn_gaps(curves: &[RawCurve], line: usize, log: &mut Log<'_>) {
     let cells = curves.iter().flat_map(|curve| &curve.values).filter(|value| value.is_nan()).count();
     if cells > 0 {
@@ -286,7 +299,7 @@ fn warn_gaps(curves: &[RawCurve], line: usize, log: &mut Log<'_>) {
 fn number(token: &Token, line: usize, field: usize) -> Result<f64, ReadError> {
     let text = token.text();
     let mark = if text.contains(',') { DecimalMark::Comma } else { DecimalMark::Point };
-    match (Dialect { delimiter: Delimiter::Spaces, mark }).parse(&text) {
+    match Dialect::new(Delimiter::Spaces, mark).parse(&text) {
         Cell::Number(value) => Ok(value),
         Cell::Gap => Ok(f64::NAN),
         Cell::Text => Err(ReadError::NotANumber { line, column: field + 1, text: excerpt(&text) }),

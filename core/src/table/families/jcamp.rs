@@ -27,6 +27,8 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
         block.warn(log);
     }
     let comma = blocks.iter().any(|block| block.comma);
+    let form =
+        (blocks[0].written, format!("Line {} gives the form {}", blocks[0].data_line, excerpt(&blocks[0].form_label)));
     let header = blocks[0].header();
     let units: Vec<Option<String>> = blocks.iter().map(|block| quantity::unit(&block.y_units.1)).collect();
     let spectra = blocks.into_iter().map(Block::spectrum).collect();
@@ -35,7 +37,8 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     (grid.parts, grid.part) = (parts, Some(part));
     let dialect =
         if comma { (Delimiter::CommaSpace, DecimalMark::Comma) } else { (Delimiter::Comma, DecimalMark::Point) };
-    let layout = Layout::fixed(dialect, Orientation::Down, first_line, "JCAMP-DX prescribes it");
+    let layout = Layout::fixed(dialect, Orientation::Down, first_line, &form.1);
+    notes.insert(0, Decision::new("Form", &Decided::certain(form.0.told(), form.1)));
     let reader = Decided::certain(Reader::Jcamp, "The file begins with ## labels");
     Ok(Found { grid, layout, reader, notes })
 }
@@ -87,12 +90,22 @@ fn leave_other_units(
 }
 
 /// How the data of a block is written.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 enum Form {
     /// `x, y` pairs.
+    #[default]
     Pairs,
     /// `x y y y`, the steps of x being equal.
     Ordinates,
+}
+
+impl Form {
+    fn told(self) -> &'static str {
+        match self {
+            Self::Pairs => "pairs of wavelength and value",
+            Self::Ordinates => "a wavelength and the values that follow it in equal steps, in each line",
+        }
+    }
 }
 
 /// A block with, or without, data.
@@ -108,7 +121,11 @@ struct Block {
     delta_x: Option<f64>,
     x_factor: Option<f64>,
     y_factor: Option<f64>,
+    /// How the data that the reader is in is written.
     form: Option<Form>,
+    /// How the data of the block is written, and what its label says of that.
+    written: Form,
+    form_label: String,
     data_line: usize,
     samples: Vec<Sample>,
     last_ordinate: Option<f64>,
@@ -177,7 +194,9 @@ impl Block {
             "YFACTOR" => self.y_factor = number().filter(|factor| *factor != 0.0),
             "XYDATA" | "XYPOINTS" | "PEAKTABLE" if self.samples.is_empty() => {
                 let ordinates = label(value).starts_with("XYY");
-                self.form = Some(if ordinates { Form::Ordinates } else { Form::Pairs });
+                self.written = if ordinates { Form::Ordinates } else { Form::Pairs };
+                self.form = Some(self.written);
+                value.clone_into(&mut self.form_label);
                 self.data_line = line;
             }
             _ => {}

@@ -43,7 +43,9 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
             comments,
             ..
         } => camera(text, &bands, [r, g, b], camera_name.as_deref(), &comments.0),
-        File { bands: Some(bands), spectrum: Some(values), scale, .. } => spectrum(text, &bands, values, scale),
+        File { bands: Some(bands), spectrum: Some(values), scale, comments, .. } => {
+            spectrum(text, &bands, values, scale, &comments.0)
+        }
         _ => return Err(ReadError::Unsupported { family: Family::Json }),
     };
     let Content { curves, header, reader, role, notes, parts, part } = content.map_err(|error| placed(text, error))?;
@@ -135,7 +137,7 @@ fn aces(text: &str, data: Aces, comments: &[(String, String)], options: &ReadOpt
         header.note(key, value);
     }
     if let Some((_, remarks)) = comments.iter().find(|(key, _)| key == "comments") {
-        note_response(&mut header, remarks.split("; "));
+        note_remarks(text, &mut header, remarks.split("; "));
     }
     title(text, &mut header, &mut notes);
     if let Some(units) = data.units.as_deref().filter(|units| !units.is_empty()) {
@@ -171,10 +173,12 @@ fn aces(text: &str, data: Aces, comments: &[(String, String)], options: &ReadOpt
     Ok(Content { curves, header, reader, role, notes, parts, part: Some(part) })
 }
 
-/// Keeps what remarks say about the response, in the words of this program's own files.
-fn note_response<'a>(header: &mut Header, mut remarks: impl Iterator<Item = &'a str>) {
-    if let Some(response) = remarks.find_map(|remark| remark.strip_prefix("response: ")) {
-        header.note("response", response);
+/// Keeps what remarks say of the values, in the words of this program's own files.
+fn note_remarks<'a>(text: &str, header: &mut Header, remarks: impl Iterator<Item = &'a str>) {
+    for (key, value) in remarks.filter_map(|remark| remark.split_once(": ")) {
+        if matches!(key, "quantity" | "unit" | "response") {
+            header.take_comment(line_of(text, "comments").unwrap_or(1), key, value);
+        }
     }
 }
 
@@ -244,7 +248,7 @@ fn camera(
         notes.push(Decision::new("Camera", &Decided::certain(name.to_owned(), says(text, "camera_name"))));
     }
     header.note("title", name.unwrap_or_default());
-    note_response(&mut header, remarks.iter().map(String::as_str));
+    note_remarks(text, &mut header, remarks.iter().map(String::as_str));
     let names = [("R", "red_ssf"), ("G", "green_ssf"), ("B", "blue_ssf")];
     let mut all = Vec::with_capacity(3);
     for (values, (short, long)) in curves.into_iter().zip(names) {
@@ -255,8 +259,16 @@ fn camera(
     Ok(Content { curves: Curves::Spectra(all), header, reader, role, notes, parts: Vec::new(), part: None })
 }
 
-fn spectrum(text: &str, bands: &[f64], mut values: Vec<f64>, scale: Option<f64>) -> Result<Content, ReadError> {
+fn spectrum(
+    text: &str,
+    bands: &[f64],
+    mut values: Vec<f64>,
+    scale: Option<f64>,
+    remarks: &[String],
+) -> Result<Content, ReadError> {
     let (wavelengths, note) = wavelengths(text, bands, "bands")?;
+    let mut header = Header::default();
+    note_remarks(text, &mut header, remarks.iter().map(String::as_str));
     let mut notes = vec![note];
     if let Some(scale) = scale.filter(|scale| *scale > 0.0 && *scale != 1.0) {
         for value in &mut values {
@@ -267,7 +279,7 @@ fn spectrum(text: &str, bands: &[f64], mut values: Vec<f64>, scale: Option<f64>)
     let spectra = vec![on(&wavelengths, &values, "spectrum")?];
     let reader = Decided::certain(Reader::Dcamprof, says(text, "spectrum"));
     let curves = Curves::Spectra(spectra);
-    Ok(Content { curves, header: Header::default(), reader, role: None, notes, parts: Vec::new(), part: None })
+    Ok(Content { curves, header, reader, role: None, notes, parts: Vec::new(), part: None })
 }
 
 impl Spectrum {

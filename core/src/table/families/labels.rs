@@ -92,7 +92,7 @@ fn blocks(text: &str, header: &mut Header, log: &mut Log<'_>) -> Result<Blocks, 
         if found.value.contains(',') {
             mark = DecimalMark::Comma;
         }
-        let value = match (Dialect { delimiter, mark }).parse(found.value) {
+        let value = match Dialect::new(delimiter, mark).parse(found.value) {
             Cell::Number(value) => value,
             Cell::Gap => continue,
             Cell::Text => return Err(ReadError::NotANumber { line: number, column: 2, text: excerpt(found.value) }),

@@ -116,7 +116,7 @@ fn number(text: &str, line: usize) -> Result<f64, ReadError> {
 }
 
 fn parse(text: &str) -> Option<f64> {
-    match (Dialect { delimiter: Delimiter::Elements, mark: DecimalMark::Point }).parse(text) {
+    match Dialect::new(Delimiter::Elements, DecimalMark::Point).parse(text) {
         Cell::Number(value) => Some(value),
         Cell::Gap => Some(f64::NAN),
         Cell::Text => None,

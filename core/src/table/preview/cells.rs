@@ -34,7 +34,7 @@ pub(super) fn touches(range: &Range<usize>, window: &Range<usize>) -> bool {
 
 /// The dialect of a reading.
 pub(super) fn dialect(reading: &Reading) -> Dialect {
-    Dialect { delimiter: reading.delimiter.value, mark: reading.decimal_mark.value }
+    Dialect { delimiter: reading.delimiter.value, mark: reading.decimal_mark.value, thousands: reading.thousands }
 }
 
 /// The wavelength that a cell holds, in nanometers.

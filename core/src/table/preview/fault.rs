@@ -23,7 +23,7 @@ fn cell(line: &str, column: usize, quoted: &str) -> Option<Range<usize>> {
     const ALL: [Delimiter; 5] =
         [Delimiter::Semicolon, Delimiter::Tab, Delimiter::CommaSpace, Delimiter::Comma, Delimiter::Spaces];
     let cells = ALL.iter().filter_map(|&delimiter| {
-        let dialect = Dialect { delimiter, mark: DecimalMark::Point };
+        let dialect = Dialect::new(delimiter, DecimalMark::Point);
         dialect.cells(line).nth(column.checked_sub(1)?)
     });
     let exact = cells.into_iter().find(|cell| excerpt(cell) == quoted);

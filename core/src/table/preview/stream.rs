@@ -18,7 +18,7 @@ pub(super) struct Number {
 /// The value of a written number, either mark before its fraction if there is only one.
 pub(super) fn value(text: &str) -> Option<f64> {
     let mark = if text.contains(',') { DecimalMark::Comma } else { DecimalMark::Point };
-    match (Dialect { delimiter: Delimiter::Spaces, mark }).parse(text) {
+    match Dialect::new(Delimiter::Spaces, mark).parse(text) {
         Cell::Number(value) => Some(value),
         Cell::Gap | Cell::Text => None,
     }
