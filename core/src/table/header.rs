@@ -44,7 +44,10 @@ pub(super) struct Header {
 impl Header {
     /// The name of a column, if the header gives one.
     pub(super) fn name(&self, column: usize) -> Option<&str> {
-        self.names.get(column).map(String::as_str).filter(|name| !name.is_empty())
+        // A line of units such as `nm,R%` may be all there is.
+        let unit = || self.units.get(column).filter(|unit| quantity::percent_name(unit).is_some());
+        let name = self.names.get(column).or_else(|| unit().filter(|_| self.names.is_empty()));
+        name.map(String::as_str).filter(|name| !name.is_empty())
     }
 
     /// All that the header says about a column.

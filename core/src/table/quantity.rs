@@ -169,7 +169,15 @@ pub(super) fn unit(text: &str) -> Option<String> {
     let pairs = [('[', ']'), ('(', ')')];
     let bracketed =
         pairs.iter().find_map(|&(open, close)| last_bracket(text, open, close).filter(|inner| is_unit(inner)));
-    bracketed.or_else(|| Some(text).filter(|text| is_unit(text))).map(repaired)
+    // `R%` is a name with its sign.
+    let signed = || Some("%").filter(|_| text.contains('%') && percent_name(text).is_some());
+    bracketed.or_else(signed).or_else(|| Some(text).filter(|text| is_unit(text))).map(repaired)
+}
+
+/// The name before a sign of percent that ends it, unless a figure stands there: `R%`, `leaf %`.
+pub(super) fn percent_name(text: &str) -> Option<&str> {
+    let name = text.trim().strip_suffix('%')?.trim_end();
+    name.ends_with(char::is_alphabetic).then_some(name)
 }
 
 /// A column's name without the unit in brackets at its end.
@@ -180,7 +188,7 @@ pub(super) fn without_unit(name: &str) -> &str {
         let bare = name[..inner.as_ptr() as usize - name.as_ptr() as usize].trim_end().strip_suffix(open)?.trim_end();
         Some(bare).filter(|bare| !bare.is_empty())
     });
-    ends.unwrap_or(name)
+    ends.or_else(|| percent_name(name)).unwrap_or(name)
 }
 
 /// What stands in the last pair of brackets, which may hold others.

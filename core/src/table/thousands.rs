@@ -74,10 +74,11 @@ impl Written {
 
 /// How much nearer two neighbors are with thousands than with fractions, in powers of e.
 fn votes(a: &str, b: &str, mark: char) -> f64 {
-    let (plain, fraction) = match (Written::of(a, mark), Written::of(b, mark)) {
-        (Some(Written::Whole(plain)), Some(Written::Either(fraction)))
-        | (Some(Written::Either(fraction)), Some(Written::Whole(plain))) => (plain, fraction),
-        _ => return 0.0,
+    let both = (Written::of(a, mark), Written::of(b, mark));
+    let ((Some(Written::Whole(plain)), Some(Written::Either(fraction)))
+    | (Some(Written::Either(fraction)), Some(Written::Whole(plain)))) = both
+    else {
+        return 0.0;
     };
     if !(100.0..1000.0).contains(&plain) || fraction <= 0.0 {
         return 0.0;

@@ -82,3 +82,12 @@ fn rows_that_begin_anew_are_another_spectrum() {
         assert!(second.curves[0].values[0] > table.curves[0].values[0]);
     }
 }
+
+#[test]
+fn a_sign_of_percent_behind_a_name_is_its_unit() {
+    for (head, name) in [("R%", "R"), ("leaf %", "leaf")] {
+        let table = ok(&format!("nm,{head}\n400,10\n410,20\n420,30\n"));
+        let curve = &table.curves[0];
+        assert_eq!((curve.name.as_str(), curve.unit.as_deref(), curve.values[0]), (name, Some("%"), 0.1));
+    }
+}

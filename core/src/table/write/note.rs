@@ -69,8 +69,11 @@ impl fmt::Display for Note {
             Self::Blank { count } => {
                 write!(f, "{count} of the columns are blank: no wavelength of the grid is in range")
             }
+            Self::Renamed { count: 1 } => {
+                f.write_str("one name was blank, did not fit on a line or meant other values: it was replaced")
+            }
             Self::Renamed { count } => {
-                write!(f, "{count} of the names were blank, did not fit on a line or meant other values: replaced")
+                write!(f, "{count} names were blank, did not fit on a line or meant other values: they were replaced")
             }
             Self::NoNames => f.write_str("names of curves are not in the file: the format has no place for them"),
             Self::Unidentified => f.write_str("rawtoaces finds a camera by maker and model, and both are not known"),
