@@ -196,6 +196,7 @@ fn finish(
     let descending = wavelengths::sort(&mut grid, &mut warnings);
     let range_nm = [grid.wavelengths[0], grid.wavelengths[grid.wavelengths.len() - 1]];
     let step_nm = Steps::of(&grid.wavelengths);
+    wavelengths::warn(&grid, step_nm, &mut warnings);
     warnings.look(usize::MAX)?;
     let scale = scale::decide(&grid, options);
     let quantity = quantity::decide(&grid, &scale.role, &mut warnings);

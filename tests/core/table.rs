@@ -365,7 +365,7 @@ fn wavelengths_in_another_column() {
     let table = ok("Pixel,Wavelength,Processed,Raw\n0,247.94,24.5,835\n1,248.45,54.5,850\n2,248.96,76.1,858\n");
     assert_eq!(names(&table), ["Processed"]);
     assert_eq!(table.reading.range_nm, [247.94, 248.96]);
-    assert_eq!(table.warnings, [Warning::SkippedColumns { wavelength_column: 2 }]);
+    assert_eq!(table.warnings, [Warning::SkippedColumns { wavelength_column: 2 }, Warning::Invisible]);
     let indented = ok("\t380\t1\n\t390\t2\n");
     assert_eq!(samples(&indented.curves[0]), [(380.0, 1.0), (390.0, 2.0)]);
 }

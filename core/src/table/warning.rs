@@ -119,6 +119,17 @@ pub enum Warning {
         /// The mark before fractions that must be chosen if they have them.
         fractions: DecimalMark,
     },
+    /// All wavelengths are outside 380 to 780 nm.
+    Invisible,
+    /// Neighboring wavelengths far further apart than the others: more than 20 nm and ten times the median step.
+    Hole {
+        /// The wavelength before it, in nanometers.
+        from_nm: f64,
+        /// The wavelength after it, in nanometers.
+        to_nm: f64,
+        /// The lines of both, where each wavelength has its own.
+        lines: Option<[usize; 2]>,
+    },
     /// Rows without a wavelength: left out.
     NoWavelength {
         /// Where.
@@ -225,6 +236,7 @@ impl Warning {
             | Self::BrokenTable { line, .. }
             | Self::CountDiffers { line, .. } => Some(*line),
             Self::BelowZero { line, .. } => *line,
+            Self::Hole { lines, .. } => lines.map(|[line, _]| line),
             Self::EmptyCurves { .. }
             | Self::MoreGroups { .. }
             | Self::MaybeWavelengths
@@ -233,6 +245,7 @@ impl Warning {
             | Self::TextColumns { .. }
             | Self::CommasOnly
             | Self::MaybeThousands
+            | Self::Invisible
             | Self::GroupedThousands { .. }
             | Self::NotReflectances { .. }
             | Self::More { .. } => None,
@@ -276,6 +289,13 @@ impl fmt::Display for Warning {
             Self::RepeatedHeader { lines } => write!(f, "{lines}: the names of the columns again: left out"),
             Self::MaybeThousands => {
                 f.write_str("Every fraction has three digits: if the marks group thousands, the values are wrong")
+            }
+            Self::Invisible => f.write_str("There is nothing between 380 and 780 nm, the light that is seen"),
+            Self::Hole { from_nm, to_nm, lines } => {
+                if let Some([a, b]) = lines {
+                    write!(f, "lines {a} and {b}: ")?;
+                }
+                write!(f, "nothing between {from_nm} and {to_nm} nm, far more than the other steps")
             }
             Self::GroupedThousands { fractions } => {
                 let mark = if *fractions == DecimalMark::Comma { "1,000" } else { "1.000" };

@@ -9,7 +9,7 @@ use super::reading::clean;
 use super::warning::{LineList, Warning};
 use super::watch::Log;
 use super::words::XUnit;
-use super::{Decided, Dropped, ReadError, ReadOptions};
+use super::{Decided, Dropped, ReadError, ReadOptions, Steps};
 
 /// The unit in which wavelengths are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -171,6 +171,31 @@ pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> bool {
     }
     merge_repeats(grid, log);
     descending
+}
+
+/// Warns of wavelengths that nobody sees, and of holes among them.
+pub(super) fn warn(grid: &Grid, step: Steps, log: &mut Log<'_>) {
+    const VISIBLE_NM: std::ops::RangeInclusive<f64> = 380.0..=780.0;
+    const LEAST_NM: f64 = 20.0;
+    const TIMES: f64 = 10.0;
+    let wavelengths = &grid.wavelengths;
+    let outside = |end: Option<&f64>, beyond: fn(f64) -> bool| end.is_some_and(|&nm| beyond(nm));
+    if outside(wavelengths.first(), |nm| nm > *VISIBLE_NM.end())
+        || outside(wavelengths.last(), |nm| nm < *VISIBLE_NM.start())
+    {
+        log.push(Warning::Invisible);
+    }
+    let own = grid.lines.len() == wavelengths.len();
+    if grid.own_wavelengths && !own {
+        return;
+    }
+    for (at, pair) in wavelengths.windows(2).enumerate() {
+        if pair[1] - pair[0] > LEAST_NM.max(TIMES * step.median) {
+            let mut lines = [grid.line(at), grid.line(at + 1)];
+            lines.sort_unstable();
+            log.push(Warning::Hole { from_nm: pair[0], to_nm: pair[1], lines: own.then_some(lines) });
+        }
+    }
 }
 
 /// Leaves one of rows that are the same, and the mean of rows that differ at one wavelength.

@@ -91,3 +91,12 @@ fn a_sign_of_percent_behind_a_name_is_its_unit() {
         assert_eq!((curve.name.as_str(), curve.unit.as_deref(), curve.values[0]), (name, Some("%"), 0.1));
     }
 }
+
+#[test]
+fn holes_and_what_nobody_sees_are_told() {
+    let rows = |nm: std::ops::Range<usize>| nm.step_by(2).map(|nm| format!("{nm},0.5\n")).collect::<String>();
+    let holed = ok(&format!("nm,A\n{}{}", rows(400..440), rows(500..540)));
+    assert_eq!(holed.warnings, [Warning::Hole { from_nm: 438.0, to_nm: 500.0, lines: Some([21, 22]) }]);
+    assert_eq!(ok(&format!("nm,A\n{}", rows(800..840))).warnings, [Warning::Invisible]);
+    assert_eq!(ok(&format!("nm,A\n{}", rows(780..840))).warnings, []);
+}
