@@ -93,7 +93,7 @@ fn marks_next_to_whole_numbers_of_three_digits_group_thousands() {
     let across = ok("name;400;410;420;430;440\na;980;990;1,000;1,010;1,020\n");
     assert_eq!(across.curves[0].values[1..], [990.0, 1000.0, 1010.0, 1020.0]);
     // Far below the lines that are tried first.
-    let long: String = (0..600).map(|i| format!("{};{}\n", 400 + i, 390 + i)).collect();
+    let long = (0..600).fold(String::new(), |text, i| format!("{text}{};{}\n", 400 + i, 390 + i));
     assert_eq!(ok(&format!("{long}1000;1,000\n")).curves[0].values[600], 1000.0);
 }
 

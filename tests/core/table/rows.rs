@@ -94,7 +94,7 @@ fn a_sign_of_percent_behind_a_name_is_its_unit() {
 
 #[test]
 fn holes_and_what_nobody_sees_are_told() {
-    let rows = |nm: std::ops::Range<usize>| nm.step_by(2).map(|nm| format!("{nm},0.5\n")).collect::<String>();
+    let rows = |nm: std::ops::Range<usize>| nm.step_by(2).fold(String::new(), |text, nm| format!("{text}{nm},0.5\n"));
     let holed = ok(&format!("nm,A\n{}{}", rows(400..440), rows(500..540)));
     assert_eq!(holed.warnings, [Warning::Hole { from_nm: 438.0, to_nm: 500.0, lines: Some([21, 22]) }]);
     assert_eq!(ok(&format!("nm,A\n{}", rows(800..840))).warnings, [Warning::Invisible]);
