@@ -253,16 +253,13 @@ impl Warning {
     }
 }
 
-impl fmt::Display for Warning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Warning {
+    /// What concerns single curves, in words; nothing for the others.
+    fn of_curves(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Gaps { cells, lines } => write!(f, "{cells} missing values, {lines}: left out"),
             Self::EmptyCurves { count: 1, first } => write!(f, "{first} has fewer than two values: left out"),
             Self::EmptyCurves { count, first } => {
                 write!(f, "{count} curves with fewer than two values, the first {first}: left out")
-            }
-            Self::SkippedColumns { wavelength_column } => {
-                write!(f, "Wavelengths stand in column {wavelength_column}: the columns before it are left out")
             }
             Self::TextColumns { count, column, name } => {
                 write!(f, "Column {column}")?;
@@ -274,6 +271,36 @@ impl fmt::Display for Warning {
                     2 => f.write_str(" and another hold text: left out"),
                     _ => write!(f, " and {} others hold text: left out", count - 1),
                 }
+            }
+            Self::Averaged { name, lines } => {
+                write!(f, "{lines}: “{name}” has several values at one wavelength: their mean is taken")
+            }
+            Self::BelowZero { count, first, min, line } => {
+                if let Some(line) = line {
+                    write!(f, "line {line}: ")?;
+                }
+                match count {
+                    1 => write!(f, "{first} falls to {min}, further below zero than noise"),
+                    _ => write!(f, "{count} curves fall further below zero than noise, the first {first} to {min}"),
+                }
+            }
+            Self::NotReflectances { count: 1, first, max } => {
+                write!(f, "{first} reaches {max}, more than a fraction of light can")
+            }
+            Self::NotReflectances { count, first, max } => {
+                write!(f, "{count} curves reach more than a fraction of light can, the first {first} {max}")
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Gaps { cells, lines } => write!(f, "{cells} missing values, {lines}: left out"),
+            Self::SkippedColumns { wavelength_column } => {
+                write!(f, "Wavelengths stand in column {wavelength_column}: the columns before it are left out")
             }
             Self::Sorted { line } => write!(f, "line {line}: wavelengths out of order: sorted"),
             Self::RepeatedRows { lines } => write!(f, "{lines}: the same as an earlier row: counted once"),
@@ -304,9 +331,6 @@ impl fmt::Display for Warning {
             Self::CommasOnly => {
                 f.write_str("No number has a decimal point: if the commas mark fractions, choose decimal commas")
             }
-            Self::Averaged { name, lines } => {
-                write!(f, "{lines}: “{name}” has several values at one wavelength: their mean is taken")
-            }
             Self::BrokenTable { line, error } => {
                 write!(f, "line {line}: another table that cannot be read: left out ({error})")
             }
@@ -317,28 +341,18 @@ impl fmt::Display for Warning {
             Self::MaybeWavelengths => {
                 f.write_str("Nothing names the unit of wave numbers: if they are wavelengths, choose nanometers")
             }
-            Self::BelowZero { count, first, min, line } => {
-                if let Some(line) = line {
-                    write!(f, "line {line}: ")?;
-                }
-                match count {
-                    1 => write!(f, "{first} falls to {min}, further below zero than noise"),
-                    _ => write!(f, "{count} curves fall further below zero than noise, the first {first} to {min}"),
-                }
-            }
             Self::OtherQuantity { quantity, role } => write!(f, "The numbers look like {quantity}, not like {role}"),
             Self::MoreTables { line } => write!(f, "line {line}: another table with spectra: left out"),
             Self::CountDiffers { line, expected, found } => {
                 write!(f, "line {line} announces {expected} values, but there are {found}")
             }
-            Self::NotReflectances { count: 1, first, max } => {
-                write!(f, "{first} reaches {max}, more than a fraction of light can")
-            }
-            Self::NotReflectances { count, first, max } => {
-                write!(f, "{count} curves reach more than a fraction of light can, the first {first} {max}")
-            }
             Self::More { count: 1 } => f.write_str("1 more warning like these"),
             Self::More { count } => write!(f, "{count} more warnings like these"),
+            Self::EmptyCurves { .. }
+            | Self::TextColumns { .. }
+            | Self::Averaged { .. }
+            | Self::BelowZero { .. }
+            | Self::NotReflectances { .. } => self.of_curves(f),
         }
     }
 }
