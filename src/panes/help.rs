@@ -84,7 +84,9 @@ fn what_you_see(ui: &mut Ui) {
          picture alone. Figure 8 and Figure 9 are the paper's, with Light and White; Reading says what its Eq 1 stands for. \
          Difference maps how far each camera is from the truth.",
         "Accuracy. What the scene on show costs by each method, with its error, measured when you press Run: no figure without \
-         its error. Left out lists what was not computed, and the time that computing it took.",
+         its error; Bench does the same on inputs of its own. Left out lists what was not computed, and the time that computing \
+         it took. Under Tolerance you choose the largest error; each camera then says which way keeps it, and the error that \
+         was certified.",
         "To diagram: Paper. Camera and RGB observer signals, balanced so that a flat spectrum is 1 : 1 : 1, go through the \
          matrix of Eq 13; equal energy falls on D65 (0.3127, 0.3290). CIE observers are drawn directly, with equal energy at \
          (1/3, 1/3), so they differ from the others by construction and have no distance to the truth.",
