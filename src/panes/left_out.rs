@@ -40,14 +40,14 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 fn table(ui: &mut Ui, rows: &[LeftOut], context: &PaneContext<'_>) {
     let theme = context.theme;
     Grid::new("left out").num_columns(4).spacing([4.0 * UNIT, UNIT]).show(ui, |ui| {
-        for caption in ["Left out", "How many", "Time saved", "Measured by"] {
+        for caption in ["Left out", "Time saved", "How many", "Measured by"] {
             ui.label(RichText::new(caption).small().color(theme.weak));
         }
         ui.end_row();
         for row in rows {
             ui.label(row.what);
-            ui.monospace(count(row));
             ui.monospace(if context.view.fixed_clock { "–".to_owned() } else { duration(row.saved) });
+            ui.monospace(count(row));
             ui.label(RichText::new(&row.how).small().color(theme.weak));
             ui.end_row();
         }

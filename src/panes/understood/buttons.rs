@@ -10,13 +10,19 @@ use crate::panes::PaneContext;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::ImportItem;
 
-/// Below this width the buttons take one more row.
-const NARROW: f32 = 290.0;
+/// Below this width the three buttons of a set take one more row.
+const SET: f32 = 290.0;
+/// Below these widths the four buttons of a file that is no set take one and two more.
+const FILE: [f32; 2] = [380.0, 270.0];
 
 /// The height that the buttons take.
 pub(super) fn height(shown: &OnShow, width: f32) -> f32 {
-    let rows = if on_disk(shown) { 3.0 } else { 2.0 } + if width < NARROW { 1.0 } else { 0.0 };
-    rows * (ROW + UNIT) + 2.0 * UNIT
+    let more = match shown.item {
+        ImportItem::Set(_) => usize::from(width < SET),
+        ImportItem::File(_) => FILE.into_iter().filter(|least| width < *least).count(),
+    };
+    let rows = 2 + usize::from(on_disk(shown)) + more;
+    rows as f32 * (ROW + UNIT) + 2.0 * UNIT
 }
 
 /// Whether there is a file to look after.
