@@ -3,11 +3,13 @@
 use std::hint::black_box;
 use std::sync::Arc;
 
+use chromascope_core::accuracy::Accuracy;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Reading, Surface, wavelength_power};
+use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{
-    CameraImage, DiffuseTable, GeometryImage, Measure, Quality, RasterSize, ShadingImage, ShadowTree, Shadows, Stop,
-    Visibility,
+    Against, CameraImage, DiffuseTable, GeometryImage, Measure, Plan, Quality, RasterSize, ShadingImage, ShadowTree,
+    Shadows, Stop, Visibility,
 };
 use chromascope_core::scene::lighting::SUN_RADIUS;
 use chromascope_core::scene::{Lighting, Mesh, Viewpoint, head};
@@ -30,6 +32,13 @@ const CHECKED: u32 = 48;
 
 /// Up to this side slow qualities are measured too: beyond it they take minutes, and as long per pixel.
 const SLOW_UP_TO: u32 = 128;
+
+/// How the integral of a frame is made.
+#[derive(Clone, Copy)]
+enum Way<'a> {
+    Quality(Quality),
+    Plans(Accuracy, &'a [(Plan, Reach)]),
+}
 
 /// What no frame makes anew.
 struct Studio {
@@ -61,24 +70,54 @@ impl Studio {
         Ok(Some(Self { mesh, tree, eye, lighting, surface, sources }))
     }
 
-    /// A frame through all sources; none only if it was stopped.
-    fn frame(&self, side: u32, quality: Quality, stop: &Stop) -> Option<Vec<CameraImage>> {
+    /// What is seen, with what of it depends on the surface.
+    fn shading(&self, side: u32, quality: Quality, stop: &Stop) -> Option<ShadingImage> {
         let eye = self.eye.eye(self.mesh.bounds());
         let visibility = Visibility::new(&self.mesh, eye, RasterSize::new(side, side), stop)?;
         let shadows = Some((&self.tree, Shadows::Coarse));
         let geometry = GeometryImage::new(&self.mesh, &visibility, &self.lighting, shadows, stop)?;
-        let shading = ShadingImage::new(Arc::new(geometry), self.surface, Reading::Radiometric, quality, stop)?;
-        let images = self.sources.iter().map(|(measure, table)| {
-            let table = shading.needs_table().then_some(table);
-            CameraImage::new(&shading, measure, table, stop)
+        ShadingImage::new(Arc::new(geometry), self.surface, Reading::Radiometric, quality, stop)
+    }
+
+    /// A frame through all sources; none only if it was stopped.
+    fn frame(&self, side: u32, way: Way<'_>, stop: &Stop) -> Option<Vec<CameraImage>> {
+        match way {
+            Way::Quality(quality) => {
+                let shading = self.shading(side, quality, stop)?;
+                let images = self.sources.iter().map(|(measure, table)| {
+                    let table = shading.needs_table().then_some(table);
+                    CameraImage::new(&shading, measure, table, stop)
+                });
+                images.collect()
+            }
+            Way::Plans(accuracy, plans) => {
+                let shading = self.shading(side, Quality::Within(accuracy), stop)?;
+                let images = self.sources.iter().zip(plans).map(|((measure, _), (plan, reach))| {
+                    CameraImage::by_plan(&shading, measure, Some(plan), *reach, stop)
+                });
+                images.collect()
+            }
+        }
+    }
+
+    /// What a tolerance takes for each source of a frame of this size; nothing where it cannot be kept, or if stopped.
+    fn plans(&self, side: u32, accuracy: Accuracy, stop: &Stop) -> Option<Vec<(Plan, Reach)>> {
+        let shading = self.shading(side, Quality::Within(accuracy), stop)?;
+        let demand = shading.demand()?;
+        let plans = self.sources.iter().map(|(measure, _)| {
+            let plan = Plan::new(measure, accuracy, Against::Peak, demand).ok()?;
+            let mirrors = !shading.mirrors().is_empty();
+            let reach = if mirrors { Reach::within(measure, accuracy) } else { Reach::of(Quality::Exact, measure) };
+            Some((plan, reach))
         });
-        images.collect()
+        plans.collect()
     }
 
     /// The signals of a small frame beside those of the sum over 401 wavelengths.
-    fn error(&self, quality: Quality, stop: &Stop) -> ErrorOf {
+    fn error(&self, way: Way<'_>, stop: &Stop) -> ErrorOf {
         let mut errors = Errors::default();
-        let frames = self.frame(CHECKED, quality, stop).zip(self.frame(CHECKED, Quality::Exact, stop));
+        let exact = self.frame(CHECKED, Way::Quality(Quality::Exact), stop);
+        let frames = self.frame(CHECKED, way, stop).zip(exact);
         for (found, exact) in frames.into_iter().flat_map(|(found, exact)| found.into_iter().zip(exact)) {
             let signals = |image: &CameraImage| -> Vec<f64> {
                 image.signals().iter().flatten().map(|&signal| f64::from(signal)).collect()
@@ -113,16 +152,26 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
                 ];
                 qualities.splice(0..0, slow);
             }
-            let mut candidates = Vec::new();
+            let exponents: &[i32] = if side <= SLOW_UP_TO { &[-3, -5, -8] } else { &[-5] };
+            let tolerances: Vec<Tolerance> =
+                exponents.iter().filter_map(|&exponent| tolerance(bench, studio, side, exponent)).collect();
+            let mut ways: Vec<(String, Way<'_>, f64)> = Vec::new();
             for (method, quality) in qualities {
-                let error = bench.pools.on(most, || studio.error(quality, bench.stop));
-                let threads = if matches!(quality, Quality::Full) { bench.pools.counts() } else { vec![most] };
-                for threads in threads {
+                ways.push((method.to_owned(), Way::Quality(quality), seconds));
+            }
+            for (method, accuracy, plans, seconds) in &tolerances {
+                ways.push((method.clone(), Way::Plans(*accuracy, plans), *seconds));
+            }
+            let mut candidates = Vec::new();
+            for (method, way, seconds) in ways {
+                let error = bench.pools.on(most, || studio.error(way, bench.stop));
+                let often = matches!(way, Way::Quality(Quality::Full));
+                for threads in if often { bench.pools.counts() } else { vec![most] } {
                     let stop = bench.stop;
                     let work = move |_: usize| {
-                        black_box(studio.frame(side, quality, stop));
+                        black_box(studio.frame(side, way, stop));
                     };
-                    let candidate = Candidate::new(method, 1, error.clone(), work);
+                    let candidate = Candidate::new(method.as_str(), 1, error.clone(), work);
                     candidates.push(candidate.undivided().on(threads).built_in(seconds));
                 }
             }
@@ -131,4 +180,13 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
         }
     }
     Ok(())
+}
+
+/// A tolerance by name, with what it takes for each source and how long that took to make.
+type Tolerance = (String, Accuracy, Vec<(Plan, Reach)>, f64);
+
+fn tolerance(bench: &Bench<'_>, studio: &Studio, side: u32, exponent: i32) -> Option<Tolerance> {
+    let accuracy = Accuracy::new(10_f64.powi(exponent)).ok()?;
+    let (plans, seconds) = timed(|| bench.pools.on(bench.pools.most(), || studio.plans(side, accuracy, bench.stop)));
+    Some((format!("within 1e{exponent}"), accuracy, plans?, seconds))
 }

@@ -1,5 +1,7 @@
 //! Chromaticities of black bodies: sums of several steps, Gauss rules of several sizes, what the program takes.
 
+use std::hint::black_box;
+
 use chromascope_core::camera::LocusEvaluator;
 use chromascope_core::camera::locus_table::{LocusTable, NotInTable};
 use chromascope_core::colorimetry::Xy;
@@ -23,9 +25,20 @@ type Place = [f64; 2];
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     for (name, path) in [("CIE 1931 2°", OBSERVER), ("Nikon D70", CAMERA)] {
-        one(bench, name, &*sensor(path)?);
+        let sensor = sensor(path)?;
+        one(bench, name, &sensor);
+        let counts: &[usize] = bench.pick(&[10], if path == OBSERVER { &[1, 1000] } else { &[] }, &[1, 100, 10_000]);
+        for &count in counts {
+            from_nothing(bench, name, &sensor, count);
+        }
     }
     Ok(())
+}
+
+/// So many temperatures evenly in mired, from 1000 to 20 000 K; one alone is in between.
+fn temperatures(count: usize) -> Vec<f64> {
+    let mired = |index: usize| 1000.0 + (50.0 - 1000.0) * (index as f64 + 0.5) / count as f64;
+    (0..count).map(|index| 1e6 / mired(index)).collect()
 }
 
 /// Where signals lie in the diagram: an observer's as they are, a camera's by Eq 13.
@@ -105,8 +118,7 @@ impl Rule {
 fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
     let items = bench.pick(1000, 1_000_000, 1_000_000);
     let checked = bench.pick(5, 60, 500);
-    let mired = |index: usize| 1000.0 + (50.0 - 1000.0) * index as f64 / (items - 1) as f64;
-    let kelvins: Vec<f64> = (0..items).map(|index| 1e6 / mired(index)).collect();
+    let kelvins = temperatures(items);
     let some: Vec<f64> = spaced(items, checked).map(|index| kelvins[index]).collect();
     let exact: Vec<[Double; 2]> = bench.pools.on(bench.pools.most(), || {
         some.par_iter().map(|&kelvins| exact::black_body_xy(sensor, CONSTANTS, kelvins)).collect()
@@ -134,13 +146,13 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
         .collect();
     for threads in bench.pools.counts() {
         let (evaluator, seconds) = timed(|| LocusEvaluator::new(sensor, CONSTANTS));
-        let answer = move |&t: &f64| Kelvin::new(t).map_or([f64::NAN; 2], |t| diagram.xy(evaluator.raw(t)));
+        let answer = move |&t: &f64| Kelvin::new(t).map_or(NOWHERE, |t| diagram.xy(evaluator.raw(t)));
         candidates.push(each("checked nodes", [threads, checked], &kelvins, &room, error, answer).built_in(seconds));
         // Of an observer the program has the whole curve as polynomials.
         if let (Ok(locus), seconds) = timed(|| PlanckianLocus::new(sensor, CONSTANTS)) {
             let answer = move |&t: &f64| {
                 let place = Kelvin::new(t).ok().and_then(|t| locus.at(t));
-                place.map_or([f64::NAN; 2], |uv| {
+                place.map_or(NOWHERE, |uv| {
                     let d = 2.0 * uv.u - 8.0 * uv.v + 4.0;
                     [3.0 * uv.u / d, 2.0 * uv.v / d]
                 })
@@ -150,8 +162,7 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
     }
     for threads in bench.pools.counts() {
         let some: Vec<Kelvin> = spaced(items, checked).map(|index| temperatures[index]).collect();
-        let found: Vec<Place> =
-            table.xys(&some).into_iter().map(|xy| xy.map_or([f64::NAN; 2], |xy| [xy.x, xy.y])).collect();
+        let found: Vec<Place> = table.xys(&some).into_iter().map(|xy| xy.map_or(NOWHERE, |xy| [xy.x, xy.y])).collect();
         let (table, temperatures, answers) = (&table, &temperatures, &answers);
         let work =
             move |items: usize| answers.lend(|answers| table.xys_into(&temperatures[..items], &mut answers[..items]));
@@ -160,6 +171,60 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
     }
     bench.compare(Case { workload: Workload::Locus, name, item: "temperature" }, candidates);
 }
+
+/// A few temperatures of a sensor that nothing is known of: what is made first counts.
+fn from_nothing(bench: &mut Bench<'_>, name: &str, sensor: &Sensor, count: usize) {
+    let kelvins = temperatures(count);
+    let checked = bench.pick(5, 60, 500);
+    let some: Vec<f64> = spaced(count, checked).map(|index| kelvins[index]).collect();
+    let exact: Vec<[Double; 2]> = bench.pools.on(bench.pools.most(), || {
+        some.par_iter().map(|&kelvins| exact::black_body_xy(sensor, CONSTANTS, kelvins)).collect()
+    });
+    let diagram = Diagram::new(sensor);
+    let by_rule = |rule: &Rule, kelvins: &[f64]| -> Vec<Place> {
+        kelvins.iter().map(|&kelvins| diagram.xy(rule.raw(kelvins))).collect()
+    };
+    let nodes = move |kelvins: &[f64]| -> Vec<Place> {
+        let evaluator = LocusEvaluator::new(sensor, CONSTANTS);
+        kelvins.iter().map(|&t| Kelvin::new(t).map_or(NOWHERE, |t| diagram.xy(evaluator.raw(t)))).collect()
+    };
+    let table = move |kelvins: &[f64]| -> Vec<Place> {
+        let sums = LocusEvaluator::by_sum(sensor, CONSTANTS);
+        let table = LocusTable::of(|t| {
+            let [x, y] = diagram.xy(sums.raw(t));
+            Some(Xy { x, y })
+        });
+        let found = kelvins.iter().map(|&t| Kelvin::new(t).ok().and_then(|t| table.xy(t).ok()));
+        found.map(|xy| xy.map_or(NOWHERE, |xy| [xy.x, xy.y])).collect()
+    };
+    let mut methods: Vec<(String, Box<Method<'_>>)> = Vec::new();
+    for step in [1, 2, 5, 10, 20] {
+        let answers = move |kelvins: &[f64]| by_rule(&Rule::sum(sensor, step), kelvins);
+        methods.push((format!("{step} nm sum"), Box::new(answers)));
+    }
+    for size in [3, 5, 8, 12] {
+        let answers = move |kelvins: &[f64]| by_rule(&Rule::gauss(sensor, size), kelvins);
+        methods.push((format!("Gauss {size}"), Box::new(answers)));
+    }
+    methods.push(("checked nodes".to_owned(), Box::new(nodes)));
+    methods.push(("table in mired".to_owned(), Box::new(table)));
+    let candidates = methods.into_iter().map(|(method, answers)| {
+        let error = error(&answers(&some), &exact);
+        let kelvins = &kelvins;
+        let work = move |_: usize| {
+            black_box(answers(kelvins));
+        };
+        Candidate::new(method, count, error, work).undivided()
+    });
+    let case = format!("{name}, {count} from nothing");
+    bench.compare(Case { workload: Workload::Locus, name: &case, item: "temperature" }, candidates.collect());
+}
+
+/// All answers to some temperatures, with what is made for them.
+type Method<'a> = dyn Fn(&[f64]) -> Vec<Place> + Send + Sync + 'a;
+
+/// Where there is no answer.
+const NOWHERE: Place = [f64::NAN; 2];
 
 fn error(found: &[Place], exact: &[[Double; 2]]) -> ErrorOf {
     let mut errors = Errors::default();

@@ -55,17 +55,16 @@ impl Machine {
             };
             bytes / most(threads, &read) * 1e-9
         };
-        // Twelve registers keep two units with a latency of four to five busy: 12 of half the width, or 12 of the whole.
-        let shapes: [(usize, fn(u32, f64) -> f64); 2] = [(6, multiply_add::<6>), (12, multiply_add::<12>)];
         let arithmetic = |threads: usize| {
-            let of = |(rows, kernel): (usize, fn(u32, f64) -> f64)| {
+            let of = |rows: usize, kernel: fn(u32, f64) -> f64| {
                 let compute = || {
                     let each = (0..threads).into_par_iter().map(|thread| kernel(turns, 1.0 + thread as f64));
                     black_box(each.sum::<f64>());
                 };
                 2.0 * (WIDTH * rows * threads) as f64 * f64::from(turns) / most(threads, &compute) * 1e-9
             };
-            shapes.map(of).into_iter().fold(0.0, f64::max)
+            // Twelve registers keep two units with a latency of four to five busy: of half the width, or of all of it.
+            of(6, multiply_add::<6>).max(of(12, multiply_add::<12>))
         };
         let cores = pools.most();
         Self {
