@@ -144,6 +144,7 @@ pub fn run(
     stop: &Stop,
     progress: &mut dyn FnMut(Progress<'_>),
 ) -> Result<Report, BenchError> {
+    let began = jiff::Timestamp::now().round(jiff::Unit::Second).map_or_else(|_| String::new(), |now| now.to_string());
     let pools = Pools::new()?;
     let machine = Machine::measure(effort, &pools);
     progress(Progress::Machine(&machine));
@@ -165,5 +166,6 @@ pub fn run(
         }
     }
     let Bench { machine, measurements, .. } = bench;
-    Ok(Report { machine, effort, whole: !stop.is_set(), measurements })
+    let program = concat!("Chromascope ", env!("CARGO_PKG_VERSION")).to_owned();
+    Ok(Report { program, began, machine, effort, whole: !stop.is_set(), measurements })
 }

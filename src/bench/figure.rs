@@ -35,17 +35,11 @@ pub(super) fn figure(report: &Report, workload: Workload) -> Option<Figure> {
     let threads = report.of(workload).map(|m| m.threads).collect::<std::collections::BTreeSet<_>>();
     figure.legend = threads.iter().map(|&threads| entry(threads)).collect();
     figure.legend_place = LegendPlace::Outside;
-    let machine = &report.machine;
     figure.caption = format!(
-        "Median time per item against the largest error of {}; the line joins what nothing else beats in both. {}, {} cores, {}; {:.0} GB/s and {:.0} Gflop/s on all of them.",
-        cases[0][0].1.error.what,
-        machine.processor,
-        machine.cores,
-        machine.instruction_set,
-        machine.memory_gb_per_s[1],
-        machine.arithmetic_gflop_per_s[1]
+        "Median time per item against the largest error of {}; the line joins what nothing else beats in both. {}; {}, {}.",
+        cases[0][0].1.error.what, report.machine, report.program, report.began
     );
-    figure.table = table(report.of(workload));
+    figure.table = table(report, report.of(workload));
     Some(figure)
 }
 

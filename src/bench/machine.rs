@@ -1,5 +1,6 @@
 //! The machine, and how fast it can be.
 
+use std::fmt;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -81,6 +82,18 @@ impl Machine {
     pub(super) fn limits(&self, threads: usize) -> [f64; 2] {
         [self.memory_gb_per_s, self.arithmetic_gflop_per_s]
             .map(|[one, all]| 1e9 * if threads >= self.cores { all } else { (one * threads as f64).min(all.max(one)) })
+    }
+}
+
+impl fmt::Display for Machine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { processor, cores, instruction_set, .. } = self;
+        let ([memory, all_memory], [flops, all_flops]) = (self.memory_gb_per_s, self.arithmetic_gflop_per_s);
+        write!(
+            f,
+            "{processor}, {cores} cores, {instruction_set}; memory {memory:.1} GB/s on one, {all_memory:.1} on all; \
+             multiply-adds {flops:.1} Gflop/s on one, {all_flops:.1} on all"
+        )
     }
 }
 

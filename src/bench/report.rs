@@ -8,6 +8,10 @@ use super::{Effort, Machine, Measurement, Workload};
 /// All that was measured in one run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
+    /// By which program.
+    pub program: String,
+    /// When it began, in UTC, as `2026-11-21T18:05:11Z`.
+    pub began: String,
     /// On what.
     pub machine: Machine,
     /// How thoroughly.
@@ -50,7 +54,7 @@ impl Report {
 
     /// All measurements as a table, a row for each.
     pub fn table(&self) -> Table {
-        table(self.measurements.iter())
+        table(self, self.measurements.iter())
     }
 
     /// The report as JSON, indented.
@@ -59,8 +63,8 @@ impl Report {
     }
 }
 
-/// Measurements as a table.
-pub(super) fn table<'a>(measurements: impl Iterator<Item = &'a Measurement>) -> Table {
+/// Measurements of a report as a table, each row with what and when it was measured on.
+pub(super) fn table<'a>(report: &Report, measurements: impl Iterator<Item = &'a Measurement>) -> Table {
     let columns = [
         "workload",
         "case",
@@ -84,7 +88,11 @@ pub(super) fn table<'a>(measurements: impl Iterator<Item = &'a Measurement>) -> 
         "time / baseline",
         "share of memory limit",
         "share of arithmetic limit",
+        "machine",
+        "program",
+        "began",
     ];
+    let machine = report.machine.to_string();
     let mut table = Table::new(columns);
     for m in measurements {
         let count = |number: usize| Cell::from(number as f64);
@@ -111,6 +119,9 @@ pub(super) fn table<'a>(measurements: impl Iterator<Item = &'a Measurement>) -> 
             Cell::from(m.ratio),
             Cell::from(m.roof.map(|roof| roof.memory)),
             Cell::from(m.roof.map(|roof| roof.arithmetic)),
+            Cell::from(machine.as_str()),
+            Cell::from(report.program.as_str()),
+            Cell::from(report.began.as_str()),
         ]);
     }
     table

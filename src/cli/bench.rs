@@ -8,7 +8,7 @@ use chromascope_core::render::Stop;
 use clap::Args;
 
 use super::{CliError, put, say, write_to};
-use crate::bench::{self, Effort, Machine, Measurement, Progress, Report, Workload};
+use crate::bench::{self, Effort, Measurement, Progress, Report, Workload};
 use crate::export::{Paper, png, png_file, svg};
 use crate::figures::pareto::duration;
 use crate::theme::Theme;
@@ -19,8 +19,12 @@ Examples:
   chromascope bench --only locus,temperature --out measured
   chromascope bench --list
 
-Writes bench.json, bench.csv and, for each workload, a figure as SVG and PNG. Nothing is written before all is measured.
+Writes bench.json, bench.csv and, for each workload, a figure as SVG and PNG. Nothing is written before all is measured,
+and nothing over an earlier run unless told to with --replace.
 A line gives: threads, median time per item, ratio to the case's first method, largest error, what it is an error of.";
+
+/// The file of all measurements.
+const JSON: &str = "bench.json";
 
 /// What `bench` takes.
 #[derive(Debug, Args)]
@@ -31,6 +35,9 @@ pub(super) struct BenchArguments {
     /// The folder for the files; it is made if it is not there
     #[arg(long, value_name = "DIR", required_unless_present = "list")]
     out: Option<PathBuf>,
+    /// Write over the measurements of an earlier run in that folder
+    #[arg(long)]
+    replace: bool,
     /// These workloads alone
     #[arg(long, value_name = "NAME", value_delimiter = ',', num_args = 1.., value_parser = workload)]
     only: Vec<Workload>,
@@ -55,6 +62,11 @@ pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     };
     // Better now than after a quarter of an hour.
     make_folder(folder)?;
+    if !arguments.replace && folder.join(JSON).exists() {
+        let reason =
+            format!("{} has the {JSON} of an earlier run; give another folder, or --replace", folder.display());
+        return Err(CliError::Argument { argument: "--out", reason });
+    }
     let plan: Vec<Workload> = Workload::ALL
         .into_iter()
         .filter(|workload| arguments.only.is_empty() || arguments.only.contains(workload))
@@ -91,7 +103,7 @@ fn make_folder(folder: &Path) -> Result<(), CliError> {
 /// A line for each measurement, under its case.
 fn tell(progress: Progress<'_>, case: &mut String) {
     match progress {
-        Progress::Machine(machine) => say(&machine_line(machine)),
+        Progress::Machine(machine) => say(&format!("{machine}\n")),
         Progress::Begins(workload) => {
             case.clear();
             say(&format!("\n{}\n", workload.title()));
@@ -104,16 +116,6 @@ fn tell(progress: Progress<'_>, case: &mut String) {
             say(&line(measurement));
         }
     }
-}
-
-fn machine_line(machine: &Machine) -> String {
-    let Machine { processor, cores, instruction_set, memory_gb_per_s, arithmetic_gflop_per_s } = machine;
-    let [memory, all_memory] = memory_gb_per_s;
-    let [flops, all_flops] = arithmetic_gflop_per_s;
-    format!(
-        "{processor}, {cores} cores, {instruction_set}; memory {memory:.1} GB/s on one, {all_memory:.1} on all; \
-         multiply-adds {flops:.1} Gflop/s on one, {all_flops:.1} on all\n"
-    )
 }
 
 fn line(m: &Measurement) -> String {
@@ -136,7 +138,7 @@ fn line(m: &Measurement) -> String {
 /// Every file with its contents.
 fn files(report: &Report, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, CliError> {
     let mut files = vec![
-        (folder.join("bench.json"), report.to_json()?.into_bytes()),
+        (folder.join(JSON), report.to_json()?.into_bytes()),
         (folder.join("bench.csv"), report.table().to_csv().into_bytes()),
     ];
     let figures = report.workloads().into_iter().filter_map(|workload| Some((workload, report.figure(workload)?)));

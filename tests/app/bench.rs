@@ -183,6 +183,18 @@ fn the_command_writes_figures_a_table_and_json() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(report.measurements.iter().all(|m| said.contains(&m.method)), "{said}");
     assert!(String::from_utf8_lossy(&output.stdout).contains("bench_files"));
+    assert!(
+        report.program.starts_with("Chromascope ") && report.began.ends_with('Z'),
+        "{} {}",
+        report.program,
+        report.began
+    );
+
+    let arguments = ["--trial", "--only", "difference", "--out", folder.to_str().unwrap()];
+    let output = bench(&arguments);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!output.status.success() && said.contains("--replace"), "{said}");
+    assert!(bench(&[&arguments[..], &["--replace"]].concat()).status.success());
 }
 
 #[test]
