@@ -144,10 +144,12 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         ("orbit", three(orbit)),
         ("fieldOfView", AttributeValue::F64(viewpoint.field_of_view().to_degrees())),
     ];
+    let tolerance = provenance.quality.accuracy();
+    let tolerance = tolerance.map(|accuracy| ("tolerance", AttributeValue::F64(accuracy.max_relative_error())));
     LayerAttributes {
         software_name: Some(utf8(concat!("chromascope ", env!("CARGO_PKG_VERSION")))),
         comments: Some(utf8(comments(provenance.reading))),
-        other: own.into_iter().map(|(name, value)| (utf8(name), value)).collect(),
+        other: own.into_iter().chain(tolerance).map(|(name, value)| (utf8(name), value)).collect(),
         ..LayerAttributes::default()
     }
 }

@@ -15,8 +15,12 @@ use crate::spectral::grid::{FIRST_NM, LAST_NM};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Mirror terms below this share of a surface facing the light are left out, unless an accuracy is asked for.
+/// Mirror terms below this share of a surface facing the light are left out at [`Quality::Full`] and below.
 pub const MIRROR_SHARE: f64 = 1e-7;
+
+/// The same for fifteen wavelengths, and for what others are compared with: below what the integral itself is off by.
+const FINE_MIRROR_SHARE: f64 = 1e-10;
+const EXACT_MIRROR_SHARE: f64 = 1e-14;
 
 /// The share of an accuracy's error that mirror terms left out may take.
 const MIRROR_OF_ERROR: f64 = 0.25;
@@ -49,7 +53,12 @@ impl Quality {
 
     /// Mirror terms below this share of a surface facing the light are left out.
     fn mirror_share(self) -> f64 {
-        self.accuracy().map_or(MIRROR_SHARE, |accuracy| MIRROR_OF_ERROR * accuracy.max_relative_error())
+        match self {
+            Self::Preview | Self::Full => MIRROR_SHARE,
+            Self::Fine => FINE_MIRROR_SHARE,
+            Self::Exact | Self::Regimes => EXACT_MIRROR_SHARE,
+            Self::Within(accuracy) => MIRROR_OF_ERROR * accuracy.max_relative_error(),
+        }
     }
 }
 

@@ -76,9 +76,10 @@ pub(in crate::cli) struct RenderArguments {
     /// How exactly the sums over wavelengths are made
     #[arg(long, value_enum, default_value_t = QualityName::Full, help_heading = PICTURE)]
     pub(super) quality: QualityName,
-    /// The largest error of the spectral integral, relative to its peak: the cheapest way that keeps it is taken for each
-    /// camera, and named with the error it is certified for
-    #[arg(long, value_name = "ERROR", value_parser = tolerance, conflicts_with = "quality", help_heading = PICTURE)]
+    /// The largest error of the spectral integral, relative to its peak, from 1e-13 to 0.1: the cheapest way that keeps it is
+    /// taken for each camera, and named with the error it is certified for
+    #[arg(long, value_name = "ERROR", value_parser = tolerance, allow_hyphen_values = true, conflicts_with = "quality",
+          help_heading = PICTURE)]
     pub(super) tolerance: Option<f64>,
     /// Pixels across and down
     #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = size, help_heading = PICTURE)]
@@ -177,7 +178,8 @@ impl Format {
 }
 
 fn finite(text: &str) -> Result<f64, String> {
-    let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    // The window and papers write a minus sign of their own.
+    let number = text.trim().replace('\u{2212}', "-").parse::<f64>().ok().filter(|number| number.is_finite());
     number.ok_or_else(|| format!("\"{text}\" is no number; write one like 0.5 or 5e-6"))
 }
 
