@@ -39,6 +39,11 @@ impl Accuracy {
         relative_error <= self.max_relative_error
     }
 
+    /// A share of it, above 0 and not above 1.
+    pub(crate) fn times(self, share: f64) -> Self {
+        Self::at_best(self.max_relative_error * share)
+    }
+
     /// What can be had at best. Errors of 1 and more, and what is no number, count as the largest below 1.
     pub(crate) fn at_best(relative_error: f64) -> Self {
         let largest = 1.0 - f64::EPSILON;

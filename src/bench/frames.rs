@@ -106,9 +106,7 @@ impl Studio {
         let demand = shading.demand()?;
         let plans = self.sources.iter().map(|(measure, _)| {
             let plan = Plan::new(measure, accuracy, Against::Peak, demand).ok()?;
-            let mirrors = !shading.mirrors().is_empty();
-            let reach = if mirrors { Reach::within(measure, accuracy) } else { Reach::of(Quality::Exact, measure) };
-            Some((plan, reach))
+            Some((plan, Reach::in_picture(&shading, measure)))
         });
         plans.collect()
     }

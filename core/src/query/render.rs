@@ -269,6 +269,7 @@ impl Query for CameraImageOf {
             let reach = if shading.mirrors().is_empty() {
                 Reach::of(Quality::Exact, measure)
             } else {
+                let accuracy = shading.mirror_accuracy().unwrap_or(accuracy);
                 (*ask.ask(&ReachOf { measure: self.measure.clone(), accuracy }))?
             };
             return Ok(CameraImage::by_plan(shading, measure, plan, reach, &ask.stop()));

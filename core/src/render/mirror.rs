@@ -8,10 +8,11 @@
 
 use super::lobe::mean_sinc_squared_quick;
 use super::measure::{Measure, Node};
-use super::shading::{Mirror, Quality};
+use super::shading::{Mirror, Quality, ShadingImage};
 use crate::accuracy::Accuracy;
 use crate::math::exp::exp;
-use crate::reflectance::{Surface, coherent::mean_sinc_squared};
+use crate::reflectance::Surface;
+use crate::reflectance::coherent::{mean_sinc_squared, sinc};
 use std::f64::consts::TAU;
 
 /// Which paths a lobe is still over a few wavelengths at, and at which its oscillation cancels.
@@ -39,26 +40,48 @@ impl Reach {
         Self { still_m, settled_m, quick: quality <= Quality::Full }
     }
 
+    /// That of a picture's quality, relative to the picture's brightest sample: where no sample sees the middle of a lobe, errors
+    /// relative to its height have to be so much smaller.
+    pub fn in_picture(shading: &ShadingImage, measure: &Measure) -> Self {
+        let (quality, scale) = (shading.quality(), shading.mirror_scale());
+        if shading.mirrors().is_empty() {
+            return Self::of(Quality::Exact, measure);
+        }
+        match (quality, shading.mirror_accuracy()) {
+            (_, Some(accuracy)) => Self::within(measure, accuracy),
+            (Quality::Full, _) if scale < USUAL_SCALE => Self::within(measure, Accuracy::at_best(FULL_ERROR * scale)),
+            (Quality::Fine, _) if scale < USUAL_SCALE => Self::of(Quality::Exact, measure),
+            _ => Self::of(quality, measure),
+        }
+    }
+
     /// The widest that keeps the error of this measure's lobe within an accuracy, relative to its height `front Σ|w|`: each of
     /// the lobe's table, the few wavelengths and what is left of the oscillation on two axes takes a part.
     ///
-    /// The few wavelengths are compared with all at lobes along one axis and both and at five κ, with a margin of two; the
-    /// oscillation is bounded by its envelope over the wavelengths.
+    /// The few wavelengths are compared with all at sixteen paths to an octave, along one axis and beside another, and at five κ,
+    /// with a margin of two; the oscillation is bounded by its envelope over the wavelengths.
     pub fn within(measure: &Measure, accuracy: Accuracy) -> Self {
         let error = accuracy.max_relative_error();
         let settled_m = settled(measure.dense(), error / 8.0);
-        let still = |path: &f64| MARGIN * astir(measure, *path, settled_m) <= error / 4.0;
-        let paths = (0..PATHS).map(|i| 3e-6 * (-0.5 * f64::from(i)).exp2());
-        Self { still_m: paths.into_iter().find(still).unwrap_or(0.0), settled_m, quick: LOBE_ERROR <= error / 4.0 }
+        let still_m = still(measure, settled_m, error / 4.0);
+        Self { still_m, settled_m, quick: LOBE_ERROR <= error / 4.0 }
     }
 }
 
+/// Down to this share of the highest lobe as the brightest sample, the qualities by name need no more than usual.
+const USUAL_SCALE: f64 = 1.0 / 16.0;
+/// What full quality promises.
+const FULL_ERROR: f64 = 1e-5;
 /// What is seen at some lobes is taken to be at most this much larger at others.
 const MARGIN: f64 = 2.0;
 /// What two readings of the lobe's table are off by.
 const LOBE_ERROR: f64 = 2e-7;
-/// Paths that few wavelengths are tried for: 3 µm and so many steps of √2 down.
-const PATHS: i32 = 12;
+/// The longest path that few wavelengths are tried for, and how many shorter ones.
+const LONGEST: f64 = 3e-6;
+const PATHS: u32 = 6 * PATHS_TO_AN_OCTAVE as u32;
+const PATHS_TO_AN_OCTAVE: usize = 16;
+/// The κ that few wavelengths are tried for.
+const KAPPAS: [f64; 5] = [0.0, 0.4, 3.0, 12.0, 50.0];
 /// Steps to an octave in which the oscillation's envelope is looked at.
 const STEPS: f64 = 8.0;
 
@@ -87,31 +110,72 @@ fn settled(dense: &[Node], share: f64) -> f64 {
     unsettled.map_or(last, |i| path(i - 1))
 }
 
-/// The error of a few wavelengths for lobes up to a path, relative to their height.
-fn astir(measure: &Measure, path: f64, settled_m: f64) -> f64 {
-    let sums = |list: &[Node], kappa: f64, paths: [f64; 2]| {
+/// Up to which path a few wavelengths keep an error relative to a lobe's height, alone and beside another axis.
+///
+/// Looked at from the shortest path on, for the error changes its sign along it.
+fn still(measure: &Measure, settled_m: f64, error: f64) -> f64 {
+    let lists = [List::new(measure.fine(), settled_m), List::new(measure.dense(), settled_m)];
+    let unsigned = |c: usize| measure.dense().iter().map(|node| node.weights[c].abs()).sum::<f64>();
+    let height = unsigned(0).max(unsigned(1)).max(unsigned(2));
+    let mut rows: Vec<[Vec<f64>; 2]> = Vec::new();
+    let mut still_m = 0.0;
+    for path in (0..PATHS).map(|i| LONGEST * (-f64::from(PATHS - 1 - i) / PATHS_TO_AN_OCTAVE as f64).exp2()) {
+        let row = lists.each_ref().map(|list| list.lobe(path));
+        // Along the other axis: its middle, the same, where it has settled, and a path shorter by √2.
+        let shorter = rows.len().checked_sub(PATHS_TO_AN_OCTAVE / 2).map(|i| &rows[i]);
+        let settled = [&lists[0].settled, &lists[1].settled];
+        let others = [None, Some(row.each_ref()), Some(settled), shorter.map(<[_; 2]>::each_ref)];
+        let off = |other: Option<[&Vec<f64>; 2]>, kappa: usize| {
+            let [few, all] = [0, 1].map(|l: usize| lists[l].sums(&row[l], other.map(|o| o[l].as_slice()), kappa));
+            few.iter().zip(all).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+        };
+        let worst = others.iter().flat_map(|&other| (0..KAPPAS.len()).map(move |kappa| (other, kappa)));
+        let worst = worst.map(|(other, kappa)| off(other, kappa)).fold(0.0, f64::max);
+        if MARGIN * worst > error * height {
+            break;
+        }
+        still_m = path;
+        rows.push(row);
+    }
+    still_m
+}
+
+/// Wavelengths with what of a lobe's integral depends on nothing else.
+struct List<'a> {
+    nodes: &'a [Node],
+    /// e^-g, for each κ.
+    damped: [Vec<f64>; KAPPAS.len()],
+    /// One axis where it has settled.
+    settled: Vec<f64>,
+    settled_m: f64,
+}
+
+impl<'a> List<'a> {
+    fn new(nodes: &'a [Node], settled_m: f64) -> Self {
+        let damped = KAPPAS.map(|kappa| nodes.iter().map(|node| exp(-kappa * node.scale)).collect());
+        let mut list = Self { nodes, damped, settled: Vec::new(), settled_m };
+        list.settled = list.lobe(settled_m);
+        list
+    }
+
+    /// One axis at a path.
+    fn lobe(&self, path: f64) -> Vec<f64> {
+        let at = |node: &Node| {
+            let u = TAU * path / (node.wavelength_nm * 1e-9);
+            if path >= self.settled_m { 0.5 / (u * u) } else { sinc(u).powi(2) }
+        };
+        self.nodes.iter().map(at).collect()
+    }
+
+    /// The three integrals of a lobe.
+    fn sums(&self, axis: &[f64], other: Option<&[f64]>, kappa: usize) -> [f64; 3] {
         let mut channels = [0.0; 3];
-        for node in list {
-            let axis = |path: f64| {
-                let u = TAU * path / (node.wavelength_nm * 1e-9);
-                if path >= settled_m { 0.5 / (u * u) } else { mean_sinc_squared(u, 0.0) }
-            };
-            let value = axis(paths[0]) * axis(paths[1]) * exp(-kappa * node.scale);
+        for (i, node) in self.nodes.iter().enumerate() {
+            let value = axis[i] * other.map_or(1.0, |other| other[i]) * self.damped[kappa][i];
             channels.iter_mut().zip(node.weights).for_each(|(channel, weight)| *channel += weight * value);
         }
         channels
-    };
-    let unsigned = |c: usize| measure.dense().iter().map(|node| node.weights[c].abs()).sum::<f64>();
-    let height = unsigned(0).max(unsigned(1)).max(unsigned(2));
-    let mut worst = 0.0_f64;
-    for kappa in [0.0, 0.4, 3.0, 12.0, 50.0] {
-        for paths in [[path, 0.0], [path, path], [path, settled_m], [path, 0.7 * path]] {
-            let (few, all) = (sums(measure.fine(), kappa, paths), sums(measure.dense(), kappa, paths));
-            let off = few.iter().zip(all).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-            worst = if off == 0.0 { worst } else { worst.max(off / height) };
-        }
     }
-    worst
 }
 
 /// The wavelengths that an integral may be made of.

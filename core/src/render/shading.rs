@@ -1,5 +1,7 @@
 //! What a surface makes of the angles: the same for every camera.
 
+mod lobes;
+
 use super::Stop;
 use super::diffuse::{DARK, DiffuseTable, ROUGH};
 use super::geometry::{Angles, GeometryImage};
@@ -15,7 +17,9 @@ use crate::spectral::grid::{FIRST_NM, LAST_NM};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Mirror terms below this share of a surface facing the light are left out at [`Quality::Full`] and below.
+use lobes::{Lobe, Lobes};
+
+/// Mirror terms below this share of the brightest sample are left out at [`Quality::Full`] and below.
 pub const MIRROR_SHARE: f64 = 1e-7;
 
 /// The same for fifteen wavelengths, and for what others are compared with: below what the integral itself is off by.
@@ -23,7 +27,7 @@ const FINE_MIRROR_SHARE: f64 = 1e-10;
 const EXACT_MIRROR_SHARE: f64 = 1e-14;
 
 /// The share of an accuracy's error that mirror terms left out may take.
-const MIRROR_OF_ERROR: f64 = 0.25;
+const MIRROR_OF_ERROR: f64 = 0.1;
 
 /// How exactly the spectral integral is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -51,7 +55,7 @@ impl Quality {
         if let Self::Within(accuracy) = self { Some(accuracy) } else { None }
     }
 
-    /// Mirror terms below this share of a surface facing the light are left out.
+    /// Mirror terms below this share of the brightest sample are left out.
     fn mirror_share(self) -> f64 {
         match self {
             Self::Preview | Self::Full => MIRROR_SHARE,
@@ -151,6 +155,7 @@ pub struct ShadingImage {
     quality: Quality,
     shades: Vec<Shade>,
     mirrors: Vec<Mirror>,
+    mirror_scale: f64,
     counts: ShadingCounts,
 }
 
@@ -188,8 +193,8 @@ impl ShadingImage {
         quality: Quality,
         stop: &Stop,
     ) -> Option<Self> {
-        let material = Material::new(&surface, reading, quality, geometry.angular_radius());
-        let (shades, mirrors) = match &vertices {
+        let material = Material { reading, quality, angular_radius: geometry.angular_radius() };
+        let (shades, Lobes { mirrors, scale: mirror_scale }) = match &vertices {
             None => {
                 let place = |index: usize| {
                     let angles: &Angles = &geometry.angles()[index];
@@ -208,7 +213,7 @@ impl ShadingImage {
         };
         let counts = counts(&shades, mirrors.len());
         let vertices = vertices.map(|(vertices, _)| vertices);
-        Some(Self { geometry, vertices, surface, quality, shades, mirrors, counts })
+        Some(Self { geometry, vertices, surface, quality, shades, mirrors, mirror_scale, counts })
     }
 
     /// The angles it is made of.
@@ -239,6 +244,17 @@ impl ShadingImage {
     /// The samples or vertices with a mirror term, ascending.
     pub fn mirrors(&self) -> &[Mirror] {
         &self.mirrors
+    }
+
+    /// The brightest sample as a share of the highest lobe, as a power of two not above 1: errors relative to a lobe's height
+    /// have to be so much smaller where no sample sees a lobe's middle.
+    pub fn mirror_scale(&self) -> f64 {
+        self.mirror_scale
+    }
+
+    /// The accuracy of lobes, relative to their height, that keeps the one that was asked for of the picture.
+    pub fn mirror_accuracy(&self) -> Option<Accuracy> {
+        self.quality.accuracy().map(|accuracy| accuracy.times(self.mirror_scale))
     }
 
     /// How many samples or vertices take which way.
@@ -308,38 +324,25 @@ struct Material {
     reading: Reading,
     quality: Quality,
     angular_radius: f64,
-    /// Below this a mirror term is left out.
-    threshold: f64,
 }
 
 impl Material {
-    fn new(surface: &Surface, reading: Reading, quality: Quality, angular_radius: f64) -> Self {
-        let facing = crate::reflectance::factor(
-            surface,
-            &Geometry::from_angles(0.0, 0.0, 0.0),
-            LAMBDA_0_NM,
-            reading,
-            angular_radius,
-        );
-        Self { reading, quality, angular_radius, threshold: facing * quality.mirror_share() }
-    }
-
     /// The shades of a list of places, and their mirror terms; none if stopped.
-    fn shaded(
-        &self,
-        count: usize,
-        place: impl Fn(usize) -> Place + Sync,
-        stop: &Stop,
-    ) -> Option<(Vec<Shade>, Vec<Mirror>)> {
+    fn shaded(&self, count: usize, place: impl Fn(usize) -> Place + Sync, stop: &Stop) -> Option<(Vec<Shade>, Lobes)> {
         let chunk = GeometryImage::chunk();
         let shade = |index| if stop.is_set() { Shade::DARK } else { self.shade(&place(index)) };
         let shades: Vec<Shade> = (0..count).into_par_iter().with_min_len(chunk).map(shade).collect();
-        let mirrors = |run: usize| {
+        let lobes = |run: usize| {
             let all = (run * chunk..count.min((run + 1) * chunk)).take_while(|_| !stop.is_set());
-            all.filter_map(|index| self.mirror(&place(index), index)).collect()
+            all.filter_map(|index| self.lobe(&place(index), index)).collect()
         };
-        let mirrors: Vec<Vec<Mirror>> = (0..count.div_ceil(chunk)).into_par_iter().map(mirrors).collect();
-        (!stop.is_set()).then(|| (shades, mirrors.concat()))
+        let lobes: Vec<Vec<Lobe>> = (0..count.div_ceil(chunk)).into_par_iter().map(lobes).collect();
+        if stop.is_set() {
+            return None;
+        }
+        let height = |lobe: &Lobe| lobe.at_550_nm(&place(lobe.mirror.index as usize), self.angular_radius);
+        let lobes = Lobes::worth_having(&lobes.concat(), &shades, height, self.quality.mirror_share());
+        Some((shades, lobes))
     }
 
     fn shade(&self, place: &Place) -> Shade {
@@ -376,31 +379,24 @@ impl Material {
         }
     }
 
-    /// The mirror term of a sample, unless it is certainly too small.
-    fn mirror(&self, place: &Place, index: usize) -> Option<Mirror> {
+    /// The mirror term of a sample, if there is one.
+    fn lobe(&self, place: &Place, index: usize) -> Option<Lobe> {
         let Place { geometry, light, surface } = place;
         if self.reading == Reading::Lambertian {
             return None;
         }
         let kappa = kappa(surface, geometry);
         let (bluest, reddest) = (LAMBDA_0_NM / FIRST_NM, LAMBDA_0_NM / LAST_NM);
-        // Most surfaces: no patch and no reading lifts e^-100 above the threshold.
+        // Most surfaces: next to what the rough part gives, e^-100 is nothing.
         if kappa * reddest * reddest > 100.0 {
             return None;
         }
         let front = light * coherent_prefactor(surface, geometry, self.reading);
         // Red is where g is least and the lobe widest; blue is where the reading weighs most.
-        let damping = (-kappa * reddest * reddest).exp() * bluest * bluest;
-        if front * damping <= self.threshold {
-            return None;
-        }
+        let height = front * (-kappa * reddest * reddest).exp() * bluest * bluest;
         let wave_number = std::f64::consts::TAU / (LAST_NM * 1e-9);
-        let lobe = rho0_squared_bound(geometry, surface, wave_number, self.angular_radius);
-        (front * damping * lobe > self.threshold).then_some(Mirror {
-            index: index as u32,
-            front,
-            kappa,
-            v: [geometry.vx_by_k, geometry.vy_by_k],
-        })
+        let most = height * rho0_squared_bound(geometry, surface, wave_number, self.angular_radius);
+        let mirror = Mirror { index: index as u32, front, kappa, v: [geometry.vx_by_k, geometry.vy_by_k] };
+        (most > 0.0).then_some(Lobe { mirror, height, most })
     }
 }

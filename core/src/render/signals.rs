@@ -24,7 +24,7 @@ impl CameraImage {
     /// there is none, sums over wavelengths take its place.
     pub fn new(shading: &ShadingImage, measure: &Measure, table: Option<&DiffuseTable>, stop: &Stop) -> Option<Self> {
         let quality = shading.quality();
-        Camera { measure, table, quality, plan: None, reach: Reach::of(quality, measure) }.image(shading, stop)
+        Camera { measure, table, quality, plan: None, reach: Reach::in_picture(shading, measure) }.image(shading, stop)
     }
 
     /// The same by a plan, for a shading at [`Quality::Within`]; `reach` says how the mirror's lobe is made. What the plan was not

@@ -144,12 +144,11 @@ fn planned(
     of: &MeasureOf,
     measure: Option<&Measure>,
 ) -> Option<(Arc<Result<Plan, NoRendering>>, Reach)> {
-    let quality = made.setup.finish.quality;
-    let accuracy = quality.accuracy()?;
+    let accuracy = made.setup.finish.quality.accuracy()?;
     let shading = made.scene.results.ask(&made.query.shading);
-    let demand = (*shading).as_ref()?.demand()?;
-    let plan = PlanOf { measure: of.clone(), accuracy, against: Against::Peak, demand };
-    Some((made.scene.results.ask(&plan), Reach::of(quality, measure?)))
+    let shading = (*shading).as_ref()?;
+    let plan = PlanOf { measure: of.clone(), accuracy, against: Against::Peak, demand: shading.demand()? };
+    Some((made.scene.results.ask(&plan), Reach::in_picture(shading, measure?)))
 }
 
 /// The largest signal of a picture; 0 for a black one.
