@@ -1,7 +1,7 @@
 //! Run time against error: every method the core has, on every workload, beside a reference that is not the code under test.
 //!
 //! ```text
-//! plan of workloads ──► cases: items, a reference in 140 bits, candidates ──► rounds in turns ──► Report
+//! plan of workloads ──► cases: items, a reference in 106 bits, candidates ──► rounds in turns ──► Report
 //!                                                                                       │ figures, table, JSON
 //! ```
 //! Candidates of a case take turns, so that a slow moment of the machine falls on all of them; times are medians, ratios are
@@ -10,7 +10,6 @@
 mod case;
 mod difference;
 mod diffuse_sum;
-pub mod double;
 pub mod exact;
 mod figure;
 mod frames;

@@ -2,10 +2,10 @@
 
 use chromascope_core::colorimetry::Lab;
 use chromascope_core::colorimetry::difference::{delta_e_1976, delta_e_2000, delta_e_2000_into};
+use chromascope_core::math::double::Double;
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};
-use super::double::{Double, off};
 use super::inputs::Numbers;
 use super::timing::{Bench, Candidate, Case, Room, each, spaced};
 use super::{Workload, exact};
@@ -50,6 +50,6 @@ pub(super) fn run(bench: &mut Bench<'_>) {
 
 fn error(found: &[f64], exact: &[Double]) -> ErrorOf {
     let mut errors = Errors::default();
-    found.iter().zip(exact).for_each(|(&found, &exact)| errors.add(off(found, exact), exact.high()));
+    found.iter().zip(exact).for_each(|(&found, &exact)| errors.add(exact.error_of(found), exact.value()));
     errors.sum_up("\u{394}E*00, against its definition in 106 bits", ErrorScale::Absolute)
 }

@@ -1,10 +1,10 @@
 //! The diffuse sum S(g, b): term by term, by the paper's three cases, by the program's uniform method.
 
+use chromascope_core::math::double::Double;
 use chromascope_core::reflectance::{Precision, diffuse_sum, diffuse_sum_by_regimes};
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};
-use super::double::{Double, off};
 use super::inputs::Numbers;
 use super::timing::{Bench, Case, Room, each, spaced};
 use super::{Workload, exact};
@@ -74,6 +74,6 @@ fn one(bench: &mut Bench<'_>, name: &str, low: f64, high: f64) {
 
 fn error(found: &[f64], exact: &[Double]) -> ErrorOf {
     let mut errors = Errors::default();
-    found.iter().zip(exact).for_each(|(&found, &exact)| errors.add(off(found, exact), exact.high()));
+    found.iter().zip(exact).for_each(|(&found, &exact)| errors.add(exact.error_of(found), exact.value()));
     errors.sum_up("S, relative, against the sum in 106 bits", ErrorScale::Relative)
 }

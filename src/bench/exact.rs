@@ -4,10 +4,9 @@
 use chromascope_core::colorimetry::Lab;
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::light::RadiationConstants;
+use chromascope_core::math::double::Double;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{Primaries, Sensor};
-
-use super::double::Double;
 
 /// The three integrals of a black body through a sensor (Eq 14, 15), up to a common factor.
 ///
@@ -72,7 +71,7 @@ pub fn off_locus(observer: &Sensor, constants: RadiationConstants, kelvins: f64,
     let length = (du * du + dv * dv).sqrt();
     let duv = Double::new(duv);
     // Towards colder bodies v′ is on the left of the tangent: above is (−v′, u′).
-    [(u - duv * dv / length).high(), (v + duv * du / length).high()]
+    [(u - duv * dv / length).value(), (v + duv * du / length).value()]
 }
 
 /// Temperature in kelvins and Duv of a color near which they are known to lie: secants on the condition that the way to the
@@ -96,16 +95,16 @@ pub fn cct(observer: &Sensor, constants: RadiationConstants, color: [f64; 2], ne
 
 /// `S(g, b) = e^-g Σ gⁿ/(n! n) e^(-b/n)`, term by term from the largest outward, for g up to 1e6 and S above 1e-290.
 pub fn diffuse_sum(g: Double, b: Double) -> Double {
-    if g.high() <= 0.0 {
+    if g.value() <= 0.0 {
         return Double::default();
     }
-    let peak = largest_term(g.high(), b.high());
+    let peak = largest_term(g.value(), b.value());
     // gⁿ/n! e^-g at the largest term, the exponential taken in parts so that nothing overflows.
     let (mut weight, mut rest) = (Double::ONE, g);
     let part = Double::new(-200.0).exp();
     for n in 1..=peak {
         weight = weight * g / Double::new(n as f64);
-        while weight.high() > 1e100 && rest.high() > 200.0 {
+        while weight.value() > 1e100 && rest.value() > 200.0 {
             weight = weight * part;
             rest = rest - Double::new(200.0);
         }
@@ -122,7 +121,7 @@ pub fn diffuse_sum(g: Double, b: Double) -> Double {
         up = up * g / Double::new(n as f64);
         let next = term(up, n);
         sum = sum + next;
-        if next.high() < 1e-33 * sum.high() || n > peak + 100_000 {
+        if next.value() < 1e-33 * sum.value() || n > peak + 100_000 {
             break;
         }
     }
@@ -131,7 +130,7 @@ pub fn diffuse_sum(g: Double, b: Double) -> Double {
         down = down * Double::new((n + 1) as f64) / g;
         let next = term(down, n);
         sum = sum + next;
-        if next.high() < 1e-33 * sum.high() {
+        if next.value() < 1e-33 * sum.value() {
             break;
         }
     }
@@ -165,25 +164,25 @@ pub fn delta_e_2000(first: Lab, second: Lab) -> Double {
     let (c1, c2) = (length(a1, b1), length(a2, b2));
     let hue = |a: Double, b: Double| {
         let h = b.atan2(a) / degree;
-        if h.high() < 0.0 { h + d(360.0) } else { h }
+        if h.value() < 0.0 { h + d(360.0) } else { h }
     };
     let (h1, h2) = (hue(a1, b1), hue(a2, b2));
-    let gray = c1.high() * c2.high() == 0.0;
+    let gray = c1.value() * c2.value() == 0.0;
     let apart = h2 - h1;
     let turn = if gray {
         Double::default()
-    } else if apart.high() > 180.0 {
+    } else if apart.value() > 180.0 {
         apart - d(360.0)
-    } else if apart.high() < -180.0 {
+    } else if apart.value() < -180.0 {
         apart + d(360.0)
     } else {
         apart
     };
     let mid = if gray {
         h1 + h2
-    } else if apart.high().abs() <= 180.0 {
+    } else if apart.value().abs() <= 180.0 {
         (h1 + h2) / d(2.0)
-    } else if (h1 + h2).high() < 360.0 {
+    } else if (h1 + h2).value() < 360.0 {
         (h1 + h2 + d(360.0)) / d(2.0)
     } else {
         (h1 + h2 - d(360.0)) / d(2.0)

@@ -1,6 +1,7 @@
 //! The diffuse part's spectral integral of a pixel: every wavelength, few wavelengths, tables and moments.
 
 use chromascope_core::camera::rendering::white_divisors;
+use chromascope_core::math::double::Double;
 use chromascope_core::math::gauss::gauss_rule;
 use chromascope_core::reflectance::{Precision, diffuse_sum};
 use chromascope_core::render::diffuse::{ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
@@ -11,7 +12,6 @@ use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};
 use super::diffuse_sum::term_by_term;
-use super::double::{Double, off};
 use super::inputs::{CAMERA, LIGHT, Numbers, REFLECTANCE, curve, sensor};
 use super::timing::{Bench, Candidate, Case, Room, each, spaced, timed};
 use super::{BenchError, Workload, exact};
@@ -130,7 +130,7 @@ fn error(found: &[Signals], exact: &[([Double; 3], Signals)]) -> ErrorOf {
     let mut errors = Errors::default();
     for (found, (exact, scale)) in found.iter().zip(exact) {
         for channel in 0..3 {
-            errors.add(off(found[channel], exact[channel]), scale[channel]);
+            errors.add(exact[channel].error_of(found[channel]), scale[channel]);
         }
     }
     errors.sum_up(

@@ -7,6 +7,7 @@ use chromascope_core::camera::locus_table::{LocusTable, NotInTable};
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::light::PlanckianLocus;
+use chromascope_core::math::double::Double;
 use chromascope_core::math::exp::exp;
 use chromascope_core::math::gauss::gauss_rule;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
@@ -16,7 +17,6 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};
-use super::double::{Double, off};
 use super::inputs::{CAMERA, CONSTANTS, OBSERVER, sensor};
 use super::timing::{Bench, Candidate, Case, Room, each, spaced, timed};
 use super::{BenchError, Workload, exact};
@@ -229,7 +229,7 @@ const NOWHERE: Place = [f64::NAN; 2];
 fn error(found: &[Place], exact: &[[Double; 2]]) -> ErrorOf {
     let mut errors = Errors::default();
     for (found, exact) in found.iter().zip(exact) {
-        found.iter().zip(exact).for_each(|(&found, &exact)| errors.add(off(found, exact), exact.high()));
+        found.iter().zip(exact).for_each(|(&found, &exact)| errors.add(exact.error_of(found), exact.value()));
     }
     errors.sum_up("x and y, against the 1 nm sum in 106 bits", ErrorScale::Absolute)
 }

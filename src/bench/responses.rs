@@ -5,6 +5,7 @@ use std::ops::{AddAssign, Mul};
 
 use chromascope_core::camera::batch::{Batch, Sample};
 use chromascope_core::math::dot::dot;
+use chromascope_core::math::double::Double;
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::Sensor;
 use ndarray::linalg::general_mat_mul;
@@ -12,7 +13,6 @@ use ndarray::{ArrayView2, ArrayViewMut2, LinalgScalar};
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};
-use super::double::{Double, off};
 use super::inputs::{Numbers, sensor};
 use super::timing::{Bench, Candidate, Case, Cost, Room, timed};
 use super::{BenchError, Workload};
@@ -258,7 +258,7 @@ fn tuned<T: Real>(spectra: &[T], curves: &[T], samples: usize, responses: &mut [
 fn error<T: Real>(found: &[T], exact: &[Exact]) -> ErrorOf {
     let mut errors = Errors::default();
     for (&found, (exact, scale)) in found.iter().zip(exact) {
-        errors.add(off(found.into(), *exact), *scale);
+        errors.add(exact.error_of(found.into()), *scale);
     }
     errors.sum_up("responses, relative to the sum of magnitudes, against 106 bits", ErrorScale::Relative)
 }

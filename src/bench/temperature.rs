@@ -3,11 +3,11 @@
 use chromascope_core::colorimetry::{Uv60, UvPrime, Xy};
 use chromascope_core::light::PlanckianLocus;
 use chromascope_core::light::temperature::{Cct, NoCct, published, tabulated};
+use chromascope_core::math::double::Double;
 use chromascope_core::units::Kelvin;
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};
-use super::double::{Double, off};
 use super::inputs::{CONSTANTS, Numbers, OBSERVER, sensor};
 use super::timing::{Bench, Candidate, Case, Room, each, spaced, timed};
 use super::{BenchError, Workload, exact};
@@ -83,7 +83,7 @@ fn xy(color: Uv60) -> Option<Xy> {
 /// Duv has no error of its own here where a method gives none.
 fn error(found: &[Answer], exact: &[[Double; 2]]) -> ErrorOf {
     let mut errors = Errors::default();
-    found.iter().zip(exact).for_each(|(found, exact)| errors.add(off(found[0], exact[0]), exact[0].high()));
+    found.iter().zip(exact).for_each(|(found, exact)| errors.add(exact[0].error_of(found[0]), exact[0].value()));
     errors
         .sum_up("temperature in kelvins, where it answers, against the nearest point in 106 bits", ErrorScale::Absolute)
 }

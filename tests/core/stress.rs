@@ -11,7 +11,6 @@
 #![allow(clippy::disallowed_types, reason = "a run on demand says how long a case takes")]
 
 mod color;
-mod double;
 mod draw;
 mod light;
 mod listed;

@@ -43,6 +43,10 @@ const WALKED: &[(&str, &str)] = &[
     ("light/temperature/tabulated", "Robertson::new Robertson::cct Ohno::new Ohno::cct"),
     ("math/chebyshev", "nodes coefficients evaluate"),
     ("math/dot", "dot dot_each"),
+    (
+        "math/double",
+        "Double::new Double::value Double::low Double::error_of Double::abs Double::sqrt Double::cbrt Double::powi Double::exp Double::exp_m1 Double::ln Double::sin_cos Double::atan2",
+    ),
     ("math/exp", "exp"),
     ("math/gauss", "gauss_rule interpolatory_rule"),
     ("math/interpolation", "linear Sprague::new Sprague::at"),

@@ -2,6 +2,7 @@
 
 use chromascope_core::math::chebyshev::{coefficients, evaluate, nodes};
 use chromascope_core::math::dot::{dot, dot_each};
+use chromascope_core::math::double::Double;
 use chromascope_core::math::exp::exp;
 use chromascope_core::math::gauss::{gauss_rule, interpolatory_rule};
 use chromascope_core::math::interpolation::{Sprague, linear};
@@ -9,7 +10,6 @@ use chromascope_core::math::least_squares::matrix_keeping;
 use chromascope_core::math::ln::{ln, ln_1p};
 use glam::DVec3;
 
-use super::double::Double;
 use super::draw::{Case, Draw, case};
 use super::walk::{Verdict, Walk};
 
@@ -21,6 +21,14 @@ pub(super) const WALKS: &[Walk] = &[
         share: 40.0,
         draw: |d| case([d.within(-700.0, 700.0)]),
         check: exponential,
+    },
+    Walk { name: "Double", promise: 1e-29, share: 2.0, draw: draw_double, check: double },
+    Walk {
+        name: "Double anywhere",
+        promise: 0.0,
+        share: 2.0,
+        draw: |d| case([d.anything(), d.anything()]),
+        check: ends,
     },
     Walk { name: "dot", promise: 1.0, share: 10.0, draw: draw_many, check: products },
     Walk { name: "ln", promise: 4.5e-16, share: 1.0, draw: draw_logarithm, check: logarithm },
@@ -43,6 +51,47 @@ fn exponential(&[x, ..]: &Case, v: &mut Verdict) {
         // The standard library's, itself within half a unit.
         v.relative(value, held.exp(), f64::EPSILON / 2.0);
     }
+}
+
+fn draw_double(d: &mut Draw) -> Case {
+    case([d.signed(1e-90, 1e90), d.signed(1e-90, 1e90), d.signed(1e-12, 600.0), d.signed(1e-12, 100.0)])
+}
+
+/// What two doubles compute, by what undoes it: relative, or absolute below `at_least`.
+fn double(&[x, y, power, angle, ..]: &Case, v: &mut Verdict) {
+    let one = Double::ONE;
+    let (third, half) = (Double::new(x) / Double::new(3.0), Double::new(0.5));
+    let mut same = |a: Double, b: Double, at_least: f64| {
+        v.all_finite([a.value(), a.low(), b.value(), b.low()]);
+        let off = (a - b).value().abs();
+        v.error(if off == 0.0 { 0.0 } else { off / b.value().abs().max(at_least) });
+    };
+    same(third * y.into() / y.into(), third, 0.0);
+    same([third, third + third].into_iter().sum(), third * Double::new(3.0), 0.0);
+    same(third.abs().sqrt() * third.abs().sqrt(), third.abs(), 0.0);
+    same(third.cbrt().powi(3), third, 0.0);
+    same(third.abs().ln() + third.abs().ln(), (third * third).ln(), 1.0);
+    let d = Double::from(power) + half * power.into() * f64::EPSILON.into();
+    same(d.exp() * (-d).exp(), one, 0.0);
+    let less = (d * half).exp_m1();
+    same(d.exp_m1(), less * (less + one + one), 0.0);
+    let (sine, cosine) = Double::from(angle).sin_cos();
+    let (twice, _) = (Double::from(angle) + angle.into()).sin_cos();
+    same(twice, (sine + sine) * cosine, 1.0);
+    let back = sine.atan2(cosine).sin_cos();
+    same(back.0, sine, 1.0);
+    same(back.1, cosine, 1.0);
+    let near = third.value().next_up();
+    v.holds("the sign of an error", third.error_of(near) > 0.0 && third.error_of(third.value().next_down()) < 0.0);
+}
+
+/// No promise but that all of it ends, without a panic.
+fn ends(&[x, y, ..]: &Case, v: &mut Verdict) {
+    let (x, y) = (Double::new(x), Double::new(y));
+    let all = [x + y, x - y, x * y, x / y, x.atan2(y), x.sqrt(), x.cbrt(), x.exp(), x.exp_m1(), x.ln(), x.sin_cos().0];
+    v.holds("a magnitude below 0", all.into_iter().all(|d| d.abs().value().is_nan() || d.abs().value() >= 0.0));
+    let even = x.powi(u32::MAX - 1).value();
+    v.holds("an even power below 0", even.is_nan() || even >= 0.0);
 }
 
 fn draw_logarithm(d: &mut Draw) -> Case {

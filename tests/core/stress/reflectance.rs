@@ -1,5 +1,6 @@
 //! Fresnel's formulas, the mirror lobe, angles, and the scattered power.
 
+use chromascope_core::math::double::Double;
 use chromascope_core::reflectance::coherent::{
     is_negligible, mean_sinc_squared, rho0_squared, rho0_squared_bound, sinc, sine_integral,
 };
@@ -11,7 +12,6 @@ use chromascope_core::reflectance::{
 use chromascope_core::render::lobe::mean_sinc_squared_quick;
 use glam::DVec3;
 
-use super::double::{Double, QUARTER};
 use super::draw::{Case, Draw, case};
 use super::walk::{Verdict, Walk};
 
@@ -119,7 +119,7 @@ fn exact_integral(x: f64) -> f64 {
         term = term * f64::from(k + 1).into() * inverse;
     }
     let (sin, cos) = x.sin_cos();
-    (QUARTER - sums[0] * cos.into() - sums[1] * sin.into()).value()
+    (Double::FRAC_PI_2 - sums[0] * cos.into() - sums[1] * sin.into()).value()
 }
 
 fn integral(&[x, ..]: &Case, v: &mut Verdict) {

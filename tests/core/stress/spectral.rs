@@ -6,11 +6,11 @@ use chromascope_core::camera::rendering::{raw, under_light, white_divisors};
 use chromascope_core::camera::{FitTargets, Rendering, Way, White};
 use chromascope_core::colorimetry::diagram::{spectral_locus, wavelength_color};
 use chromascope_core::math::dot::dot;
+use chromascope_core::math::double::Double;
 use chromascope_core::object::PatchSet;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{GridSpectrum, Primaries, Quantity, Response, Sensor, SpectralDistribution};
 
-use super::double::Double;
 use super::draw::{Case, Draw, case};
 use super::walk::{Verdict, Walk};
 use crate::support::{CANON_10D, CIE_1931, sensor, training};

@@ -1,9 +1,11 @@
 //! The diffuse sum S(g, b) against the same sum term by term in two doubles.
 
+use std::sync::LazyLock;
+
+use chromascope_core::math::double::Double;
 use chromascope_core::reflectance::regimes::{Regime, diffuse_sum_by_regimes};
 use chromascope_core::reflectance::{Precision, diffuse_sum, ln_diffuse_sum};
 
-use super::double::{Double, ln_factorial};
 use super::draw::{Case, Draw, case};
 use super::walk::{Verdict, Walk};
 
@@ -94,6 +96,41 @@ fn by_strides(g: f64, b: f64, top: f64) -> f64 {
     rest * stride
 }
 
+/// ln n! for n up to the length.
+static LN_FACTORIALS: LazyLock<Vec<Double>> = LazyLock::new(|| {
+    let mut sum = Double::from(0.0);
+    let next = |n: u32| {
+        sum = sum + Double::from(f64::from(n.max(1))).ln();
+        sum
+    };
+    (0..=200).map(next).collect()
+});
+
+/// ln n! for an integer n: added up, or by Stirling's series.
+fn ln_factorial(n: f64) -> Double {
+    /// `B_2k / (2k (2k − 1))`.
+    const STIRLING: [[f64; 2]; 8] = [
+        [1.0, 12.0],
+        [-1.0, 360.0],
+        [1.0, 1260.0],
+        [-1.0, 1680.0],
+        [1.0, 1188.0],
+        [-691.0, 360_360.0],
+        [1.0, 156.0],
+        [-3617.0, 122_400.0],
+    ];
+    if n <= 200.0 {
+        return LN_FACTORIALS[n as usize];
+    }
+    let (x, half) = (Double::from(n), Double::from(0.5));
+    let inverse = Double::from(1.0) / x;
+    let mut series = Double::from(0.0);
+    for [above, below] in STIRLING.into_iter().rev() {
+        series = series * inverse * inverse + Double::from(above) / below.into();
+    }
+    (x + half) * x.ln() - x + half * Double::LN_TAU + series * inverse
+}
+
 fn ln_term(g: f64, b: f64, n: f64) -> Double {
     let x = Double::from(n);
     x * Double::from(g).ln() - ln_factorial(n) - x.ln() - Double::from(b) / x
@@ -158,4 +195,10 @@ fn regimes(&[g, b, ..]: &Case, v: &mut Verdict) {
         Regime::Moderate => v.holds("more than the sum", value <= diffuse_sum(g, b, Precision::Full) * (1.0 + 1e-12)),
         Regime::Rough => v.relative(value * g, (-b / g).exp(), 0.0),
     }
+}
+
+#[test]
+fn logarithms_of_factorials_are_continued() {
+    let off = ln_factorial(201.0) - Double::from(201.0).ln() - LN_FACTORIALS[200];
+    assert!((off / LN_FACTORIALS[200]).value().abs() < 1e-29, "{off:?}");
 }
