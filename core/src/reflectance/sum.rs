@@ -16,12 +16,14 @@ mod direct;
 mod factorials;
 mod narrow;
 mod saddle;
+mod terms;
 
 use crate::accuracy::{Accuracy, Unmet};
 use crate::math::exp::exp;
 use direct::Choice;
 use multiversion::multiversion;
 use saddle::Peak;
+pub use terms::{SeriesTerms, series_terms};
 
 /// How closely a diffuse sum is wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -1,6 +1,7 @@
 //! The diffuse sum, against 60-digit sums, an integral without a series in it, and its limits.
 
-use chromascope_core::reflectance::{Precision, diffuse_sum, ln_diffuse_sum};
+use chromascope_core::math::double::Double;
+use chromascope_core::reflectance::{Precision, SeriesTerms, diffuse_sum, ln_diffuse_sum, series_terms};
 use proptest::prelude::*;
 
 use crate::support::{assert_near, cases, reference_numbers};
@@ -152,5 +153,40 @@ fn the_logarithm_of_a_subnormal_roughness_is_a_number() {
             let ln = ln_diffuse_sum(g, b, Precision::Full);
             assert!(ln.is_finite() && ln < -700.0, "g {g}, b {b}: {ln}");
         }
+    }
+}
+
+/// The same by looking at every term, in two doubles.
+fn counted(g: f64, b: f64) -> SeriesTerms {
+    let d = Double::new;
+    let mut ln_terms = Vec::new();
+    let mut ln_weight = Double::default();
+    for n in (1..=4000).map(f64::from) {
+        ln_weight = ln_weight + d(g).ln() - d(n).ln();
+        ln_terms.push((ln_weight - d(n).ln() - d(b) / d(n)).value());
+    }
+    let largest = ln_terms.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let weighs = |ln: &f64| *ln >= largest - 29.933_606_208_922_594;
+    let last = ln_terms.iter().rposition(weighs).unwrap() + 1;
+    SeriesTerms { last: last as f64, weighing: ln_terms.iter().filter(|ln| weighs(ln)).count() as f64 }
+}
+
+#[test]
+fn terms_are_counted() {
+    for (g, b) in [(1e-9, 0.0), (1e-9, 40.0), (0.3, 2.0), (1.0, 0.0), (7.0, 300.0), (30.0, 10.0), (62.0, 0.0)] {
+        assert_eq!(series_terms(g, b), counted(g, b), "g {g}, b {b}");
+    }
+    for (g, b) in [(66.0, 0.0), (80.0, 1e3), (5.0, 1e5), (500.0, 0.0), (1000.0, 5000.0), (200.0, 1e6), (1e-8, 3e6)] {
+        let (found, right) = (series_terms(g, b), counted(g, b));
+        let near = |a: f64, b: f64| (a - b).abs() <= 1.0 + 0.01 * b;
+        assert!(
+            near(found.last, right.last) && near(found.weighing, right.weighing),
+            "g {g}, b {b}: {found:?} {right:?}"
+        );
+    }
+    for (g, b) in
+        [(0.0, 1.0), (-1.0, 1.0), (f64::NAN, 1.0), (f64::INFINITY, 1.0), (1.0, f64::INFINITY), (1.0, f64::NAN)]
+    {
+        assert_eq!(series_terms(g, b), SeriesTerms::default());
     }
 }

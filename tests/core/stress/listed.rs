@@ -62,6 +62,7 @@ const WALKED: &[(&str, &str)] = &[
     ("reflectance/power", "factor factor_by diffuse_prefactor coherent_prefactor wavelength_power kappa beta"),
     ("reflectance/regimes", "Regime::of diffuse_sum_by_regimes"),
     ("reflectance/sum", "diffuse_sum ln_diffuse_sum Precision::within Precision::max_relative_error"),
+    ("reflectance/sum/terms", "series_terms"),
     (
         "reflectance/surface",
         "Surface::with_sigma Surface::new Surface::sigma_m Surface::tau_m Surface::half_x_m Surface::half_y_m Surface::index Surface::area_m2 Surface::slope Surface::cautions",

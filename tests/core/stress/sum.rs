@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use chromascope_core::math::double::Double;
 use chromascope_core::reflectance::regimes::{Regime, diffuse_sum_by_regimes};
-use chromascope_core::reflectance::{Precision, diffuse_sum, ln_diffuse_sum};
+use chromascope_core::reflectance::{Precision, diffuse_sum, ln_diffuse_sum, series_terms};
 
 use super::draw::{Case, Draw, case};
 use super::walk::{Verdict, Walk};
@@ -15,6 +15,8 @@ pub(super) const WALKS: &[Walk] = &[
     Walk { name: "diffuse_sum full", promise: 1e-13, share: 20.0, draw, check: |c, v| sum(c, Precision::Full, v) },
     Walk { name: "diffuse_sum ends", promise: 0.0, share: 20.0, draw: draw_anything, check: ends },
     Walk { name: "diffuse_sum order", promise: 1e-13, share: 40.0, draw, check: order },
+    Walk { name: "series_terms", promise: 1e-13, share: 1.0, draw, check: beyond },
+    Walk { name: "series_terms ends", promise: 0.0, share: 5.0, draw: draw_anything, check: any_terms },
     Walk { name: "diffuse_sum_by_regimes", promise: 1e-13, share: 20.0, draw: draw_anything, check: regimes },
 ];
 
@@ -173,6 +175,26 @@ fn order(&[g, b, ..]: &Case, v: &mut Verdict) {
     let further = b * (1.0 + 1e-6) + 1e-9;
     let (near, far) = (ln_diffuse_sum(g, b, Precision::Full), ln_diffuse_sum(g, further, Precision::Full));
     v.error((far - near) - 8.0 * f64::EPSILON * near.abs());
+}
+
+/// What the terms beyond the last are together, in parts of the sum.
+fn beyond(&[g, b, ..]: &Case, v: &mut Verdict) {
+    let terms = series_terms(g, b);
+    v.all_finite([terms.last, terms.weighing]);
+    let next = terms.last + 1.0;
+    // Terms fall by a ratio that itself falls, so that the next two bound all others.
+    let ratio = g * (next / ((next + 1.0) * (next + 1.0))) * (b / next / (next + 1.0)).exp();
+    v.holds("the terms still rise", ratio < 1.0);
+    let share = (ln_term(g, b, next) - Double::from(g) - reference(g, b)).value().exp();
+    v.error(share / (1.0 - ratio));
+}
+
+fn any_terms(&[g, b, ..]: &Case, v: &mut Verdict) {
+    let terms = series_terms(g, b);
+    v.all_finite([terms.last, terms.weighing]);
+    v.holds("more than all", terms.weighing <= terms.last);
+    let some = g > 0.0 && g.is_finite() && b < f64::INFINITY;
+    v.holds("terms where there are none, or none", (terms.last >= 1.0) == some && (terms.weighing >= 1.0) == some);
 }
 
 fn regimes(&[g, b, ..]: &Case, v: &mut Verdict) {
