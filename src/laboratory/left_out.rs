@@ -1,5 +1,7 @@
 //! What a scene did not compute, and the time that this saved: measured by computing it.
 
+mod terms;
+
 use chromascope_core::query::Ask;
 use chromascope_core::query::render::PicturesOf;
 use chromascope_core::reflectance::{Precision, coherent_prefactor, kappa};
@@ -88,6 +90,7 @@ fn of_pictures(pictures: &PicturesOf, ask: &impl Ask) -> Option<Vec<LeftOut>> {
     ];
     rows.extend(dark(&sources));
     rows.extend(wavelengths(&sources, each));
+    rows.extend(terms::terms(&sources, each, ask));
     rows.extend(mirrors(&sources));
     (!ask.stop().is_set()).then_some(rows)
 }

@@ -75,6 +75,13 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     let rest: u64 = ["samples turned from the light", "samples in shadow"].map(|what| of(what).count).iter().sum();
     let lit = of("mirror terms").of.expect("of the lit samples");
     assert_eq!(Some(beside.count + rest + lit), beside.of, "every sample is lit or accounted for");
+    let terms = of("terms of S at a lit sample");
+    assert!(
+        terms.saved > 0.0 && terms.count > lit * 4 * 9,
+        "several terms at each wavelength, {} of them",
+        terms.count
+    );
+    assert_eq!(Some(terms.count), terms.of, "tables and moments add none");
     assert!(measured.left_out.iter().all(|row| row.saved.is_finite() && row.saved >= 0.0 && !row.how.is_empty()));
     assert!(window.query_by_label("Run again").is_some());
     assert!(window.state().view().accuracy.is_current);
