@@ -2,6 +2,7 @@
 
 pub mod facts;
 pub mod lines;
+pub mod tolerance;
 
 use chromascope_core::figure::{Cell, Ink, LegendEntry, Stroke, Table};
 use egui::{Align, Button, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};

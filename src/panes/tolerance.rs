@@ -1,11 +1,11 @@
 //! How large an error may be, and how each camera keeps it.
 
 use chromascope_core::render::plan::{Explanation, Verdict};
-use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Slider, Ui, UiBuilder, Vec2};
+use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::action::{Action, RenderAction};
-use crate::document::render::{QualityChoice, RenderSettings, TOLERANCES, decade};
+use crate::document::render::{QualityChoice, RenderSettings};
 use crate::figures::pareto::duration;
 use crate::laboratory::plans;
 use crate::theme::UNIT;
@@ -31,19 +31,11 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
     let on = settings.quality == QualityChoice::Tolerance;
     ui.label("Largest error of the spectral integral, relative to its peak");
-    let mut power = settings.tolerance.log10().round();
-    let range = TOLERANCES.start().log10()..=TOLERANCES.end().log10();
-    ui.spacing_mut().slider_width = (ui.available_width() - 72.0).max(60.0);
-    let slider = Slider::new(&mut power, range)
-        .step_by(1.0)
-        .update_while_editing(false)
-        .custom_formatter(|power, _| format!("1e{power:.0}").replace('-', "−"))
-        .custom_parser(|text| text.trim().replace('−', "-").parse::<f64>().ok().filter(|e| *e > 0.0).map(f64::log10));
-    let response = ui.add(slider);
-    response.widget_info(|| egui::WidgetInfo::slider(true, power, "Tolerance, power of ten"));
-    if response.changed() {
+    ui.spacing_mut().slider_width = (ui.available_width() - 84.0).max(60.0);
+    let id = ui.make_persistent_id("tolerance field");
+    if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "", "", context) {
         set(context, "Tolerance", |settings| {
-            settings.tolerance = decade(10_f64.powf(power));
+            settings.tolerance = to;
             settings.quality = QualityChoice::Tolerance;
         });
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use chromascope::action::{Action, CompareAction, SceneAction};
+use chromascope::action::{Action, CompareAction, RenderAction, SceneAction};
 use chromascope::bench::{self, Effort, Workload};
 use chromascope::catalog::Kind;
 use chromascope::command::Command;
@@ -16,6 +16,7 @@ use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::accuracy::Accuracy;
 use chromascope_core::figure::Shape;
 use chromascope_core::render::Stop;
+use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
@@ -141,6 +142,44 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.run_steps(2);
     assert_eq!(render(&window).quality, QualityChoice::Full);
     assert!(window.state().view().status.text.starts_with("Undone: "), "{}", window.state().view().status.text);
+}
+
+/// Types into a field and leaves it with a key.
+fn type_tolerance(window: &mut Window, text: &str, key: egui::Key) {
+    const FIELD: (Role, &str) = (Role::TextInput, "Tolerance");
+    window.get_by_role_and_label(FIELD.0, FIELD.1).focus();
+    window.run_steps(2);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    window.run_steps(1);
+    window.get_by_role_and_label(FIELD.0, FIELD.1).type_text(text);
+    window.run_steps(2);
+    window.key_press(key);
+    window.run_steps(2);
+}
+
+#[test]
+fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
+    for workspace in [Workspace::Accuracy, Workspace::Render] {
+        let mut window = open([1280.0, 1000.0], egui::Theme::Light);
+        let mut settings = window.state().history().document().render.clone();
+        settings.quality = QualityChoice::Tolerance;
+        window.state_mut().push(Action::Render(RenderAction::Set { what: "Quality", to: Box::new(settings) }));
+        window.state_mut().push(Command::Show(workspace));
+        window.run_steps(3);
+        let tolerance = |window: &Window| window.state().history().document().render.tolerance;
+        let text = |window: &Window| window.get_by_role_and_label(Role::TextInput, "Tolerance").value();
+        for (typed, words) in [("a bit", "“a bit” is no number"), ("1e-20", "too small"), ("3", "too large")] {
+            type_tolerance(&mut window, typed, egui::Key::Enter);
+            assert_eq!(tolerance(&window), 1e-6);
+            assert!(window.query_by_label_contains(words).is_some(), "{workspace:?} says nothing of {typed}");
+            assert_eq!(text(&window).as_deref(), Some(typed), "what was typed stays");
+        }
+        type_tolerance(&mut window, "x", egui::Key::Escape);
+        assert!(window.query_by_label_contains("too large").is_none());
+        assert_eq!((tolerance(&window), text(&window).as_deref()), (1e-6, Some("1e−6")));
+        type_tolerance(&mut window, "1e-9", egui::Key::Enter);
+        assert_eq!((tolerance(&window), text(&window).as_deref()), (1e-9, Some("1e−9")));
+    }
 }
 
 #[test]

@@ -3,9 +3,10 @@
 use egui::{ComboBox, RichText, Ui};
 
 use super::{Dial, set};
-use crate::document::render::{QualityChoice, TOLERANCES, decade};
+use crate::document::render::QualityChoice;
 use crate::panes::PaneContext;
 use crate::view::render::Orbit;
+use crate::widgets;
 
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -44,10 +45,9 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if settings.quality == QualityChoice::Tolerance {
         let hint =
             "The largest error of the spectral integral, relative to its peak. Accuracy says how each camera keeps it.";
-        let dial =
-            Dial { name: "Tolerance", range: TOLERANCES, logarithmic: Some(1e-14), unit: "", hint, beyond: false };
-        if let Some(to) = dial.show(ui, settings.tolerance) {
-            set(context, "Tolerance", |settings| settings.tolerance = decade(to));
+        let id = ui.make_persistent_id("tolerance field");
+        if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "Tolerance", hint, context) {
+            set(context, "Tolerance", |settings| settings.tolerance = to);
         }
     }
     without_picture(ui, context);

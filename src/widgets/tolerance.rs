@@ -1,0 +1,108 @@
+//! The field of a tolerance: a slider over powers of ten, and a text that says what is wrong with it.
+
+use egui::{Id, Key, RichText, Role, Slider, TextEdit, Ui, WidgetInfo};
+
+use crate::document::render::{TOLERANCES, decade};
+use crate::panes::PaneContext;
+
+/// Width of the text.
+const TEXT: f32 = 56.0;
+
+/// What was typed and not taken: it stays in the field until the tolerance is another or other text is typed.
+#[derive(Clone)]
+struct Typed {
+    /// The tolerance that it did not replace.
+    of: f64,
+    text: String,
+    wrong: Option<String>,
+}
+
+/// Shows slider, text and `words` beside them, and what is wrong below. Returns the tolerance that was chosen.
+pub fn field(ui: &mut Ui, id: Id, now: f64, words: &str, hint: &str, context: &mut PaneContext<'_>) -> Option<f64> {
+    let theme = context.theme;
+    let kept = ui.data(|data| data.get_temp::<Typed>(id)).filter(|typed| typed.of == now);
+    let mut typed = kept.unwrap_or_else(|| Typed { of: now, text: shown(now), wrong: None });
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        let mut power = now.log10().round();
+        let range = TOLERANCES.start().log10()..=TOLERANCES.end().log10();
+        let slider = ui.add(Slider::new(&mut power, range).step_by(1.0).show_value(false)).on_hover_text(hint);
+        slider.widget_info(|| WidgetInfo::slider(true, power, "Tolerance, power of ten"));
+        if slider.changed() {
+            chosen = Some(decade(10_f64.powf(power)));
+        }
+        let mut edit = TextEdit::singleline(&mut typed.text).id(id.with("text")).desired_width(TEXT);
+        if typed.wrong.is_some() {
+            edit = edit.text_color(theme.error);
+        }
+        let text = ui.add(edit).on_hover_text("An error such as 1e-6, taken as the nearest power of ten");
+        text.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Tolerance"));
+        if text.changed() {
+            typed.wrong = None;
+        }
+        // Escape gives up what is typed, and nothing else.
+        context.view.keeps_escape = text.has_focus() || context.view.keeps_escape && !text.lost_focus();
+        if text.lost_focus() && ui.input(|input| input.key_down(Key::Escape)) {
+            typed = Typed { of: now, text: shown(now), wrong: None };
+        } else if text.lost_focus() && typed.text != shown(now) {
+            match tolerance(&typed.text) {
+                Ok(tolerance) => chosen = Some(decade(tolerance)),
+                Err(wrong) => typed.wrong = Some(wrong),
+            }
+        }
+        if !words.is_empty() {
+            ui.label(words).on_hover_text(hint);
+        }
+    });
+    if let Some(wrong) = &typed.wrong {
+        ui.label(RichText::new(wrong).small().color(theme.error));
+    }
+    // What was chosen shows as it is written here, also where it is what it was.
+    if chosen.is_some() {
+        typed = Typed { of: now, text: shown(now), wrong: None };
+    }
+    ui.data_mut(|data| data.insert_temp(id, typed));
+    chosen.filter(|chosen| *chosen != now)
+}
+
+fn shown(tolerance: f64) -> String {
+    format!("{tolerance:e}").replace('-', "−")
+}
+
+/// The tolerance that a text asks for, or what is wrong with it.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let (least, largest) = (shown(*TOLERANCES.start()), TOLERANCES.end());
+    match text.replace('−', "-").parse::<f64>() {
+        Ok(number) if TOLERANCES.contains(&number) => Ok(number),
+        Ok(number) if number > *TOLERANCES.end() => Err(format!("{text} is too large: give {largest} at most.")),
+        Ok(number) if number > 0.0 => Err(format!("{text} is too small: S itself is exact to {least}.")),
+        Ok(number) if number <= 0.0 => Err(format!("An error is above 0; give {least} to {largest}.")),
+        _ if text.is_empty() => Err(format!("Nothing is there; give {least} to {largest}.")),
+        _ => Err(format!("“{text}” is no number; write one like 1e-6.")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_taken_or_refused_with_a_reason() {
+        assert_eq!(tolerance(" 1e−6 "), Ok(1e-6));
+        assert_eq!(tolerance("0.1"), Ok(0.1));
+        for (text, words) in [
+            ("", "Nothing"),
+            ("10 %", "“10 %” is no number"),
+            ("nan", "is no number"),
+            ("inf", "too large"),
+            ("0.5", "too large: give 0.1"),
+            ("1e-14", "too small: S itself is exact to 1e−13"),
+            ("0", "above 0"),
+            ("−3", "above 0"),
+        ] {
+            let said = tolerance(text).unwrap_err();
+            assert!(said.contains(words), "{text}: {said}");
+        }
+    }
+}
