@@ -16,6 +16,7 @@ use std::time::Duration;
 use chromascope_core::query::render::{PicturesOf, SourceOf};
 use chromascope_core::query::{Ask, LocusOf, PatchColorsOf, Query, Shared};
 use chromascope_core::spectral::Sensor;
+use serde::{Deserialize, Serialize};
 
 use crate::bench::{self, Effort, Report, Workload};
 use crate::jobs::Background;
@@ -40,7 +41,7 @@ pub struct SceneRunOf {
 }
 
 /// What was measured.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SceneRun {
     /// Of each kind of work its methods.
     pub trials: Vec<Trial>,
@@ -51,7 +52,7 @@ pub struct SceneRun {
 }
 
 /// The methods of one kind of work, side by side.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     /// What is computed.
     pub subject: Subject,
@@ -62,7 +63,7 @@ pub struct Trial {
 }
 
 /// A kind of work.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Subject {
     /// The spectral integral of the rendered samples.
     #[default]
@@ -109,7 +110,7 @@ impl Subject {
 }
 
 /// Time and error of a method.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// The method.
     pub name: String,
@@ -128,7 +129,7 @@ pub struct Point {
 }
 
 /// A kind of method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Family {
     /// A sum over the grid.
     Sum,

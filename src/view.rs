@@ -62,7 +62,7 @@ pub struct View {
     pub help: Option<HelpPage>,
     /// The palette of commands, with what is typed into it, while open.
     pub palette: Option<String>,
-    /// Times are not shown: for pictures that are compared.
+    /// Times are neither shown nor renewed: for pictures that are compared.
     pub fixed_clock: bool,
     /// The last message.
     pub status: Status,

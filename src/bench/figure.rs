@@ -6,15 +6,17 @@ use super::report::table;
 use super::{Measurement, Report, Workload};
 use crate::figures::pareto::{self, Place};
 
-/// The size of a panel in points.
-const PANEL: [f64; 2] = [420.0, 320.0];
-/// Panels side by side.
+/// The size of a panel on paper, in points.
+pub(super) const PANEL: [f64; 2] = [420.0, 320.0];
+/// Panels side by side, and where there are many.
 const ACROSS: usize = 2;
+const ACROSS_OF_MANY: usize = 3;
+const MANY: usize = 7;
 /// A measurement with its place among those of its workload.
 type Numbered<'a> = (usize, &'a Measurement);
 
-/// The figure of a workload. The marks' tags are the places of measurements among those of the workload, from 1.
-pub(super) fn figure(report: &Report, workload: Workload) -> Option<Figure> {
+/// The figure of a workload with panels of a size. The marks' tags are the places of measurements among those of the workload, from 1.
+pub(super) fn figure(report: &Report, workload: Workload, size: [f64; 2]) -> Option<Figure> {
     let mut cases: Vec<Vec<Numbered<'_>>> = Vec::new();
     // What gives none of the values has no error, and so no place.
     for numbered in report.of(workload).enumerate().filter(|(_, measurement)| measurement.error.checked > 0) {
@@ -26,11 +28,12 @@ pub(super) fn figure(report: &Report, workload: Workload) -> Option<Figure> {
     if cases.is_empty() {
         return None;
     }
-    let (across, down) = (cases.len().min(ACROSS), cases.len().div_ceil(ACROSS));
-    let mut figure = Figure::new(workload.title(), [PANEL[0] * across as f64, PANEL[1] * down as f64]);
+    let across = if cases.len() < MANY { ACROSS.min(cases.len()) } else { ACROSS_OF_MANY };
+    let down = cases.len().div_ceil(across);
+    let mut figure = Figure::new(workload.title(), [size[0] * across as f64, size[1] * down as f64]);
     for (index, case) in cases.iter().enumerate() {
-        let corner = [PANEL[0] * (index % ACROSS) as f64, PANEL[1] * (index / ACROSS) as f64];
-        figure.panels.push(panel(case, Rect::from_min_size(corner, PANEL)));
+        let corner = [size[0] * (index % across) as f64, size[1] * (index / across) as f64];
+        figure.panels.push(panel(case, Rect::from_min_size(corner, size)));
     }
     let threads = report.of(workload).map(|m| m.threads).collect::<std::collections::BTreeSet<_>>();
     figure.legend = threads.iter().map(|&threads| entry(threads)).collect();
@@ -63,9 +66,8 @@ fn panel(case: &[Numbered<'_>], area: Rect) -> Panel {
     };
     let places: Vec<Place> = case.iter().map(place).collect();
     let labels = [format!("error of {}", short(&case[0].1.error.what)), format!("time per {}", case[0].1.item)];
-    let mut panel = pareto::panel(&case[0].1.case, labels.each_ref().map(String::as_str), &places, area);
-    panel.note.clone_from(&case[0].1.case);
-    panel
+    let name = &case[0].1.case;
+    pareto::panel(name, labels.each_ref().map(String::as_str), name.clone(), &places, area)
 }
 
 /// What stands before a comma, a parenthesis: the rest is in the table.

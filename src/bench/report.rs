@@ -1,6 +1,6 @@
 //! All that was measured, and what becomes of it.
 
-use chromascope_core::figure::{Cell, Figure, Table};
+use chromascope_core::figure::{Cell, Figure, Panel, Table};
 use serde::{Deserialize, Serialize};
 
 use super::{Effort, Machine, Measurement, Workload};
@@ -49,7 +49,12 @@ impl Report {
 
     /// The run time of a workload's methods against their error; none if it was not measured.
     pub fn figure(&self, workload: Workload) -> Option<Figure> {
-        super::figure::figure(self, workload)
+        super::figure::figure(self, workload, super::figure::PANEL)
+    }
+
+    /// The panels of that figure for areas of a size in points.
+    pub fn panels(&self, workload: Workload, size: [f64; 2]) -> Vec<Panel> {
+        super::figure::figure(self, workload, size).map_or_else(Vec::new, |figure| figure.panels)
     }
 
     /// All measurements as a table, a row for each.

@@ -35,10 +35,9 @@ pub fn panel(trial: &Trial, is_current: bool, size: [f64; 2]) -> Panel {
     let error = format!("largest error, {}", trial.subject.error_of());
     let time = format!("time for {}", trial.subject.per());
     let area = Rect::from_min_size([0.0, 0.0], size);
-    let mut panel = pareto::panel("run time against error", [&error, &time], &places, area);
     let when = if is_current { "" } else { ", of the scene as it was" };
-    panel.note = format!("{} inputs, one thread{when}", trial.inputs);
-    panel
+    let note = format!("{} inputs, one thread{when}", trial.inputs);
+    pareto::panel("run time against error", [&error, &time], note, &places, area)
 }
 
 /// The method that a tag stands for.
@@ -130,7 +129,7 @@ pub fn left_out_figure(view: &View) -> Option<Figure> {
     for (index, row) in rows.iter().enumerate() {
         let middle = index as f64 + 0.5;
         let bar = Shape::Rect { min: [low, middle - 0.3], max: [saved(row), middle + 0.3] };
-        panel.marks.push(Mark::new(Tag::default(), row.what, bar).with_fill(InkRole::Weak));
+        panel.marks.push(Mark::new(Tag::default(), row.what.as_ref(), bar).with_fill(InkRole::Weak));
         let text = Shape::Text {
             at: [saved(row), middle],
             text: format!("{}, {}", row.what, duration(row.saved)),
@@ -139,7 +138,7 @@ pub fn left_out_figure(view: &View) -> Option<Figure> {
             size: TextSize::Small,
             ink: InkRole::Text.into(),
         };
-        panel.marks.push(Mark::new(Tag::default(), row.what, text));
+        panel.marks.push(Mark::new(Tag::default(), row.what.as_ref(), text));
     }
     figure.panels.push(panel);
     "What the scene on show did not compute, and the time that computing it took.".clone_into(&mut figure.caption);
@@ -187,7 +186,7 @@ pub fn left_out_table(rows: &[LeftOut]) -> Table {
     let mut table = Table::new(["left out", "count", "of", "time saved (ms)", "measured by"]);
     for row in rows {
         table.push([
-            row.what.into(),
+            row.what.as_ref().into(),
             Cell::Number(row.count as f64),
             row.of.map(|of| of as f64).into(),
             Cell::Number(row.saved * 1e3),
@@ -210,7 +209,7 @@ pub fn remembered(counts: &[(&'static str, Count)]) -> Vec<LeftOut> {
         let each = count.own_time.as_secs_f64() / count.misses.max(1) as f64;
         let what = STAGES.iter().find(|(stage, _)| *stage == name)?.1;
         (count.hits > 0).then(|| LeftOut {
-            what,
+            what: what.into(),
             count: count.hits,
             of: Some(count.hits + count.misses),
             saved: each * count.hits as f64,

@@ -1,8 +1,8 @@
 //! Run time against error, both in powers of ten: methods as points, those that no other beats joined by a line.
 
-use chromascope_core::figure::{
-    Anchor, Axis, Dash, Ink, InkRole, Mark, Marker, Panel, Rect, Shape, Tag, TextSize, Ticks, text_width,
-};
+mod names;
+
+use chromascope_core::figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Rect, Shape, Tag, Ticks};
 
 /// Errors below this are drawn there: a double tells them from nothing only by chance.
 pub const LEAST_ERROR: f64 = 1e-18;
@@ -43,16 +43,18 @@ impl Place {
 const LEAST_SECONDS: f64 = 1e-15;
 
 /// The panel in an area. Its axes are the decimal logarithms of error and seconds.
-pub fn panel(name: &str, [error_label, time_label]: [&str; 2], places: &[Place], area: Rect) -> Panel {
+pub fn panel(name: &str, [error_label, time_label]: [&str; 2], note: String, places: &[Place], area: Rect) -> Panel {
     let errors = decades(places.iter().map(|place| place.logarithms()[0]), [-16.0, 0.0]);
     let times = decades(places.iter().map(|place| place.logarithms()[1]), [-9.0, -3.0]);
     let x = Axis::new(error_label, errors).with_ticks(Ticks::At(error_ticks(errors)));
     let y = Axis::new(time_label, times).with_ticks(Ticks::At(time_ticks(times)));
     let mut panel = Panel::new(name, area, x, y);
+    panel.note = note;
     let (mut front, rest): (Vec<&Place>, Vec<&Place>) = places.iter().partition(|place| !place.is_beaten(places));
     front.sort_by(|a, b| a.error.total_cmp(&b.error));
+    let line: Vec<[f64; 2]> = front.iter().map(|place| place.logarithms()).collect();
     if front.len() > 1 {
-        let points = front.iter().map(|place| place.logarithms()).collect();
+        let points = line.clone();
         let line = Mark::new(Tag::default(), "what nothing beats", Shape::Line { points, closed: false });
         panel.marks.push(line.with_stroke(InkRole::Weak, 1.2).with_dash(Dash::Dashed));
     }
@@ -64,7 +66,8 @@ pub fn panel(name: &str, [error_label, time_label]: [&str; 2], places: &[Place],
     }
     // What is on the front is named first: it is what one looks for.
     let order: Vec<&Place> = front.into_iter().chain(rest).collect();
-    panel.marks.extend(labels(&order, [area.width(), area.height()], errors, times));
+    let names = names::names(&panel, &order, &line);
+    panel.marks.extend(names);
     panel
 }
 
@@ -109,56 +112,6 @@ pub fn duration(seconds: f64) -> String {
     format!("{value:.decimals$} {unit}")
 }
 
-/// Names beside points, in this order; one without room is left out, and read under the pointer. A name is written once.
-fn labels(places: &[&Place], size: [f64; 2], errors: [f64; 2], times: [f64; 2]) -> Vec<Mark> {
-    const HEIGHT: f64 = 14.0;
-    // About what axes with labels leave; close enough to keep names apart.
-    let inner = [(size[0] - 60.0).max(1.0), (size[1] - 30.0).max(1.0)];
-    let on_paper = |p: [f64; 2]| {
-        let share = |value: f64, [low, high]: [f64; 2]| (value - low) / (high - low);
-        [share(p[0], errors) * inner[0], (1.0 - share(p[1], times)) * inner[1]]
-    };
-    let around = |[x, y]: [f64; 2]| [x - 6.0, y - 6.0, x + 6.0, y + 6.0];
-    let mut taken: Vec<[f64; 4]> = places.iter().map(|place| around(on_paper(place.logarithms()))).collect();
-    // The axes' labels and the note.
-    taken.push([0.0, 0.0, inner[0], 18.0]);
-    taken.push([inner[0] * 0.5, inner[1] - 18.0, inner[0], inner[1]]);
-    let mut named: Vec<&str> = Vec::new();
-    let mut marks = Vec::new();
-    for place in places {
-        if named.contains(&place.name.as_str()) {
-            continue;
-        }
-        let [x, y] = on_paper(place.logarithms());
-        let width = text_width(&place.name, TextSize::Small);
-        // Above to the right first: the line falls to the right, and passes below.
-        let choices = [
-            (Anchor::LEFT, [7.0, -9.0], [x + 7.0, y - 16.0]),
-            (Anchor::RIGHT, [-9.0, 0.0], [x - 9.0 - width, y - 7.0]),
-            (Anchor::RIGHT, [-7.0, 10.0], [x - 7.0 - width, y + 3.0]),
-            (Anchor::LEFT, [9.0, 0.0], [x + 9.0, y - 7.0]),
-            (Anchor::LEFT, [7.0, 11.0], [x + 7.0, y + 4.0]),
-            (Anchor::RIGHT, [-7.0, -9.0], [x - 7.0 - width, y - 16.0]),
-        ];
-        let free = choices.into_iter().find_map(|(anchor, offset, [left, top])| {
-            let space = [left, top, left + width, top + HEIGHT];
-            let inside = left >= 2.0 && top >= 2.0 && space[2] <= inner[0] - 2.0 && space[3] <= inner[1] - 2.0;
-            (inside && !taken.iter().any(|other| overlap(&space, other))).then_some((anchor, offset, space))
-        });
-        let Some((anchor, offset, space)) = free else { continue };
-        taken.push(space);
-        named.push(&place.name);
-        let (at, text, ink) = (place.logarithms(), place.name.clone(), Ink::new(InkRole::Text));
-        let shape = Shape::Text { at, text, anchor, offset, size: TextSize::Small, ink };
-        marks.push(Mark::new(place.tag, place.name.clone(), shape));
-    }
-    marks
-}
-
-fn overlap(a: &[f64; 4], b: &[f64; 4]) -> bool {
-    a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -180,7 +133,7 @@ mod tests {
             role: InkRole::Text,
         };
         let area = Rect::from_min_size([0.0, 0.0], [400.0, 300.0]);
-        let panel = panel("p", ["error", "time"], &[place(0.0, 1e-6), place(1e-3, 0.0)], area);
+        let panel = panel("p", ["error", "time"], String::new(), &[place(0.0, 1e-6), place(1e-3, 0.0)], area);
         let finite = |v: &[f64; 2]| v.iter().all(|v| v.is_finite());
         for mark in &panel.marks {
             if let Shape::Points { points, .. } | Shape::Line { points, .. } = &mark.shape {

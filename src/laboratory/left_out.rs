@@ -2,6 +2,8 @@
 
 mod terms;
 
+use std::borrow::Cow;
+
 use chromascope_core::query::Ask;
 use chromascope_core::query::render::PicturesOf;
 use chromascope_core::reflectance::{Precision, coherent_prefactor, kappa};
@@ -10,6 +12,7 @@ use chromascope_core::render::mirror::{Nodes, mirror_sum};
 use chromascope_core::render::shading::{Mirror, Way};
 use chromascope_core::render::{Measure, Quality, ShadingImage};
 use chromascope_core::spectral::grid::COUNT;
+use serde::{Deserialize, Serialize};
 
 use super::SceneRunOf;
 use super::stopwatch::once;
@@ -20,10 +23,10 @@ const SAMPLES: usize = 1000;
 const SUMS: usize = 200;
 
 /// Something that was not computed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
     /// What it is.
-    pub what: &'static str,
+    pub what: Cow<'static, str>,
     /// How many of these were left out.
     pub count: u64,
     /// Of how many; none where that says nothing.
@@ -76,8 +79,8 @@ fn of_pictures(pictures: &PicturesOf, ask: &impl Ask) -> Option<Vec<LeftOut>> {
     let all = (size.columns() * size.rows()) as u64;
     let counts = shading.geometry().counts();
     let each = sample_cost(&sources)?;
-    let plain = |what, count: u64, of: u64| LeftOut {
-        what,
+    let plain = |what: &'static str, count: u64, of: u64| LeftOut {
+        what: what.into(),
         count,
         of: Some(of),
         saved: each * count as f64,
@@ -148,7 +151,7 @@ fn dark(sources: &Sources<'_>) -> Option<LeftOut> {
     };
     let (_, seconds) = once(|| sources.measures().map(sum).collect::<Vec<_>>());
     Some(LeftOut {
-        what: "lit samples below the threshold",
+        what: "lit samples below the threshold".into(),
         count: dark.len() as u64,
         of: Some(of),
         saved: seconds * dark.len() as f64 / taken.len() as f64,
@@ -179,7 +182,7 @@ fn wavelengths(sources: &Sources<'_>, each: f64) -> Option<LeftOut> {
     let (_, seconds) = once(|| sources.measures().map(sum).collect::<Vec<_>>());
     let by_sum = seconds / taken.len() as f64;
     Some(LeftOut {
-        what: "wavelengths of 401 at a lit sample",
+        what: "wavelengths of 401 at a lit sample".into(),
         count: (lit.len() as f64 * sources.count()) as u64 * COUNT as u64,
         of: None,
         saved: ((by_sum - each) * lit.len() as f64).max(0.0),
@@ -224,7 +227,7 @@ fn mirrors(sources: &Sources<'_>) -> Option<LeftOut> {
     };
     let (_, seconds) = once(|| sources.measures().map(sum).collect::<Vec<_>>());
     Some(LeftOut {
-        what: "mirror terms",
+        what: "mirror terms".into(),
         count: skipped,
         of: Some(shading.shades().len() as u64),
         saved: seconds * skipped as f64 / taken.len() as f64,
@@ -236,7 +239,7 @@ fn mirrors(sources: &Sources<'_>) -> Option<LeftOut> {
 fn cameras(run: &SceneRunOf, pictures: &PicturesOf, ask: &impl Ask) -> Option<LeftOut> {
     let ((), seconds) = once(|| run.hidden.iter().for_each(|hidden| drop(ask.ask(&pictures.image(&hidden.rendering)))));
     (!run.hidden.is_empty()).then(|| LeftOut {
-        what: "sources that are not on show",
+        what: "sources that are not on show".into(),
         count: run.hidden.len() as u64,
         of: Some((run.hidden.len() + pictures.sources.len()) as u64),
         saved: seconds,
@@ -248,7 +251,7 @@ fn cameras(run: &SceneRunOf, pictures: &PicturesOf, ask: &impl Ask) -> Option<Le
 fn panes_of_pictures(pictures: &PicturesOf, ask: &impl Ask) -> Option<LeftOut> {
     let (answer, seconds) = once(|| ask.ask(pictures));
     matches!(&*answer, Ok(Some(_))).then(|| LeftOut {
-        what: "pictures, while Render is not on show",
+        what: "pictures, while Render is not on show".into(),
         count: pictures.sources.len() as u64,
         of: None,
         saved: seconds,
@@ -262,7 +265,7 @@ fn panes(run: &SceneRunOf, ask: &impl Ask) -> Vec<LeftOut> {
     if !run.loci.is_empty() {
         let ((), seconds) = once(|| run.loci.iter().for_each(|locus| drop(ask.ask(locus))));
         rows.push(LeftOut {
-            what: "loci, while Chromaticity is not on show",
+            what: "loci, while Chromaticity is not on show".into(),
             count: run.loci.len() as u64,
             of: None,
             saved: seconds,
@@ -272,7 +275,7 @@ fn panes(run: &SceneRunOf, ask: &impl Ask) -> Vec<LeftOut> {
     if !run.patches.is_empty() {
         let ((), seconds) = once(|| run.patches.iter().for_each(|patches| drop(ask.ask(patches))));
         rows.push(LeftOut {
-            what: "patches of a source, while nothing shows them",
+            what: "patches of a source, while nothing shows them".into(),
             count: run.patches.len() as u64,
             of: None,
             saved: seconds,

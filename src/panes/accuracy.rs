@@ -99,9 +99,11 @@ fn bench(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneContext<
         let each =
             Vec2::new(body.width() / across as f32, (body.height() / down as f32).max(PANEL.y.min(body.height())));
         let (area, _) = ui.allocate_exact_size(Vec2::new(body.width(), each.y * down as f32), egui::Sense::hover());
-        for (index, panel) in figure.panels.iter().enumerate() {
+        let size = each - Vec2::splat(UNIT);
+        let panels = report.panels(workload, [size.x, size.y].map(f64::from));
+        for (index, panel) in panels.iter().enumerate() {
             let corner = Vec2::new((index % across) as f32 * each.x, (index / across) as f32 * each.y);
-            let place = Rect::from_min_size(area.min + corner, each - Vec2::splat(UNIT));
+            let place = Rect::from_min_size(area.min + corner, size);
             let options = PlotOptions { zoomable: false, reset: context.view.reset_plots, ..PlotOptions::default() };
             let id = Id::unique(("bench", workload.name(), index));
             let shown = paint::plot(ui, id, panel, &context.theme, place, options);

@@ -1,6 +1,7 @@
 //! What the scene on show did not compute, and the time that this saved.
 
-use egui::{Grid, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
+use chromascope_core::figure::{TextSize, text_width};
+use egui::{Align, Label, Layout, Rect, RichText, ScrollArea, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::command::Command;
@@ -15,7 +16,9 @@ use crate::workspaces::PaneKind;
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     context.refresh_run();
     let body = widgets::pane(ui, PaneKind::LeftOut, rect, context, |_, _| {});
-    context.view.accuracy.remembered = accuracy::remembered(&context.counts());
+    if !context.view.fixed_clock {
+        context.view.accuracy.remembered = accuracy::remembered(&context.counts());
+    }
     let rows = accuracy::left_out(context.view);
     if context.view.saved.tables.contains(&PaneKind::LeftOut) {
         widgets::data_table(ui, body, "left out", &accuracy::left_out_table(&rows));
@@ -24,7 +27,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let mut child = ui.new_child(UiBuilder::new().id_salt("left out").max_rect(inner));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
-    ScrollArea::both().id_salt("left out").auto_shrink(false).show(&mut child, |ui| {
+    ScrollArea::vertical().id_salt("left out").auto_shrink(false).show(&mut child, |ui| {
         if context.view.accuracy.run.is_none() {
             ui.horizontal(|ui| {
                 if context.laboratory.busy().is_none() && ui.button("Run").clicked() {
@@ -37,27 +40,65 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
 }
 
+/// From this width on, how a row was measured stands beside it; in a narrower pane below it.
+const WIDE: f32 = 900.0;
+/// Widths of the columns of times and counts.
+const TIME: f32 = 72.0;
+const COUNT: f32 = 210.0;
+
 fn table(ui: &mut Ui, rows: &[LeftOut], context: &PaneContext<'_>) {
     let theme = context.theme;
-    Grid::new("left out").num_columns(4).spacing([4.0 * UNIT, UNIT]).show(ui, |ui| {
-        for caption in ["Left out", "Time saved", "How many", "Measured by"] {
-            ui.label(RichText::new(caption).small().color(theme.weak));
+    let small = |words: &str| RichText::new(words).small().color(theme.weak);
+    let width = ui.available_width() - 2.0 * UNIT;
+    let name = |what: &str| text_width(what, TextSize::Body) as f32 + 2.0 * UNIT;
+    let what = rows.iter().map(|row| name(&row.what)).fold(0.0, f32::max).min(width - TIME - COUNT);
+    let wide = width >= WIDE;
+    ui.spacing_mut().item_spacing = Vec2::new(2.0 * UNIT, 0.25 * UNIT);
+    let line = |ui: &mut Ui, cells: [RichText; 3], how: RichText| {
+        ui.horizontal_top(|ui| {
+            for (cell, width) in cells.into_iter().zip([what, TIME, COUNT]) {
+                column(ui, width, |ui| ui.add(Label::new(cell).truncate()));
+            }
+            if wide {
+                ui.add(Label::new(how).wrap());
+            }
+        });
+    };
+    let first = if wide { "Left out" } else { "Left out, and how that was measured" };
+    line(ui, [first, "Time saved", "How many"].map(small), small("Measured by"));
+    for row in rows {
+        ui.add_space(UNIT);
+        let saved = if row.saved > 0.0 { duration(row.saved) } else { "–".to_owned() };
+        let cells =
+            [RichText::new(row.what.as_ref()), RichText::new(saved).monospace(), RichText::new(count(row)).monospace()];
+        line(ui, cells, small(&row.how));
+        if !wide {
+            ui.add(Label::new(small(&row.how)).wrap());
         }
-        ui.end_row();
-        for row in rows {
-            ui.label(row.what);
-            ui.monospace(if context.view.fixed_clock { "–".to_owned() } else { duration(row.saved) });
-            ui.monospace(count(row));
-            ui.label(RichText::new(&row.how).small().color(theme.weak));
-            ui.end_row();
-        }
+    }
+}
+
+/// A cell of a fixed width.
+fn column<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) {
+    let height = ui.text_style_height(&TextStyle::Body);
+    ui.allocate_ui_with_layout(Vec2::new(width, height), Layout::left_to_right(Align::Min), |ui| {
+        ui.set_width(width);
+        content(ui);
     });
 }
 
 /// A count, with its share where there is a whole.
 fn count(row: &LeftOut) -> String {
     match row.of {
-        Some(of) if of > 0 => format!("{} of {of} ({:.0} %)", row.count, 100.0 * row.count as f64 / of as f64),
-        _ => row.count.to_string(),
+        Some(of) if of > 0 => {
+            let share = 100.0 * row.count as f64 / of as f64;
+            format!("{} of {} ({share:.0} %)", short(row.count), short(of))
+        }
+        _ => short(row.count),
     }
+}
+
+/// All digits of what can be counted at a glance, three of more.
+fn short(count: u64) -> String {
+    if count < 1_000_000 { count.to_string() } else { format!("{:.2e}", count as f64) }
 }

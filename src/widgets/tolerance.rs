@@ -101,7 +101,7 @@ mod tests {
             ("0", "above 0"),
             ("−3", "above 0"),
         ] {
-            let said = tolerance(text).unwrap_err();
+            let said = tolerance(text).expect_err("refused");
             assert!(said.contains(words), "{text}: {said}");
         }
     }

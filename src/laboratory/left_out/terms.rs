@@ -53,7 +53,7 @@ pub(super) fn terms(sources: &Sources<'_>, each: f64, ask: &impl Ask) -> Option<
     let counted = if added > 0.0 { "; where sums are made, those that matter count as added" } else { "" };
     let scale = lit.len() as f64 / taken.len() as f64;
     Some(LeftOut {
-        what: "terms of S at a lit sample",
+        what: "terms of S at a lit sample".into(),
         count: ((all - added) * scale) as u64,
         of: Some((all * scale) as u64),
         saved: (of_a_term * all * scale - each * lit.len() as f64).max(0.0),
