@@ -20,7 +20,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
-use crate::screenshots::open;
+use crate::screenshots::{accuracy, open};
 
 type Window = Harness<'static, chromascope::app::ChromascopeApp>;
 
@@ -102,6 +102,17 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     window.run_steps(3);
     assert!(!window.state().view().accuracy.is_current, "the scene has another light than the run");
     assert!(window.state().view().accuracy.run.is_some());
+}
+
+#[test]
+fn how_it_was_measured_is_in_sight_in_a_small_window() {
+    for size in [[900.0, 600.0], [1280.0, 800.0], [1920.0, 1200.0]] {
+        let window = accuracy(size, egui::Theme::Light);
+        let run = run(&window);
+        let text = window.query_all_by_label(&run.left_out[0].how).next().expect("the first row is measured");
+        let rect = text.rect();
+        assert!(rect.left() >= 0.0 && rect.right() <= size[0] && rect.bottom() < size[1] - 24.0, "{size:?}: {rect:?}");
+    }
 }
 
 #[test]

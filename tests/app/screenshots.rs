@@ -11,6 +11,7 @@ use chromascope::command::Command;
 use chromascope::document::history::History;
 use chromascope::document::{Diagram, Document, Overlays, Subset, WayChoice};
 use chromascope::files::Files;
+use chromascope::laboratory::{LeftOut, SceneRun};
 use chromascope::thing::{SourceId, Thing};
 use chromascope::view::import::ImportItem;
 use chromascope::view::render::RenderMode;
@@ -184,4 +185,51 @@ fn import() {
         harness.state().opened().wait();
     }
     check(harness, "import.png");
+}
+
+/// What was measured on the first screen's scene, once: times are never the same twice.
+#[derive(Clone, serde::Serialize, serde::Deserialize)]
+pub(crate) struct Measured {
+    pub(crate) run: SceneRun,
+    remembered: Vec<LeftOut>,
+}
+
+impl Measured {
+    /// As kept in a file; with `RECORD_MEASUREMENTS=1` measured anew (meant for an optimized build) and kept.
+    pub(crate) fn kept() -> Self {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/app/measured.json");
+        if std::env::var_os("RECORD_MEASUREMENTS").is_some() {
+            let mut harness = open([1280.0, 800.0], egui::Theme::Dark);
+            harness.state_mut().push(Command::Measure);
+            harness.run_steps(2);
+            harness.state().laboratory().wait();
+            harness.run_steps(3);
+            let view = &harness.state().view().accuracy;
+            let run = SceneRun::clone(view.run.as_ref().expect("measured"));
+            let measured = Self { run, remembered: view.remembered.clone() };
+            std::fs::write(&path, serde_json::to_string_pretty(&measured).unwrap() + "\n").unwrap();
+        }
+        serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap()
+    }
+}
+
+/// The Accuracy workspace with what was measured once.
+pub(crate) fn accuracy(size: [f32; 2], theme: egui::Theme) -> Harness<'static, ChromascopeApp> {
+    let mut harness = open(size, theme);
+    let Measured { run, remembered } = Measured::kept();
+    let view = harness.state_mut().view_mut();
+    view.saved.workspace = Workspace::Accuracy;
+    view.fixed_clock = true;
+    (view.accuracy.run, view.accuracy.remembered) = (Some(std::sync::Arc::new(run)), remembered);
+    view.accuracy.is_current = true;
+    for _ in 0..3 {
+        harness.run_steps(2);
+        harness.state().laboratory().wait();
+    }
+    harness
+}
+
+#[test]
+fn accuracy_workspace() {
+    check(accuracy([1280.0, 800.0], egui::Theme::Light), "accuracy.png");
 }
