@@ -17,6 +17,7 @@ pub mod catalog;
 pub mod cli;
 pub mod command;
 pub mod document;
+pub mod dropped;
 pub mod export;
 pub mod figures;
 pub mod files;

@@ -2,9 +2,10 @@
 
 use std::fmt::{Display, Write as _};
 
-use chromascope_core::table::{Curve, DroppedRow, Reading, Table};
+use chromascope_core::table::{Curve, Reading, Table};
 
 use super::Understood;
+use crate::dropped;
 
 /// How many curves are named.
 const NAMED: usize = 20;
@@ -58,16 +59,9 @@ fn facts(text: &mut String, table: &Table) {
 }
 
 fn rows(reading: &Reading) -> String {
-    let dropped = &reading.dropped_rows;
     let first = reading.first_data_line;
     let begin = format!("{}, from line {first}", reading.rows);
-    if dropped.is_empty() {
-        return begin;
-    }
-    let one = |row: &DroppedRow| format!("line {} ({})", row.line, row.why);
-    let told: Vec<String> = dropped.iter().take(TOLD).map(one).collect();
-    let more = if dropped.len() > TOLD { format!(" and {} more", dropped.len() - TOLD) } else { String::new() };
-    format!("{begin}; {} left out: {}{more}", dropped.len(), told.join(", "))
+    [vec![begin], dropped::sentences(&reading.dropped_rows, TOLD)].concat().join("; ")
 }
 
 fn curves(curves: &[Curve]) -> String {

@@ -1,11 +1,10 @@
 //! What should be looked at, what was decided, and where the numbers are from.
 
-use std::fmt::Write as _;
-
-use chromascope_core::table::{Certainty, Reading, Table};
+use chromascope_core::table::{Certainty, Table};
 use egui::{Align, Id, RichText, Ui};
 
 use super::note;
+use crate::dropped;
 use crate::figures::curves::{OnShow, sentence};
 use crate::number::number;
 use crate::panes::PaneContext;
@@ -92,7 +91,7 @@ fn facts(shown: &OnShow, table: &Table) -> Vec<String> {
         format!("Reader: {}; {}", reading.reader.value, reading.encoding),
         format!("{} rows from line {}", reading.rows, reading.first_data_line),
     ];
-    facts.extend(dropped(reading));
+    facts.extend(dropped::sentences(&reading.dropped_rows, TOLD));
     let order = if reading.descending { ", written in descending order" } else { "" };
     facts.push(format!("Range {}{order}", range_words(reading.range_nm)));
     let [min, median, max] = [step.min, step.median, step.max].map(number);
@@ -102,24 +101,6 @@ fn facts(shown: &OnShow, table: &Table) -> Vec<String> {
         facts.push(path.unwrap_or_else(|| format!("{} (not a file on disk)", file.origin.name)));
     }
     facts
-}
-
-/// The rows that are in no curve, and why.
-fn dropped(reading: &Reading) -> Option<String> {
-    let rows = &reading.dropped_rows;
-    let mut words = match rows.len() {
-        0 => return None,
-        1 => "1 row dropped:".to_owned(),
-        count => format!("{count} rows dropped:"),
-    };
-    for (index, row) in rows.iter().take(TOLD).enumerate() {
-        let comma = if index > 0 { "," } else { "" };
-        write!(words, "{comma} line {} ({})", row.line, row.why).ok()?;
-    }
-    if rows.len() > TOLD {
-        words.push_str(" and more");
-    }
-    Some(words)
 }
 
 /// All of it as text.
