@@ -133,7 +133,7 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
         let [x, y] = diagram.xy(sums.raw(t));
         Some(Xy { x, y })
     };
-    let (table, table_seconds) = timed(|| LocusTable::of(summed));
+    let table = LocusTable::of(summed);
     let by_rule = |method: String, threads: usize, make: &dyn Fn() -> Rule| {
         let (rule, seconds) = timed(make);
         let answer = move |&kelvins: &f64| diagram.xy(rule.raw(kelvins));
@@ -145,11 +145,12 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
         .chain((2..=12).map(|count| by_rule(format!("Gauss {count}"), 1, &|| Rule::gauss(sensor, count))))
         .collect();
     for threads in bench.pools.counts() {
-        let (evaluator, seconds) = timed(|| LocusEvaluator::new(sensor, CONSTANTS));
+        let (evaluator, seconds) = timed(|| bench.pools.on(threads, || LocusEvaluator::new(sensor, CONSTANTS)));
         let answer = move |&t: &f64| Kelvin::new(t).map_or(NOWHERE, |t| diagram.xy(evaluator.raw(t)));
         candidates.push(each("checked nodes", [threads, checked], &kelvins, &room, error, answer).built_in(seconds));
         // Of an observer the program has the whole curve as polynomials.
-        if let (Ok(locus), seconds) = timed(|| PlanckianLocus::new(sensor, CONSTANTS)) {
+        let (locus, seconds) = timed(|| bench.pools.on(threads, || PlanckianLocus::new(sensor, CONSTANTS)));
+        if let Ok(locus) = locus {
             let answer = move |&t: &f64| {
                 let place = Kelvin::new(t).ok().and_then(|t| locus.at(t));
                 place.map_or(NOWHERE, |uv| {
@@ -163,11 +164,12 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
     for threads in bench.pools.counts() {
         let some: Vec<Kelvin> = spaced(items, checked).map(|index| temperatures[index]).collect();
         let found: Vec<Place> = table.xys(&some).into_iter().map(|xy| xy.map_or(NOWHERE, |xy| [xy.x, xy.y])).collect();
+        let (_, seconds) = timed(|| bench.pools.on(threads, || LocusTable::of(summed)));
         let (table, temperatures, answers) = (&table, &temperatures, &answers);
         let work =
             move |items: usize| answers.lend(|answers| table.xys_into(&temperatures[..items], &mut answers[..items]));
         let candidate = Candidate::new("table in mired", items, error(&found), work);
-        candidates.push(candidate.on(threads).built_in(table_seconds));
+        candidates.push(candidate.on(threads).built_in(seconds));
     }
     bench.compare(Case { workload: Workload::Locus, name, item: "temperature" }, candidates);
 }

@@ -4,6 +4,7 @@ use chromascope_core::colorimetry::{Uv60, UvPrime, Xy};
 use chromascope_core::light::PlanckianLocus;
 use chromascope_core::light::temperature::{Cct, NoCct, published, tabulated};
 use chromascope_core::math::double::Double;
+use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
 use rayon::prelude::*;
 
@@ -17,13 +18,27 @@ type Answer = [f64; 2];
 
 const NOTHING: Answer = [f64::NAN; 2];
 
+/// What of an answer is judged.
+#[derive(Clone, Copy)]
+enum Judged {
+    Temperature,
+    Duv,
+}
+
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     let observer = sensor(OBSERVER)?;
+    for judged in [Judged::Temperature, Judged::Duv] {
+        one(bench, &observer, judged);
+    }
+    Ok(())
+}
+
+fn one(bench: &mut Bench<'_>, observer: &Sensor, judged: Judged) {
     let items = bench.pick(300, 1_000_000, 1_000_000);
     let checked = bench.pick(6, 200, 2000);
-    let (Ok(locus), locus_seconds) = timed(|| PlanckianLocus::new(&observer, CONSTANTS)) else { return Ok(()) };
-    let robertson = timed(|| tabulated::Robertson::new(&observer, CONSTANTS));
-    let ohno = timed(|| tabulated::Ohno::new(&observer, CONSTANTS));
+    let (Ok(locus), locus_seconds) = timed(|| PlanckianLocus::new(observer, CONSTANTS)) else { return };
+    let robertson = timed(|| tabulated::Robertson::new(observer, CONSTANTS));
+    let ohno = timed(|| tabulated::Ohno::new(observer, CONSTANTS));
     let mut numbers = Numbers::new(6);
     let known: Vec<(f64, f64)> =
         (0..items).map(|_| (1e6 / numbers.between(50.5, 990.0), numbers.between(-0.045, 0.045))).collect();
@@ -31,9 +46,9 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     let colors: Vec<Uv60> = known.iter().map(|&(kelvins, duv)| color(&locus, kelvins, duv)).collect();
     let some: Vec<(Uv60, f64)> = spaced(items, checked).map(|index| (colors[index], known[index].0)).collect();
     let exact: Vec<[Double; 2]> = bench.pools.on(bench.pools.most(), || {
-        some.par_iter().map(|&(color, near)| exact::cct(&observer, CONSTANTS, [color.u, color.v], near)).collect()
+        some.par_iter().map(|&(color, near)| exact::cct(observer, CONSTANTS, [color.u, color.v], near)).collect()
     });
-    let error = |found: &[Answer]| error(found, &exact);
+    let error = |found: &[Answer]| error(judged, found, &exact);
     let room = Room::new(items, &NOTHING);
     let answers = Room::new(items, &Err(NoCct::NoChromaticity));
     let one = [1, checked];
@@ -50,8 +65,10 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
         let answer = move |color: &Uv60| whole(ohno.cct(*color));
         candidates.push(each("Ohno 2014", one, &colors, &room, error, answer).built_in(*seconds));
     }
-    candidates.push(each("McCamy 1992", one, &colors, &room, error, mccamy));
-    candidates.push(each("Hernández-Andrés 1999", one, &colors, &room, error, hernandez));
+    if matches!(judged, Judged::Temperature) {
+        candidates.push(each("McCamy 1992", one, &colors, &room, error, mccamy));
+        candidates.push(each("Hernández-Andrés 1999", one, &colors, &room, error, hernandez));
+    }
     let scalar = |color: &Uv60| whole(locus.cct(*color));
     candidates.push(each("nearest point, one by one", one, &colors, &room, error, scalar).built_in(locus_seconds));
     for threads in bench.pools.counts() {
@@ -62,13 +79,11 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
         let candidate = Candidate::new("nearest point, side by side", items, error(&found), work);
         candidates.push(candidate.on(threads).built_in(locus_seconds));
     }
-    let case = Case {
-        workload: Workload::Temperature,
-        name: "CIE 1931 2°, 1010 to 19 800 K, |Duv| below 0.045",
-        item: "color",
+    let name = match judged {
+        Judged::Temperature => "CIE 1931 2°, 1010 to 19 800 K, |Duv| below 0.045",
+        Judged::Duv => "Duv of the same colors",
     };
-    bench.compare(case, candidates);
-    Ok(())
+    bench.compare(Case { workload: Workload::Temperature, name, item: "color" }, candidates);
 }
 
 fn color(locus: &PlanckianLocus, kelvins: f64, duv: f64) -> Uv60 {
@@ -80,10 +95,15 @@ fn xy(color: Uv60) -> Option<Xy> {
     UvPrime { u: color.u, v: color.v * 1.5 }.xy()
 }
 
-/// Duv has no error of its own here where a method gives none.
-fn error(found: &[Answer], exact: &[[Double; 2]]) -> ErrorOf {
+fn error(judged: Judged, found: &[Answer], exact: &[[Double; 2]]) -> ErrorOf {
     let mut errors = Errors::default();
-    found.iter().zip(exact).for_each(|(found, exact)| errors.add(exact[0].error_of(found[0]), exact[0].value()));
-    errors
-        .sum_up("temperature in kelvins, where it answers, against the nearest point in 106 bits", ErrorScale::Absolute)
+    let which = judged as usize;
+    found.iter().zip(exact).for_each(|(found, exact)| {
+        errors.add(exact[which].error_of(found[which]), exact[which].value());
+    });
+    let what = match judged {
+        Judged::Temperature => "temperature in kelvins, where it answers, against the nearest point in 106 bits",
+        Judged::Duv => "Duv, where it answers, against the nearest point in 106 bits",
+    };
+    errors.sum_up(what, ErrorScale::Absolute)
 }

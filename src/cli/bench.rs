@@ -28,6 +28,7 @@ const JSON: &str = "bench.json";
 
 /// What `bench` takes.
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "switches of a command line")]
 pub(super) struct BenchArguments {
     /// A minute instead of a quarter of an hour
     #[arg(long)]
