@@ -1,6 +1,7 @@
 //! The inner loops: blocks of responses that stay in registers while wavelengths go by.
 
 use multiversion::multiversion;
+use prefetch_index::prefetch_index;
 
 /// A type of numbers that spectra come in: `f64` or `f32`.
 pub trait Sample: Copy + Send + Sync + PartialEq + sealed::Kernel {}
@@ -49,6 +50,9 @@ pub(super) mod sealed {
 pub(super) const ROWS: usize = 3;
 const COLUMNS: usize = 4;
 
+/// Bytes that come from memory at once.
+const LINE: usize = 64;
+
 /// Registers of a block that need no memory to be asked for, which takes as long as some hundred products.
 const FEW: usize = 96;
 
@@ -83,8 +87,16 @@ macro_rules! kernel {
             /// What a register holds.
             type Lanes = Register<[$type; $lanes]>;
 
-            /// Whole registers of the spectra of a block.
-            type Rows<'a> = [&'a [[$type; $lanes]]; ROWS];
+            /// Spectra that are multiplied at once.
+            struct Block<'a> {
+                /// Their whole registers.
+                rows: [&'a [[$type; $lanes]]; ROWS],
+                /// Their last ones.
+                lasts: [Lanes; ROWS],
+                /// The spectra after them, if they are far.
+                ahead: &'a [$type],
+                length: usize,
+            }
 
             /// Registers of zeros.
             const NOTHING: Lanes = Register([0.0; $lanes]);
@@ -147,8 +159,6 @@ macro_rules! kernel {
                 channels: usize,
                 far: bool,
             ) {
-                let whole = length / $lanes;
-                let mut copy = vec![[0.0; $lanes]; if far { ROWS * whole } else { 0 }];
                 let (mut few, mut many) = ([NOTHING; FEW], Vec::new());
                 let sums = room(&mut few, &mut many, ROWS * channels);
                 let (mut spectra, mut answers) = (spectra, answers);
@@ -158,15 +168,9 @@ macro_rules! kernel {
                     let (places, others) = answers.split_at_mut(count * channels);
                     // Where spectra are missing, the first stands for them.
                     let all = [0, 1, 2].map(|row| &these[if row < count { row * length } else { 0 }..][..length]);
-                    let mut rows = all.map(|row| row.as_chunks::<$lanes>().0);
-                    if far {
-                        // One after the other, which hardware foresees as it does not three side by side.
-                        for (to, from) in copy.chunks_exact_mut(whole.max(1)).zip(rows) {
-                            to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
-                        }
-                        rows = [0, 1, 2].map(|row| &copy[row * whole..][..whole]);
-                    }
-                    add_up(rows, &all.map(|row| Register(last(row))), curves, sums, channels);
+                    let rows = all.map(|row| row.as_chunks::<$lanes>().0);
+                    let block = Block { rows, lasts: all.map(|row| Register(last(row))), ahead: if far { rest } else { &[] }, length };
+                    block.add_up(curves, sums, channels);
                     for (place, sums) in places.iter_mut().zip(&*sums) {
                         let total = total(sums.0);
                         *place = if total.is_finite() { total } else { 0.0 };
@@ -192,46 +196,62 @@ macro_rules! kernel {
                 numbers.last_chunk().copied().unwrap_or_else(padded)
             }
 
-            /// The partial sums of some spectra and all channels.
-            #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
-            #[inline(always)]
-            fn add_up(rows: Rows<'_>, lasts: &[Lanes; ROWS], curves: &[Lanes], sums: &mut [Lanes], channels: usize) {
-                let registers = curves.len() / channels;
-                for done in (0..channels).step_by(COLUMNS) {
-                    let count = (channels - done).min(COLUMNS);
-                    let curves = &curves[done * registers..][..count * registers];
-                    let places = &mut sums[done..];
-                    match count {
-                        1 => some::<1>(rows, lasts, curves, places, channels),
-                        2 => some::<2>(rows, lasts, curves, places, channels),
-                        3 => some::<3>(rows, lasts, curves, places, channels),
-                        _ => some::<COLUMNS>(rows, lasts, curves, places, channels),
+            impl Block<'_> {
+                /// The partial sums of all channels.
+                #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
+                #[inline(always)]
+                fn add_up(&self, curves: &[Lanes], sums: &mut [Lanes], channels: usize) {
+                    let registers = curves.len() / channels;
+                    for (block, done) in (0..channels).step_by(COLUMNS).enumerate() {
+                        let count = (channels - done).min(COLUMNS);
+                        let curves = &curves[done * registers..][..count * registers];
+                        let places = &mut sums[done..];
+                        // Each block of channels asks for one of the spectra.
+                        let ahead = if block < ROWS { self.ahead(block) } else { &[] };
+                        match count {
+                            1 => self.some::<1>(curves, places, channels, ahead),
+                            2 => self.some::<2>(curves, places, channels, ahead),
+                            3 => self.some::<3>(curves, places, channels, ahead),
+                            _ => self.some::<COLUMNS>(curves, places, channels, ahead),
+                        }
+                    }
+                    for row in channels.div_ceil(COLUMNS)..ROWS {
+                        let ahead = self.ahead(row);
+                        (0..ahead.len()).step_by(LINE / size_of::<$type>()).for_each(|i| prefetch_index(ahead, i));
                     }
                 }
-            }
 
-            /// The same of N channels; the sums of each spectrum are `stride` places further on.
-            #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
-            #[inline(always)]
-            fn some<const N: usize>(
-                [a, b, c]: Rows<'_>,
-                lasts: &[Lanes; ROWS],
-                curves: &[Lanes],
-                places: &mut [Lanes],
-                stride: usize,
-            ) {
-                let mut sums = [[[0.0; $lanes]; N]; ROWS];
-                let curves = curves.as_chunks::<N>().0;
-                for (((a, b), c), curves) in a.iter().zip(b).zip(c).zip(curves) {
-                    step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
+                /// One of the spectra after these, if it is far.
+                fn ahead(&self, row: usize) -> &[$type] {
+                    self.ahead.get(row * self.length..).map_or(&[], |ahead| &ahead[..self.length.min(ahead.len())])
                 }
-                if let Some(curves) = curves.get(a.len()) {
-                    let [a, b, c] = lasts.each_ref().map(|last| &last.0);
-                    step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
-                }
-                for (row, sums) in sums.into_iter().enumerate() {
-                    for (place, sum) in places[row * stride..].iter_mut().zip(sums) {
-                        place.0 = sum;
+
+                /// The partial sums of N channels; those of each spectrum are `stride` places further on.
+                #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
+                #[inline(always)]
+                fn some<const N: usize>(&self, curves: &[Lanes], places: &mut [Lanes], stride: usize, ahead: &[$type]) {
+                    let mut sums = [[[0.0; $lanes]; N]; ROWS];
+                    let [a, b, c] = self.rows;
+                    let curves = curves.as_chunks::<N>().0;
+                    let steps = a.iter().zip(b).zip(c).zip(curves);
+                    if ahead.is_empty() {
+                        for (((a, b), c), curves) in steps {
+                            step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
+                        }
+                    } else {
+                        for (i, (((a, b), c), curves)) in steps.enumerate() {
+                            prefetch_index(ahead, i * $lanes);
+                            step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
+                        }
+                    }
+                    if let Some(curves) = curves.get(a.len()) {
+                        let [a, b, c] = self.lasts.each_ref().map(|last| &last.0);
+                        step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
+                    }
+                    for (row, sums) in sums.into_iter().enumerate() {
+                        for (place, sum) in places[row * stride..].iter_mut().zip(sums) {
+                            place.0 = sum;
+                        }
                     }
                 }
             }
