@@ -53,9 +53,6 @@ const COLUMNS: usize = 4;
 /// Bytes that come from memory at once.
 const LINE: usize = 64;
 
-/// Registers of a block that need no memory to be asked for, which takes as long as some hundred products.
-const FEW: usize = 96;
-
 /// One register of each curve of a block. Written out: a loop over the spectra or channels would be turned into one over
 /// scattered numbers.
 macro_rules! step {
@@ -97,9 +94,6 @@ macro_rules! kernel {
                 ahead: &'a [$type],
                 length: usize,
             }
-
-            /// Registers of zeros.
-            const NOTHING: Lanes = Register([0.0; $lanes]);
 
             impl sealed::Kernel for $type {
                 const ZERO: Self = 0.0;
@@ -159,8 +153,6 @@ macro_rules! kernel {
                 channels: usize,
                 far: bool,
             ) {
-                let (mut few, mut many) = ([NOTHING; FEW], Vec::new());
-                let sums = room(&mut few, &mut many, ROWS * channels);
                 let (mut spectra, mut answers) = (spectra, answers);
                 while !spectra.is_empty() {
                     let count = (spectra.len() / length).min(ROWS);
@@ -168,44 +160,37 @@ macro_rules! kernel {
                     let (places, others) = answers.split_at_mut(count * channels);
                     // Where spectra are missing, the first stands for them.
                     let all = [0, 1, 2].map(|row| &these[if row < count { row * length } else { 0 }..][..length]);
-                    let rows = all.map(|row| row.as_chunks::<$lanes>().0);
-                    let block = Block { rows, lasts: all.map(|row| Register(last(row))), ahead: if far { rest } else { &[] }, length };
-                    block.add_up(curves, sums, channels);
-                    for (place, sums) in places.iter_mut().zip(&*sums) {
-                        let total = total(sums.0);
-                        *place = if total.is_finite() { total } else { 0.0 };
-                    }
+                    let [a, b, c] = all;
+                    let rows = [a.as_chunks().0, b.as_chunks().0, c.as_chunks().0];
+                    let lasts = [Register(last(a)), Register(last(b)), Register(last(c))];
+                    let block = Block { rows, lasts, ahead: if far { rest } else { &[] }, length };
+                    block.multiply(curves, places, channels);
                     (spectra, answers) = (rest, others);
                 }
-            }
-
-            /// As much of the first as is wanted if that is enough, else of the second.
-            fn room<'a>(few: &'a mut [Lanes], many: &'a mut Vec<Lanes>, wanted: usize) -> &'a mut [Lanes] {
-                if wanted <= few.len() {
-                    return &mut few[..wanted];
-                }
-                many.resize(wanted, NOTHING);
-                many
             }
 
             /// The last register of numbers that do not fill it: some are in the one before, too.
             #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
             #[inline(always)]
             fn last(numbers: &[$type]) -> [$type; $lanes] {
-                let padded = || std::array::from_fn(|k| numbers.get(k).copied().unwrap_or(0.0));
-                numbers.last_chunk().copied().unwrap_or_else(padded)
+                if let Some(last) = numbers.last_chunk() {
+                    return *last;
+                }
+                let mut padded = [0.0; $lanes];
+                padded[..numbers.len()].copy_from_slice(numbers);
+                padded
             }
 
             impl Block<'_> {
-                /// The partial sums of all channels.
+                /// The responses of all channels.
                 #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
                 #[inline(always)]
-                fn add_up(&self, curves: &[Lanes], sums: &mut [Lanes], channels: usize) {
+                fn multiply(&self, curves: &[Lanes], answers: &mut [$type], channels: usize) {
                     let registers = curves.len() / channels;
                     for (block, done) in (0..channels).step_by(COLUMNS).enumerate() {
                         let count = (channels - done).min(COLUMNS);
                         let curves = &curves[done * registers..][..count * registers];
-                        let places = &mut sums[done..];
+                        let places = &mut answers[done..];
                         // Each block of channels asks for one of the spectra.
                         let ahead = if block < ROWS { self.ahead(block) } else { &[] };
                         match count {
@@ -226,10 +211,10 @@ macro_rules! kernel {
                     self.ahead.get(row * self.length..).map_or(&[], |ahead| &ahead[..self.length.min(ahead.len())])
                 }
 
-                /// The partial sums of N channels; those of each spectrum are `stride` places further on.
+                /// The responses of N channels; those of each spectrum are `stride` places further on.
                 #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
                 #[inline(always)]
-                fn some<const N: usize>(&self, curves: &[Lanes], places: &mut [Lanes], stride: usize, ahead: &[$type]) {
+                fn some<const N: usize>(&self, curves: &[Lanes], places: &mut [$type], stride: usize, ahead: &[$type]) {
                     let mut sums = [[[0.0; $lanes]; N]; ROWS];
                     let [a, b, c] = self.rows;
                     let curves = curves.as_chunks::<N>().0;
@@ -248,26 +233,32 @@ macro_rules! kernel {
                         let [a, b, c] = self.lasts.each_ref().map(|last| &last.0);
                         step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
                     }
-                    for (row, sums) in sums.into_iter().enumerate() {
-                        for (place, sum) in places[row * stride..].iter_mut().zip(sums) {
-                            place.0 = sum;
-                        }
+                    for (places, sums) in places.chunks_mut(stride).zip(sums) {
+                        let mut four = [[0.0; $lanes]; COLUMNS];
+                        four[..N].copy_from_slice(&sums);
+                        let totals = totals(&four);
+                        places[..N].copy_from_slice(&totals[..N]);
                     }
                 }
             }
 
-            /// Partial sums, pairwise.
+            /// Partial sums, pairwise, where they are finite; written in the order in which registers are shuffled.
             #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
             #[inline(always)]
-            fn total(mut sums: [$type; $lanes]) -> $type {
-                let mut width = $lanes / 2;
-                while width > 0 {
-                    for k in 0..width {
-                        sums[k] += sums[k + width];
+            fn totals(sums: &[[$type; $lanes]; 4]) -> [$type; 4] {
+                let mut quarters = [[0.0; 4]; 4];
+                for (quarters, sums) in quarters.iter_mut().zip(sums) {
+                    for k in 0..4 {
+                        quarters[k] = if $lanes == 8 { sums[k] + sums[(k + 4) % $lanes] } else { sums[k] };
                     }
-                    width /= 2;
                 }
-                sums[0]
+                let [a, b, c, d] = quarters;
+                let [e, f] = [[a[0] + a[2], a[1] + a[3], b[0] + b[2], b[1] + b[3]], [c[0] + c[2], c[1] + c[3], d[0] + d[2], d[1] + d[3]]];
+                let mut totals = [e[0] + e[1], e[2] + e[3], f[0] + f[1], f[2] + f[3]];
+                for total in &mut totals {
+                    *total = if total.is_finite() { *total } else { 0.0 };
+                }
+                totals
             }
         }
     };
