@@ -218,18 +218,22 @@ macro_rules! kernel {
                     let mut sums = [[[0.0; $lanes]; N]; ROWS];
                     let [a, b, c] = self.rows;
                     let curves = curves.as_chunks::<N>().0;
-                    let steps = a.iter().zip(b).zip(c).zip(curves);
+                    let rows = a.iter().zip(b).zip(c);
+                    // With a pointer of its own: as a fourth of the zipped it would be found anew in each step.
+                    let mut rest = curves.iter();
                     if ahead.is_empty() {
-                        for (((a, b), c), curves) in steps {
+                        for ((a, b), c) in rows {
+                            let Some(curves) = rest.next() else { break };
                             step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
                         }
                     } else {
-                        for (i, (((a, b), c), curves)) in steps.enumerate() {
+                        for (i, ((a, b), c)) in rows.enumerate() {
+                            let Some(curves) = rest.next() else { break };
                             prefetch_index(ahead, i * $lanes);
                             step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
                         }
                     }
-                    if let Some(curves) = curves.get(a.len()) {
+                    if let Some(curves) = rest.next() {
                         let [a, b, c] = self.lasts.each_ref().map(|last| &last.0);
                         step!(sums, [0 a, 1 b, 2 c], curves, $lanes, N);
                     }
