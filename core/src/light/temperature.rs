@@ -89,7 +89,7 @@ pub enum NoLocus {
 /// ```text
 /// (u(m) − u) u′(m) + (v(m) − v) v′(m) = 0,   m = 10⁶/T
 /// ```
-/// u and v are polynomials of degree 8 in m, in 128 pieces, made from the 1 nm sums and their exact derivatives; so the
+/// u and v are polynomials of degree 7 in m, in 256 pieces, made from the 1 nm sums and their exact derivatives; so the
 /// condition is a polynomial too, whose coefficients are linear in the color. Newton's method solves it, from a table over the
 /// diagram that is right to about a third of a mired.
 /// Within [`COLDEST_K`]–[`HOTTEST_K`] and [`MAX_DUV`] of the locus the nearest point is unique: for the CIE 1931 observer the
@@ -113,7 +113,7 @@ impl PlanckianLocus {
     /// How far a Duv is off at most.
     pub const MAX_ERROR_DUV: f64 = 1e-15;
 
-    /// Tabulates the locus of an observer: some 1200 sums over its curves, then a search for each node of the table.
+    /// Tabulates the locus of an observer: some 2100 sums over its curves, then a search for each node of the table.
     pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, NoLocus> {
         if observer.primaries() != Primaries::Xyz {
             return Err(NoLocus::NotXyz);

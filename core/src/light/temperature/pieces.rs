@@ -8,10 +8,10 @@ use crate::colorimetry::Uv60;
 use crate::math::chebyshev::{coefficients, evaluate, nodes};
 use crate::units::Kelvin;
 
-/// Coefficients per polynomial: degree 7.
-pub(super) const TERMS: usize = 8;
+/// Coefficients per polynomial: degree 6.
+pub(super) const TERMS: usize = 7;
 /// How many pieces.
-const PIECES: usize = 128;
+const PIECES: usize = 256;
 /// Where the pieces begin and end, in mired: beyond 20000 K and 1000 K far enough that a search from a nearby start
 /// finds what lies just outside.
 pub(super) const FIRST_MIRED: f64 = 20.0;
@@ -98,20 +98,19 @@ impl Seen {
 
     /// Newton's method from t in the piece around a reciprocal temperature, without a branch.
     ///
-    /// Three steps. Each takes as many terms as its own error is worth: one term more is about fifty times less. The last
+    /// Three steps. Each takes as many terms as its own error is worth: one term more is about a hundred times less. The last
     /// carries the slope on by the second derivative instead of evaluating it again. Polynomials are summed in pairs, not term
     /// after term: what limits the speed is how long one operation waits for another.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub(super) fn solve(&self, t: f64, middle: f64) -> Found {
         let c = &self.f;
-        let value = pair(pair(c[0], c[1], t), pair(c[2], c[3], t), t * t);
-        let slope = c[1] + t * pair(2.0 * c[2], 3.0 * c[3], t);
+        let value = pair(pair(c[0], c[1], t), c[2], t * t);
+        let slope = pair(c[1], 2.0 * c[2], t);
         let t = t - value / slope;
         let t2 = t * t;
-        let value = pair(pair(c[0], c[1], t), pair(pair(c[2], c[3], t), pair(c[4], c[5], t), t2), t2);
-        let rest = pair(pair(3.0 * c[3], 4.0 * c[4], t), 5.0 * c[5], t2);
-        let slope = pair(pair(c[1], 2.0 * c[2], t), rest, t2);
+        let value = pair(pair(c[0], c[1], t), pair(pair(c[2], c[3], t), c[4], t2), t2);
+        let slope = pair(pair(c[1], 2.0 * c[2], t), pair(3.0 * c[3], 4.0 * c[4], t), t2);
         let step = value / slope;
         let slope = slope - 2.0 * step * pair(c[2], 3.0 * c[3], t);
         let t = t - step;
@@ -126,7 +125,7 @@ impl Seen {
 
     /// The distance from the tangent at t, positive above the locus.
     ///
-    /// Where t is the root this is the whole distance, and the tangent's direction counts to second order only: five terms of
+    /// Where t is the root this is the whole distance, and the tangent's direction counts to second order only: four terms of
     /// it are plenty.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
@@ -150,16 +149,15 @@ fn pair(a: f64, b: f64, t: f64) -> f64 {
 fn sum_in_pairs(c: &[f64; TERMS], t: f64) -> f64 {
     let t2 = t * t;
     let low = pair(pair(c[0], c[1], t), pair(c[2], c[3], t), t2);
-    let high = pair(pair(c[4], c[5], t), pair(c[6], c[7], t), t2);
-    pair(low, high, t2 * t2)
+    pair(low, pair(pair(c[4], c[5], t), c[6], t2), t2 * t2)
 }
 
-/// The first five terms.
+/// The first four terms.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn direction(c: &[f64; TERMS], t: f64) -> f64 {
     let t2 = t * t;
-    pair(pair(c[0], c[1], t), pair(pair(c[2], c[3], t), c[4], t2), t2)
+    pair(pair(c[0], c[1], t), pair(c[2], c[3], t), t2)
 }
 
 impl Piece {
