@@ -103,7 +103,7 @@ impl Studio {
     /// What a tolerance takes for each source of a frame of this size; nothing where it cannot be kept, or if stopped.
     fn plans(&self, side: u32, accuracy: Accuracy, stop: &Stop) -> Option<Vec<(Plan, Reach)>> {
         let shading = self.shading(side, Quality::Within(accuracy), stop)?;
-        let demand = shading.demand()?;
+        let (demand, accuracy) = shading.demand().zip(shading.plan_accuracy())?;
         let plans = self.sources.iter().map(|(measure, _)| {
             let plan = Plan::new(measure, accuracy, Against::Peak, demand).ok()?;
             Some((plan, Reach::in_picture(&shading, measure)))

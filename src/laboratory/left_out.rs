@@ -111,7 +111,7 @@ fn sample_cost(sources: &Sources<'_>) -> Option<f64> {
     let of = &sources.pictures.shading;
     let tables: Vec<Option<DiffuseTable>> =
         sources.measures().map(|measure| sources.shading.needs_table().then(|| DiffuseTable::new(measure))).collect();
-    let demand = sources.shading.demand().zip(of.quality.accuracy());
+    let demand = sources.shading.demand().zip(sources.shading.plan_accuracy());
     let plan = |measure| demand.and_then(|(demand, accuracy)| Plan::new(measure, accuracy, Against::Peak, demand).ok());
     let plans: Vec<Option<Plan>> = sources.measures().map(plan).collect();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().ok()?;

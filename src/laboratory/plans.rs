@@ -30,7 +30,7 @@ pub fn explanation(
 ) -> Result<Option<Explanation>, NoRendering> {
     let shading = ask.ask(&pictures.shading);
     let Some(shading) = (*shading).as_ref() else { return Ok(None) };
-    let (Some(accuracy), Some(demand)) = (shading.quality().accuracy(), shading.demand()) else { return Ok(None) };
+    let (Some(accuracy), Some(demand)) = (shading.plan_accuracy(), shading.demand()) else { return Ok(None) };
     let measure = pictures.image(&source.rendering).measure;
     let plan = ask.ask(&PlanOf { measure, accuracy, against: Against::Peak, demand });
     (*plan).as_ref().map(|plan| Some(plan.explanation().clone())).map_err(|&error| error)

@@ -260,7 +260,7 @@ impl Query for CameraImageOf {
         let measure = (*measure).as_ref().map_err(|&e| e)?;
         let shading = ask.ask(&self.shading);
         let Some(shading) = (*shading).as_ref() else { return Ok(None) };
-        if let Some(accuracy) = shading.quality().accuracy() {
+        if let Some((accuracy, of_lobes)) = shading.plan_accuracy().zip(shading.mirror_accuracy()) {
             let demand = shading.demand();
             let plan = demand.map(|demand| {
                 ask.ask(&PlanOf { measure: self.measure.clone(), accuracy, against: Against::Peak, demand })
@@ -269,8 +269,7 @@ impl Query for CameraImageOf {
             let reach = if shading.mirrors().is_empty() {
                 Reach::of(Quality::Exact, measure)
             } else {
-                let accuracy = shading.mirror_accuracy().unwrap_or(accuracy);
-                (*ask.ask(&ReachOf { measure: self.measure.clone(), accuracy }))?
+                (*ask.ask(&ReachOf { measure: self.measure.clone(), accuracy: of_lobes }))?
             };
             return Ok(CameraImage::by_plan(shading, measure, plan, reach, &ask.stop()));
         }

@@ -1,5 +1,6 @@
 //! What a surface makes of the angles: the same for every camera.
 
+mod brightness;
 mod lobes;
 
 use super::Stop;
@@ -17,6 +18,7 @@ use crate::spectral::grid::{FIRST_NM, LAST_NM};
 use rayon::prelude::*;
 use std::sync::Arc;
 
+use brightness::Brightness;
 use lobes::{Lobe, Lobes};
 
 /// Mirror terms below this share of the brightest sample are left out at [`Quality::Full`] and below.
@@ -43,9 +45,9 @@ pub enum Quality {
     Exact,
     /// The sum over 401 wavelengths with the paper's three cases of g: to see their error.
     Regimes,
-    /// The cheapest way that keeps this error, chosen for each camera ([`super::Plan`]): of the diffuse part relative to the peak
-    /// at the sample's κ, of the mirror term relative to its lobe's height, both before signals are rounded to single
-    /// precision (6e-8 of themselves).
+    /// The cheapest way that keeps this error, relative to the picture's brightest sample, chosen for each camera
+    /// ([`super::Plan`], [`super::mirror::Reach`]): of the diffuse part and of the mirror term, both before signals are rounded to
+    /// single precision (6e-8 of themselves).
     Within(Accuracy),
 }
 
@@ -156,6 +158,7 @@ pub struct ShadingImage {
     shades: Vec<Shade>,
     mirrors: Vec<Mirror>,
     mirror_scale: f64,
+    diffuse_scale: f64,
     counts: ShadingCounts,
 }
 
@@ -194,7 +197,7 @@ impl ShadingImage {
         stop: &Stop,
     ) -> Option<Self> {
         let material = Material { reading, quality, angular_radius: geometry.angular_radius() };
-        let (shades, Lobes { mirrors, scale: mirror_scale }) = match &vertices {
+        let (shades, Lobes { mirrors, scale: mirror_scale, diffuse_scale }) = match &vertices {
             None => {
                 let place = |index: usize| {
                     let angles: &Angles = &geometry.angles()[index];
@@ -213,7 +216,7 @@ impl ShadingImage {
         };
         let counts = counts(&shades, mirrors.len());
         let vertices = vertices.map(|(vertices, _)| vertices);
-        Some(Self { geometry, vertices, surface, quality, shades, mirrors, mirror_scale, counts })
+        Some(Self { geometry, vertices, surface, quality, shades, mirrors, mirror_scale, diffuse_scale, counts })
     }
 
     /// The angles it is made of.
@@ -255,6 +258,15 @@ impl ShadingImage {
     /// The accuracy of lobes, relative to their height, that keeps the one that was asked for of the picture.
     pub fn mirror_accuracy(&self) -> Option<Accuracy> {
         self.quality.accuracy().map(|accuracy| accuracy.times(self.mirror_scale))
+    }
+
+    /// The accuracy of the diffuse part's integral, relative to its peak, that keeps the one that was asked for of the picture:
+    /// smaller where no sample is seen from near the mirror's direction, but not below what S is good for.
+    pub fn plan_accuracy(&self) -> Option<Accuracy> {
+        let accuracy = self.quality.accuracy()?;
+        let best = Precision::Full.max_relative_error();
+        let least = (best / accuracy.max_relative_error()).min(1.0);
+        Some(accuracy.times(self.diffuse_scale.max(least)))
     }
 
     /// How many samples or vertices take which way.
@@ -341,7 +353,7 @@ impl Material {
             return None;
         }
         let height = |lobe: &Lobe| lobe.at_550_nm(&place(lobe.mirror.index as usize), self.angular_radius);
-        let lobes = Lobes::worth_having(&lobes.concat(), &shades, height, self.quality.mirror_share());
+        let lobes = Lobes::worth_having(&lobes.concat(), Brightness::of(&shades), height, self.quality.mirror_share());
         Some((shades, lobes))
     }
 

@@ -144,9 +144,9 @@ fn planned(
     of: &MeasureOf,
     measure: Option<&Measure>,
 ) -> Option<(Arc<Result<Plan, NoRendering>>, Reach)> {
-    let accuracy = made.setup.finish.quality.accuracy()?;
     let shading = made.scene.results.ask(&made.query.shading);
     let shading = (*shading).as_ref()?;
+    let accuracy = shading.plan_accuracy()?;
     let plan = PlanOf { measure: of.clone(), accuracy, against: Against::Peak, demand: shading.demand()? };
     Some((made.scene.results.ask(&plan), Reach::in_picture(shading, measure?)))
 }

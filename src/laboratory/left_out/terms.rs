@@ -78,7 +78,7 @@ fn nodes(measure: &Measure, quality: Quality) -> &[Node] {
 
 /// Per source the κ below which its plan makes sums: 0 where it makes none.
 fn sums_from(sources: &Sources<'_>, ask: &impl Ask) -> Vec<f64> {
-    let wanted = sources.shading.demand().zip(sources.pictures.shading.quality.accuracy());
+    let wanted = sources.shading.demand().zip(sources.shading.plan_accuracy());
     let of = |(source, measure): (&_, &std::sync::Arc<Result<Measure, _>>)| {
         (**measure).as_ref().ok()?;
         let Some((demand, accuracy)) = wanted else { return Some(0.0) };

@@ -1,15 +1,13 @@
 //! Which mirror terms are worth having, measured by the brightest sample of the picture.
 
-use super::{Mirror, Place, Shade, Way};
+use super::brightness::{self, Brightness};
+use super::{Mirror, Place};
 use crate::reflectance::coherent::rho0_squared;
 use crate::reflectance::power::LAMBDA_0_NM;
-use crate::reflectance::{Precision, diffuse_sum};
 use rayon::prelude::*;
 
 /// So many of the lobes that may be highest are looked at.
 const LOOKED_AT: usize = 32;
-/// No picture is darker next to its lobes.
-const LEAST_SCALE: f64 = -100.0;
 
 /// A sample's mirror term, with what it does not exceed.
 #[derive(Clone, Debug)]
@@ -25,8 +23,9 @@ pub(super) struct Lobe {
 pub(super) struct Lobes {
     /// Ascending.
     pub(super) mirrors: Vec<Mirror>,
-    /// The brightest sample as a share of the highest lobe, a power of two not above 1.
+    /// The brightest sample as a share of the highest lobe and of the highest diffuse part, powers of two not above 1.
     pub(super) scale: f64,
+    pub(super) diffuse_scale: f64,
 }
 
 impl Lobe {
@@ -39,17 +38,14 @@ impl Lobe {
 }
 
 impl Lobes {
-    /// Those above a share of the brightest sample. How bright that is at least is found at 550 nm: of the diffuse parts, and of
+    /// Those above a share of the brightest sample. How bright that is at least is found at 550 nm: of some diffuse parts, and of
     /// the lobes that may be highest by `at_550_nm`.
     pub(super) fn worth_having(
         lobes: &[Lobe],
-        shades: &[Shade],
+        diffuse: Brightness,
         at_550_nm: impl Fn(&Lobe) -> f64 + Sync,
         share: f64,
     ) -> Self {
-        if lobes.is_empty() {
-            return Self { mirrors: Vec::new(), scale: 1.0 };
-        }
         let mut highest: Vec<&Lobe> = lobes.iter().collect();
         let order = |a: &&Lobe, b: &&Lobe| b.most.total_cmp(&a.most).then(a.mirror.index.cmp(&b.mirror.index));
         if highest.len() > LOOKED_AT {
@@ -57,21 +53,14 @@ impl Lobes {
             highest.truncate(LOOKED_AT);
         }
         let mirror = highest.par_iter().map(|lobe| at_550_nm(lobe)).reduce(|| 0.0, f64::max);
-        let brightest = shades.par_iter().with_min_len(1024).map(diffuse).reduce(|| 0.0, f64::max).max(mirror);
+        let brightest = diffuse.brightest.max(mirror);
         let threshold = share * brightest;
         let kept = || lobes.iter().filter(|lobe| lobe.most > threshold);
         let height = kept().map(|lobe| lobe.height).fold(0.0, f64::max);
-        let ratio = if height > 0.0 { brightest / height } else { 1.0 };
-        let scale = ratio.log2().floor().clamp(LEAST_SCALE, 0.0).exp2();
-        Self { mirrors: kept().map(|lobe| lobe.mirror).collect(), scale }
-    }
-}
-
-/// A sample's diffuse part at 550 nm.
-fn diffuse(shade: &Shade) -> f64 {
-    match shade.way {
-        Way::Dark => 0.0,
-        Way::Flat => shade.front,
-        _ => shade.front * diffuse_sum(shade.kappa, shade.beta * shade.kappa, Precision::Coarse),
+        Self {
+            mirrors: kept().map(|lobe| lobe.mirror).collect(),
+            scale: brightness::scale(brightest, height),
+            diffuse_scale: brightness::scale(brightest, diffuse.highest),
+        }
     }
 }
