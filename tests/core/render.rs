@@ -1,6 +1,7 @@
 //! Pictures of meshes: each stage against a second way, skipping against not skipping, one thread against many.
 
 mod diffuse;
+mod drawn;
 mod images;
 mod shadow;
 mod skipping;
