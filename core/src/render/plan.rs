@@ -22,10 +22,14 @@ mod candidate;
 mod check;
 mod cost;
 mod domain;
+mod extent;
 mod nodes;
 mod run;
 mod search;
+mod series;
+mod spline;
 mod table;
+mod tables;
 
 pub use candidate::{Candidate, Explanation, Method, Verdict};
 pub use check::MARGIN;

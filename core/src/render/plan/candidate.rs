@@ -1,5 +1,7 @@
 //! What was chosen and what was not, with errors and costs, for somebody to look at.
 
+use super::table::Size;
+use super::tables::Makings;
 use super::{Against, Demand, cost};
 use crate::accuracy::Accuracy;
 use crate::reflectance::Precision;
@@ -18,7 +20,7 @@ pub enum Method {
     },
     /// A table.
     Table {
-        /// The degree of its polynomials: 3, 5, 7, 9 or 11.
+        /// The degree of its polynomials: 3, 5, 7 or 9.
         degree: usize,
         /// Places along ln κ.
         kappas: usize,
@@ -78,13 +80,23 @@ pub struct Candidate {
 
 impl Candidate {
     pub(super) fn new(method: Method, seen: f64, certified: f64) -> Self {
-        let unseen = Self::unseen(method);
-        Self { seen: Some(seen), certified: Some(certified), ..unseen }
+        Self::unseen(method).checked(seen, certified)
     }
 
     pub(super) fn unseen(method: Method) -> Self {
-        let (sample_ns, making_ns) = (cost::of_sample(&method), cost::of_making(&method));
-        Self { method, seen: None, certified: None, sample_ns, making_ns, verdict: Verdict::TooSlow }
+        let sample_ns = cost::of_sample(&method);
+        Self { method, seen: None, certified: None, sample_ns, making_ns: 0.0, verdict: Verdict::TooSlow }
+    }
+
+    /// A table that is not made yet.
+    pub(super) fn table(size: &Size, makings: &mut Makings<'_>) -> Self {
+        let (nodes, making_ns) = makings.cost(size);
+        Self { making_ns, ..Self::unseen(size.method(nodes)) }
+    }
+
+    /// The same with what was seen.
+    pub(super) fn checked(self, seen: f64, certified: f64) -> Self {
+        Self { seen: Some(seen), certified: Some(certified), ..self }
     }
 
     /// Nanoseconds for so many samples.

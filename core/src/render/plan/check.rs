@@ -27,6 +27,9 @@ const EDGE_BETAS: usize = 64;
 const STAND_INS: [usize; 2] = [20, 28];
 const COMPARED_STRIDE: usize = 25;
 
+/// Each so manyth point tells how many wavelengths a table needs.
+const FEW_STRIDE: usize = 41;
+
 /// A place and what the integral is there.
 pub(super) struct Point {
     pub(super) kappa: f64,
@@ -81,6 +84,13 @@ impl Check {
         let first = edge(&self.nodes, self.against, from);
         let first = first.iter().map(|point| off(point, way(point.kappa, point.beta))).fold(0.0, f64::max);
         first.max(self.error(|kappa| kappa >= from, &way))
+    }
+
+    /// What a sum over these wavelengths is off by at a few points.
+    pub(super) fn error_of_nodes(&self, nodes: &[Node]) -> f64 {
+        let few: Vec<&Point> = self.points().step_by(FEW_STRIDE).collect();
+        let of = |point: &&Point| off(point, by_nodes(nodes, point.kappa, point.beta, Precision::Full));
+        few.par_iter().map(of).reduce(|| 0.0, f64::max)
     }
 
     pub(super) fn points(&self) -> impl Iterator<Item = &Point> {

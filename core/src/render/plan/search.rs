@@ -4,15 +4,15 @@
 //! a larger one than the cheapest that meets a larger.
 
 use super::candidate::{Candidate, Explanation, Method, Verdict};
-use super::check::{Check, Point, REFERENCE, apart, off};
+use super::check::{Check, Point, REFERENCE, off};
 use super::nodes::{by_own, carried, own_rules};
-use super::table::{Size, Table, of_cell};
+use super::table::Size;
+use super::tables::Makings;
 use super::{Against, Below, Demand, Plan, run};
 use crate::accuracy::{Accuracy, Unmet};
 use crate::reflectance::{Precision, diffuse_sum};
-use crate::render::diffuse::{by_moments, by_nodes, cell, rough_basis};
+use crate::render::diffuse::{by_moments, by_nodes, rough_basis};
 use crate::render::measure::{MOMENTS, Measure, Node};
-use rayon::prelude::*;
 
 /// The most wavelengths that stand for all.
 const MOST_NODES: usize = 24;
@@ -22,17 +22,18 @@ const LAST_TABLE: f64 = 1024.0;
 /// A table reaches down to this share of the largest κ in it.
 const TABLE_SPAN: f64 = 1e-6;
 /// Of which degree tables are.
-const DEGREES: [usize; 5] = [3, 5, 7, 9, 11];
-/// The finest table: cells of 1/320.
+const DEGREES: [usize; 4] = [3, 5, 7, 9];
+/// The finest table: cells of 1/160.
 const LAST_STEP: u32 = 16;
+/// The largest: 32 MB.
+const MOST_CELLS: usize = 1 << 20;
 /// An error is taken to fall by at most this much more than by 2^((degree + 1)/2) from a table to the next finer one, whose cells
 /// are smaller by √2.
 const STEEPER: f64 = 2.5;
-/// Each so manyth place of the check is looked at before a table is filled, by so few wavelengths, and this share of the error
-/// taken for certain.
-const PROBE_STRIDE: usize = 37;
-const PROBE_NODES: usize = 4;
-const PROBED: f64 = 0.9;
+/// What other ways cost at the least, in nanoseconds, where tables are looked at first.
+const PAYS_NS: f64 = 2e6;
+/// By which power of ten a table's error is taken to be smaller than what is likely, at most.
+const UNLIKELY: f64 = 1.5;
 
 pub(super) fn plan(measure: &Measure, accuracy: Accuracy, against: Against, demand: Demand) -> Result<Plan, Unmet> {
     accuracy.met_by(REFERENCE)?;
@@ -43,9 +44,14 @@ pub(super) fn plan(measure: &Measure, accuracy: Accuracy, against: Against, dema
     let from = rough.as_ref().map_or(f64::INFINITY, |(_, from)| *from);
     if whole.is_none() {
         search.every();
+        if search.many(from) {
+            search.tables(from);
+        }
         search.shared();
         search.own();
-        search.tables(from);
+        if !search.many(from) {
+            search.tables(from);
+        }
     }
     let Search { mut seen, best, .. } = search;
     let (chosen, below, rough) = match (whole, best) {
@@ -98,6 +104,12 @@ impl Search<'_> {
     fn may_win(&self, candidate: &Candidate) -> bool {
         let samples = self.demand.samples();
         self.best.as_ref().is_none_or(|(best, _)| candidate.total_ns(samples) < best.total_ns(samples))
+    }
+
+    /// Whether there are so many samples that a table is likely to pay.
+    fn many(&self, rough: f64) -> bool {
+        let fewest = Candidate::unseen(Method::Shared { nodes: 2, precision: Precision::Coarse });
+        self.tabulated(rough).is_some() && fewest.total_ns(self.demand.samples()) > PAYS_NS
     }
 
     fn moments_error(&self, orders: usize, from: f64) -> f64 {
@@ -174,6 +186,11 @@ impl Search<'_> {
     /// The fewest wavelengths that do, with each precision of S.
     fn shared(&mut self) {
         for count in 2..=MOST_NODES {
+            let cheapest = Candidate::unseen(Method::Shared { nodes: count, precision: Precision::Coarse });
+            if !self.may_win(&cheapest) {
+                self.seen.push(cheapest);
+                break;
+            }
             let nodes = self.measure.shared(count);
             let seen = self.check.error(|_| true, |kappa, beta| by_nodes(&nodes, kappa, beta, Precision::Full));
             let method = |precision| Method::Shared { nodes: nodes.len(), precision };
@@ -217,63 +234,54 @@ impl Search<'_> {
 
     /// Tables, while they are cheaper than what there is.
     fn tables(&mut self, rough: f64) {
-        let [least, last] = self.demand.kappa();
-        let last = last.min(LAST_TABLE);
-        let kappa = [least.max(last * TABLE_SPAN), last];
-        if kappa[0] >= kappa[1] || rough <= kappa[0] {
-            return;
-        }
-        let mut next: Vec<Size> = DEGREES.iter().filter_map(|&degree| self.sized(kappa, degree, 0)).collect();
-        // The cheapest first, so that none is filled that is dearer than the one taken.
+        let Some(kappa) = self.tabulated(rough) else { return };
+        let mut makings = Makings::new(self.measure, self.check, kappa);
+        let mut next: Vec<Size> = DEGREES.iter().filter_map(|&degree| self.first(&makings, degree)).collect();
         let samples = self.demand.samples();
-        let total = |size: &Size| Candidate::unseen(size.method()).total_ns(samples);
-        while let Some(size) = next.iter().min_by(|a, b| total(a).total_cmp(&total(b))).copied() {
-            next.retain(|other| other.degree != size.degree);
-            let unseen = Candidate::unseen(size.method());
-            if !self.may_win(&unseen) {
-                self.seen.push(unseen);
-                self.seen.extend(next.iter().map(|size| Candidate::unseen(size.method())));
+        // The cheapest first, so that none is filled that is dearer than the one taken.
+        while !next.is_empty() {
+            let candidates: Vec<Candidate> = next.iter().map(|size| Candidate::table(size, &mut makings)).collect();
+            let total = |&i: &usize| candidates[i].total_ns(samples);
+            let Some(cheapest) = (0..next.len()).min_by(|a, b| total(a).total_cmp(&total(b))) else { return };
+            if !self.may_win(&candidates[cheapest]) {
+                self.seen.extend(candidates);
                 return;
             }
-            let plan = self.with(Below::Table(Table::new(&size, kappa, self.measure.shared(size.nodes))));
+            let size = next.swap_remove(cheapest);
+            let plan = self.with(Below::Table(makings.table(&size)));
             let seen = self.table_error(&plan);
-            self.offer(Candidate::new(size.method(), seen, self.check.certified(seen)), plan.below);
-            next.extend(self.sized(kappa, size.degree, size.step + 1));
+            self.offer(candidates[cheapest].checked(seen, self.check.certified(seen)), plan.below);
+            next.extend(self.finer(&makings, &size, seen));
         }
     }
 
-    /// The coarsest table of a degree, from some fineness on, that a few places do not tell to leave too much.
-    fn sized(&self, kappa: [f64; 2], degree: usize, from: u32) -> Option<Size> {
-        let steepest = STEEPER * (0.5 * (degree + 1) as f64).exp2();
-        let mut least = 0.0;
-        for size in (from..=LAST_STEP).map(|step| Size::new(kappa, degree, step)) {
-            let dear = !self.may_win(&Candidate::unseen(size.method()));
-            if !self.leaves_too_much(least) && !dear {
-                least = PROBED * self.probed(&size, kappa);
-            }
-            if dear || !self.leaves_too_much(least) {
-                return Some(size);
-            }
+    /// The κ of a table, if any lie below the rough.
+    fn tabulated(&self, rough: f64) -> Option<[f64; 2]> {
+        let [least, last] = self.demand.kappa();
+        let last = last.min(LAST_TABLE);
+        let from = least.max(last * TABLE_SPAN);
+        (from < last && rough > from).then_some([from, last])
+    }
+
+    /// The coarsest table of a degree that is likely to be exact enough, and some that are not.
+    fn first(&self, makings: &Makings<'_>, degree: usize) -> Option<Size> {
+        let wanted = -self.accuracy.max_relative_error().log10() - UNLIKELY;
+        self.sizes(makings, degree, 0).find(|size| size.digits() >= wanted)
+    }
+
+    /// The coarsest table finer than one of this error that may be exact enough.
+    fn finer(&self, makings: &Makings<'_>, size: &Size, seen: f64) -> Option<Size> {
+        let steepest = STEEPER * (0.5 * (size.degree + 1) as f64).exp2();
+        let mut least = seen;
+        self.sizes(makings, size.degree, size.step + 1).find(|_| {
             least /= steepest;
-        }
-        None
+            self.accuracy.allows(self.check.certified(least))
+        })
     }
 
-    fn leaves_too_much(&self, seen: f64) -> bool {
-        !self.accuracy.allows(self.check.certified(seen))
-    }
-
-    /// What interpolation alone is off by at some places.
-    fn probed(&self, size: &Size, kappa: [f64; 2]) -> f64 {
-        let nodes = self.measure.shared(PROBE_NODES);
-        let inside = |point: &&Point| kappa[0] <= point.kappa && point.kappa <= kappa[1];
-        let points: Vec<&Point> = self.check.points().filter(inside).step_by(PROBE_STRIDE).collect();
-        let of = |point: &&Point| {
-            let exact = of_cell(cell(&nodes, point.kappa, point.beta));
-            let of_axis = |axis| apart(exact, size.read_along(axis, &nodes, point.kappa, point.beta)) / point.scale;
-            of_axis(0).max(of_axis(1))
-        };
-        points.par_iter().map(of).reduce(|| 0.0, f64::max)
+    fn sizes(&self, makings: &Makings<'_>, degree: usize, from: u32) -> impl Iterator<Item = Size> {
+        let size = move |step| makings.size(degree, step);
+        (from..=LAST_STEP).map(size).take_while(|size| size.places().into_iter().product::<usize>() <= MOST_CELLS)
     }
 
     fn table_error(&self, plan: &Plan) -> f64 {
