@@ -26,8 +26,9 @@ mod extent;
 mod nodes;
 mod run;
 mod search;
-mod series;
+
 mod spline;
+mod surface;
 mod table;
 mod tables;
 

@@ -14,8 +14,8 @@ pub(super) const fn sum_ns(precision: Precision) -> f64 {
     }
 }
 
-/// A term of a series at a place of a table.
-pub(super) const TERM_NS: f64 = 2.0;
+/// A place of a table from another.
+pub(super) const PLACE_NS: f64 = 100.0;
 
 /// All wavelengths of the grid.
 const EVERY: f64 = 401.0;

@@ -149,8 +149,7 @@ fn read<const N: usize>(table: &Table, places: &Places, ways: &[Quick; RUN], sum
 #[cfg(test)]
 mod tests {
     use super::super::extent::Extent;
-    use super::super::series::Series;
-    use super::super::table::Size;
+    use super::super::surface::Surface;
     use super::*;
     use crate::reflectance::Precision;
     use crate::render::measure::Node;
@@ -167,8 +166,8 @@ mod tests {
         let kappa = [0.01, 64.0];
         for degree in [3, 5, 7, 9] {
             let (extent, nodes) = (Extent::new(kappa), vec![node(0.7), node(1.4)]);
-            let series = Series::new(&extent, [12, 10], &nodes, Precision::Fine);
-            let table = Table::new(&Size::new(&extent, degree, 1), &series, nodes);
+            let surface = Surface::filled(&extent, degree, [12, 10], &nodes, Precision::Fine);
+            let table = Table::new(&extent, surface, nodes);
             let mut places = Places::EMPTY;
             places.count = RUN;
             let mut ways = [Quick::Table; RUN];

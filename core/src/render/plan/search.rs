@@ -23,17 +23,16 @@ const LAST_TABLE: f64 = 1024.0;
 const TABLE_SPAN: f64 = 1e-6;
 /// Of which degree tables are.
 const DEGREES: [usize; 4] = [3, 5, 7, 9];
-/// The finest table: cells of 1/160.
-const LAST_STEP: u32 = 16;
+/// The finest table: cells of 1/320.
+const LAST_STEP: u32 = 36;
 /// The largest: 32 MB.
 const MOST_CELLS: usize = 1 << 20;
-/// An error is taken to fall by at most this much more than by 2^((degree + 1)/2) from a table to the next finer one, whose cells
-/// are smaller by √2.
-const STEEPER: f64 = 2.5;
+/// An error is taken to fall by at most this much more than by 2^((degree + 1)/4) from a table to the next finer one.
+const STEEPER: f64 = 1.5;
 /// What other ways cost at the least, in nanoseconds, where tables are looked at first.
 const PAYS_NS: f64 = 2e6;
-/// By which power of ten a table's error is taken to be smaller than what is likely, at most.
-const UNLIKELY: f64 = 1.5;
+/// A table's error is taken to be smaller than what is likely by this power of ten at most.
+const UNLIKELY: f64 = 0.7;
 
 pub(super) fn plan(measure: &Measure, accuracy: Accuracy, against: Against, demand: Demand) -> Result<Plan, Unmet> {
     accuracy.met_by(REFERENCE)?;
@@ -265,13 +264,13 @@ impl Search<'_> {
 
     /// The coarsest table of a degree that is likely to be exact enough, and some that are not.
     fn first(&self, makings: &Makings<'_>, degree: usize) -> Option<Size> {
-        let wanted = -self.accuracy.max_relative_error().log10() - UNLIKELY;
-        self.sizes(makings, degree, 0).find(|size| size.digits() >= wanted)
+        let tried = -self.accuracy.max_relative_error().log10() - UNLIKELY;
+        self.sizes(makings, degree, 0).find(|size| size.digits() >= tried)
     }
 
     /// The coarsest table finer than one of this error that may be exact enough.
     fn finer(&self, makings: &Makings<'_>, size: &Size, seen: f64) -> Option<Size> {
-        let steepest = STEEPER * (0.5 * (size.degree + 1) as f64).exp2();
+        let steepest = STEEPER * (0.25 * (size.degree + 1) as f64).exp2();
         let mut least = seen;
         self.sizes(makings, size.degree, size.step + 1).find(|_| {
             least /= steepest;
@@ -281,7 +280,7 @@ impl Search<'_> {
 
     fn sizes(&self, makings: &Makings<'_>, degree: usize, from: u32) -> impl Iterator<Item = Size> {
         let size = move |step| makings.size(degree, step);
-        (from..=LAST_STEP).map(size).take_while(|size| size.places().into_iter().product::<usize>() <= MOST_CELLS)
+        (from..=LAST_STEP).map(size).take_while(|size| size.count() <= MOST_CELLS)
     }
 
     fn table_error(&self, plan: &Plan) -> f64 {

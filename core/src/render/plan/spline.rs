@@ -72,8 +72,75 @@ pub(super) fn weights<const N: usize>(s: &[f64; RUN], weights: &mut [[f64; RUN];
 /// The most coefficients that are read along an axis.
 pub(super) const MOST: usize = 10;
 
-/// A row of a band matrix: the first column, and what stands from there on.
-type BandRow = (usize, [f64; MOST]);
+/// The spline of a degree through as many places as it has coefficients, on an axis from 0 to 1 of so many intervals.
+pub(super) struct Axis {
+    degree: usize,
+    intervals: usize,
+    sites: Vec<f64>,
+    /// The weights at each site and the first coefficient they belong to, by Gauss's elimination made triangular. Left of the
+    /// diagonal stands what was subtracted how often.
+    band: Vec<(usize, [f64; MOST])>,
+}
+
+impl Axis {
+    pub(super) fn new(degree: usize, intervals: usize) -> Self {
+        let sites = sites(degree, intervals);
+        let mut axis = Self { degree, intervals, band: Vec::with_capacity(sites.len()), sites };
+        axis.band = axis.sites.iter().map(|&site| axis.weights(site)).collect();
+        axis.eliminate();
+        axis
+    }
+
+    /// Where the spline is to be given, from 0 to 1.
+    pub(super) fn sites(&self) -> &[f64] {
+        &self.sites
+    }
+
+    /// The first coefficient that a place is made of, and the weights.
+    pub(super) fn weights(&self, place: f64) -> (usize, [f64; MOST]) {
+        let x = place * self.intervals as f64;
+        let cell = x.floor().clamp(0.0, (self.intervals - 1) as f64);
+        (cell as usize, at_place(self.degree, 2.0 * (x - cell) - 1.0))
+    }
+
+    /// All minors of such a matrix are positive (Karlin 1968), so that no row need change its place.
+    fn eliminate(&mut self) {
+        for k in 0..self.band.len() {
+            let (upper, lower) = self.band.split_at_mut(k + 1);
+            let (from, pivot) = upper[k];
+            for row in lower.iter_mut().take_while(|row| row.0 <= k) {
+                let share = row.1[k - row.0] / pivot[k - from];
+                for column in k + 1..=from + self.degree {
+                    row.1[column - row.0] -= share * pivot[column - from];
+                }
+                row.1[k - row.0] = share;
+            }
+        }
+    }
+
+    /// From the values at the sites to the coefficients. Each site has so many numbers side by side.
+    pub(super) fn solve(&self, values: &mut [f64], side_by_side: usize) {
+        let mut rows: Vec<&mut [f64]> = values.chunks_mut(side_by_side).collect();
+        for (i, (from, row)) in self.band.iter().enumerate() {
+            let (above, rest) = rows.split_at_mut(i);
+            for (share, other) in row.iter().zip(&above[*from..]) {
+                subtract(rest[0], *share, other);
+            }
+        }
+        for (k, (from, row)) in self.band.iter().enumerate().rev() {
+            let (upper, below) = rows.split_at_mut(k + 1);
+            for (share, other) in row[k + 1 - from..=self.degree].iter().zip(below) {
+                subtract(upper[k], *share, other);
+            }
+            let pivot = row[k - from];
+            upper[k].iter_mut().for_each(|value| *value /= pivot);
+        }
+    }
+}
+
+fn subtract(from: &mut [f64], share: f64, other: &[f64]) {
+    from.iter_mut().zip(other).for_each(|(a, b)| *a -= share * b);
+}
 
 /// The weights of one place.
 fn at_place(degree: usize, s: f64) -> [f64; MOST] {
@@ -92,70 +159,18 @@ fn at_place(degree: usize, s: f64) -> [f64; MOST] {
     }
 }
 
-/// Where a spline is to meet what it stands for, in intervals: at all knots, and in the first and last interval at Chebyshev's
-/// extremes too, as many as the degree leaves free. Errors are then no larger at the ends than elsewhere.
+/// All knots, and in the first and last interval Chebyshev's extremes too, as many as the degree leaves free. Errors are then no
+/// larger at the ends than elsewhere.
 fn sites(degree: usize, intervals: usize) -> Vec<f64> {
     let extra = (degree - 1) / 2;
     let inner = (1..=extra).map(|j| 0.5 - 0.5 * (std::f64::consts::PI * j as f64 / (extra + 1) as f64).cos());
     let length = intervals as f64;
-    let mut sites: Vec<f64> = (0..=intervals).map(|i| i as f64).collect();
+    let mut sites: Vec<f64> = (0..=intervals).map(|i| i as f64 / length).collect();
     for x in inner {
-        sites.extend([x, length - x]);
+        sites.extend([x / length, (length - x) / length]);
     }
     sites.sort_by(f64::total_cmp);
     sites
-}
-
-/// The coefficients of the splines that stand for Chebyshev's polynomials on −1…1: a row for each coefficient, in it the
-/// polynomials of degree 0, 1, …, `terms` − 1.
-pub(super) fn of_chebyshev(degree: usize, intervals: usize, terms: usize) -> Vec<Vec<f64>> {
-    let sites = sites(degree, intervals);
-    let last = (intervals - 1) as f64;
-    let mut band: Vec<BandRow> = Vec::with_capacity(sites.len());
-    let mut right: Vec<Vec<f64>> = Vec::with_capacity(sites.len());
-    for &x in &sites {
-        let cell = x.floor().min(last);
-        band.push((cell as usize, at_place(degree, 2.0 * (x - cell) - 1.0)));
-        right.push(chebyshev(2.0 * x / intervals as f64 - 1.0, terms));
-    }
-    solve(degree, &mut band, &mut right);
-    right
-}
-
-fn chebyshev(t: f64, terms: usize) -> Vec<f64> {
-    let mut values = Vec::with_capacity(terms);
-    let (mut before, mut current) = (t, 1.0);
-    for _ in 0..terms {
-        values.push(current);
-        (before, current) = (current, 2.0 * t * current - before);
-    }
-    values
-}
-
-/// Gauss's elimination. All minors of such a matrix are positive (Karlin 1968), so that no row need change its place.
-fn solve(degree: usize, band: &mut [BandRow], right: &mut [Vec<f64>]) {
-    let count = band.len();
-    for k in 0..count {
-        let (from, pivot) = band[k];
-        let (upper, lower) = right.split_at_mut(k + 1);
-        for (row, right) in band[k + 1..].iter_mut().zip(lower).take_while(|(row, _)| row.0 <= k) {
-            let share = row.1[k - row.0] / pivot[k - from];
-            for column in k + 1..=from + degree {
-                row.1[column - row.0] -= share * pivot[column - from];
-            }
-            right.iter_mut().zip(&upper[k]).for_each(|(a, b)| *a -= share * b);
-        }
-    }
-    for k in (0..count).rev() {
-        let (from, pivot) = band[k];
-        let (rows, below) = right.split_at_mut(k + 1);
-        let row = &mut rows[k];
-        for (column, other) in (k + 1..).zip(below).take_while(|(column, _)| *column <= from + degree) {
-            let share = pivot[column - from];
-            row.iter_mut().zip(other.iter()).for_each(|(a, b)| *a -= share * b);
-        }
-        row.iter_mut().for_each(|a| *a /= pivot[k - from]);
-    }
 }
 
 #[cfg(test)]
@@ -166,18 +181,9 @@ mod tests {
     fn errors(degree: usize) -> [f64; 2] {
         let (intervals, step) = (24, 0.35_f64);
         let half = 0.5 * step * intervals as f64;
-        // Chebyshev's series by its integral.
-        let terms = 40;
-        let many = 200;
-        let angle = |j: usize| std::f64::consts::PI * (j as f64 + 0.5) / many as f64;
-        let series: Vec<f64> = (0..terms)
-            .map(|k| {
-                let sum: f64 = (0..many).map(|j| (half * angle(j).cos()).exp() * (k as f64 * angle(j)).cos()).sum();
-                sum * if k == 0 { 1.0 } else { 2.0 } / many as f64
-            })
-            .collect();
-        let rows = of_chebyshev(degree, intervals, terms);
-        let spline: Vec<f64> = rows.iter().map(|row| row.iter().zip(&series).map(|(a, b)| a * b).sum()).collect();
+        let axis = Axis::new(degree, intervals);
+        let mut spline: Vec<f64> = axis.sites().iter().map(|x| (half * (2.0 * x - 1.0)).exp()).collect();
+        axis.solve(&mut spline, 1);
         let mut worst = [0.0_f64; 2];
         for i in 0..intervals * 40 {
             let x = (i as f64 + 0.5) / 40.0;

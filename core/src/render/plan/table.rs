@@ -3,16 +3,16 @@
 use super::candidate::Method;
 use super::extent::Extent;
 use super::run::RUN;
-use super::series::{Cell, Series};
 use super::spline::weights;
+use super::surface::{Cell, Surface};
 use crate::render::measure::Node;
 
-/// A table's fineness: each step makes its cells smaller by √2.
+/// A table's fineness: each fourth step halves its cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Size {
     pub(super) degree: usize,
     /// Intervals along ln κ and along v.
-    intervals: [usize; 2],
+    pub(super) intervals: [usize; 2],
     pub(super) step: u32,
 }
 
@@ -24,27 +24,38 @@ const ALONG_V: f64 = 1.0;
 impl Size {
     /// The size of a table after `step` times making its cells smaller.
     pub(super) fn new(extent: &Extent, degree: usize, step: u32) -> Self {
-        let h = COARSEST * (-0.5 * f64::from(step)).exp2();
+        let h = side(step);
         let lengths = extent.lengths();
         let along = |length: f64, h: f64| (length / h).ceil().max(2.0) as usize;
         Self { degree, intervals: [along(lengths[0], h), along(lengths[1], ALONG_V * h)], step }
     }
 
-    /// About what the splines are off by, as a power of ten.
+    /// To how many digits the spline is likely to be right, relative to the peak: as it was found for a camera.
     pub(super) fn digits(&self) -> f64 {
-        let h = COARSEST * (-0.5 * f64::from(self.step)).exp2();
-        let least = match self.degree {
-            3 => 2.6e-3_f64,
-            5 => 6.5e-5,
-            7 => 1.65e-6,
-            _ => 4.2e-8,
-        };
-        -(least * h.powi(self.degree as i32 + 1)).log10()
+        let x = -side(self.step).log2();
+        match self.degree {
+            3 => 1.73 + 1.32 * x,
+            5 => 1.16 + 2.2 * x,
+            7 => 3.2 * x - 0.18,
+            _ => 2.71 + (x - 0.54) * x.max(0.54),
+        }
+    }
+
+    /// What it is best made of: a spline of degree 9 with fewer coefficients that is more exact, or sums at each place.
+    pub(super) fn source(&self, extent: &Extent) -> Self {
+        let smooth = (0..self.step).map(|step| Self::new(extent, 9, step));
+        let exact = smooth.take_while(|source| source.count() < self.count());
+        exact.into_iter().find(|source| source.digits() >= self.digits() + SPARE).unwrap_or(*self)
     }
 
     /// Coefficients along ln κ and along v.
     pub(super) fn places(&self) -> [usize; 2] {
         self.intervals.map(|count| count + self.degree)
+    }
+
+    /// Coefficients.
+    pub(super) fn count(&self) -> usize {
+        self.places().into_iter().product()
     }
 
     /// A table of this size as a way.
@@ -54,27 +65,24 @@ impl Size {
     }
 }
 
+/// By so many digits what a table is made of is more exact than the table.
+pub(super) const SPARE: f64 = 0.8;
+
+fn side(step: u32) -> f64 {
+    COARSEST * (-0.25 * f64::from(step)).exp2()
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Table {
-    degree: usize,
     extent: Extent,
-    intervals: [f64; 2],
-    width: usize,
-    cells: Vec<Cell>,
+    surface: Surface,
     nodes: Vec<Node>,
 }
 
 impl Table {
-    /// A table of what a series stands for, made of these wavelengths.
-    pub(super) fn new(size: &Size, series: &Series, nodes: Vec<Node>) -> Self {
-        Self {
-            degree: size.degree,
-            extent: series.extent,
-            intervals: size.intervals.map(|count| count as f64),
-            width: size.places()[1],
-            cells: series.splined(size.degree, size.intervals),
-            nodes,
-        }
+    /// A spline to be read, made of these wavelengths.
+    pub(super) fn new(extent: &Extent, surface: Surface, nodes: Vec<Node>) -> Self {
+        Self { extent: *extent, surface, nodes }
     }
 
     /// The wavelengths that it is made of.
@@ -83,11 +91,11 @@ impl Table {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        size_of_val(self.cells.as_slice())
+        size_of_val(self.surface.cells.as_slice())
     }
 
     pub(super) fn degree(&self) -> usize {
-        self.degree
+        self.surface.degree
     }
 
     #[inline]
@@ -95,13 +103,17 @@ impl Table {
         self.extent.holds(kappa)
     }
 
+    fn width(&self) -> usize {
+        self.surface.intervals[1] + self.surface.degree
+    }
+
     /// Where a run of samples lies between the knots.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub(super) fn around<const N: usize>(&self, kappa: &[f64; RUN], beta: &[f64; RUN]) -> Around<N> {
         let mut around = Around { v: [0.0; RUN], start: [0; RUN], across: [[0.0; RUN]; N], along: [[0.0; RUN]; N] };
-        let (mut t, mut s, width) = ([0.0; RUN], [0.0; RUN], self.width as f64);
-        let [rows, columns] = self.intervals;
+        let (mut t, mut s, width) = ([0.0; RUN], [0.0; RUN], self.width() as f64);
+        let [rows, columns] = self.surface.intervals.map(|count| count as f64);
         for i in 0..RUN {
             let [place, v] = self.extent.place(kappa[i], beta[i]);
             let (x, y) = (0.5 * rows * (place + 1.0), columns * v);
@@ -120,8 +132,8 @@ impl Table {
     #[inline(always)]
     pub(super) fn read<const N: usize>(&self, around: &Around<N>, i: usize) -> Cell {
         let along: [f64; N] = std::array::from_fn(|k| around.along[k][i]);
-        let cells = self.cells.get(around.start[i] as usize..).unwrap_or_default();
-        let mut rows = cells.chunks(self.width);
+        let cells = self.surface.cells.get(around.start[i] as usize..).unwrap_or_default();
+        let mut rows = cells.chunks(self.width());
         let mut mixed = [0.0; 4];
         for across in &around.across {
             let Some(row) = rows.next().and_then(|row| row.first_chunk::<N>()) else { return mixed };
