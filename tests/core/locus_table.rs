@@ -1,5 +1,6 @@
 //! Tables of black bodies' chromaticities against the 1 nm sum, 50 digits, and curves that no table can hold.
 
+use chromascope_core::accuracy::Accuracy;
 use chromascope_core::camera::locus_table::{COLDEST_K, HOTTEST_K};
 use chromascope_core::camera::{LocusEvaluator, Rendering, Way, White};
 use chromascope_core::camera::{LocusTable, NotInTable};
@@ -77,11 +78,11 @@ fn a_larger_error_takes_a_smaller_table_that_keeps_it() {
         let sensor = sensor(path);
         let rendering = rendering(&sensor, Way::Paper).unwrap();
         let exact = LocusTable::new(&sensor, &rendering, PAPER);
-        assert_eq!(LocusTable::within(&sensor, &rendering, PAPER, 0.0), exact);
-        assert_eq!(LocusTable::within(&sensor, &rendering, PAPER, f64::NAN), exact);
+        let within = |target| LocusTable::within(&sensor, &rendering, PAPER, Accuracy::new(target).unwrap());
+        assert_eq!(within(f64::MIN_POSITIVE), exact);
         let mut size = exact.size()[0];
         for target in [1e-11, 1e-9, 1e-6, 1e-4] {
-            let table = LocusTable::within(&sensor, &rendering, PAPER, target);
+            let table = within(target);
             assert!(table.max_error() <= target && table.size()[0] <= size, "{path}: {:?}", table.size());
             size = table.size()[0];
             for t in anywhere(400) {

@@ -8,6 +8,7 @@ mod pieces;
 use rayon::prelude::*;
 
 use self::pieces::{Pieces, TERMS};
+use crate::accuracy::Accuracy;
 use crate::camera::{LocusEvaluator, Rendering};
 use crate::colorimetry::Xy;
 use crate::light::RadiationConstants;
@@ -61,12 +62,16 @@ impl LocusTable {
 
     /// Tabulates the locus of a sensor and its way to the diagram (Eq 15). Some thousand sums, on all cores.
     pub fn new(sensor: &Sensor, rendering: &Rendering, constants: RadiationConstants) -> Self {
-        Self::within(sensor, rendering, constants, Self::TARGET)
+        Self::summed(sensor, rendering, constants, Self::TARGET)
     }
 
     /// The same with another error at which pieces are narrow enough than [`Self::TARGET`], which a smaller one is taken for;
-    /// a piece is left out beyond ten times that. Large errors take fewer sums.
-    pub fn within(sensor: &Sensor, rendering: &Rendering, constants: RadiationConstants, target: f64) -> Self {
+    /// a piece is left out beyond ten times that. Absolute, in x and y. Large errors take fewer sums.
+    pub fn within(sensor: &Sensor, rendering: &Rendering, constants: RadiationConstants, accuracy: Accuracy) -> Self {
+        Self::summed(sensor, rendering, constants, accuracy.max_relative_error())
+    }
+
+    fn summed(sensor: &Sensor, rendering: &Rendering, constants: RadiationConstants, target: f64) -> Self {
         let evaluator = LocusEvaluator::by_sum(sensor, constants);
         let exact = |temperature| {
             rendering.xyz(DVec3::from_array(evaluator.raw(temperature)) * rendering.locus_gain).chromaticity()

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use chromascope_core::accuracy::Accuracy;
 use chromascope_core::camera::batch::Sample;
 use chromascope_core::camera::{Batch, LocusEvaluator, LocusTable, NoBatch, NotInTable, Rendering, Way, White};
 use chromascope_core::colorimetry::{Lab, Xy, delta_e_2000, delta_e_2000_into};
@@ -275,7 +276,8 @@ fn any_table(&[key, kind, size, light, target, other, ..]: &Case, v: &mut Verdic
     let Some(sensor) = drawn_sensor(key, primaries, size) else { return v.refuse() };
     let light = drawn_light(key + 1.0, light, &sensor);
     let Ok(rendering) = Rendering::new(&sensor, &light, White::UNITY, Way::Paper) else { return v.refuse() };
-    let table = LocusTable::within(&sensor, &rendering, C, target);
+    let Ok(accuracy) = Accuracy::new(target) else { return v.refuse() };
+    let table = LocusTable::within(&sensor, &rendering, C, accuracy);
     let limit = promised(&table, target, v);
     let sum = LocusEvaluator::by_sum(&sensor, C);
     let mut d = Draw::new(other as u64, "temperatures", 0);
