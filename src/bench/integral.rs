@@ -1,24 +1,31 @@
 //! The diffuse part's spectral integral of a pixel: every wavelength, few wavelengths, tables and moments.
 
+use std::hint::black_box;
+
+use chromascope_core::accuracy::Accuracy;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::math::double::Double;
 use chromascope_core::math::gauss::gauss_rule;
 use chromascope_core::reflectance::{Precision, diffuse_sum};
 use chromascope_core::render::diffuse::{ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::measure::Node;
-use chromascope_core::render::{DiffuseTable, Measure};
+use chromascope_core::render::plan::Method;
+use chromascope_core::render::{Against, Demand, DiffuseTable, Measure, Plan};
 use chromascope_core::spectral::Quantity;
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};
 use super::diffuse_sum::term_by_term;
 use super::inputs::{CAMERA, LIGHT, Numbers, REFLECTANCE, curve, sensor};
-use super::timing::{Bench, Candidate, Case, Room, each, spaced, timed};
+use super::timing::{Bench, CHUNK, Candidate, Case, Room, each, spaced, timed};
 use super::{BenchError, Workload, exact};
 
 /// κ and β.
 type Pixel = (f64, f64);
 type Signals = [f64; 3];
+
+/// What plans are made for.
+const TOLERANCES: [f64; 4] = [1e-3, 1e-5, 1e-8, 1e-10];
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     let sensor = sensor(CAMERA)?;
@@ -123,7 +130,47 @@ fn one(bench: &mut Bench<'_>, name: &str, [low, high]: [f64; 2], measure: &Measu
                 .push(each("table 120 × 128, degree 5", many, &pixels, &room, error, answer).built_in(table_seconds));
         }
     }
+    let points: Vec<[f64; 2]> = pixels.iter().map(|&(kappa, beta)| [kappa, beta]).collect();
+    for tolerance in TOLERANCES {
+        let Ok(accuracy) = Accuracy::new(tolerance) else { continue };
+        let demand = Demand::new([low, high], items as u64);
+        let plan = || Plan::new(measure, accuracy, Against::Peak, demand);
+        let (plan, seconds) = bench.pools.on(bench.pools.most(), || timed(plan));
+        let Ok(plan) = plan else { continue };
+        let mut checked = vec![[0.0; 3]; some.len()];
+        plan.fill(&some.iter().map(|&(kappa, beta)| [kappa, beta]).collect::<Vec<_>>(), &mut checked);
+        for threads in bench.pools.counts() {
+            let candidate = planned(plan.clone(), &points, &room, error(&checked));
+            candidates.push(candidate.on(threads).built_in(seconds));
+        }
+    }
     bench.compare(Case { workload: Workload::Integral, name, item: "pixel" }, candidates);
+}
+
+/// All pixels as a plan says, in pieces that several threads can share.
+fn planned<'a>(plan: Plan, points: &'a [[f64; 2]], room: &'a Room<Signals>, error: ErrorOf) -> Candidate<'a> {
+    let explanation = plan.explanation();
+    let name = format!("plan for {}: {}", explanation.asked, way(&explanation.chosen.method));
+    let work = move |items: usize| {
+        room.lend(|sums| {
+            let chunks = sums[..items].par_chunks_mut(CHUNK).zip(points[..items].par_chunks(CHUNK));
+            chunks.for_each(|(sums, points)| plan.fill(points, sums));
+            black_box(sums);
+        });
+    };
+    Candidate::new(name, points.len(), error, work)
+}
+
+/// A way in few words.
+fn way(method: &Method) -> String {
+    match method {
+        Method::Nothing => "nothing".to_owned(),
+        Method::Moments { orders, .. } => format!("{orders} moments"),
+        Method::Table { degree, .. } => format!("table, degree {degree}"),
+        Method::Shared { nodes, .. } => format!("{nodes} wavelengths"),
+        Method::Own { nodes, .. } => format!("{nodes} of Gauss"),
+        Method::Every { .. } => "all wavelengths".to_owned(),
+    }
 }
 
 fn error(found: &[Signals], exact: &[([Double; 3], Signals)]) -> ErrorOf {

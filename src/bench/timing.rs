@@ -268,7 +268,7 @@ impl<O: Clone + Send> Room<O> {
 }
 
 /// Items per piece of parallel work.
-const CHUNK: usize = 512;
+pub(super) const CHUNK: usize = 512;
 
 /// A candidate that answers item by item, in a plain loop or, on several threads, in pieces of it.
 pub(super) fn each<'a, I: Sync, O: Clone + Send>(
