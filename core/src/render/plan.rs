@@ -9,7 +9,7 @@
 //!
 //! | way | cost of a sample |
 //! |---|---|
-//! | table of ln J over (ln κ, v), by polynomials of degree 3 to 11 | a reading, after it was filled |
+//! | table of ln J over (ln κ, v), by splines of degree 3 to 9 | a reading, after it was filled |
 //! | wavelengths shared by the channels | N sums S |
 //! | wavelengths of each channel's own Gauss rule | 3 N sums S |
 //! | all wavelengths of the grid | 401 sums S |
@@ -61,6 +61,8 @@ pub enum Against {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     demand: Demand,
+    /// Its κ.
+    kappa: [f64; 2],
     /// From this κ on by the first so many moments; infinite where none are good enough.
     rough: (f64, usize),
     moments: [[f64; MOMENTS]; 3],

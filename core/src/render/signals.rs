@@ -138,7 +138,7 @@ impl Camera<'_> {
 
 /// The samples that go as a plan says.
 fn planned(plan: &Plan, shades: &[Shade], signals: &mut [[f32; 3]]) {
-    let mut places = Places::EMPTY;
+    let (mut places, mut sums) = (Places::EMPTY, [[0.0; PLANNED_RUN]; 3]);
     for (shades, signals) in shades.chunks(PLANNED_RUN).zip(signals.chunks_mut(PLANNED_RUN)) {
         if shades.iter().all(|shade| shade.way != Way::Planned) {
             continue;
@@ -148,7 +148,7 @@ fn planned(plan: &Plan, shades: &[Shade], signals: &mut [[f32; 3]]) {
             (places.kappa[i], places.beta[i]) = (shade.kappa, shade.beta);
             places.wanted[i] = shade.way == Way::Planned;
         }
-        let sums = plan.run(&places);
+        plan.run(&places, &mut sums);
         for (i, (shade, signal)) in shades.iter().zip(signals).enumerate() {
             if shade.way == Way::Planned {
                 *signal = scaled([sums[0][i], sums[1][i], sums[2][i]], shade.front);

@@ -2,6 +2,7 @@
 
 use super::Against;
 use super::domain::{Demand, beta_at};
+use crate::accuracy::Accuracy;
 use crate::reflectance::Precision;
 use crate::render::diffuse::{DARK, by_nodes};
 use crate::render::measure::{Measure, Node};
@@ -23,11 +24,11 @@ const SMOOTH_STRIDE: usize = 3;
 /// How many β there are at the least and the largest κ, and where moments begin: errors are largest in the corners.
 const EDGE_BETAS: usize = 64;
 
-/// The wavelengths that may stand for all in the check, if they are compared with all at each of this many points.
-const STAND_INS: [usize; 2] = [20, 28];
-const COMPARED_STRIDE: usize = 25;
+/// The wavelengths that may stand for all in the check, compared with all at each so manyth point.
+const STAND_INS: [usize; 3] = [16, 20, 28];
+const COMPARED_STRIDE: usize = 97;
 
-/// Each so manyth point tells how many wavelengths a table needs.
+/// Each so manyth point tells what is far off.
 const FEW_STRIDE: usize = 41;
 
 /// A place and what the integral is there.
@@ -50,7 +51,7 @@ pub(super) struct Check {
 }
 
 impl Check {
-    /// By the sum over all wavelengths; where 20 or 28 wavelengths are as good as that at each 25th point, by those.
+    /// By the sum over all wavelengths; where 16, 20 or 28 wavelengths are as good as that at some of the points, by those.
     pub(super) fn new(measure: &Measure, against: Against, demand: Demand) -> Self {
         let few = points(measure.dense(), against, demand, COMPARED_STRIDE);
         for count in STAND_INS {
@@ -86,11 +87,21 @@ impl Check {
         first.max(self.error(|kappa| kappa >= from, &way))
     }
 
-    /// What a sum over these wavelengths is off by at a few points.
-    pub(super) fn error_of_nodes(&self, nodes: &[Node]) -> f64 {
+    /// The largest error at a few points, without margin.
+    pub(super) fn error_of_few(&self, way: impl Fn(f64, f64) -> [f64; 3] + Sync) -> f64 {
         let few: Vec<&Point> = self.points().step_by(FEW_STRIDE).collect();
-        let of = |point: &&Point| off(point, by_nodes(nodes, point.kappa, point.beta, Precision::Full));
-        few.par_iter().map(of).reduce(|| 0.0, f64::max)
+        few.par_iter().map(|point| off(point, way(point.kappa, point.beta))).reduce(|| 0.0, f64::max)
+    }
+
+    /// The largest error of a way that is smooth in κ and β; where a few points tell that it is too large, at those.
+    pub(super) fn error_within(&self, accuracy: Accuracy, way: impl Fn(f64, f64) -> [f64; 3] + Sync) -> f64 {
+        let few = self.error_of_few(&way);
+        if accuracy.allows(self.certified(few)) { few.max(self.error(|_| true, way)) } else { few }
+    }
+
+    /// The wavelengths that stand for all.
+    pub(super) fn nodes(&self) -> &[Node] {
+        &self.nodes
     }
 
     pub(super) fn points(&self) -> impl Iterator<Item = &Point> {

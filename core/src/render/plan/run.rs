@@ -38,13 +38,13 @@ enum Quick {
 }
 
 pub(super) fn fill(plan: &Plan, points: &[[f64; 2]], sums: &mut [[f64; 3]]) {
-    let mut places = Places::EMPTY;
+    let (mut places, mut found) = (Places::EMPTY, [[0.0; RUN]; 3]);
     for (points, sums) in points.chunks(RUN).zip(sums.chunks_mut(RUN)) {
         places.count = points.len().min(sums.len());
         for (i, &[kappa, beta]) in points.iter().enumerate() {
             (places.kappa[i], places.beta[i]) = (kappa, beta.max(0.0));
         }
-        let found = plan.run(&places);
+        plan.run(&places, &mut found);
         for (i, sum) in sums.iter_mut().enumerate().take(places.count) {
             *sum = [found[0][i], found[1][i], found[2][i]];
         }
@@ -53,28 +53,28 @@ pub(super) fn fill(plan: &Plan, points: &[[f64; 2]], sums: &mut [[f64; 3]]) {
 
 impl Plan {
     /// The three channels of a run of samples.
-    pub(in crate::render) fn run(&self, places: &Places) -> [[f64; RUN]; 3] {
-        let mut ways = [Quick::Neither; RUN];
-        let (table, rough, demand) = (self.table(), self.rough.0, self.demand);
+    pub(in crate::render) fn run(&self, places: &Places, sums: &mut [[f64; RUN]; 3]) {
+        let mut ways = [Quick::Dark; RUN];
+        let table = self.table();
+        let ([from, to], rough) = (self.kappa, self.rough.0);
+        let [first, last] = table.map_or([f64::INFINITY, 0.0], Table::kappa);
+        let mut slowly = false;
         for (i, way) in ways.iter_mut().enumerate().take(places.count) {
             let kappa = places.kappa[i];
-            *way = if !places.wanted[i] {
-                Quick::Dark
-            } else if kappa >= rough && demand.holds(kappa) {
-                Quick::Moments
-            } else if table.is_some_and(|table| table.holds(kappa)) {
-                Quick::Table
-            } else {
-                Quick::Neither
-            };
+            let by_moments = kappa >= rough && from <= kappa && kappa <= to;
+            let by_table = first <= kappa && kappa <= last;
+            let quick = if by_table { Quick::Table } else { Quick::Neither };
+            let quick = if by_moments { Quick::Moments } else { quick };
+            *way = if places.wanted[i] { quick } else { Quick::Dark };
+            slowly |= *way == Quick::Neither;
         }
-        let mut sums = [[0.0; RUN]; 3];
-        quick(&self.moments, self.rough.1, table, places, &ways, &mut sums);
-        for i in (0..places.count).filter(|&i| ways[i] == Quick::Neither) {
-            let slow = self.slowly(places.kappa[i], places.beta[i]);
-            (sums[0][i], sums[1][i], sums[2][i]) = (slow[0], slow[1], slow[2]);
+        quick(&self.moments, self.rough.1, table, places, &ways, sums);
+        if slowly {
+            for i in (0..places.count).filter(|&i| ways[i] == Quick::Neither) {
+                let slow = self.slowly(places.kappa[i], places.beta[i]);
+                (sums[0][i], sums[1][i], sums[2][i]) = (slow[0], slow[1], slow[2]);
+            }
         }
-        sums
     }
 }
 
@@ -112,6 +112,8 @@ fn quick_portable(
             7 => read::<8>(table, places, ways, sums),
             _ => read::<10>(table, places, ways, sums),
         }
+    } else {
+        *sums = [[0.0; RUN]; 3];
     }
     if ways.contains(&Quick::Moments) {
         for i in 0..RUN {
@@ -132,11 +134,10 @@ fn read<const N: usize>(table: &Table, places: &Places, ways: &[Quick; RUN], sum
     let mut peaks = [0.0; RUN];
     for i in 0..RUN {
         // Written so that what is no number is dark.
-        if ways[i] == Quick::Table && around.v[i] <= 1.0 {
-            let [peak, channels @ ..] = table.read(&around, i);
-            peaks[i] = peak;
-            (sums[0][i], sums[1][i], sums[2][i]) = (channels[0], channels[1], channels[2]);
-        }
+        let lit = ways[i] == Quick::Table && around.v[i] <= 1.0;
+        let [peak, channels @ ..] = if lit { table.read(&around, i) } else { [0.0; 4] };
+        peaks[i] = peak;
+        (sums[0][i], sums[1][i], sums[2][i]) = (channels[0], channels[1], channels[2]);
     }
     for i in 0..RUN {
         let peak = exp(peaks[i]);

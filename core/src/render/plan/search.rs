@@ -23,10 +23,6 @@ const LAST_TABLE: f64 = 1024.0;
 const TABLE_SPAN: f64 = 1e-6;
 /// Of which degree tables are.
 const DEGREES: [usize; 4] = [3, 5, 7, 9];
-/// The finest table: cells of 1/320.
-const LAST_STEP: u32 = 36;
-/// The largest: 32 MB.
-const MOST_CELLS: usize = 1 << 20;
 /// An error is taken to fall by at most this much more than by 2^((degree + 1)/4) from a table to the next finer one.
 const STEEPER: f64 = 1.5;
 /// What other ways cost at the least, in nanoseconds, where tables are looked at first.
@@ -64,6 +60,7 @@ pub(super) fn plan(measure: &Measure, accuracy: Accuracy, against: Against, dema
     let orders = |candidate: &Candidate| if let Method::Moments { orders, .. } = candidate.method { orders } else { 0 };
     Ok(Plan {
         demand,
+        kappa: demand.kappa(),
         rough: rough.as_ref().map_or((f64::INFINITY, 0), |(candidate, from)| (*from, orders(candidate))),
         moments: *measure.moments(),
         below,
@@ -111,13 +108,13 @@ impl Search<'_> {
         self.tabulated(rough).is_some() && fewest.total_ns(self.demand.samples()) > PAYS_NS
     }
 
-    fn moments_error(&self, orders: usize, from: f64) -> f64 {
-        let way = |kappa, beta: f64| {
+    fn by_moments(&self, orders: usize) -> impl Fn(f64, f64) -> [f64; 3] + Sync + use<> {
+        let moments = *self.measure.moments();
+        move |kappa, beta| {
             let mut basis = rough_basis(kappa, beta.min(run::LAST_BETA));
             basis[orders..].fill(0.0);
-            by_moments(self.measure.moments(), &basis)
-        };
-        self.check.error_from(from, way)
+            by_moments(&moments, &basis)
+        }
     }
 
     /// The fewest moments that do for all of the demand.
@@ -127,7 +124,7 @@ impl Search<'_> {
             return None;
         }
         for orders in 1..=MOMENTS {
-            let seen = self.moments_error(orders, from_kappa);
+            let seen = self.check.error_from(from_kappa, self.by_moments(orders));
             let found = Candidate::new(Method::Moments { orders, from_kappa }, seen, self.check.certified(seen));
             if found.meets(self.accuracy) {
                 return Some(found);
@@ -140,25 +137,26 @@ impl Search<'_> {
     /// All moments, and the power of √2 from which they do, if it lies within the demand.
     fn rough(&mut self) -> Option<(Candidate, f64)> {
         let [least, last] = self.demand.kappa();
-        let mut found = None;
-        for step in (0..).map(|i| last * (-0.5 * f64::from(i)).exp2()).skip(1) {
-            if step < LEAST_ROUGH.max(least) {
-                break;
-            }
-            let seen = self.moments_error(MOMENTS, step);
-            let method = Method::Moments { orders: MOMENTS, from_kappa: step };
+        let steps =
+            (1..).map(|i| last * (-0.5 * f64::from(i)).exp2()).take_while(|&step| step >= LEAST_ROUGH.max(least));
+        // Where each begins, the error is looked at last: that takes sums over wavelengths, elsewhere they are made already.
+        let meets = |seen| self.accuracy.allows(self.check.certified(seen));
+        let within: Vec<f64> =
+            steps.take_while(|&step| meets(self.check.error(|k| k >= step, self.by_moments(MOMENTS)))).collect();
+        for from_kappa in within.into_iter().rev() {
+            let seen = self.check.error_from(from_kappa, self.by_moments(MOMENTS));
+            let method = Method::Moments { orders: MOMENTS, from_kappa };
             let candidate = Candidate::new(method, seen, self.check.certified(seen));
-            if !candidate.meets(self.accuracy) {
-                self.seen.push(Candidate { verdict: Verdict::TooInexact, ..candidate });
-                break;
+            if candidate.meets(self.accuracy) {
+                return Some((candidate, from_kappa));
             }
-            found = Some((candidate, step));
+            self.seen.push(Candidate { verdict: Verdict::TooInexact, ..candidate });
         }
-        found
+        None
     }
 
     fn every(&mut self) {
-        let carried = self.carried(self.measure.dense());
+        let carried = self.carried(self.check.nodes());
         for precision in Precision::ALL {
             // Compared with itself the most exact would be without error.
             let full = precision == Precision::Full;
@@ -191,7 +189,8 @@ impl Search<'_> {
                 break;
             }
             let nodes = self.measure.shared(count);
-            let seen = self.check.error(|_| true, |kappa, beta| by_nodes(&nodes, kappa, beta, Precision::Full));
+            let way = |kappa, beta| by_nodes(&nodes, kappa, beta, Precision::Full);
+            let seen = self.check.error_within(self.accuracy, way);
             let method = |precision| Method::Shared { nodes: nodes.len(), precision };
             let exact = Candidate::new(method(Precision::Full), seen, self.check.certified(seen));
             let meets = exact.meets(self.accuracy);
@@ -221,7 +220,8 @@ impl Search<'_> {
                 self.seen.push(unseen);
                 break;
             }
-            let seen = self.check.error(|_| true, |kappa, beta| by_own(&rules, kappa, beta, Precision::Full));
+            let way = |kappa, beta| by_own(&rules, kappa, beta, Precision::Full);
+            let seen = self.check.error_within(self.accuracy, way);
             let candidate = Candidate::new(method, seen, self.check.certified(seen));
             let meets = candidate.meets(self.accuracy);
             self.offer(candidate, Below::Own(rules, Precision::Full));
@@ -265,22 +265,17 @@ impl Search<'_> {
     /// The coarsest table of a degree that is likely to be exact enough, and some that are not.
     fn first(&self, makings: &Makings<'_>, degree: usize) -> Option<Size> {
         let tried = -self.accuracy.max_relative_error().log10() - UNLIKELY;
-        self.sizes(makings, degree, 0).find(|size| size.digits() >= tried)
+        makings.sizes(degree, 0).find(|size| size.digits() >= tried)
     }
 
     /// The coarsest table finer than one of this error that may be exact enough.
     fn finer(&self, makings: &Makings<'_>, size: &Size, seen: f64) -> Option<Size> {
         let steepest = STEEPER * (0.25 * (size.degree + 1) as f64).exp2();
         let mut least = seen;
-        self.sizes(makings, size.degree, size.step + 1).find(|_| {
+        makings.sizes(size.degree, size.step + 1).find(|_| {
             least /= steepest;
             self.accuracy.allows(self.check.certified(least))
         })
-    }
-
-    fn sizes(&self, makings: &Makings<'_>, degree: usize, from: u32) -> impl Iterator<Item = Size> {
-        let size = move |step| makings.size(degree, step);
-        (from..=LAST_STEP).map(size).take_while(|size| size.count() <= MOST_CELLS)
     }
 
     fn table_error(&self, plan: &Plan) -> f64 {
@@ -296,6 +291,7 @@ impl Search<'_> {
         let (asked, demand) = (self.accuracy, self.demand);
         Plan {
             demand,
+            kappa: demand.kappa(),
             rough: (f64::INFINITY, 0),
             moments: *self.measure.moments(),
             below,

@@ -8,7 +8,7 @@
 
 use super::run::RUN;
 
-/// The coefficients of w_k in powers of 2t − 1, for t from 0 to 1.
+/// The coefficients of `w_k` in powers of 2t − 1, for t from 0 to 1.
 const fn curves<const N: usize>() -> [[f64; N]; N] {
     let mut curves = [[0.0; N]; N];
     let mut scale = 1_i128;
@@ -192,7 +192,7 @@ mod tests {
             let found: f64 = weights.iter().zip(&spline[cell as usize..]).map(|(w, c)| w * c).sum();
             let exact = (step * x - half).exp();
             let error = (found - exact).abs() / exact / step.powi(degree as i32 + 1);
-            let end = usize::from((3.0..21.0).contains(&x));
+            let end = usize::from((9.0..15.0).contains(&x));
             worst[end] = worst[end].max(error);
         }
         worst

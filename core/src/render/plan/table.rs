@@ -98,9 +98,9 @@ impl Table {
         self.surface.degree
     }
 
-    #[inline]
-    pub(super) fn holds(&self, kappa: f64) -> bool {
-        self.extent.holds(kappa)
+    /// From which to which κ.
+    pub(super) fn kappa(&self) -> [f64; 2] {
+        self.extent.kappa
     }
 
     fn width(&self) -> usize {

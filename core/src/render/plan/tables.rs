@@ -6,8 +6,13 @@ use super::extent::Extent;
 use super::surface::Surface;
 use super::table::{SPARE, Size, Table};
 use crate::reflectance::Precision;
+use crate::render::diffuse::by_nodes;
 use crate::render::measure::{Measure, Node};
 
+/// The finest table: cells of 1/320.
+const LAST_STEP: u32 = 36;
+/// The largest: 32 MB.
+const MOST_CELLS: usize = 1 << 20;
 /// The most wavelengths.
 const MOST_NODES: usize = 24;
 /// No sum over wavelengths need be more exact.
@@ -22,7 +27,15 @@ pub(super) struct Makings<'a> {
     extent: Extent,
     /// What so many wavelengths are off by, from none on.
     node_errors: Vec<f64>,
-    made: Vec<((usize, u32, usize), Vec<Node>, Surface)>,
+    made: Vec<Made>,
+}
+
+/// A spline through sums over so many wavelengths.
+struct Made {
+    step: u32,
+    count: usize,
+    nodes: Vec<Node>,
+    surface: Surface,
 }
 
 impl<'a> Makings<'a> {
@@ -30,23 +43,27 @@ impl<'a> Makings<'a> {
         Self { measure, check, extent: Extent::new(kappa), node_errors: Vec::new(), made: Vec::new() }
     }
 
-    pub(super) fn size(&self, degree: usize, step: u32) -> Size {
-        Size::new(&self.extent, degree, step)
+    /// The tables of a degree, from a step on, each finer than the one before.
+    pub(super) fn sizes(&self, degree: usize, from: u32) -> impl Iterator<Item = Size> {
+        let size = move |step| Size::new(&self.extent, degree, step);
+        (from..=LAST_STEP).map(size).take_while(|size| size.count() <= MOST_CELLS)
     }
 
     /// A table.
     pub(super) fn table(&mut self, size: &Size) -> Table {
         let source = size.source(&self.extent);
         let count = self.nodes(size);
-        let key = (source.degree, source.step, count);
-        let found = self.made.iter().position(|(of, ..)| *of == key);
+        let found = self
+            .made
+            .iter()
+            .position(|made| made.surface.degree == source.degree && made.step == source.step && made.count == count);
         let index = found.unwrap_or_else(|| {
             let nodes = self.measure.shared(count);
             let surface = Surface::filled(&self.extent, source.degree, source.intervals, &nodes, precision(size));
-            self.made.push((key, nodes, surface));
+            self.made.push(Made { step: source.step, count, nodes, surface });
             self.made.len() - 1
         });
-        let (_, nodes, made) = &self.made[index];
+        let Made { nodes, surface: made, .. } = &self.made[index];
         let same = (source.degree, source.step) == (size.degree, size.step);
         let surface = if same { made.clone() } else { made.resampled(size.degree, size.intervals) };
         Table::new(&self.extent, surface, nodes.clone())
@@ -74,7 +91,10 @@ impl<'a> Makings<'a> {
         while self.node_errors.len() <= count {
             let error = match self.node_errors.len() {
                 0 | 1 => f64::INFINITY,
-                count => self.check.error_of_nodes(&self.measure.shared(count)),
+                count => {
+                    let nodes = self.measure.shared(count);
+                    self.check.error_of_few(|kappa, beta| by_nodes(&nodes, kappa, beta, Precision::Full))
+                }
             };
             self.node_errors.push(error);
         }
