@@ -2,6 +2,7 @@
 
 use super::Against;
 use super::domain::{Demand, beta_at};
+use super::nodes::many_by_nodes;
 use crate::accuracy::Accuracy;
 use crate::reflectance::Precision;
 use crate::render::diffuse::{DARK, by_nodes};
@@ -117,46 +118,43 @@ impl Check {
 /// Each so manyth point of the grid, by a sum over these wavelengths; only where something is promised.
 fn points(nodes: &[Node], against: Against, demand: Demand, stride: usize) -> Vec<Point> {
     let [from, to] = demand.kappa();
-    let row = |i: usize| {
-        let row = Row::new(nodes, against, from * (to / from).powf(i as f64 / (KAPPAS - 1) as f64));
-        let shift = (i as f64 * 0.618_033_988_749_894_9).fract();
-        // The edge itself, then a little beyond v = 1 too; each row lies between the others'.
-        let v = |j: usize| if j == 0 { 0.0 } else { 1.05 * (j as f64 - shift) / (BETAS - 1) as f64 };
-        let asked = (0..BETAS).filter(|j| (i * BETAS + j).is_multiple_of(stride));
-        asked.filter_map(|j| row.point(v(j))).collect::<Vec<_>>()
-    };
-    (0..KAPPAS).into_par_iter().map(row).collect::<Vec<_>>().into_iter().flatten().collect()
+    let rows: Vec<Vec<Point>> = (0..KAPPAS)
+        .into_par_iter()
+        .map(|i| {
+            let kappa = from * (to / from).powf(i as f64 / (KAPPAS - 1) as f64);
+            let shift = (i as f64 * 0.618_033_988_749_894_9).fract();
+            // The edge itself, then a little beyond v = 1 too; each row lies between the others'.
+            let v = |j: usize| if j == 0 { 0.0 } else { 1.05 * (j as f64 - shift) / (BETAS - 1) as f64 };
+            let asked = (0..BETAS).filter(|j| (i * BETAS + j).is_multiple_of(stride));
+            row(nodes, against, kappa, asked.map(v))
+        })
+        .collect();
+    rows.into_iter().flatten().collect()
 }
 
 /// Many points at one κ.
 fn edge(nodes: &[Node], against: Against, kappa: f64) -> Vec<Point> {
-    let row = Row::new(nodes, against, kappa);
-    (0..EDGE_BETAS).into_par_iter().filter_map(|j| row.point(j as f64 / (EDGE_BETAS - 1) as f64)).collect()
+    row(nodes, against, kappa, (0..EDGE_BETAS).map(|j| j as f64 / (EDGE_BETAS - 1) as f64))
 }
 
-/// All β at one κ.
-struct Row<'a> {
-    nodes: &'a [Node],
-    against: Against,
-    kappa: f64,
-    peak: f64,
-}
-
-impl<'a> Row<'a> {
-    fn new(nodes: &'a [Node], against: Against, kappa: f64) -> Self {
-        Self { nodes, against, kappa, peak: largest(by_nodes(nodes, kappa, 0.0, Precision::Full)) }
+/// Points at one κ.
+fn row(nodes: &[Node], against: Against, kappa: f64, vs: impl Iterator<Item = f64>) -> Vec<Point> {
+    // The peak comes first.
+    let places: Vec<[f64; 2]> = [0.0].into_iter().chain(vs).map(|v| [kappa, beta_at(kappa, v)]).collect();
+    if places.len() == 1 {
+        return Vec::new();
     }
-
-    fn point(&self, v: f64) -> Option<Point> {
-        let beta = beta_at(self.kappa, v);
-        let exact = by_nodes(self.nodes, self.kappa, beta, Precision::Full);
+    let sums = many_by_nodes(nodes, &places);
+    let peak = largest(sums[0]);
+    let point = |(&[_, beta], &exact): (&[f64; 2], &[f64; 3])| {
         let value = largest(exact);
-        let (scale, promised) = match self.against {
-            Against::Peak => (self.peak, true),
-            Against::Value => (value, value > (-DARK).exp() * self.peak),
+        let (scale, promised) = match against {
+            Against::Peak => (peak, true),
+            Against::Value => (value, value > (-DARK).exp() * peak),
         };
-        promised.then_some(Point { kappa: self.kappa, beta, exact, scale })
-    }
+        promised.then_some(Point { kappa, beta, exact, scale })
+    };
+    places.iter().zip(&sums).skip(1).filter_map(point).collect()
 }
 
 fn largest(sums: [f64; 3]) -> f64 {

@@ -17,6 +17,10 @@ pub(super) const fn sum_ns(precision: Precision) -> f64 {
 /// A place of a table from another.
 pub(super) const PLACE_NS: f64 = 100.0;
 
+/// Up to so many cells, half a megabyte, a table is read from near caches, and each doubling beyond costs so much.
+const NEAR_CELLS: f64 = 16_384.0;
+const FAR_NS: f64 = 4.0;
+
 /// All wavelengths of the grid.
 const EVERY: f64 = 401.0;
 
@@ -25,7 +29,10 @@ pub(super) fn of_sample(method: &Method) -> f64 {
     match *method {
         Method::Nothing => 0.0,
         Method::Moments { orders, .. } => 3.0 + orders as f64,
-        Method::Table { degree, .. } => 15.0 + 0.5 * ((degree + 1) * (degree + 1)) as f64,
+        Method::Table { degree, kappas, betas, .. } => {
+            let far = ((kappas * betas) as f64 / NEAR_CELLS).log2().max(0.0);
+            24.0 + 0.9 * ((degree + 1) * (degree + 1)) as f64 + FAR_NS * far
+        }
         Method::Shared { nodes, precision } | Method::Own { nodes, precision } => nodes as f64 * sum_ns(precision),
         Method::Every { precision } => EVERY * sum_ns(precision),
     }

@@ -33,6 +33,25 @@ pub(super) fn by_own(rules: &[OwnRule; 3], kappa: f64, beta: f64, precision: Pre
     [sum(&rules[0]), sum(&rules[1]), sum(&rules[2])]
 }
 
+/// S at one wavelength for many κ and β.
+pub(super) fn sums_at(node: &Node, points: &[[f64; 2]], precision: Precision) -> impl Iterator<Item = f64> {
+    points.iter().map(move |[kappa, beta]| {
+        let g = kappa * node.scale;
+        diffuse_sum(g, beta * g, precision)
+    })
+}
+
+/// The three integrals at many κ and β.
+pub(super) fn many_by_nodes(nodes: &[Node], points: &[[f64; 2]]) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 3]; points.len()];
+    for node in nodes {
+        for (sum, value) in sums.iter_mut().zip(sums_at(node, points, Precision::Full)) {
+            sum.iter_mut().zip(node.weights).for_each(|(sum, weight)| *sum += weight * value);
+        }
+    }
+    sums
+}
+
 /// `Σ |w| S` of the channel where it is largest: what a relative error of S is carried by.
 pub(super) fn carried(nodes: &[Node], sums: &[f64]) -> f64 {
     let of = |c: usize| nodes.iter().zip(sums).map(|(node, sum)| (node.weights[c] * sum).abs()).sum::<f64>();

@@ -1,8 +1,9 @@
 //! ln J over a table's square as a spline: through sums over wavelengths, or through another spline.
 
 use super::extent::Extent;
+use super::nodes::sums_at;
 use super::spline::{Axis, MOST};
-use crate::reflectance::{Precision, diffuse_sum};
+use crate::reflectance::Precision;
 use crate::render::measure::Node;
 use rayon::prelude::*;
 
@@ -72,9 +73,7 @@ fn cells(extent: &Extent, t: f64, vs: &[f64], nodes: &[Node], precision: Precisi
     let points: Vec<[f64; 2]> = vs.iter().map(|&v| extent.at(2.0 * t - 1.0, v)).collect();
     let mut sums = vec![[0.0; 4]; points.len()];
     for node in nodes {
-        for (sum, [kappa, beta]) in sums.iter_mut().zip(&points) {
-            let g = kappa * node.scale;
-            let value = diffuse_sum(g, beta * g, precision);
+        for (sum, value) in sums.iter_mut().zip(sums_at(node, &points, precision)) {
             let [red, green, blue] = node.weights;
             for (sum, weight) in sum.iter_mut().zip([node.reference, red, green, blue]) {
                 *sum += weight * value;

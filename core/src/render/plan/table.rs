@@ -41,13 +41,6 @@ impl Size {
         }
     }
 
-    /// What it is best made of: a spline of degree 9 with fewer coefficients that is more exact, or sums at each place.
-    pub(super) fn source(&self, extent: &Extent) -> Self {
-        let smooth = (0..self.step).map(|step| Self::new(extent, 9, step));
-        let exact = smooth.take_while(|source| source.count() < self.count());
-        exact.into_iter().find(|source| source.digits() >= self.digits() + SPARE).unwrap_or(*self)
-    }
-
     /// Coefficients along ln κ and along v.
     pub(super) fn places(&self) -> [usize; 2] {
         self.intervals.map(|count| count + self.degree)
@@ -64,9 +57,6 @@ impl Size {
         Method::Table { degree: self.degree, kappas, betas, nodes }
     }
 }
-
-/// By so many digits what a table is made of is more exact than the table.
-pub(super) const SPARE: f64 = 0.8;
 
 fn side(step: u32) -> f64 {
     COARSEST * (-0.25 * f64::from(step)).exp2()

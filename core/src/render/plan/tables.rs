@@ -4,23 +4,28 @@ use super::check::Check;
 use super::cost;
 use super::extent::Extent;
 use super::surface::Surface;
-use super::table::{SPARE, Size, Table};
+use super::table::{Size, Table};
 use crate::reflectance::Precision;
 use crate::render::diffuse::by_nodes;
 use crate::render::measure::{Measure, Node};
 
+/// The degree of what tables are made of.
+const DEGREE: usize = 9;
 /// The finest table: cells of 1/320.
 const LAST_STEP: u32 = 36;
 /// The largest: 32 MB.
 const MOST_CELLS: usize = 1 << 20;
 /// The most wavelengths.
 const MOST_NODES: usize = 24;
-/// No sum over wavelengths need be more exact.
-const SMALLEST: f64 = 1e-13;
+/// By at least so many digits what a table is made of is more exact than the table.
+const SPARE: f64 = 0.8;
+/// To how many digits that is: so many more from level to level, so that tables share it.
+const LEVELS: [f64; 7] = [4.0, 5.5, 7.0, 8.5, 10.0, 11.5, 13.0];
 /// From so many digits on S is made in full.
-const FULL: f64 = 8.0;
+const FULL: f64 = 9.0;
 
-/// All splines of a measure that tables are made of, each made when it is asked for.
+/// All splines of a measure that tables are made of, each made when it is asked for. What a table is made of does not depend on
+/// what else was looked at.
 pub(super) struct Makings<'a> {
     measure: &'a Measure,
     check: &'a Check,
@@ -30,10 +35,10 @@ pub(super) struct Makings<'a> {
     made: Vec<Made>,
 }
 
-/// A spline through sums over so many wavelengths.
+/// A spline of degree 9 through sums over wavelengths.
 struct Made {
+    level: f64,
     step: u32,
-    count: usize,
     nodes: Vec<Node>,
     surface: Surface,
 }
@@ -51,35 +56,37 @@ impl<'a> Makings<'a> {
 
     /// A table.
     pub(super) fn table(&mut self, size: &Size) -> Table {
-        let source = size.source(&self.extent);
-        let count = self.nodes(size);
-        let found = self
-            .made
-            .iter()
-            .position(|made| made.surface.degree == source.degree && made.step == source.step && made.count == count);
+        let (level, source) = (level(size), self.source(size));
+        let found = self.made.iter().position(|made| (made.level, made.step) == (level, source.step));
         let index = found.unwrap_or_else(|| {
-            let nodes = self.measure.shared(count);
-            let surface = Surface::filled(&self.extent, source.degree, source.intervals, &nodes, precision(size));
-            self.made.push(Made { step: source.step, count, nodes, surface });
+            let nodes = self.measure.shared(self.nodes(level));
+            let surface = Surface::filled(&self.extent, DEGREE, source.intervals, &nodes, precision(level));
+            self.made.push(Made { level, step: source.step, nodes, surface });
             self.made.len() - 1
         });
-        let Made { nodes, surface: made, .. } = &self.made[index];
-        let same = (source.degree, source.step) == (size.degree, size.step);
-        let surface = if same { made.clone() } else { made.resampled(size.degree, size.intervals) };
+        let Made { nodes, surface, .. } = &self.made[index];
+        let surface =
+            if size.degree == DEGREE { surface.clone() } else { surface.resampled(size.degree, size.intervals) };
         Table::new(&self.extent, surface, nodes.clone())
     }
 
     /// How many wavelengths a table is made of, and what making it costs in nanoseconds.
     pub(super) fn cost(&mut self, size: &Size) -> (usize, f64) {
-        let source = size.source(&self.extent);
-        let nodes = self.nodes(size);
-        let sums = (nodes * source.count()) as f64 * cost::sum_ns(precision(size));
+        let (level, source) = (level(size), self.source(size));
+        let nodes = self.nodes(level);
+        let sums = (nodes * source.count()) as f64 * cost::sum_ns(precision(level));
         (nodes, sums + size.count() as f64 * cost::PLACE_NS)
     }
 
+    /// What it is made of: one of degree 9 itself, others another that is more exact.
+    fn source(&self, size: &Size) -> Size {
+        let exact = |source: &Size| source.digits() >= level(size);
+        if size.degree == DEGREE { *size } else { self.sizes(DEGREE, 0).find(exact).unwrap_or(*size) }
+    }
+
     /// The fewest wavelengths whose error at a few places is small enough.
-    fn nodes(&mut self, size: &Size) -> usize {
-        let target = 10_f64.powf(-size.digits() - SPARE).max(SMALLEST);
+    fn nodes(&mut self, level: f64) -> usize {
+        let target = 10_f64.powf(-level);
         let mut count = 2;
         while count < MOST_NODES && self.node_error(count) > target {
             count += 1;
@@ -102,6 +109,12 @@ impl<'a> Makings<'a> {
     }
 }
 
-fn precision(size: &Size) -> Precision {
-    if size.digits() > FULL { Precision::Full } else { Precision::Fine }
+/// To how many digits a table's source is made.
+fn level(size: &Size) -> f64 {
+    let wanted = size.digits() + SPARE;
+    LEVELS.into_iter().find(|&level| level >= wanted).unwrap_or(LEVELS[LEVELS.len() - 1])
+}
+
+fn precision(level: f64) -> Precision {
+    if level > FULL { Precision::Full } else { Precision::Fine }
 }
