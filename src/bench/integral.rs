@@ -88,6 +88,7 @@ fn one(bench: &mut Bench<'_>, name: &str, [low, high]: [f64; 2], measure: &Measu
     let checked = bench.pick(2, 24, 200);
     let mut numbers = Numbers::new(4);
     let pixels: Vec<Pixel> = (0..items).map(|_| (numbers.log_between(low, high), numbers.between(0.0, 20.0))).collect();
+    let points: Vec<[f64; 2]> = pixels.iter().map(|&(kappa, beta)| [kappa, beta]).collect();
     let some: Vec<Pixel> = spaced(items, checked).map(|index| pixels[index]).collect();
     // What an error is relative to: the integral of a pixel that sees the mirror direction.
     let exact: Vec<([Double; 3], Signals)> = bench.pools.on(bench.pools.most(), || {
@@ -130,21 +131,29 @@ fn one(bench: &mut Bench<'_>, name: &str, [low, high]: [f64; 2], measure: &Measu
                 .push(each("table 120 × 128, degree 5", many, &pixels, &room, error, answer).built_in(table_seconds));
         }
     }
-    let points: Vec<[f64; 2]> = pixels.iter().map(|&(kappa, beta)| [kappa, beta]).collect();
     for tolerance in TOLERANCES {
-        let Ok(accuracy) = Accuracy::new(tolerance) else { continue };
-        let demand = Demand::new([low, high], items as u64);
-        let plan = || Plan::new(measure, accuracy, Against::Peak, demand);
-        let (plan, seconds) = bench.pools.on(bench.pools.most(), || timed(plan));
-        let Ok(plan) = plan else { continue };
-        let mut checked = vec![[0.0; 3]; some.len()];
-        plan.fill(&some.iter().map(|&(kappa, beta)| [kappa, beta]).collect::<Vec<_>>(), &mut checked);
-        for threads in bench.pools.counts() {
-            let candidate = planned(plan.clone(), &points, &room, error(&checked));
-            candidates.push(candidate.on(threads).built_in(seconds));
-        }
+        candidates.extend(plans(bench, tolerance, [low, high], measure, (&points, &some, &room), error));
     }
     bench.compare(Case { workload: Workload::Integral, name, item: "pixel" }, candidates);
+}
+
+/// A plan for a tolerance, on each number of threads.
+fn plans<'a>(
+    bench: &Bench<'_>,
+    tolerance: f64,
+    kappa: [f64; 2],
+    measure: &Measure,
+    (points, some, room): (&'a [[f64; 2]], &[Pixel], &'a Room<Signals>),
+    error: impl Fn(&[Signals]) -> ErrorOf,
+) -> Vec<Candidate<'a>> {
+    let Ok(accuracy) = Accuracy::new(tolerance) else { return Vec::new() };
+    let demand = Demand::new(kappa, points.len() as u64);
+    let plan = || timed(|| Plan::new(measure, accuracy, Against::Peak, demand));
+    let (Ok(plan), seconds) = bench.pools.on(bench.pools.most(), plan) else { return Vec::new() };
+    let checked: Vec<Signals> = some.iter().map(|&(kappa, beta)| plan.at(kappa, beta)).collect();
+    let error = error(&checked);
+    let on = |threads| planned(plan.clone(), points, room, error.clone()).on(threads).built_in(seconds);
+    bench.pools.counts().into_iter().map(on).collect()
 }
 
 /// All pixels as a plan says, in pieces that several threads can share.
