@@ -315,8 +315,7 @@ fn any_plan(numbers: &Case, v: &mut Verdict) {
     let (Some(measure), Ok(accuracy)) = (drawn_measure(numbers), Accuracy::new(error)) else { return v.refuse() };
     let mut d = Draw::new(key as u64, "places", 0);
     let against = if d.pick(2) == 0.0 { Against::Peak } else { Against::Value };
-    // For more samples a plan may take the better part of a minute to fill its table.
-    let demand = Demand::new([from, from * span], d.log(1.0, 1e6) as u64);
+    let demand = Demand::new([from, from * span], d.log(1.0, 1e12) as u64);
     let plan = match Plan::new(&measure, accuracy, against, demand) {
         Ok(plan) => plan,
         Err(unmet) => {

@@ -20,13 +20,13 @@ pub enum Method {
     },
     /// A table.
     Table {
-        /// The degree of its polynomials: 3, 5, 7 or 9.
+        /// The degree of its splines: 3, 5, 7 or 9.
         degree: usize,
-        /// Places along ln κ.
+        /// Coefficients along ln κ.
         kappas: usize,
-        /// Places along v.
+        /// Coefficients along v.
         betas: usize,
-        /// Wavelengths that fill a place.
+        /// Wavelengths that it is made of.
         nodes: usize,
     },
     /// Wavelengths that the channels share.

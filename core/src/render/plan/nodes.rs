@@ -33,23 +33,32 @@ pub(super) fn by_own(rules: &[OwnRule; 3], kappa: f64, beta: f64, precision: Pre
     [sum(&rules[0]), sum(&rules[1]), sum(&rules[2])]
 }
 
-/// S at one wavelength for many κ and β.
-pub(super) fn sums_at(node: &Node, points: &[[f64; 2]], precision: Precision) -> impl Iterator<Item = f64> {
-    points.iter().map(move |[kappa, beta]| {
-        let g = kappa * node.scale;
-        diffuse_sum(g, beta * g, precision)
-    })
+/// S for many κ and β, wavelength by wavelength.
+pub(super) fn for_each_node(
+    nodes: &[Node],
+    points: &[[f64; 2]],
+    precision: Precision,
+    mut each: impl FnMut(&Node, &[f64]),
+) {
+    let mut sums = vec![0.0; points.len()];
+    for node in nodes {
+        for (sum, [kappa, beta]) in sums.iter_mut().zip(points) {
+            let g = kappa * node.scale;
+            *sum = diffuse_sum(g, beta * g, precision);
+        }
+        each(node, &sums);
+    }
 }
 
 /// The three integrals at many κ and β.
 pub(super) fn many_by_nodes(nodes: &[Node], points: &[[f64; 2]]) -> Vec<[f64; 3]> {
-    let mut sums = vec![[0.0; 3]; points.len()];
-    for node in nodes {
-        for (sum, value) in sums.iter_mut().zip(sums_at(node, points, Precision::Full)) {
-            sum.iter_mut().zip(node.weights).for_each(|(sum, weight)| *sum += weight * value);
+    let mut totals = vec![[0.0; 3]; points.len()];
+    for_each_node(nodes, points, Precision::Full, |node, sums| {
+        for (total, sum) in totals.iter_mut().zip(sums) {
+            total.iter_mut().zip(node.weights).for_each(|(total, weight)| *total += weight * sum);
         }
-    }
-    sums
+    });
+    totals
 }
 
 /// `Σ |w| S` of the channel where it is largest: what a relative error of S is carried by.

@@ -28,7 +28,7 @@ const STEEPER: f64 = 1.5;
 /// What other ways cost at the least, in nanoseconds, where tables are looked at first.
 const PAYS_NS: f64 = 2e6;
 /// A table's error is taken to be smaller than what is likely by this power of ten at most.
-const UNLIKELY: f64 = 0.7;
+const UNLIKELY: f64 = 0.1;
 
 pub(super) fn plan(measure: &Measure, accuracy: Accuracy, against: Against, demand: Demand) -> Result<Plan, Unmet> {
     accuracy.met_by(REFERENCE)?;

@@ -1,7 +1,7 @@
 //! ln J over a table's square as a spline: through sums over wavelengths, or through another spline.
 
 use super::extent::Extent;
-use super::nodes::sums_at;
+use super::nodes::for_each_node;
 use super::spline::{Axis, MOST};
 use crate::reflectance::Precision;
 use crate::render::measure::Node;
@@ -72,14 +72,14 @@ impl Surface {
 fn cells(extent: &Extent, t: f64, vs: &[f64], nodes: &[Node], precision: Precision) -> Vec<Cell> {
     let points: Vec<[f64; 2]> = vs.iter().map(|&v| extent.at(2.0 * t - 1.0, v)).collect();
     let mut sums = vec![[0.0; 4]; points.len()];
-    for node in nodes {
-        for (sum, value) in sums.iter_mut().zip(sums_at(node, &points, precision)) {
-            let [red, green, blue] = node.weights;
+    for_each_node(nodes, &points, precision, |node, values| {
+        let [red, green, blue] = node.weights;
+        for (sum, value) in sums.iter_mut().zip(values) {
             for (sum, weight) in sum.iter_mut().zip([node.reference, red, green, blue]) {
                 *sum += weight * value;
             }
         }
-    }
+    });
     for sum in &mut sums {
         // No weight anywhere is black at any temperature.
         let whole = sum[0];

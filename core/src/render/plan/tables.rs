@@ -18,9 +18,9 @@ const MOST_CELLS: usize = 1 << 20;
 /// The most wavelengths.
 const MOST_NODES: usize = 24;
 /// By at least so many digits what a table is made of is more exact than the table.
-const SPARE: f64 = 0.8;
-/// To how many digits that is: so many more from level to level, so that tables share it.
-const LEVELS: [f64; 7] = [4.0, 5.5, 7.0, 8.5, 10.0, 11.5, 13.0];
+const SPARE: f64 = 0.6;
+/// To how many digits that is; not to any, so that tables share it.
+const LEVELS: [f64; 8] = [4.0, 5.5, 7.0, 8.5, 10.0, 11.0, 12.0, 13.0];
 /// From so many digits on S is made in full.
 const FULL: f64 = 9.0;
 
