@@ -1,7 +1,7 @@
 //! Many samples at once: what takes no sum over wavelengths is done together, so that it vectorizes.
 
 use super::Plan;
-use super::table::Table;
+use super::table::{Around, Table};
 use crate::math::exp::exp;
 use crate::render::diffuse::{by_moments, rough_basis};
 use crate::render::measure::MOMENTS;
@@ -61,8 +61,8 @@ impl Plan {
         let mut slowly = false;
         for (i, way) in ways.iter_mut().enumerate().take(places.count) {
             let kappa = places.kappa[i];
-            let by_moments = kappa >= rough && from <= kappa && kappa <= to;
-            let by_table = first <= kappa && kappa <= last;
+            let by_moments = (kappa >= rough) & (from <= kappa) & (kappa <= to);
+            let by_table = (first <= kappa) & (kappa <= last);
             let quick = if by_table { Quick::Table } else { Quick::Neither };
             let quick = if by_moments { Quick::Moments } else { quick };
             *way = if places.wanted[i] { quick } else { Quick::Dark };
@@ -130,7 +130,8 @@ fn quick_portable(
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn read<const N: usize>(table: &Table, places: &Places, ways: &[Quick; RUN], sums: &mut [[f64; RUN]; 3]) {
-    let around = table.around::<N>(&places.kappa, &places.beta);
+    let mut around = Around::<N>::NOTHING;
+    table.around(&places.kappa, &places.beta, &mut around);
     let mut peaks = [0.0; RUN];
     for i in 0..RUN {
         // Written so that what is no number is dark.

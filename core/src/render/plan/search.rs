@@ -1,7 +1,8 @@
 //! Which way is the cheapest that keeps the error.
 //!
-//! What is looked at and what it costs does not depend on the accuracy: then the cheapest that meets a smaller error never has
-//! a larger one than the cheapest that meets a larger.
+//! What a way costs and is off by does not depend on the accuracy; what is passed over is dearer than one that meets it, or
+//! surely does not meet it: then the cheapest that meets a smaller error never has a larger one than the cheapest that meets a
+//! larger.
 
 use super::candidate::{Candidate, Explanation, Method, Verdict};
 use super::check::{Check, Point, REFERENCE, off};
@@ -13,6 +14,7 @@ use crate::accuracy::{Accuracy, Unmet};
 use crate::reflectance::{Precision, diffuse_sum};
 use crate::render::diffuse::{by_moments, by_nodes, rough_basis};
 use crate::render::measure::{MOMENTS, Measure, Node};
+use rayon::prelude::*;
 
 /// The most wavelengths that stand for all.
 const MOST_NODES: usize = 24;
@@ -281,7 +283,9 @@ impl Search<'_> {
     fn table_error(&self, plan: &Plan) -> f64 {
         let places: Vec<[f64; 2]> = self.check.points().map(|point| [point.kappa, point.beta]).collect();
         let mut sums = vec![[0.0; 3]; places.len()];
-        plan.fill(&places, &mut sums);
+        // Small pieces: beyond the table's κ each place takes sums over wavelengths.
+        let pieces = places.par_chunks(run::RUN).zip(sums.par_chunks_mut(run::RUN));
+        pieces.for_each(|(places, sums)| plan.fill(places, sums));
         self.check.points().zip(sums).map(|(point, sum)| off(point, sum)).fold(0.0, f64::max)
     }
 

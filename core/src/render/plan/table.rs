@@ -100,8 +100,7 @@ impl Table {
     /// Where a run of samples lies between the knots.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
-    pub(super) fn around<const N: usize>(&self, kappa: &[f64; RUN], beta: &[f64; RUN]) -> Around<N> {
-        let mut around = Around { v: [0.0; RUN], start: [0; RUN], across: [[0.0; RUN]; N], along: [[0.0; RUN]; N] };
+    pub(super) fn around<const N: usize>(&self, kappa: &[f64; RUN], beta: &[f64; RUN], around: &mut Around<N>) {
         let (mut t, mut s, width) = ([0.0; RUN], [0.0; RUN], self.width() as f64);
         let [rows, columns] = self.surface.intervals.map(|count| count as f64);
         for i in 0..RUN {
@@ -114,7 +113,6 @@ impl Table {
         }
         weights(&t, &mut around.across);
         weights(&s, &mut around.along);
-        around
     }
 
     /// A cell between the knots; v from 0 to 1.
@@ -150,6 +148,11 @@ pub(super) struct Around<const N: usize> {
     /// Their weights along ln κ and along v.
     across: [[f64; RUN]; N],
     along: [[f64; RUN]; N],
+}
+
+impl<const N: usize> Around<N> {
+    pub(super) const NOTHING: Self =
+        Self { v: [0.0; RUN], start: [0; RUN], across: [[0.0; RUN]; N], along: [[0.0; RUN]; N] };
 }
 
 /// Adding and subtracting this rounds a double below 2⁵¹ to the nearest integer.
