@@ -61,8 +61,8 @@ impl Plan {
         let mut slowly = false;
         for (i, way) in ways.iter_mut().enumerate().take(places.count) {
             let kappa = places.kappa[i];
-            let by_moments = (kappa >= rough) & (from <= kappa) & (kappa <= to);
-            let by_table = (first <= kappa) & (kappa <= last);
+            let by_moments = kappa >= rough && from <= kappa && kappa <= to;
+            let by_table = first <= kappa && kappa <= last;
             let quick = if by_table { Quick::Table } else { Quick::Neither };
             let quick = if by_moments { Quick::Moments } else { quick };
             *way = if places.wanted[i] { quick } else { Quick::Dark };
