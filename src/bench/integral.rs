@@ -137,7 +137,7 @@ fn one(bench: &mut Bench<'_>, name: &str, [low, high]: [f64; 2], measure: &Measu
     bench.compare(Case { workload: Workload::Integral, name, item: "pixel" }, candidates);
 }
 
-/// A plan for a tolerance, on each number of threads.
+/// A plan for a tolerance, made and used on each number of threads.
 fn plans<'a>(
     bench: &Bench<'_>,
     tolerance: f64,
@@ -149,11 +149,12 @@ fn plans<'a>(
     let Ok(accuracy) = Accuracy::new(tolerance) else { return Vec::new() };
     let demand = Demand::new(kappa, points.len() as u64);
     let plan = || timed(|| Plan::new(measure, accuracy, Against::Peak, demand));
-    let (Ok(plan), seconds) = bench.pools.on(bench.pools.most(), plan) else { return Vec::new() };
-    let checked: Vec<Signals> = some.iter().map(|&(kappa, beta)| plan.at(kappa, beta)).collect();
-    let error = error(&checked);
-    let on = |threads| planned(plan.clone(), points, room, error.clone()).on(threads).built_in(seconds);
-    bench.pools.counts().into_iter().map(on).collect()
+    let on = |threads| {
+        let (Ok(plan), seconds) = bench.pools.on(threads, plan) else { return None };
+        let checked: Vec<Signals> = some.iter().map(|&(kappa, beta)| plan.at(kappa, beta)).collect();
+        Some(planned(plan, points, room, error(&checked)).on(threads).built_in(seconds))
+    };
+    bench.pools.counts().into_iter().filter_map(on).collect()
 }
 
 /// All pixels as a plan says, in pieces that several threads can share.
