@@ -15,6 +15,7 @@ mod coefficients;
 mod direct;
 mod factorials;
 mod narrow;
+mod pieces;
 mod saddle;
 mod terms;
 
@@ -22,6 +23,7 @@ use crate::accuracy::{Accuracy, Unmet};
 use crate::math::exp::exp;
 use direct::Choice;
 use multiversion::multiversion;
+use pieces::Place;
 use saddle::Peak;
 pub use terms::{SeriesTerms, series_terms};
 
@@ -125,7 +127,13 @@ const NOTHING: f64 = 760.0;
 /// bits.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn value(g: f64, b: f64, precision: Precision) -> f64 {
-    let Some((ln_scale, rest)) = parts(g, b, precision, NOTHING) else { return 0.0 };
+    let (ln_scale, rest) = match Place::of(g, b) {
+        Some(place) => (pieces::ln(&place, precision), 1.0),
+        None => match parts(g, b, precision, NOTHING) {
+            Some(parts) => parts,
+            None => return 0.0,
+        },
+    };
     // The exponential ends at e^−700: no rest lifts that above the smallest.
     let value = exp(ln_scale) * rest;
     if value < SMALLEST { 0.0 } else { value }
@@ -142,6 +150,9 @@ pub fn ln_diffuse_sum(g: f64, b: f64, precision: Precision) -> f64 {
 /// Compiled as [`value`] is.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn logarithm(g: f64, b: f64, precision: Precision) -> f64 {
+    if let Some(place) = Place::of(g, b) {
+        return pieces::ln(&place, precision);
+    }
     let parts = parts(g, b, precision, f64::INFINITY);
     parts.map_or(f64::NEG_INFINITY, |(ln_scale, rest)| ln_scale + rest.ln())
 }

@@ -1,0 +1,102 @@
+//! Making a piece: ln S at Chebyshev's points, and from there the coefficients.
+
+use super::{BIAS, Block, FIRST, GRID, Piece, ROOTS, TO_X, TO_Y};
+use crate::math::chebyshev::nodes;
+use crate::math::exp::exp;
+use crate::reflectance::sum::saddle::{self, Peak};
+
+/// Points along x and along y: a few more than coefficients, so that what is left out does not come back as something else.
+const ACROSS: usize = 20;
+const ALONG: usize = 24;
+
+/// From this g on the expansion has all digits; below, the terms are added.
+const EXPANSION: f64 = 256.0;
+
+impl<const A: usize, const B: usize, const C: usize, const D: usize, const E: usize> Piece<A, B, C, D, E> {
+    /// The piece of an octave of g, by its exponent, and of a half octave of t.
+    pub(super) fn new(exponent: i32, column: usize) -> Self {
+        let c = coefficients(&values(&points_g(exponent), &points_b(exponent, column)));
+        Self {
+            five: rows(&c, 0),
+            four: rows(&c, A),
+            three: rows(&c, A + B),
+            two: rows(&c, A + B + C),
+            one: rows(&c, A + B + C + D),
+        }
+    }
+}
+
+fn rows<const Q: usize, const N: usize>(c: &[[f64; ALONG]; ACROSS], first: usize) -> [[Block; Q]; N] {
+    let block = |j: usize, q: usize| std::array::from_fn(|lane| c[first + j][4 * q + lane]);
+    std::array::from_fn(|j| std::array::from_fn(|q| block(j, q)))
+}
+
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(BIAS.wrapping_add_signed(exponent.into()) << 52)
+}
+
+fn points_g(exponent: i32) -> [f64; ACROSS] {
+    let middle = power_of_two(exponent) * ROOTS[1];
+    nodes::<ACROSS>().map(|x| middle * (TO_X + x) / (TO_X - x))
+}
+
+fn points_b(exponent: i32, column: usize) -> [f64; ALONG] {
+    let middle = power_of_two(column as i32 / 2) * if column % 2 == 0 { ROOTS[0] } else { ROOTS[2] };
+    let scale = GRID[(exponent - FIRST) as usize].scale;
+    nodes::<ALONG>().map(|y| (middle * (TO_Y + y) / (TO_Y - y) - 1.0) / scale)
+}
+
+/// ln S.
+fn values(g: &[f64; ACROSS], b: &[f64; ALONG]) -> [[f64; ALONG]; ACROSS] {
+    if g[ACROSS - 1] >= EXPANSION {
+        return g.map(|g| b.map(|b| expanded(g, b)));
+    }
+    // The number of terms above e^-41 of the largest, at its most.
+    let m = Peak::near(g[0], b[0]).m;
+    let count = (m + 9.5 * m.sqrt() + 20.0) as usize;
+    let mut sums = [[0.0; ALONG]; ACROSS];
+    let mut powers = g.map(|g| g * exp(-g));
+    for n in (1..=count).map(|n| n as f64) {
+        let falls = b.map(|b| exp(-b / n));
+        for (sums, power) in sums.iter_mut().zip(powers) {
+            for (sum, fall) in sums.iter_mut().zip(falls) {
+                *sum += power * fall;
+            }
+        }
+        let ratio = n / ((n + 1.0) * (n + 1.0));
+        for (power, g) in powers.iter_mut().zip(g) {
+            *power *= g * ratio;
+        }
+    }
+    sums.map(|sums| sums.map(f64::ln))
+}
+
+fn expanded(g: f64, b: f64) -> f64 {
+    let (ln_scale, rest) = saddle::sum(&Peak::near(g, b).refined(), f64::INFINITY);
+    ln_scale + rest.ln()
+}
+
+/// `c_jk = 4/(ACROSS ALONG) Σ v T_j T_k` over the points, with half of that for j = 0 and for k = 0.
+fn coefficients(values: &[[f64; ALONG]; ACROSS]) -> [[f64; ALONG]; ACROSS] {
+    let (across, along) = (chebyshev::<ACROSS>(), chebyshev::<ALONG>());
+    let lines = values.map(|line| {
+        let coefficient = |k: usize| -> f64 { line.iter().zip(&along[k]).map(|(v, t)| v * t).sum() };
+        std::array::from_fn::<f64, ALONG, _>(coefficient)
+    });
+    std::array::from_fn(|j| std::array::from_fn(|k| lines.iter().zip(&across[j]).map(|(line, t)| line[k] * t).sum()))
+}
+
+/// `T_k` at the N points for k below N, with the weight of the sum.
+fn chebyshev<const N: usize>() -> [[f64; N]; N] {
+    let x = nodes::<N>();
+    let mut table = [[1.0; N]; N];
+    table[1] = x;
+    for k in 2..N {
+        table[k] = std::array::from_fn(|i| 2.0 * x[i] * table[k - 1][i] - table[k - 2][i]);
+    }
+    for (k, line) in table.iter_mut().enumerate() {
+        let weight = if k == 0 { 1.0 } else { 2.0 } / N as f64;
+        line.iter_mut().for_each(|t| *t *= weight);
+    }
+    table
+}
