@@ -17,25 +17,30 @@ mod fit;
 
 use std::sync::OnceLock;
 
-/// Coefficients of four neighboring powers of y.
-type Block = [f64; 4];
-
-/// The coefficients of a piece: rows of five blocks, of four, and so on, by ascending powers of x.
+/// The coefficients of a piece in tiles of four by four, x before y, of which
+/// ```text
+/// ln S = Σ_pq T_4p(x) T_4q(y) Σ_rl tile_pq[4r + l] T_r(x) T_l(y),  r, l < 4
+/// ```
 #[derive(Clone, Debug)]
-pub(super) struct Piece<const FIVE: usize, const FOUR: usize, const THREE: usize, const TWO: usize, const ONE: usize> {
-    five: [[Block; 5]; FIVE],
-    four: [[Block; 4]; FOUR],
-    three: [[Block; 3]; THREE],
-    two: [[Block; 2]; TWO],
-    one: [[Block; 1]; ONE],
+pub(super) struct Piece<const TILES: usize> {
+    tiles: [[f64; TILE]; TILES],
+    /// [`TILE`], which the compiler shall not know: loops of fixed length are unrolled before they could be vectorized.
+    length: usize,
 }
 
+/// Coefficients of a tile.
+const TILE: usize = 16;
+
+/// Which tiles there are: p and q, the large ones last.
+type Shape<const TILES: usize> = [[usize; 2]; TILES];
+
 /// Within 3e-14 of ln S.
-type Full = Piece<3, 4, 2, 4, 3>;
+const FULL_SHAPE: Shape<14> =
+    [[3, 1], [2, 2], [1, 3], [0, 4], [3, 0], [2, 1], [1, 2], [0, 3], [2, 0], [1, 1], [0, 2], [1, 0], [0, 1], [0, 0]];
 /// Within 4e-11.
-type Fine = Piece<0, 3, 3, 3, 3>;
+const FINE_SHAPE: Shape<9> = [[2, 1], [1, 2], [0, 3], [2, 0], [1, 1], [0, 2], [1, 0], [0, 1], [0, 0]];
 /// Within 4e-7.
-type Coarse = Piece<0, 0, 0, 5, 3>;
+const COARSE_SHAPE: Shape<4> = [[1, 1], [1, 0], [0, 1], [0, 0]];
 
 /// The binary exponents of g from which and to below which there are pieces.
 const FIRST: i32 = -10;
@@ -44,11 +49,11 @@ const ROWS: usize = (LAST - FIRST) as usize;
 /// The half octaves of t that a row has at most.
 const COLUMNS: usize = 18;
 
-type Pieces<P> = [OnceLock<Box<P>>; ROWS * COLUMNS];
+type Pieces<const TILES: usize> = [OnceLock<Box<Piece<TILES>>>; ROWS * COLUMNS];
 
-static FULL: Pieces<Full> = [const { OnceLock::new() }; ROWS * COLUMNS];
-static FINE: Pieces<Fine> = [const { OnceLock::new() }; ROWS * COLUMNS];
-static COARSE: Pieces<Coarse> = [const { OnceLock::new() }; ROWS * COLUMNS];
+static FULL: Pieces<14> = [const { OnceLock::new() }; ROWS * COLUMNS];
+static FINE: Pieces<9> = [const { OnceLock::new() }; ROWS * COLUMNS];
+static COARSE: Pieces<4> = [const { OnceLock::new() }; ROWS * COLUMNS];
 
 /// An octave of g.
 #[derive(Clone, Copy, Debug)]
@@ -147,78 +152,59 @@ fn y(t: f64) -> f64 {
 #[inline(always)]
 pub(super) fn ln(place: &Place, precision: super::Precision) -> f64 {
     match precision {
-        super::Precision::Coarse => read(&COARSE, place),
-        super::Precision::Fine => read(&FINE, place),
-        super::Precision::Full => read(&FULL, place),
+        super::Precision::Coarse => read(&COARSE, &COARSE_SHAPE, place),
+        super::Precision::Fine => read(&FINE, &FINE_SHAPE, place),
+        super::Precision::Full => read(&FULL, &FULL_SHAPE, place),
     }
 }
 
 #[inline(always)]
-fn read<const A: usize, const B: usize, const C: usize, const D: usize, const E: usize>(
-    pieces: &Pieces<Piece<A, B, C, D, E>>,
-    place: &Place,
-) -> f64 {
+fn read<const TILES: usize>(pieces: &Pieces<TILES>, shape: &Shape<TILES>, place: &Place) -> f64 {
     let slot = &pieces[place.piece];
-    slot.get().map_or_else(|| made(slot, place.piece), |piece| piece).at(place.x, place.y)
+    slot.get().map_or_else(|| made(slot, shape, place.piece), |piece| piece).at(shape, place.x, place.y)
 }
 
 #[cold]
 #[inline(never)]
-fn made<const A: usize, const B: usize, const C: usize, const D: usize, const E: usize>(
-    slot: &OnceLock<Box<Piece<A, B, C, D, E>>>,
+fn made<'a, const TILES: usize>(
+    slot: &'a OnceLock<Box<Piece<TILES>>>,
+    shape: &Shape<TILES>,
     piece: usize,
-) -> &Piece<A, B, C, D, E> {
-    slot.get_or_init(|| Box::new(Piece::new(FIRST + (piece / COLUMNS) as i32, piece % COLUMNS)))
+) -> &'a Piece<TILES> {
+    slot.get_or_init(|| Box::new(Piece::new(shape, FIRST + (piece / COLUMNS) as i32, piece % COLUMNS)))
 }
 
-impl<const A: usize, const B: usize, const C: usize, const D: usize, const E: usize> Piece<A, B, C, D, E> {
+impl<const TILES: usize> Piece<TILES> {
     #[inline(always)]
-    fn at(&self, x: f64, y: f64) -> f64 {
-        let [t, v] = [polynomials(x), polynomials(y)];
-        let t = t.as_flattened();
-        let mut sums = [[0.0; 4]; 5];
-        // The large ones last.
-        add(&self.one, &t[A + B + C + D..], &mut sums);
-        add(&self.two, &t[A + B + C..], &mut sums);
-        add(&self.three, &t[A + B..], &mut sums);
-        add(&self.four, &t[A..], &mut sums);
-        add(&self.five, t, &mut sums);
-        let mut total = [0.0; 4];
-        for q in (0..5).rev() {
-            for lane in 0..4 {
-                total[lane] += sums[q][lane] * v[q][lane];
-            }
+    fn at(&self, shape: &Shape<TILES>, x: f64, y: f64) -> f64 {
+        let ((t, p), (v, q)) = (polynomials(x), polynomials(y));
+        let mut weights = [0.0; TILES];
+        for k in 0..TILES {
+            weights[k] = p[shape[k][0]] * q[shape[k][1]];
         }
-        (total[3] + total[2]) + (total[1] + total[0])
-    }
-}
-
-/// `Σ_j t_j c_jk`, for all k at once.
-#[inline(always)]
-fn add<const Q: usize, const N: usize>(rows: &[[Block; Q]; N], t: &[f64], sums: &mut [Block; 5]) {
-    for (row, t) in rows.iter().zip(t).rev() {
-        for q in 0..Q {
-            for lane in 0..4 {
-                sums[q][lane] += row[q][lane] * t;
+        let mut sums = [0.0; TILE];
+        for i in 0..self.length.min(TILE) {
+            let mut sum = 0.0;
+            for k in 0..TILES {
+                sum += self.tiles[k][i] * weights[k];
             }
+            sums[i] = sum;
         }
-    }
-}
-
-/// Chebyshev's polynomials T_0 … T_19.
-#[inline(always)]
-fn polynomials(x: f64) -> [Block; 5] {
-    let two = 2.0 * x * x - 1.0;
-    let three = x * (2.0 * two - 1.0);
-    let four = 2.0 * two * two - 1.0;
-    // T_{k+4} = 2 T_4 T_k − T_{k−4}
-    let mut blocks = [[1.0, x, two, three]; 5];
-    let mut before = [four, three, two, x];
-    for q in 1..5 {
+        let mut lanes = [0.0; 4];
         for lane in 0..4 {
-            blocks[q][lane] = 2.0 * four * blocks[q - 1][lane] - before[lane];
+            let sum = (sums[12 + lane] * t[3] + sums[8 + lane] * t[2]) + (sums[4 + lane] * t[1] + sums[lane]);
+            lanes[lane] = sum * v[lane];
         }
-        before = blocks[q - 1];
+        (lanes[3] + lanes[2]) + (lanes[1] + lanes[0])
     }
-    blocks
+}
+
+/// Chebyshev's T_0 … T_3, and T_0, T_4, … T_16.
+#[inline(always)]
+fn polynomials(x: f64) -> ([f64; 4], [f64; 5]) {
+    let two = 2.0 * x * x - 1.0;
+    let four = 2.0 * two * two - 1.0;
+    let eight = 2.0 * four * four - 1.0;
+    let near = [1.0, x, two, x * (2.0 * two - 1.0)];
+    (near, [1.0, four, eight, four * (2.0 * eight - 1.0), 2.0 * eight * eight - 1.0])
 }

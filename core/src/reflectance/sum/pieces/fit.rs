@@ -1,6 +1,6 @@
 //! Making a piece: ln S at Chebyshev's points, and from there the coefficients.
 
-use super::{BIAS, Block, FIRST, GRID, Piece, ROOTS, TO_X, TO_Y};
+use super::{BIAS, FIRST, GRID, Piece, ROOTS, Shape, TILE, TO_X, TO_Y};
 use crate::math::chebyshev::nodes;
 use crate::math::exp::exp;
 use crate::reflectance::sum::saddle::{self, Peak};
@@ -12,23 +12,13 @@ const ALONG: usize = 24;
 /// From this g on the expansion has all digits; below, the terms are added.
 const EXPANSION: f64 = 256.0;
 
-impl<const A: usize, const B: usize, const C: usize, const D: usize, const E: usize> Piece<A, B, C, D, E> {
+impl<const TILES: usize> Piece<TILES> {
     /// The piece of an octave of g, by its exponent, and of a half octave of t.
-    pub(super) fn new(exponent: i32, column: usize) -> Self {
+    pub(super) fn new(shape: &Shape<TILES>, exponent: i32, column: usize) -> Self {
         let c = coefficients(&values(&points_g(exponent), &points_b(exponent, column)));
-        Self {
-            five: rows(&c, 0),
-            four: rows(&c, A),
-            three: rows(&c, A + B),
-            two: rows(&c, A + B + C),
-            one: rows(&c, A + B + C + D),
-        }
+        let tiles = shape.map(|[p, q]| std::array::from_fn(|i| c[4 * p + i / 4][4 * q + i % 4]));
+        Self { tiles, length: TILE }
     }
-}
-
-fn rows<const Q: usize, const N: usize>(c: &[[f64; ALONG]; ACROSS], first: usize) -> [[Block; Q]; N] {
-    let block = |j: usize, q: usize| std::array::from_fn(|lane| c[first + j][4 * q + lane]);
-    std::array::from_fn(|j| std::array::from_fn(|q| block(j, q)))
 }
 
 fn power_of_two(exponent: i32) -> f64 {
@@ -76,14 +66,28 @@ fn expanded(g: f64, b: f64) -> f64 {
     ln_scale + rest.ln()
 }
 
-/// `c_jk = 4/(ACROSS ALONG) Σ v T_j T_k` over the points, with half of that for j = 0 and for k = 0.
+/// `c_jk = 4/(ACROSS ALONG) Σ v T_j T_k` over the points, with half of that for j = 0 and for k = 0; then of products.
 fn coefficients(values: &[[f64; ALONG]; ACROSS]) -> [[f64; ALONG]; ACROSS] {
     let (across, along) = (chebyshev::<ACROSS>(), chebyshev::<ALONG>());
     let lines = values.map(|line| {
         let coefficient = |k: usize| -> f64 { line.iter().zip(&along[k]).map(|(v, t)| v * t).sum() };
-        std::array::from_fn::<f64, ALONG, _>(coefficient)
+        products(std::array::from_fn::<f64, ALONG, _>(coefficient))
     });
-    std::array::from_fn(|j| std::array::from_fn(|k| lines.iter().zip(&across[j]).map(|(line, t)| line[k] * t).sum()))
+    let columns: [[f64; ACROSS]; ALONG] = std::array::from_fn(|k| {
+        products(across.map(|weights| lines.iter().zip(&weights).map(|(line, t)| line[k] * t).sum()))
+    });
+    std::array::from_fn(|j| std::array::from_fn(|k| columns[k][j]))
+}
+
+/// From coefficients of T_k to those of `T_4q T_l`, l < 4: `T_4q T_l = (T_{4q+l} + T_{4q−l})/2`.
+fn products<const N: usize>(mut c: [f64; N]) -> [f64; N] {
+    for q in (4..N).step_by(4).rev() {
+        for l in 1..4 {
+            c[q - l] -= c[q + l];
+            c[q + l] *= 2.0;
+        }
+    }
+    c
 }
 
 /// `T_k` at the N points for k below N, with the weight of the sum.
