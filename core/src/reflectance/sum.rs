@@ -127,13 +127,18 @@ const NOTHING: f64 = 760.0;
 /// bits.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn value(g: f64, b: f64, precision: Precision) -> f64 {
-    let (ln_scale, rest) = match Place::of(g, b) {
-        Some(place) => (pieces::ln(&place, precision), 1.0),
-        None => match parts(g, b, precision, NOTHING) {
-            Some(parts) => parts,
-            None => return 0.0,
-        },
-    };
+    Place::of(g, b).map_or_else(|| remote(g, b, precision), |place| raised(pieces::ln(&place, precision), 1.0))
+}
+
+/// The same where there are no polynomials.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn remote(g: f64, b: f64, precision: Precision) -> f64 {
+    parts(g, b, precision, NOTHING).map_or(0.0, |(ln_scale, rest)| raised(ln_scale, rest))
+}
+
+#[expect(clippy::inline_always, reason = "every instruction set needs a copy of its own")]
+#[inline(always)]
+fn raised(ln_scale: f64, rest: f64) -> f64 {
     // The exponential ends at e^−700: no rest lifts that above the smallest.
     let value = exp(ln_scale) * rest;
     if value < SMALLEST { 0.0 } else { value }
@@ -150,9 +155,11 @@ pub fn ln_diffuse_sum(g: f64, b: f64, precision: Precision) -> f64 {
 /// Compiled as [`value`] is.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn logarithm(g: f64, b: f64, precision: Precision) -> f64 {
-    if let Some(place) = Place::of(g, b) {
-        return pieces::ln(&place, precision);
-    }
+    Place::of(g, b).map_or_else(|| ln_remote(g, b, precision), |place| pieces::ln(&place, precision))
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn ln_remote(g: f64, b: f64, precision: Precision) -> f64 {
     let parts = parts(g, b, precision, f64::INFINITY);
     parts.map_or(f64::NEG_INFINITY, |(ln_scale, rest)| ln_scale + rest.ln())
 }

@@ -19,17 +19,17 @@ use std::sync::OnceLock;
 
 /// The coefficients of a piece in tiles of four by four, x before y, of which
 /// ```text
-/// ln S = Σ_pq T_4p(x) T_4q(y) Σ_rl tile_pq[4r + l] T_r(x) T_l(y),  r, l < 4
+/// ln S = Σ_pq T_4p(x) T_4q(y) Σ_rl tile_pq[r][l] T_r(x) T_l(y),  r, l < 4
 /// ```
 #[derive(Clone, Debug)]
 pub(super) struct Piece<const TILES: usize> {
-    tiles: [[f64; TILE]; TILES],
-    /// [`TILE`], which the compiler shall not know: loops of fixed length are unrolled before they could be vectorized.
-    length: usize,
+    tiles: [[[f64; LANES]; 4]; TILES],
+    /// [`LANES`], which the compiler shall not know: loops of fixed length are unrolled before they could be vectorized.
+    lanes: usize,
 }
 
-/// Coefficients of a tile.
-const TILE: usize = 16;
+/// Powers of y side by side.
+const LANES: usize = 4;
 
 /// Which tiles there are: p and q, the large ones last.
 type Shape<const TILES: usize> = [[usize; 2]; TILES];
@@ -182,18 +182,15 @@ impl<const TILES: usize> Piece<TILES> {
         for k in 0..TILES {
             weights[k] = p[shape[k][0]] * q[shape[k][1]];
         }
-        let mut sums = [0.0; TILE];
-        for i in 0..self.length.min(TILE) {
-            let mut sum = 0.0;
+        let mut lanes = [0.0; LANES];
+        for l in 0..self.lanes.min(LANES) {
+            let mut sums = [0.0; 4];
             for k in 0..TILES {
-                sum += self.tiles[k][i] * weights[k];
+                for r in 0..4 {
+                    sums[r] += self.tiles[k][r][l] * weights[k];
+                }
             }
-            sums[i] = sum;
-        }
-        let mut lanes = [0.0; 4];
-        for lane in 0..4 {
-            let sum = (sums[12 + lane] * t[3] + sums[8 + lane] * t[2]) + (sums[4 + lane] * t[1] + sums[lane]);
-            lanes[lane] = sum * v[lane];
+            lanes[l] = ((sums[3] * t[3] + sums[2] * t[2]) + (sums[1] * t[1] + sums[0])) * v[l];
         }
         (lanes[3] + lanes[2]) + (lanes[1] + lanes[0])
     }

@@ -1,6 +1,6 @@
 //! Making a piece: ln S at Chebyshev's points, and from there the coefficients.
 
-use super::{BIAS, FIRST, GRID, Piece, ROOTS, Shape, TILE, TO_X, TO_Y};
+use super::{BIAS, FIRST, GRID, LANES, Piece, ROOTS, Shape, TO_X, TO_Y};
 use crate::math::chebyshev::nodes;
 use crate::math::exp::exp;
 use crate::reflectance::sum::saddle::{self, Peak};
@@ -16,8 +16,8 @@ impl<const TILES: usize> Piece<TILES> {
     /// The piece of an octave of g, by its exponent, and of a half octave of t.
     pub(super) fn new(shape: &Shape<TILES>, exponent: i32, column: usize) -> Self {
         let c = coefficients(&values(&points_g(exponent), &points_b(exponent, column)));
-        let tiles = shape.map(|[p, q]| std::array::from_fn(|i| c[4 * p + i / 4][4 * q + i % 4]));
-        Self { tiles, length: TILE }
+        let tile = |[p, q]: [usize; 2]| [0, 1, 2, 3].map(|r| [0, 1, 2, 3].map(|l| c[4 * p + r][4 * q + l]));
+        Self { tiles: shape.map(tile), lanes: LANES }
     }
 }
 
