@@ -27,5 +27,7 @@ pub use geometry::Geometry;
 pub use power::{beta, coherent_prefactor, diffuse_prefactor, factor, factor_by, kappa, wavelength_power};
 pub use reading::{Method, Reading};
 pub use regimes::{Regime, diffuse_sum_by_regimes};
-pub use sum::{Precision, SeriesTerms, diffuse_sum, ln_diffuse_sum, series_terms};
+pub use sum::{
+    Precision, SeriesTerms, diffuse_sum, diffuse_sums_into, ln_diffuse_sum, ln_diffuse_sums_into, series_terms,
+};
 pub use surface::{Caution, Surface, SurfaceError};

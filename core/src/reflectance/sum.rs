@@ -23,7 +23,7 @@ use crate::accuracy::{Accuracy, Unmet};
 use crate::math::exp::exp;
 use direct::Choice;
 use multiversion::multiversion;
-use pieces::Place;
+use pieces::RUN;
 use saddle::Peak;
 pub use terms::{SeriesTerms, series_terms};
 
@@ -127,7 +127,7 @@ const NOTHING: f64 = 760.0;
 /// bits.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn value(g: f64, b: f64, precision: Precision) -> f64 {
-    Place::of(g, b).map_or_else(|| remote(g, b, precision), |place| raised(pieces::ln(&place, precision), 1.0))
+    pieces::ln(g, b, precision).map_or_else(|| remote(g, b, precision), |ln| raised(ln, 1.0))
 }
 
 /// The same where there are no polynomials.
@@ -155,13 +155,68 @@ pub fn ln_diffuse_sum(g: f64, b: f64, precision: Precision) -> f64 {
 /// Compiled as [`value`] is.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn logarithm(g: f64, b: f64, precision: Precision) -> f64 {
-    Place::of(g, b).map_or_else(|| ln_remote(g, b, precision), |place| pieces::ln(&place, precision))
+    pieces::ln(g, b, precision).unwrap_or_else(|| ln_remote(g, b, precision))
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn ln_remote(g: f64, b: f64, precision: Precision) -> f64 {
     let parts = parts(g, b, precision, f64::INFINITY);
     parts.map_or(f64::NEG_INFINITY, |(ln_scale, rest)| ln_scale + rest.ln())
+}
+
+/// S(g, b) of many arguments, each to the last bit what [`diffuse_sum`] gives, at a third to a half of its time. What of a
+/// longer slice is beyond the shortest is left alone.
+///
+/// ```
+/// use chromascope_core::reflectance::{Precision, diffuse_sum, diffuse_sums_into};
+/// let mut sums = [0.0; 2];
+/// diffuse_sums_into(&[0.5, 20.0], &[1.0, 10.0], Precision::Fine, &mut sums);
+/// assert_eq!(sums[1], diffuse_sum(20.0, 10.0, Precision::Fine));
+/// ```
+pub fn diffuse_sums_into(g: &[f64], b: &[f64], precision: Precision, sums: &mut [f64]) {
+    in_runs(g, b, sums, |g, b| values(g, b, precision), |g, b| remote(g, b, precision));
+}
+
+/// ln S(g, b) of many arguments, each to the last bit what [`ln_diffuse_sum`] gives; lengths as by [`diffuse_sums_into`].
+pub fn ln_diffuse_sums_into(g: &[f64], b: &[f64], precision: Precision, logs: &mut [f64]) {
+    in_runs(g, b, logs, |g, b| logarithms(g, b, precision), |g, b| ln_remote(g, b, precision));
+}
+
+/// Run by run, and what a run leaves open one by one.
+fn in_runs(
+    g: &[f64],
+    b: &[f64],
+    answers: &mut [f64],
+    run: impl Fn(&[f64; RUN], &[f64; RUN]) -> [f64; RUN],
+    remote: impl Fn(f64, f64) -> f64,
+) {
+    for ((g, b), answers) in g.chunks(RUN).zip(b.chunks(RUN)).zip(answers.chunks_mut(RUN)) {
+        let count = g.len().min(b.len()).min(answers.len());
+        let (mut some_g, mut some_b) = ([0.0; RUN], [0.0; RUN]);
+        some_g[..count].copy_from_slice(&g[..count]);
+        some_b[..count].copy_from_slice(&b[..count]);
+        let found = run(&some_g, &some_b);
+        for i in 0..count {
+            answers[i] = if found[i].is_nan() { remote(g[i], b[i]) } else { found[i] };
+        }
+    }
+}
+
+/// Compiled as [`value`] is.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn values(g: &[f64; RUN], b: &[f64; RUN], precision: Precision) -> [f64; RUN] {
+    let mut values = pieces::ln_run(g, b, precision);
+    for value in &mut values {
+        // What is no number stays none.
+        *value = if value.is_nan() { f64::NAN } else { raised(*value, 1.0) };
+    }
+    values
+}
+
+/// Compiled as [`value`] is.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn logarithms(g: &[f64; RUN], b: &[f64; RUN], precision: Precision) -> [f64; RUN] {
+    pieces::ln_run(g, b, precision)
 }
 
 /// S as e to the first times the second, the second positive; none where S is 0 or m δ beyond what is asked for.

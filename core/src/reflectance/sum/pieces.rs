@@ -15,6 +15,7 @@
 
 mod fit;
 
+use super::Precision;
 use std::sync::OnceLock;
 
 /// The coefficients of a piece in tiles of four by four, x before y, of which
@@ -94,23 +95,27 @@ const TO_X: f64 = (ROOTS[1] + 1.0) / (ROOTS[1] - 1.0);
 const TO_Y: f64 = (ROOTS[0] + 1.0) / (ROOTS[0] - 1.0);
 
 /// Where a pair of arguments lies.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Place {
+#[derive(Clone, Copy, Debug)]
+struct Place {
     piece: usize,
     x: f64,
     y: f64,
 }
 
+/// The piece of a place where there is none: little or no g, no b, or so large a b that other ways are as good.
+const NOWHERE: usize = ROWS * COLUMNS;
+
 impl Place {
-    /// None where there is no piece: little or no g, no b, or so large a b that other ways are as good.
+    /// Without branches.
     #[inline(always)]
-    pub(super) fn of(g: f64, b: f64) -> Option<Self> {
+    fn of(g: f64, b: f64) -> Self {
         let row = (g.to_bits() >> 52).wrapping_sub(BIAS.wrapping_add_signed(FIRST as i64)) as usize;
-        let &Row { scale, columns } = GRID.get(row)?;
-        let t = 1.0 + b * scale;
-        // What is below 1, or no number, has a column beyond all.
+        let Row { scale, columns } = GRID[if row < ROWS { row } else { 0 }];
+        // What is no number stays none, and has a column beyond all.
+        let t = 1.0 + if b < 0.0 { 0.0 } else { b } * scale;
         let column = column(t);
-        (column < columns).then(|| Self { piece: row * COLUMNS + column, x: x(g), y: y(t) })
+        let piece = if (row < ROWS) & (column < columns) { row * COLUMNS + column } else { NOWHERE };
+        Self { piece, x: x(g), y: y(t) }
     }
 }
 
@@ -148,20 +153,67 @@ fn y(t: f64) -> f64 {
     (t - middle) / (t + middle) * TO_Y
 }
 
-/// ln S at a place, as exactly as is asked for.
+/// ln S, as exactly as is asked for, where there is a piece.
 #[inline(always)]
-pub(super) fn ln(place: &Place, precision: super::Precision) -> f64 {
+pub(super) fn ln(g: f64, b: f64, precision: Precision) -> Option<f64> {
+    let place = Place::of(g, b);
+    if place.piece == NOWHERE {
+        return None;
+    }
+    Some(match precision {
+        Precision::Coarse => piece(&COARSE, &COARSE_SHAPE, place.piece).at(&COARSE_SHAPE, place.x, place.y),
+        Precision::Fine => piece(&FINE, &FINE_SHAPE, place.piece).at(&FINE_SHAPE, place.x, place.y),
+        Precision::Full => piece(&FULL, &FULL_SHAPE, place.piece).at(&FULL_SHAPE, place.x, place.y),
+    })
+}
+
+/// Arguments that are done together.
+pub(super) const RUN: usize = 16;
+
+/// ln S of a run; NaN where there is no piece.
+#[inline(always)]
+pub(super) fn ln_run(g: &[f64; RUN], b: &[f64; RUN], precision: Precision) -> [f64; RUN] {
     match precision {
-        super::Precision::Coarse => read(&COARSE, &COARSE_SHAPE, place),
-        super::Precision::Fine => read(&FINE, &FINE_SHAPE, place),
-        super::Precision::Full => read(&FULL, &FULL_SHAPE, place),
+        Precision::Coarse => run(&COARSE, &COARSE_SHAPE, g, b),
+        Precision::Fine => run(&FINE, &FINE_SHAPE, g, b),
+        Precision::Full => run(&FULL, &FULL_SHAPE, g, b),
     }
 }
 
+/// What takes no coefficients is done together, the rest one by one: each piece is one's own.
 #[inline(always)]
-fn read<const TILES: usize>(pieces: &Pieces<TILES>, shape: &Shape<TILES>, place: &Place) -> f64 {
-    let slot = &pieces[place.piece];
-    slot.get().map_or_else(|| made(slot, shape, place.piece), |piece| piece).at(shape, place.x, place.y)
+fn run<const TILES: usize>(pieces: &Pieces<TILES>, shape: &Shape<TILES>, g: &[f64; RUN], b: &[f64; RUN]) -> [f64; RUN] {
+    let mut found = [NOWHERE; RUN];
+    let (mut t, mut v, mut weights) = ([[0.0; RUN]; 4], [[0.0; RUN]; 4], [[0.0; RUN]; TILES]);
+    for i in 0..RUN {
+        let place = Place::of(g[i], b[i]);
+        found[i] = place.piece;
+        let ((near_x, far_x), (near_y, far_y)) = (polynomials(place.x), polynomials(place.y));
+        for k in 0..4 {
+            (t[k][i], v[k][i]) = (near_x[k], near_y[k]);
+        }
+        for k in 0..TILES {
+            weights[k][i] = far_x[shape[k][0]] * far_y[shape[k][1]];
+        }
+    }
+    let mut lanes = [[f64::NAN; LANES]; RUN];
+    for i in 0..RUN {
+        if found[i] != NOWHERE {
+            let t = [t[0][i], t[1][i], t[2][i], t[3][i]];
+            lanes[i] = piece(pieces, shape, found[i]).lanes(&std::array::from_fn(|k| weights[k][i]), &t);
+        }
+    }
+    let mut logs = [0.0; RUN];
+    for i in 0..RUN {
+        logs[i] = total(&lanes[i], &[v[0][i], v[1][i], v[2][i], v[3][i]]);
+    }
+    logs
+}
+
+#[inline(always)]
+fn piece<'a, const TILES: usize>(pieces: &'a Pieces<TILES>, shape: &Shape<TILES>, index: usize) -> &'a Piece<TILES> {
+    let slot = &pieces[index];
+    slot.get().map_or_else(|| made(slot, shape, index), |piece| piece)
 }
 
 #[cold]
@@ -182,6 +234,12 @@ impl<const TILES: usize> Piece<TILES> {
         for k in 0..TILES {
             weights[k] = p[shape[k][0]] * q[shape[k][1]];
         }
+        total(&self.lanes(&weights, &t), &v)
+    }
+
+    /// The factors of `T_0(y) … T_3(y)`.
+    #[inline(always)]
+    fn lanes(&self, weights: &[f64; TILES], t: &[f64; 4]) -> [f64; LANES] {
         let mut lanes = [0.0; LANES];
         for l in 0..self.lanes.min(LANES) {
             let mut sums = [0.0; 4];
@@ -190,10 +248,15 @@ impl<const TILES: usize> Piece<TILES> {
                     sums[r] += self.tiles[k][r][l] * weights[k];
                 }
             }
-            lanes[l] = ((sums[3] * t[3] + sums[2] * t[2]) + (sums[1] * t[1] + sums[0])) * v[l];
+            lanes[l] = (sums[3] * t[3] + sums[2] * t[2]) + (sums[1] * t[1] + sums[0]);
         }
-        (lanes[3] + lanes[2]) + (lanes[1] + lanes[0])
+        lanes
     }
+}
+
+#[inline(always)]
+fn total(lanes: &[f64; LANES], v: &[f64; 4]) -> f64 {
+    (lanes[3] * v[3] + lanes[2] * v[2]) + (lanes[1] * v[1] + lanes[0])
 }
 
 /// Chebyshev's T_0 … T_3, and T_0, T_4, … T_16.

@@ -4,6 +4,7 @@ use super::{BIAS, FIRST, GRID, LANES, Piece, ROOTS, Shape, TO_X, TO_Y};
 use crate::math::chebyshev::nodes;
 use crate::math::exp::exp;
 use crate::reflectance::sum::saddle::{self, Peak};
+use std::f64::consts::FRAC_PI_2;
 
 /// Points along x and along y: a few more than coefficients, so that what is left out does not come back as something else.
 const ACROSS: usize = 20;
@@ -69,14 +70,17 @@ fn expanded(g: f64, b: f64) -> f64 {
 /// `c_jk = 4/(ACROSS ALONG) Σ v T_j T_k` over the points, with half of that for j = 0 and for k = 0; then of products.
 fn coefficients(values: &[[f64; ALONG]; ACROSS]) -> [[f64; ALONG]; ACROSS] {
     let (across, along) = (chebyshev::<ACROSS>(), chebyshev::<ALONG>());
+    let middle = values[ACROSS / 2][ALONG / 2];
     let lines = values.map(|line| {
-        let coefficient = |k: usize| -> f64 { line.iter().zip(&along[k]).map(|(v, t)| v * t).sum() };
+        let coefficient = |k: usize| -> f64 { line.iter().zip(&along[k]).map(|(v, t)| (v - middle) * t).sum() };
         products(std::array::from_fn::<f64, ALONG, _>(coefficient))
     });
     let columns: [[f64; ACROSS]; ALONG] = std::array::from_fn(|k| {
         products(across.map(|weights| lines.iter().zip(&weights).map(|(line, t)| line[k] * t).sum()))
     });
-    std::array::from_fn(|j| std::array::from_fn(|k| columns[k][j]))
+    let mut c: [[f64; ALONG]; ACROSS] = std::array::from_fn(|j| std::array::from_fn(|k| columns[k][j]));
+    c[0][0] += middle;
+    c
 }
 
 /// From coefficients of T_k to those of `T_4q T_l`, l < 4: `T_4q T_l = (T_{4q+l} + T_{4q−l})/2`.
@@ -91,16 +95,23 @@ fn products<const N: usize>(mut c: [f64; N]) -> [f64; N] {
 }
 
 /// `T_k` at the N points for k below N, with the weight of the sum.
+///
+/// From the cosines of one quadrant, so that what ought to cancel does: by the recurrence a constant of 20 would leave 1e-13.
 fn chebyshev<const N: usize>() -> [[f64; N]; N] {
-    let x = nodes::<N>();
-    let mut table = [[1.0; N]; N];
-    table[1] = x;
-    for k in 2..N {
-        table[k] = std::array::from_fn(|i| 2.0 * x[i] * table[k - 1][i] - table[k - 2][i]);
-    }
-    for (k, line) in table.iter_mut().enumerate() {
+    let quadrant: [f64; N] = std::array::from_fn(|i| (FRAC_PI_2 * i as f64 / N as f64).cos());
+    let cosine = |step: usize| {
+        let step = step % (4 * N);
+        let step = step.min(4 * N - step);
+        if step == N {
+            0.0
+        } else if step < N {
+            quadrant[step]
+        } else {
+            -quadrant[2 * N - step]
+        }
+    };
+    std::array::from_fn(|k| {
         let weight = if k == 0 { 1.0 } else { 2.0 } / N as f64;
-        line.iter_mut().for_each(|t| *t *= weight);
-    }
-    table
+        std::array::from_fn(|i| cosine(k * (2 * i + 1)) * weight)
+    })
 }
