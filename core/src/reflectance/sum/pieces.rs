@@ -35,26 +35,26 @@ const LANES: usize = 4;
 /// Which tiles there are: p and q, the large ones last.
 type Shape<const TILES: usize> = [[usize; 2]; TILES];
 
-/// Within 3e-14 of ln S.
-const FULL_SHAPE: Shape<14> =
-    [[3, 1], [2, 2], [1, 3], [0, 4], [3, 0], [2, 1], [1, 2], [0, 3], [2, 0], [1, 1], [0, 2], [1, 0], [0, 1], [0, 0]];
-/// Within 4e-11.
-const FINE_SHAPE: Shape<9> = [[2, 1], [1, 2], [0, 3], [2, 0], [1, 1], [0, 2], [1, 0], [0, 1], [0, 0]];
-/// Within 4e-7.
-const COARSE_SHAPE: Shape<4> = [[1, 1], [1, 0], [0, 1], [0, 0]];
+/// What is left out is below 5e-14 of S.
+const FULL_SHAPE: Shape<12> =
+    [[2, 2], [1, 3], [3, 0], [2, 1], [1, 2], [0, 3], [2, 0], [1, 1], [0, 2], [1, 0], [0, 1], [0, 0]];
+/// Below 5e-11.
+const FINE_SHAPE: Shape<7> = [[1, 2], [2, 0], [1, 1], [0, 2], [1, 0], [0, 1], [0, 0]];
+/// Below 4e-7.
+const COARSE_SHAPE: Shape<3> = [[1, 0], [0, 1], [0, 0]];
 
 /// The binary exponents of g from which and to below which there are pieces.
 const FIRST: i32 = -10;
 const LAST: i32 = 40;
 const ROWS: usize = (LAST - FIRST) as usize;
 /// The half octaves of t that a row has at most.
-const COLUMNS: usize = 18;
+const COLUMNS: usize = 16;
 
 type Pieces<const TILES: usize> = [OnceLock<Box<Piece<TILES>>>; ROWS * COLUMNS];
 
-static FULL: Pieces<14> = [const { OnceLock::new() }; ROWS * COLUMNS];
-static FINE: Pieces<9> = [const { OnceLock::new() }; ROWS * COLUMNS];
-static COARSE: Pieces<4> = [const { OnceLock::new() }; ROWS * COLUMNS];
+static FULL: Pieces<12> = [const { OnceLock::new() }; ROWS * COLUMNS];
+static FINE: Pieces<7> = [const { OnceLock::new() }; ROWS * COLUMNS];
+static COARSE: Pieces<3> = [const { OnceLock::new() }; ROWS * COLUMNS];
 
 /// An octave of g.
 #[derive(Clone, Copy, Debug)]
@@ -74,11 +74,11 @@ const fn grid() -> [Row; ROWS] {
         let exponent = FIRST + i as i32;
         let (b0, columns) = match exponent {
             ..-4 => (2.0, 5),
-            -4..0 => (2.0, 16),
-            0..4 => (2.0, 18),
-            4 => (8.0, 18),
-            5 => (32.0, 16),
-            _ => ((1_u64 << (exponent + 2)) as f64, 12),
+            -4..0 => (2.0, 12),
+            0..4 => (2.0, 16),
+            4 => (8.0, 16),
+            5 => (32.0, 12),
+            _ => ((1_u64 << (exponent + 2)) as f64, 8),
         };
         rows[i] = Row { scale: 1.0 / b0, columns };
         i += 1;
