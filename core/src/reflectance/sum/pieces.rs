@@ -23,25 +23,23 @@ use std::sync::OnceLock;
 /// ln S = Σ_pq T_4p(x) T_4q(y) Σ_rl tile_pq[r][l] T_r(x) T_l(y),  r, l < 4
 /// ```
 #[derive(Clone, Debug)]
-pub(super) struct Piece<const TILES: usize> {
-    tiles: [[[f64; LANES]; 4]; TILES],
+struct Piece {
+    tiles: [Tile; SHAPE.len()],
     /// [`LANES`], which the compiler shall not know: loops of fixed length are unrolled before they could be vectorized.
     lanes: usize,
 }
 
+type Tile = [[f64; LANES]; 4];
+
 /// Powers of y side by side.
 const LANES: usize = 4;
 
-/// Which tiles there are: p and q, the large ones last.
-type Shape<const TILES: usize> = [[usize; 2]; TILES];
-
-/// What is left out is below 5e-14 of S.
-const FULL_SHAPE: Shape<12> =
-    [[2, 2], [1, 3], [3, 0], [2, 1], [1, 2], [0, 3], [2, 0], [1, 1], [0, 2], [1, 0], [0, 1], [0, 0]];
-/// Below 5e-11.
-const FINE_SHAPE: Shape<7> = [[1, 2], [2, 0], [1, 1], [0, 2], [1, 0], [0, 1], [0, 0]];
-/// Below 4e-7.
-const COARSE_SHAPE: Shape<3> = [[1, 0], [0, 1], [0, 0]];
+/// Which tiles there are: p and q, the large ones last. What the others would add is below 5e-14.
+const SHAPE: [[usize; 2]; 12] =
+    [[2, 2], [1, 3], [3, 0], [2, 1], [0, 3], [1, 2], [2, 0], [1, 1], [0, 2], [1, 0], [0, 1], [0, 0]];
+/// How many of them leave less than 5e-11, and less than 4e-7.
+const FINE: usize = 7;
+const COARSE: usize = 3;
 
 /// The binary exponents of g from which and to below which there are pieces.
 const FIRST: i32 = -10;
@@ -50,11 +48,7 @@ const ROWS: usize = (LAST - FIRST) as usize;
 /// The half octaves of t that a row has at most.
 const COLUMNS: usize = 16;
 
-type Pieces<const TILES: usize> = [OnceLock<Box<Piece<TILES>>>; ROWS * COLUMNS];
-
-static FULL: Pieces<12> = [const { OnceLock::new() }; ROWS * COLUMNS];
-static FINE: Pieces<7> = [const { OnceLock::new() }; ROWS * COLUMNS];
-static COARSE: Pieces<3> = [const { OnceLock::new() }; ROWS * COLUMNS];
+static PIECES: [OnceLock<Box<Piece>>; ROWS * COLUMNS] = [const { OnceLock::new() }; ROWS * COLUMNS];
 
 /// An octave of g.
 #[derive(Clone, Copy, Debug)]
@@ -160,10 +154,11 @@ pub(super) fn ln(g: f64, b: f64, precision: Precision) -> Option<f64> {
     if place.piece == NOWHERE {
         return None;
     }
+    let piece = piece(place.piece);
     Some(match precision {
-        Precision::Coarse => piece(&COARSE, &COARSE_SHAPE, place.piece).at(&COARSE_SHAPE, place.x, place.y),
-        Precision::Fine => piece(&FINE, &FINE_SHAPE, place.piece).at(&FINE_SHAPE, place.x, place.y),
-        Precision::Full => piece(&FULL, &FULL_SHAPE, place.piece).at(&FULL_SHAPE, place.x, place.y),
+        Precision::Coarse => piece.at::<COARSE>(place.x, place.y),
+        Precision::Fine => piece.at::<FINE>(place.x, place.y),
+        Precision::Full => piece.at::<{ SHAPE.len() }>(place.x, place.y),
     })
 }
 
@@ -174,15 +169,15 @@ pub(super) const RUN: usize = 16;
 #[inline(always)]
 pub(super) fn ln_run(g: &[f64; RUN], b: &[f64; RUN], precision: Precision) -> [f64; RUN] {
     match precision {
-        Precision::Coarse => run(&COARSE, &COARSE_SHAPE, g, b),
-        Precision::Fine => run(&FINE, &FINE_SHAPE, g, b),
-        Precision::Full => run(&FULL, &FULL_SHAPE, g, b),
+        Precision::Coarse => run::<COARSE>(g, b),
+        Precision::Fine => run::<FINE>(g, b),
+        Precision::Full => run::<{ SHAPE.len() }>(g, b),
     }
 }
 
 /// What takes no coefficients is done together, the rest one by one: each piece is one's own.
 #[inline(always)]
-fn run<const TILES: usize>(pieces: &Pieces<TILES>, shape: &Shape<TILES>, g: &[f64; RUN], b: &[f64; RUN]) -> [f64; RUN] {
+fn run<const TILES: usize>(g: &[f64; RUN], b: &[f64; RUN]) -> [f64; RUN] {
     let mut found = [NOWHERE; RUN];
     let (mut t, mut v, mut weights) = ([[0.0; RUN]; 4], [[0.0; RUN]; 4], [[0.0; RUN]; TILES]);
     for i in 0..RUN {
@@ -193,14 +188,15 @@ fn run<const TILES: usize>(pieces: &Pieces<TILES>, shape: &Shape<TILES>, g: &[f6
             (t[k][i], v[k][i]) = (near_x[k], near_y[k]);
         }
         for k in 0..TILES {
-            weights[k][i] = far_x[shape[k][0]] * far_y[shape[k][1]];
+            let [p, q] = SHAPE[SHAPE.len() - TILES + k];
+            weights[k][i] = far_x[p] * far_y[q];
         }
     }
     let mut lanes = [[f64::NAN; LANES]; RUN];
     for i in 0..RUN {
         if found[i] != NOWHERE {
             let t = [t[0][i], t[1][i], t[2][i], t[3][i]];
-            lanes[i] = piece(pieces, shape, found[i]).lanes(&std::array::from_fn(|k| weights[k][i]), &t);
+            lanes[i] = piece(found[i]).lanes::<TILES>(&std::array::from_fn(|k| weights[k][i]), &t);
         }
     }
     let mut logs = [0.0; RUN];
@@ -211,41 +207,39 @@ fn run<const TILES: usize>(pieces: &Pieces<TILES>, shape: &Shape<TILES>, g: &[f6
 }
 
 #[inline(always)]
-fn piece<'a, const TILES: usize>(pieces: &'a Pieces<TILES>, shape: &Shape<TILES>, index: usize) -> &'a Piece<TILES> {
-    let slot = &pieces[index];
-    slot.get().map_or_else(|| made(slot, shape, index), |piece| piece)
+fn piece(index: usize) -> &'static Piece {
+    PIECES[index].get().map_or_else(|| made(index), |piece| piece)
 }
 
 #[cold]
 #[inline(never)]
-fn made<'a, const TILES: usize>(
-    slot: &'a OnceLock<Box<Piece<TILES>>>,
-    shape: &Shape<TILES>,
-    piece: usize,
-) -> &'a Piece<TILES> {
-    slot.get_or_init(|| Box::new(Piece::new(shape, FIRST + (piece / COLUMNS) as i32, piece % COLUMNS)))
+fn made(index: usize) -> &'static Piece {
+    PIECES[index].get_or_init(|| Box::new(Piece::new(FIRST + (index / COLUMNS) as i32, index % COLUMNS)))
 }
 
-impl<const TILES: usize> Piece<TILES> {
+impl Piece {
+    /// By the last so many tiles.
     #[inline(always)]
-    fn at(&self, shape: &Shape<TILES>, x: f64, y: f64) -> f64 {
+    fn at<const TILES: usize>(&self, x: f64, y: f64) -> f64 {
         let ((t, p), (v, q)) = (polynomials(x), polynomials(y));
         let mut weights = [0.0; TILES];
         for k in 0..TILES {
-            weights[k] = p[shape[k][0]] * q[shape[k][1]];
+            let place = SHAPE[SHAPE.len() - TILES + k];
+            weights[k] = p[place[0]] * q[place[1]];
         }
         total(&self.lanes(&weights, &t), &v)
     }
 
     /// The factors of `T_0(y) … T_3(y)`.
     #[inline(always)]
-    fn lanes(&self, weights: &[f64; TILES], t: &[f64; 4]) -> [f64; LANES] {
+    fn lanes<const TILES: usize>(&self, weights: &[f64; TILES], t: &[f64; 4]) -> [f64; LANES] {
+        let tiles = &self.tiles[SHAPE.len() - TILES..];
         let mut lanes = [0.0; LANES];
         for l in 0..self.lanes.min(LANES) {
             let mut sums = [0.0; 4];
             for k in 0..TILES {
                 for r in 0..4 {
-                    sums[r] += self.tiles[k][r][l] * weights[k];
+                    sums[r] += tiles[k][r][l] * weights[k];
                 }
             }
             lanes[l] = (sums[3] * t[3] + sums[2] * t[2]) + (sums[1] * t[1] + sums[0]);
@@ -259,12 +253,12 @@ fn total(lanes: &[f64; LANES], v: &[f64; 4]) -> f64 {
     (lanes[3] * v[3] + lanes[2] * v[2]) + (lanes[1] * v[1] + lanes[0])
 }
 
-/// Chebyshev's T_0 … T_3, and T_0, T_4, … T_16.
+/// Chebyshev's T_0 … T_3, and T_0, T_4, T_8, T_12.
 #[inline(always)]
-fn polynomials(x: f64) -> ([f64; 4], [f64; 5]) {
+fn polynomials(x: f64) -> ([f64; 4], [f64; 4]) {
     let two = 2.0 * x * x - 1.0;
     let four = 2.0 * two * two - 1.0;
     let eight = 2.0 * four * four - 1.0;
     let near = [1.0, x, two, x * (2.0 * two - 1.0)];
-    (near, [1.0, four, eight, four * (2.0 * eight - 1.0), 2.0 * eight * eight - 1.0])
+    (near, [1.0, four, eight, four * (2.0 * eight - 1.0)])
 }
