@@ -125,12 +125,21 @@ impl Plan {
         if !self.demand.holds(kappa) {
             return by_nodes(&self.every, kappa, beta, Precision::Full);
         }
+        if let Below::Own(rules, precision) = &self.below {
+            return nodes::by_own(rules, kappa, beta, *precision);
+        }
+        let (nodes, precision) = self.common().unwrap_or((&self.every, Precision::Full));
+        by_nodes(nodes, kappa, beta, precision)
+    }
+
+    /// The wavelengths of such an integral, where all channels have them in common.
+    fn common(&self) -> Option<(&[Node], Precision)> {
         match &self.below {
-            Below::Nothing => by_nodes(&self.every, kappa, beta, Precision::Full),
-            Below::Table(table) => by_nodes(table.nodes(), kappa, beta, Precision::Full),
-            Below::Shared(nodes, precision) => by_nodes(nodes, kappa, beta, *precision),
-            Below::Own(rules, precision) => nodes::by_own(rules, kappa, beta, *precision),
-            Below::Every(precision) => by_nodes(&self.every, kappa, beta, *precision),
+            Below::Nothing => Some((&self.every, Precision::Full)),
+            Below::Table(table) => Some((table.nodes(), Precision::Full)),
+            Below::Shared(nodes, precision) => Some((nodes, *precision)),
+            Below::Own(..) => None,
+            Below::Every(precision) => Some((&self.every, *precision)),
         }
     }
 

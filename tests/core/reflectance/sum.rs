@@ -1,7 +1,9 @@
 //! The diffuse sum, against 60-digit sums, an integral without a series in it, and its limits.
 
 use chromascope_core::math::double::Double;
-use chromascope_core::reflectance::{Precision, SeriesTerms, diffuse_sum, ln_diffuse_sum, series_terms};
+use chromascope_core::reflectance::{
+    Precision, SeriesTerms, diffuse_sum, diffuse_sums_into, ln_diffuse_sum, ln_diffuse_sums_into, series_terms,
+};
 use proptest::prelude::*;
 
 use crate::support::{assert_near, cases, reference_numbers};
@@ -44,17 +46,59 @@ fn an_integral_without_a_series_agrees() {
 
 #[test]
 fn at_no_inclination_the_corrections_are_factorials() {
-    // S(g, 0) = e^-g (Ei(g) − ln g − γ), whose expansion has k! for coefficients: here with eight of them.
-    for (g, precision) in [(22.5, Precision::Coarse), (49.0, Precision::Coarse), (138.0, Precision::Full)] {
-        let mut term = 1.0;
-        let expected = 1.0
-            + (1..=8)
-                .map(|k| {
-                    term *= f64::from(k) / g;
-                    term
-                })
-                .sum::<f64>();
-        assert_near(&format!("g {g}"), g * diffuse_sum(g, 0.0, precision) / expected, 1.0, 4e-15);
+    // S(g, 0) = e^-g (Ei(g) − ln g − γ), whose expansion has k! for coefficients: from g = 1e3 on eight of them are all digits.
+    for g in [1e3, 2.5e3, 1e5, 1e12, 1e13] {
+        let (mut term, mut expected) = (1.0, 1.0);
+        for k in 1..=8 {
+            term *= f64::from(k) / g;
+            expected += term;
+        }
+        assert_near(&format!("g {g}"), g * diffuse_sum(g, 0.0, Precision::Full) / expected, 1.0, 2e-14);
+    }
+}
+
+#[test]
+fn many_at_once_are_the_same_bits() {
+    let mut g: Vec<f64> = (0..1000).map(|i| 10.0_f64.powf(-5.0 + 20.0 * f64::from(i * 37 % 1000) / 1000.0)).collect();
+    let mut b: Vec<f64> = (0..1000).map(|i| g[i] * 10.0_f64.powf(-6.0 + 0.01 * i as f64)).collect();
+    g[..6].copy_from_slice(&[0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310, 1.0]);
+    b[5..10].copy_from_slice(&[f64::NAN, f64::INFINITY, -1.0, 0.0, 1e300]);
+    for (precision, _) in PROMISES {
+        for count in [1, 9, 16, 17, 1000] {
+            let (mut sums, mut logs) = (vec![-1.0; 1001], vec![-1.0; 1001]);
+            diffuse_sums_into(&g[..count], &b, precision, &mut sums);
+            ln_diffuse_sums_into(&g, &b[..count], precision, &mut logs);
+            for i in 0..count {
+                assert_eq!(sums[i].to_bits(), diffuse_sum(g[i], b[i], precision).to_bits(), "{} {}", g[i], b[i]);
+                assert_eq!(logs[i].to_bits(), ln_diffuse_sum(g[i], b[i], precision).to_bits(), "{} {}", g[i], b[i]);
+            }
+            assert!(sums[count..].iter().chain(&logs[count..]).all(|&rest| rest == -1.0));
+        }
+    }
+}
+
+#[test]
+fn there_is_no_step_between_the_pieces() {
+    // Octaves of g, half octaves of 1 + b/b0, and where the polynomials end.
+    let next_to = |v: f64| [f64::from_bits(v.to_bits() - 1), v];
+    for (precision, promise) in PROMISES {
+        for exponent in -10..=41 {
+            let b0 = match exponent {
+                ..4 => 2.0,
+                4 => 8.0,
+                5 => 32.0,
+                _ => 4.0 * f64::from(exponent).exp2(),
+            };
+            for half in 0..=17 {
+                let b = b0 * ((0.5 * f64::from(half)).exp2() - 1.0);
+                let g = f64::from(exponent).exp2();
+                let [left, right] = next_to(g).map(|g| ln_diffuse_sum(g, b * 1.01, precision));
+                assert_near(&format!("g {g}, b {b}"), left, right, promise + conditioning(right));
+                let [left, right] = [1.0 - 1e-14, 1.0 + 1e-14].map(|c| ln_diffuse_sum(1.3 * g, b * c, precision));
+                let slope = 1e-13 * right.abs();
+                assert_near(&format!("g {g}, b {b}, along b"), left, right, promise + slope);
+            }
+        }
     }
 }
 

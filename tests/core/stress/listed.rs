@@ -61,7 +61,10 @@ const WALKED: &[(&str, &str)] = &[
     ),
     ("reflectance/power", "factor factor_by diffuse_prefactor coherent_prefactor wavelength_power kappa beta"),
     ("reflectance/regimes", "Regime::of diffuse_sum_by_regimes"),
-    ("reflectance/sum", "diffuse_sum ln_diffuse_sum Precision::within Precision::max_relative_error"),
+    (
+        "reflectance/sum",
+        "diffuse_sum diffuse_sums_into ln_diffuse_sum ln_diffuse_sums_into Precision::within Precision::max_relative_error",
+    ),
     ("reflectance/sum/terms", "series_terms"),
     (
         "reflectance/surface",
@@ -70,7 +73,7 @@ const WALKED: &[(&str, &str)] = &[
     ("render/develop", "Development::new develop Measurement::new Measurement::xyz Measurement::lab differences"),
     (
         "render/diffuse",
-        "DiffuseTable::new DiffuseTable::holds DiffuseTable::at DiffuseTable::position DiffuseTable::read by_nodes by_regimes rough_basis by_moments",
+        "DiffuseTable::new DiffuseTable::holds DiffuseTable::at DiffuseTable::position DiffuseTable::read by_nodes by_nodes_into by_regimes rough_basis by_moments",
     ),
     (
         "render/geometry",

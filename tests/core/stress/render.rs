@@ -6,7 +6,7 @@ use chromascope_core::camera::{Rendering, Way, White};
 use chromascope_core::colorimetry::Xyz;
 use chromascope_core::reflectance::{Precision, Reading, Surface, wavelength_power};
 use chromascope_core::render::develop::differences;
-use chromascope_core::render::diffuse::{by_moments, by_nodes, by_regimes, rough_basis};
+use chromascope_core::render::diffuse::{by_moments, by_nodes, by_nodes_into, by_regimes, rough_basis};
 use chromascope_core::render::mirror::{Nodes, mirror_sum};
 use chromascope_core::render::shading::Mirror;
 use chromascope_core::render::{
@@ -110,6 +110,9 @@ fn nodes(&[which, kappa, beta, ..]: &Case, v: &mut Verdict) {
 fn ends(&[which, kappa, beta, ..]: &Case, v: &mut Verdict) {
     let scene = of(which);
     v.all_finite(by_nodes(scene.measure.fine(), kappa, beta, Precision::Coarse));
+    let mut many = [[f64::NAN; 3]; 2];
+    by_nodes_into(scene.measure.fine(), &[3.0, kappa], &[0.5, beta], Precision::Full, &mut many);
+    v.holds("by nodes of many", many[1] == value);
     v.all_finite(by_regimes(scene.measure.coarse(), kappa, beta));
     v.all_finite(rough_basis(kappa.max(128.0), beta));
     if DiffuseTable::holds(kappa, beta) {

@@ -4,7 +4,9 @@ use std::sync::LazyLock;
 
 use chromascope_core::math::double::Double;
 use chromascope_core::reflectance::regimes::{Regime, diffuse_sum_by_regimes};
-use chromascope_core::reflectance::{Precision, diffuse_sum, ln_diffuse_sum, series_terms};
+use chromascope_core::reflectance::{
+    Precision, diffuse_sum, diffuse_sums_into, ln_diffuse_sum, ln_diffuse_sums_into, series_terms,
+};
 
 use super::draw::{Case, Draw, case};
 use super::walk::{Verdict, Walk};
@@ -17,6 +19,7 @@ pub(super) const WALKS: &[Walk] = &[
     Walk { name: "diffuse_sum order", promise: 1e-13, share: 40.0, draw, check: order },
     Walk { name: "series_terms", promise: 1e-13, share: 1.0, draw, check: beyond },
     Walk { name: "series_terms ends", promise: 0.0, share: 5.0, draw: draw_anything, check: any_terms },
+    Walk { name: "diffuse_sums_into", promise: 0.0, share: 20.0, draw: draw_anything, check: many },
     Walk { name: "diffuse_sum_by_regimes", promise: 1e-13, share: 20.0, draw: draw_anything, check: regimes },
 ];
 
@@ -195,6 +198,19 @@ fn any_terms(&[g, b, ..]: &Case, v: &mut Verdict) {
     v.holds("more than all", terms.weighing <= terms.last);
     let some = g > 0.0 && g.is_finite() && b < f64::INFINITY;
     v.holds("terms where there are none, or none", (terms.last >= 1.0) == some && (terms.weighing >= 1.0) == some);
+/// Many at once, with others beside them, are the same bits.
+fn many(&[g, b, ..]: &Case, v: &mut Verdict) {
+    let (gs, bs) = ([g, 3.0, g.abs().sqrt()], [b, b, 7.0]);
+    for precision in Precision::ALL {
+        let (mut sums, mut logs) = ([0.0; 3], [0.0; 3]);
+        diffuse_sums_into(&gs, &bs, precision, &mut sums);
+        ln_diffuse_sums_into(&gs, &bs, precision, &mut logs);
+        for i in 0..3 {
+            v.normal(sums[i]);
+            v.holds("S of many", sums[i].to_bits() == diffuse_sum(gs[i], bs[i], precision).to_bits());
+            v.holds("ln S of many", logs[i].to_bits() == ln_diffuse_sum(gs[i], bs[i], precision).to_bits());
+        }
+    }
 }
 
 fn regimes(&[g, b, ..]: &Case, v: &mut Verdict) {

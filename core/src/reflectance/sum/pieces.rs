@@ -42,8 +42,8 @@ const FINE: usize = 7;
 const COARSE: usize = 3;
 
 /// The binary exponents of g from which and to below which there are pieces.
-const FIRST: i32 = -10;
-const LAST: i32 = 40;
+const FIRST: i64 = -10;
+const LAST: i64 = 40;
 const ROWS: usize = (LAST - FIRST) as usize;
 /// The half octaves of t that a row has at most.
 const COLUMNS: usize = 16;
@@ -63,9 +63,8 @@ static GRID: [Row; ROWS] = grid();
 /// b0 grows with g where the terms are many; beyond the columns S is e^-130 of itself at b = 0, or b ≫ g.
 const fn grid() -> [Row; ROWS] {
     let mut rows = [Row { scale: 0.0, columns: 0 }; ROWS];
-    let mut i = 0;
+    let (mut i, mut exponent) = (0, FIRST);
     while i < ROWS {
-        let exponent = FIRST + i as i32;
         let (b0, columns) = match exponent {
             ..-4 => (2.0, 5),
             -4..0 => (2.0, 12),
@@ -75,7 +74,7 @@ const fn grid() -> [Row; ROWS] {
             _ => ((1_u64 << (exponent + 2)) as f64, 8),
         };
         rows[i] = Row { scale: 1.0 / b0, columns };
-        i += 1;
+        (i, exponent) = (i + 1, exponent + 1);
     }
     rows
 }
@@ -83,7 +82,7 @@ const fn grid() -> [Row; ROWS] {
 const MANTISSA: u64 = (1 << 52) - 1;
 const BIAS: u64 = 1023;
 /// The fourth root of 2 and its powers.
-const ROOTS: [f64; 3] = [1.189_207_115_002_721, std::f64::consts::SQRT_2, 1.681_792_830_507_429_1];
+const ROOTS: [f64; 3] = [1.189_207_115_002_721, std::f64::consts::SQRT_2, 1.681_792_830_507_429];
 /// What takes `(g − g1)/(g + g1)` over an octave to −1…1, and `(t − t1)/(t + t1)` over half of one.
 const TO_X: f64 = (ROOTS[1] + 1.0) / (ROOTS[1] - 1.0);
 const TO_Y: f64 = (ROOTS[0] + 1.0) / (ROOTS[0] - 1.0);
@@ -103,12 +102,12 @@ impl Place {
     /// Without branches.
     #[inline(always)]
     fn of(g: f64, b: f64) -> Self {
-        let row = (g.to_bits() >> 52).wrapping_sub(BIAS.wrapping_add_signed(FIRST as i64)) as usize;
+        let row = (g.to_bits() >> 52).wrapping_sub(BIAS.wrapping_add_signed(FIRST)) as usize;
         let Row { scale, columns } = GRID[if row < ROWS { row } else { 0 }];
         // What is no number stays none, and has a column beyond all.
         let t = 1.0 + if b < 0.0 { 0.0 } else { b } * scale;
         let column = column(t);
-        let piece = if (row < ROWS) & (column < columns) { row * COLUMNS + column } else { NOWHERE };
+        let piece = if row < ROWS && column < columns { row * COLUMNS + column } else { NOWHERE };
         Self { piece, x: x(g), y: y(t) }
     }
 }
@@ -208,13 +207,14 @@ fn run<const TILES: usize>(g: &[f64; RUN], b: &[f64; RUN]) -> [f64; RUN] {
 
 #[inline(always)]
 fn piece(index: usize) -> &'static Piece {
-    PIECES[index].get().map_or_else(|| made(index), |piece| piece)
+    let Some(piece) = PIECES[index].get() else { return made(index) };
+    piece
 }
 
 #[cold]
 #[inline(never)]
 fn made(index: usize) -> &'static Piece {
-    PIECES[index].get_or_init(|| Box::new(Piece::new(FIRST + (index / COLUMNS) as i32, index % COLUMNS)))
+    PIECES[index].get_or_init(|| Box::new(Piece::new(index / COLUMNS, index % COLUMNS)))
 }
 
 impl Piece {
@@ -253,7 +253,7 @@ fn total(lanes: &[f64; LANES], v: &[f64; 4]) -> f64 {
     (lanes[3] * v[3] + lanes[2] * v[2]) + (lanes[1] * v[1] + lanes[0])
 }
 
-/// Chebyshev's T_0 … T_3, and T_0, T_4, T_8, T_12.
+/// Chebyshev's polynomials: the first four, and every fourth.
 #[inline(always)]
 fn polynomials(x: f64) -> ([f64; 4], [f64; 4]) {
     let two = 2.0 * x * x - 1.0;

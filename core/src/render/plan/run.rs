@@ -3,7 +3,7 @@
 use super::Plan;
 use super::table::{Around, Table};
 use crate::math::exp::exp;
-use crate::render::diffuse::{by_moments, rough_basis};
+use crate::render::diffuse::{by_moments, by_nodes_into, rough_basis};
 use crate::render::measure::MOMENTS;
 use multiversion::multiversion;
 
@@ -70,10 +70,28 @@ impl Plan {
         }
         quick(&self.moments, self.rough.1, table, places, &ways, sums);
         if slowly {
-            for i in (0..places.count).filter(|&i| ways[i] == Quick::Neither) {
+            self.slow(places, &ways, sums);
+        }
+    }
+
+    /// What neither moments nor table serve: together where wavelengths are in common.
+    fn slow(&self, places: &Places, ways: &[Quick; RUN], sums: &mut [[f64; RUN]; 3]) {
+        let (mut which, mut kappa, mut beta, mut count) = ([0; RUN], [0.0; RUN], [0.0; RUN], 0);
+        let common = self.common();
+        for i in (0..places.count).filter(|&i| ways[i] == Quick::Neither) {
+            if common.is_some() && self.demand.holds(places.kappa[i]) {
+                (which[count], kappa[count], beta[count]) = (i, places.kappa[i], places.beta[i]);
+                count += 1;
+            } else {
                 let slow = self.slowly(places.kappa[i], places.beta[i]);
                 (sums[0][i], sums[1][i], sums[2][i]) = (slow[0], slow[1], slow[2]);
             }
+        }
+        let Some((nodes, precision)) = common else { return };
+        let mut answers = [[0.0; 3]; RUN];
+        by_nodes_into(nodes, &kappa[..count], &beta, precision, &mut answers);
+        for (&i, slow) in which[..count].iter().zip(answers) {
+            (sums[0][i], sums[1][i], sums[2][i]) = (slow[0], slow[1], slow[2]);
         }
     }
 }

@@ -7,6 +7,7 @@ use crate::math::chebyshev::nodes;
 use crate::math::exp::exp;
 use crate::reflectance::sum::saddle::{self, Peak};
 use multiversion::multiversion;
+use std::cmp::Ordering;
 use std::f64::consts::FRAC_PI_2;
 
 type Square = [[f64; POINTS]; POINTS];
@@ -18,27 +19,23 @@ const POINTS: usize = 16;
 const EXPANSION: f64 = 256.0;
 
 impl Piece {
-    /// The piece of an octave of g, by its exponent, and of a half octave of t.
-    pub(super) fn new(exponent: i32, column: usize) -> Self {
-        let c = coefficients(points_g(exponent), points_b(exponent, column));
+    /// The piece of an octave of g and of half an octave of t.
+    pub(super) fn new(row: usize, column: usize) -> Self {
+        let c = coefficients(points_g(row), points_b(row, column));
         let tile = |[p, q]: [usize; 2]| [0, 1, 2, 3].map(|r| [0, 1, 2, 3].map(|l| c[4 * p + r][4 * q + l]));
         Self { tiles: SHAPE.map(tile), lanes: LANES }
     }
 }
 
-fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(BIAS.wrapping_add_signed(exponent.into()) << 52)
-}
-
-fn points_g(exponent: i32) -> [f64; POINTS] {
-    let middle = power_of_two(exponent) * ROOTS[1];
+fn points_g(row: usize) -> [f64; POINTS] {
+    let middle = f64::from_bits((BIAS.wrapping_add_signed(FIRST) + row as u64) << 52) * ROOTS[1];
     nodes::<POINTS>().map(|x| middle * (TO_X + x) / (TO_X - x))
 }
 
-fn points_b(exponent: i32, column: usize) -> [f64; POINTS] {
-    let middle = power_of_two(column as i32 / 2) * if column % 2 == 0 { ROOTS[0] } else { ROOTS[2] };
-    let scale = GRID[(exponent - FIRST) as usize].scale;
-    nodes::<POINTS>().map(|y| (middle * (TO_Y + y) / (TO_Y - y) - 1.0) / scale)
+fn points_b(row: usize, column: usize) -> [f64; POINTS] {
+    let octave = f64::from_bits((BIAS + column as u64 / 2) << 52);
+    let middle = octave * if column.is_multiple_of(2) { ROOTS[0] } else { ROOTS[2] };
+    nodes::<POINTS>().map(|y| (middle * (TO_Y + y) / (TO_Y - y) - 1.0) / GRID[row].scale)
 }
 
 /// ln S.
@@ -108,7 +105,7 @@ fn weighted<const N: usize>(values: &[[f64; N]; POINTS], chebyshev: &Square) -> 
     sums
 }
 
-/// From coefficients of T_k to those of `T_4q T_l`, l < 4: `T_4q T_l = (T_{4q+l} + T_{4q−l})/2`.
+/// From coefficients of `T_k` to those of `T_4q T_l`, l < 4: `T_4q T_l = (T_{4q+l} + T_{4q−l})/2`.
 fn products(mut c: [f64; POINTS]) -> [f64; POINTS] {
     for q in (4..POINTS).step_by(4).rev() {
         for l in 1..4 {
@@ -127,12 +124,10 @@ fn chebyshev() -> Square {
     let cosine = |step: usize| {
         let step = step % (4 * POINTS);
         let step = step.min(4 * POINTS - step);
-        if step == POINTS {
-            0.0
-        } else if step < POINTS {
-            quadrant[step]
-        } else {
-            -quadrant[2 * POINTS - step]
+        match step.cmp(&POINTS) {
+            Ordering::Less => quadrant[step],
+            Ordering::Equal => 0.0,
+            Ordering::Greater => -quadrant[2 * POINTS - step],
         }
     };
     std::array::from_fn(|k| {
