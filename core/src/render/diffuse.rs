@@ -142,7 +142,7 @@ pub(super) fn row(nodes: &[Node], kappa: f64, betas: &[f64]) -> Vec<Cell> {
     let b: Vec<f64> = betas.iter().flat_map(|beta| nodes.iter().map(move |node| beta * (kappa * node.scale))).collect();
     let mut logs = vec![0.0; g.len()];
     ln_diffuse_sums_into(&g, &b, Precision::Fine, &mut logs);
-    logs.chunks(nodes.len().max(1)).map(|logs| of_logs(nodes, logs)).collect()
+    (0..betas.len()).map(|j| of_logs(nodes, &logs[j * nodes.len()..][..nodes.len()])).collect()
 }
 
 /// Sums are scaled by the largest, so that none is lost far down.

@@ -112,7 +112,7 @@ fn ends(&[which, kappa, beta, ..]: &Case, v: &mut Verdict) {
     v.all_finite(by_nodes(scene.measure.fine(), kappa, beta, Precision::Coarse));
     let mut many = [[f64::NAN; 3]; 2];
     by_nodes_into(scene.measure.fine(), &[3.0, kappa], &[0.5, beta], Precision::Full, &mut many);
-    v.holds("by nodes of many", many[1] == value);
+    v.holds("by nodes of many", many[1] == by_nodes(scene.measure.fine(), kappa, beta, Precision::Full));
     v.all_finite(by_regimes(scene.measure.coarse(), kappa, beta));
     v.all_finite(rough_basis(kappa.max(128.0), beta));
     if DiffuseTable::holds(kappa, beta) {
