@@ -282,10 +282,10 @@ mod tests {
     }
 
     #[test]
-    fn there_is_a_piece_for_whatever_is_lit() {
+    fn there_is_a_piece_down_to_e_to_the_minus_27() {
         for i in 0..300 {
             let g = 0.07 * 1.1_f64.powi(i);
-            let dark = ln_diffuse_sum(g, 0.0, Precision::Full) - 30.0;
+            let dark = ln_diffuse_sum(g, 0.0, Precision::Full) - 27.0;
             let mut b = 0.1 * g;
             while ln_diffuse_sum(g, b, Precision::Full) > dark {
                 assert!(ln(g, b, Precision::Fine).is_some(), "g {g}, b {b}");
