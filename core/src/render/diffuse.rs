@@ -127,16 +127,7 @@ fn lagrange(t: f64) -> [f64; STENCIL] {
     [0, 1, 2, 3, 4, 5].map(|k: usize| before[k] * after[k] * SCALE[k])
 }
 
-/// One place of the table.
-pub(super) fn cell(nodes: &[Node], kappa: f64, beta: f64) -> Cell {
-    let g: Vec<f64> = nodes.iter().map(|node| kappa * node.scale).collect();
-    let b: Vec<f64> = g.iter().map(|g| beta * g).collect();
-    let mut logs = vec![0.0; nodes.len()];
-    ln_diffuse_sums_into(&g, &b, Precision::Fine, &mut logs);
-    of_logs(nodes, &logs)
-}
-
-/// Places of the table with κ in common, each to the last bit what [`cell`] gives: much faster than one by one.
+/// Places of the table with κ in common: much faster than one by one.
 pub(super) fn row(nodes: &[Node], kappa: f64, betas: &[f64]) -> Vec<Cell> {
     let g: Vec<f64> = betas.iter().flat_map(|_| nodes.iter().map(|node| kappa * node.scale)).collect();
     let b: Vec<f64> = betas.iter().flat_map(|beta| nodes.iter().map(move |node| beta * (kappa * node.scale))).collect();

@@ -198,6 +198,8 @@ fn any_terms(&[g, b, ..]: &Case, v: &mut Verdict) {
     v.holds("more than all", terms.weighing <= terms.last);
     let some = g > 0.0 && g.is_finite() && b < f64::INFINITY;
     v.holds("terms where there are none, or none", (terms.last >= 1.0) == some && (terms.weighing >= 1.0) == some);
+}
+
 /// Many at once, with others beside them, are the same bits.
 fn many(&[g, b, ..]: &Case, v: &mut Verdict) {
     let (gs, bs) = ([g, 3.0, g.abs().sqrt()], [b, b, 7.0]);

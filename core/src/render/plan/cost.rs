@@ -5,14 +5,17 @@
 use super::candidate::Method;
 use crate::reflectance::Precision;
 
-/// One S(g, b), between small and large arguments.
+/// One S(g, b) among many.
 pub(super) const fn sum_ns(precision: Precision) -> f64 {
     match precision {
-        Precision::Coarse => 90.0,
-        Precision::Fine => 120.0,
-        Precision::Full => 150.0,
+        Precision::Coarse => 35.0,
+        Precision::Fine => 50.0,
+        Precision::Full => 65.0,
     }
 }
+
+/// How much longer one alone takes.
+const ALONE: f64 = 1.5;
 
 /// A place of a table from another.
 pub(super) const PLACE_NS: f64 = 100.0;
@@ -33,7 +36,8 @@ pub(super) fn of_sample(method: &Method) -> f64 {
             let far = ((kappas * betas) as f64 / NEAR_CELLS).log2().max(0.0);
             24.0 + 0.9 * ((degree + 1) * (degree + 1)) as f64 + FAR_NS * far
         }
-        Method::Shared { nodes, precision } | Method::Own { nodes, precision } => nodes as f64 * sum_ns(precision),
+        Method::Shared { nodes, precision } => nodes as f64 * sum_ns(precision),
+        Method::Own { nodes, precision } => ALONE * nodes as f64 * sum_ns(precision),
         Method::Every { precision } => EVERY * sum_ns(precision),
     }
 }

@@ -1,7 +1,7 @@
 //! Sums over a few wavelengths.
 
 use crate::math::gauss::{Rule, gauss_rule, interpolatory_rule};
-use crate::reflectance::{Precision, diffuse_sum};
+use crate::reflectance::{Precision, diffuse_sum, diffuse_sums_into};
 use crate::render::measure::{LAMBDA_0_NM, Node};
 
 /// A rule of one channel's own: (λ0/λ)² and weight.
@@ -40,12 +40,13 @@ pub(super) fn for_each_node(
     precision: Precision,
     mut each: impl FnMut(&Node, &[f64]),
 ) {
-    let mut sums = vec![0.0; points.len()];
+    let [mut g, mut b, mut sums] = [0, 1, 2].map(|_| vec![0.0; points.len()]);
     for node in nodes {
-        for (sum, [kappa, beta]) in sums.iter_mut().zip(points) {
-            let g = kappa * node.scale;
-            *sum = diffuse_sum(g, beta * g, precision);
+        for ((g, b), [kappa, beta]) in g.iter_mut().zip(&mut b).zip(points) {
+            *g = kappa * node.scale;
+            *b = beta * *g;
         }
+        diffuse_sums_into(&g, &b, precision, &mut sums);
         each(node, &sums);
     }
 }
