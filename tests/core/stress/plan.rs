@@ -372,6 +372,7 @@ fn picture(&[which, sigma, tau, half, index, key, reading, ..]: &Case, v: &mut V
     let image =
         |plan| CameraImage::by_plan(&shading, &scene.measure, plan, reach, &Stop::NEVER).expect("never stopped");
     let (image, by_sum) = (image(Some(plan)), image(None));
+    against_all(&shading, reading, &scene.measure, v);
     let mirrored = |i: usize| shading.mirrors().iter().any(|mirror| mirror.index as usize == i);
     for (i, shade) in shading.shades().iter().enumerate() {
         let signal = image.signals()[i];
@@ -381,4 +382,23 @@ fn picture(&[which, sigma, tau, half, index, key, reading, ..]: &Case, v: &mut V
             v.holds("not as the plan says", signal == expected);
         }
     }
+}
+
+/// The mirror terms of a whole picture, relative to its brightest sample, beside those that leave nothing out.
+fn against_all(shading: &ShadingImage, reading: Reading, measure: &Measure, v: &mut Verdict) {
+    let asked = shading.quality().accuracy().expect("an accuracy is asked for");
+    let scale = shading.mirror_scale();
+    v.holds("lobes lower than the picture", scale > 0.0 && scale <= 1.0);
+    let of_parts = [shading.mirror_accuracy(), shading.plan_accuracy()];
+    v.holds("parts less exact than the whole", of_parts.into_iter().flatten().all(|part| part <= asked));
+    let (geometry, surface) = (Arc::clone(shading.geometry()), *shading.surface());
+    let exact = ShadingImage::new(geometry, surface, reading, Quality::Exact, &Stop::NEVER).expect("never stopped");
+    let exact = CameraImage::new(&exact, measure, None, &Stop::NEVER).expect("never stopped");
+    let reach = Reach::in_picture(shading, measure);
+    let found = CameraImage::by_plan(shading, measure, None, reach, &Stop::NEVER).expect("never stopped");
+    let pairs = || found.signals().as_flattened().iter().zip(exact.signals().as_flattened());
+    let peak = pairs().fold(0.0_f64, |most, (_, exact)| most.max(exact.abs().into()));
+    let off = pairs().fold(0.0_f64, |most, (found, exact)| most.max((found - exact).abs().into()));
+    // Black by any measure is what is darker than e^-30 of the peak; signals are kept in single precision.
+    v.holds("not within the tolerance", peak < 1e-12 || off <= (asked.max_relative_error() + 1.2e-7) * peak);
 }
