@@ -26,8 +26,12 @@ const SMOOTH_STRIDE: usize = 3;
 const EDGE_BETAS: usize = 64;
 
 /// The wavelengths that may stand for all in the check, compared with all at each so manyth point.
-const STAND_INS: [usize; 3] = [16, 20, 28];
-const COMPARED_STRIDE: usize = 97;
+const STAND_INS: [usize; 2] = [20, 28];
+const COMPARED_STRIDE: usize = 25;
+
+/// Towards β = 0, where a table's error is largest, it is compared at so many κ and at these shares of its first interval.
+const FIRST_KAPPAS: usize = 384;
+const FIRST_SHARES: [f64; 2] = [0.02, 0.5];
 
 /// Each so manyth point tells what is far off.
 const FEW_STRIDE: usize = 41;
@@ -52,7 +56,7 @@ pub(super) struct Check {
 }
 
 impl Check {
-    /// By the sum over all wavelengths; where 16, 20 or 28 wavelengths are as good as that at some of the points, by those.
+    /// By the sum over all wavelengths; where 20 or 28 wavelengths are as good as that at some of the points, by those.
     pub(super) fn new(measure: &Measure, against: Against, demand: Demand) -> Self {
         let few = points(measure.dense(), against, demand, COMPARED_STRIDE);
         for count in STAND_INS {
@@ -98,6 +102,22 @@ impl Check {
     pub(super) fn error_within(&self, accuracy: Accuracy, way: impl Fn(f64, f64) -> [f64; 3] + Sync) -> f64 {
         let few = self.error_of_few(&way);
         if accuracy.allows(self.certified(few)) { few.max(self.error(|_| true, way)) } else { few }
+    }
+
+    /// The largest error of a table of so many intervals along v in the first of them, without margin.
+    pub(super) fn error_of_first(
+        &self,
+        [from, to]: [f64; 2],
+        intervals: usize,
+        way: impl Fn(f64, f64) -> [f64; 3] + Sync,
+    ) -> f64 {
+        let of_row = |i: usize| {
+            let kappa = from * (to / from).powf((i as f64 + 0.5) / FIRST_KAPPAS as f64);
+            let points =
+                row(&self.nodes, self.against, kappa, FIRST_SHARES.iter().map(|share| share / intervals as f64));
+            points.iter().map(|point| off(point, way(point.kappa, point.beta))).fold(0.0, f64::max)
+        };
+        (0..FIRST_KAPPAS).into_par_iter().map(of_row).reduce(|| 0.0, f64::max)
     }
 
     /// The wavelengths that stand for all.

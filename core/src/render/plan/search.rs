@@ -286,7 +286,14 @@ impl Search<'_> {
         // Small pieces: beyond the table's κ each place takes sums over wavelengths.
         let pieces = places.par_chunks(run::RUN).zip(sums.par_chunks_mut(run::RUN));
         pieces.for_each(|(places, sums)| plan.fill(places, sums));
-        self.check.points().zip(sums).map(|(point, sum)| off(point, sum)).fold(0.0, f64::max)
+        let seen = self.check.points().zip(sums).map(|(point, sum)| off(point, sum)).fold(0.0, f64::max);
+        match &plan.below {
+            Below::Table(table) if self.accuracy.allows(self.check.certified(seen)) => {
+                let way = |kappa, beta| plan.at(kappa, beta);
+                seen.max(self.check.error_of_first(table.kappa(), table.intervals(), way))
+            }
+            _ => seen,
+        }
     }
 
     /// A plan of one way alone.

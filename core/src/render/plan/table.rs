@@ -93,6 +93,11 @@ impl Table {
         self.extent.kappa
     }
 
+    /// Between how many knots it lies along v.
+    pub(super) fn intervals(&self) -> usize {
+        self.surface.intervals[1]
+    }
+
     fn width(&self) -> usize {
         self.surface.intervals[1] + self.surface.degree
     }
