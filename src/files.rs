@@ -156,11 +156,14 @@ impl Files {
         });
     }
 
-    /// Asks where to save. A question that is open already is about this from now on; a path that was typed stays.
+    /// Asks where to save. A question that is open already is about this from now on; a path that was typed stays, with the
+    /// ending of what is saved now where it had that of what was to be saved before.
     pub fn ask_to_save(&mut self, request: SaveRequest) {
         if let Some(PathPrompt { text, save: Some(before), replaces, failure, focus }) = &mut self.prompt {
             if *text == before.name {
                 text.clone_from(&request.name);
+            } else if let Some(stem) = without_ending(text, before.extension) {
+                *text = format!("{stem}.{}", request.extension);
             }
             (*before, *replaces, *failure, *focus) = (request, None, None, true);
             return;
@@ -308,6 +311,12 @@ impl Files {
     fn note(&self, note: Note) {
         let _closed = self.sender.send(note);
     }
+}
+
+/// A typed path without an ending, if it has it, in small letters or large.
+fn without_ending<'a>(path: &'a str, ending: &str) -> Option<&'a str> {
+    let (stem, own) = path.trim_end().rsplit_once('.')?;
+    own.eq_ignore_ascii_case(ending).then_some(stem)
 }
 
 fn save(path: &Path, request: &SaveRequest) -> FileEvent {

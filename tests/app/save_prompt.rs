@@ -4,12 +4,13 @@ use std::fs;
 
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Kind;
-use chromascope::command::Command;
+use chromascope::command::{Command, Format};
 use chromascope::document::Document;
 use chromascope::document::history::History;
 use chromascope::export::spectra::Form;
 use chromascope::files::Files;
 use chromascope::view::{SavedView, Weight};
+use chromascope::workspaces::PaneKind;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -95,6 +96,38 @@ fn a_second_question_keeps_what_was_typed() {
     window.state_mut().push(Command::Open);
     window.run_steps(3);
     assert!(says(&window, "Save Kodak DCS200 as"), "opening does not take the question away");
+}
+
+#[test]
+fn another_kind_of_file_takes_its_own_ending() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.svg");
+    fs::write(&path, "mine").unwrap();
+    let mut window = window();
+    let ask = |window: &mut Window, format: Format| {
+        window.state_mut().push(Command::Export(PaneKind::Spectra, format));
+        for _ in 0..400 {
+            if says(window, &format!("Save Spectra as {}", format.extension().to_uppercase())) {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+            window.run_steps(1);
+        }
+        window.run_steps(2);
+    };
+    ask(&mut window, Format::Svg);
+    type_path(&mut window, path.to_str().unwrap());
+    window.key_press(egui::Key::Enter);
+    window.run_steps(4);
+    assert!(says(&window, "That file exists"));
+    ask(&mut window, Format::Csv);
+    let csv = folder.path().join("m.csv");
+    assert_eq!(typed(&window), csv.to_str().unwrap());
+    assert!(!says(&window, "That file exists"));
+    window.key_press(egui::Key::Enter);
+    said(&mut window, "Saved ");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
+    assert!(fs::read_to_string(&csv).unwrap().contains(','));
 }
 
 #[test]
