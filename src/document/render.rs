@@ -27,7 +27,7 @@ pub const TOLERANCES: RangeInclusive<f64> = 1e-13..=1e-1;
 /// The tolerance before one was chosen.
 pub const TOLERANCE: f64 = 1e-6;
 
-/// The power of ten nearest to a tolerance: each makes plans of its own.
+/// The power of ten nearest to a tolerance: where a slider stops.
 pub fn decade(tolerance: f64) -> f64 {
     let power = tolerance.max(*TOLERANCES.start()).min(*TOLERANCES.end()).log10().round() as i32;
     // Through its text: `powi` is not exact for negative powers.

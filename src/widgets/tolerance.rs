@@ -5,6 +5,8 @@ use egui::{Id, Key, RichText, Role, Slider, TextEdit, Ui, WidgetInfo};
 use crate::document::render::{TOLERANCES, decade};
 use crate::panes::PaneContext;
 
+/// What can be typed.
+const TAKES: &str = "Any error from 1e−13 to 0.1, such as 5e-10; the slider goes by powers of ten";
 /// Width of the text.
 const TEXT: f32 = 56.0;
 
@@ -35,7 +37,7 @@ pub fn field(ui: &mut Ui, id: Id, now: f64, words: &str, hint: &str, context: &m
         if typed.wrong.is_some() {
             edit = edit.text_color(theme.error);
         }
-        let text = ui.add(edit).on_hover_text("An error such as 1e-6, taken as the nearest power of ten");
+        let text = ui.add(edit).on_hover_text(format!("{TAKES}.\n{hint}"));
         text.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Tolerance"));
         if text.changed() {
             typed.wrong = None;
@@ -46,7 +48,7 @@ pub fn field(ui: &mut Ui, id: Id, now: f64, words: &str, hint: &str, context: &m
             typed = Typed { of: now, text: shown(now), wrong: None };
         } else if text.lost_focus() && typed.text != shown(now) {
             match tolerance(&typed.text) {
-                Ok(tolerance) => chosen = Some(decade(tolerance)),
+                Ok(tolerance) => chosen = Some(tolerance),
                 Err(wrong) => typed.wrong = Some(wrong),
             }
         }
@@ -73,13 +75,14 @@ fn shown(tolerance: f64) -> String {
 fn tolerance(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let (least, largest) = (shown(*TOLERANCES.start()), TOLERANCES.end());
+    let give = format!("give {least} to {largest}");
     match text.replace('−', "-").parse::<f64>() {
         Ok(number) if TOLERANCES.contains(&number) => Ok(number),
-        Ok(number) if number > *TOLERANCES.end() => Err(format!("{text} is too large: give {largest} at most.")),
-        Ok(number) if number > 0.0 => Err(format!("{text} is too small: S itself is exact to {least}.")),
-        Ok(number) if number <= 0.0 => Err(format!("An error is above 0; give {least} to {largest}.")),
-        _ if text.is_empty() => Err(format!("Nothing is there; give {least} to {largest}.")),
-        _ => Err(format!("“{text}” is no number; write one like 1e-6.")),
+        Ok(number) if number > *TOLERANCES.end() => Err(format!("{text} is too large: {give}.")),
+        Ok(number) if number > 0.0 => Err(format!("{text} is too small: {give}; S itself is exact to {least}.")),
+        Ok(number) if number <= 0.0 => Err(format!("An error is above 0; {give}.")),
+        _ if text.is_empty() => Err(format!("Nothing is there; {give}.")),
+        _ => Err(format!("“{text}” is no number; write one like 1e-6, {least} to {largest}.")),
     }
 }
 
@@ -91,13 +94,20 @@ mod tests {
     fn texts_are_taken_or_refused_with_a_reason() {
         assert_eq!(tolerance(" 1e−6 "), Ok(1e-6));
         assert_eq!(tolerance("0.1"), Ok(0.1));
+        assert_eq!(tolerance("5e-10"), Ok(5e-10));
+        assert_eq!(tolerance("1.5E-4"), Ok(1.5e-4));
         for (text, words) in [
             ("", "Nothing"),
             ("10 %", "“10 %” is no number"),
             ("nan", "is no number"),
             ("inf", "too large"),
-            ("0.5", "too large: give 0.1"),
-            ("1e-14", "too small: S itself is exact to 1e−13"),
+            ("0.5", "too large: give 1e−13 to 0.1"),
+            ("7", "too large: give 1e−13 to 0.1"),
+            ("1e-14", "too small: give 1e−13 to 0.1; S itself is exact to 1e−13"),
+            ("1,5e-4", "“1,5e-4” is no number"),
+            ("0.1%", "“0.1%” is no number"),
+            ("abc", "“abc” is no number"),
+            ("-1", "above 0; give 1e−13 to 0.1"),
             ("0", "above 0"),
             ("−3", "above 0"),
         ] {
