@@ -189,8 +189,13 @@ impl<'a> Made<'a> {
 
     /// How a picture was made within a tolerance, in words.
     fn plan(&self, index: usize) -> Option<String> {
-        let explanation = plans::explanation(&self.query, &self.query.sources[index], self.scene.results).ok()??;
-        Some(format!("{}, error below {:.1e}", plans::sentence(&explanation), explanation.certified()))
+        let planned = plans::planned(&self.query, &self.query.sources[index], self.scene.results).ok()??;
+        let certain = planned.certain.words();
+        Some(
+            planned
+                .explanation
+                .map_or_else(|| certain.clone(), |explanation| format!("{}; {certain}", plans::sentence(&explanation))),
+        )
     }
 
     /// How far a picture is from the truth, in words.

@@ -1,13 +1,14 @@
 //! How large an error may be, and how each camera keeps it.
 
-use chromascope_core::render::plan::{Explanation, Verdict};
+use chromascope_core::render::plan::{Candidate, Verdict};
 use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::action::{Action, RenderAction};
 use crate::document::render::{QualityChoice, RenderSettings};
 use crate::figures::pareto::duration;
-use crate::laboratory::plans;
+use crate::laboratory::plans::{self, Planned};
+use crate::scene::Source;
 use crate::theme::UNIT;
 use crate::widgets;
 use crate::workspaces::PaneKind;
@@ -30,24 +31,22 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
     let on = settings.quality == QualityChoice::Tolerance;
-    ui.label("Largest error of the spectral integral, relative to its peak");
+    ui.label("Largest error of the diffuse spectral integral, relative to its peak").on_hover_text(PEAK);
     ui.spacing_mut().slider_width = (ui.available_width() - 84.0).max(60.0);
     let id = ui.make_persistent_id("tolerance field");
-    if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "", "", context) {
-        set(context, "Tolerance", |settings| {
-            settings.tolerance = to;
-            settings.quality = QualityChoice::Tolerance;
-        });
+    let hint = "What the ways below have to keep. Pictures keep it once the box below is ticked; choosing it here does not tick it.";
+    if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "", hint, context) {
+        set(context, "Tolerance", |settings| settings.tolerance = to);
     }
     ui.add_space(UNIT);
     let mut keep = on;
-    let hint = "Off, pictures are made as Quality in Render's Scene pane says.";
+    let hint = "On, pictures are made within the tolerance. Off, at quality Full; the Scene pane of Render has more qualities.";
     if ui.checkbox(&mut keep, "Pictures keep it").on_hover_text(hint).changed() {
         let quality = if keep { QualityChoice::Tolerance } else { QualityChoice::Full };
         set(context, "Quality", |settings| settings.quality = quality);
     }
     let words = if on {
-        "The core takes the cheapest way whose error, checked for each camera under this light with this material, is within it."
+        "Each camera takes the cheapest way whose error, checked under this light and with this material, is within it."
             .to_owned()
     } else {
         format!("Now: {}. Below is what the tolerance would take.", settings.quality.label())
@@ -79,39 +78,88 @@ fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ui.strong(&source.label);
         });
         match plan {
-            Ok(Some(explanation)) => explained(ui, &source.name, explanation, context),
-            Ok(None) => {
-                ui.label(RichText::new("No sample takes a spectral integral.").small().color(weak));
-            }
+            Ok(Some(planned)) => explained(ui, &source.name, planned, context),
+            Ok(None) => {}
             Err(error) => {
                 ui.label(RichText::new(format!("{error}.")).small().color(context.theme.error));
             }
         }
         ui.add_space(UNIT);
     }
+    not_rendered(ui, context);
 }
 
-fn explained(ui: &mut Ui, name: &str, explanation: &Explanation, context: &PaneContext<'_>) {
+/// Sources that are on show but have no picture beside this truth, and why.
+fn not_rendered(ui: &mut Ui, context: &PaneContext<'_>) {
+    let rendered = context.scene.rendered_sources();
+    let is_rendered = |source: &Source| rendered.iter().any(|r| (r.kind, &r.name) == (source.kind, &source.name));
+    for source in context.scene.sources().iter().filter(|source| source.visible && !is_rendered(source)) {
+        let why = match context.scene.comparable(source.kind, &source.name) {
+            Ok(Err(reason)) => format!("No picture beside this truth: {reason}."),
+            Err(error) => format!("No picture: {error}."),
+            Ok(Ok(())) => continue,
+        };
+        ui.horizontal(|ui| {
+            widgets::source_key(ui, source, &context.theme);
+            ui.strong(&source.label);
+        });
+        ui.label(RichText::new(why).small().color(context.theme.weak));
+        ui.add_space(UNIT);
+    }
+}
+
+fn explained(ui: &mut Ui, name: &str, planned: &Planned, context: &PaneContext<'_>) {
     let small = |words: String| RichText::new(words).small();
-    ui.label(small(format!("{}.", capital(&plans::sentence(explanation)))));
-    let certified = format!("{:.1e}", explanation.certified()).replace('-', "−");
-    ui.label(small(format!("Certified: error below {certified} of the peak.")))
-        .on_hover_text("The largest error seen in the check against the sum over all wavelengths, times a margin.");
+    let certain = format!("{}.", capital(&planned.certain.words().replace('-', "−")));
+    let Some(explanation) = &planned.explanation else {
+        ui.label(small(certain).color(context.theme.weak));
+        return;
+    };
+    ui.label(small(format!("{}.", capital(&plans::sentence(explanation))))).on_hover_text(WAYS);
+    ui.label(small(certain)).on_hover_text(CERTIFIED);
+    let parts: Vec<String> = plans::parts(explanation).map(cost).collect();
+    let costs = if parts.is_empty() { "nothing".to_owned() } else { parts.join("; below that ") };
+    ui.label(small(format!("Estimated: {costs}.")).color(context.theme.weak)).on_hover_text(ESTIMATED);
+    if explanation.rejected.is_empty() {
+        return;
+    }
     let id = ui.make_persistent_id(("rejected", name));
-    CollapsingHeader::new(small(format!("{} other ways", explanation.rejected.len()))).id_salt(id).show(ui, |ui| {
+    let count = explanation.rejected.len();
+    let title = if count == 1 { "1 other way".to_owned() } else { format!("{count} other ways") };
+    CollapsingHeader::new(small(title)).id_salt(id).show(ui, |ui| {
         for candidate in &explanation.rejected {
-            let error = candidate.certified.map_or_else(|| "not checked".to_owned(), |e| format!("error {e:.0e}"));
-            let why = match candidate.verdict {
-                Verdict::Chosen => "chosen",
-                Verdict::TooInexact => "not exact enough",
-                Verdict::TooSlow => "slower",
-            };
-            let cost = duration(candidate.sample_ns * 1e-9);
-            let words =
-                format!("{}: {}, {cost} a sample, {why}", plans::words(&candidate.method), error.replace('-', "−"));
-            ui.label(small(words).color(context.theme.weak));
+            ui.label(small(rejected(candidate)).color(context.theme.weak)).on_hover_text(ESTIMATED);
         }
     });
+}
+
+const PEAK: &str = "The diffuse integral J(κ, β) over wavelength is largest at β = 0, in the middle of its lobe; κ tells how rough the \
+                    surface is at the angles of a sample, β how far off the mirror direction the eye is. Errors are relative to \
+                    J(κ, 0) at the sample's own κ.";
+const WAYS: &str = "κ is the roughness g at 550 nm and the angles of a sample; S(g, b) is the diffuse sum of Eq 2, made to the error said.";
+const CERTIFIED: &str = "Diffuse part: the largest error seen in the check against the sum over all wavelengths, times a margin, \
+                         relative to J(κ, 0) at the sample's κ; where no sample is seen from near the mirror's direction it is kept \
+                         below the tolerance, for the brightest sample's sake. Mirror lobes are made within the tolerance of the \
+                         brightest sample of the picture. Signals are then kept as numbers with 24 binary digits.";
+const ESTIMATED: &str = "Times by a model of the program's methods, not measured here; Methods measures them. The way with the least \
+                         time in all, making it once and then all samples, is taken.";
+
+/// What a way costs by the model.
+fn cost(candidate: &Candidate) -> String {
+    let [sample, making] = [candidate.sample_ns, candidate.making_ns].map(|ns| duration(ns * 1e-9));
+    format!("{sample} a sample, {making} to make")
+}
+
+/// A way that was not taken, with why.
+fn rejected(candidate: &Candidate) -> String {
+    let error = candidate.certified.map_or_else(|| "not checked".to_owned(), |e| format!("error {e:.0e}"));
+    let why = match candidate.verdict {
+        Verdict::Chosen => "chosen",
+        Verdict::TooInexact => "not exact enough",
+        Verdict::TooSlow => "slower in all",
+    };
+    let way = plans::words(&candidate.method);
+    format!("{way}: {}, {}, {why}", error.replace('-', "−"), cost(candidate))
 }
 
 fn capital(words: &str) -> String {

@@ -7,7 +7,7 @@ use chromascope::bench::{self, Effort, Workload};
 use chromascope::catalog::Kind;
 use chromascope::command::Command;
 use chromascope::document::Light;
-use chromascope::document::render::QualityChoice;
+use chromascope::document::render::{QualityChoice, ReadingChoice, RenderSettings};
 use chromascope::laboratory::{SceneRun, Subject};
 use chromascope::panes;
 use chromascope::scene::Scene;
@@ -141,7 +141,7 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.run_steps(2);
     assert_eq!((render(&window).quality, render(&window).tolerance), (QualityChoice::Tolerance, 1e-6));
     take_in(&mut window);
-    assert_eq!(window.query_all_by_label_contains("Certified: error below").count(), 4, "one for each source");
+    assert_eq!(window.query_all_by_label_contains("Diffuse part certified below").count(), 4, "one for each source");
     window.state_mut().push(Command::Show(Workspace::Render));
     window.run_steps(2);
     window.state().studio().wait();
@@ -153,6 +153,37 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.run_steps(2);
     assert_eq!(render(&window).quality, QualityChoice::Full);
     assert!(window.state().view().status.text.starts_with("Undone: "), "{}", window.state().view().status.text);
+}
+
+#[test]
+fn a_source_without_a_plan_says_why() {
+    let mut window = open([1280.0, 1000.0], egui::Theme::Light);
+    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    let flat =
+        RenderSettings { reading: ReadingChoice::Lambertian, ..window.state().history().document().render.clone() };
+    window.state_mut().push(Action::Render(RenderAction::Set { what: "Reading", to: Box::new(flat) }));
+    window.run_steps(2);
+    take_in(&mut window);
+    assert_eq!(window.query_all_by_label_contains("No sample takes a spectral integral.").count(), 4);
+    window.state_mut().push(Action::Compare(CompareAction::SetTruth("CIE 1931 2°".to_owned())));
+    window.run_steps(3);
+    take_in(&mut window);
+    assert!(window.query_all_by_label_contains("No picture beside this truth: a CIE observer").count() >= 3);
+}
+
+#[test]
+fn a_typed_tolerance_is_taken_as_it_is_and_ticks_nothing() {
+    let mut window = open([1280.0, 1000.0], egui::Theme::Light);
+    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.run_steps(3);
+    let render = |window: &Window| window.state().history().document().render.clone();
+    for (typed, taken, shown) in [("5e-10", 5e-10, "5e−10"), ("2.5e−4", 2.5e-4, "2.5e−4"), ("1e−6", 1e-6, "1e−6")]
+    {
+        type_tolerance(&mut window, typed, egui::Key::Enter);
+        assert_eq!((render(&window).tolerance, render(&window).quality), (taken, QualityChoice::Full));
+        let text = window.get_by_role_and_label(Role::TextInput, "Tolerance").value();
+        assert_eq!(text.as_deref(), Some(shown));
+    }
 }
 
 /// Types into a field and leaves it with a key.
@@ -179,7 +210,11 @@ fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
         window.run_steps(3);
         let tolerance = |window: &Window| window.state().history().document().render.tolerance;
         let text = |window: &Window| window.get_by_role_and_label(Role::TextInput, "Tolerance").value();
-        for (typed, words) in [("a bit", "“a bit” is no number"), ("1e-20", "too small"), ("3", "too large")] {
+        for (typed, words) in [
+            ("a bit", "“a bit” is no number"),
+            ("1e-14", "too small: give 1e−13 to 0.1"),
+            ("7", "too large: give 1e−13 to 0.1"),
+        ] {
             type_tolerance(&mut window, typed, egui::Key::Enter);
             assert_eq!(tolerance(&window), 1e-6);
             assert!(window.query_by_label_contains(words).is_some(), "{workspace:?} says nothing of {typed}");

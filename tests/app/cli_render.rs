@@ -281,13 +281,23 @@ fn a_tolerance_is_kept_and_said() {
             (&"tolerance".into(), &tolerance.parse::<f64>().unwrap().into())
         );
         for source in json["sources"].as_array().unwrap() {
-            assert!(source["plan"]["certified_error"].as_f64().unwrap() <= tolerance.parse().unwrap());
+            let plan = &source["plan"];
+            assert!(plan["certified_error"].as_f64().unwrap() <= tolerance.parse().unwrap());
+            let mirrors = json["samples"]["mirror_terms"].as_u64().unwrap() > 0;
+            let lobes = mirrors.then(|| tolerance.parse::<f64>().unwrap());
+            assert_eq!((plan["mirror_error"].as_f64(), plan["single_precision"].as_f64()), (lobes, Some(6e-8)));
             // Signals are kept in single precision, 6e-8 of themselves.
             assert!(source["error_to_peak"]["max"].as_f64().unwrap() <= error, "{source}");
         }
     }
     let words = rendered(&folder, &[&SMALL[..], &D70[..], &["--tolerance", "1e-6"]].concat());
-    assert!(words.contains("error below"), "{words}");
+    assert!(words.contains("; diffuse part certified below ") && words.contains(" of the peak"), "{words}");
+    let flat = rendered(&folder, &[&SMALL[..], &D70[..], &["--tolerance", "1e-6", "--reading", "lambertian"]].concat());
+    assert!(flat.contains("; no sample takes a spectral integral\n"), "{flat}");
+    let smooth = [&SMALL[..], &D70[..], &["--tolerance", "1e-9", "--sigma", "0.1e-6"]].concat();
+    let words = rendered(&folder, &smooth);
+    let parts = ["; mirror lobes within 1e-9 of the brightest sample", "; kept in single precision (6e-8)"];
+    assert!(parts.iter().all(|part| words.contains(part)), "{words}");
     refused(&self::folder("tolerance refused"), &["--tolerance", "1e-15"], 2, &["1e-15", "1e-13"]);
     refused(&self::folder("tolerance and quality"), &["--tolerance", "1e-5", "--quality", "fine"], 2, &["--quality"]);
 }

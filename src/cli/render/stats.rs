@@ -138,7 +138,8 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
 
 /// How a source's integrals were made within a tolerance.
 fn plan(made: &Made<'_>, index: usize) -> Option<Value> {
-    let explanation = plans::explanation(&made.query, &made.query.sources[index], made.scene.results).ok()??;
+    let planned = plans::planned(&made.query, &made.query.sources[index], made.scene.results).ok()??;
+    let (explanation, certain) = (planned.explanation.as_ref(), planned.certain);
     let candidate = |candidate: &Candidate| {
         json!({
             "way": plans::words(&candidate.method),
@@ -148,10 +149,12 @@ fn plan(made: &Made<'_>, index: usize) -> Option<Value> {
         })
     };
     Some(json!({
-        "certified_error": explanation.certified(),
-        "rough": explanation.rough.as_ref().map(candidate),
-        "chosen": candidate(&explanation.chosen),
-        "rejected": explanation.rejected.iter().map(candidate).collect::<Vec<_>>(),
+        "certified_error": certain.diffuse,
+        "mirror_error": certain.mirror,
+        "single_precision": plans::SINGLE_PRECISION,
+        "rough": explanation.and_then(|explanation| explanation.rough.as_ref()).map(candidate),
+        "chosen": explanation.map(|explanation| candidate(&explanation.chosen)),
+        "rejected": explanation.map(|explanation| explanation.rejected.iter().map(candidate).collect::<Vec<_>>()),
     }))
 }
 
