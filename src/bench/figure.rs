@@ -12,6 +12,18 @@ pub(super) const PANEL: [f64; 2] = [420.0, 320.0];
 const ACROSS: usize = 2;
 const ACROSS_OF_MANY: usize = 3;
 const MANY: usize = 7;
+/// What stands for 1, 2, 4 and more threads: not what stands for cameras, so without their colors, and with the markers of the
+/// first three last.
+const MARKERS: [Marker; 8] = [
+    Marker::Diamond,
+    Marker::TriangleDown,
+    Marker::Hexagon,
+    Marker::TriangleRight,
+    Marker::TriangleLeft,
+    Marker::Circle,
+    Marker::Square,
+    Marker::TriangleUp,
+];
 /// A measurement with its place among those of its workload.
 type Numbered<'a> = (usize, &'a Measurement);
 
@@ -55,7 +67,7 @@ fn entry(threads: usize) -> LegendEntry {
 /// Marker and color by the number of threads.
 fn look(threads: usize) -> (Marker, InkRole) {
     let slot = threads.max(1).ilog2() as usize;
-    (Marker::source(slot), InkRole::Source((slot % 8) as u8))
+    (MARKERS[slot % MARKERS.len()], if slot.is_multiple_of(2) { InkRole::Text } else { InkRole::Weak })
 }
 
 fn panel(case: &[Numbered<'_>], area: Rect) -> Panel {
