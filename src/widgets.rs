@@ -5,7 +5,7 @@ pub mod lines;
 pub mod tolerance;
 
 use chromascope_core::figure::{Cell, Ink, LegendEntry, Stroke, Table};
-use egui::{Align, Button, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
+use egui::{Align, Button, Label, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
 use egui_extras::{Column, TableBuilder};
 
 use crate::command::{Command, Format};
@@ -238,7 +238,7 @@ pub fn data_table(ui: &mut Ui, rect: Rect, id: &str, table: &Table) {
             .header(ROW, |mut header| {
                 for name in &table.columns {
                     header.col(|ui| {
-                        ui.label(RichText::new(name).small());
+                        ui.add(Label::new(RichText::new(name).small()).extend());
                     });
                 }
             })
@@ -246,7 +246,8 @@ pub fn data_table(ui: &mut Ui, rect: Rect, id: &str, table: &Table) {
                 body.rows(ROW - 4.0, table.rows.len(), |mut row| {
                     for cell in &table.rows[row.index()] {
                         row.col(|ui| {
-                            ui.monospace(cell_text(cell));
+                            let text = RichText::new(cell_text(cell)).monospace();
+                            ui.add(Label::new(text).extend());
                         });
                     }
                 });
