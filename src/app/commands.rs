@@ -287,12 +287,22 @@ impl ChromascopeApp {
         };
         match bytes {
             Ok(bytes) => {
-                let name = format!("{}.{}", pane.title().to_lowercase(), format.extension());
+                let name = format!("{}.{}", self.file_stem(pane), format.extension());
                 let extension = format.extension();
                 let what = format!("{} as {}", pane.title(), extension.to_uppercase());
                 self.files.ask_to_save(SaveRequest { what, name, extension, bytes, note: String::new() });
             }
             Err(error) => self.view.fail(error.to_string()),
+        }
+    }
+
+    /// What a file of a pane is called, without its ending.
+    fn file_stem(&self, pane: PaneKind) -> String {
+        let title = pane.title().to_lowercase();
+        match (pane, self.view.accuracy.shows) {
+            (PaneKind::Accuracy, Shows::Bench(workload)) => workload.name().to_owned(),
+            (PaneKind::Accuracy, Shows::Scene(subject)) => format!("{title}-{}", subject.title().to_lowercase()),
+            _ => title,
         }
     }
 

@@ -3,14 +3,17 @@
 use std::fs;
 
 use chromascope::app::ChromascopeApp;
+use chromascope::bench::{self, Effort, Workload};
 use chromascope::catalog::Kind;
 use chromascope::command::{Command, Format};
 use chromascope::document::Document;
 use chromascope::document::history::History;
 use chromascope::export::spectra::Form;
 use chromascope::files::Files;
+use chromascope::view::accuracy::Shows;
 use chromascope::view::{SavedView, Weight};
 use chromascope::workspaces::PaneKind;
+use chromascope_core::render::Stop;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -128,6 +131,18 @@ fn another_kind_of_file_takes_its_own_ending() {
     said(&mut window, "Saved ");
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
     assert!(fs::read_to_string(&csv).unwrap().contains(','));
+}
+
+#[test]
+fn a_workload_is_offered_by_its_name() {
+    let report = bench::run(&[Workload::DiffuseSum], Effort::Trial, &Stop::NEVER, &mut |_| ()).unwrap();
+    let mut window = window();
+    let view = window.state_mut().view_mut();
+    view.accuracy.shows = Shows::Bench(Workload::DiffuseSum);
+    view.accuracy.reports.insert(Workload::DiffuseSum, std::sync::Arc::new(Ok(report)));
+    window.state_mut().push(Command::Export(PaneKind::Accuracy, Format::Csv));
+    window.run_steps(8);
+    assert_eq!(typed(&window), "diffuse-sum.csv");
 }
 
 #[test]
