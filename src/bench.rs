@@ -136,6 +136,16 @@ pub enum BenchError {
     Data(#[from] crate::catalog::load::LoadError),
 }
 
+/// This moment in UTC to the second, as `2026-11-21T18:05:11Z`.
+pub(crate) fn now() -> String {
+    jiff::Timestamp::now().round(jiff::Unit::Second).map_or_else(|_| String::new(), |now| now.to_string())
+}
+
+/// The program and its version.
+pub(crate) fn program() -> String {
+    concat!("Chromascope ", env!("CARGO_PKG_VERSION")).to_owned()
+}
+
 /// Measures the workloads of a plan in its order. Once the stop is set, the report ends with the last whole case.
 pub fn run(
     plan: &[Workload],
@@ -143,7 +153,7 @@ pub fn run(
     stop: &Stop,
     progress: &mut dyn FnMut(Progress<'_>),
 ) -> Result<Report, BenchError> {
-    let began = jiff::Timestamp::now().round(jiff::Unit::Second).map_or_else(|_| String::new(), |now| now.to_string());
+    let began = now();
     let pools = Pools::new()?;
     let machine = Machine::measure(effort, &pools);
     progress(Progress::Machine(&machine));
@@ -165,6 +175,5 @@ pub fn run(
         }
     }
     let Bench { machine, measurements, .. } = bench;
-    let program = concat!("Chromascope ", env!("CARGO_PKG_VERSION")).to_owned();
-    Ok(Report { program, began, machine, effort, whole: !stop.is_set(), measurements })
+    Ok(Report { program: program(), began, machine, effort, whole: !stop.is_set(), measurements })
 }

@@ -4,6 +4,7 @@
 //! except that asking again measures again: [`SceneRunOf::run`] tells runs apart.
 
 mod asked;
+mod conditions;
 mod integral;
 mod left_out;
 mod loci;
@@ -20,12 +21,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::{self, Effort, Report, Workload};
 use crate::jobs::Background;
+pub use conditions::Conditions;
 pub use left_out::LeftOut;
 use plans::PlansOf;
 
 /// What does the scene cost by each method, and what was left out?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SceneRunOf {
+    /// What is rendered, in words.
+    pub scene: String,
     /// The pictures; none where there is nothing to render.
     pub pictures: Option<PicturesOf>,
     /// The sources that are not on show.
@@ -43,6 +47,9 @@ pub struct SceneRunOf {
 /// What was measured.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SceneRun {
+    /// What it was of, and on what.
+    #[serde(default)]
+    pub conditions: Conditions,
     /// Of each kind of work its methods.
     pub trials: Vec<Trial>,
     /// What was not computed.
@@ -60,6 +67,9 @@ pub struct Trial {
     pub inputs: usize,
     /// The methods, the reference first.
     pub points: Vec<Point>,
+    /// Which of them pictures take as things are set; none if it is not among them.
+    #[serde(default)]
+    pub set: Option<usize>,
 }
 
 /// A kind of work.
@@ -87,7 +97,7 @@ impl Subject {
     /// The same, said at length.
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Integral => "The spectral integral of the samples that the scene on show renders",
+            Self::Integral => "The diffuse spectral integral of the samples that the scene on show renders",
             Self::Loci => "Planckian loci of the sources on show",
         }
     }
@@ -95,8 +105,8 @@ impl Subject {
     /// What a time is the time of.
     pub const fn per(self) -> &'static str {
         match self {
-            Self::Integral => "a sample and source",
-            Self::Loci => "a temperature and source",
+            Self::Integral => "a sample through a source",
+            Self::Loci => "a temperature through a source",
         }
     }
 
@@ -156,10 +166,10 @@ impl Query for SceneRunOf {
     const KEPT: usize = 1;
 
     fn answer(&self, ask: &impl Ask) -> SceneRun {
-        let start = std::time::Instant::now();
+        let (start, conditions) = (std::time::Instant::now(), Conditions::now(self));
         let trials = [integral::trial(self, ask), loci::trial(self, ask)].into_iter().flatten().collect();
         let left_out = left_out::rows(self, ask);
-        SceneRun { trials, left_out, time: start.elapsed() }
+        SceneRun { conditions, trials, left_out, time: start.elapsed() }
     }
 }
 

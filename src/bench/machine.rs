@@ -32,6 +32,22 @@ const WIDTH: usize = 8;
 const CHUNK: usize = 1 << 16;
 
 impl Machine {
+    /// What it is, without its limits, which are 0 here.
+    pub fn unmeasured() -> Self {
+        Self {
+            processor: crate::files::processor().unwrap_or_else(|| "unknown processor".to_owned()),
+            cores: std::thread::available_parallelism().map_or(1, usize::from),
+            instruction_set: instruction_set().to_owned(),
+            ..Self::default()
+        }
+    }
+
+    /// The processor, how many threads it runs at a time, and its instruction set, in words.
+    pub fn identity(&self) -> String {
+        let Self { processor, cores, instruction_set, .. } = self;
+        format!("{processor}, {cores} {}, {instruction_set}", if *cores == 1 { "core" } else { "cores" })
+    }
+
     /// Looks at the machine, and measures the most it can do: the best of some rounds.
     pub(super) fn measure(effort: Effort, pools: &Pools) -> Self {
         let (megabytes, rounds) = match effort {
@@ -69,11 +85,10 @@ impl Machine {
         };
         let cores = pools.most();
         Self {
-            processor: crate::files::processor().unwrap_or_else(|| "unknown processor".to_owned()),
             cores,
-            instruction_set: instruction_set().to_owned(),
             memory_gb_per_s: [memory(1), memory(cores)],
             arithmetic_gflop_per_s: [arithmetic(1), arithmetic(cores)],
+            ..Self::unmeasured()
         }
     }
 
@@ -87,11 +102,11 @@ impl Machine {
 
 impl fmt::Display for Machine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { processor, cores, instruction_set, .. } = self;
+        let identity = self.identity();
         let ([memory, all_memory], [flops, all_flops]) = (self.memory_gb_per_s, self.arithmetic_gflop_per_s);
         write!(
             f,
-            "{processor}, {cores} cores, {instruction_set}; memory {memory:.1} GB/s on one, {all_memory:.1} on all; \
+            "{identity}; memory {memory:.1} GB/s on one, {all_memory:.1} on all; \
              multiply-adds {flops:.1} Gflop/s on one, {all_flops:.1} on all"
         )
     }

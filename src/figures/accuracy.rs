@@ -7,7 +7,7 @@ use chromascope_core::figure::{
 
 use super::pareto::{self, Place, duration};
 use crate::bench::{Measurement, Report, Workload};
-use crate::laboratory::{Family, LeftOut, Point, SceneRun, Subject, Trial};
+use crate::laboratory::{Conditions, Family, LeftOut, Point, SceneRun, Subject, Trial};
 use crate::number::number;
 use crate::results::Count;
 use crate::view::View;
@@ -24,7 +24,7 @@ pub fn trial(run: &SceneRun, subject: Subject) -> Option<&Trial> {
 /// The panel for an area of the given size.
 pub fn panel(trial: &Trial, is_current: bool, size: [f64; 2]) -> Panel {
     let place = |(index, point): (usize, &Point)| Place {
-        name: point.name.clone(),
+        name: trial.name(index),
         tag: Tag(u32::try_from(index + 1).unwrap_or(u32::MAX)),
         error: point.max,
         seconds: point.seconds,
@@ -36,7 +36,7 @@ pub fn panel(trial: &Trial, is_current: bool, size: [f64; 2]) -> Panel {
     let time = format!("time for {}", trial.subject.per());
     let area = Rect::from_min_size([0.0, 0.0], size);
     let when = if is_current { "" } else { ", of the scene as it was" };
-    let note = format!("{} inputs, one thread{when}", trial.inputs);
+    let note = format!("{}, one thread{when}", trial.inputs_in_words());
     pareto::panel("run time against error", [&error, &time], note, &places, area)
 }
 
@@ -47,30 +47,36 @@ pub fn point(trial: &Trial, tag: Tag) -> Option<&Point> {
 
 fn marker(family: Family) -> Marker {
     match family {
-        Family::Sum => Marker::Square,
-        Family::Quality => Marker::Circle,
-        Family::Tolerance => Marker::TriangleUp,
+        Family::Sum => Marker::Hexagon,
+        Family::Quality => Marker::Diamond,
+        Family::Tolerance => Marker::TriangleDown,
     }
 }
 
+/// Not the cameras' inks: what is gray here is no camera.
 fn role(family: Family) -> InkRole {
     match family {
-        Family::Sum => InkRole::Observer,
-        Family::Quality => InkRole::Source(0),
-        Family::Tolerance => InkRole::Source(1),
+        Family::Sum => InkRole::Weak,
+        Family::Quality | Family::Tolerance => InkRole::Text,
     }
 }
 
 /// What is known about a method, a line each.
 pub fn describe(trial: &Trial, point: &Point) -> Vec<String> {
-    let mut lines = vec![point.name.clone()];
+    let index = trial.points.iter().position(|other| other == point);
+    let mut lines = vec![index.map_or_else(|| point.name.clone(), |index| trial.name(index))];
     lines.push(format!("{} for {}", duration(point.seconds), trial.subject.per()));
     if let Some(reference) = trial.points.first().filter(|reference| *reference != point) {
         lines.push(format!("{} times the speed of {}", ratio(reference.seconds / point.seconds), reference.name));
     }
-    lines.push(format!("error: largest {}, RMS {} {}", number(point.max), number(point.rms), trial.subject.error_of()));
+    if index == Some(0) {
+        lines.push("the reference: all errors, and what is promised of them, are against it".to_owned());
+    } else {
+        let (max, rms) = (number(point.max), number(point.rms));
+        lines.push(format!("error: largest {max}, RMS {rms} {}", trial.subject.error_of()));
+    }
     if let Some(certified) = point.certified {
-        lines.push(format!("promised beforehand: {}", number(certified)));
+        lines.push(format!("promised beforehand: below {} {}", number(certified), trial.subject.error_of()));
     }
     if point.preparation > 0.0 {
         lines.push(format!("made once before, for a source: {}", duration(point.preparation)));
@@ -95,21 +101,39 @@ pub fn figure(view: &View) -> Option<Figure> {
     };
     let run = view.accuracy.run.as_ref()?;
     let trial = trial(run, subject)?;
-    let mut figure = Figure::new(format!("Run time against error: {}", subject.words()), SIZE);
+    let mut figure = Figure::new(format!("Run time against error: {}", subject.what()), SIZE);
     figure.panels.push(panel(trial, view.accuracy.is_current, SIZE));
-    let families: std::collections::BTreeSet<Family> = trial.points.iter().map(|point| point.family).collect();
-    figure.legend = families.into_iter().map(entry).collect();
+    figure.legend = legend(trial);
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(
-        "Measured on the scene on show, {} inputs. Times are medians over rounds in which the methods take turns, for {}, on one \
+        "{}: {}. Measured on: {}. Times are medians over rounds in which the methods take turns, for {}, on one \
          thread; errors are against {}, {}. The dashed line joins methods that no other beats in both.",
-        trial.inputs,
+        run.conditions.of(trial),
+        trial.inputs_in_words(),
+        run.conditions.on(),
         subject.per(),
         trial.points.first().map_or("the reference", |point| &point.name),
         subject.error_of(),
     );
-    figure.table = table(trial);
+    figure.table = with_conditions(table(trial), trial, &run.conditions);
     Some(figure)
+}
+
+/// Each row with what, on what and when it was measured.
+fn with_conditions(mut table: Table, trial: &Trial, conditions: &Conditions) -> Table {
+    let of = format!("{}: {}", conditions.of(trial), trial.inputs_in_words());
+    let cells = [&of, &conditions.machine, &conditions.program, &conditions.began];
+    table.columns.extend(["measured on", "machine", "program", "began"].map(str::to_owned));
+    for row in &mut table.rows {
+        row.extend(cells.map(|text| Cell::from(text.as_str())));
+    }
+    table
+}
+
+/// What the marks stand for.
+pub fn legend(trial: &Trial) -> Vec<LegendEntry> {
+    let families: std::collections::BTreeSet<Family> = trial.points.iter().map(|point| point.family).collect();
+    families.into_iter().map(entry).collect()
 }
 
 /// What was left out as bars over time; none before anything was measured or remembered.
@@ -158,19 +182,19 @@ fn entry(family: Family) -> LegendEntry {
 /// The numbers.
 pub fn table(trial: &Trial) -> Table {
     let mut table = Table::new([
-        "method",
-        "time (ns)",
-        "ratio to the first",
-        "largest error",
-        "RMS error",
-        "promised error",
-        "preparation (ms)",
+        "method".to_owned(),
+        format!("time for {} (µs)", trial.subject.per()),
+        "ratio to the reference".to_owned(),
+        format!("largest error ({})", trial.subject.error_of()),
+        format!("RMS error ({})", trial.subject.error_of()),
+        format!("promised error ({})", trial.subject.error_of()),
+        "preparation (ms)".to_owned(),
     ]);
     let reference = trial.points.first().map_or(1.0, |point| point.seconds);
-    for point in &trial.points {
+    for (index, point) in trial.points.iter().enumerate() {
         table.push([
-            point.name.as_str().into(),
-            (point.seconds * 1e9).into(),
+            trial.name(index).into(),
+            (point.seconds * 1e6).into(),
             (point.seconds / reference).into(),
             point.max.into(),
             point.rms.into(),

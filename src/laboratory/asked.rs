@@ -31,6 +31,7 @@ impl SceneRunOf {
         let colors =
             |rendering: &_| Some(PatchColorsOf { rendering: Clone::clone(rendering), patches: patches.clone()? });
         Self {
+            scene: super::conditions::words(scene, scene.rendered_sources().len()),
             pictures: Self::pictures_of(scene, own, orbit, scene.document.render.quality()),
             hidden: hidden.iter().filter_map(rendering).map(|rendering| SourceOf { rendering }).collect(),
             sensors: shown.iter().filter_map(|source| scene.sensor(source.kind, &source.name).ok()).collect(),

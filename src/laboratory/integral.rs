@@ -6,7 +6,7 @@ use chromascope_core::query::render::PicturesOf;
 use chromascope_core::reflectance::{Precision, Reading};
 use chromascope_core::render::diffuse::{DARK, ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::shading::Way;
-use chromascope_core::render::{Against, Demand, DiffuseTable, Measure, Plan, ShadingImage};
+use chromascope_core::render::{Against, Demand, DiffuseTable, Measure, Plan, Quality, ShadingImage};
 
 use super::method::{Method, largest, measured, together};
 use super::stopwatch::once;
@@ -16,6 +16,13 @@ use super::{Family, Point, SceneRunOf, Subject, Trial};
 const SAMPLES: usize = 300;
 /// The tolerances that are tried, as powers of ten.
 const TOLERANCES: [i32; 6] = [-3, -5, -7, -9, -11, -13];
+const EXACT: &str = "401 wavelengths, S to 1e-13";
+const REGIMES: &str = "401 wavelengths, the paper's cases";
+const FINE: &str = "Fine: 15 wavelengths";
+const FULL: &str = "Full: moments, table";
+
+/// A tolerance relative to the peak, and what it is called.
+type Tolerance = (Accuracy, String);
 
 /// Measures; none where nothing is rendered, where no sample takes an integral, and if stopped.
 pub(super) fn trial(run: &SceneRunOf, ask: &impl Ask) -> Option<Trial> {
@@ -29,13 +36,18 @@ pub(super) fn trial(run: &SceneRunOf, ask: &impl Ask) -> Option<Trial> {
         return None;
     }
     let demand = Demand::new(range(&places), samples(pictures));
+    let set = set((*shading).as_ref()?);
+    let tolerances = tolerances(set.clone());
     let mut sources = Vec::new();
     for source in &pictures.sources {
         let measure = ask.ask(&pictures.image(&source.rendering).measure);
         let Ok(measure) = &*measure else { continue };
-        sources.push(through(measure, &places, demand, ask)?);
+        sources.push(through(measure, &places, (demand, &tolerances), ask)?);
     }
-    Some(Trial { subject: Subject::Integral, inputs: places.len(), points: together(&sources) })
+    let points = together(&sources);
+    let set = set.map(|(_, name)| name).or_else(|| by_quality(pictures.shading.quality).map(str::to_owned));
+    let set = set.and_then(|name| points.iter().position(|point| point.name == name));
+    Some(Trial { subject: Subject::Integral, inputs: places.len(), points, set })
 }
 
 /// κ and β of samples spread over those that the light reaches.
@@ -61,15 +73,19 @@ fn samples(pictures: &PicturesOf) -> u64 {
 }
 
 /// All methods through one source; none if stopped.
-fn through(measure: &Measure, places: &[[f64; 2]], demand: Demand, ask: &impl Ask) -> Option<Vec<Point>> {
+fn through(
+    measure: &Measure,
+    places: &[[f64; 2]],
+    (demand, tolerances): (Demand, &[Tolerance]),
+    ask: &impl Ask,
+) -> Option<Vec<Point>> {
     let (table, build) = once(|| DiffuseTable::new(measure));
     let mut methods = fixed(measure, &table, build, places);
-    for exponent in TOLERANCES {
-        let Ok(accuracy) = Accuracy::new(10_f64.powi(exponent)) else { continue };
-        let (plan, preparation) = once(|| Plan::new(measure, accuracy, Against::Peak, demand));
+    for (accuracy, name) in tolerances {
+        let (plan, preparation) = once(|| Plan::new(measure, *accuracy, Against::Peak, demand));
         let Ok(plan) = plan else { continue };
         methods.push(Method {
-            name: format!("within 1e{exponent}"),
+            name: name.clone(),
             family: Family::Tolerance,
             preparation,
             certified: Some(plan.explanation().certified()),
@@ -92,6 +108,37 @@ fn through(measure: &Measure, places: &[[f64; 2]], demand: Demand, ask: &impl As
     measured(&methods, share, &ask.stop())
 }
 
+/// The tolerances that are tried, and the one that pictures keep, if any: the largest first.
+fn tolerances(set: Option<Tolerance>) -> Vec<Tolerance> {
+    // Through their text: powers of ten that are not the nearest numbers have long names.
+    let usual = TOLERANCES.iter().filter_map(|exponent| Accuracy::new(format!("1e{exponent}").parse().ok()?).ok());
+    let usual = usual.map(|accuracy| (accuracy, format!("within {:e}", accuracy.max_relative_error())));
+    let mut all: Vec<Tolerance> = set.into_iter().chain(usual).collect();
+    all.sort_by(|(a, _), (b, _)| b.max_relative_error().total_cmp(&a.max_relative_error()));
+    all.dedup_by_key(|(accuracy, _)| *accuracy);
+    all
+}
+
+/// The tolerance that pictures keep, if any: of the integral's peak it may be less than of the picture's brightest sample.
+fn set(shading: &ShadingImage) -> Option<Tolerance> {
+    let (of_picture, of_peak) = (shading.quality().accuracy()?, shading.plan_accuracy()?);
+    let [picture, peak] = [of_picture, of_peak].map(Accuracy::max_relative_error);
+    let name =
+        if of_picture == of_peak { format!("within {peak:e}") } else { format!("within {peak:.1e}, for {picture:e}") };
+    Some((of_peak, name))
+}
+
+/// What the integral of a quality is called here; none where it is not tried.
+fn by_quality(quality: Quality) -> Option<&'static str> {
+    match quality {
+        Quality::Exact => Some(EXACT),
+        Quality::Regimes => Some(REGIMES),
+        Quality::Fine => Some(FINE),
+        Quality::Full => Some(FULL),
+        Quality::Preview | Quality::Within(_) => None,
+    }
+}
+
 /// The methods that promise nothing, the reference first.
 fn fixed<'a>(measure: &'a Measure, table: &'a DiffuseTable, build: f64, places: &'a [[f64; 2]]) -> Vec<Method<'a>> {
     let method = |name: &str, family, preparation, at: Box<dyn Fn(f64, f64) -> [f64; 3] + 'a>| Method {
@@ -109,12 +156,12 @@ fn fixed<'a>(measure: &'a Measure, table: &'a DiffuseTable, build: f64, places: 
     let fine = |kappa, beta| by_nodes(measure.fine(), kappa, beta, Precision::Full);
     let full = |kappa, beta| full(measure, table, kappa, beta);
     vec![
-        sum("401 wavelengths, S to 1e-13", Precision::Full),
+        sum(EXACT, Precision::Full),
         sum("401 wavelengths, S to 1e-10", Precision::Fine),
         sum("401 wavelengths, S to 1e-6", Precision::Coarse),
-        method("401 wavelengths, the paper's cases", Family::Quality, 0.0, Box::new(regimes)),
-        method("Fine: 15 wavelengths", Family::Quality, 0.0, Box::new(fine)),
-        method("Full: moments, table", Family::Quality, build, Box::new(full)),
+        method(REGIMES, Family::Quality, 0.0, Box::new(regimes)),
+        method(FINE, Family::Quality, 0.0, Box::new(fine)),
+        method(FULL, Family::Quality, build, Box::new(full)),
     ]
 }
 

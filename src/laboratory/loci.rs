@@ -34,7 +34,7 @@ pub(super) fn trial(run: &SceneRunOf, ask: &impl Ask) -> Option<Trial> {
     };
     let sources: Vec<Vec<Point>> = run.sensors.iter().map(through).collect::<Option<_>>()?;
     let points = together(&sources);
-    (!points.is_empty()).then_some(Trial { subject: Subject::Loci, inputs: temperatures.len(), points })
+    (!points.is_empty()).then_some(Trial { subject: Subject::Loci, inputs: temperatures.len(), points, set: None })
 }
 
 /// How far apart two triples of signals are, relative to the largest. Methods may differ by a factor common to the three,

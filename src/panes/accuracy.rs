@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-use egui::{Align2, ComboBox, FontId, Id, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
+use chromascope_core::figure::LegendEntry;
+use egui::{Align2, ComboBox, FontId, Id, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::bench::Workload;
@@ -19,6 +20,12 @@ use crate::workspaces::PaneKind;
 const REACH: f32 = 10.0;
 /// A panel of the bench is at least so large; a wider pane has two side by side.
 const PANEL: Vec2 = Vec2::new(420.0, 280.0);
+
+/// A key of the legend.
+const KEY: Vec2 = Vec2::new(16.0, 18.0);
+const MARKS: &str = "Filled marks, joined by the dashed line: no other is both faster and more exact.";
+const BENCH: &str = "The program's methods on inputs of its own, whatever the scene, against references computed in another way or \
+                     with twice the digits. Point at a mark for its numbers.";
 
 /// Shows the pane in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
@@ -53,6 +60,9 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
         widgets::data_table(ui, body, "accuracy", &accuracy::table(trial));
         return;
     }
+    let words = run.conditions.of(trial);
+    let about = format!("{} {MARKS} Measured on: {}.", subject.explained(), run.conditions.on());
+    let body = above(ui, body, [&words, &about], &accuracy::legend(trial), context);
     let size = [f64::from(body.width()), f64::from(body.height())];
     let panel = accuracy::panel(trial, context.view.accuracy.is_current, size);
     let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
@@ -91,6 +101,9 @@ fn bench(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneContext<
         widgets::data_table(ui, body, "bench", &figure.table);
         return;
     }
+    let words = format!("{}; {}", workload.title(), report.machine.identity());
+    let about = format!("{BENCH} {MARKS} Measured on: {}; {}, {}.", report.machine, report.program, report.began);
+    let body = above(ui, body, [&words, &about], &figure.legend, context);
     let mut child = ui.new_child(UiBuilder::new().id_salt("bench").max_rect(body));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
     ScrollArea::vertical().id_salt(workload.name()).auto_shrink(false).show(&mut child, |ui| {
@@ -116,6 +129,35 @@ fn bench(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneContext<
             }
         }
     });
+}
+
+/// What was measured, what that means, and what the marks stand for. Returns what is left below.
+fn above(
+    ui: &mut Ui,
+    body: Rect,
+    [words, about]: [&str; 2],
+    legend: &[LegendEntry],
+    context: &PaneContext<'_>,
+) -> Rect {
+    let theme = context.theme;
+    let mut child = ui.new_child(UiBuilder::new().id_salt("what is measured").max_rect(body));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    child.spacing_mut().item_spacing.y = 0.0;
+    child.spacing_mut().interact_size.y = KEY.y;
+    child.add(Label::new(RichText::new(words).small().color(theme.weak)).wrap());
+    child.horizontal_wrapped(|ui| {
+        for entry in legend {
+            ui.horizontal(|ui| {
+                let (rect, _) = ui.allocate_exact_size(KEY, egui::Sense::hover());
+                paint::key(ui.painter(), rect, entry, &theme);
+                ui.add(Label::new(RichText::new(&entry.name).small()).extend());
+            });
+        }
+        let what = RichText::new("What is this?").small().underline().color(theme.weak);
+        ui.add(Label::new(what).extend()).on_hover_text(about);
+    });
+    let top = (child.min_rect().bottom() + UNIT).min(body.bottom());
+    Rect::from_min_max(egui::pos2(body.left(), top), body.max)
 }
 
 /// What is on show, and a way to measure it.

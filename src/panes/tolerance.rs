@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
     let on = settings.quality == QualityChoice::Tolerance;
-    ui.label("Largest error of the diffuse spectral integral, relative to its peak").on_hover_text(PEAK);
+    ui.label("Largest error of a picture, relative to its brightest sample").on_hover_text(TOLERANCE);
     ui.spacing_mut().slider_width = (ui.available_width() - 84.0).max(60.0);
     let id = ui.make_persistent_id("tolerance field");
     let hint = "What the ways below have to keep. Pictures keep it once the box below is ticked; choosing it here does not tick it.";
@@ -125,7 +125,8 @@ fn explained(ui: &mut Ui, name: &str, planned: &Planned, context: &PaneContext<'
     }
     let id = ui.make_persistent_id(("rejected", name));
     let count = explanation.rejected.len();
-    let title = if count == 1 { "1 other way".to_owned() } else { format!("{count} other ways") };
+    let plural = if count == 1 { "way" } else { "ways" };
+    let title = format!("{count} other {plural}");
     CollapsingHeader::new(small(title)).id_salt(id).show(ui, |ui| {
         for candidate in &explanation.rejected {
             ui.label(small(rejected(candidate)).color(context.theme.weak)).on_hover_text(ESTIMATED);
@@ -133,9 +134,9 @@ fn explained(ui: &mut Ui, name: &str, planned: &Planned, context: &PaneContext<'
     });
 }
 
-const PEAK: &str = "The diffuse integral J(κ, β) over wavelength is largest at β = 0, in the middle of its lobe; κ tells how rough the \
-                    surface is at the angles of a sample, β how far off the mirror direction the eye is. Errors are relative to \
-                    J(κ, 0) at the sample's own κ.";
+const TOLERANCE: &str = "How far a sample may be off the sum over all wavelengths. The diffuse integral J(κ, β) is largest at β = 0, \
+                         seen from the mirror's direction: ways are certified relative to that peak, J(κ, 0), at the sample's κ, and \
+                         keep a smaller share of it where no sample is that bright. S itself is exact to 1e−13.";
 const WAYS: &str = "κ is the roughness g at 550 nm and the angles of a sample; S(g, b) is the diffuse sum of Eq 2, made to the error said.";
 const CERTIFIED: &str = "Diffuse part: the largest error seen in the check against the sum over all wavelengths, times a margin, \
                          relative to J(κ, 0) at the sample's κ; where no sample is seen from near the mirror's direction it is kept \
@@ -147,7 +148,11 @@ const ESTIMATED: &str = "Times by a model of the program's methods, not measured
 /// What a way costs by the model.
 fn cost(candidate: &Candidate) -> String {
     let [sample, making] = [candidate.sample_ns, candidate.making_ns].map(|ns| duration(ns * 1e-9));
-    format!("{sample} a sample, {making} to make")
+    if candidate.making_ns > 0.0 {
+        format!("{sample} a sample, {making} to make")
+    } else {
+        format!("{sample} a sample, nothing to make")
+    }
 }
 
 /// A way that was not taken, with why.

@@ -14,7 +14,7 @@ use chromascope::scene::Scene;
 use chromascope::view::accuracy::Shows;
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::accuracy::Accuracy;
-use chromascope_core::figure::Shape;
+use chromascope_core::figure::{Ink, InkRole, Shape};
 use chromascope_core::render::Stop;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -98,9 +98,21 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
         let svg = chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, paper);
         assert!(svg.contains("</svg>") && !svg.contains("NaN") && !figure.table.to_csv().contains("NaN"));
     }
+    let figure = panes::figure(PaneKind::Accuracy, &scene, window.state().view()).expect("measured");
+    let (conditions, csv) = (&measured.conditions, figure.table.to_csv());
+    assert!(conditions.scene.starts_with("head, Skin Caucasian mean") && conditions.scene.contains("E, equal energy"));
+    for part in [&conditions.scene, &conditions.machine, &conditions.program, &conditions.began] {
+        assert!(!part.is_empty() && figure.caption.contains(part), "{}", figure.caption);
+        assert!(csv.contains(part), "{part}");
+    }
+    assert!(csv.contains("largest error (of the peak J(κ, 0))") && csv.contains(" (reference)"), "{csv}");
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::BlackBody)));
     window.run_steps(3);
     assert!(!window.state().view().accuracy.is_current, "the scene has another light than the run");
+    let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
+    let figure = panes::figure(PaneKind::Accuracy, &scene, window.state().view()).expect("measured");
+    assert!(!figure.title.contains("on show") && !figure.caption.contains("on show"), "{}", figure.caption);
+    assert!(figure.caption.contains("E, equal energy"), "the light that it was measured under");
     assert!(window.state().view().accuracy.run.is_some());
 }
 
@@ -116,8 +128,32 @@ fn how_it_was_measured_is_in_sight_in_a_small_window() {
 }
 
 #[test]
+fn methods_say_what_was_measured_and_what_marks_stand_for() {
+    for size in [[900.0, 600.0], [1280.0, 800.0]] {
+        let window = accuracy(size, egui::Theme::Light);
+        for words in ["sum over the grid", "a quality of the program", "cheapest for a tolerance", "What is this?"] {
+            let rect = window.get_by_label(words).rect();
+            assert!(rect.left() >= 0.0 && rect.right() <= size[0], "{words} at {size:?}: {rect:?}");
+        }
+        assert!(window.query_by_label(&run(&window).conditions.scene).is_some());
+        let trial = run(&window).trials[0].clone();
+        assert_eq!(trial.name(0), "401 wavelengths, S to 1e-13 (reference)");
+        assert_eq!(trial.set.map(|set| trial.name(set)).as_deref(), Some("Full: moments, table (set)"));
+        let panel = chromascope::figures::accuracy::panel(&trial, true, [600.0, 400.0]);
+        assert!(panel.marks.iter().any(|mark| mark.name.ends_with(" (set)")));
+        let of_a_camera = |ink: Ink| matches!(ink.role, InkRole::Source(_) | InkRole::Truth | InkRole::Observer);
+        let inks =
+            panel.marks.iter().flat_map(|mark| mark.stroke.map(|stroke| stroke.ink).into_iter().chain(mark.fill));
+        assert!(inks.into_iter().all(|ink| !of_a_camera(ink)), "no method looks like a camera");
+    }
+}
+
+#[test]
 fn a_hidden_camera_is_told_of() {
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
+    let mut settings = window.state().history().document().render.clone();
+    (settings.quality, settings.tolerance) = (QualityChoice::Tolerance, 5e-10);
+    window.state_mut().push(Action::Render(RenderAction::Set { what: "Quality", to: Box::new(settings) }));
     let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70".to_owned(), false);
     window.state_mut().push(Action::Compare(hide));
     window.run_steps(2);
@@ -128,6 +164,9 @@ fn a_hidden_camera_is_told_of() {
     let run = run(&window);
     let row = run.left_out.iter().find(|row| row.what == "sources that are not on show").expect("one is hidden");
     assert_eq!((row.count, row.saved > 0.0), (1, true));
+    let trial = &run.trials[0];
+    let set = trial.name(trial.set.expect("the tolerance that is set is tried too"));
+    assert!(set.starts_with("within ") && set.ends_with("5e-10 (set)"), "{set}");
 }
 
 #[test]

@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
     if settings.quality == QualityChoice::Tolerance {
         let hint =
-            "The largest error of the spectral integral, relative to its peak. Accuracy says how each camera keeps it.";
+            "The largest error of a picture, relative to its brightest sample. Accuracy says how each camera keeps it.";
         let id = ui.make_persistent_id("tolerance field");
         if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "Tolerance", hint, context) {
             set(context, "Tolerance", |settings| settings.tolerance = to);

@@ -1,0 +1,122 @@
+//! What a run was of, and on what: times without that say little.
+
+use chromascope_core::query::render::Roughness;
+use serde::{Deserialize, Serialize};
+
+use super::{SceneRunOf, Subject, Trial};
+use crate::bench::{self, Machine};
+use crate::figures::render::mesh_name;
+use crate::number::number;
+use crate::scene::Scene;
+
+/// What a run was of, and on what.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Conditions {
+    /// Mesh, material, surface and light in words, and through how many sources; empty where nothing was rendered.
+    pub scene: String,
+    /// How many sensors were on show.
+    pub sensors: usize,
+    /// The processor, its threads, its instruction set.
+    pub machine: String,
+    /// The program and its version.
+    pub program: String,
+    /// When it began, in UTC, as `2026-11-21T18:05:11Z`.
+    pub began: String,
+}
+
+impl Conditions {
+    /// Those of a run that begins now.
+    pub(super) fn now(run: &SceneRunOf) -> Self {
+        Self {
+            scene: run.scene.clone(),
+            sensors: run.sensors.len(),
+            machine: Machine::unmeasured().identity(),
+            program: bench::program(),
+            began: bench::now(),
+        }
+    }
+
+    /// What a trial was of, in words.
+    pub fn of(&self, trial: &Trial) -> String {
+        match trial.subject {
+            Subject::Integral => self.scene.clone(),
+            Subject::Loci => {
+                let plural = if self.sensors == 1 { "source" } else { "sources" };
+                format!("black bodies from 1000 to 20 000 K, {} {plural}", self.sensors)
+            }
+        }
+    }
+
+    /// On what and when it was measured, in words.
+    pub fn on(&self) -> String {
+        let known = [&self.machine, &self.program, &self.began].into_iter().filter(|words| !words.is_empty());
+        known.map(String::as_str).collect::<Vec<_>>().join(", ")
+    }
+}
+
+impl Trial {
+    /// What it was measured on, in words.
+    pub fn inputs_in_words(&self) -> String {
+        let what = match self.subject {
+            Subject::Integral => "lit samples",
+            Subject::Loci => "temperatures",
+        };
+        format!("{} {what}", self.inputs)
+    }
+
+    /// A method's name with what it is: the reference, or what is set.
+    pub fn name(&self, index: usize) -> String {
+        let name = self.points.get(index).map_or("", |point| &point.name);
+        match (index == 0, self.set == Some(index)) {
+            (true, true) => format!("{name} (reference, set)"),
+            (true, false) => format!("{name} (reference)"),
+            (false, true) => format!("{name} (set)"),
+            (false, false) => name.to_owned(),
+        }
+    }
+}
+
+impl Subject {
+    /// What is computed, in a few words.
+    pub const fn what(self) -> &'static str {
+        match self {
+            Self::Integral => "the diffuse spectral integral of rendered samples",
+            Self::Loci => "Planckian loci",
+        }
+    }
+
+    /// What is measured, in sentences for somebody who asks.
+    pub const fn explained(self) -> &'static str {
+        match self {
+            Self::Integral => {
+                "The diffuse integral J(κ, β) over wavelength, without the mirror lobe, at lit samples spread over the picture, \
+                 through each source. κ is the roughness g at 550 nm and a sample's angles, β how far off the mirror's direction \
+                 it is seen; S(g, b) is the sum under the integral. Errors are relative to J(κ, 0), the peak at the sample's κ; \
+                 of several sources the worst counts, and times are means. The reference is the sum over all 401 wavelengths with \
+                 S to 1e-13; promises are checked against that sum too. A tolerance is of the picture's brightest sample: where no sample \
+                 is seen from near the mirror's direction, its integral is kept to less of the peak, as in “within 3.1e-11, for \
+                 5e-10”."
+            }
+            Self::Loci => {
+                "The three signals of black bodies through each sensor on show; mesh, material and light have no part in it. \
+                 Errors are relative to the largest of the three signals; of several sources the worst counts, and times are \
+                 means. The reference is the sum over each nanometer; promises are of that sum too."
+            }
+        }
+    }
+}
+
+/// What a scene renders, in words.
+pub(super) fn words(scene: &Scene<'_>, sources: usize) -> String {
+    let settings = &scene.document.render;
+    let sigma = match settings.roughness.roughness() {
+        Roughness::Mesh => "σ of the mesh".to_owned(),
+        Roughness::Surface => format!("σ {} µm", number(settings.sigma_um)),
+    };
+    let reading = settings.reading.label();
+    let (mesh, light) = (mesh_name(&settings.mesh), scene.light_name());
+    let light = if light == "E" { "E, equal energy".to_owned() } else { light };
+    let plural = if sources == 1 { "source" } else { "sources" };
+    format!("{mesh}, {}, {sigma}, {reading}, under {light}, {sources} {plural}", settings.material)
+}
