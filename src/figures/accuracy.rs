@@ -106,7 +106,7 @@ pub fn figure(view: &View) -> Option<Figure> {
     figure.legend = legend(trial);
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(
-        "{}: {}. Measured on: {}. Times are medians over rounds in which the methods take turns, for {}, on one \
+        "{}: {}. {} Times are medians over rounds in which the methods take turns, for {}, on one \
          thread; errors are against {}, {}. The dashed line joins methods that no other beats in both.",
         run.conditions.of(trial),
         trial.inputs_in_words(),

@@ -48,10 +48,11 @@ impl Conditions {
         }
     }
 
-    /// On what and when it was measured, in words.
+    /// On what and when it was measured, a sentence.
     pub fn on(&self) -> String {
         let known = [&self.machine, &self.program, &self.began].into_iter().filter(|words| !words.is_empty());
-        known.map(String::as_str).collect::<Vec<_>>().join(", ")
+        let known = known.map(String::as_str).collect::<Vec<_>>().join(", ");
+        if known.is_empty() { "Measured elsewhere.".to_owned() } else { format!("Measured on: {known}.") }
     }
 }
 

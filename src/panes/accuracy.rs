@@ -61,7 +61,7 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
         return;
     }
     let words = run.conditions.of(trial);
-    let about = format!("{} {MARKS} Measured on: {}.", subject.explained(), run.conditions.on());
+    let about = format!("{} {MARKS} {}", subject.explained(), run.conditions.on());
     let body = above(ui, body, [&words, &about], &accuracy::legend(trial), context);
     let size = [f64::from(body.width()), f64::from(body.height())];
     let panel = accuracy::panel(trial, context.view.accuracy.is_current, size);

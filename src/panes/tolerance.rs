@@ -32,7 +32,7 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
     let on = settings.quality == QualityChoice::Tolerance;
     ui.label("Largest error of a picture, relative to its brightest sample").on_hover_text(TOLERANCE);
-    ui.spacing_mut().slider_width = (ui.available_width() - 84.0).max(60.0);
+    ui.spacing_mut().slider_width = (ui.available_width() - 100.0).max(60.0);
     let id = ui.make_persistent_id("tolerance field");
     let hint = "What the ways below have to keep. Pictures keep it once the box below is ticked; choosing it here does not tick it.";
     if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "", hint, context) {

@@ -8,7 +8,7 @@ use crate::panes::PaneContext;
 /// What can be typed.
 const TAKES: &str = "Any error from 1e−13 to 0.1, such as 5e-10; the slider goes by powers of ten";
 /// Width of the text.
-const TEXT: f32 = 56.0;
+const TEXT: f32 = 72.0;
 
 /// What was typed and not taken: it stays in the field until the tolerance is another or other text is typed.
 #[derive(Clone)]

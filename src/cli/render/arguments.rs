@@ -76,8 +76,8 @@ pub(in crate::cli) struct RenderArguments {
     /// How exactly the sums over wavelengths are made
     #[arg(long, value_enum, default_value_t = QualityName::Full, help_heading = PICTURE)]
     pub(super) quality: QualityName,
-    /// The largest error of the spectral integral, relative to its peak, from 1e-13 to 0.1: the cheapest way that keeps it is
-    /// taken for each camera, and named with the error it is certified for
+    /// The largest error of a picture, relative to its brightest sample, from 1e-13 to 0.1: the cheapest way that keeps it is
+    /// taken for each camera, and named with what is certified of it
     #[arg(long, value_name = "ERROR", value_parser = tolerance, allow_hyphen_values = true, conflicts_with = "quality",
           help_heading = PICTURE)]
     pub(super) tolerance: Option<f64>,
