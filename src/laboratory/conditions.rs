@@ -52,7 +52,11 @@ impl Conditions {
     pub fn on(&self) -> String {
         let known = [&self.machine, &self.program, &self.began].into_iter().filter(|words| !words.is_empty());
         let known = known.map(String::as_str).collect::<Vec<_>>().join(", ");
-        if known.is_empty() { "Measured elsewhere.".to_owned() } else { format!("Measured on: {known}.") }
+        if known.is_empty() {
+            "On what it was measured is not known.".to_owned()
+        } else {
+            format!("Measured on: {known}.")
+        }
     }
 }
 
