@@ -58,7 +58,7 @@ impl Quality {
     }
 
     /// Mirror terms below this share of the brightest sample are left out.
-    fn mirror_share(self) -> f64 {
+    pub fn mirror_share(self) -> f64 {
         match self {
             Self::Preview | Self::Full => MIRROR_SHARE,
             Self::Fine => FINE_MIRROR_SHARE,

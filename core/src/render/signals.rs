@@ -23,8 +23,19 @@ impl CameraImage {
     /// Integrates at every lit sample; none if stopped. `table` may be left out where no sample needs it; where one does and
     /// there is none, sums over wavelengths take its place.
     pub fn new(shading: &ShadingImage, measure: &Measure, table: Option<&DiffuseTable>, stop: &Stop) -> Option<Self> {
-        let quality = shading.quality();
-        Camera { measure, table, quality, plan: None, reach: Reach::in_picture(shading, measure) }.image(shading, stop)
+        Self::with_reach(shading, measure, table, Reach::in_picture(shading, measure), stop)
+    }
+
+    /// The same where it is known how the mirror's lobe is made: what [`Reach::in_picture`] says of this shading or of one like
+    /// it. Finding that may take milliseconds, whatever the number of samples.
+    pub fn with_reach(
+        shading: &ShadingImage,
+        measure: &Measure,
+        table: Option<&DiffuseTable>,
+        reach: Reach,
+        stop: &Stop,
+    ) -> Option<Self> {
+        Camera { measure, table, quality: shading.quality(), plan: None, reach }.image(shading, stop)
     }
 
     /// The same by a plan, for a shading at [`Quality::Within`]; `reach` says how the mirror's lobe is made. What the plan was not
