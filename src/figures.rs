@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod chromaticity;
 pub mod curves;
+pub mod left_out;
 pub mod pareto;
 pub mod render;
 pub mod spectra;

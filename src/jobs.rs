@@ -32,6 +32,8 @@ struct State<Q: Query> {
     stop: Arc<AtomicBool>,
     begun: Option<Instant>,
     shown: Option<Shown<Q::Answer>>,
+    /// What is answered by what is shown.
+    question: Option<Q>,
     failure: Option<String>,
     counts: Vec<(&'static str, Count)>,
     closed: bool,
@@ -71,6 +73,7 @@ where
             stop: Arc::default(),
             begun: None,
             shown: None,
+            question: None,
             failure: None,
             counts: Vec::new(),
             closed: false,
@@ -111,6 +114,12 @@ where
     /// The last answer.
     pub fn shown(&self) -> Option<Shown<Q::Answer>> {
         self.desk.lock().shown.clone()
+    }
+
+    /// The last answer with its question, which may not be the latest that was asked.
+    pub fn answered(&self) -> Option<(Q, Arc<Q::Answer>)> {
+        let state = self.desk.lock();
+        Some((state.question.clone()?, Arc::clone(&state.shown.as_ref()?.answer)))
     }
 
     /// For how long the latest request has been worked on, if it still is.
@@ -189,6 +198,7 @@ fn work<Q: Query>(desk: &Desk<Q>) {
         match answer {
             Ok(answer) => {
                 state.shown = Some(Shown { answer, stage: next, current: true, time, serial });
+                state.question = Some(stages[next].clone());
                 state.next = next + 1;
             }
             Err(panic) => {

@@ -21,9 +21,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::{self, Effort, Report, Workload};
 use crate::jobs::Background;
+use crate::results::Results;
 pub use conditions::Conditions;
-pub use left_out::LeftOut;
-use plans::PlansOf;
+pub use left_out::{LOCI, LeftOut, PATCHES};
+use plans::{PlanAnswer, PlansOf};
 
 /// What does the scene cost by each method, and what was left out?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -167,10 +168,18 @@ impl Query for SceneRunOf {
 
     fn answer(&self, ask: &impl Ask) -> SceneRun {
         let (start, conditions) = (std::time::Instant::now(), Conditions::now(self));
+        let ask = &fresh(ask);
         let trials = [integral::trial(self, ask), loci::trial(self, ask)].into_iter().flatten().collect();
         let left_out = left_out::rows(self, ask);
         SceneRun { conditions, trials, left_out, time: start.elapsed() }
     }
+}
+
+/// Answers of their own: whoever asks remembers those of runs before, whose times would be those of looking them up.
+fn fresh(ask: &impl Ask) -> Results {
+    let results = Results::bounded();
+    results.stop_at(ask.stop());
+    results
 }
 
 /// What does the program cost on a workload of its own, whatever the scene?
@@ -196,8 +205,6 @@ pub struct Laboratory {
     worker: Background<SceneRunOf>,
     bench: Background<BenchOf>,
     plans: Background<PlansOf>,
-    asked: Option<SceneRunOf>,
-    workload: Option<Workload>,
     runs: u64,
 }
 
@@ -209,37 +216,34 @@ impl Laboratory {
             worker: Background::new("scene runs", wake),
             bench: Background::new("bench", third),
             plans: Background::new("plans", also),
-            asked: None,
-            workload: None,
             runs: 0,
         }
     }
 
-    /// The plans of these pictures' sources, as far as they are known; the last ones while others are made.
-    pub fn plans(&self, pictures: &PicturesOf) -> Option<std::sync::Arc<<PlansOf as Query>::Answer>> {
+    /// The plan of each of these pictures' sources, in their order. Until it is made, the last one that was made for the same
+    /// camera, light and material; none while there is a source without one.
+    pub fn plans(&self, pictures: &PicturesOf) -> Option<Vec<PlanAnswer>> {
         self.plans.ask(vec![PlansOf(pictures.clone())]);
-        self.plans.shown().map(|shown| shown.answer)
+        let (of, plans) = self.plans.answered()?;
+        of.plans_for(pictures, &plans)
     }
 
     /// Measures a scene, anew even if it is the same.
     pub fn run(&mut self, scene: SceneRunOf) {
         self.runs += 1;
-        let scene = SceneRunOf { run: self.runs, ..scene };
-        self.asked = Some(scene.clone());
-        self.worker.ask(vec![scene]);
+        self.worker.ask(vec![SceneRunOf { run: self.runs, ..scene }]);
     }
 
     /// Measures a workload of the bench.
     pub fn run_bench(&mut self, workload: Workload) {
         self.runs += 1;
-        self.workload = Some(workload);
         self.bench.ask(vec![BenchOf { workload, run: self.runs }]);
     }
 
     /// The last report of the bench, or why there is none. One that was stopped is not kept.
     pub fn report(&self) -> Option<(Workload, std::sync::Arc<Result<Report, String>>)> {
-        let shown = self.bench.shown().filter(|shown| shown.current)?;
-        Some((self.workload?, shown.answer))
+        let (of, report) = self.bench.answered()?;
+        Some((of.workload, report))
     }
 
     /// Gives up what is being measured.
@@ -250,9 +254,9 @@ impl Laboratory {
 
     /// The last run, and whether it is of this scene.
     pub fn shown(&self, scene: &SceneRunOf) -> Option<(std::sync::Arc<SceneRun>, bool)> {
-        let shown = self.worker.shown()?;
-        let same = self.asked.as_ref().is_some_and(|asked| SceneRunOf { run: asked.run, ..scene.clone() } == *asked);
-        Some((shown.answer, same))
+        let (of, run) = self.worker.answered()?;
+        let same = SceneRunOf { run: of.run, ..scene.clone() } == of;
+        Some((run, same))
     }
 
     /// For how long it has been measured, if it still is.

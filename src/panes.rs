@@ -37,6 +37,9 @@ use crate::theme::Theme;
 use crate::view::View;
 use crate::workspaces::PaneKind;
 
+/// What is said where something is measured.
+const NOT_KEPT: &str = "Measured results are not kept when the program ends: export them.";
+
 /// What a pane is given.
 pub struct PaneContext<'a> {
     /// The document, the data sets and the answers.
@@ -120,7 +123,7 @@ pub fn figure(pane: PaneKind, scene: &Scene<'_>, view: &View) -> Option<Figure> 
         PaneKind::Render => crate::figures::render::figure(scene, view),
         PaneKind::Curves => crate::figures::curves::figure(scene, view),
         PaneKind::Accuracy => crate::figures::accuracy::figure(view),
-        PaneKind::LeftOut => crate::figures::accuracy::left_out_figure(view),
+        PaneKind::LeftOut => crate::figures::left_out::figure(view),
         PaneKind::Tolerance
         | PaneKind::Library
         | PaneKind::Inspector

@@ -1,15 +1,13 @@
 //! Run time against error of the scene on show, as measured.
 
 use chromascope_core::figure::{
-    Anchor, Axis, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Marker, Panel, Rect, Shape, Stroke, Table,
-    Tag, TextSize, Ticks,
+    Cell, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag,
 };
 
 use super::pareto::{self, Place, duration};
 use crate::bench::{Measurement, Report, Workload};
-use crate::laboratory::{Conditions, Family, LeftOut, Point, SceneRun, Subject, Trial};
+use crate::laboratory::{Conditions, Family, Point, SceneRun, Subject, Trial};
 use crate::number::number;
-use crate::results::Count;
 use crate::view::View;
 use crate::view::accuracy::Shows;
 
@@ -136,40 +134,6 @@ pub fn legend(trial: &Trial) -> Vec<LegendEntry> {
     families.into_iter().map(entry).collect()
 }
 
-/// What was left out as bars over time; none before anything was measured or remembered.
-pub fn left_out_figure(view: &View) -> Option<Figure> {
-    let rows = &left_out(view);
-    if rows.is_empty() {
-        return None;
-    }
-    let mut figure = Figure::new("Time saved by what was left out", [SIZE[0], 60.0 + 24.0 * rows.len() as f64]);
-    let saved = |row: &LeftOut| row.saved.max(1e-9).log10();
-    let (low, high) = rows.iter().map(saved).fold((-6.0_f64, -3.0_f64), |(low, high), s| (low.min(s), high.max(s)));
-    let (low, high) = (low.floor(), high.ceil() + 3.0);
-    let ticks = (low as i32..=high as i32).map(|e| (f64::from(e), duration(10_f64.powi(e)))).collect();
-    let x = Axis::new("time saved on this scene", [low, high]).with_ticks(Ticks::At(ticks));
-    let y = Axis::new("", [rows.len() as f64, 0.0]).with_ticks(Ticks::None).with_grid(false);
-    let mut panel = Panel::new("left out", Rect::from_min_size([0.0, 0.0], figure.size), x, y);
-    for (index, row) in rows.iter().enumerate() {
-        let middle = index as f64 + 0.5;
-        let bar = Shape::Rect { min: [low, middle - 0.3], max: [saved(row), middle + 0.3] };
-        panel.marks.push(Mark::new(Tag::default(), row.what.as_ref(), bar).with_fill(InkRole::Weak));
-        let text = Shape::Text {
-            at: [saved(row), middle],
-            text: format!("{}, {}", row.what, duration(row.saved)),
-            anchor: Anchor::LEFT,
-            offset: [6.0, 0.0],
-            size: TextSize::Small,
-            ink: InkRole::Text.into(),
-        };
-        panel.marks.push(Mark::new(Tag::default(), row.what.as_ref(), text));
-    }
-    figure.panels.push(panel);
-    "What the scene on show did not compute, and the time that computing it took.".clone_into(&mut figure.caption);
-    figure.table = left_out_table(rows);
-    Some(figure)
-}
-
 fn entry(family: Family) -> LegendEntry {
     LegendEntry {
         name: family.title().to_owned(),
@@ -204,59 +168,6 @@ pub fn table(trial: &Trial) -> Table {
     }
     table
 }
-
-/// What was left out, as numbers.
-pub fn left_out_table(rows: &[LeftOut]) -> Table {
-    let mut table = Table::new(["left out", "count", "of", "time saved (ms)", "measured by"]);
-    for row in rows {
-        table.push([
-            row.what.as_ref().into(),
-            Cell::Number(row.count as f64),
-            row.of.map(|of| of as f64).into(),
-            Cell::Number(row.saved * 1e3),
-            row.how.as_str().into(),
-        ]);
-    }
-    table
-}
-
-/// What was left out: as the last run measured it, and what was remembered since the start.
-pub fn left_out(view: &View) -> Vec<LeftOut> {
-    let mut rows = view.accuracy.run.as_ref().map_or_else(Vec::new, |run| run.left_out.clone());
-    rows.extend(view.accuracy.remembered.iter().cloned());
-    rows
-}
-
-/// What was remembered since the start, by kind of question.
-pub fn remembered(counts: &[(&'static str, Count)]) -> Vec<LeftOut> {
-    let reused = |&(name, count): &(&'static str, Count)| {
-        let each = count.own_time.as_secs_f64() / count.misses.max(1) as f64;
-        let what = STAGES.iter().find(|(stage, _)| *stage == name)?.1;
-        (count.hits > 0).then(|| LeftOut {
-            what: what.into(),
-            count: count.hits,
-            of: Some(count.hits + count.misses),
-            saved: each * count.hits as f64,
-            how: format!("remembered since the start; made {} times, {} each", count.misses, duration(each)),
-        })
-    };
-    counts.iter().filter_map(reused).collect()
-}
-
-/// Stages whose answers are worth telling of when they are remembered.
-const STAGES: [(&str, &str); 11] = [
-    ("mesh", "meshes"),
-    ("shadow tree", "shadow trees"),
-    ("visibility", "visibilities of a mesh"),
-    ("geometry", "angles and shadows"),
-    ("shading", "surfaces at all samples"),
-    ("diffuse table", "tables of a camera"),
-    ("camera image", "signals of a camera"),
-    ("picture", "pixels of a picture"),
-    ("locus", "loci"),
-    ("radiator signals", "black bodies through a sensor"),
-    ("patch colors", "patches of a source"),
-];
 
 /// What is known about a method of the bench, a line each.
 pub fn describe_measurement(m: &Measurement) -> Vec<String> {

@@ -13,8 +13,24 @@ use chromascope_core::render::plan::{Candidate, Explanation, Method};
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PlansOf(pub PicturesOf);
 
+/// A source's plan; none where no tolerance was asked for, and if stopped.
+pub type PlanAnswer = Result<Option<Planned>, NoRendering>;
+
+impl PlansOf {
+    /// What was answered as far as it is of other pictures' sources, in their order: a plan is its camera's under a light with
+    /// a material. None if one is missing.
+    pub(super) fn plans_for(&self, pictures: &PicturesOf, plans: &[PlanAnswer]) -> Option<Vec<PlanAnswer>> {
+        let known: Vec<_> = self.0.sources.iter().map(|source| self.0.image(&source.rendering).measure).collect();
+        let plan = |source: &SourceOf| {
+            let measure = pictures.image(&source.rendering).measure;
+            plans.get(known.iter().position(|known| *known == measure)?).cloned()
+        };
+        pictures.sources.iter().map(plan).collect()
+    }
+}
+
 impl Query for PlansOf {
-    type Answer = Vec<Result<Option<Planned>, NoRendering>>;
+    type Answer = Vec<PlanAnswer>;
     const NAME: &'static str = "plans";
     const KEPT: usize = 8;
 
@@ -74,7 +90,7 @@ impl Certain {
 }
 
 /// The plan of one source; none where no tolerance was asked for, and if stopped.
-pub fn planned(pictures: &PicturesOf, source: &SourceOf, ask: &impl Ask) -> Result<Option<Planned>, NoRendering> {
+pub fn planned(pictures: &PicturesOf, source: &SourceOf, ask: &impl Ask) -> PlanAnswer {
     let shading = ask.ask(&pictures.shading);
     let Some(shading) = (*shading).as_ref() else { return Ok(None) };
     let (Some(tolerance), Some(accuracy)) = (shading.quality().accuracy(), shading.plan_accuracy()) else {

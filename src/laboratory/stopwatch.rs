@@ -41,6 +41,11 @@ pub(super) fn once<T>(work: impl FnOnce() -> T) -> (T, f64) {
     (made, begun.elapsed().as_secs_f64())
 }
 
+/// The shortest that something takes of three times.
+pub(super) fn shortest<T>(mut work: impl FnMut() -> T) -> f64 {
+    (0..3).map(|_| once(&mut work).1).fold(f64::INFINITY, f64::min)
+}
+
 fn median(mut times: Vec<f64>) -> f64 {
     times.sort_by(f64::total_cmp);
     times.get(times.len() / 2).copied().unwrap_or(0.0)

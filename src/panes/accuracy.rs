@@ -200,7 +200,7 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
         Shows::Scene(_) => context.view.accuracy.run.is_some(),
         Shows::Bench(workload) => context.view.accuracy.reports.contains_key(&workload),
     };
-    let hint = "Measures the methods, and on a scene what was left out of it. Takes some seconds.";
+    let hint = "Measures the methods, and on a scene what was left out of it. Takes some seconds. What was measured is not kept when the program ends: export it.";
     if ui.button(if again { "Run again" } else { "Run" }).on_hover_text(hint).clicked() {
         context.push(measure(now));
     }
@@ -215,10 +215,11 @@ fn measure(shows: Shows) -> Command {
 
 /// A sentence, and the way to have something in its place.
 fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &mut PaneContext<'_>) {
-    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 72.0)).intersect(body);
+    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 96.0)).intersect(body);
     let layout = egui::Layout::top_down(egui::Align::Center);
     let mut child = ui.new_child(UiBuilder::new().id_salt("nothing measured").max_rect(place).layout(layout));
     child.label(words);
+    child.label(RichText::new(super::NOT_KEPT).small().color(context.theme.weak));
     child.add_space(UNIT);
     if context.laboratory.busy().is_some() {
         child.label("Measuring…");

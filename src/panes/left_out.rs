@@ -5,7 +5,7 @@ use egui::{Align, Label, Layout, Rect, RichText, ScrollArea, TextStyle, Ui, UiBu
 
 use super::PaneContext;
 use crate::command::Command;
-use crate::figures::accuracy;
+use crate::figures::left_out::{self, OVERLAP, Section};
 use crate::figures::pareto::duration;
 use crate::laboratory::LeftOut;
 use crate::theme::UNIT;
@@ -17,11 +17,13 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     context.refresh_run();
     let body = widgets::pane(ui, PaneKind::LeftOut, rect, context, |_, _| {});
     if !context.view.fixed_clock {
-        context.view.accuracy.remembered = accuracy::remembered(&context.counts());
+        let run = context.view.accuracy.run.clone();
+        let measured = run.as_ref().map_or(&[][..], |run| &run.left_out);
+        context.view.accuracy.remembered = left_out::remembered(&context.counts(), measured);
     }
-    let rows = accuracy::left_out(context.view);
+    let sections = left_out::sections(context.view);
     if context.view.saved.tables.contains(&PaneKind::LeftOut) {
-        widgets::data_table(ui, body, "left out", &accuracy::left_out_table(&rows));
+        widgets::data_table(ui, body, "left out", &left_out::table(&sections));
         return;
     }
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
@@ -36,7 +38,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
                 ui.label("measures what was not computed on this scene, by computing it.");
             });
         }
-        table(ui, &rows, context);
+        table(ui, &sections, context);
     });
 }
 
@@ -46,13 +48,15 @@ const WIDE: f32 = 900.0;
 const TIME: f32 = 72.0;
 const COUNT: f32 = 210.0;
 
-fn table(ui: &mut Ui, rows: &[LeftOut], context: &PaneContext<'_>) {
+fn table(ui: &mut Ui, sections: &[Section], context: &PaneContext<'_>) {
     let theme = context.theme;
     let small = |words: &str| RichText::new(words).small().color(theme.weak);
     let width = ui.available_width() - 2.0 * UNIT;
     let name = |what: &str| text_width(what, TextSize::Body) as f32 + 2.0 * UNIT;
-    let what = rows.iter().map(|row| name(&row.what)).fold(0.0, f32::max).min(width - TIME - COUNT);
+    let rows = sections.iter().flat_map(|section| &section.rows);
     let wide = width >= WIDE;
+    let first = if wide { "Left out" } else { "Left out, and how that was measured" };
+    let what = rows.map(|row| name(&row.what)).fold(name(first), f32::max).min(width - TIME - COUNT);
     ui.spacing_mut().item_spacing = Vec2::new(2.0 * UNIT, 0.25 * UNIT);
     let line = |ui: &mut Ui, cells: [RichText; 3], how: RichText| {
         ui.horizontal_top(|ui| {
@@ -64,17 +68,33 @@ fn table(ui: &mut Ui, rows: &[LeftOut], context: &PaneContext<'_>) {
             }
         });
     };
-    let first = if wide { "Left out" } else { "Left out, and how that was measured" };
-    line(ui, [first, "Time saved", "How many"].map(small), small("Measured by"));
-    for row in rows {
-        ui.add_space(UNIT);
-        let saved = if row.saved > 0.0 { duration(row.saved) } else { "–".to_owned() };
-        let cells =
-            [RichText::new(row.what.as_ref()), RichText::new(saved).monospace(), RichText::new(count(row)).monospace()];
-        line(ui, cells, small(&row.how));
-        if !wide {
-            ui.add(Label::new(small(&row.how)).wrap());
+    line(ui, [first, "Time saved", "How many"].map(small), small(if wide { "Measured by" } else { "" }));
+    for (index, section) in sections.iter().enumerate() {
+        ui.add_space(if index == 0 { UNIT } else { 3.0 * UNIT });
+        ui.horizontal_wrapped(|ui| {
+            let color = if section.is_old { theme.warning } else { theme.text };
+            ui.label(RichText::new(left_out::capital(section.when)).strong().color(color));
+            if index == 0 {
+                ui.label(small(OVERLAP));
+            }
+        });
+        for row in &section.rows {
+            ui.add_space(UNIT);
+            let saved = if row.saved > 0.0 { duration(row.saved) } else { "–".to_owned() };
+            let cells = [
+                RichText::new(row.what.as_ref()),
+                RichText::new(saved).monospace(),
+                RichText::new(count(row)).monospace(),
+            ];
+            line(ui, cells, small(&row.how));
+            if !wide {
+                ui.add(Label::new(small(&row.how)).wrap());
+            }
         }
+    }
+    if context.view.accuracy.run.is_some() {
+        ui.add_space(2.0 * UNIT);
+        ui.label(small(super::NOT_KEPT));
     }
 }
 

@@ -18,6 +18,7 @@ mod import_looks;
 mod import_switches;
 mod import_text;
 mod inspector;
+mod laboratory;
 mod library;
 mod meshes;
 mod opened;

@@ -1,0 +1,181 @@
+//! What was not computed, and the time that this saved: as a run measured it, and by memory since the start.
+
+use chromascope_core::figure::{
+    Anchor, Axis, Cell, Figure, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks,
+};
+
+use super::pareto::duration;
+use crate::laboratory::{LOCI, LeftOut, PATCHES};
+use crate::results::Count;
+use crate::view::View;
+
+/// The width of a saved figure, and the height of a row and of what is around them, in points.
+const WIDTH: f64 = 640.0;
+const ROW: f64 = 24.0;
+const AROUND: f64 = 60.0;
+
+/// What is said of all rows.
+pub const OVERLAP: &str = "Rows overlap: their times do not add up.";
+
+const SINCE_THE_START: &str = "remembered since the start";
+
+/// Rows that were found alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// When that was.
+    pub when: &'static str,
+    /// Whether it is of the scene as it was.
+    pub is_old: bool,
+    /// The rows.
+    pub rows: Vec<LeftOut>,
+}
+
+/// What was left out: as the last run measured it, and what was remembered since the start. Sections without rows are none.
+pub fn sections(view: &View) -> Vec<Section> {
+    let accuracy = &view.accuracy;
+    let at_the_run =
+        if accuracy.is_current { "measured at the run" } else { "measured at the run, of the scene as it was" };
+    let run = accuracy.run.as_ref().map_or_else(Vec::new, |run| run.left_out.clone());
+    let sections = [
+        Section { when: at_the_run, is_old: !accuracy.is_current, rows: run },
+        Section { when: SINCE_THE_START, is_old: false, rows: accuracy.remembered.clone() },
+    ];
+    sections.into_iter().filter(|section| !section.rows.is_empty()).collect()
+}
+
+/// As bars over time; none before anything was measured or remembered.
+pub fn figure(view: &View) -> Option<Figure> {
+    let sections = sections(view);
+    let rows = || sections.iter().flat_map(|section| &section.rows);
+    let lines = rows().count() + sections.len();
+    if sections.is_empty() {
+        return None;
+    }
+    let mut figure = Figure::new("Time saved by what was left out", [WIDTH, AROUND + ROW * lines as f64]);
+    let saved = |row: &LeftOut| row.saved.max(1e-9).log10();
+    let timed = rows().filter(|row| row.saved > 0.0).map(saved);
+    let (low, high) = timed.fold((-6.0_f64, -3.0_f64), |(low, high), s| (low.min(s), high.max(s)));
+    let (low, high) = (low.floor(), high.ceil() + 4.0);
+    let ticks = (low as i32..=high as i32).map(|e| (f64::from(e), duration(10_f64.powi(e)))).collect();
+    let x = Axis::new("time saved", [low, high]).with_ticks(Ticks::At(ticks));
+    let y = Axis::new("", [lines as f64, 0.0]).with_ticks(Ticks::None).with_grid(false);
+    let mut panel = Panel::new("left out", Rect::from_min_size([0.0, 0.0], figure.size), x, y);
+    let text = |name: &str, at: [f64; 2], text: String| {
+        let (anchor, offset, size, ink) = (Anchor::LEFT, [6.0, 0.0], TextSize::Small, InkRole::Text.into());
+        Mark::new(Tag::default(), name, Shape::Text { at, text, anchor, offset, size, ink })
+    };
+    let mut middle = 0.5;
+    for section in &sections {
+        panel.marks.push(text(section.when, [low, middle], capital(section.when)));
+        for row in &section.rows {
+            middle += 1.0;
+            let mut end = low;
+            if row.saved > 0.0 {
+                end = saved(row);
+                let bar = Shape::Rect { min: [low, middle - 0.3], max: [end, middle + 0.3] };
+                panel.marks.push(Mark::new(Tag::default(), row.what.as_ref(), bar).with_fill(InkRole::Weak));
+            }
+            panel.marks.push(text(&row.what, [end, middle], format!("{}, {}", row.what, time(row))));
+        }
+        middle += 1.0;
+    }
+    figure.panels.push(panel);
+    figure.caption = format!("What was not computed, and the time that computing it takes. {OVERLAP}");
+    figure.table = table(&sections);
+    Some(figure)
+}
+
+/// A row's time in words.
+fn time(row: &LeftOut) -> String {
+    if row.saved > 0.0 { duration(row.saved) } else { "time not measured".to_owned() }
+}
+
+/// A section's head.
+pub fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// As numbers.
+pub fn table(sections: &[Section]) -> Table {
+    let mut table = Table::new(["left out", "count", "of", "time saved (ms)", "measured by", "when"]);
+    for section in sections {
+        for row in &section.rows {
+            table.push([
+                row.what.as_ref().into(),
+                Cell::Number(row.count as f64),
+                row.of.map(|of| of as f64).into(),
+                (row.saved > 0.0).then_some(row.saved * 1e3).into(),
+                row.how.as_str().into(),
+                section.when.into(),
+            ]);
+        }
+    }
+    table
+}
+
+/// What was remembered since the start, by kind of question. What a run measures from nothing, `run` says the time of.
+pub fn remembered(counts: &[(&'static str, Count)], run: &[LeftOut]) -> Vec<LeftOut> {
+    let reused = |&(name, count): &(&'static str, Count)| {
+        let what = STAGES.iter().find(|(stage, _)| *stage == name)?.1;
+        let made = format!("made {} times", count.misses);
+        let (each, how) = match FROM_NOTHING.iter().find(|(stage, _)| *stage == name) {
+            None => {
+                let each = count.own_time.as_secs_f64() / count.misses.max(1) as f64;
+                (each, format!("{made}, {} each, with what it is made of at hand", duration(each)))
+            }
+            Some((_, row)) => match run.iter().find(|measured| measured.what == *row) {
+                Some(measured) => {
+                    let each = measured.saved / measured.count.max(1) as f64;
+                    (each, format!("{made}, {} each, as measured at the run from nothing", duration(each)))
+                }
+                None => (0.0, format!("{made}; Run measures the time of one")),
+            },
+        };
+        (count.hits > 0).then(|| LeftOut {
+            what: what.into(),
+            count: count.hits,
+            of: Some(count.hits + count.misses),
+            saved: each * count.hits as f64,
+            how,
+        })
+    };
+    counts.iter().filter_map(reused).collect()
+}
+
+/// Stages that a run measures from nothing, with its rows.
+const FROM_NOTHING: [(&str, &str); 2] = [("locus", LOCI), ("patch colors", PATCHES)];
+
+/// Stages whose answers are worth telling of when they are remembered.
+const STAGES: [(&str, &str); 11] = [
+    ("mesh", "meshes"),
+    ("shadow tree", "shadow trees"),
+    ("visibility", "visibilities of a mesh"),
+    ("geometry", "angles and shadows"),
+    ("shading", "surfaces at all samples"),
+    ("diffuse table", "tables of a camera"),
+    ("camera image", "signals of a camera"),
+    ("picture", "pixels of a picture"),
+    ("locus", "loci"),
+    ("radiator signals", "black bodies through a sensor"),
+    ("patch colors", "patches of a source"),
+];
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn a_locus_takes_one_time_whoever_tells() {
+        let time = Duration::from_micros(100);
+        let counts =
+            [("locus", Count { hits: 10, misses: 2, time, own_time: time }), ("patch colors", Count::default())];
+        let run = LeftOut { what: LOCI.into(), count: 4, of: None, saved: 0.02, how: String::new() };
+        let rows = remembered(&counts, &[run]);
+        assert_eq!(rows.len(), 1, "what was not asked for again saved nothing");
+        assert!((rows[0].saved - 0.05).abs() < 1e-12, "10 times 5 ms: {}", rows[0].saved);
+        assert_eq!(remembered(&counts, &[])[0].saved, 0.0, "not known before a run");
+    }
+}

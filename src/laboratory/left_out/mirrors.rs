@@ -1,0 +1,71 @@
+//! Mirror terms too small to be seen.
+
+use std::collections::BTreeSet;
+
+use chromascope_core::query::Ask;
+use chromascope_core::query::render::DeviationsOf;
+use chromascope_core::reflectance::{Geometry, Reading, Surface, coherent_prefactor, kappa};
+use chromascope_core::render::Measure;
+use chromascope_core::render::mirror::{Nodes, Reach, mirror_sum};
+use chromascope_core::render::shading::Mirror;
+
+use super::{LeftOut, SUMS, Sources, measured_on, some_of};
+use crate::laboratory::stopwatch::shortest;
+
+/// They are made here, as the quality in use makes those that it has. None where the reading has no mirror.
+pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<LeftOut> {
+    let shading = sources.shading;
+    let quality = shading.quality();
+    let of = &sources.pictures.shading;
+    let all = shading.shades().len();
+    let has: BTreeSet<u32> = shading.mirrors().iter().map(|mirror| mirror.index).collect();
+    let skipped: Vec<usize> = (0..all).filter(|&index| !has.contains(&(index as u32))).collect();
+    if of.reading == Reading::Lambertian || skipped.is_empty() {
+        return None;
+    }
+    let deviations = shading.vertices().map(|_| ask.ask(&DeviationsOf(of.geometry.visibility.mesh.clone())));
+    let surface = *shading.surface();
+    let place = |index: usize| -> Option<(Geometry, f64, Surface)> {
+        match (shading.vertices(), &deviations) {
+            (Some(vertices), Some(deviations)) => {
+                let sigma = deviations.get(index).copied().unwrap_or(0.0);
+                Some((*vertices.geometries().get(index)?, 1.0, surface.with_sigma(sigma.into())))
+            }
+            _ => shading.geometry().angles().get(index).map(|angles| (angles.geometry(), angles.light(), surface)),
+        }
+    };
+    let mirror = |index: &usize| {
+        let (geometry, light, surface) = place(*index)?;
+        Some(Mirror {
+            index: *index as u32,
+            front: light * coherent_prefactor(&surface, &geometry, of.reading),
+            kappa: kappa(&surface, &geometry),
+            v: [geometry.vx_by_k, geometry.vy_by_k],
+        })
+    };
+    let taken: Vec<Mirror> = some_of(&skipped, SUMS).iter().filter_map(mirror).collect();
+    let reach = |measure: &Measure| {
+        // Of a picture without any it is not known how much smaller than their height lobes have to be right.
+        let any = !shading.mirrors().is_empty();
+        if any { Reach::in_picture(shading, measure) } else { Reach::of(quality, measure) }
+    };
+    let reaches: Vec<Reach> = sources.measures().map(reach).collect();
+    let radius = shading.geometry().angular_radius();
+    let sum = |(measure, reach): (&Measure, &Reach)| {
+        let Reach { still_m, settled_m, quick } = *reach;
+        let nodes = Nodes { smooth: measure.fine(), every: measure.dense(), still_m, settled_m, quick };
+        taken.iter().map(|mirror| mirror_sum(mirror, &surface, nodes, radius)).collect::<Vec<_>>()
+    };
+    let seconds = shortest(|| sources.measures().zip(&reaches).map(sum).collect::<Vec<_>>());
+    Some(LeftOut {
+        what: "mirror terms".into(),
+        count: skipped.len() as u64,
+        of: Some(all as u64),
+        saved: seconds * skipped.len() as f64 / taken.len().max(1) as f64,
+        how: format!(
+            "below {:.0e} of the picture's brightest sample; made as this quality makes those that it has; {}, one thread",
+            quality.mirror_share(),
+            measured_on(taken.len(), skipped.len(), sources.places())
+        ),
+    })
+}

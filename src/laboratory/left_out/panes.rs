@@ -1,0 +1,59 @@
+//! What nobody looks at: each is computed here from nothing, so that its time is that of the first time.
+
+use chromascope_core::query::Ask;
+use chromascope_core::query::render::PicturesOf;
+
+use super::LeftOut;
+use crate::laboratory::stopwatch::once;
+use crate::laboratory::{SceneRunOf, fresh};
+
+/// The row of the loci.
+pub const LOCI: &str = "loci, while Chromaticity is not on show";
+/// The row of the patches.
+pub const PATCHES: &str = "patches of a source, while nothing shows them";
+
+/// On how many threads questions are answered here.
+fn threads() -> String {
+    match rayon::current_num_threads() {
+        1 => "one thread".to_owned(),
+        threads => format!("up to {threads} threads"),
+    }
+}
+
+/// Cameras that are not on show: their signals are made here.
+pub(super) fn cameras(run: &SceneRunOf, pictures: &PicturesOf, ask: &impl Ask) -> Option<LeftOut> {
+    let ((), seconds) = once(|| run.hidden.iter().for_each(|hidden| drop(ask.ask(&pictures.image(&hidden.rendering)))));
+    (!run.hidden.is_empty()).then(|| LeftOut {
+        what: "sources that are not on show".into(),
+        count: run.hidden.len() as u64,
+        of: Some((run.hidden.len() + pictures.sources.len()) as u64),
+        saved: seconds,
+        how: format!("their signals, made once with what all sources share at hand; {}", threads()),
+    })
+}
+
+/// The pictures of a workspace that is not on show.
+pub(super) fn pictures(pictures: &PicturesOf, ask: &impl Ask) -> Option<LeftOut> {
+    let fresh = fresh(ask);
+    let (answer, seconds) = once(|| fresh.ask(pictures));
+    matches!(&*answer, Ok(Some(_))).then(|| LeftOut {
+        what: "pictures, while Render is not on show".into(),
+        count: pictures.sources.len() as u64,
+        of: None,
+        saved: seconds,
+        how: format!("made once from nothing, mesh, shadows and tables included; {}", threads()),
+    })
+}
+
+/// What other panes would ask for.
+pub(super) fn others(run: &SceneRunOf, ask: &impl Ask) -> Vec<LeftOut> {
+    let row = |what: &'static str, count: usize, work: &dyn Fn()| {
+        let ((), saved) = once(work);
+        let how = format!("each made once from nothing; {}", threads());
+        (count > 0).then_some(LeftOut { what: what.into(), count: count as u64, of: None, saved, how })
+    };
+    let loci = row(LOCI, run.loci.len(), &|| run.loci.iter().for_each(|locus| drop(fresh(ask).ask(locus))));
+    let patches =
+        row(PATCHES, run.patches.len(), &|| run.patches.iter().for_each(|patches| drop(fresh(ask).ask(patches))));
+    [loci, patches].into_iter().flatten().collect()
+}

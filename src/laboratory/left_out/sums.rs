@@ -1,0 +1,73 @@
+//! Sums over wavelengths that were not made.
+
+use chromascope_core::reflectance::Precision;
+use chromascope_core::render::diffuse::by_nodes;
+use chromascope_core::render::shading::{Shade, Way};
+use chromascope_core::render::{Measure, Quality};
+
+use super::{LeftOut, SAMPLES, SUMS, Sources, measured_on, some_of};
+use crate::laboratory::stopwatch::shortest;
+
+/// What is dark: its sums are made here.
+pub(super) fn dark(sources: &Sources<'_>) -> Option<LeftOut> {
+    let shades = sources.shading.shades();
+    let dark: Vec<&Shade> = shades.iter().filter(|shade| shade.way == Way::Dark).collect();
+    let taken = some_of(&dark, SAMPLES);
+    if taken.is_empty() {
+        return None;
+    }
+    let sum = |measure: &Measure| {
+        let sum = |shade: &&Shade| by_nodes(measure.coarse(), shade.kappa, shade.beta, Precision::Fine);
+        taken.iter().map(sum).collect::<Vec<_>>()
+    };
+    let seconds = shortest(|| sources.measures().map(sum).collect::<Vec<_>>());
+    let places = sources.places();
+    let threshold = match sources.pictures.shading.quality {
+        Quality::Preview | Quality::Full | Quality::Within(_) => {
+            "below e^-30 of the peak at their roughness at every wavelength, or the model gives nothing"
+        }
+        Quality::Fine | Quality::Exact | Quality::Regimes => "where the model gives nothing",
+    };
+    Some(LeftOut {
+        what: format!("lit {places} below the threshold").into(),
+        count: dark.len() as u64,
+        of: Some(shades.len() as u64),
+        saved: seconds * dark.len() as f64 / taken.len() as f64,
+        how: format!(
+            "{threshold}: sums at nine wavelengths; {}, one thread",
+            measured_on(taken.len(), dark.len(), places)
+        ),
+    })
+}
+
+/// Wavelengths of the grid that were not looked at: the sums over all are made here.
+pub(super) fn wavelengths(sources: &Sources<'_>) -> Option<LeftOut> {
+    let lit = sources.lit();
+    let (mut looked_at, mut all) = (0, 0);
+    for ways in &sources.ways {
+        looked_at += lit.iter().map(|shade| ways.looked_at(shade) as u64).sum::<u64>();
+        all += (ways.measure().dense().len() * lit.len()) as u64;
+    }
+    if looked_at >= all {
+        return None;
+    }
+    let taken = some_of(&lit, SUMS);
+    let sum = |measure: &Measure| {
+        let sum = |shade: &&Shade| by_nodes(measure.dense(), shade.kappa, shade.beta, Precision::Full);
+        taken.iter().map(sum).collect::<Vec<_>>()
+    };
+    let by_sum = shortest(|| sources.measures().map(sum).collect::<Vec<_>>());
+    let now: f64 = sources.ways.iter().map(|ways| ways.seconds(&taken)).sum();
+    let places = sources.places();
+    Some(LeftOut {
+        what: format!("wavelengths at a lit {}", sources.place()).into(),
+        count: all - looked_at,
+        of: Some(all),
+        saved: (by_sum - now).max(0.0) * lit.len() as f64 / taken.len() as f64,
+        how: format!(
+            "those of 401 that the integral is not zero at and S is not made at; sums over all of them, S to 1e-13, less what \
+             integrals cost now; {}, one thread",
+            measured_on(taken.len(), lit.len(), places)
+        ),
+    })
+}

@@ -1,0 +1,82 @@
+//! What the rows of scenes of several kinds count and say.
+
+use chromascope_core::render::RasterSize;
+
+use super::*;
+use crate::catalog::Catalog;
+use crate::document::Document;
+use crate::document::render::{MeshChoice, QualityChoice, ReadingChoice, RenderSettings, RoughnessChoice};
+use crate::results::Results;
+use crate::scene::Scene;
+
+/// The rows of a small picture of the default scene's cameras.
+fn rows_of(change: impl FnOnce(&mut RenderSettings)) -> Vec<LeftOut> {
+    let mut document = Document::default();
+    (document.render.mesh, document.render.triangles) = (MeshChoice::Sphere, 2000);
+    change(&mut document.render);
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let mut run = SceneRunOf::of(&scene, None, None);
+    let pictures = run.pictures.as_mut().expect("there is a mesh");
+    pictures.shading.geometry.visibility.size = RasterSize { width: 64, height: 48, samples: 1 };
+    of_pictures(pictures, &Results::bounded()).expect("nothing stops it")
+}
+
+fn row<'a>(rows: &'a [LeftOut], what: &str) -> Option<&'a LeftOut> {
+    rows.iter().find(|row| row.what == what)
+}
+
+fn tolerance(settings: &mut RenderSettings, tolerance: f64) {
+    (settings.quality, settings.tolerance) = (QualityChoice::Tolerance, tolerance);
+}
+
+#[test]
+fn a_lambertian_surface_leaves_out_no_mirror_and_no_wavelength() {
+    let rows = rows_of(|settings| settings.reading = ReadingChoice::Lambertian);
+    assert!(row(&rows, "mirror terms").is_none(), "there are none to leave out");
+    assert_eq!(rows.len(), 3, "what is not lit: {rows:?}");
+}
+
+#[test]
+fn wavelengths_that_are_looked_at_do_not_count_as_left_out() {
+    let wavelengths = |rows: &[LeftOut]| row(rows, "wavelengths at a lit sample").map(|row| (row.count, row.of));
+    for quality in [QualityChoice::Exact, QualityChoice::Regimes] {
+        assert_eq!(wavelengths(&rows_of(|settings| settings.quality = quality)), None, "{quality:?}");
+    }
+    // Fifteen at each sample, of those of 401 that a source responds at.
+    let Some((fine, Some(of))) = wavelengths(&rows_of(|settings| settings.quality = QualityChoice::Fine)) else {
+        panic!("some are left out");
+    };
+    assert!(fine < of && (of - fine).is_multiple_of(15), "{fine} of {of}");
+    // Moments and tables look at none.
+    let Some((full, Some(of_full))) = wavelengths(&rows_of(|_| ())) else { panic!("all are left out") };
+    assert!(full == of_full && of_full <= of, "{full} of {of_full}: of dark samples no sums are made");
+    // Few samples so exact are summed over some wavelengths or all, as each camera's plan says.
+    let exact = rows_of(|settings| tolerance(settings, 1e-13));
+    let left = wavelengths(&exact).map_or(0, |(count, _)| count);
+    assert!(left < of, "{left} of {of}");
+}
+
+#[test]
+fn what_was_measured_on_a_part_says_so_with_threads_and_threshold() {
+    let rows = rows_of(|_| ());
+    for row in &rows {
+        assert!(row.how.contains("one thread"), "{row:?}");
+    }
+    let mirrors = row(&rows, "mirror terms").expect("left out of a rough surface");
+    assert!(mirrors.count > 200 && mirrors.how.contains("extrapolated from 1"), "{mirrors:?}");
+    assert!(mirrors.how.contains("below 1e-7 of the picture's brightest sample"), "{mirrors:?}");
+    let rows = rows_of(|settings| tolerance(settings, 1e-6));
+    let mirrors = row(&rows, "mirror terms").expect("left out of a rough surface");
+    assert!(mirrors.how.contains("below 1e-7 of"), "a tenth of the tolerance: {mirrors:?}");
+}
+
+#[test]
+fn of_vertices_each_has_a_roughness_of_its_own() {
+    let rows = rows_of(|settings| settings.roughness = RoughnessChoice::Mesh);
+    let beside = row(&rows, "samples beside the mesh").expect("counted");
+    assert!(beside.saved == 0.0 && beside.count > 0 && beside.how.contains("not measured"), "{beside:?}");
+    let mirrors = row(&rows, "mirror terms").expect("left out at most vertices");
+    assert!(mirrors.how.contains("vertices"), "{mirrors:?}");
+    assert!(row(&rows, "wavelengths at a lit vertex").is_some_and(|row| row.saved > 0.0), "{rows:?}");
+}

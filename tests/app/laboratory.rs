@@ -1,0 +1,116 @@
+//! What runs measure, of which scene, and what is said of that.
+
+use chromascope::action::{Action, SceneAction};
+use chromascope::catalog::Catalog;
+use chromascope::command::Command;
+use chromascope::document::render::{MeshChoice, QualityChoice, ReadingChoice};
+use chromascope::document::{Document, Light};
+use chromascope::laboratory::{Laboratory, SceneRunOf};
+use chromascope::panes;
+use chromascope::results::Results;
+use chromascope::scene::Scene;
+use chromascope::workspaces::{PaneKind, Workspace};
+use chromascope_core::query::Ask;
+use chromascope_core::render::RasterSize;
+use egui_kittest::kittest::Queryable;
+
+use crate::screenshots::{accuracy, open};
+
+/// What the default cameras cost on a small picture of a sphere.
+fn small(change: impl FnOnce(&mut Document)) -> SceneRunOf {
+    let mut document = Document::default();
+    (document.render.mesh, document.render.triangles) = (MeshChoice::Sphere, 2000);
+    change(&mut document);
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let mut run = SceneRunOf::of(&Scene { document: &document, catalog: &catalog, results: &results }, None, None);
+    let pictures = run.pictures.as_mut().expect("there is a mesh");
+    pictures.shading.geometry.visibility.size = RasterSize { width: 64, height: 48, samples: 1 };
+    run
+}
+
+#[test]
+fn a_second_run_measures_computing_and_not_remembering() {
+    let scene = small(|document| document.render.reading = ReadingChoice::Lambertian);
+    // As a worker that lives on asks for one run after the other.
+    let results = Results::bounded();
+    let runs = [1, 2].map(|run| results.ask(&SceneRunOf { run, ..scene.clone() }));
+    let of = |run: usize| {
+        let row = runs[run].left_out.iter().find(|row| row.what == "pictures, while Render is not on show");
+        row.expect("made in each run").saved
+    };
+    // Finding them takes less than a thousandth of making them.
+    assert!(of(1) > of(0) / 100.0, "{} s, then {} s", of(0), of(1));
+    assert_eq!(results.counts().len(), 1, "nothing is remembered but the runs: {:?}", results.counts());
+}
+
+#[test]
+fn plans_are_of_the_sources_that_are_asked_for() {
+    let with = |sources: &[usize]| {
+        let run =
+            small(|document| (document.render.quality, document.render.tolerance) = (QualityChoice::Tolerance, 1e-3));
+        let mut pictures = run.pictures.expect("there is a mesh");
+        pictures.sources = sources.iter().map(|&source| pictures.sources[source].clone()).collect();
+        pictures
+    };
+    let (all, fewer, more) = (with(&[0, 1, 2]), with(&[2, 1]), with(&[2, 3]));
+    let laboratory = Laboratory::new(|| ());
+    assert!(laboratory.plans(&all).is_none());
+    laboratory.wait();
+    let plans = laboratory.plans(&all).expect("made");
+    assert!(plans.iter().all(|plan| matches!(plan, Ok(Some(_)))), "{plans:?}");
+    let two = laboratory.plans(&fewer).expect("known from before");
+    assert_eq!(two, [plans[2].clone(), plans[1].clone()]);
+    laboratory.wait();
+    assert!(laboratory.plans(&more).is_none_or(|plans| plans.len() == 2), "none under a wrong name");
+    laboratory.wait();
+    assert_eq!(laboratory.plans(&more).expect("made")[0], plans[2]);
+}
+
+#[test]
+fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
+    let mut window = open([1280.0, 800.0], egui::Theme::Dark);
+    window.state_mut().push(Command::Measure);
+    window.run_steps(2);
+    window.state().laboratory().wait();
+    window.run_steps(3);
+    let is_current = |window: &egui_kittest::Harness<'static, chromascope::app::ChromascopeApp>| {
+        assert!(window.state().view().accuracy.run.is_some());
+        window.state().view().accuracy.is_current
+    };
+    let (now, then) = ("Measured at the run", "Measured at the run, of the scene as it was");
+    assert!(is_current(&window) && window.query_by_label(now).is_some());
+    window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::BlackBody)));
+    window.run_steps(2);
+    window.state_mut().push(Command::Measure);
+    window.run_steps(1);
+    assert!(window.state().laboratory().busy().is_some());
+    window.state_mut().push(Command::StopMeasuring);
+    window.run_steps(3);
+    assert!(!is_current(&window), "of another light than the one on show, though that was asked for");
+    assert!(window.query_by_label(then).is_some() && window.query_by_label(now).is_none());
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
+    let figure = panes::figure(PaneKind::LeftOut, &scene, window.state().view()).expect("measured");
+    assert!(figure.table.to_csv().contains("of the scene as it was"));
+    let svg =
+        chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, chromascope::export::Paper::default());
+    assert!(svg.contains("of the scene as it was") && svg.contains("Rows overlap"));
+    window.state_mut().push(Command::Undo);
+    window.run_steps(3);
+    assert!(is_current(&window), "the scene is again the one that was measured");
+}
+
+#[test]
+fn what_is_remembered_stands_apart_and_what_is_not_kept_is_said() {
+    let window = accuracy([1280.0, 800.0], egui::Theme::Light);
+    let heads = ["Measured at the run", "Remembered since the start"];
+    let [run, start] = heads.map(|head| window.get_by_label(head).rect().top());
+    assert!(run < start);
+    assert!(window.query_by_label("Rows overlap: their times do not add up.").is_some());
+    const KEPT: &str = "Measured results are not kept when the program ends: export them.";
+    assert!(window.query_by_label(KEPT).is_some());
+    let mut window = open([1280.0, 800.0], egui::Theme::Light);
+    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.run_steps(3);
+    assert!(window.query_all_by_label(KEPT).count() > 0, "before anything is measured");
+}
