@@ -16,6 +16,8 @@ use egui_kittest::kittest::Queryable;
 
 use crate::screenshots::{accuracy, open};
 
+const KEPT: &str = "Measured results are not kept when the program ends: export them.";
+
 /// What the default cameras cost on a small picture of a sphere.
 fn small(change: impl FnOnce(&mut Document)) -> SceneRunOf {
     let mut document = Document::default();
@@ -107,7 +109,6 @@ fn what_is_remembered_stands_apart_and_what_is_not_kept_is_said() {
     let [run, start] = heads.map(|head| window.get_by_label(head).rect().top());
     assert!(run < start);
     assert!(window.query_by_label("Rows overlap: their times do not add up.").is_some());
-    const KEPT: &str = "Measured results are not kept when the program ends: export them.";
     assert!(window.query_by_label(KEPT).is_some());
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     window.state_mut().push(Command::Show(Workspace::Accuracy));
