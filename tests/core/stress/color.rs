@@ -216,8 +216,9 @@ fn adaptation(&[x, y, z, a, b, c, ..]: &Case, v: &mut Verdict) {
     // What rounding is of the matrix's own entries.
     let size = matrix.to_cols_array().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let scale = size * from.to_vector().abs().max_element() + to.to_vector().abs().max_element();
-    // Below it the gains are subnormal, with fewer digits.
-    if scale.is_finite() && size > 1e-290 && from.to_vector().abs().max_element() > 1e-290 {
+    // Below it the whites or the gains are subnormal, with fewer digits.
+    let least = from.to_vector().abs().max_element().min(to.to_vector().abs().max_element());
+    if scale.is_finite() && size > 1e-290 && least > 1e-290 {
         v.error((carried - to.to_vector()).abs().max_element() / scale);
     }
 }

@@ -90,10 +90,10 @@ const WALKED: &[(&str, &str)] = &[
     ("render/plan/domain", "Demand::new Demand::kappa Demand::samples Demand::holds position"),
     (
         "render/shading",
-        "ShadingImage::new ShadingImage::by_vertices ShadingImage::demand ShadingImage::needs_table ShadingImage::mirror_scale ShadingImage::mirror_accuracy ShadingImage::plan_accuracy Quality::accuracy",
+        "ShadingImage::new ShadingImage::by_vertices ShadingImage::demand ShadingImage::needs_table ShadingImage::mirror_scale ShadingImage::mirror_accuracy ShadingImage::plan_accuracy Quality::accuracy Quality::mirror_share",
     ),
     ("render/shadow", "ShadowTree::new ShadowTree::is_blocked"),
-    ("render/signals", "CameraImage::new CameraImage::by_plan CameraImage::signals"),
+    ("render/signals", "CameraImage::new CameraImage::by_plan CameraImage::with_reach CameraImage::signals"),
     ("render/vertices", "VertexImage::new"),
     (
         "render/visibility",

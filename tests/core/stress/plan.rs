@@ -393,7 +393,9 @@ fn against_all(shading: &ShadingImage, reading: Reading, measure: &Measure, v: &
     v.holds("parts less exact than the whole", of_parts.into_iter().flatten().all(|part| part <= asked));
     let (geometry, surface) = (Arc::clone(shading.geometry()), *shading.surface());
     let exact = ShadingImage::new(geometry, surface, reading, Quality::Exact, &Stop::NEVER).expect("never stopped");
-    let exact = CameraImage::new(&exact, measure, None, &Stop::NEVER).expect("never stopped");
+    v.holds("the truth leaves more out", exact.quality().mirror_share() <= shading.quality().mirror_share().max(1e-14));
+    let of_truth = Reach::of(Quality::Exact, measure);
+    let exact = CameraImage::with_reach(&exact, measure, None, of_truth, &Stop::NEVER).expect("never stopped");
     let reach = Reach::in_picture(shading, measure);
     let found = CameraImage::by_plan(shading, measure, None, reach, &Stop::NEVER).expect("never stopped");
     let pairs = || found.signals().as_flattened().iter().zip(exact.signals().as_flattened());
