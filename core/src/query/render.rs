@@ -260,21 +260,20 @@ impl Query for CameraImageOf {
         let measure = (*measure).as_ref().map_err(|&e| e)?;
         let shading = ask.ask(&self.shading);
         let Some(shading) = (*shading).as_ref() else { return Ok(None) };
-        if let Some((accuracy, of_lobes)) = shading.plan_accuracy().zip(shading.mirror_accuracy()) {
+        let reach = match Reach::accuracy_in(shading) {
+            Some(accuracy) => (*ask.ask(&ReachOf { measure: self.measure.clone(), accuracy }))?,
+            None => Reach::usual_in(shading, measure),
+        };
+        if let Some(accuracy) = shading.plan_accuracy() {
             let demand = shading.demand();
             let plan = demand.map(|demand| {
                 ask.ask(&PlanOf { measure: self.measure.clone(), accuracy, against: Against::Peak, demand })
             });
             let plan = plan.as_deref().map(|plan| plan.as_ref().map_err(|&e| e)).transpose()?;
-            let reach = if shading.mirrors().is_empty() {
-                Reach::of(Quality::Exact, measure)
-            } else {
-                (*ask.ask(&ReachOf { measure: self.measure.clone(), accuracy: of_lobes }))?
-            };
             return Ok(CameraImage::by_plan(shading, measure, plan, reach, &ask.stop()));
         }
         let table = shading.needs_table().then(|| ask.ask(&DiffuseTableOf(self.measure.clone())));
         let table = table.as_deref().map(|table| table.as_ref().map_err(|&e| e)).transpose()?;
-        Ok(CameraImage::new(shading, measure, table, &ask.stop()))
+        Ok(CameraImage::with_reach(shading, measure, table, reach, &ask.stop()))
     }
 }

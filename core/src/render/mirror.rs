@@ -43,16 +43,27 @@ impl Reach {
     /// That of a picture's quality, relative to the picture's brightest sample: where no sample sees the middle of a lobe, errors
     /// relative to its height have to be so much smaller.
     pub fn in_picture(shading: &ShadingImage, measure: &Measure) -> Self {
-        let (quality, scale) = (shading.quality(), shading.mirror_scale());
+        match Self::accuracy_in(shading) {
+            Some(accuracy) => Self::within(measure, accuracy),
+            None => Self::usual_in(shading, measure),
+        }
+    }
+
+    /// The accuracy that [`Self::within`] has to be made for in a picture; none where the quality's own will do.
+    pub(crate) fn accuracy_in(shading: &ShadingImage) -> Option<Accuracy> {
         if shading.mirrors().is_empty() {
-            return Self::of(Quality::Exact, measure);
+            return None;
         }
-        match (quality, shading.mirror_accuracy()) {
-            (_, Some(accuracy)) => Self::within(measure, accuracy),
-            (Quality::Full, _) if scale < USUAL_SCALE => Self::within(measure, Accuracy::at_best(FULL_ERROR * scale)),
-            (Quality::Fine, _) if scale < USUAL_SCALE => Self::of(Quality::Exact, measure),
-            _ => Self::of(quality, measure),
-        }
+        let scale = shading.mirror_scale();
+        let full = shading.quality() == Quality::Full && scale < USUAL_SCALE;
+        shading.mirror_accuracy().or_else(|| full.then(|| Accuracy::at_best(FULL_ERROR * scale)))
+    }
+
+    /// That of a picture for which there is no such accuracy.
+    pub(crate) fn usual_in(shading: &ShadingImage, measure: &Measure) -> Self {
+        let fine = shading.quality() == Quality::Fine && shading.mirror_scale() < USUAL_SCALE;
+        let none = shading.mirrors().is_empty();
+        Self::of(if fine || none { Quality::Exact } else { shading.quality() }, measure)
     }
 
     /// The widest that keeps the error of this measure's lobe within an accuracy, relative to its height `front Σ|w|`: each of

@@ -46,7 +46,8 @@ impl Lobes {
         at_550_nm: impl Fn(&Lobe) -> f64 + Sync,
         share: f64,
     ) -> Self {
-        let mut highest: Vec<&Lobe> = lobes.iter().collect();
+        // The others make nothing brighter.
+        let mut highest: Vec<&Lobe> = lobes.iter().filter(|lobe| lobe.most > diffuse.brightest).collect();
         let order = |a: &&Lobe, b: &&Lobe| b.most.total_cmp(&a.most).then(a.mirror.index.cmp(&b.mirror.index));
         if highest.len() > LOOKED_AT {
             highest.select_nth_unstable_by(LOOKED_AT, order);
