@@ -344,16 +344,19 @@ impl Material {
         let chunk = GeometryImage::chunk();
         let shade = |index| if stop.is_set() { Shade::DARK } else { self.shade(&place(index)) };
         let shades: Vec<Shade> = (0..count).into_par_iter().with_min_len(chunk).map(shade).collect();
+        let (diffuse, share) = (Brightness::of(&shades), self.quality.mirror_share());
+        // What the lobes add to the picture's brightness leaves out more, never less.
+        let least = share * diffuse.brightest;
         let lobes = |run: usize| {
             let all = (run * chunk..count.min((run + 1) * chunk)).take_while(|_| !stop.is_set());
-            all.filter_map(|index| self.lobe(&place(index), index)).collect()
+            all.filter_map(|index| self.lobe(&place(index), index, least)).collect()
         };
         let lobes: Vec<Vec<Lobe>> = (0..count.div_ceil(chunk)).into_par_iter().map(lobes).collect();
         if stop.is_set() {
             return None;
         }
         let height = |lobe: &Lobe| lobe.at_550_nm(&place(lobe.mirror.index as usize), self.angular_radius);
-        let lobes = Lobes::worth_having(&lobes.concat(), Brightness::of(&shades), height, self.quality.mirror_share());
+        let lobes = Lobes::worth_having(&lobes.concat(), diffuse, height, share);
         Some((shades, lobes))
     }
 
@@ -391,8 +394,8 @@ impl Material {
         }
     }
 
-    /// The mirror term of a sample, if there is one.
-    fn lobe(&self, place: &Place, index: usize) -> Option<Lobe> {
+    /// The mirror term of a sample, if it may be above the least that counts.
+    fn lobe(&self, place: &Place, index: usize, least: f64) -> Option<Lobe> {
         let Place { geometry, light, surface } = place;
         if self.reading == Reading::Lambertian {
             return None;
@@ -406,9 +409,12 @@ impl Material {
         let front = light * coherent_prefactor(surface, geometry, self.reading);
         // Red is where g is least and the lobe widest; blue is where the reading weighs most.
         let height = front * (-kappa * reddest * reddest).exp() * bluest * bluest;
+        if height <= least {
+            return None;
+        }
         let wave_number = std::f64::consts::TAU / (LAST_NM * 1e-9);
         let most = height * rho0_squared_bound(geometry, surface, wave_number, self.angular_radius);
         let mirror = Mirror { index: index as u32, front, kappa, v: [geometry.vx_by_k, geometry.vy_by_k] };
-        (most > 0.0).then_some(Lobe { mirror, height, most })
+        (most > least).then_some(Lobe { mirror, height, most })
     }
 }
