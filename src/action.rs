@@ -153,7 +153,7 @@ impl Action {
             Self::Reset => {
                 let own = std::mem::take(&mut document.own);
                 let unknown = std::mem::take(&mut document.unknown);
-                *document = Document { own, unknown, ..Document::default() };
+                *document = Document { own, unknown, ..document.start.document() };
             }
         }
     }

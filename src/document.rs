@@ -7,6 +7,7 @@ pub mod history;
 pub mod own;
 pub mod render;
 pub mod session;
+pub mod start;
 pub mod uses;
 
 use crate::catalog::Kind;
@@ -14,9 +15,10 @@ use chromascope_core::query::{Metric, Shared};
 use own::OwnSet;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};
+use start::Start;
 
 /// The version of the saved form that this program writes.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What is compared, under which light, with what settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,6 +28,8 @@ pub struct Document {
     pub format: String,
     /// The version of this form.
     pub version: u32,
+    /// The start that it was made from, and that a reset goes back to.
+    pub start: Start,
     /// The cameras and observers on show, in the order of the list. The truth is among them.
     pub compared: Vec<Compared>,
     /// The observer that the others are compared to.
@@ -226,30 +230,31 @@ impl Default for Overlays {
 /// The name of the paper's ground truth.
 pub const TRUTH: &str = "Stiles & Burch 1955 2°";
 /// The observer that matrices are fitted to unless the user says otherwise.
-pub const REFERENCE: &str = "CIE 1931 2°";
+pub const REFERENCE: &str = CIE_1931;
+/// The CIE 1931 2° standard observer.
+pub const CIE_1931: &str = "CIE 1931 2°";
 /// The chart on show unless the user says otherwise.
 pub const CHART: &str = "ColorChecker 24 (Ohta 1997)";
 /// The reflectances that matrices are fitted over.
 pub const TRAINING: &str = "Training reflectances (190)";
 /// The light on the scene unless the user says otherwise.
 pub const LIGHT: &str = "E";
-/// The sources of the first screen with their kind, in order.
-pub const FIRST_SOURCES: [(&str, Kind); 5] = [
-    (TRUTH, Kind::Observer),
-    ("Canon EOS 10D", Kind::Camera),
-    ("Nikon D70", Kind::Camera),
-    ("Kodak DCS200", Kind::Camera),
-    (REFERENCE, Kind::Observer),
-];
 /// The temperatures of a locus unless the user says otherwise, in kelvins.
 pub const LOCUS_RANGE_K: [f64; 2] = [1000.0, 20_000.0];
 
 impl Default for Document {
-    /// The paper's first two experiments.
     fn default() -> Self {
-        let mut document = Self {
+        Start::default().document()
+    }
+}
+
+impl Document {
+    /// The paper's conditions with nothing compared.
+    fn blank(start: Start) -> Self {
+        Self {
             format: "chromascope".to_owned(),
             version: VERSION,
+            start,
             compared: Vec::new(),
             truth: TRUTH.to_owned(),
             light: Light::Set(LIGHT.to_owned()),
@@ -264,15 +269,19 @@ impl Default for Document {
             render: RenderSettings::default(),
             own: Vec::new(),
             unknown: serde_json::Map::new(),
-        };
-        for (name, kind) in FIRST_SOURCES {
-            document.compare(name, kind);
         }
-        document
     }
-}
 
-impl Document {
+    /// The start *Colorimetry*.
+    pub fn colorimetry() -> Self {
+        Start::Colorimetry.document()
+    }
+
+    /// The start *The 2007 paper*.
+    pub fn paper() -> Self {
+        Start::Paper.document()
+    }
+
     /// Puts a source on show, in the first free place of the palette.
     pub fn compare(&mut self, name: &str, kind: Kind) {
         if self.compared.iter().any(|c| c.kind == kind && c.name == name) {

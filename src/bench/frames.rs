@@ -23,8 +23,8 @@ use super::{BenchError, Workload};
 /// The truth and the cameras of the paper's third experiment.
 const SOURCES: [&str; 4] = [
     "observers/stiles_burch_1955_2deg.csv",
-    "cameras/canon_eos_10d.csv",
-    "cameras/nikon_d70.csv",
+    "cameras/canon_eos_10d_2007_figure.csv",
+    "cameras/nikon_d70_2007_figure.csv",
     "cameras/kodak_dcs200.csv",
 ];
 /// The side of the frames that errors are found on: each has the same peak.

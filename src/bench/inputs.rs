@@ -12,7 +12,7 @@ pub(super) const CONSTANTS: RadiationConstants = RadiationConstants::Paper;
 /// The observer of color temperatures.
 pub(super) const OBSERVER: &str = "observers/cie_1931_2deg.csv";
 /// The camera that stands for all.
-pub(super) const CAMERA: &str = "cameras/nikon_d70.csv";
+pub(super) const CAMERA: &str = "cameras/nikon_d70_2007_figure.csv";
 /// The light that stands for all.
 pub(super) const LIGHT: &str = "illuminants/direct_sun_astm_g173.csv";
 /// The reflectance that stands for all.

@@ -24,7 +24,7 @@ use super::{BenchError, Workload, exact};
 type Place = [f64; 2];
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
-    for (name, path) in [("CIE 1931 2°", OBSERVER), ("Nikon D70", CAMERA)] {
+    for (name, path) in [("CIE 1931 2°", OBSERVER), ("Nikon D70 (2007 figure)", CAMERA)] {
         let sensor = sensor(path)?;
         one(bench, name, &sensor);
         let counts: &[usize] = bench.pick(&[10], if path == OBSERVER { &[1, 1000] } else { &[] }, &[1, 100, 10_000]);

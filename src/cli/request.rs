@@ -16,7 +16,8 @@ use crate::catalog::names::find;
 use crate::catalog::{Catalog, Entry, Kind};
 use crate::document::own::{OwnSet, Role};
 use crate::document::render::{LEAF, SKIN};
-use crate::document::{CHART, Document, FIRST_SOURCES, Light, REFERENCE, Subset, WayChoice, WhiteChoice};
+use crate::document::start::Start;
+use crate::document::{CHART, Document, Light, REFERENCE, Subset, WayChoice, WhiteChoice};
 use crate::files::reason;
 
 /// The name of the paper's five patches as a chart of their own.
@@ -35,7 +36,7 @@ pub(super) struct Request {
 impl Request {
     /// From what both tables take. `matches` knows in which order sources were named.
     pub(super) fn new(arguments: &CommonArguments, matches: &ArgMatches) -> Result<Self, CliError> {
-        let mut request = Self::of_sources(&arguments.sources, matches, &FIRST_SOURCES)?;
+        let mut request = Self::of_sources(&arguments.sources, matches, Start::Paper.sensors())?;
         if let Some(illuminant) = &arguments.illuminant {
             request.set_light(illuminant)?;
         }
@@ -48,7 +49,7 @@ impl Request {
         matches: &ArgMatches,
         first: &[(&str, Kind)],
     ) -> Result<Self, CliError> {
-        let document = Document { compared: Vec::new(), ..Document::default() };
+        let document = Document { compared: Vec::new(), ..Document::paper() };
         let mut request = Self { document, catalog: Catalog::built_in(), sources: Vec::new() };
         request.sources = request.named_sources(arguments, matches)?;
         if request.sources.is_empty() {

@@ -1,5 +1,6 @@
 //! The document as JSON: what is kept between runs, and what session files are.
 
+use super::start::Start;
 use super::{Document, VERSION};
 use crate::catalog::Kind;
 
@@ -24,7 +25,11 @@ pub fn to_json(document: &Document) -> Result<String, SessionError> {
 
 /// A document from JSON. Fields that are not known are kept; fields that are missing have their defaults.
 pub fn from_json(json: &str) -> Result<Document, SessionError> {
-    let mut document: Document = serde_json::from_str(json)?;
+    let mut value: serde_json::Value = serde_json::from_str(json)?;
+    if value.get("version").and_then(serde_json::Value::as_u64) == Some(1) {
+        renew(&mut value)?;
+    }
+    let mut document: Document = serde_json::from_value(value)?;
     if document.format != "chromascope" {
         return Err(SessionError::Format(document.format));
     }
@@ -33,6 +38,38 @@ pub fn from_json(json: &str) -> Result<Document, SessionError> {
     }
     document.mend();
     Ok(document)
+}
+
+/// Names of built-in sets that version 1 used, with what they are called now.
+const RENAMED: [(&str, &str); 2] =
+    [("Nikon D70", "Nikon D70 (2007 figure)"), ("Canon EOS 10D", "Canon EOS 10D (2007 figure)")];
+
+/// Brings a document of version 1 to the present form: cameras by their present names; what it leaves out is the paper's start,
+/// which was the only one.
+fn renew(value: &mut serde_json::Value) -> Result<(), SessionError> {
+    let Some(old) = value.as_object_mut() else { return Ok(()) };
+    let own: Vec<String> =
+        old.get("own").and_then(|own| own.as_array()).into_iter().flatten().filter_map(name).collect();
+    for compared in old.get_mut("compared").and_then(|list| list.as_array_mut()).into_iter().flatten() {
+        let Some(known) = name(compared).filter(|name| !own.contains(name)) else { continue };
+        if compared.get("kind").and_then(|kind| kind.as_str()) != Some("camera") {
+            continue;
+        }
+        if let Some((_, now)) = RENAMED.iter().find(|(before, _)| *before == known) {
+            compared["name"] = (*now).into();
+        }
+    }
+    old.insert("version".to_owned(), VERSION.into());
+    let serde_json::Value::Object(defaults) = serde_json::to_value(Start::Paper.document())? else { return Ok(()) };
+    for (key, default) in defaults {
+        old.entry(key).or_insert(default);
+    }
+    Ok(())
+}
+
+/// The name that a record has.
+fn name(record: &serde_json::Value) -> Option<String> {
+    record.get("name")?.as_str().map(str::to_owned)
 }
 
 impl Document {

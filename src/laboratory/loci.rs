@@ -130,9 +130,9 @@ mod tests {
 
     #[test]
     fn sums_of_one_kind_compare() {
-        let (document, catalog, results) = (Document::default(), Catalog::built_in(), Results::default());
+        let (document, catalog, results) = (Document::paper(), Catalog::built_in(), Results::default());
         let scene = Scene { document: &document, catalog: &catalog, results: &results };
-        let sensor = scene.sensor(Kind::Camera, "Nikon D70").expect("a built-in camera");
+        let sensor = scene.sensor(Kind::Camera, "Nikon D70 (2007 figure)").expect("a built-in camera");
         let temperatures: Vec<Kelvin> = (1..=20).filter_map(|i| Kelvin::new(1000.0 * f64::from(i)).ok()).collect();
         let methods = methods(&sensor, RadiationConstants::Paper, &temperatures);
         let points = measured(&methods, |_, value, exact| off(value, exact), &Stop::NEVER).expect("nothing stops it");

@@ -154,7 +154,7 @@ fn a_hidden_camera_is_told_of() {
     let mut settings = window.state().history().document().render.clone();
     (settings.quality, settings.tolerance) = (QualityChoice::Tolerance, 5e-10);
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Quality", to: Box::new(settings) }));
-    let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70".to_owned(), false);
+    let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
     window.state_mut().push(Action::Compare(hide));
     window.run_steps(2);
     window.state_mut().push(Command::Measure);

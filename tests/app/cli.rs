@@ -89,7 +89,7 @@ fn sources_and_temperatures_keep_their_order() {
         "6500,3000",
     ]);
     let heads: Vec<(&str, &str)> = rows[1..].iter().map(|row| (row[0].as_str(), row[1].as_str())).collect();
-    let names = ["Nikon D70", "CIE 1931 2°", "Canon EOS 10D"];
+    let names = ["Nikon D70 (2007 figure)", "CIE 1931 2°", "Canon EOS 10D (2007 figure)"];
     let expected: Vec<(&str, &str)> = names.iter().flat_map(|name| [(*name, "6500"), (*name, "3000")]).collect();
     assert_eq!(heads, expected);
 }
@@ -145,14 +145,14 @@ fn decimal_commas_and_percent_are_read() {
     let points = file("leaf.csv", "nm;leaf\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n");
     let fractions = file("leaf2.csv", "nm,leaf\n400,0.05\n500,0.10\n600,0.20\n700,0.50\n");
     let of = |path: &PathBuf| {
-        table(&["patches", "--chart", path.to_str().unwrap(), "--camera", "Nikon D70"])[1][2..].to_vec()
+        table(&["patches", "--chart", path.to_str().unwrap(), "--camera", "Nikon D70 (2007 figure)"])[1][2..].to_vec()
     };
     assert_eq!(of(&points), of(&fractions));
 }
 
 #[test]
 fn mistakes_are_named() {
-    refused(&["locus", "--camera", "Nikn D70"], &["Nikn D70", "did you mean", "Nikon D70"]);
+    refused(&["locus", "--camera", "Nikn D70"], &["Nikn D70", "did you mean", "Nikon D70 (2007 figure)"]);
     refused(&["locus", "--camera", "Nikon"], &["could be", "Nikon D200"]);
     refused(&["locus", "--camera", "missing.csv"], &["missing.csv"]);
     refused(&["locus", "--reference", "CIE 1964 10°"], &["--transform observer"]);

@@ -19,7 +19,7 @@ use serde_json::Value;
 
 /// Little enough to be rendered by a program that was not optimized.
 const SMALL: [&str; 6] = ["--mesh", "sphere", "--triangles", "800", "--size", "40x30"];
-const D70: [&str; 2] = ["--camera", "Nikon D70"];
+const D70: [&str; 2] = ["--camera", "Nikon D70 (2007 figure)"];
 
 /// A folder of one test's own, empty.
 fn folder(name: &str) -> PathBuf {
@@ -68,11 +68,11 @@ fn pictures_in(folder: &Path) -> Vec<String> {
 fn as_in_the_window(samples: u32, quality: Quality) -> (Pictures, [f64; 3]) {
     let compared = |name: &str, kind| Compared { name: name.to_owned(), kind, slot: 0, visible: true, label: None };
     let document = Document {
-        compared: vec![compared("Nikon D70", Kind::Camera)],
+        compared: vec![compared("Nikon D70 (2007 figure)", Kind::Camera)],
         light: Light::Set(SUN.to_owned()),
         white: WhiteChoice::Light("D55".to_owned()),
         render: RenderSettings { mesh: MeshChoice::Sphere, triangles: 800, ..RenderSettings::default() },
-        ..Document::default()
+        ..Document::paper()
     };
     let (catalog, results) = (Catalog::built_in(), Results::bounded());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
@@ -179,7 +179,7 @@ fn exr_says_what_it_is_of_and_is_the_same_each_time() {
         other => panic!("{other:?}"),
     };
     let of = |name: &str| layer.attributes.other.get(&exr::prelude::Text::from(name)).unwrap();
-    assert_eq!(text(of("camera")), "Nikon D70");
+    assert_eq!(text(of("camera")), "Nikon D70 (2007 figure)");
     assert_eq!(text(of("balance")), "D55");
     assert_eq!(text(of("illuminant")), "Direct sun (ASTM G173)");
     assert_eq!(text(of("reading")), "paper");
@@ -235,7 +235,7 @@ fn statistics_are_json() {
         assert!(json["stages"][stage]["misses"].as_u64().is_some_and(|misses| misses >= 1), "{stage}");
     }
     let source = &json["sources"][0];
-    assert_eq!(source["name"], "Nikon D70");
+    assert_eq!(source["name"], "Nikon D70 (2007 figure)");
     assert_eq!(source["delta_e_2000"]["samples"], json["samples"]["lit"]);
     let wavelengths = &source["wavelengths"];
     assert_eq!((&wavelengths["of"], &wavelengths["in_a_table_place"]), (&Value::from(401), &Value::from(9)));
@@ -326,7 +326,7 @@ fn mistakes_are_named() {
     refused(&folder, &["--mesh", "broken.obj"], 1, &["broken.obj, line 2", "decimal point"]);
     refused(&folder, &["--material", "Vrhel"], 1, &["could be", "(Vrhel)"]);
     refused(&folder, &["--material", "Lead 001"], 1, &["no material is named \"Lead 001\""]);
-    refused(&folder, &["--camera", "Nikn D70"], 1, &["did you mean", "Nikon D70"]);
+    refused(&folder, &["--camera", "Nikn D70"], 1, &["did you mean", "Nikon D70 (2007 figure)"]);
     refused(&folder, &["--sigma", "5"], 2, &["--sigma", "meters", "5e-6"]);
     refused(&folder, &["--tau", "0"], 2, &["--tau", "10e-6"]);
     refused(&folder, &["--patch", "1e-6"], 2, &["--patch", "2 wanted", "50e-6,50e-6"]);
@@ -371,7 +371,7 @@ fn head_and_fern_look_as_they_did() {
     for mesh in ["head", "fern"] {
         for reading in ["radiometric", "paper"] {
             let what = ["--mesh", mesh, "--reading", reading, "--triangles", "20000", "--size", "96x96"];
-            rendered(&folder, &[&what[..], &["--samples", "2", "--camera", "Nikon D70"]].concat());
+            rendered(&folder, &[&what[..], &["--samples", "2", "--camera", "Nikon D70 (2007 figure)"]].concat());
             let picture = pictures_in(&folder).into_iter().find(|name| name.starts_with(mesh)).unwrap();
             let now = image::open(folder.join(&picture)).unwrap().to_rgba8();
             let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/app/pictures");

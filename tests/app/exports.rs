@@ -15,9 +15,9 @@ const PICTURED: [PaneKind; 3] = [PaneKind::Chromaticity, PaneKind::Swatches, Pan
 fn documents() -> [Document; 3] {
     let observer = WayChoice::Observer("CIE 1931 2°".to_owned());
     [
-        Document::default(),
-        Document { subset: Subset::All, ..Document::default() },
-        Document { subset: Subset::All, way: observer, ..Document::default() },
+        Document::paper(),
+        Document { subset: Subset::All, ..Document::paper() },
+        Document { subset: Subset::All, way: observer, ..Document::paper() },
     ]
 }
 
@@ -42,7 +42,7 @@ fn every_figure_becomes_svg_png_and_numbers() {
 
 #[test]
 fn numbers_are_those_of_the_scene() {
-    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::default());
+    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::paper());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let view = View::default();
     let rows = |pane| panes::figure(pane, &scene, &view).unwrap().table.rows.len();
@@ -53,7 +53,7 @@ fn numbers_are_those_of_the_scene() {
 
 #[test]
 fn panes_without_a_figure_have_none() {
-    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::default());
+    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::paper());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     assert!(panes::figure(PaneKind::Inspector, &scene, &View::default()).is_none());
 }

@@ -175,8 +175,8 @@ fn legend() -> Vec<LegendEntry> {
     };
     vec![
         key("S&B 1955", InkRole::Truth, 4.0, Marker::Plus),
-        key("Canon EOS 10D", InkRole::Source(0), 2.0, Marker::Circle),
-        key("Nikon D70", InkRole::Source(1), 2.0, Marker::Square),
+        key("Canon EOS 10D (2007 figure)", InkRole::Source(0), 2.0, Marker::Circle),
+        key("Nikon D70 (2007 figure)", InkRole::Source(1), 2.0, Marker::Square),
         LegendEntry { fill: None, ..key("Kodak DCS200", InkRole::Source(2), 2.0, Marker::TriangleUp) },
     ]
 }

@@ -76,19 +76,22 @@ fn rename(window: &mut Window, name: &str) {
 #[test]
 fn a_camera_called_as_a_built_in_one_is_another() {
     let mut window = window();
-    drop_file(&mut window, "Nikon D70.csv", CAMERA);
+    drop_file(&mut window, "Nikon D70 (A.M.P.A.S.).csv", CAMERA);
     let (said, _) = status(&window);
-    assert!(said.contains("Nikon D70 is the name of another set, so this one is Nikon D70 (own)"), "{said}");
-    assert!(window.state().compares(Kind::Camera, "Nikon D70"));
-    assert!(window.state().compares(Kind::Camera, "Nikon D70 (own)"));
+    assert!(
+        said.contains("Nikon D70 (A.M.P.A.S.) is the name of another set, so this one is Nikon D70 (A.M.P.A.S.) (own)"),
+        "{said}"
+    );
+    assert!(window.state().compares(Kind::Camera, "Nikon D70 (2007 figure)"));
+    assert!(window.state().compares(Kind::Camera, "Nikon D70 (A.M.P.A.S.) (own)"));
     // A name that is taken is refused, and said why, while it is typed and after.
-    for (name, why) in [("Canon EOS 10D", "A built-in set has this name"), ("mine", "")] {
+    for (name, why) in [("Canon EOS 10D (2007 figure)", "A built-in set has this name"), ("mine", "")] {
         type_name(&mut window, name);
         assert!(why.is_empty() || says(&window, why), "{name}");
         window.key_press(egui::Key::Enter);
         window.run_steps(4);
         if !why.is_empty() {
-            assert_eq!(own(&window)[0].name, "Nikon D70 (own)");
+            assert_eq!(own(&window)[0].name, "Nikon D70 (A.M.P.A.S.) (own)");
             assert!(status(&window).0.contains(why), "{}", status(&window).0);
         }
     }
@@ -146,13 +149,13 @@ fn several_files_at_once_leave_light_and_patches() {
     open_path(&mut window, folder.path());
     let document = window.state().history().document().clone();
     assert_eq!(document.own.len(), 3);
-    assert_eq!((&document.light, &document.chart), (&Document::default().light, &Document::default().chart));
+    assert_eq!((&document.light, &document.chart), (&Document::paper().light, &Document::paper().chart));
     assert!(window.state().compares(Kind::Camera, "a"));
     let (said, weight) = status(&window);
     assert!(said.starts_with("3 files read. 1 put on show; light and patches stay."), "{said}");
     assert!(said.contains("2 of 5 files could not be read: d.csv, line 4") && weight == Weight::Warning, "{said}");
     undo(&mut window);
-    assert_eq!(*window.state().history().document(), Document::default());
+    assert_eq!(*window.state().history().document(), Document::paper());
     assert_eq!(status(&window).0, "Undone: Open 3 sets.", "what was taken back is no longer said");
     // One alone is put to use.
     open_path(&mut window, &folder.path().join("b.csv"));
@@ -269,10 +272,10 @@ fn failing_files_and_marks_outlive_the_run() {
     assert_eq!((saved.import.failing.len(), saved.import.unseen.len()), (2, 2));
     let saved: SavedView = serde_json::from_str(&serde_json::to_string(&saved).unwrap()).unwrap();
     fs::remove_file(&gone).unwrap();
-    let mut second =
-        egui_kittest::Harness::builder().with_size([1280.0, 800.0]).renderer(Cpu::default()).build_eframe(|cc| {
-            ChromascopeApp::new(&cc.egui_ctx, History::new(Document::default()), saved, Files::new(None))
-        });
+    let mut second = egui_kittest::Harness::builder()
+        .with_size([1280.0, 800.0])
+        .renderer(Cpu::default())
+        .build_eframe(|cc| ChromascopeApp::new(&cc.egui_ctx, History::new(Document::paper()), saved, Files::new(None)));
     until(&mut second, "recalled", |app| app.opened().failing().len() == 1);
     assert_eq!(second.state().view().status.text, "");
     let known = second.state().opened().failing();

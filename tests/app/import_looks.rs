@@ -20,7 +20,7 @@ use crate::screenshots::open;
 /// A document with a set of the user's in it, and what shows that in Import.
 fn of(name: &str, text: &str) -> (Document, View) {
     let set = import(name, text.as_bytes(), None).unwrap().set;
-    let mut document = Document::default();
+    let mut document = Document::paper();
     let mut view = View::default();
     view.import.selected = Some(ImportItem::Set(set.name.clone()));
     let set = Shared::new(set);

@@ -78,11 +78,14 @@ fn where_there_is_no_difference_the_reason_stands() {
 #[test]
 fn every_kind_of_thing_has_its_page() {
     let mut window = window();
-    let assumed = "Canon EOS 10D: measured 400–700 nm; counts as zero outside.";
+    let assumed = "Canon EOS 10D (2007 figure): measured 400–700 nm; counts as zero outside.";
     for (thing, words) in [
-        (Thing::Source(camera("Canon EOS 10D")), "0.348 in xy"),
-        (Thing::Source(camera("Canon EOS 10D")), assumed),
-        (Thing::Radiator { source: camera("Nikon D70"), kelvin: 5500.0 }, "black body, 5500 K = 181.8 mired"),
+        (Thing::Source(camera("Canon EOS 10D (2007 figure)")), "0.348 in xy"),
+        (Thing::Source(camera("Canon EOS 10D (2007 figure)")), assumed),
+        (
+            Thing::Radiator { source: camera("Nikon D70 (2007 figure)"), kelvin: 5500.0 },
+            "black body, 5500 K = 181.8 mired",
+        ),
         (Thing::Patch { source: None, patch: "red".to_owned() }, "Kodak DCS200, red"),
         (Thing::Light, "for CIE 1931 2°"),
     ] {
@@ -94,7 +97,7 @@ fn every_kind_of_thing_has_its_page() {
 #[test]
 fn pinned_things_stand_side_by_side() {
     let mut window = window();
-    for source in ["Kodak DCS200", "Nikon D70"] {
+    for source in ["Kodak DCS200", "Nikon D70 (2007 figure)"] {
         select(&mut window, patch(source, "blue"));
         press(&mut window, Role::Button, "Pin");
     }
@@ -103,5 +106,5 @@ fn pinned_things_stand_side_by_side() {
     window.run();
     assert!(says(&window, "x: truth 0.2020, A 0.2534, B "));
     press(&mut window, Role::Button, "Unpin A");
-    assert_eq!(window.state().view().pinned, [patch("Nikon D70", "blue")]);
+    assert_eq!(window.state().view().pinned, [patch("Nikon D70 (2007 figure)", "blue")]);
 }

@@ -20,7 +20,7 @@ const KEPT: &str = "Measured results are not kept when the program ends: export 
 
 /// What the default cameras cost on a small picture of a sphere.
 fn small(change: impl FnOnce(&mut Document)) -> SceneRunOf {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     (document.render.mesh, document.render.triangles) = (MeshChoice::Sphere, 2000);
     change(&mut document);
     let (catalog, results) = (Catalog::built_in(), Results::default());

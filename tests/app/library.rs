@@ -59,7 +59,7 @@ fn search_shows_matches_and_enter_ticks_the_first() {
 #[test]
 fn escape_clears_the_search_and_keeps_the_selection() {
     let mut window = window();
-    let thing = Thing::Source(SourceId { kind: Kind::Camera, name: "Nikon D70".to_owned() });
+    let thing = Thing::Source(SourceId { kind: Kind::Camera, name: "Nikon D70 (2007 figure)".to_owned() });
     window.state_mut().view_mut().selected = Some(thing.clone());
     search(&mut window, "canon");
     window.key_press(egui::Key::Escape);
@@ -74,12 +74,12 @@ fn escape_clears_the_search_and_keeps_the_selection() {
 #[test]
 fn the_key_hides_and_the_name_selects() {
     let mut window = window();
-    press(&mut window, Role::Button, "Hide Nikon D70");
-    let compared = window.state().history().document().compared(Kind::Camera, "Nikon D70").cloned();
+    press(&mut window, Role::Button, "Hide Nikon D70 (2007)");
+    let compared = window.state().history().document().compared(Kind::Camera, "Nikon D70 (2007 figure)").cloned();
     assert!(compared.is_some_and(|compared| !compared.visible));
-    press(&mut window, Role::Button, "Show Nikon D70");
-    press(&mut window, Role::Button, "Nikon D70");
-    let wanted = Thing::Source(SourceId { kind: Kind::Camera, name: "Nikon D70".to_owned() });
+    press(&mut window, Role::Button, "Show Nikon D70 (2007)");
+    press(&mut window, Role::Button, "Nikon D70 (2007)");
+    let wanted = Thing::Source(SourceId { kind: Kind::Camera, name: "Nikon D70 (2007 figure)".to_owned() });
     assert_eq!(window.state().view().selected, Some(wanted));
 }
 
@@ -98,7 +98,7 @@ fn another_observer_becomes_the_truth() {
 #[test]
 fn a_label_is_renamed_in_its_place() {
     let mut window = window();
-    press(&mut window, Role::Button, "Menu of Nikon D70");
+    press(&mut window, Role::Button, "Menu of Nikon D70 (2007)");
     press(&mut window, Role::Button, "Rename…");
     let field = |window: &Window, text: &str| {
         window.get_by_role_and_label(Role::TextInput, "Label of the source").type_text(text);
@@ -112,7 +112,7 @@ fn a_label_is_renamed_in_its_place() {
     window.get_by_role_and_label(Role::Button, "Hide Grandfather's");
     window.state_mut().push(Command::Undo);
     window.run();
-    window.get_by_role_and_label(Role::Button, "Hide Nikon D70");
+    window.get_by_role_and_label(Role::Button, "Hide Nikon D70 (2007)");
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn a_dropped_mesh_is_looked_at_in_one_step() {
     assert_eq!(harness.state().history().undo_name(), Some("Open square.obj"));
     harness.state_mut().push(Command::Undo);
     harness.run_steps(2);
-    assert_eq!(*harness.state().history().document(), Document::default());
+    assert_eq!(*harness.state().history().document(), Document::paper());
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn a_mesh_that_cannot_be_read_changes_nothing() {
     assert!(text.starts_with("broken.obj, line 2, column 5: not a number"), "{text}");
     assert!(text.ends_with("Nothing was changed."), "{text}");
     assert_eq!(weight, Weight::Error);
-    assert_eq!(*harness.state().history().document(), Document::default());
+    assert_eq!(*harness.state().history().document(), Document::paper());
     assert!(harness.state().view().saved.recent.is_empty());
     assert_eq!(harness.state().view().saved.workspace, Workspace::default());
 }
@@ -183,7 +183,7 @@ fn a_mesh_that_is_nowhere_on_disk_is_refused() {
     harness.input_mut().dropped_files.push(Arc::new(nowhere));
     let (text, weight) = until_opened(&mut harness);
     assert!(text.contains("save it first") && weight == Weight::Error, "{text}");
-    assert_eq!(*harness.state().history().document(), Document::default());
+    assert_eq!(*harness.state().history().document(), Document::paper());
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn a_missing_mesh_is_named_with_what_to_do() {
 
 #[test]
 fn a_session_with_a_missing_mesh_opens() {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     document.render.mesh = MeshChoice::File(PathBuf::from("/no/such/head.obj"));
     let json = session::to_json(&document).unwrap();
     assert_eq!(session::from_json(&json).unwrap(), document);
@@ -306,7 +306,7 @@ fn escape_stops_opening() {
     harness.state_mut().push(Command::Escape);
     harness.run_steps(2);
     assert_eq!(harness.state().view().status.text, "Reading sheet.obj was stopped. Nothing was changed.");
-    assert_eq!(*harness.state().history().document(), Document::default());
+    assert_eq!(*harness.state().history().document(), Document::paper());
 }
 
 #[test]

@@ -70,7 +70,7 @@ fn a_folder_is_one_step_and_what_fails_is_named() {
     assert!(said.starts_with("2 files read.") && said.contains("c.csv, line 4: no number in column 2"), "{said}");
     window.state_mut().push(Command::Undo);
     window.run();
-    assert_eq!(*window.state().history().document(), Document::default());
+    assert_eq!(*window.state().history().document(), Document::paper());
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn a_file_that_changes_on_disk_is_read_again_and_a_broken_one_is_not() {
 #[test]
 fn a_session_opens_without_its_files() {
     let imported = import("leaf.csv", LEAF.as_bytes(), None).unwrap();
-    let mut document = Document::default();
+    let mut document = Document::paper();
     chromascope::action::Action::Own(chromascope::action::OwnAction::Import(vec![imported.set.clone()]))
         .apply(&mut document);
     let again = session::from_json(&session::to_json(&document).unwrap()).unwrap();

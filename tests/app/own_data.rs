@@ -57,7 +57,7 @@ fn a_dropped_file_is_shown_and_undone() {
     assert_eq!(harness.state().history().document().chart, "leaf");
     harness.state_mut().push(Command::Undo);
     harness.run();
-    assert_eq!(*harness.state().history().document(), Document::default());
+    assert_eq!(*harness.state().history().document(), Document::paper());
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn a_file_that_cannot_be_read_changes_nothing() {
     let (text, weight) = until_said(&mut harness);
     assert!(text.starts_with("broken.csv, line 4") && text.ends_with("Nothing was changed."), "{text}");
     assert_eq!(weight, Weight::Error);
-    assert_eq!(*harness.state().history().document(), Document::default());
+    assert_eq!(*harness.state().history().document(), Document::paper());
 }
 
 #[test]
@@ -95,9 +95,9 @@ fn a_missing_file_is_named() {
 #[test]
 fn the_document_is_kept_between_runs() {
     let folder = tempfile::tempdir().unwrap();
-    let document = Document { temperature_k: 3210.0, ..Document::default() };
+    let document = Document { temperature_k: 3210.0, ..Document::paper() };
     let mut files = Files::new(Some(folder.path().to_owned()));
-    assert_eq!(files.kept_document(), Document::default(), "there is none yet");
+    assert_eq!(files.kept_document(), Document::paper(), "there is none yet");
     files.save_document(&document);
     assert_eq!(Files::new(Some(folder.path().to_owned())).kept_document(), document);
 }
@@ -107,8 +107,8 @@ fn what_cannot_be_read_is_set_aside_not_overwritten() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("document.json"), "{ broken").unwrap();
     let mut files = Files::new(Some(folder.path().to_owned()));
-    assert_eq!(files.kept_document(), Document::default());
-    files.save_document(&Document { temperature_k: 3000.0, ..Document::default() });
+    assert_eq!(files.kept_document(), Document::paper());
+    files.save_document(&Document { temperature_k: 3000.0, ..Document::paper() });
     assert_eq!(std::fs::read_to_string(folder.path().join("document.unreadable.json")).unwrap(), "{ broken");
 }
 

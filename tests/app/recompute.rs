@@ -22,7 +22,7 @@ struct Desk {
 
 impl Desk {
     fn new() -> Self {
-        let desk = Self { document: Document::default(), catalog: Catalog::built_in(), results: Results::default() };
+        let desk = Self { document: Document::paper(), catalog: Catalog::built_in(), results: Results::default() };
         desk.look();
         desk
     }
@@ -56,16 +56,16 @@ fn compare(action: CompareAction) -> Action {
 #[test]
 fn a_name_computes_nothing() {
     let mut desk = Desk::new();
-    let action = CompareAction::Rename(Kind::Camera, "Nikon D70".to_owned(), "my camera".to_owned());
+    let action = CompareAction::Rename(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), "my camera".to_owned());
     assert!(desk.computed(&compare(action)).is_empty());
 }
 
 #[test]
 fn hiding_and_taking_off_compute_nothing() {
     let mut desk = Desk::new();
-    let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70".to_owned(), false);
+    let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
     assert!(desk.computed(&compare(hide)).is_empty());
-    let show = CompareAction::SetVisible(Kind::Camera, "Nikon D70".to_owned(), true);
+    let show = CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), true);
     assert!(desk.computed(&compare(show)).is_empty(), "it was remembered");
     let remove = CompareAction::Remove(Kind::Camera, "Kodak DCS200".to_owned());
     assert!(desk.computed(&compare(remove)).is_empty());
@@ -182,7 +182,7 @@ fn a_picture_computes_only_what_an_action_changes() {
     let cases: [Case; 7] = [
         (
             "a name",
-            compare(CompareAction::Rename(Kind::Camera, "Nikon D70".to_owned(), "mine".to_owned())),
+            compare(CompareAction::Rename(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), "mine".to_owned())),
             // Nothing: the question is the same.
             &[],
         ),
@@ -190,11 +190,15 @@ fn a_picture_computes_only_what_an_action_changes() {
         ("a temperature that only marks", Action::Scene(SceneAction::SetTemperature(4000.0)), &[]),
         (
             "a camera ticked off",
-            compare(CompareAction::SetVisible(Kind::Camera, "Nikon D70".to_owned(), false)),
+            compare(CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), false)),
             // The others are put side by side, no more.
             &[("pictures", 1)],
         ),
-        ("ticked on again", compare(CompareAction::SetVisible(Kind::Camera, "Nikon D70".to_owned(), true)), &[]),
+        (
+            "ticked on again",
+            compare(CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), true)),
+            &[],
+        ),
         (
             "another camera",
             compare(CompareAction::Add(Kind::Camera, "Nikon D850".to_owned())),

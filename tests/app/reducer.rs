@@ -13,7 +13,7 @@ use chromascope_core::query::Shared;
 
 /// The document after an action on the first screen, checked.
 fn check(action: &Action, expect: impl Fn(&Document)) {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     action.apply(&mut document);
     expect(&document);
 }
@@ -50,7 +50,7 @@ fn import(names: &[&str], role: Role) -> Action {
 fn the_truth_stays_and_others_go() {
     let remove = |kind, name: &str| Action::Compare(CompareAction::Remove(kind, name.to_owned()));
     check(&remove(Kind::Observer, TRUTH), |document| assert_eq!(document.compared.len(), 5));
-    check(&remove(Kind::Camera, "Nikon D70"), |document| assert_eq!(document.compared.len(), 4));
+    check(&remove(Kind::Camera, "Nikon D70 (2007 figure)"), |document| assert_eq!(document.compared.len(), 4));
     let truth = CompareAction::SetTruth("CIE 1964 10°".to_owned());
     check(&Action::Compare(truth), |document| {
         assert_eq!(document.truth, "CIE 1964 10°");
@@ -64,17 +64,17 @@ fn temperatures_stay_where_the_light_is_defined() {
     check(&set(10.0), |document| assert_eq!(document.temperature_k, 1000.0));
     check(&set(1e9), |document| assert_eq!(document.temperature_k, 20_000.0));
     check(&set(f64::NAN), |document| assert_eq!(document.temperature_k, 5500.0));
-    let mut document = Document { temperature_k: 2000.0, ..Document::default() };
+    let mut document = Document { temperature_k: 2000.0, ..Document::paper() };
     Action::Scene(SceneAction::SetLight(Light::Daylight)).apply(&mut document);
     assert_eq!(document.temperature_k, 4000.0);
 }
 
 #[test]
 fn a_slot_is_kept_and_the_ninth_takes_color_1_with_marker_5() {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     let names: Vec<String> = Catalog::built_in().of_kind(Kind::Camera).map(|entry| entry.name.clone()).collect();
-    Action::Compare(CompareAction::Remove(Kind::Camera, "Canon EOS 10D".to_owned())).apply(&mut document);
-    assert_eq!(document.compared(Kind::Camera, "Nikon D70").map(|c| c.slot), Some(1));
+    Action::Compare(CompareAction::Remove(Kind::Camera, "Canon EOS 10D (2007 figure)".to_owned())).apply(&mut document);
+    assert_eq!(document.compared(Kind::Camera, "Nikon D70 (2007 figure)").map(|c| c.slot), Some(1));
     for name in names.iter().take(9) {
         Action::Compare(CompareAction::Add(Kind::Camera, name.clone())).apply(&mut document);
     }
@@ -102,7 +102,7 @@ fn of_several_only_cameras_are_put_on_show_while_there_are_places() {
         check(&import(&["mine", "mine"], role), |document| {
             let names: Vec<&str> = document.own.iter().map(|set| set.name.as_str()).collect();
             assert_eq!(names, ["mine", "mine (2)"]);
-            assert_eq!(Document { own: Vec::new(), ..document.clone() }, Document::default());
+            assert_eq!(Document { own: Vec::new(), ..document.clone() }, Document::paper());
         });
     }
     let many: Vec<String> = (0..12).map(|i| format!("camera {i}")).collect();
@@ -115,20 +115,29 @@ fn of_several_only_cameras_are_put_on_show_while_there_are_places() {
 
 #[test]
 fn an_own_set_has_a_name_of_its_own_among_all_of_its_kind() {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     for _ in 0..3 {
-        import(&["Nikon D70"], Role::Camera).apply(&mut document);
+        import(&["Nikon D70 (2007 figure)"], Role::Camera).apply(&mut document);
     }
     // A chart may be called as a camera is, not as a material is: patches are chosen from both.
     let material = Catalog::built_in().of_kind(Kind::Material).next().unwrap().name.clone();
     import(&["Sony ILCE-7M3", &material], Role::Reflectance).apply(&mut document);
     let names: Vec<&str> = document.own.iter().map(|set| set.name.as_str()).collect();
     let marked = format!("{material} (own)");
-    assert_eq!(names, ["Nikon D70 (own)", "Nikon D70 (2)", "Nikon D70 (3)", "Sony ILCE-7M3", &marked]);
+    assert_eq!(
+        names,
+        [
+            "Nikon D70 (2007 figure) (own)",
+            "Nikon D70 (2007 figure) (2)",
+            "Nikon D70 (2007 figure) (3)",
+            "Sony ILCE-7M3",
+            &marked
+        ]
+    );
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    assert!(!scene.entry(Kind::Camera, "Nikon D70").unwrap().is_own());
-    assert!(scene.entry(Kind::Camera, "Nikon D70 (own)").unwrap().is_own());
+    assert!(!scene.entry(Kind::Camera, "Nikon D70 (2007 figure)").unwrap().is_own());
+    assert!(scene.entry(Kind::Camera, "Nikon D70 (2007 figure) (own)").unwrap().is_own());
     // A role that makes a name a double gives it up too.
     let with = Box::new(OwnSet { role: Role::Camera, ..(*document.own[3]).clone() });
     Action::Own(OwnAction::Replace { name: "Sony ILCE-7M3".to_owned(), with }).apply(&mut document);
@@ -138,7 +147,7 @@ fn an_own_set_has_a_name_of_its_own_among_all_of_its_kind() {
 
 #[test]
 fn what_has_one_name_is_used_by_its_kind() {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     import(&["E"], Role::Camera).apply(&mut document);
     let with = Box::new(own("F", Role::Camera));
     Action::Own(OwnAction::Replace { name: "E".to_owned(), with }).apply(&mut document);
@@ -148,29 +157,32 @@ fn what_has_one_name_is_used_by_its_kind() {
 
 #[test]
 fn own_sets_of_an_older_session_are_told_from_the_built_in_ones() {
-    let mut document = Document::default();
-    document.own.push(Shared::new(own("Nikon D70", Role::Camera)));
+    let mut document = Document::paper();
+    document.own.push(Shared::new(own("Nikon D70 (2007 figure)", Role::Camera)));
     let again = session::from_json(&session::to_json(&document).unwrap()).unwrap();
-    assert_eq!(again.own[0].name, "Nikon D70 (own)");
-    assert!(again.compared(Kind::Camera, "Nikon D70 (own)").is_some(), "what stood in its place stays on show");
+    assert_eq!(again.own[0].name, "Nikon D70 (2007 figure) (own)");
+    assert!(
+        again.compared(Kind::Camera, "Nikon D70 (2007 figure) (own)").is_some(),
+        "what stood in its place stays on show"
+    );
     assert_eq!(session::from_json(&session::to_json(&again).unwrap()).unwrap(), again);
 }
 
 #[test]
 fn what_is_removed_is_no_longer_used() {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     import(&["leaf"], Role::Reflectance).apply(&mut document);
     import(&["lamp"], Role::Illuminant).apply(&mut document);
     document.white = WhiteChoice::Light("lamp".to_owned());
     for name in ["leaf", "lamp"] {
         Action::Own(OwnAction::Remove(name.to_owned())).apply(&mut document);
     }
-    assert_eq!(document, Document::default());
+    assert_eq!(document, Document::paper());
 }
 
 #[test]
 fn another_role_moves_a_set() {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     import(&["x"], Role::Reflectance).apply(&mut document);
     let with = Box::new(own("x", Role::Camera));
     Action::Own(OwnAction::Replace { name: "x".to_owned(), with }).apply(&mut document);
@@ -192,7 +204,7 @@ fn units_can_be_flipped_and_flipped_back() {
 
 #[test]
 fn reset_keeps_what_the_user_brought() {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     import(&["mine"], Role::Camera).apply(&mut document);
     Action::Reset.apply(&mut document);
     assert_eq!((document.own.len(), document.compared.len()), (1, 5));
@@ -200,7 +212,7 @@ fn reset_keeps_what_the_user_brought() {
 
 #[test]
 fn a_drag_is_one_step() {
-    let mut history = History::new(Document::default());
+    let mut history = History::new(Document::paper());
     for kelvin in [5000.0, 4000.0, 3000.0] {
         history.apply(&Action::Scene(SceneAction::SetTemperature(kelvin)));
     }
@@ -218,14 +230,14 @@ fn a_drag_is_one_step() {
 
 #[test]
 fn nothing_changed_is_no_step() {
-    let mut history = History::new(Document::default());
+    let mut history = History::new(Document::paper());
     history.apply(&Action::Scene(SceneAction::SetSubset(Subset::Five)));
     assert_eq!(history.undo_name(), None);
 }
 
 #[test]
 fn a_session_keeps_all_even_what_it_does_not_know() {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     import(&["mine"], Role::Camera).apply(&mut document);
     document.unknown.insert("hologram".to_owned(), serde_json::json!({ "mesh": "head" }));
     let json = session::to_json(&document).unwrap();
@@ -246,7 +258,7 @@ fn other_sessions_are_refused() {
 
 #[test]
 fn a_set_that_is_renamed_keeps_its_uses_and_gets_no_others() {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     import(&["leaf"], Role::Reflectance).apply(&mut document);
     import(&["bark"], Role::Reflectance).apply(&mut document);
     let rename = |from: &str, to: &str, document: &mut Document| {

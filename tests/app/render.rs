@@ -166,7 +166,7 @@ fn the_lights_place_leaves_what_is_seen_alone() {
 #[test]
 fn a_hidden_camera_is_not_computed() {
     let mut window = small();
-    let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70".to_owned(), false);
+    let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
     window.state_mut().push(Action::Compare(hide));
     settle(&mut window);
     assert_eq!(captions(&window).len(), 3);
@@ -176,7 +176,7 @@ fn a_hidden_camera_is_not_computed() {
     settle(&mut window);
     assert_eq!(made(&window, "picture"), pictures + 3);
     let shot = window.state().view().render.shot.clone().unwrap();
-    assert!(shot.sources.iter().all(|source| source.name != "Nikon D70"));
+    assert!(shot.sources.iter().all(|source| source.name != "Nikon D70 (2007 figure)"));
     assert_eq!(shot.query.sources.len(), 3);
 }
 
@@ -387,7 +387,7 @@ fn a_pixel_is_marked_in_the_diagram_beside_the_pictures() {
         built.panel.marks.iter().filter(|mark| mark.name.ends_with(", pixel")).count()
     };
     assert_eq!(diamonds(window.state().view()), 0);
-    let source = SourceId { kind: Kind::Camera, name: "Nikon D70".to_owned() };
+    let source = SourceId { kind: Kind::Camera, name: "Nikon D70 (2007 figure)".to_owned() };
     window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [0.45, 0.3], source });
     assert_eq!(diamonds(window.state().view()), 4, "one for each source");
 }

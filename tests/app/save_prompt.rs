@@ -26,7 +26,7 @@ fn window() -> Window {
     let mut window =
         Harness::builder().with_size([1280.0, 800.0]).with_pixels_per_point(1.0).renderer(Cpu::default()).build_eframe(
             |cc| {
-                let history = History::new(Document::default());
+                let history = History::new(Document::paper());
                 ChromascopeApp::new(&cc.egui_ctx, history, SavedView::default(), Files::new(None).without_dialogs())
             },
         );
@@ -70,8 +70,8 @@ fn enter_saves_and_what_exists_is_asked_about() {
     let path = folder.path().join("camera.csv");
     fs::write(&path, "mine").unwrap();
     let mut window = window();
-    save_as(&mut window, "Nikon D70", Form::ALL[0]);
-    assert_eq!(typed(&window), "Nikon D70.csv");
+    save_as(&mut window, "Nikon D70 (2007 figure)", Form::ALL[0]);
+    assert_eq!(typed(&window), "Nikon D70 (2007 figure).csv");
     type_path(&mut window, path.to_str().unwrap());
     window.key_press(egui::Key::Enter);
     window.run_steps(4);
@@ -86,9 +86,9 @@ fn enter_saves_and_what_exists_is_asked_about() {
 #[test]
 fn a_second_question_keeps_what_was_typed() {
     let mut window = window();
-    save_as(&mut window, "Nikon D70", Form::ALL[0]);
-    save_as(&mut window, "Canon EOS 10D", Form::ALL[0]);
-    assert_eq!(typed(&window), "Canon EOS 10D.csv", "what was only offered goes");
+    save_as(&mut window, "Nikon D70 (2007 figure)", Form::ALL[0]);
+    save_as(&mut window, "Canon EOS 10D (2007 figure)", Form::ALL[0]);
+    assert_eq!(typed(&window), "Canon EOS 10D (2007 figure).csv", "what was only offered goes");
     type_path(&mut window, "/somewhere/x.csv");
     save_as(&mut window, "Kodak DCS200", Form::ALL[1]);
     assert_eq!(typed(&window), "/somewhere/x.csv");
@@ -150,7 +150,7 @@ fn what_could_not_be_written_can_be_typed_again() {
     let folder = tempfile::tempdir().unwrap();
     let wrong = folder.path().join("no such folder").join("x.csv");
     let mut window = window();
-    save_as(&mut window, "Nikon D70", Form::ALL[0]);
+    save_as(&mut window, "Nikon D70 (2007 figure)", Form::ALL[0]);
     type_path(&mut window, wrong.to_str().unwrap());
     window.key_press(egui::Key::Enter);
     said(&mut window, "Cannot write ");
@@ -167,7 +167,7 @@ fn what_could_not_be_written_can_be_typed_again() {
 fn escape_closes_the_question_and_a_folder_is_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window();
-    save_as(&mut window, "Nikon D70", Form::ALL[0]);
+    save_as(&mut window, "Nikon D70 (2007 figure)", Form::ALL[0]);
     type_path(&mut window, folder.path().to_str().unwrap());
     window.key_press(egui::Key::Enter);
     window.run_steps(4);

@@ -42,7 +42,7 @@ fn agree(read: &OwnSet, name: &str, index: usize, values: &[(f64, f64)]) {
 fn every_format_reads_back_as_the_same_set() {
     let results = Results::default();
     let sets = [
-        (built_in(Kind::Camera, "Nikon D70"), Role::Camera, "red"),
+        (built_in(Kind::Camera, "Nikon D70 (2007 figure)"), Role::Camera, "red"),
         (built_in(Kind::Observer, "CIE 1931 2°"), Role::Camera, "x_bar"),
         (built_in(Kind::Illuminant, "D65"), Role::Illuminant, "power"),
         (built_in(Kind::Chart, "ColorChecker 24 (Ohta 1997)"), Role::Reflectance, "white"),
@@ -74,12 +74,15 @@ fn every_format_reads_back_as_the_same_set() {
 #[test]
 fn what_happened_on_the_way_is_said() {
     let results = Results::default();
-    let camera = built_in(Kind::Camera, "Nikon D70");
+    let camera = built_in(Kind::Camera, "Nikon D70 (2007 figure)");
     let written = file(&camera, form(Format::Csv, Some(5.0)), &results).unwrap();
     assert!(notes_in_words(&written.notes).contains("resampled to 5 nm"), "{:?}", written.notes);
-    assert_eq!(written.name, "Nikon D70.csv");
+    assert_eq!(written.name, "Nikon D70 (2007 figure).csv");
     let json = file(&camera, form(Format::RawtoacesJson, None), &results).unwrap().text;
-    assert!(json.contains("\"manufacturer\": \"Nikon\"") && json.contains("\"model\": \"D70\""), "{json}");
+    assert!(
+        json.contains("\"manufacturer\": \"Nikon\"") && json.contains("\"model\": \"D70 (2007 figure)\""),
+        "{json}"
+    );
 }
 
 #[test]

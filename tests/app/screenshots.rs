@@ -29,7 +29,7 @@ pub(crate) fn open(size: [f32; 2], theme: egui::Theme) -> Harness<'static, Chrom
         .with_theme(theme)
         .renderer(Cpu::default())
         .build_eframe(|cc| {
-            let history = History::new(Document::default());
+            let history = History::new(Document::paper());
             ChromascopeApp::new(&cc.egui_ctx, history, SavedView::default(), Files::new(None))
         });
     harness.run();

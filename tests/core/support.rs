@@ -14,8 +14,8 @@ use proptest::prelude::ProptestConfig;
 /// The five sources of the first screen.
 pub(crate) const TRUTH: &str = "observers/stiles_burch_1955_2deg.csv";
 pub(crate) const CIE_1931: &str = "observers/cie_1931_2deg.csv";
-pub(crate) const CANON_10D: &str = "cameras/canon_eos_10d.csv";
-pub(crate) const NIKON_D70: &str = "cameras/nikon_d70.csv";
+pub(crate) const CANON_10D: &str = "cameras/canon_eos_10d_2007_figure.csv";
+pub(crate) const NIKON_D70: &str = "cameras/nikon_d70_2007_figure.csv";
 pub(crate) const DCS200: &str = "cameras/kodak_dcs200.csv";
 
 /// Random cases, without files of failed ones beside the sources.

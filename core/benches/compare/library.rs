@@ -13,8 +13,8 @@ pub(crate) const CONSTANTS: RadiationConstants = RadiationConstants::Paper;
 /// The sources of the first screen, the truth first.
 pub(crate) const DEFAULT: [&str; 5] = [
     "observers/stiles_burch_1955_2deg.csv",
-    "cameras/canon_eos_10d.csv",
-    "cameras/nikon_d70.csv",
+    "cameras/canon_eos_10d_2007_figure.csv",
+    "cameras/nikon_d70_2007_figure.csv",
     "cameras/kodak_dcs200.csv",
     "observers/cie_1931_2deg.csv",
 ];

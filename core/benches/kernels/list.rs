@@ -62,7 +62,7 @@ pub(crate) const KERNELS: &[Kernel] = &[
     Kernel { name: "sphere_96", count: 2, ready: sphere },
 ];
 
-const CAMERA: &str = "cameras/canon_eos_10d.csv";
+const CAMERA: &str = "cameras/canon_eos_10d_2007_figure.csv";
 const OBSERVER: &str = "observers/cie_1931_2deg.csv";
 
 fn camera() -> Sensor {

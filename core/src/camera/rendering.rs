@@ -69,7 +69,7 @@ pub struct Rendering {
     pub xyz_from_signals: DMat3,
     /// Linear sRGB from XYZ, for swatches.
     pub srgb_from_xyz: DMat3,
-    /// The white that L*a*b* is relative to.
+    /// CIE's adopted white of L*a*b*: the tristimulus values of a perfect diffuser.
     pub lab_white: Xyz,
     /// Whether the signals are RGB (cameras, RGB observers) or already tristimulus values or cones.
     pub is_rgb: bool,
@@ -192,7 +192,8 @@ fn paper(sensor: &Sensor, light: &GridSpectrum, White(white): White) -> Result<R
         locus_gain: s / flat,
         xyz_from_signals: XYZ_FROM_SRGB,
         srgb_from_xyz: srgb_from_xyz(),
-        lab_white: srgb_white(),
+        // A perfect diffuser takes `s`, so that is the adopted white. Another one would let a wrong target shrink every difference.
+        lab_white: Xyz::from_vector(XYZ_FROM_SRGB * s),
         is_rgb: true,
         conditioning,
     })

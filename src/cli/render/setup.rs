@@ -15,7 +15,8 @@ use crate::catalog::meshes;
 use crate::cli::request::Request;
 use crate::cli::{CliError, say};
 use crate::document::render::{BALANCE, MeshChoice, QualityChoice, RenderSettings, RoughnessChoice, SUN};
-use crate::document::{Compared, FIRST_SOURCES, Light, REFERENCE, WhiteChoice};
+use crate::document::start::Start;
+use crate::document::{Compared, Light, REFERENCE, WhiteChoice};
 use crate::scene::render::Finish;
 use crate::view::render::Orbit;
 
@@ -38,7 +39,7 @@ impl Setup {
         // What only arguments decide comes before files are read.
         let viewpoint = viewpoint(arguments, &choice)?;
         let size = raster(arguments)?;
-        let first: Vec<_> = FIRST_SOURCES.into_iter().filter(|(name, _)| *name != REFERENCE).collect();
+        let first: Vec<_> = Start::Paper.sensors().iter().copied().filter(|(name, _)| *name != REFERENCE).collect();
         let mut request = Request::of_sources(&arguments.sources, matches, &first)?;
         request.document.render = settings(arguments, choice)?;
         match &arguments.illuminant {

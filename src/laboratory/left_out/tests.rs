@@ -11,7 +11,7 @@ use crate::scene::Scene;
 
 /// The rows of a small picture of the default scene's cameras.
 fn rows_of(change: impl FnOnce(&mut RenderSettings)) -> Vec<LeftOut> {
-    let mut document = Document::default();
+    let mut document = Document::paper();
     (document.render.mesh, document.render.triangles) = (MeshChoice::Sphere, 2000);
     change(&mut document.render);
     let (catalog, results) = (Catalog::built_in(), Results::default());

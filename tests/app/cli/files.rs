@@ -27,7 +27,7 @@ fn code(arguments: &[&str]) -> Option<i32> {
 #[test]
 fn ends_are_exact_whichever_way() {
     let of = |arguments: &[&str]| -> Vec<String> {
-        let rows = table(&[&["locus", "--camera", "Nikon D70"], arguments].concat());
+        let rows = table(&[&["locus", "--camera", "Nikon D70 (2007 figure)"], arguments].concat());
         rows[1..].iter().map(|row| row[1].clone()).collect()
     };
     assert_eq!(of(&["--from", "2856.5", "--to", "6504", "--count", "2"]), ["2856.5", "6504"]);
@@ -39,10 +39,10 @@ fn ends_are_exact_whichever_way() {
 #[test]
 fn exact_names_win_over_parts() {
     let of = |name: &str| table(&["locus", "--camera", name, "--count", "1"])[1][0].clone();
-    assert_eq!(of("NIKON-D70"), "Nikon D70");
+    assert_eq!(of("NIKON-D70"), "Nikon D70 (2007 figure)");
     assert_eq!(of("d70 ampas"), "Nikon D70 (A.M.P.A.S.)");
-    refused(&["locus", "--camera", "D70"], &["could be", "Nikon D70, Nikon D70 (A.M.P.A.S.)"]);
-    let chart = |name: &str| table(&["patches", "--chart", name, "--camera", "Nikon D70"]);
+    refused(&["locus", "--camera", "D70"], &["could be", "Nikon D70 (2007 figure), Nikon D70 (A.M.P.A.S.)"]);
+    let chart = |name: &str| table(&["patches", "--chart", name, "--camera", "Nikon D70 (2007 figure)"]);
     assert_eq!(chart("five").len(), 1 + 5);
     assert_eq!(chart("colorchecker ohta 1997"), chart("ColorChecker 24 (Ohta 1997)"));
     assert_eq!(chart("fern")[1][1], "Fern-like bush leaf 024 (Vrhel)");
@@ -51,7 +51,7 @@ fn exact_names_win_over_parts() {
 
 #[test]
 fn the_default_reference_is_cie_1931() {
-    let fitted = ["locus", "--camera", "Nikon D70", "--count", "5", "--transform", "observer"];
+    let fitted = ["locus", "--camera", "Nikon D70 (2007 figure)", "--count", "5", "--transform", "observer"];
     let named = |name: &'static str| table(&[&fitted[..], &["--reference", name]].concat());
     assert_eq!(table(&fitted), named("CIE 1931 2°"));
     assert_ne!(table(&fitted), named("CIE 1964 10°"));
@@ -61,14 +61,15 @@ fn the_default_reference_is_cie_1931() {
 fn a_light_and_a_chart_from_files_are_as_built_in() {
     let light = file("lamp.csv", &figures("illuminants/d65.csv"));
     let chart = file("checker.csv", &figures("charts/colorchecker_24_ohta_1997.csv"));
-    let of = |arguments: &[&str]| table(&[&["patches", "--camera", "Canon EOS 10D"], arguments].concat());
+    let of = |arguments: &[&str]| table(&[&["patches", "--camera", "Canon EOS 10D (2007 figure)"], arguments].concat());
     let built_in = of(&["--illuminant", "D65"]);
     assert_eq!(of(&["--illuminant", text(&light)]), built_in);
     assert_eq!(of(&["--illuminant", "D65", "--chart", text(&chart)]), built_in);
     // Its own title is taken by the built-in set, so its path tells the two apart; twice the same file is one source.
-    let path = asset("cameras/nikon_d70.csv");
-    let rows = table(&["locus", "--camera", &path, "--camera", "Nikon D70", "--camera", &path, "--count", "1"]);
-    assert_eq!(rows[1][0], format!("Nikon D70 ({path})"));
+    let path = asset("cameras/nikon_d70_2007_figure.csv");
+    let rows =
+        table(&["locus", "--camera", &path, "--camera", "Nikon D70 (2007 figure)", "--camera", &path, "--count", "1"]);
+    assert_eq!(rows[1][0], format!("Nikon D70 (2007 figure) ({path})"));
     assert_eq!(rows[1], rows[3]);
     assert_eq!(rows[1][1..], rows[2][1..]);
 }
@@ -76,17 +77,20 @@ fn a_light_and_a_chart_from_files_are_as_built_in() {
 #[test]
 fn what_was_guessed_is_said_beside_the_table() {
     let leaf = file("bare leaf.txt", "400 5.5\n500 10\n600 99\n700 80\n");
-    let output = run(&["patches", "--chart", text(&leaf), "--camera", "Nikon D70"]);
+    let output = run(&["patches", "--chart", text(&leaf), "--camera", "Nikon D70 (2007 figure)"]);
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.success() && said.contains("read as percent"), "{said}");
     let rows = String::from_utf8(output.stdout).unwrap();
-    assert!(rows.lines().nth(1).unwrap().starts_with("Nikon D70,bare leaf,0."), "{rows}");
-    assert!(run(&["locus", "--camera", &asset("cameras/nikon_d70.csv")]).stderr.is_empty(), "nothing to guess");
+    assert!(rows.lines().nth(1).unwrap().starts_with("Nikon D70 (2007 figure),bare leaf,0."), "{rows}");
+    assert!(
+        run(&["locus", "--camera", &asset("cameras/nikon_d70_2007_figure.csv")]).stderr.is_empty(),
+        "nothing to guess"
+    );
 }
 
 #[test]
 fn fields_with_commas_are_quoted() {
-    let camera = format!("# title: Mine, \"the old one\"\n{}", figures("cameras/nikon_d70.csv"));
+    let camera = format!("# title: Mine, \"the old one\"\n{}", figures("cameras/nikon_d70_2007_figure.csv"));
     let camera = file("quoted.csv", &camera);
     let output = String::from_utf8(run(&["locus", "--camera", text(&camera), "--count", "1"]).stdout).unwrap();
     assert!(output.lines().nth(1).unwrap().starts_with("\"Mine, \"\"the old one\"\"\",1000,0.5"), "{output}");
@@ -97,8 +101,8 @@ fn files_that_do_not_fit_say_which_and_why() {
     let one = file("one.csv", "nm,r\n400,1\n500,2\n600,1\n");
     refused(&["locus", "--camera", text(&one)], &["one.csv: 1 curve", "red, green and blue"]);
     refused(
-        &["patches", "--illuminant", &asset("cameras/nikon_d70.csv")],
-        &["nikon_d70.csv: 3 curves", "a light is one"],
+        &["patches", "--illuminant", &asset("cameras/nikon_d70_2007_figure.csv")],
+        &["nikon_d70_2007_figure.csv: 3 curves", "a light is one"],
     );
     refused(&["locus", "--camera", env!("CARGO_TARGET_TMPDIR")], &[env!("CARGO_TARGET_TMPDIR"), "directory"]);
     refused(&["locus", "--camera", "missing.csv"], &["chromascope: missing.csv: no such file or directory\n"]);
@@ -141,8 +145,11 @@ fn exit_codes_tell_usage_from_failure() {
 #[test]
 fn a_partly_wrong_request_leaves_the_file_as_it_was() {
     let out = file("kept.csv", "as it was");
-    refused(&["locus", "--camera", "Nikon D70", "--camera", "Nikn", "--out", text(&out)], &["Nikn"]);
-    refused(&["patches", "--camera", "Nikon D70", "--chart", "missing.csv", "--out", text(&out)], &["missing.csv"]);
+    refused(&["locus", "--camera", "Nikon D70 (2007 figure)", "--camera", "Nikn", "--out", text(&out)], &["Nikn"]);
+    refused(
+        &["patches", "--camera", "Nikon D70 (2007 figure)", "--chart", "missing.csv", "--out", text(&out)],
+        &["missing.csv"],
+    );
     assert_eq!(std::fs::read_to_string(&out).unwrap(), "as it was");
     let new = out.with_file_name("never.csv");
     refused(&["locus", "--observer", "CIE 2006 2° cone fundamentals", "--out", text(&new)], &["Eq 13"]);
@@ -165,7 +172,7 @@ fn links_stay_links_and_pipes_stay_pipes() {
     let (file, link, pipe) = (folder.join("file.csv"), folder.join("link.csv"), folder.join("pipe"));
     std::fs::write(&file, "old").unwrap();
     symlink("file.csv", &link).unwrap();
-    let arguments = ["locus", "--count", "2", "--camera", "Nikon D70", "--out"];
+    let arguments = ["locus", "--count", "2", "--camera", "Nikon D70 (2007 figure)", "--out"];
     let expected = run(&[&arguments[..], &["-"]].concat()).stdout;
     assert_eq!(code(&[&arguments[..], &[text(&link)]].concat()), Some(0));
     assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
@@ -218,6 +225,10 @@ fn lists_name_what_the_options_take() {
         assert!(rows[1..].iter().all(|row| row[2..].iter().all(|cell| number(cell).is_finite())));
     }
     for name in option("illuminants", "").iter().skip(1).step_by(2) {
-        assert_eq!(code(&["locus", "--count", "1", "--camera", "Nikon D70", "--illuminant", name]), Some(0), "{name}");
+        assert_eq!(
+            code(&["locus", "--count", "1", "--camera", "Nikon D70 (2007 figure)", "--illuminant", name]),
+            Some(0),
+            "{name}"
+        );
     }
 }

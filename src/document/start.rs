@@ -1,0 +1,80 @@
+//! The named starts: what is compared, and under which conditions, on the first screen and after a reset.
+
+use super::{CHART, CIE_1931, Document, Light, Subset, TRUTH, WayChoice};
+use crate::catalog::Kind;
+use serde::{Deserialize, Serialize};
+
+/// A named start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Start {
+    /// CIE 1931 2° as the reference, D65, cameras fitted to it, ColorChecker 24
+    #[default]
+    Colorimetry,
+    /// The paper's experiments 1 and 2: Stiles & Burch 1955, equal energy, Eq 13, five patches
+    Paper,
+}
+
+impl Start {
+    /// All of them, in the order they are offered.
+    pub const ALL: [Self; 2] = [Self::Colorimetry, Self::Paper];
+
+    /// The name on screen.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Colorimetry => "Colorimetry",
+            Self::Paper => "The 2007 paper",
+        }
+    }
+
+    /// The name on the command line and in tables.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Colorimetry => "colorimetry",
+            Self::Paper => "paper",
+        }
+    }
+
+    /// What it sets up, in one sentence.
+    pub const fn summary(self) -> &'static str {
+        match self {
+            Self::Colorimetry => "CIE 1931 2° under D65; cameras through 3×3 matrices fitted to it; ColorChecker 24.",
+            Self::Paper => "Stiles & Burch 1955 under equal energy; Eq 13; the paper's cameras and five patches.",
+        }
+    }
+
+    /// The sensors that are compared, the reference first.
+    pub const fn sensors(self) -> &'static [(&'static str, Kind)] {
+        match self {
+            Self::Colorimetry => &[
+                (CIE_1931, Kind::Observer),
+                ("Canon EOS 5D Mark II", Kind::Camera),
+                ("Nikon D70 (A.M.P.A.S.)", Kind::Camera),
+                ("Kodak DCS200", Kind::Camera),
+            ],
+            Self::Paper => &[
+                (TRUTH, Kind::Observer),
+                ("Canon EOS 10D (2007 figure)", Kind::Camera),
+                ("Nikon D70 (2007 figure)", Kind::Camera),
+                ("Kodak DCS200", Kind::Camera),
+                (CIE_1931, Kind::Observer),
+            ],
+        }
+    }
+
+    /// The document that it sets up.
+    pub fn document(self) -> Document {
+        let mut document = Document::blank(self);
+        if self == Self::Colorimetry {
+            document.truth = CIE_1931.to_owned();
+            document.light = Light::Set("D65".to_owned());
+            document.chart = CHART.to_owned();
+            document.subset = Subset::All;
+            document.way = WayChoice::Observer(CIE_1931.to_owned());
+        }
+        for (name, kind) in self.sensors() {
+            document.compare(name, *kind);
+        }
+        document
+    }
+}
