@@ -7,6 +7,7 @@ use chromascope_core::query::Shared;
 use crate::catalog::{Entry, Kind};
 use crate::document::own::OwnSet;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
+use crate::document::start::Start;
 use crate::document::{
     Diagram, DifferenceChoice, Document, LOCUS_RANGE_K, Light, Overlays, Subset, WayChoice, WhiteChoice,
 };
@@ -22,7 +23,9 @@ pub enum Action {
     Render(RenderAction),
     /// To the user's own sets.
     Own(OwnAction),
-    /// All back to the first screen; own sets stay.
+    /// Begins again from a named start; imported sets stay.
+    Start(Start),
+    /// All back to the start that the document was made from; imported sets stay.
     Reset,
 }
 
@@ -37,8 +40,14 @@ pub enum CompareAction {
     SetVisible(Kind, String, bool),
     /// Gives a source another label; an empty one takes it back.
     Rename(Kind, String, String),
-    /// Makes an observer the truth, putting it on show.
-    SetTruth(String),
+    /// Compares with another observer, adding it where it is not compared. A fitted color transform follows to an observer that
+    /// counts in XYZ.
+    SetReference {
+        /// The observer.
+        name: String,
+        /// Whether it counts in XYZ, so that it can be fitted to.
+        counts_in_xyz: bool,
+    },
 }
 
 /// Changes to the conditions.
@@ -125,6 +134,7 @@ impl Action {
             Self::Own(OwnAction::Replace { name, .. }) => format!("Change {name}"),
             Self::Own(OwnAction::ReplaceAll { what, .. }) => what.clone(),
             Self::Own(OwnAction::Remove(name)) => format!("Remove {name}"),
+            Self::Start(start) => format!("Start: {}", start.name()),
             Self::Reset => "Reset to the first screen".to_owned(),
         }
     }
@@ -150,13 +160,17 @@ impl Action {
             Self::Scene(action) => action.apply(document),
             Self::Render(action) => action.apply(document),
             Self::Own(action) => action.apply(document),
-            Self::Reset => {
-                let own = std::mem::take(&mut document.own);
-                let unknown = std::mem::take(&mut document.unknown);
-                *document = Document { own, unknown, ..document.start.document() };
-            }
+            Self::Start(start) => begin(document, *start),
+            Self::Reset => begin(document, document.start),
         }
     }
+}
+
+/// Begins again from a named start, with the imported sets at hand.
+fn begin(document: &mut Document, start: Start) {
+    let own = std::mem::take(&mut document.own);
+    let unknown = std::mem::take(&mut document.unknown);
+    *document = Document { own, unknown, ..start.document() };
 }
 
 impl CompareAction {
@@ -167,7 +181,7 @@ impl CompareAction {
             Self::SetVisible(_, name, true) => format!("Show {name}"),
             Self::SetVisible(_, name, false) => format!("Hide {name}"),
             Self::Rename(_, name, _) => format!("Rename {name}"),
-            Self::SetTruth(name) => format!("Truth: {name}"),
+            Self::SetReference { name, .. } => format!("Reference: {name}"),
         }
     }
 
@@ -190,9 +204,12 @@ impl CompareAction {
                     compared.label = (!label.is_empty() && label != *name).then(|| label.to_owned());
                 }
             }
-            Self::SetTruth(name) => {
+            Self::SetReference { name, counts_in_xyz } => {
                 document.compare(name, Kind::Observer);
                 document.truth.clone_from(name);
+                if *counts_in_xyz && matches!(document.way, WayChoice::Observer(_)) {
+                    document.set_transform(WayChoice::Observer(name.clone()));
+                }
                 for compared in document.compared.iter_mut().filter(|c| c.kind == Kind::Observer && c.name == *name) {
                     compared.visible = true;
                 }
@@ -208,8 +225,8 @@ impl SceneAction {
             Self::SetTemperature(_) => "Temperature",
             Self::SetChart(_) => "Patches",
             Self::SetSubset(_) => "Number of patches",
-            Self::SetWhite(_) => "White",
-            Self::SetWay(_) => "To diagram",
+            Self::SetWhite(_) => "White balance",
+            Self::SetWay(_) => "Color transform",
             Self::SetDifference(_) => "Difference",
             Self::SetDiagram(_) => "Diagram",
             Self::SetOverlays(_) => "Shown on the diagram",
@@ -233,7 +250,7 @@ impl SceneAction {
             Self::SetChart(chart) => document.chart.clone_from(chart),
             Self::SetSubset(subset) => document.subset = *subset,
             Self::SetWhite(white) => document.white = white.clone(),
-            Self::SetWay(way) => document.way = way.clone(),
+            Self::SetWay(way) => document.set_transform(way.clone()),
             Self::SetDifference(difference) => document.difference = *difference,
             Self::SetDiagram(diagram) => document.diagram = *diagram,
             Self::SetOverlays(overlays) => document.overlays = *overlays,

@@ -161,7 +161,40 @@ impl DifferenceChoice {
         }
     }
 
-    /// The symbol.
+    /// The measures that have a meaning under a color transform, the preferred ones first.
+    ///
+    /// Eq 13 takes an observer's RGB as sRGB: L*a*b* of its XYZ is no CIE L*a*b*, so distances in the diagram come first there.
+    pub const fn offered(transform: &WayChoice) -> &'static [Self] {
+        match transform {
+            WayChoice::Paper => &[Self::Xy, Self::UvPrime, Self::DeltaE2000],
+            WayChoice::Observer(_) => &Self::ALL,
+        }
+    }
+
+    /// The measure that a color transform starts with.
+    pub const fn preferred(transform: &WayChoice, diagram: Diagram) -> Self {
+        match (transform, diagram) {
+            (WayChoice::Observer(_), _) => Self::DeltaE2000,
+            (WayChoice::Paper, Diagram::Xy) => Self::Xy,
+            (WayChoice::Paper, Diagram::UvPrime) => Self::UvPrime,
+        }
+    }
+
+    /// The name under a color transform: the formulas of ΔE*00 and ΔE*ab give one only where XYZ is the reference's own.
+    pub const fn name_under(self, transform: &WayChoice) -> &'static str {
+        match (self, transform) {
+            (Self::DeltaE2000, WayChoice::Paper) => "Δ of Eq 13 colors",
+            (Self::DeltaE1976, WayChoice::Paper) => "Δ of Eq 13 colors (1976 formula)",
+            _ => self.symbol(),
+        }
+    }
+
+    /// Whether it is a formula of L*a*b*, in which about 1 is just visible.
+    pub const fn is_of_lab(self) -> bool {
+        matches!(self, Self::DeltaE2000 | Self::DeltaE1976)
+    }
+
+    /// The symbol of the formula.
     pub const fn symbol(self) -> &'static str {
         match self {
             Self::DeltaE2000 => "ΔE*00",
@@ -263,7 +296,7 @@ impl Document {
             subset: Subset::Five,
             white: WhiteChoice::Unity,
             way: WayChoice::Paper,
-            difference: DifferenceChoice::DeltaE2000,
+            difference: DifferenceChoice::preferred(&WayChoice::Paper, Diagram::Xy),
             diagram: Diagram::Xy,
             overlays: Overlays::default(),
             render: RenderSettings::default(),
@@ -295,6 +328,15 @@ impl Document {
     /// The source of this name on show.
     pub fn compared(&self, kind: Kind, name: &str) -> Option<&Compared> {
         self.compared.iter().find(|c| c.kind == kind && c.name == name)
+    }
+
+    /// Takes another color transform, with the measure of difference that it starts with unless it already has one of its own.
+    pub fn set_transform(&mut self, transform: WayChoice) {
+        let fitted = |way: &WayChoice| matches!(way, WayChoice::Observer(_));
+        if fitted(&self.way) != fitted(&transform) {
+            self.difference = DifferenceChoice::preferred(&transform, self.diagram);
+        }
+        self.way = transform;
     }
 
     /// Whether a source is the truth.

@@ -95,6 +95,47 @@ pub struct Source {
     pub visible: bool,
 }
 
+/// A condition under which the numbers do not mean what a reader expects.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Caution {
+    /// The reference counts in XYZ while Eq 13 takes RGB: no camera can be compared with it.
+    NotComparable {
+        /// The reference, to which cameras can be fitted.
+        reference: String,
+    },
+    /// Cameras are fitted to another observer than they are compared with.
+    FitDiffers {
+        /// The observer that is fitted to.
+        target: String,
+        /// The reference.
+        reference: String,
+        /// Whether the reference counts in XYZ, so that it can be fitted to.
+        can_fit: bool,
+    },
+}
+
+impl Caution {
+    /// The condition in one sentence.
+    pub fn sentence(&self) -> String {
+        match self {
+            Self::NotComparable { reference } => {
+                format!("{reference} counts in XYZ, but Eq 13 takes RGB: cameras cannot be compared with it.")
+            }
+            Self::FitDiffers { target, reference, .. } => {
+                format!("Compared with {reference}, but the color transform is fitted to {target}.")
+            }
+        }
+    }
+
+    /// The observer to fit to that removes the condition.
+    pub fn fit_to(&self) -> Option<&str> {
+        match self {
+            Self::NotComparable { reference } | Self::FitDiffers { reference, can_fit: true, .. } => Some(reference),
+            Self::FitDiffers { can_fit: false, .. } => None,
+        }
+    }
+}
+
 /// The document, the data sets and the answers, read together.
 #[derive(Clone, Copy)]
 pub struct Scene<'a> {
@@ -289,6 +330,24 @@ impl<'a> Scene<'a> {
         let truth = self.sensor(Kind::Observer, &self.document.truth)?;
         let sensor = self.sensor(kind, name)?;
         Ok(compare::comparable_by_paper(truth.primaries(), sensor.primaries()))
+    }
+
+    /// The condition to warn of, if there is one.
+    pub fn caution(&self) -> Option<Caution> {
+        let reference = self.document.truth.clone();
+        let counts_in_xyz = self.entry(Kind::Observer, &reference).is_ok_and(|entry| entry.counts_in_xyz());
+        match &self.document.way {
+            WayChoice::Paper => counts_in_xyz.then_some(Caution::NotComparable { reference }),
+            WayChoice::Observer(target) if *target == reference => None,
+            WayChoice::Observer(target) => {
+                Some(Caution::FitDiffers { target: target.clone(), reference, can_fit: counts_in_xyz })
+            }
+        }
+    }
+
+    /// The name of the measure of difference under the color transform.
+    pub fn difference_name(&self) -> &'static str {
+        self.document.difference.name_under(&self.document.way)
     }
 
     /// The difference of each patch from the truth, by the measure chosen; or why there is none.

@@ -1,5 +1,6 @@
 //! Parts that more than one pane uses.
 
+pub mod caution;
 pub mod facts;
 pub mod lines;
 pub mod tolerance;
@@ -18,8 +19,8 @@ use crate::thing::SourceId;
 use crate::workspaces::PaneKind;
 
 /// The sentence that says what the window is about.
-pub const WHAT_YOU_SEE: &str = "A camera's sensors are not the eye's, so it records other colors than a person sees. Here is how \
-                                far off each one is.";
+pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities are not the eye's, so it records other colors than a person sees. \
+                                Here is how far off each one is.";
 
 /// The height of a pane's header.
 pub const HEADER: f32 = 32.0;

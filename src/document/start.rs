@@ -70,7 +70,7 @@ impl Start {
             document.light = Light::Set("D65".to_owned());
             document.chart = CHART.to_owned();
             document.subset = Subset::All;
-            document.way = WayChoice::Observer(CIE_1931.to_owned());
+            document.set_transform(WayChoice::Observer(CIE_1931.to_owned()));
         }
         for (name, kind) in self.sensors() {
             document.compare(name, *kind);

@@ -15,7 +15,7 @@ use crate::scene::{Scene, Source};
 use crate::thing::{SourceId, Things};
 use crate::view::{DiagramFit, View};
 
-pub use points::{describe, distance_symbol, patch_xy};
+pub use points::{blackbody_distance, describe, distance_symbol, patch_xy};
 
 /// The diagram with what its marks stand for.
 #[derive(Clone, Debug)]
@@ -192,10 +192,10 @@ pub fn caption(scene: &Scene<'_>) -> String {
 /// The conditions in sentences.
 pub fn conditions(scene: &Scene<'_>) -> String {
     let way = match &scene.document.way {
-        WayChoice::Paper => "Paper (Eq 13), CIE observers drawn directly".to_owned(),
-        WayChoice::Observer(name) => format!("Observer, 3×3 matrices fitted to {name} over 190 training reflectances"),
+        WayChoice::Paper => "Paper matrix (Eq 13), CIE observers drawn directly".to_owned(),
+        WayChoice::Observer(name) => format!("3×3 matrices fitted to {name} over 190 training reflectances"),
     };
-    format!("{} Patches: {}. To diagram: {way}.", viewing_conditions(scene), scene.document.chart)
+    format!("{} Patches: {}. Color transform: {way}.", viewing_conditions(scene), scene.document.chart)
 }
 
 /// The conditions that have nothing to do with patches and diagram, in sentences.
@@ -206,7 +206,7 @@ pub fn viewing_conditions(scene: &Scene<'_>) -> String {
         crate::document::WhiteChoice::Daylight(kelvin) => format!("daylight {kelvin:.0} K"),
         crate::document::WhiteChoice::BlackBody(kelvin) => format!("black body {kelvin:.0} K"),
     };
-    format!("Truth: {}. Light: {}. White: {white}.", scene.document.truth, scene.light_name())
+    format!("Reference: {}. Light: {}. White balance: {white}.", scene.document.truth, scene.light_name())
 }
 
 /// All points as numbers.

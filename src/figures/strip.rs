@@ -61,8 +61,9 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
     let x = Axis::new("", [cold, hot]).with_ticks(Ticks::At(ticks)).with_grid(true);
     let y = Axis::new("", [0.0, top]).with_ticks(Ticks::At(height_ticks(top, size[1] - 28.0))).with_grid(true);
-    let mut panel = Panel::new("Distance to the truth over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
-    panel.note = format!("distance to truth ({}) over temperature", super::chromaticity::distance_symbol(diagram));
+    let mut panel =
+        Panel::new("Distance to the reference over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
+    panel.note = format!("distance to reference ({}) over temperature", super::chromaticity::distance_symbol(diagram));
     panel.marks = marks;
     Some(Strip { panel, things })
 }

@@ -181,7 +181,7 @@ impl Board<'_> {
         let mark = Mark::new(tag, source.label.clone(), shape).with_stroke(InkRole::OnSurround, 1.5);
         let filled = source.marker.has_inside();
         self.marks.push(if filled { mark.with_fill(InkRole::OnSurround) } else { mark });
-        let label = if source.is_truth { "Truth" } else { &source.label };
+        let label = if source.is_truth { "Reference" } else { &source.label };
         self.text(tag, &elided(label, width - 18.0), [at[0] + 18.0, at[1]], Anchor::LEFT);
     }
 
@@ -292,11 +292,11 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
     panel.area = Rect::from_min_size([0.0, 0.0], figure.size);
     figure.panels.push(Panel { marks: panel.marks, ..Panel::board("Swatches", panel.area, panel.background) });
     let how = match view.saved.swatch_style {
-        SwatchStyle::Split => "Left half: truth; right half: source.",
-        SwatchStyle::Inset => "Inside: truth; outside: source.",
+        SwatchStyle::Split => "Left half: reference; right half: sensor.",
+        SwatchStyle::Inset => "Inside: reference; outside: sensor.",
         SwatchStyle::Whole => "",
     };
-    let symbol = scene.document.difference.symbol();
+    let symbol = scene.difference_name();
     let full = scene.document.difference.full_bar();
     figure.caption = format!("{how} Bars: {symbol}, full at {full}. Notched corners: clipped. {}", caption(scene));
     figure.table = table(scene);

@@ -36,6 +36,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         widgets::data_table(ui, body, "chromaticity", &figure.table);
         return;
     }
+    let body = widgets::caution::show(ui, body, context);
     let strip_height = if body.height() >= WITH_STRIP { STRIP } else { 0.0 };
     let cut = body.bottom() - strip_height;
     diagram(ui, Rect::from_min_max(body.min, Pos2::new(body.right(), cut)), context);
@@ -72,7 +73,7 @@ fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
     for (on, words) in [
         (&mut overlays.loci, "Planckian loci"),
         (&mut overlays.patches, "Patches"),
-        (&mut overlays.camera_spectral_loci, "Cameras' own spectral loci: what no matrix can mend"),
+        (&mut overlays.camera_spectral_loci, "Cameras' spectral loci: errors that no 3×3 matrix can correct"),
         (&mut overlays.daylight, "Daylight locus"),
         (&mut overlays.srgb, "sRGB"),
         (&mut overlays.dci_p3, "DCI-P3"),
@@ -187,7 +188,7 @@ fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let Some(built) = strip::build(&context.scene, size) else {
         let font = egui::FontId::proportional(crate::theme::SMALL);
-        let words = "No source here can be compared with the truth on this way to the diagram.";
+        let words = "No sensor here can be compared with the reference under this color transform.";
         ui.painter().text(rect.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
         return;
     };
@@ -225,13 +226,9 @@ fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let kelvin = (1e6 / mired / 10.0).round() * 10.0;
         let mut lines = vec![format!("{kelvin:.0} K")];
         for source in context.scene.sources().iter().filter(|source| source.visible && !source.is_truth) {
-            let radiator = Thing::Radiator {
-                source: crate::thing::SourceId { kind: source.kind, name: source.name.clone() },
-                kelvin,
-            };
-            let told = chromaticity::describe(&context.scene, &radiator);
-            if let Some(distance) = told.iter().find(|line| line.starts_with("to the truth")) {
-                lines.push(format!("{}: {}", source.label, distance.trim_start_matches("to the truth: ")));
+            let id = crate::thing::SourceId { kind: source.kind, name: source.name.clone() };
+            if let Some(distance) = chromaticity::blackbody_distance(&context.scene, &id, kelvin) {
+                lines.push(format!("{}: {distance}", source.label));
             }
         }
         lines.push("Drag to set the temperature.".to_owned());

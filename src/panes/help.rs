@@ -87,11 +87,14 @@ fn what_you_see(ui: &mut Ui) {
          its error; Bench does the same on inputs of its own. Left out lists what was not computed, and the time that computing \
          it took. Under Tolerance you choose the largest error; each camera then says which way keeps it, and the error that \
          was certified.",
-        "To diagram: Paper. Camera and RGB observer signals, balanced so that a flat spectrum is 1 : 1 : 1, go through the \
+        "Color transform: paper matrix. Camera and RGB observer signals, balanced so that a flat spectrum is 1 : 1 : 1, go through the \
          matrix of Eq 13; equal energy falls on D65 (0.3127, 0.3290). CIE observers are drawn directly, with equal energy at \
-         (1/3, 1/3), so they differ from the others by construction and have no distance to the truth.",
-        "To diagram: Observer. CIE observers directly; all others through a 3×3 matrix, fitted to the named observer over 190 \
-         training reflectances under the chosen light so that white stays white. Then everything can be compared.",
+         (1/3, 1/3), so they differ from the others by construction and cannot be compared with them. Eq 13 takes an observer's RGB \
+         as sRGB, so the ΔE*00 formula on its colors is not ΔE*00: it is called Δ of Eq 13 colors, and distances in the diagram \
+         come first.",
+        "Color transform: fitted. CIE observers directly; all others through a 3×3 matrix, fitted to the named observer over 190 \
+         training reflectances under the chosen light so that white stays white. Then everything can be compared. Another reference takes the fit along where it \
+         counts in XYZ.",
         "Hover to read, click to keep, Esc to let go. Drop files anywhere, or paste numbers: spectra and camera sensitivities \
          as text, with any delimiter. What was decided on reading is shown and can be changed. One file is put to use as what it \
          is; of several at once cameras are put on show, and light and patches stay.",
@@ -121,7 +124,7 @@ fn keyboard(ui: &mut Ui, context: &PaneContext<'_>) {
     for (key, words) in [
         ("Ctrl+C", "Copy the pane's numbers"),
         ("Ctrl+V", "Read the clipboard as data"),
-        ("B, held", "The truth in place of every camera"),
+        ("B, held", "The reference in place of every camera"),
         ("Ctrl +, Ctrl −, Ctrl 0", "Larger, smaller, normal size"),
         ("Tab, Shift+Tab", "Next, previous control"),
         ("Arrows in the strip", "Temperature"),
@@ -185,7 +188,8 @@ fn equations(ui: &mut Ui) {
         (
             "Eq 11",
             "s_c = κ_c m dω ∫ C_c L dλ",
-            "White balance: the color s that a perfect white under the light is to take.",
+            "White-balance target s: the RGB that a perfect diffuser under the light is mapped to. It is also the adopted white of \
+             L*a*b*.",
         ),
         (
             "Eq 12",

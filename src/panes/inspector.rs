@@ -87,10 +87,7 @@ fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
 
 /// A difference with the decimals that its measure deserves.
 fn difference_words(measure: DifferenceChoice, value: f64) -> String {
-    match measure {
-        DifferenceChoice::DeltaE2000 | DifferenceChoice::DeltaE1976 => fixed(value, 2),
-        DifferenceChoice::UvPrime | DifferenceChoice::Xy => fixed(value, 4),
-    }
+    fixed(value, if measure.is_of_lab() { 2 } else { 4 })
 }
 
 /// Why there is no difference, as a sentence.

@@ -7,6 +7,7 @@ use crate::action::{Action, SceneAction};
 use crate::command::{Command, Format, shortcut_of};
 use crate::document::DifferenceChoice;
 use crate::document::history::History;
+use crate::document::start::Start;
 use crate::theme::{ROW, Surround, UNIT};
 use crate::view::HelpPage;
 use crate::workspaces::{PaneKind, Workspace};
@@ -154,6 +155,9 @@ fn edit(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
     ui.separator();
     item(ui, "Pin the selection", Command::Pin, context);
     item(ui, "Find anything…", Command::FindAnything, context);
+    for start in Start::ALL {
+        item(ui, &format!("Start: {}", start.name()), Command::Do(Action::Start(start)), context);
+    }
     item(ui, "Reset to the first screen", Command::Do(Action::Reset), context);
 }
 
@@ -172,8 +176,9 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.separator();
     ui.menu_button("Difference", |ui| {
         let now = context.scene.document.difference;
-        for difference in DifferenceChoice::ALL {
-            if ui.radio(now == difference, difference.symbol()).clicked() {
+        let transform = &context.scene.document.way;
+        for &difference in DifferenceChoice::offered(transform) {
+            if ui.radio(now == difference, difference.name_under(transform)).clicked() {
                 context.push(Action::Scene(SceneAction::SetDifference(difference)));
                 ui.close();
             }

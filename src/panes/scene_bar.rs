@@ -1,4 +1,4 @@
-//! All conditions in one bar: truth, light, temperature, patches, white, way to the diagram, difference.
+//! All conditions in one bar: reference, light, temperature, patches, white balance, color transform, difference.
 
 use egui::{Align, ComboBox, DragValue, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
 
@@ -23,14 +23,14 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     bar.set_clip_rect(rect.intersect(ui.clip_rect()));
     bar.spacing_mut().item_spacing.x = 3.0 * UNIT;
     let compact = if wide { 1.0 } else { 0.78 };
-    field(&mut bar, "Truth", 200.0 * compact, context, truth);
+    field(&mut bar, "Reference", 200.0 * compact, context, reference);
     field(&mut bar, "Light", 148.0 * compact, context, light);
     field(&mut bar, temperature_caption(context, wide), slider + 74.0, context, |ui, context| {
         temperature(ui, slider, context);
     });
     field(&mut bar, "Patches", 196.0 * compact, context, patches);
-    field(&mut bar, "White", 108.0 * compact, context, white);
-    field(&mut bar, "To diagram", 146.0 * compact, context, way);
+    field(&mut bar, "White balance", 108.0 * compact, context, white);
+    field(&mut bar, "Color transform", 146.0 * compact, context, way);
     if wide {
         field(&mut bar, "Difference", 90.0, context, difference);
     }
@@ -64,15 +64,16 @@ fn choice(ui: &mut Ui, name: &str, hint: &str, shown: &str, list: impl FnOnce(&m
     response.on_hover_text(format!("{hint}\nNow: {shown}"));
 }
 
-fn truth(ui: &mut Ui, context: &mut PaneContext<'_>) {
+fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.truth.clone();
     // A name that is cut tells two observers apart less well than a short one.
     let entry = context.scene.entry(Kind::Observer, &now).ok().filter(|_| ui.available_width() < 180.0);
     let shown = entry.map_or_else(|| now.clone(), |entry| entry.short);
-    choice(ui, "Truth", "The observer that all others are compared to.", &shown, |ui| {
+    choice(ui, "Reference", "The observer that cameras are compared with.", &shown, |ui| {
         for entry in context.scene.entries(Kind::Observer) {
             if ui.selectable_label(entry.name == now, &entry.name).clicked() {
-                context.push(Action::Compare(CompareAction::SetTruth(entry.name)));
+                let counts_in_xyz = entry.counts_in_xyz();
+                context.push(Action::Compare(CompareAction::SetReference { name: entry.name, counts_in_xyz }));
             }
         }
     });
@@ -181,9 +182,9 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
         WhiteChoice::Daylight(kelvin) => format!("Daylight {kelvin:.0} K"),
         WhiteChoice::BlackBody(kelvin) => format!("Black body {kelvin:.0} K"),
     };
-    let hint = "The color that a perfect white under the light is to take (Eq 11). Through Observer it moves RGB only: the \
-                matrix belongs to the balanced signals.";
-    choice(ui, "White", hint, &shown, |ui| {
+    let hint = "White-balance target: the RGB that a perfect diffuser under the light is mapped to (Eq 11). With a fitted color \
+                transform it changes camera RGB only; the matrix compensates for it.";
+    choice(ui, "White balance", hint, &shown, |ui| {
         let mut offer = |ui: &mut Ui, white: WhiteChoice, words: &str| {
             if ui.selectable_label(now == white, words).clicked() {
                 context.commands.push(Action::Scene(SceneAction::SetWhite(white)).into());
@@ -203,37 +204,41 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn way(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.way.clone();
     let shown = match &now {
-        WayChoice::Paper if ui.available_width() < 130.0 => "Paper".to_owned(),
-        WayChoice::Paper => "Paper (Eq 13)".to_owned(),
-        WayChoice::Observer(name) => format!("Fit {name}"),
+        WayChoice::Paper if ui.available_width() < 130.0 => "Eq 13".to_owned(),
+        WayChoice::Paper => "Paper matrix (Eq 13)".to_owned(),
+        WayChoice::Observer(name) if ui.available_width() < 130.0 => format!("Fit {name}"),
+        WayChoice::Observer(name) => format!("Fit to {name}"),
     };
-    let hint = "How signals come to the diagram. Paper: camera and RGB observer signals through the matrix of Eq 13, CIE \
-                observers directly. Observer: all through a 3×3 matrix fitted to a CIE observer over 190 training \
-                reflectances under the light.";
-    choice(ui, "To diagram", hint, &shown, |ui| {
-        if ui.selectable_label(now == WayChoice::Paper, "Paper (Eq 13)").clicked() {
+    let hint = "Color transform from camera RGB to XYZ. Paper matrix: camera and RGB observer signals through the matrix of \
+                Eq 13, CIE observers directly. Fitted: a 3×3 matrix for each sensor, fitted to a CIE observer over 190 \
+                training reflectances under the light.";
+    choice(ui, "Color transform", hint, &shown, |ui| {
+        if ui.selectable_label(now == WayChoice::Paper, "Paper matrix (Eq 13)").clicked() {
             context.push(Action::Scene(SceneAction::SetWay(WayChoice::Paper)));
         }
         ui.separator();
-        for entry in context.scene.entries(Kind::Observer).filter(is_xyz) {
+        for entry in context.scene.entries(Kind::Observer).filter(crate::catalog::Entry::counts_in_xyz) {
             let way = WayChoice::Observer(entry.name.clone());
-            if ui.selectable_label(now == way, format!("Observer, fitted to {}", entry.name)).clicked() {
+            if ui.selectable_label(now == way, format!("Fitted to {}", entry.name)).clicked() {
                 context.push(Action::Scene(SceneAction::SetWay(way)));
             }
         }
     });
 }
 
-/// Whether an observer counts in XYZ, by its column heads alone: nothing is parsed for a menu.
-fn is_xyz(entry: &crate::catalog::Entry) -> bool {
-    entry.header.as_ref().is_some_and(|header| header.columns.first().is_some_and(|head| head == "x_bar"))
-}
-
 fn difference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.difference;
-    choice(ui, "Difference", "The measure of difference from the truth.", now.symbol(), |ui| {
-        for difference in DifferenceChoice::ALL {
-            if ui.selectable_label(now == difference, difference.symbol()).clicked() {
+    let transform = context.scene.document.way.clone();
+    let hint = match transform {
+        WayChoice::Paper => {
+            "The measure of difference from the reference. Eq 13 takes RGB of an observer as sRGB, so its L*a*b* is not that of \
+             the CIE: distances in the diagram mean what they say; the ΔE*00 formula gives only a number."
+        }
+        WayChoice::Observer(_) => "The measure of difference from the reference.",
+    };
+    choice(ui, "Difference", hint, now.name_under(&transform), |ui| {
+        for &difference in DifferenceChoice::offered(&transform) {
+            if ui.selectable_label(now == difference, difference.name_under(&transform)).clicked() {
                 context.push(Action::Scene(SceneAction::SetDifference(difference)));
             }
         }

@@ -10,7 +10,6 @@ use super::PaneContext;
 use crate::catalog::Kind;
 use crate::catalog::opened::Progress;
 use crate::command::Command;
-use crate::document::Document;
 use crate::theme::UNIT;
 use crate::thing::{SourceId, Thing};
 use crate::view::Weight;
@@ -167,10 +166,9 @@ fn describe(thing: &Thing, context: &PaneContext<'_>) -> String {
             let difference = index
                 .filter(|_| !is_truth)
                 .and_then(|index| scene.differences(id.kind, &id.name).ok()?.get(index).copied().and_then(Result::ok));
-            let measure = scene.document.difference;
             let difference = difference.map_or_else(String::new, |value| {
-                let decimals = if value_is_delta_e(scene.document) { 2 } else { 4 };
-                format!(", {} {}", measure.symbol(), fixed(value, decimals))
+                let decimals = if scene.document.difference.is_of_lab() { 2 } else { 4 };
+                format!(", {} {}", scene.difference_name(), fixed(value, decimals))
             });
             format!("{}, {patch}{place}{difference}", label(id))
         }
@@ -183,11 +181,6 @@ fn describe(thing: &Thing, context: &PaneContext<'_>) -> String {
             format!("{}, black body {} K{place}", label(source), fixed(*kelvin, 0))
         }
     }
-}
-
-fn value_is_delta_e(document: &Document) -> bool {
-    use crate::document::DifferenceChoice::{DeltaE1976, DeltaE2000};
-    matches!(document.difference, DeltaE1976 | DeltaE2000)
 }
 
 /// The right side. What no pane shows is not computed for it.

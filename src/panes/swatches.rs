@@ -21,6 +21,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         widgets::data_table(ui, body, "swatches", &figure.table);
         return;
     }
+    let body = widgets::caution::show(ui, body, context);
     let size = [f64::from(body.width()), f64::from(body.height())];
     let built = swatches::build(&context.scene, context.view, size);
     let mut child = ui.new_child(UiBuilder::new().id_salt("swatches").max_rect(body));
@@ -70,16 +71,16 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ui.add_space(UNIT);
     }
     let rows = swatches::in_rows(context.view.saved.swatch_layout, count);
-    let choices = [(true, "Rows", "A row for each source"), (false, "Charts", "A chart for each source")];
+    let choices = [(true, "Rows", "A row for each sensor"), (false, "Charts", "A chart for each sensor")];
     if let Some(rows) = widgets::segmented(ui, &choices, rows) {
         context.view.saved.swatch_layout = if rows { SwatchLayout::Rows } else { SwatchLayout::Charts };
         ui.ctx().request_repaint();
     }
     ui.add_space(UNIT);
     let choices = [
-        (SwatchStyle::Split, "Split", "Left half truth, right half source"),
-        (SwatchStyle::Inset, "Inset", "The truth inside"),
-        (SwatchStyle::Whole, "Whole", "The source alone"),
+        (SwatchStyle::Split, "Split", "Left half: reference; right half: sensor"),
+        (SwatchStyle::Inset, "Inset", "The reference inside"),
+        (SwatchStyle::Whole, "Whole", "The sensor alone"),
     ];
     if let Some(style) = widgets::segmented(ui, &choices, context.view.saved.swatch_style) {
         context.view.saved.swatch_style = style;

@@ -204,7 +204,9 @@ fn a_source_without_a_plan_says_why() {
     window.run_steps(2);
     take_in(&mut window);
     assert_eq!(window.query_all_by_label_contains("No sample takes a spectral integral.").count(), 4);
-    window.state_mut().push(Action::Compare(CompareAction::SetTruth("CIE 1931 2°".to_owned())));
+    window
+        .state_mut()
+        .push(Action::Compare(CompareAction::SetReference { name: "CIE 1931 2°".to_owned(), counts_in_xyz: true }));
     window.run_steps(3);
     take_in(&mut window);
     assert!(window.query_all_by_label_contains("No picture beside this truth: a CIE observer").count() >= 3);

@@ -29,4 +29,5 @@ mod render;
 mod save_prompt;
 mod save_set;
 mod screenshots;
+mod starts;
 mod theme;

@@ -97,7 +97,7 @@ fn the_document_is_kept_between_runs() {
     let folder = tempfile::tempdir().unwrap();
     let document = Document { temperature_k: 3210.0, ..Document::paper() };
     let mut files = Files::new(Some(folder.path().to_owned()));
-    assert_eq!(files.kept_document(), Document::paper(), "there is none yet");
+    assert_eq!(files.kept_document(), Document::default(), "there is none yet");
     files.save_document(&document);
     assert_eq!(Files::new(Some(folder.path().to_owned())).kept_document(), document);
 }
@@ -107,7 +107,7 @@ fn what_cannot_be_read_is_set_aside_not_overwritten() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("document.json"), "{ broken").unwrap();
     let mut files = Files::new(Some(folder.path().to_owned()));
-    assert_eq!(files.kept_document(), Document::paper());
+    assert_eq!(files.kept_document(), Document::default());
     files.save_document(&Document { temperature_k: 3000.0, ..Document::paper() });
     assert_eq!(std::fs::read_to_string(folder.path().join("document.unreadable.json")).unwrap(), "{ broken");
 }

@@ -51,7 +51,7 @@ fn the_truth_stays_and_others_go() {
     let remove = |kind, name: &str| Action::Compare(CompareAction::Remove(kind, name.to_owned()));
     check(&remove(Kind::Observer, TRUTH), |document| assert_eq!(document.compared.len(), 5));
     check(&remove(Kind::Camera, "Nikon D70 (2007 figure)"), |document| assert_eq!(document.compared.len(), 4));
-    let truth = CompareAction::SetTruth("CIE 1964 10°".to_owned());
+    let truth = CompareAction::SetReference { name: "CIE 1964 10°".to_owned(), counts_in_xyz: true };
     check(&Action::Compare(truth), |document| {
         assert_eq!(document.truth, "CIE 1964 10°");
         assert!(document.compared(Kind::Observer, "CIE 1964 10°").is_some());

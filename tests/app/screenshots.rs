@@ -21,15 +21,20 @@ use egui_kittest::Harness;
 
 use crate::cpu_renderer::{Cpu, compare};
 
-/// The program in a window of the given size, as it starts.
+/// The program in a window of the given size, with the paper's start.
 pub(crate) fn open(size: [f32; 2], theme: egui::Theme) -> Harness<'static, ChromascopeApp> {
+    open_with(Document::paper(), size, theme)
+}
+
+/// The program in a window of the given size, with a document.
+pub(crate) fn open_with(document: Document, size: [f32; 2], theme: egui::Theme) -> Harness<'static, ChromascopeApp> {
     let mut harness = Harness::builder()
         .with_size(size)
         .with_pixels_per_point(1.0)
         .with_theme(theme)
         .renderer(Cpu::default())
         .build_eframe(|cc| {
-            let history = History::new(Document::paper());
+            let history = History::new(document);
             ChromascopeApp::new(&cc.egui_ctx, history, SavedView::default(), Files::new(None))
         });
     harness.run();
@@ -53,17 +58,17 @@ fn select(harness: &mut Harness<'static, ChromascopeApp>, source: &str, patch: &
 
 #[test]
 fn compare_dark() {
-    check(open([1280.0, 800.0], egui::Theme::Dark), "compare_dark.png");
+    check(open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark), "compare_dark.png");
 }
 
 #[test]
 fn compare_light() {
-    check(open([1280.0, 800.0], egui::Theme::Light), "compare_light.png");
+    check(open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Light), "compare_light.png");
 }
 
 #[test]
 fn compare_small() {
-    check(open([900.0, 600.0], egui::Theme::Dark), "compare_small.png");
+    check(open_with(Document::colorimetry(), [900.0, 600.0], egui::Theme::Dark), "compare_small.png");
 }
 
 #[test]

@@ -36,7 +36,7 @@ pub enum NoRendering {
         channel: usize,
     },
     /// Cone fundamentals are no RGB, so Eq 13 says nothing about them.
-    #[error("Eq 13 takes RGB, not cone signals; set To diagram to Observer")]
+    #[error("Eq 13 takes RGB, not cone signals; choose a fitted color transform")]
     ConesNeedObserver,
     /// The reference of a fit must count in XYZ.
     #[error("the reference observer must be a CIE XYZ observer")]

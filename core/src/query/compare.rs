@@ -24,14 +24,14 @@ pub enum NoDifference {
     /// One is drawn by Eq 13, the other directly.
     #[error(
         "a CIE observer is drawn directly while cameras and RGB observers go through Eq 13, so the two differ by construction; \
-         set To diagram to Observer to compare them"
+         choose a fitted color transform to compare them"
     )]
     Ways,
     /// One of them has no chromaticity.
-    #[error("the signals sum to nothing, so there is no chromaticity")]
+    #[error("chromaticity undefined (X + Y + Z = 0)")]
     NoChromaticity,
     /// One of them has no L*a*b*.
-    #[error("the white has a component that is not positive, so there is no L*a*b*")]
+    #[error("the adopted white has a component that is not positive, so L*a*b* is undefined")]
     NoLab,
 }
 

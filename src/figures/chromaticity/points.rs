@@ -2,7 +2,7 @@
 
 use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_core::figure::{Anchor, Ink, InkRole, Mark, Shape, TextSize};
-use chromascope_core::query::{PatchColor, Temperatures, compare};
+use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::units::Kelvin;
 
 use super::{Drawing, id};
@@ -119,31 +119,40 @@ fn describe_source(scene: &Scene<'_>, source: &SourceId) -> Vec<String> {
 fn why_apart(scene: &Scene<'_>, source: &SourceId) -> Option<String> {
     let reason = scene.comparable(source.kind, &source.name).ok()?.err()?;
     Some(format!(
-        "No distance to the truth: {reason}. Equal energy falls on (1/3, 1/3) for CIE observers, on D65 (0.3127, 0.3290) by Eq 13."
+        "No distance to the reference: {reason}. Equal energy falls on (1/3, 1/3) for CIE observers, on D65 (0.3127, 0.3290) by Eq 13."
     ))
 }
 
 fn describe_radiator(scene: &Scene<'_>, source: &SourceId, kelvin: f64) -> Vec<String> {
-    let mut lines = vec![format!("{}, black body {kelvin:.0} K", label(scene, source))];
-    let at = |kind: Kind, name: &str| {
-        let list = Temperatures::List(vec![Kelvin::new(kelvin).ok()?]);
-        scene.locus_at(kind, name, list).ok()?.points.first().copied()
-    };
-    let Some(point) = at(source.kind, &source.name) else { return lines };
+    let mut lines = vec![format!("{}, blackbody {kelvin:.0} K", label(scene, source))];
+    let Some(point) = blackbody(scene, source.kind, &source.name, kelvin) else { return lines };
     lines.extend(coordinates(point.xy, point.uv));
     if let Some(why) = why_apart(scene, source) {
         lines.push(why);
-    } else if let Some(truth) = at(Kind::Observer, &scene.document.truth) {
-        let xy = compare::locus_distance_xy(&point, &truth);
-        let uv = compare::locus_distance_uv(&point, &truth);
-        match (xy, uv) {
-            (Ok(xy), Ok(uv)) => {
-                lines.push(format!("to the truth: Δxy {}   Δu′v′ {}", number(round4(xy)), number(round4(uv))));
-            }
-            (Err(why), _) | (_, Err(why)) => lines.push(why.to_string()),
-        }
+    } else {
+        lines.extend(blackbody_distance(scene, source, kelvin).map(|words| format!("to the reference: {words}")));
     }
     lines
+}
+
+/// The blackbody of a temperature through a sensor.
+fn blackbody(scene: &Scene<'_>, kind: Kind, name: &str, kelvin: f64) -> Option<LocusPoint> {
+    let list = Temperatures::List(vec![Kelvin::new(kelvin).ok()?]);
+    scene.locus_at(kind, name, list).ok()?.points.first().copied()
+}
+
+/// Distance of a blackbody through a sensor to that of the same temperature through the reference, in words; none where the two
+/// cannot be compared.
+pub fn blackbody_distance(scene: &Scene<'_>, source: &SourceId, kelvin: f64) -> Option<String> {
+    scene.comparable(source.kind, &source.name).ok()?.ok()?;
+    let point = blackbody(scene, source.kind, &source.name, kelvin)?;
+    let reference = blackbody(scene, Kind::Observer, &scene.document.truth, kelvin)?;
+    let xy = compare::locus_distance_xy(&point, &reference);
+    let uv = compare::locus_distance_uv(&point, &reference);
+    Some(match (xy, uv) {
+        (Ok(xy), Ok(uv)) => format!("Δxy {}   Δu′v′ {}", number(round4(xy)), number(round4(uv))),
+        (Err(why), _) | (_, Err(why)) => why.to_string(),
+    })
 }
 
 fn describe_patch(scene: &Scene<'_>, source: &SourceId, patch: &str) -> Vec<String> {
@@ -160,7 +169,7 @@ fn describe_patch(scene: &Scene<'_>, source: &SourceId, patch: &str) -> Vec<Stri
     }
     match scene.differences(source.kind, &source.name).ok().and_then(|all| all.get(index).copied()) {
         Some(Ok(difference)) => {
-            lines.push(format!("{} to the truth: {}", scene.document.difference.symbol(), number(round4(difference))));
+            lines.push(format!("{} to the reference: {}", scene.difference_name(), number(round4(difference))));
         }
         Some(Err(why)) => lines.push(why.to_string()),
         None => {}
@@ -173,7 +182,7 @@ fn describe_patch(scene: &Scene<'_>, source: &SourceId, patch: &str) -> Vec<Stri
 
 fn coordinates(xy: Option<Xy>, uv: Option<UvPrime>) -> Vec<String> {
     let (Some(xy), Some(uv)) = (xy, uv) else {
-        return vec!["No chromaticity: the signals sum to nothing.".to_owned()];
+        return vec!["Chromaticity undefined (X + Y + Z = 0).".to_owned()];
     };
     vec![format!("x {:.4}  y {:.4}   u′ {:.4}  v′ {:.4}", xy.x, xy.y, uv.u, uv.v).replace('-', "−")]
 }

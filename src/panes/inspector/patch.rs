@@ -126,7 +126,7 @@ fn difference(ui: &mut Ui, id: &SourceId, patch: &str, context: &PaneContext<'_>
                     ..TextFormat::default()
                 };
                 let mut job = LayoutJob::default();
-                job.append(&format!("{} ", measure.symbol()), 0.0, format(TEXT));
+                job.append(&format!("{} ", scene.difference_name()), 0.0, format(TEXT));
                 job.append(&difference_words(measure, value), 0.0, format(HEADING + 2.0));
                 ui.label(job);
                 ui.add_space(UNIT);
@@ -181,7 +181,7 @@ pub(super) fn across(ui: &mut Ui, patch: &str, context: &mut PaneContext<'_>) {
             return;
         }
     };
-    note(ui, &theme, format!("left the truth, right the source; {}", scene.document.difference.symbol()));
+    note(ui, &theme, format!("left: reference; right: sensor; {}", scene.difference_name()));
     for source in scene.sources().into_iter().filter(|source| source.visible) {
         source_row(ui, &source, patch, &seen, context);
     }

@@ -87,7 +87,11 @@ fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[Thing], context: &PaneConte
         heads.insert(0, "truth".to_owned());
         colors.insert(0, patch::color_of(scene, &truth_id(scene), first).ok().flatten());
     }
-    note(ui, &context.theme, format!("{} from the truth: {}", measure.symbol(), differences.join(", ")));
+    note(
+        ui,
+        &context.theme,
+        format!("{} from the reference: {}", context.scene.difference_name(), differences.join(", ")),
+    );
     numbers::show(ui, &context.theme, &heads, &numbers::of_patches(&colors), COLUMN);
 }
 

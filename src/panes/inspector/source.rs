@@ -69,8 +69,12 @@ fn measures(scene: &Scene<'_>, id: &SourceId) -> Vec<Fact> {
             facts.push(("Difference", no_difference(*reason)));
         } else if !known.is_empty() {
             let mean = known.iter().sum::<f64>() / known.len() as f64;
-            let words =
-                format!("{} {}, mean of {} patches", measure.symbol(), difference_words(measure, mean), known.len());
+            let words = format!(
+                "{} {}, mean of {} patches",
+                scene.difference_name(),
+                difference_words(measure, mean),
+                known.len()
+            );
             facts.push(("Difference", words));
         }
     }

@@ -4,11 +4,13 @@ use chromascope_core::figure::{InkRole, LegendEntry, Marker, Stroke};
 use chromascope_core::spectral::Primaries;
 use egui::{Rect, RichText, Ui, Vec2};
 
+use crate::action::Action;
+use crate::document::start::Start;
 use crate::document::{WayChoice, WhiteChoice};
 use crate::paint;
 use crate::panes::PaneContext;
 use crate::theme::{Theme, UNIT};
-use crate::widgets::WHAT_YOU_SEE;
+use crate::widgets::{self, WHAT_YOU_SEE};
 
 /// Width of the drawn keys.
 const KEY: f32 = 26.0;
@@ -16,6 +18,7 @@ const KEY: f32 = 26.0;
 /// Shows it.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let theme = context.theme;
+    starts(ui, context);
     ui.label(RichText::new("What you see").strong());
     ui.label(WHAT_YOU_SEE);
     ui.add_space(UNIT);
@@ -28,18 +31,18 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let thick = line(InkRole::Truth, Marker::Plus, 4.0);
     entry(
         ui,
-        "thick line: what the eye sees as a glowing body cools from 20000 K (blue) to 1000 K (red)",
+        "thick line: the reference observer's Planckian locus, from 20000 K (blue) to 1000 K (red)",
         |ui, rect| paint::key(ui.painter(), rect, &thick, &theme),
     );
     let colored = line(InkRole::Source(0), Marker::Circle, 2.0);
-    entry(ui, "colored lines: what each camera records", |ui, rect| {
+    entry(ui, "colored lines: the Planckian locus of each camera", |ui, rect| {
         paint::key(ui.painter(), rect, &colored, &theme);
     });
     let point = line(InkRole::Source(1), Marker::Square, 1.2);
-    entry(ui, "points: chart patches; the tail leads to the eye's", |ui, rect| {
+    entry(ui, "points: chart patches; the tail leads to the reference's", |ui, rect| {
         paint::key(ui.painter(), rect, &point, &theme);
     });
-    entry(ui, "swatches: left the eye, right the camera; the bar is the difference", |ui, rect| {
+    entry(ui, "swatches: left the reference, right the camera; the bar is the difference", |ui, rect| {
         swatch(ui, rect, &theme);
     });
     if let Some(words) = caveat(context) {
@@ -47,7 +50,21 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ui.label(RichText::new(words).small().color(theme.weak));
     }
     ui.separator();
-    ui.label(RichText::new("Hover to read, click to keep, Esc to let go.").color(theme.weak));
+    ui.label(RichText::new("Hover to read, click to select, Esc to deselect.").color(theme.weak));
+}
+
+/// The two starts, one click apart, with what the chosen one sets up.
+fn starts(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let now = context.scene.document.start;
+    ui.label(RichText::new("Start").small().color(context.theme.weak));
+    let choices = Start::ALL.map(|start| (start, start.name(), start.summary()));
+    ui.horizontal(|ui| {
+        if let Some(start) = widgets::segmented(ui, &choices, now) {
+            context.push(Action::Start(start));
+        }
+    });
+    ui.label(RichText::new(now.summary()).small().color(context.theme.weak));
+    ui.separator();
 }
 
 /// A drawn key and what it stands for; the words wrap beside it.
@@ -83,15 +100,15 @@ fn caveat(context: &PaneContext<'_>) -> Option<&'static str> {
     };
     let observers = || sources.iter().filter(|source| source.visible && source.kind == crate::catalog::Kind::Observer);
     match (&scene.document.way, &scene.document.white) {
-        (WayChoice::Paper, _) if observers().any(|source| counts_in_xyz(source) && source.is_truth) => Some(
-            "A CIE observer as truth is drawn directly while cameras go through Eq 13: there is no difference to tell. Set To \
-             diagram to Observer.",
-        ),
         (WayChoice::Paper, _) if observers().any(counts_in_xyz) => Some(
             "CIE observers are drawn directly, not through Eq 13: their lines differ from the others by construction.",
         ),
         (_, WhiteChoice::Unity) => None,
-        (WayChoice::Observer(_), _) => Some("The chosen white moves RGB only: the fitted matrix takes it back."),
-        (WayChoice::Paper, _) => Some("All colors lean to the chosen white, the truth's too."),
+        (WayChoice::Observer(_), _) => {
+            Some("White balance changes camera RGB only; the fitted matrix compensates for it.")
+        }
+        (WayChoice::Paper, _) => {
+            Some("All colors, including the reference's, are shifted toward the white-balance target.")
+        }
     }
 }

@@ -149,8 +149,9 @@ fn hint(response: Response, source: &Source, context: &PaneContext<'_>) {
 fn menu(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
     ui.set_min_width(150.0);
     let name = source.name.clone();
-    if source.kind == Kind::Observer && offer(ui, "Make truth", !source.is_truth) {
-        context.push(Action::Compare(CompareAction::SetTruth(name.clone())));
+    if source.kind == Kind::Observer && offer(ui, "Make reference", !source.is_truth) {
+        let counts_in_xyz = context.scene.entry(Kind::Observer, &name).is_ok_and(|entry| entry.counts_in_xyz());
+        context.push(Action::Compare(CompareAction::SetReference { name: name.clone(), counts_in_xyz }));
     }
     if offer(ui, "Rename…", true) {
         let renaming = Renaming { kind: Some(source.kind), name: name.clone(), text: source.label.clone() };

@@ -1,0 +1,37 @@
+//! A line of warning at the head of a pane: a condition under which the numbers do not mean what a reader expects.
+
+use egui::{Align, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
+
+use super::lines;
+use crate::action::{Action, SceneAction};
+use crate::document::WayChoice;
+use crate::panes::PaneContext;
+use crate::theme::{ROW, UNIT};
+
+/// Shows the scene's caution, if there is one, with its remedy as a button. Returns the rectangle that remains below.
+pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> Rect {
+    let Some(caution) = context.scene.caution() else { return rect };
+    let line = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
+    let layout = Layout::right_to_left(Align::Center);
+    let mut row = ui.new_child(UiBuilder::new().id_salt("caution").max_rect(line).layout(layout));
+    row.set_clip_rect(line.intersect(ui.clip_rect()));
+    if let Some(observer) = caution.fit_to() {
+        let words = format!("Fit 3×3 to {observer}");
+        let hint = "Color transform: a 3×3 matrix for each camera, fitted to this observer";
+        if row.button(words).on_hover_text(hint).clicked() {
+            context.push(Action::Scene(SceneAction::SetWay(WayChoice::Observer(observer.to_owned()))));
+        }
+    }
+    let sentence = caution.sentence();
+    let mut rest = Rect::from_min_max(line.min, egui::pos2(row.min_rect().left() - 2.0 * UNIT, line.bottom()));
+    if caution.fit_to().is_none() {
+        rest.max.x = line.right();
+    }
+    lines::warning_mark(ui.painter(), egui::pos2(rest.left() + 7.0, rest.center().y), context.theme.warning);
+    rest.min.x += 5.0 * UNIT;
+    lines::elided(ui, rest, &sentence, TextStyle::Small, context.theme.warning);
+    let response = ui.interact(rest, ui.scope_id().with(("caution", rect.min.x as i32)), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Alert, true, &sentence));
+    response.on_hover_text(sentence);
+    Rect::from_min_max(egui::pos2(rect.left(), line.bottom() + 0.5 * UNIT), rect.max)
+}
