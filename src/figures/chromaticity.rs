@@ -177,7 +177,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
 
 fn legend_entry(source: &Source) -> LegendEntry {
     LegendEntry {
-        name: if source.is_truth { format!("{} (truth)", source.label) } else { source.label.clone() },
+        name: if source.is_truth { format!("{} (reference)", source.label) } else { source.label.clone() },
         stroke: Some(Stroke::solid(source.role, source.width)),
         marker: Some(source.marker),
         fill: source.marker.has_inside().then(|| source.role.into()),

@@ -205,9 +205,8 @@ fn way(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.way.clone();
     let shown = match &now {
         WayChoice::Paper if ui.available_width() < 130.0 => "Eq 13".to_owned(),
-        WayChoice::Paper => "Paper matrix (Eq 13)".to_owned(),
-        WayChoice::Observer(name) if ui.available_width() < 130.0 => format!("Fit {name}"),
-        WayChoice::Observer(name) => format!("Fit to {name}"),
+        WayChoice::Paper => "Paper (Eq 13)".to_owned(),
+        WayChoice::Observer(name) => format!("Fit {name}"),
     };
     let hint = "Color transform from camera RGB to XYZ. Paper matrix: camera and RGB observer signals through the matrix of \
                 Eq 13, CIE observers directly. Fitted: a 3×3 matrix for each sensor, fitted to a CIE observer over 190 \

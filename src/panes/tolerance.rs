@@ -95,7 +95,7 @@ fn not_rendered(ui: &mut Ui, context: &PaneContext<'_>) {
     let is_rendered = |source: &Source| rendered.iter().any(|r| (r.kind, &r.name) == (source.kind, &source.name));
     for source in context.scene.sources().iter().filter(|source| source.visible && !is_rendered(source)) {
         let why = match context.scene.comparable(source.kind, &source.name) {
-            Ok(Err(reason)) => format!("No picture beside this truth: {reason}."),
+            Ok(Err(reason)) => format!("No picture beside this reference: {reason}."),
             Err(error) => format!("No picture: {error}."),
             Ok(Ok(())) => continue,
         };

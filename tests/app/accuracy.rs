@@ -209,7 +209,7 @@ fn a_source_without_a_plan_says_why() {
         .push(Action::Compare(CompareAction::SetReference { name: "CIE 1931 2°".to_owned(), counts_in_xyz: true }));
     window.run_steps(3);
     take_in(&mut window);
-    assert!(window.query_all_by_label_contains("No picture beside this truth: a CIE observer").count() >= 3);
+    assert!(window.query_all_by_label_contains("No picture beside this reference: a CIE observer").count() >= 3);
 }
 
 #[test]

@@ -45,8 +45,8 @@ fn says(window: &Window, words: &str) -> bool {
 #[test]
 fn without_a_selection_it_says_what_is_seen() {
     let window = window();
-    assert!(says(&window, "A camera's sensors are not the eye's"));
-    assert!(says(&window, "Hover to read, click to keep, Esc to let go."));
+    assert!(says(&window, "A camera's spectral sensitivities are not the eye's"));
+    assert!(says(&window, "Hover to read, click to select, Esc to deselect."));
     assert!(says(&window, "Ready. Drop a spectrum or camera file anywhere."));
     assert!(says(&window, "3 of 58 cameras computed"));
 }
@@ -60,8 +60,8 @@ fn a_patch_shows_the_difference_that_the_scene_computes() {
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let differences = scene.differences(Kind::Camera, "Kodak DCS200").expect("the camera is there");
     let blue = differences[2].expect("comparable");
-    assert!(says(&window, &format!("ΔE*00 {blue:.2}")));
-    assert!(says(&window, "b*: truth −40.8"), "a true minus sign");
+    assert!(says(&window, &format!("Δxy {blue:.4}")));
+    assert!(says(&window, "b*: reference −40.8"), "a true minus sign");
     assert!(says(&window, "Patch 13 blue, light E"));
 }
 
@@ -78,7 +78,7 @@ fn where_there_is_no_difference_the_reason_stands() {
 #[test]
 fn every_kind_of_thing_has_its_page() {
     let mut window = window();
-    let assumed = "Canon EOS 10D (2007 figure): measured 400–700 nm; counts as zero outside.";
+    let assumed = "Canon 10D (2007): measured 400–700 nm; counts as zero outside.";
     for (thing, words) in [
         (Thing::Source(camera("Canon EOS 10D (2007 figure)")), "0.348 in xy"),
         (Thing::Source(camera("Canon EOS 10D (2007 figure)")), assumed),
@@ -104,7 +104,7 @@ fn pinned_things_stand_side_by_side() {
     assert_eq!(window.state().view().pinned.len(), 2);
     window.state_mut().view_mut().selected = None;
     window.run();
-    assert!(says(&window, "x: truth 0.2020, A 0.2534, B "));
+    assert!(says(&window, "x: reference 0.2020, A 0.2534, B "));
     press(&mut window, Role::Button, "Unpin A");
     assert_eq!(window.state().view().pinned, [patch("Nikon D70 (2007 figure)", "blue")]);
 }

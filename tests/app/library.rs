@@ -87,7 +87,7 @@ fn the_key_hides_and_the_name_selects() {
 fn another_observer_becomes_the_truth() {
     let mut window = window();
     press(&mut window, Role::Button, "Menu of CIE 1931 2°");
-    press(&mut window, Role::Button, "Make truth");
+    press(&mut window, Role::Button, "Make reference");
     assert_eq!(window.state().history().document().truth, "CIE 1931 2°");
     window.state_mut().view_mut().search = "1931".to_owned();
     window.run();

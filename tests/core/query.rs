@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use chromascope_core::camera::{NoRendering, Rendering, Way, White};
 use chromascope_core::colorimetry::Xyz;
-use chromascope_core::colorimetry::rgb::{XYZ_FROM_SRGB, encode_srgb, srgb_white};
+use chromascope_core::colorimetry::rgb::{XYZ_FROM_SRGB, encode_srgb};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::light::planckian::exitance;
 use chromascope_core::object::PAPER_FIVE;
@@ -144,10 +144,14 @@ fn patch_colors_are_eq_16_and_13_written_out() {
             assert!((xyz.to_vector() - color.xyz.to_vector()).abs().max_element() < 1e-14);
             assert!(color.xy.unwrap().distance(xyz.chromaticity().unwrap()) < 1e-14);
             assert!(color.uv.unwrap().distance(xyz.uv_prime().unwrap()) < 1e-14);
-            // Paper: RGB is taken as linear sRGB, and Lab's white is D65.
+            // Eq 13 takes RGB as linear sRGB; the adopted white is that of a perfect diffuser, which takes `white`.
             assert!(found.iter().zip(color.linear).all(|(a, b)| (a - b).abs() < 1e-14));
             assert_eq!(color.srgb, encode_srgb(color.linear));
-            let lab = chromascope_core::colorimetry::lab::lab_from_xyz(xyz, srgb_white()).unwrap();
+            let lab = chromascope_core::colorimetry::lab::lab_from_xyz(
+                xyz,
+                Xyz::from_vector(XYZ_FROM_SRGB * DVec3::from_array(white)),
+            )
+            .unwrap();
             assert_near("L*", color.lab.unwrap().l, lab.l, 1e-11);
         }
     }

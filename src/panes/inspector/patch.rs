@@ -45,7 +45,7 @@ fn title(scene: &Scene<'_>, patch: &str) -> String {
 fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor>, height: f32, width: f32) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(width, height), Sense::hover());
     response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::Role::Image, true, "Swatches: left the truth, right the source")
+        egui::WidgetInfo::labeled(egui::Role::Image, true, "Swatches: left the reference, right the sensor")
     });
     ui.painter().rect_filled(rect, 0.0, theme.surround.color());
     let inner = rect.shrink(if height > 30.0 { 1.5 * UNIT } else { 3.0 });
@@ -93,9 +93,9 @@ pub(super) fn one(ui: &mut Ui, id: &SourceId, patch: &str, context: &mut PaneCon
         difference(ui, id, patch, context);
     }
     let (heads, colors) = if is_truth {
-        (vec!["truth".to_owned()], vec![Some(own)])
+        (vec!["reference".to_owned()], vec![Some(own)])
     } else {
-        (vec!["truth".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
+        (vec!["reference".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
     };
     let rows = numbers::of_patches(&colors);
     numbers::show(ui, &theme, &heads, &rows, 84.0);

@@ -84,7 +84,7 @@ fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[Thing], context: &PaneConte
     }
     let Some(first) = names.first() else { return };
     if names.iter().all(|name| name == first) {
-        heads.insert(0, "truth".to_owned());
+        heads.insert(0, "reference".to_owned());
         colors.insert(0, patch::color_of(scene, &truth_id(scene), first).ok().flatten());
     }
     note(
@@ -108,7 +108,7 @@ fn radiators(ui: &mut Ui, scene: &Scene<'_>, things: &[Thing], context: &PaneCon
     }
     let Some(&first) = temperatures.first() else { return };
     if temperatures.iter().all(|kelvin| *kelvin == first) {
-        heads.insert(0, "truth".to_owned());
+        heads.insert(0, "reference".to_owned());
         points.insert(0, radiator::point_of(scene, &truth_id(scene), first).ok().flatten());
     }
     numbers::show(ui, &context.theme, &heads, &radiator::rows_of(&points), COLUMN);

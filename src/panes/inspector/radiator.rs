@@ -53,9 +53,9 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, kelvin: f64, context: &mut PaneCo
         note(ui, &theme, "No chromaticity: the signals sum to nothing.");
     }
     let (heads, points) = if is_truth {
-        (vec!["truth".to_owned()], vec![Some(own)])
+        (vec!["reference".to_owned()], vec![Some(own)])
     } else {
-        (vec!["truth".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
+        (vec!["reference".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
     };
     if !is_truth {
         distance(ui, id, &own, &seen, context);
@@ -87,7 +87,7 @@ fn distance(ui: &mut Ui, id: &SourceId, own: &LocusPoint, seen: &LocusPoint, con
     match (xy, uv) {
         (Ok(xy), Ok(uv)) => {
             ui.label(format!("Δxy {}   Δu′v′ {}", fixed(xy, 4), fixed(uv, 4)))
-                .on_hover_text("Distance from the truth at the same temperature");
+                .on_hover_text("Distance from the reference at the same temperature");
         }
         (Err(reason), _) | (_, Err(reason)) => note(ui, &context.theme, no_difference(reason)),
     }

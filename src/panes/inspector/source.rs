@@ -87,7 +87,7 @@ fn measures(scene: &Scene<'_>, id: &SourceId) -> Vec<Fact> {
         && let Some((kelvin, distance)) = nearest(&seen.points, &locus.points)
     {
         let words = format!("at {} K, Δxy {}", fixed(kelvin, 0), fixed(distance, 4));
-        facts.push(("Nearest to the truth", words));
+        facts.push(("Nearest to the reference", words));
     }
     facts
 }

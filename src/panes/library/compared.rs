@@ -85,7 +85,7 @@ fn thing(source: &Source) -> Thing {
 /// What the source is besides; returns the width it takes.
 fn tag(ui: &Ui, rect: Rect, source: &Source, context: &PaneContext<'_>) -> f32 {
     let words = match (source.is_truth, source.is_own) {
-        (true, _) => "truth",
+        (true, _) => "reference",
         (_, true) => "yours",
         _ => return 0.0,
     };
