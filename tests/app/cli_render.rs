@@ -218,7 +218,7 @@ fn statistics_are_json() {
     let smooth = ["--sigma", "3e-7", "--tau", "3e-6", "--patch", "2e-6,2e-6", "--stats", "-"];
     let output = run(&folder, &[&SMALL[..], &D70, &smooth].concat());
     let message = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && message.contains("sphere_nikon-d70.png: ΔE*00"), "{message}");
+    assert!(output.status.success() && message.contains("sphere_nikon-d70-2007.png: ΔE*00"), "{message}");
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(json["size"], serde_json::json!({ "width": 40, "height": 30, "samples_per_side": 1 }));
     assert_eq!(json["settings"]["sigma_m"], 3e-7);

@@ -41,7 +41,7 @@ fn every_quality_keeps_its_error_against_401_wavelengths() {
     let size = if thorough() { RasterSize::new(20, 20) } else { RasterSize::new(10, 10) };
     for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet] {
         // Tables do not depend on σ: they are made once.
-        let (studio, ask) = (Studio { reading, size, ..Studio::new() }, Counting::default());
+        let (studio, ask) = (Studio { size, reading, ..Studio::new() }, Counting::default());
         for sigma_m in [5e-6, 0.4e-6, 0.06e-6, 2e-9] {
             let with = |quality| Studio { sigma_m, quality, ..studio.clone() };
             let exact = with(Quality::Exact).take(&ask);
