@@ -17,7 +17,7 @@ use crate::catalog::opened::Opened;
 use crate::command::{Command, key_bindings};
 use crate::document::history::History;
 use crate::files::Files;
-use crate::jobs::Background;
+use crate::jobs::{Background, Executor};
 use crate::laboratory::Laboratory;
 use crate::panes::{self, PaneContext};
 use crate::results::Results;
@@ -54,11 +54,16 @@ pub struct ChromascopeApp {
 
 impl ChromascopeApp {
     /// Starts with a document, in a context that is given the program's looks.
-    pub fn new(ctx: &egui::Context, history: History, saved: SavedView, mut files: Files) -> Self {
+    pub fn new(ctx: &egui::Context, history: History, saved: SavedView, files: Files) -> Self {
+        Self::on(&Executor::default(), ctx, history, saved, files)
+    }
+
+    /// Starts with a document, and has an executor do what is done beside the window.
+    pub fn on(executor: &Executor, ctx: &egui::Context, history: History, saved: SavedView, mut files: Files) -> Self {
         theme::apply(ctx);
         files.wake(ctx);
         let [window, also, third, fourth] = [(); 4].map(|()| ctx.clone());
-        let opened = Opened::new(move || also.request_repaint());
+        let opened = Opened::on(executor, move || also.request_repaint());
         opened.recall(saved.import.failing.clone());
         let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
         Self {
@@ -67,11 +72,11 @@ impl ChromascopeApp {
             results: Results::default(),
             view: View { saved, import, ..View::default() },
             files,
-            meshes: MeshStore::new(move || window.request_repaint()),
+            meshes: MeshStore::on(executor, move || window.request_repaint()),
             opened,
-            radiators: Background::new("black bodies", move || third.request_repaint()),
-            studio: Studio::new(ctx),
-            laboratory: Laboratory::new(move || fourth.request_repaint()),
+            radiators: Background::on(executor, "black bodies", move || third.request_repaint()),
+            studio: Studio::on(executor, ctx),
+            laboratory: Laboratory::on(executor, move || fourth.request_repaint()),
             commands: Vec::new(),
             last_read: std::collections::HashMap::new(),
             arrangement: Arrangement::default(),

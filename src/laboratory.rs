@@ -20,7 +20,7 @@ use chromascope_core::spectral::Sensor;
 use serde::{Deserialize, Serialize};
 
 use crate::bench::{self, Effort, Report, Workload};
-use crate::jobs::Background;
+use crate::jobs::{Background, Executor};
 use crate::results::Results;
 pub use conditions::Conditions;
 pub use left_out::{LOCI, LeftOut, PATCHES};
@@ -211,11 +211,16 @@ pub struct Laboratory {
 impl Laboratory {
     /// Starts the worker, which wakes the window when it has measured.
     pub fn new(wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
+        Self::on(&Executor::default(), wake)
+    }
+
+    /// Measures on an executor.
+    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
         let (also, third) = (wake.clone(), wake.clone());
         Self {
-            worker: Background::new("scene runs", wake),
-            bench: Background::new("bench", third),
-            plans: Background::new("plans", also),
+            worker: Background::on(executor, "scene runs", wake),
+            bench: Background::on(executor, "bench", third),
+            plans: Background::on(executor, "plans", also),
             runs: 0,
         }
     }

@@ -9,7 +9,7 @@ use chromascope_core::camera::NoRendering;
 use chromascope_core::query::Query;
 use chromascope_core::query::render::{Pictures, PicturesOf};
 
-use crate::jobs::Background;
+use crate::jobs::{Background, Executor};
 use crate::results::Count;
 use crate::scene::Source;
 
@@ -72,9 +72,14 @@ pub struct Studio {
 impl Studio {
     /// Starts the worker, which wakes the window when it has made something.
     pub fn new(ctx: &egui::Context) -> Self {
+        Self::on(&Executor::default(), ctx)
+    }
+
+    /// Makes pictures on an executor.
+    pub fn on(executor: &Executor, ctx: &egui::Context) -> Self {
         let window = ctx.clone();
         Self {
-            worker: Background::new("pictures", move || window.request_repaint()),
+            worker: Background::on(executor, "pictures", move || window.request_repaint()),
             latest: Request::default(),
             before: Request::default(),
             shot: None,

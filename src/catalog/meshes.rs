@@ -13,12 +13,12 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread;
 
 use chromascope_core::query::Shared;
 use chromascope_core::scene::Mesh;
 
 use crate::document::render::MeshChoice;
+use crate::jobs::Executor;
 use read::{Stamp, file_name};
 
 /// Meshes that nobody looks at are remembered up to this many bytes, so that undo need not read them again.
@@ -47,6 +47,7 @@ pub struct Opened {
 /// The mesh files that were asked for.
 pub struct MeshStore {
     desk: Arc<Desk>,
+    executor: Executor,
 }
 
 /// What lies between the window and the threads that read.
@@ -84,7 +85,13 @@ impl Known {
 impl MeshStore {
     /// Knows no file yet. `wake` is called when a file was read, from the thread that read it.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self { desk: Arc::new(Desk { state: Mutex::default(), wake: Box::new(wake) }) }
+        Self::on(&Executor::default(), wake)
+    }
+
+    /// Reads files on an executor.
+    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        let desk = Arc::new(Desk { state: Mutex::default(), wake: Box::new(wake) });
+        Self { desk, executor: executor.clone() }
     }
 
     /// What is known of a file. Reading begins with the first question; a mesh stays on show while it is read anew.
@@ -182,7 +189,7 @@ impl MeshStore {
             desk.lock().take(&file, &stop, result);
             (desk.wake)();
         };
-        if let Err(error) = thread::Builder::new().name("meshes".to_owned()).spawn(work) {
+        if let Err(error) = self.executor.spawn("meshes", work) {
             let failure = MeshFailure::Io { file: file_name(path), error };
             let stop = state.known_at(path).reading.clone().unwrap_or_default();
             state.take(path, &stop, Err(failure));

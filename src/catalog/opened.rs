@@ -12,15 +12,15 @@ pub use reading::{Request, read_file};
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread;
-use std::time::{Duration, Instant};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use super::import::{Imported, Origin};
 use crate::document::own::{Fingerprint, OwnSet, Wishes};
-use crate::jobs::Background;
+use crate::jobs::{Background, Clock, Executor};
+use crate::results::Count;
 
 /// Files that no set is made of are forgotten, the oldest first, beyond so many bytes in all.
 const REMEMBERED_BYTES: usize = 256_000_000;
@@ -113,11 +113,14 @@ pub struct Progress {
 pub struct Opened {
     desk: Arc<Desk>,
     look: Background<LookOf>,
+    executor: Executor,
 }
 
 /// What lies between the window and the threads that read.
 struct Desk {
     state: Mutex<State>,
+    /// Told when a reading has ended.
+    ended: Condvar,
     wake: Arc<dyn Fn() + Send + Sync>,
 }
 
@@ -138,16 +141,23 @@ struct Job {
     share: AtomicU32,
     place: [AtomicU32; 2],
     stop: AtomicBool,
-    begun: Instant,
+    begun: Duration,
+    clock: Clock,
 }
 
 impl Opened {
     /// Knows no file yet. `wake` is called when something was read, from the thread that read it.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self::on(&Executor::default(), wake)
+    }
+
+    /// Reads files on an executor.
+    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
         let theirs = Arc::clone(&wake);
-        let look = Background::new("import", move || theirs());
-        Self { desk: Arc::new(Desk { state: Mutex::default(), wake }), look }
+        let look = Background::on(executor, "import", move || theirs());
+        let desk = Arc::new(Desk { state: Mutex::default(), ended: Condvar::new(), wake });
+        Self { desk, look, executor: executor.clone() }
     }
 
     /// Reads files, folders or bytes; `remembered` says what a person wished for files like one whose text is given.
@@ -218,7 +228,7 @@ impl Opened {
             name: job.name.lock().unwrap_or_else(PoisonError::into_inner).clone(),
             share: f32::from_bits(job.share.load(Ordering::Relaxed)),
             file: [file, count],
-            time: job.begun.elapsed(),
+            time: job.clock.since(job.begun),
         })
     }
 
@@ -279,6 +289,11 @@ impl Opened {
         self.look.busy()
     }
 
+    /// Hits, misses and times of each kind of question that [`look`](Self::look) asks.
+    pub fn counts(&self) -> Vec<(&'static str, Count)> {
+        self.look.counts()
+    }
+
     /// Nobody looks.
     pub fn rest(&self) {
         self.look.rest();
@@ -286,14 +301,24 @@ impl Opened {
 
     /// Waits until everything that was asked for is read. For tests.
     pub fn wait(&self) {
-        while !self.desk.lock().running.is_empty() {
-            thread::sleep(Duration::from_millis(2));
+        let mut state = self.desk.lock();
+        while !state.running.is_empty() {
+            if self.executor.is_driven() {
+                drop(state);
+                if !self.executor.run_next() {
+                    return;
+                }
+                state = self.desk.lock();
+            } else {
+                state = self.desk.ended.wait(state).unwrap_or_else(PoisonError::into_inner);
+            }
         }
+        drop(state);
         self.look.wait();
     }
 
     fn begin(&self, work: impl FnOnce(&Desk, &Job) + Send + 'static) {
-        let job = Arc::new(Job::new());
+        let job = Arc::new(Job::new(self.executor.clock()));
         self.desk.lock().running.push(Arc::clone(&job));
         let desk = Arc::clone(&self.desk);
         let theirs = Arc::clone(&job);
@@ -301,7 +326,7 @@ impl Opened {
             work(&desk, &theirs);
             desk.end(&theirs);
         };
-        if let Err(error) = thread::Builder::new().name("files".to_owned()).spawn(run) {
+        if let Err(error) = self.executor.spawn("files", run) {
             let mut state = self.desk.lock();
             state.running.retain(|running| !Arc::ptr_eq(running, &job));
             state.events.push(OpenedEvent::Failed(format!("no thread for reading: {error}"), Vec::new()));
@@ -345,6 +370,7 @@ impl Desk {
 
     fn end(&self, job: &Arc<Job>) {
         self.lock().running.retain(|running| !Arc::ptr_eq(running, job));
+        self.ended.notify_all();
         (self.wake)();
     }
 }
@@ -356,13 +382,14 @@ impl State {
 }
 
 impl Job {
-    fn new() -> Self {
+    fn new(clock: Clock) -> Self {
         Self {
             name: Mutex::default(),
             share: AtomicU32::new(0),
             place: [AtomicU32::new(1), AtomicU32::new(1)],
             stop: AtomicBool::new(false),
-            begun: Instant::now(),
+            begun: clock.now(),
+            clock,
         }
     }
 

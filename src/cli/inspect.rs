@@ -168,7 +168,12 @@ fn contents(file: &str) -> io::Result<Vec<u8>> {
     if io::stdin().is_terminal() {
         say("Type or paste what is to be read; Ctrl+D ends it.\n");
     } else {
-        say_if_waiting(&done);
+        let patience = || thread::sleep(PATIENCE);
+        let done = Arc::clone(&done);
+        // Without a thread it waits without a word.
+        let _silent = thread::Builder::new()
+            .name("patience".to_owned())
+            .spawn(move || say_if_waiting(patience, || done.load(Ordering::Relaxed), say));
     }
     let mut bytes = Vec::new();
     let read = io::stdin().lock().take(table::MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
@@ -181,18 +186,15 @@ fn is_standard_input(file: &str) -> bool {
     [STANDARD_INPUT, "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"].contains(&file)
 }
 
-/// Who forgot to lead something to standard input sees why nothing happens.
-fn say_if_waiting(done: &Arc<AtomicBool>) {
-    const PATIENCE: Duration = Duration::from_secs(2);
-    let done = Arc::clone(done);
-    let tell = move || {
-        thread::sleep(PATIENCE);
-        if !done.load(Ordering::Relaxed) {
-            say("chromascope: waiting for standard input to end; Ctrl+C stops.\n");
-        }
-    };
-    // Without a thread it waits without a word.
-    let _silent = thread::Builder::new().name("patience".to_owned()).spawn(tell);
+/// Time without an end of standard input after which a notice says what is waited for.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Writes a notice if, once `patience` returns, standard input has not ended: it may have been left unredirected by mistake.
+fn say_if_waiting(patience: impl FnOnce(), has_ended: impl FnOnce() -> bool, say: impl FnOnce(&str)) {
+    patience();
+    if !has_ended() {
+        say("chromascope: waiting for standard input to end; Ctrl+C stops.\n");
+    }
 }
 
 /// A title, or the file's name, says more about a curve than "Column 2" does.
@@ -238,4 +240,24 @@ fn files_of(folder: &Path) -> io::Result<Vec<String>> {
     }
     files.sort();
     Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::{Cell, RefCell};
+
+    use super::*;
+
+    /// The notice after waiting, if standard input ends while it is waited, or later.
+    fn notice(ends_meanwhile: bool) -> String {
+        let (ended, said) = (Cell::new(false), RefCell::new(String::new()));
+        say_if_waiting(|| ended.set(ends_meanwhile), || ended.get(), |text| said.borrow_mut().push_str(text));
+        said.into_inner()
+    }
+
+    #[test]
+    fn a_notice_comes_only_while_standard_input_is_open() {
+        assert_eq!(notice(false), "chromascope: waiting for standard input to end; Ctrl+C stops.\n");
+        assert_eq!(notice(true), "");
+    }
 }

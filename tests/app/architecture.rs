@@ -3,6 +3,7 @@
 //! Read from the source text, with test modules, comments and strings blanked out. Each check takes a path and a text,
 //! so that the tests at the end can plant what it must find.
 
+mod clocks;
 mod rust_text;
 
 use std::{

@@ -75,49 +75,59 @@ fn black_bodies_and_their_nearest_hold_24_digits() {
     assert!((u - 0.2).abs() < 1e-15 && (v - 0.325).abs() < 1e-15);
 }
 
-fn trial(plan: &[Workload]) -> Report {
-    run(plan, Effort::Trial, &Stop::NEVER, &mut |_| ()).unwrap()
+/// The one workload that tests run; all of them run in trial after the release build, where times mean something.
+fn trial() -> Report {
+    run(&[Workload::Difference], Effort::Trial, &Stop::NEVER, &mut |_| ()).unwrap()
 }
 
 #[test]
 fn every_measurement_has_an_error_and_a_baseline() {
-    let report = trial(&Workload::ALL);
-    assert!(report.whole && report.workloads() == Workload::ALL);
-    assert!(report.machine.memory_gb_per_s.iter().all(|&rate| rate > 0.0));
-    assert!(report.machine.arithmetic_gflop_per_s.iter().all(|&rate| rate > 0.0));
+    let report = trial();
+    assert!(report.whole && report.workloads() == [Workload::Difference]);
     for m in &report.measurements {
         let error = &m.error;
         let numbers = [m.seconds_per_item, m.ratio, m.spread, error.max_abs, error.rms_abs, error.max_rel];
         assert!(numbers.iter().all(|number| number.is_finite() && *number >= 0.0), "{m:?}");
-        assert!(m.seconds_per_item > 0.0 && m.least_seconds_per_item <= m.seconds_per_item, "{m:?}");
+        assert!(m.least_seconds_per_item <= m.seconds_per_item, "{m:?}");
         assert!(error.checked + error.refused > 0 && error.rms_rel <= error.max_rel, "{m:?}");
         let first = report.of(m.workload).find(|other| other.case == m.case).unwrap();
         assert_eq!(first.method, m.baseline);
         assert!(first.ratio == 1.0);
     }
-    let worst = |workload, method: &str| {
-        let found = report.of(workload).filter(|m| m.method.starts_with(method));
-        found.map(|m| m.error.max()).reduce(f64::max).unwrap()
-    };
-    // What the methods promise, on the few items of a trial.
-    assert!(worst(Workload::Locus, "1 nm sum") < 1e-14);
-    assert!(worst(Workload::Locus, "checked nodes") < 1e-12);
-    assert!(worst(Workload::DiffuseSum, "uniform, 1e-13") < 1e-13);
-    assert!(worst(Workload::DiffuseSum, "uniform, 1e-6") < 1e-6);
-    assert!(worst(Workload::Integral, "401 × uniform, 1e-13") < 1e-13);
-    assert!(worst(Workload::Integral, "table") < 2e-6);
-    assert!(worst(Workload::Temperature, "nearest") < 1e-7);
-    assert!(worst(Workload::Difference, "pair by pair") < 1e-12);
-    assert!(worst(Workload::Responses, "dot products") < 1e-15);
-    assert!(worst(Workload::Reading, "the program's") < 1e-15);
-    figures(&report);
+    let exact = report.measurements.iter().filter(|m| m.method.starts_with("pair by pair"));
+    assert!(exact.map(|m| m.error.max()).reduce(f64::max).unwrap() < 1e-12);
     let json = report.to_json().unwrap();
     assert_eq!(serde_json::from_str::<Report>(&json).unwrap().measurements.len(), report.measurements.len());
     assert_eq!(report.table().rows.len(), report.measurements.len());
 }
 
-fn figures(report: &Report) {
+/// Measurements made by hand: of each workload two methods, the second twice as quick and less exact.
+fn by_hand() -> Report {
+    let measured = trial();
+    let like = &measured.measurements[0];
+    let of = |workload: Workload| {
+        [("slow", 2e-6, 1.0, 1e-15), ("quick", 1e-6, 0.5, 1e-6)].map(|(method, seconds, ratio, error)| {
+            let mut m = like.clone();
+            (m.workload, m.case, m.item) = (workload, "a case".to_owned(), "item".to_owned());
+            (m.method, m.baseline) = (method.to_owned(), "slow".to_owned());
+            (m.seconds_per_item, m.least_seconds_per_item, m.ratio) = (seconds, seconds, ratio);
+            [m.error.max_abs, m.error.rms_abs, m.error.max_rel, m.error.rms_rel] = [error; 4];
+            m
+        })
+    };
+    Report { measurements: Workload::ALL.into_iter().flat_map(of).collect(), ..measured }
+}
+
+#[test]
+fn every_workload_has_a_figure_and_rows() {
+    let report = by_hand();
+    assert_eq!(report.workloads(), Workload::ALL);
+    assert_eq!(report.table().rows.len(), 2 * Workload::ALL.len());
+    let columns = report.table().columns.len();
+    assert!(report.table().rows.iter().all(|row| row.len() == columns) && columns >= 20);
+    let csv = report.table().to_csv();
     for workload in Workload::ALL {
+        assert_eq!(csv.lines().filter(|line| line.starts_with(workload.name())).count(), 2, "{csv}");
         let figure = report.figure(workload).unwrap();
         assert!(!figure.panels.is_empty() && figure.caption.contains(&report.machine.processor));
         let text = svg(&figure, &Theme::LIGHT, Paper::default());
@@ -127,7 +137,7 @@ fn figures(report: &Report) {
 }
 
 #[test]
-fn what_is_stopped_says_so() {
+fn what_is_stopped_says_so_and_begins_no_other_workload() {
     let flag = Arc::new(AtomicBool::new(false));
     let stop = Stop::at(Arc::clone(&flag));
     let mut seen = 0;

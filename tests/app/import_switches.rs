@@ -1,7 +1,6 @@
 //! The switches of Import: each flips what is read, and Undo flips it back.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use chromascope::action::{Action, OwnAction};
 use chromascope::app::ChromascopeApp;
@@ -19,6 +18,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::own_data::Dropped;
 use crate::screenshots::open;
+use crate::waiting;
 
 pub(crate) type Window = Harness<'static, ChromascopeApp>;
 
@@ -44,12 +44,13 @@ pub(crate) fn drop_file(window: &mut Window, name: &str, text: &str) {
 
 /// Draws frames until something holds.
 pub(crate) fn until(window: &mut Window, what: &str, holds: impl Fn(&ChromascopeApp) -> bool) {
-    let start = Instant::now();
-    while !holds(window.state()) {
-        assert!(start.elapsed() < Duration::from_secs(20), "{what}: {}", window.state().view().status.text);
-        std::thread::sleep(Duration::from_millis(5));
+    waiting::until(what, || {
+        if holds(window.state()) {
+            return Ok(());
+        }
         window.run_steps(1);
-    }
+        Err(window.state().view().status.text.clone())
+    });
     window.run_steps(2);
 }
 

@@ -31,3 +31,4 @@ mod save_set;
 mod screenshots;
 mod starts;
 mod theme;
+mod waiting;

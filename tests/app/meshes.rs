@@ -4,7 +4,6 @@ use std::cell::Cell;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::meshes::{LoadedMesh, MeshFailure, MeshState, MeshStore, Opened, is_mesh, read};
@@ -13,6 +12,7 @@ use chromascope::document::history::History;
 use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, session};
 use chromascope::files::Files;
+use chromascope::jobs::Executor;
 use chromascope::view::{SavedView, Weight};
 use chromascope::workspaces::Workspace;
 use egui_kittest::Harness;
@@ -20,7 +20,8 @@ use tempfile::TempDir;
 
 use crate::cpu_renderer::Cpu;
 use crate::own_data::Dropped;
-use crate::screenshots::open;
+use crate::screenshots::{driven, open};
+use crate::waiting;
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\n";
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
@@ -51,15 +52,15 @@ fn store() -> MeshStore {
     MeshStore::new(|| {})
 }
 
-fn wait<T>(what: &str, mut until: impl FnMut() -> Option<T>) -> T {
-    let start = Instant::now();
-    loop {
-        if let Some(found) = until() {
-            return found;
-        }
-        assert!(start.elapsed() < Duration::from_secs(20), "{what} did not happen");
-        std::thread::sleep(Duration::from_millis(2));
-    }
+/// A store that reads when its executor is told to.
+fn driven_store() -> (Executor, MeshStore) {
+    let executor = Executor::driven();
+    let store = MeshStore::on(&executor, || {});
+    (executor, store)
+}
+
+fn wait<T>(what: &str, mut found: impl FnMut() -> Option<T>) -> T {
+    waiting::until(what, || found().ok_or_else(|| "not yet".to_owned()))
 }
 
 fn opened(store: &MeshStore, path: &Path) -> Result<Arc<LoadedMesh>, String> {
@@ -255,12 +256,12 @@ fn reading_stops_when_it_is_no_longer_wanted() {
     assert!(matches!(read(&path, &stop), Err(MeshFailure::Stopped { .. })));
     assert_eq!(asked.get(), 4, "once stopped, it is not asked again");
 
-    let store = store();
+    let (executor, store) = driven_store();
     store.open(&path);
     assert_eq!(store.opening(), Some(path.clone()));
     assert_eq!(store.cancel(), Some(path.clone()));
     assert_eq!(store.cancel(), None);
-    std::thread::sleep(Duration::from_millis(50));
+    executor.run_all();
     assert!(store.poll().is_empty());
     let MeshState::Failed(sentence) = store.get(&path) else { panic!("it was stopped") };
     assert_eq!(sentence, "Reading sheet.obj was stopped; open it again, or choose Head or Fern.");
@@ -268,42 +269,46 @@ fn reading_stops_when_it_is_no_longer_wanted() {
 
 #[test]
 fn the_mesh_opened_last_is_the_one_that_is_told() {
-    let (folder, slow) = folder_with("slow.obj", &sheet(300));
-    let quick = folder.path().join("quick.obj");
-    fs::write(&quick, TRIANGLE).unwrap();
-    let store = store();
-    store.open(&slow);
-    assert!(opened(&store, &quick).is_ok());
-    std::thread::sleep(Duration::from_millis(50));
-    assert!(store.poll().is_empty());
+    let (folder, first) = folder_with("first.obj", SQUARE);
+    let last = folder.path().join("last.obj");
+    fs::write(&last, TRIANGLE).unwrap();
+    let (executor, store) = driven_store();
+    store.open(&first);
+    store.open(&last);
+    executor.run_all();
+    let told: Vec<PathBuf> = store.poll().into_iter().map(|opened| opened.path).collect();
+    assert_eq!(told, [last]);
 }
 
 #[test]
 fn what_nobody_wants_is_not_read_to_its_end() {
     let (folder, path) = folder_with("sheet.obj", &sheet(300));
-    let store = store();
+    let (executor, store) = driven_store();
     assert!(matches!(store.get(&path), MeshState::Loading));
     store.keep(Some(&folder.path().join("other.obj")));
-    std::thread::sleep(Duration::from_millis(300));
+    executor.run_all();
     // A mesh that had been read to its end would be there at once.
     assert!(matches!(store.get(&path), MeshState::Loading));
     store.keep(Some(&path));
-    assert!(matches!(settled(&store, &path), MeshState::Ready(_)));
+    executor.run_all();
+    assert!(matches!(store.get(&path), MeshState::Ready(_)));
     store.keep(None);
     assert!(matches!(store.get(&path), MeshState::Ready(_)), "small meshes are remembered");
 }
 
 #[test]
 fn escape_stops_opening() {
-    let (_folder, path) = folder_with("sheet.obj", &sheet(700));
-    let mut harness = window();
-    harness.state_mut().push(Command::OpenPath(path));
-    wait("reading", || {
-        harness.run_steps(1);
-        harness.state().meshes().opening()
-    });
+    let (_folder, path) = folder_with("sheet.obj", SQUARE);
+    let (executor, mut harness) = driven([1280.0, 800.0], egui::Theme::Dark);
+    harness.state_mut().push(Command::OpenPath(path.clone()));
+    harness.run_steps(1);
+    assert!(executor.run_one("files"), "it is told from spectra");
+    harness.run_steps(1);
+    assert_eq!(harness.state().meshes().opening(), Some(path));
     assert!(harness.state().view().status.text.starts_with("Reading sheet.obj… Esc stops."));
     harness.state_mut().push(Command::Escape);
+    harness.run_steps(2);
+    executor.run_all();
     harness.run_steps(2);
     assert_eq!(harness.state().view().status.text, "Reading sheet.obj was stopped. Nothing was changed.");
     assert_eq!(*harness.state().history().document(), Document::paper());
@@ -313,9 +318,9 @@ fn escape_stops_opening() {
 fn a_file_that_is_too_large_is_refused_before_it_is_read() {
     let (_folder, path) = folder_with("huge.obj", "");
     fs::File::options().write(true).open(&path).unwrap().set_len(2_500_000_000).unwrap();
-    let start = Instant::now();
+    let read_on = || panic!("a part of it was read");
+    assert!(matches!(read(&path, &read_on), Err(MeshFailure::TooLarge { bytes: 2_500_000_000, .. })));
     let refused = opened(&store(), &path).unwrap_err();
-    assert!(start.elapsed() < Duration::from_secs(1));
     let why = "huge.obj: 2500 MB, but the limit is 1000 MB; simplify the mesh or export a part of it.";
     assert_eq!(refused, format!("{why} Nothing was changed."));
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::sync::mpsc;
 
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::import::{TAKEN_AT_FIRST, import};
@@ -17,6 +17,7 @@ use chromascope_core::table::{ReadOptions, Role, Values};
 use egui_kittest::Harness;
 
 use crate::screenshots::open;
+use crate::waiting;
 
 type Window = Harness<'static, ChromascopeApp>;
 
@@ -29,12 +30,13 @@ fn window() -> Window {
 
 /// Draws frames until something holds.
 fn until(window: &mut Window, what: &str, holds: impl Fn(&ChromascopeApp) -> bool) {
-    let start = Instant::now();
-    while !holds(window.state()) {
-        assert!(start.elapsed() < Duration::from_secs(10), "{what}: {}", window.state().view().status.text);
-        std::thread::sleep(Duration::from_millis(5));
+    waiting::until(what, || {
+        if holds(window.state()) {
+            return Ok(());
+        }
         window.run_steps(1);
-    }
+        Err(window.state().view().status.text.clone())
+    });
     window.run_steps(2);
 }
 
@@ -211,15 +213,16 @@ fn reading_a_large_file_can_be_stopped() {
     let row = |nm: usize| format!("{nm}{}\n", ",0.123456".repeat(3000));
     let text = (380..1380).map(row).collect::<Vec<_>>().concat();
     let opened = Opened::new(|| {});
-    opened.open(vec![Request::Bytes { name: "large.csv".to_owned(), bytes: text.into_bytes().into() }], |_| {
+    // The reading waits at its beginning until it was stopped.
+    let ((at_it, begun), (go_on, told)) = (mpsc::channel(), mpsc::channel::<()>());
+    opened.open(vec![Request::Bytes { name: "large.csv".to_owned(), bytes: text.into_bytes().into() }], move |_| {
+        at_it.send(()).unwrap();
+        told.recv().unwrap();
         Wishes::default()
     });
-    let start = Instant::now();
-    while opened.progress().is_none_or(|progress| progress.share == 0.0) {
-        assert!(start.elapsed() < Duration::from_secs(20));
-        std::thread::yield_now();
-    }
+    begun.recv().unwrap();
     assert_eq!(opened.stop(), Some("large.csv".to_owned()));
+    go_on.send(()).unwrap();
     opened.wait();
     let events: Vec<OpenedEvent> = opened.poll();
     assert!(events.is_empty() && opened.files().is_empty(), "who stopped it wants none of it: {events:?}");

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
@@ -12,6 +11,7 @@ use chromascope::view::Weight;
 use egui_kittest::Harness;
 
 use crate::screenshots::open;
+use crate::waiting::until;
 
 /// A file that is dropped on the window, with its bytes.
 #[derive(Debug)]
@@ -31,12 +31,10 @@ const LEAF: &str = "nm;leaf (%)\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n";
 
 /// Draws frames until something is said at the foot of the window.
 fn until_said(harness: &mut Harness<'static, ChromascopeApp>) -> (String, Weight) {
-    let start = Instant::now();
-    while harness.state().view().status.text.is_empty() {
-        assert!(start.elapsed() < Duration::from_secs(10), "nothing was said");
-        std::thread::sleep(Duration::from_millis(5));
+    until("a word at the foot of the window", || {
         harness.run_steps(1);
-    }
+        if harness.state().view().status.text.is_empty() { Err("nothing was said".to_owned()) } else { Ok(()) }
+    });
     harness.run_steps(2);
     let status = &harness.state().view().status;
     (status.text.clone(), status.weight)

@@ -1,7 +1,7 @@
 //! The Render workspace: what it shows, what it asks for, and what it does not.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use chromascope::action::{Action, CompareAction, RenderAction};
 use chromascope::app::ChromascopeApp;
@@ -20,7 +20,8 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::screenshots::open;
+use crate::screenshots::{driven, open};
+use crate::waiting::until;
 
 type Window = Harness<'static, ChromascopeApp>;
 
@@ -42,7 +43,10 @@ fn render(window: &mut Window, change: impl FnOnce(&mut RenderSettings)) {
 
 /// The workspace with a coarse head, so that nobody waits.
 fn window(size: [f32; 2], theme: egui::Theme) -> Window {
-    let mut window = open(size, theme);
+    in_render(open(size, theme))
+}
+
+fn in_render(mut window: Window) -> Window {
     window.state_mut().view_mut().saved.workspace = Workspace::Render;
     render(&mut window, |settings| settings.triangles = 4000);
     settle(&mut window);
@@ -110,11 +114,10 @@ fn a_figure_keeps_the_reading() {
 fn a_mesh_that_is_gone_is_said_in_place_of_pictures() {
     let mut window = small();
     render(&mut window, |settings| settings.mesh = MeshChoice::File("/nowhere/bust.obj".into()));
-    let start = Instant::now();
-    while matches!(window.state().meshes().get(Path::new("/nowhere/bust.obj")), MeshState::Loading) {
-        assert!(start.elapsed() < Duration::from_secs(30));
-        std::thread::sleep(Duration::from_millis(10));
-    }
+    until("a word about the mesh", || match window.state().meshes().get(Path::new("/nowhere/bust.obj")) {
+        MeshState::Loading => Err("it is being read".to_owned()),
+        MeshState::Ready(_) | MeshState::Failed(_) => Ok(()),
+    });
     window.run_steps(2);
     assert!(captions(&window).is_empty());
     assert!(window.state().view().render.shot.is_none() && window.state().studio().busy().is_none());
@@ -348,25 +351,28 @@ fn the_pictures_are_a_figure_with_numbers() {
 
 #[test]
 fn escape_stops_what_takes_long_and_keeps_what_was_made() {
-    let mut window = window([1280.0, 800.0], egui::Theme::Dark);
-    // So smooth that no closed form holds, and each sample sums series at all wavelengths.
+    let (executor, window) = driven([900.0, 600.0], egui::Theme::Dark);
+    let mut window = in_render(window);
     render(&mut window, |settings| (settings.quality, settings.sigma_um) = (QualityChoice::Exact, 0.3));
     window.run_steps(2);
-    let start = Instant::now();
-    let coarse = |window: &Window| window.state().view().render.shot.as_ref().is_some_and(|shot| !shot.is_last);
-    while !(window.state().view().render.is_waiting() && coarse(&window)) {
-        assert!(start.elapsed() < Duration::from_secs(30), "exact sums take longer than that");
-        std::thread::sleep(Duration::from_millis(10));
-        window.run_steps(1);
-    }
+    assert!(executor.run_one("pictures"));
+    window.run_steps(1);
+    let shot = window.state().view().render.shot.clone().unwrap();
+    assert!(!shot.is_last, "the first of several stages");
+    assert!(!window.state().view().render.is_waiting(), "nobody has waited yet");
+    executor.advance(Duration::from_secs(1));
+    window.run_steps(1);
+    assert!(window.state().view().render.is_waiting());
     window.key_press(egui::Key::Escape);
     // What was made before the key is still taken in with it.
     window.run_steps(2);
     assert!(window.state().studio().busy().is_none());
     let before = window.state().view().render.shot.clone().unwrap();
-    assert!(!before.is_last);
-    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(before.serial, shot.serial);
+    let computed = made(&window, "shading");
+    executor.run_all();
     window.run_steps(3);
+    assert_eq!(made(&window, "shading"), computed, "nothing more was computed");
     assert!(window.state().studio().busy().is_none());
     let after = window.state().view().render.shot.clone().unwrap();
     assert_eq!(after.serial, before.serial);

@@ -20,6 +20,7 @@ use egui_kittest::kittest::Queryable as _;
 
 use crate::cpu_renderer::Cpu;
 use crate::import_switches::{Window, says, until};
+use crate::waiting;
 
 /// The window without the system's dialogs.
 fn window() -> Window {
@@ -37,14 +38,15 @@ fn window() -> Window {
 fn save_as(window: &mut Window, name: &str, form: Form) {
     window.state_mut().push(Command::SaveSet(Kind::Camera, name.to_owned(), form));
     window.run_steps(2);
-    for _ in 0..400 {
-        if says(window, &format!("Save {name} as {}", form.name())) {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(5));
+    until_asked(window, &format!("Save {name} as {}", form.name()));
+}
+
+/// Draws frames until the question says what is saved.
+fn until_asked(window: &mut Window, question: &str) {
+    waiting::until(question, || {
         window.run_steps(1);
-    }
-    assert!(says(window, &format!("Save {name} as {}", form.name())), "the question says what is saved");
+        if says(window, question) { Ok(()) } else { Err("no such question".to_owned()) }
+    });
     window.run_steps(2);
 }
 
@@ -109,14 +111,7 @@ fn another_kind_of_file_takes_its_own_ending() {
     let mut window = window();
     let ask = |window: &mut Window, format: Format| {
         window.state_mut().push(Command::Export(PaneKind::Spectra, format));
-        for _ in 0..400 {
-            if says(window, &format!("Save Spectra as {}", format.extension().to_uppercase())) {
-                break;
-            }
-            std::thread::sleep(std::time::Duration::from_millis(5));
-            window.run_steps(1);
-        }
-        window.run_steps(2);
+        until_asked(window, &format!("Save Spectra as {}", format.extension().to_uppercase()));
     };
     ask(&mut window, Format::Svg);
     type_path(&mut window, path.to_str().unwrap());
@@ -135,14 +130,14 @@ fn another_kind_of_file_takes_its_own_ending() {
 
 #[test]
 fn a_workload_is_offered_by_its_name() {
-    let report = bench::run(&[Workload::DiffuseSum], Effort::Trial, &Stop::NEVER, &mut |_| ()).unwrap();
+    let report = bench::run(&[Workload::Difference], Effort::Trial, &Stop::NEVER, &mut |_| ()).unwrap();
     let mut window = window();
     let view = window.state_mut().view_mut();
-    view.accuracy.shows = Shows::Bench(Workload::DiffuseSum);
-    view.accuracy.reports.insert(Workload::DiffuseSum, std::sync::Arc::new(Ok(report)));
+    view.accuracy.shows = Shows::Bench(Workload::Difference);
+    view.accuracy.reports.insert(Workload::Difference, std::sync::Arc::new(Ok(report)));
     window.state_mut().push(Command::Export(PaneKind::Accuracy, Format::Csv));
     window.run_steps(8);
-    assert_eq!(typed(&window), "diffuse-sum.csv");
+    assert_eq!(typed(&window), "difference.csv");
 }
 
 #[test]

@@ -11,6 +11,7 @@ use chromascope::command::Command;
 use chromascope::document::history::History;
 use chromascope::document::{Diagram, Document, Overlays, Subset, WayChoice};
 use chromascope::files::Files;
+use chromascope::jobs::Executor;
 use chromascope::laboratory::{LeftOut, SceneRun};
 use chromascope::thing::{SourceId, Thing};
 use chromascope::view::import::ImportItem;
@@ -28,6 +29,22 @@ pub(crate) fn open(size: [f32; 2], theme: egui::Theme) -> Harness<'static, Chrom
 
 /// The program in a window of the given size, with a document.
 pub(crate) fn open_with(document: Document, size: [f32; 2], theme: egui::Theme) -> Harness<'static, ChromascopeApp> {
+    open_on(&Executor::default(), document, size, theme)
+}
+
+/// The paper's start with an executor that the test drives.
+pub(crate) fn driven(size: [f32; 2], theme: egui::Theme) -> (Executor, Harness<'static, ChromascopeApp>) {
+    let executor = Executor::driven();
+    let harness = open_on(&executor, Document::paper(), size, theme);
+    (executor, harness)
+}
+
+fn open_on(
+    executor: &Executor,
+    document: Document,
+    size: [f32; 2],
+    theme: egui::Theme,
+) -> Harness<'static, ChromascopeApp> {
     let mut harness = Harness::builder()
         .with_size(size)
         .with_pixels_per_point(1.0)
@@ -35,7 +52,7 @@ pub(crate) fn open_with(document: Document, size: [f32; 2], theme: egui::Theme) 
         .renderer(Cpu::default())
         .build_eframe(|cc| {
             let history = History::new(document);
-            ChromascopeApp::new(&cc.egui_ctx, history, SavedView::default(), Files::new(None))
+            ChromascopeApp::on(executor, &cc.egui_ctx, history, SavedView::default(), Files::new(None))
         });
     harness.run();
     harness

@@ -25,9 +25,6 @@ pub(super) struct Read {
     pub(super) note: Option<Decision>,
 }
 
-/// Bytes between two looks at who watches.
-const LOOK: usize = 1 << 18;
-
 /// Reads the rows of a layout.
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Read, ReadError> {
     let header = header::read(section, layout);
@@ -36,13 +33,10 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let header_line = header.line.and_then(|names| Lines::of(section).find(|(number, _)| *number == names));
     let header_line = header_line.map(|(_, line)| line);
     let mut commented = LineList::default();
-    let (mut read, mut looked) = (section.byte, section.byte);
+    let mut read = section.byte;
     for (number, line) in Lines::of(section).skip_while(|(number, _)| *number < layout.first_line) {
         read += line.len() + 1;
-        if read >= looked + LOOK {
-            looked = read;
-            log.look(read)?;
-        }
+        log.work(line.len() + 1, read)?;
         if comment(line).is_some() {
             if columns.is_marked_row(line) {
                 commented.add(number);

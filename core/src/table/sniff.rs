@@ -81,9 +81,6 @@ const LONGEST_HEADER_LATER: usize = 16 << 10;
 pub(super) const SAMPLE_BUDGET: usize = 1 << 20;
 const LEAST_LATER: usize = 512;
 
-/// Bytes between two looks at who watches: every line is split nine times.
-const LOOK: usize = 1 << 15;
-
 /// All ways to split a line; where several fit equally, the first is taken.
 const CANDIDATES: [(Delimiter, DecimalMark); 9] = [
     (Delimiter::Semicolon, DecimalMark::Point),
@@ -160,7 +157,7 @@ fn try_all(
     let dialects = dialects.chain(quoted.then_some(grouped));
     let mut trials: Vec<Trial> = dialects.map(|dialect| Trial::new(dialect, mixed)).collect();
     let share = LEAST_LATER.max(LONGEST_HEADER_LATER.min(*budget));
-    let (mut lines, mut bytes, mut looked) = (0, 0, 0);
+    let (mut lines, mut bytes) = (0, 0);
     for (number, line) in Lines::of(section).filter(|(_, line)| !line.trim_ascii().is_empty()) {
         if comment(line).is_some() {
             for trial in &mut trials {
@@ -173,10 +170,8 @@ fn try_all(
         }
         lines += 1;
         bytes += line.len() + 1;
-        if bytes >= looked + LOOK {
-            looked = bytes;
-            log.look(section.byte + bytes)?;
-        }
+        // Each trial splits it anew.
+        log.work(trials.len() * (line.len() + 1), section.byte + bytes)?;
         let rows = trials.iter().map(|trial| trial.rows(options.orientation)).max().unwrap_or(0);
         let enough = match rows {
             _ if section.line > 1 => bytes >= if rows == 0 { LONGEST_HEADER_LATER } else { share },

@@ -1,5 +1,6 @@
 //! Reading that is watched: how far it is, and the wish to stop.
 
+use std::cell::Cell;
 use std::mem::discriminant;
 
 use super::{ReadError, Warning};
@@ -31,6 +32,8 @@ pub(super) struct Log<'a> {
     whole: usize,
     /// The watch is looked at again from this byte on.
     next: usize,
+    /// Bytes looked at since the watch was, however often each.
+    worked: Cell<usize>,
 }
 
 impl<'a> Log<'a> {
@@ -41,7 +44,7 @@ impl<'a> Log<'a> {
     const STRIDE: usize = 1 << 18;
 
     pub(super) fn new(watch: Watch<'a>, whole: usize) -> Self {
-        Self { warnings: Vec::new(), watch, whole, next: Self::STRIDE }
+        Self { warnings: Vec::new(), watch, whole, next: Self::STRIDE, worked: Cell::new(0) }
     }
 
     /// Adds a warning, or counts it where there are many of its kind.
@@ -71,6 +74,19 @@ impl<'a> Log<'a> {
         }
         self.next = byte.saturating_add(Self::STRIDE);
         self.look(byte)
+    }
+
+    /// Says that so many bytes were looked at, for the first time or again, and that the reader is at a byte of the text; an error
+    /// where the caller wants no more.
+    #[inline]
+    pub(super) fn work(&self, bytes: usize, at: usize) -> Result<(), ReadError> {
+        let worked = self.worked.get() + bytes;
+        if worked < Self::STRIDE {
+            self.worked.set(worked);
+            return Ok(());
+        }
+        self.worked.set(0);
+        self.look(at)
     }
 
     /// The same at once: before and after long steps.

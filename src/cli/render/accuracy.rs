@@ -38,6 +38,8 @@ pub(super) struct Measured {
 pub(super) struct Cost {
     /// Nanoseconds a sample and source, on one thread.
     pub(super) ns: f64,
+    /// Number of samples whose integral is a sum over wavelengths.
+    pub(super) sums: u64,
     /// Of each source its errors; none for a source without light anywhere.
     pub(super) errors: Vec<Option<Errors>>,
 }
@@ -54,6 +56,7 @@ pub(super) struct Errors {
 /// The signals of each source by one quality.
 struct Run {
     signals: Vec<Vec<[f32; 3]>>,
+    sums: u64,
     time: Duration,
 }
 
@@ -90,6 +93,7 @@ pub(super) fn measure(made: &Made<'_>) -> Option<Measured> {
     let peaks: Vec<f64> = made.pictures.images.iter().map(|image| image.as_ref().map_or(0.0, peak)).collect();
     let samples = bench.geometry.samples().len();
     let cost = |run: &Run| Cost {
+        sums: run.sums,
         ns: run.time.as_secs_f64() * 1e9 / (samples * run.signals.len().max(1)) as f64,
         errors: (0..peaks.len()).map(|i| errors(&run.signals[i], &exact.signals[i], peaks[i])).collect(),
     };
@@ -134,7 +138,8 @@ impl Bench {
         };
         let images: Vec<CameraImage> = self.cameras.iter().map(image).collect::<Option<_>>()?;
         let time = start.elapsed();
-        Some(Run { signals: images.iter().map(|image| image.signals().to_vec()).collect(), time })
+        let signals = images.iter().map(|image| image.signals().to_vec()).collect();
+        Some(Run { signals, sums: shading.counts().sums, time })
     }
 }
 

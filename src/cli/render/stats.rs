@@ -200,6 +200,7 @@ fn summary(made: &Made<'_>, accuracy: &Measured) -> Value {
             .reduce(|a, b| Errors { max: a.max.max(b.max), rms: a.rms.max(b.rms) });
         json!({
             "quality": name,
+            "samples_by_sums": cost.sums,
             "ns_per_sample": cost.ns,
             "time_ratio": cost.ns / accuracy.exact.ns,
             "error_to_peak": worst.map(errors),

@@ -1,5 +1,6 @@
 //! What the rows of scenes of several kinds count and say.
 
+use chromascope_core::query::render::MeshOf;
 use chromascope_core::render::RasterSize;
 
 use super::*;
@@ -11,6 +12,10 @@ use crate::scene::Scene;
 
 /// The rows of a small picture of the default scene's cameras.
 fn rows_of(change: impl FnOnce(&mut RenderSettings)) -> Vec<LeftOut> {
+    rows_at(RasterSize { width: 64, height: 48, samples: 1 }, change)
+}
+
+fn rows_at(size: RasterSize, change: impl FnOnce(&mut RenderSettings)) -> Vec<LeftOut> {
     let mut document = Document::paper();
     (document.render.mesh, document.render.triangles) = (MeshChoice::Sphere, 2000);
     change(&mut document.render);
@@ -18,8 +23,26 @@ fn rows_of(change: impl FnOnce(&mut RenderSettings)) -> Vec<LeftOut> {
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let mut run = SceneRunOf::of(&scene, None, None);
     let pictures = run.pictures.as_mut().expect("there is a mesh");
-    pictures.shading.geometry.visibility.size = RasterSize { width: 64, height: 48, samples: 1 };
+    pictures.shading.geometry.visibility.size = size;
     of_pictures(pictures, &Results::bounded()).expect("nothing stops it")
+}
+
+#[test]
+fn pictures_that_are_not_on_show_are_made_from_nothing() {
+    let document = Document::paper();
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let mut pictures = SceneRunOf::of(&scene, None, None).pictures.expect("there is a mesh");
+    pictures.shading.geometry.visibility.mesh = MeshOf::Sphere(2000);
+    pictures.shading.geometry.visibility.size = RasterSize { width: 16, height: 12, samples: 1 };
+    // Whoever asks has all of it at hand.
+    let asking = Results::bounded();
+    asking.ask(&pictures);
+    let asked =
+        || asking.counts().into_iter().map(|(name, count)| (name, count.hits, count.misses)).collect::<Vec<_>>();
+    let before = asked();
+    assert!(panes::pictures(&pictures, &asking).is_some_and(|row| row.count == pictures.sources.len() as u64));
+    assert_eq!(asked(), before, "nothing that is remembered was used");
 }
 
 fn row<'a>(rows: &'a [LeftOut], what: &str) -> Option<&'a LeftOut> {
@@ -39,9 +62,11 @@ fn a_lambertian_surface_leaves_out_no_mirror_and_no_wavelength() {
 
 #[test]
 fn wavelengths_that_are_looked_at_do_not_count_as_left_out() {
+    let rows_of = |change: fn(&mut RenderSettings)| rows_at(RasterSize { width: 24, height: 18, samples: 1 }, change);
     let wavelengths = |rows: &[LeftOut]| row(rows, "wavelengths at a lit sample").map(|row| (row.count, row.of));
     for quality in [QualityChoice::Exact, QualityChoice::Regimes] {
-        assert_eq!(wavelengths(&rows_of(|settings| settings.quality = quality)), None, "{quality:?}");
+        let size = RasterSize { width: 24, height: 18, samples: 1 };
+        assert_eq!(wavelengths(&rows_at(size, |settings| settings.quality = quality)), None, "{quality:?}");
     }
     // Fifteen at each sample, of those of 401 that a source responds at.
     let Some((fine, Some(of))) = wavelengths(&rows_of(|settings| settings.quality = QualityChoice::Fine)) else {
@@ -78,5 +103,5 @@ fn of_vertices_each_has_a_roughness_of_its_own() {
     assert!(beside.saved == 0.0 && beside.count > 0 && beside.how.contains("not measured"), "{beside:?}");
     let mirrors = row(&rows, "mirror terms").expect("left out at most vertices");
     assert!(mirrors.how.contains("vertices"), "{mirrors:?}");
-    assert!(row(&rows, "wavelengths at a lit vertex").is_some_and(|row| row.saved > 0.0), "{rows:?}");
+    assert!(row(&rows, "wavelengths at a lit vertex").is_some_and(|row| row.count > 0 && row.saved >= 0.0), "{rows:?}");
 }

@@ -4,13 +4,15 @@
 /// is inside quotes.
 pub(super) struct Code {
     pub(super) tokens: Vec<(String, usize)>,
+    /// The words and signs of test modules.
+    pub(super) tests: Vec<(String, usize)>,
     /// Lines of test modules.
     pub(super) skipped_lines: usize,
 }
 
 pub(super) fn code(text: &str) -> Code {
     let mut tokens = tokens(&blanked(text));
-    let mut skipped_lines = 0;
+    let (mut tests, mut skipped_lines) = (Vec::new(), 0);
     let test = ["#", "[", "cfg", "(", "test", ")", "]"];
     let mut at = 0;
     while at < tokens.len() {
@@ -26,12 +28,17 @@ pub(super) fn code(text: &str) -> Code {
         if is(start, "mod") && is(start + 2, "{") {
             let end = closing(&tokens, start + 2);
             skipped_lines += tokens[end].1 - tokens[at].1 + 1;
-            tokens.drain(at..=end);
+            tests.extend(tokens.drain(at..=end));
         } else {
             at = start;
         }
     }
-    Code { tokens, skipped_lines }
+    Code { tokens, tests, skipped_lines }
+}
+
+/// All words and signs of a file, those of test modules with them.
+pub(super) fn words(text: &str) -> Vec<(String, usize)> {
+    tokens(&blanked(text))
 }
 
 /// Comments and everything between quotes as spaces; lines stay where they are.

@@ -1,7 +1,6 @@
 //! Walking one function: many cases at once, the worst error, and the plainest case that fails.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::time::Instant;
 
 use rayon::prelude::*;
 
@@ -77,7 +76,6 @@ pub(super) struct Tally {
     pub(super) subnormal: u64,
     pub(super) worst: f64,
     pub(super) at: Case,
-    pub(super) nanoseconds: u64,
     failed: Option<(u64, Case)>,
 }
 
@@ -86,7 +84,6 @@ impl Tally {
         self.cases += other.cases;
         self.refused += other.refused;
         self.subnormal += other.subnormal;
-        self.nanoseconds += other.nanoseconds;
         if other.worst > self.worst {
             (self.worst, self.at) = (other.worst, other.at);
         }
@@ -112,7 +109,6 @@ impl Walk {
 
     fn part(&self, seed: u64, indices: std::ops::Range<u64>) -> Tally {
         let mut tally = Tally::default();
-        let begun = Instant::now();
         for index in indices {
             let case = (self.draw)(&mut Draw::new(seed, self.name, index));
             let verdict = self.verdict(&case);
@@ -126,7 +122,6 @@ impl Walk {
                 tally.failed = Some((index, case));
             }
         }
-        tally.nanoseconds = begun.elapsed().as_nanos() as u64;
         tally
     }
 

@@ -1,0 +1,52 @@
+//! No test reads a clock or sleeps: what it finds would depend on the machine, and on what else runs there.
+
+use super::rust_text::{code, words};
+use super::{Report, Violation, found, hold, sources};
+
+/// The one place that waits for what must come.
+const WAITS: &str = "tests/app/waiting.rs";
+
+/// Words that only those use who measure or let pass time.
+const TIME: &[&str] = &["Instant", "SystemTime", "UNIX_EPOCH", "elapsed", "park_timeout", "recv_timeout", "sleep"];
+
+#[test]
+fn tests_do_not_depend_on_a_clock() {
+    for folder in ["core/src", "src", "tests/app", "tests/core"] {
+        hold(sources(folder).iter().flat_map(|(path, text)| clocks(path, text)));
+    }
+}
+
+fn clocks(file: &str, text: &str) -> Vec<Violation> {
+    let mut found = Report::new(file);
+    let is_test = file.starts_with("tests/") || file.ends_with("/tests.rs");
+    let words = match is_test {
+        _ if file == WAITS => Vec::new(),
+        true => words(text),
+        false => code(text).tests,
+    };
+    for (word, line) in words.iter().filter(|(word, _)| TIME.contains(&word.as_str())) {
+        let rule = "tests count work, drive an executor, or wait for an event with `waiting::until`";
+        found.push(*line, format!("{rule}: `{word}`"));
+    }
+    found.violations
+}
+
+#[test]
+fn a_test_that_reads_a_clock_is_found() {
+    let text = "use std::time::Instant; // Instant::now
+fn f() { std::thread::sleep(PAUSE); let text = \"elapsed\"; }
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn quick() { let start = std::time::Instant::now(); work(); assert!(start.elapsed() < LIMIT); }
+}
+";
+    let lines = |file: &str| clocks(file, text).into_iter().map(|found| found.line).collect::<Vec<_>>();
+    assert_eq!(lines("tests/app/x.rs"), [1, 2, 6, 6]);
+    assert_eq!(lines("tests/core/table/x.rs"), [1, 2, 6, 6]);
+    assert_eq!(lines("src/laboratory/loci/tests.rs"), [1, 2, 6, 6]);
+    assert_eq!(lines("src/jobs.rs"), [6, 6], "the program itself may");
+    assert_eq!(lines(WAITS), [0; 0]);
+    let rule = "tests count work, drive an executor, or wait for an event with `waiting::until`";
+    assert_eq!(found(&clocks("src/jobs.rs", text))[0], format!("src/jobs.rs:6: {rule}: `Instant`"));
+}
