@@ -66,9 +66,9 @@ impl Start {
     pub fn document(self) -> Document {
         let mut document = Document::blank(self);
         if self == Self::Colorimetry {
-            document.truth = CIE_1931.to_owned();
+            CIE_1931.clone_into(&mut document.truth);
             document.light = Light::Set("D65".to_owned());
-            document.chart = CHART.to_owned();
+            CHART.clone_into(&mut document.chart);
             document.subset = Subset::All;
             document.set_transform(WayChoice::Observer(CIE_1931.to_owned()));
         }
