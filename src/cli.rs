@@ -6,19 +6,21 @@
 mod arguments;
 mod bench;
 mod inspect;
+mod outputs;
+mod radiance;
 mod render;
 mod request;
 mod tables;
 
 use std::ffi::OsString;
-use std::fs;
 use std::io::{self, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{CommandFactory as _, FromArgMatches as _};
 
 use arguments::{Arguments, Subcommand};
 use chromascope_core::camera::NoRendering;
+use outputs::put;
 
 use crate::scene::SceneError;
 
@@ -50,8 +52,8 @@ pub enum CliError {
     /// The scene cannot be computed.
     #[error(transparent)]
     Scene(SceneError),
-    /// Cone fundamentals on the paper's way.
-    #[error("{0}: Eq 13 takes RGB, not cone signals; add --transform observer")]
+    /// Cone fundamentals with the paper's matrix.
+    #[error("{0}: Eq 13 takes RGB, not cone signals; add --transform fitted")]
     Cones(String),
     /// An argument that means nothing.
     #[error("{argument}: {reason}")]
@@ -78,6 +80,15 @@ pub enum CliError {
     /// A figure cannot be drawn.
     #[error(transparent)]
     Figure(#[from] crate::export::ExportError),
+    /// An output that is an input.
+    #[error("{}: this command reads it, so it is not written over; name another file", .0.display())]
+    Input(PathBuf),
+    /// An output that exists.
+    #[error("{}: the file exists; name another, or add --force to replace it", .0.display())]
+    Exists(PathBuf),
+    /// One file for two outputs.
+    #[error("{}: two outputs cannot go to one file; name another", .0.display())]
+    Twice(PathBuf),
     /// The output could not be written.
     #[error("cannot write {}: {}", path.display(), crate::files::reason(error))]
     Output {
@@ -149,30 +160,4 @@ fn explain(error: &clap::Error) -> u8 {
 /// Says something on standard error.
 pub fn say(text: &str) {
     let _gone = io::stderr().lock().write_all(text.as_bytes());
-}
-
-/// Writes a table to a file, whole or not at all, or to standard output.
-fn put(text: &str, out: Option<&Path>) -> Result<(), CliError> {
-    let path = out.filter(|path| *path != Path::new("-"));
-    match path.map_or_else(|| print(text), |path| write_to(path, text.as_bytes())) {
-        // Whoever read it has seen enough, as `head` does.
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        Err(error) => Err(CliError::Output { path: path.unwrap_or(Path::new("standard output")).to_owned(), error }),
-        Ok(()) => Ok(()),
-    }
-}
-
-fn print(text: &str) -> io::Result<()> {
-    let mut stdout = io::stdout().lock();
-    stdout.write_all(text.as_bytes())?;
-    stdout.flush()
-}
-
-/// A file is replaced whole, behind a link if it is one; what is no file, such as a pipe or `/dev/null`, is written into.
-fn write_to(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    match fs::metadata(path) {
-        Ok(known) if known.is_file() => crate::files::write_atomically(&fs::canonicalize(path)?, bytes),
-        Ok(known) if !known.is_dir() => fs::OpenOptions::new().write(true).open(path)?.write_all(bytes),
-        _ => crate::files::write_atomically(path, bytes),
-    }
 }

@@ -6,6 +6,7 @@
 pub mod compare;
 pub mod loci;
 pub mod patches;
+pub mod radiances;
 pub mod render;
 pub mod shared;
 
@@ -15,6 +16,7 @@ pub use loci::{
     Temperatures,
 };
 pub use patches::{FitTargetsOf, PatchColor, PatchColorsOf, RenderingOf, WayOf};
+pub use radiances::RadianceColorsOf;
 pub use shared::Shared;
 
 use crate::render::Stop;

@@ -58,32 +58,157 @@ pub fn matches_search(entry: &Entry, search: &str) -> bool {
     search.split_whitespace().map(folded).all(|word| text.contains(&word))
 }
 
-/// The entry that a name means: the exact name (case and punctuation aside), else the only one that contains it.
+/// An entry that a typed name stands for.
+#[derive(Clone, Debug)]
+pub struct Found<'a> {
+    /// The entry.
+    pub entry: &'a Entry,
+    /// Whether its own name was typed; case, punctuation and words such as "illuminant" aside.
+    pub exact: bool,
+    /// Other tables of the same model.
+    pub others: Vec<&'a str>,
+}
+
+impl<'a> Found<'a> {
+    fn exact(entry: &'a Entry) -> Self {
+        Self { entry, exact: true, others: Vec::new() }
+    }
+
+    fn near(entry: &'a Entry) -> Self {
+        Self { entry, exact: false, others: Vec::new() }
+    }
+
+    /// The choice in words, where another name than the entry's was typed.
+    pub fn note(&self) -> Option<String> {
+        let others = match self.others.as_slice() {
+            [] => String::new(),
+            others => format!("; also there: {}", others.join(", ")),
+        };
+        (!self.exact).then(|| format!("taking {}{others}", self.entry.name))
+    }
+}
+
+/// Words that distinguish no two sets.
+const NOISE: [&str; 8] = ["cie", "illuminant", "standard", "observer", "light", "deg", "degree", "degrees"];
+
+/// The words of a name, in small letters. Periods join: `A.M.P.A.S.` and `FL3.10` are one word each.
+fn words(text: &str) -> Vec<String> {
+    let joined = text.replace('.', "");
+    // The masculine ordinal is typed for a degree sign, and counts as a letter.
+    let between = |c: char| !c.is_alphanumeric() || c == 'º';
+    joined.split(between).filter(|word| !word.is_empty()).map(str::to_lowercase).collect()
+}
+
+/// The words of a name that tell it from others: without "CIE", "illuminant" and the like, unless there are no others.
+pub fn telling_words(text: &str) -> Vec<String> {
+    let all = words(text);
+    let angle = |word: &str| {
+        let number = word.trim_end_matches(|c: char| c.is_alphabetic());
+        let degrees = !number.is_empty() && matches!(&word[number.len()..], "deg" | "degree" | "degrees");
+        if degrees { number.to_owned() } else { word.to_owned() }
+    };
+    let telling: Vec<String> =
+        all.iter().filter(|word| !NOISE.contains(&word.as_str())).map(|word| angle(word)).collect();
+    if telling.is_empty() { all } else { telling }
+}
+
+/// The entry that a typed name stands for.
+///
+/// Case, punctuation and words that distinguish no two sets are ignored. In this order: the exact name; the name that has all the
+/// words as whole words; the only name that contains the text. Of several names with all the words, one whose words all others have
+/// too is meant (`EOS R5`, not `EOS R5 Mark II`); of several tables of one model, told apart by parentheses alone, the first measured.
 pub fn find<'a>(
     entries: impl Iterator<Item = &'a Entry>,
     kind: &'static str,
     name: &str,
-) -> Result<&'a Entry, NameError> {
+) -> Result<Found<'a>, NameError> {
     let entries: Vec<&Entry> = entries.collect();
-    let wanted = folded(name);
-    let exact = |text: &str| folded(text) == wanted;
-    if let Some(entry) = entries.iter().find(|e| exact(&e.name)).or_else(|| entries.iter().find(|e| exact(&e.short))) {
-        return Ok(entry);
+    let telling = telling_words(name);
+    let wanted = telling.concat();
+    if wanted.is_empty() {
+        return Err(NameError::Unknown { kind, name: name.to_owned(), nearest: Vec::new() });
     }
-    let mut parts: Vec<&&Entry> =
-        entries.iter().filter(|e| !wanted.is_empty() && folded(&e.name).contains(&wanted)).collect();
-    if parts.is_empty() && !wanted.is_empty() {
-        // Words with others between them: "ColorChecker Ohta 1997".
-        parts = entries.iter().filter(|e| matches_search(e, name)).collect();
+    if let Some(entry) = exact(&entries, &folded(name), &wanted) {
+        return Ok(Found::exact(entry));
     }
-    match parts.as_slice() {
-        [one] => Ok(one),
-        [] => Err(NameError::Unknown { kind, name: name.to_owned(), nearest: nearest(&entries, &wanted) }),
-        many => {
-            let candidates = many.iter().take(5).map(|e| e.name.clone()).collect();
-            Err(NameError::Ambiguous { name: name.to_owned(), candidates })
+    let all_in = |text: &str| {
+        let words = words(text);
+        telling.iter().all(|word| words.contains(word))
+    };
+    let glossed = |e: &Entry| format!("{} {} {}", e.name, e.short, e.also.as_deref().unwrap_or_default());
+    let spaced = telling.join(" ");
+    let having = |test: &dyn Fn(&Entry) -> bool| entries.iter().copied().filter(|e| test(e)).collect::<Vec<_>>();
+    let whole_words: [&dyn Fn(&Entry) -> bool; 2] = [&|e| all_in(&e.name), &|e| all_in(&glossed(e))];
+    for test in whole_words {
+        let candidates = having(test);
+        if let Some(found) = plainest(&candidates) {
+            return Ok(found);
+        }
+        if !candidates.is_empty() {
+            return Err(ambiguous(name, &candidates));
         }
     }
+    // Words with others between them come last.
+    let parts: [&dyn Fn(&Entry) -> bool; 2] = [&|e| folded(&e.name).contains(&wanted), &|e| matches_search(e, &spaced)];
+    for test in parts {
+        match having(test).as_slice() {
+            [] => {}
+            [only] => return Ok(Found::near(only)),
+            several => return Err(ambiguous(name, several)),
+        }
+    }
+    Err(NameError::Unknown { kind, name: name.to_owned(), nearest: nearest(&entries, &wanted) })
+}
+
+/// The entry of exactly this name or short name, else the only one whose telling words are the wanted ones.
+fn exact<'a>(entries: &[&'a Entry], typed: &str, wanted: &str) -> Option<&'a Entry> {
+    let by = |text: fn(&Entry) -> &str| entries.iter().copied().find(|e| folded(text(e)) == typed);
+    by(|e| &e.name).or_else(|| by(|e| &e.short)).or_else(|| {
+        let mut alike = entries.iter().copied().filter(|e| telling_words(&e.name).concat() == wanted);
+        alike.next().filter(|_| alike.next().is_none())
+    })
+}
+
+/// The candidate whose words outside parentheses all others have too; of several that differ in parentheses alone, the first
+/// that was measured and not digitized from a figure.
+fn plainest<'a>(candidates: &[&'a Entry]) -> Option<Found<'a>> {
+    let models: Vec<Vec<String>> = candidates.iter().map(|e| words(&without_remarks(&e.name))).collect();
+    let shortest = models.iter().min_by_key(|words| words.len())?;
+    if !models.iter().all(|words| shortest.iter().all(|word| words.contains(word))) {
+        return None;
+    }
+    let tables: Vec<&Entry> =
+        candidates.iter().zip(&models).filter(|(_, model)| *model == shortest).map(|(entry, _)| *entry).collect();
+    let entry = tables.iter().copied().find(|e| !is_digitized(e)).or_else(|| tables.first().copied())?;
+    let others = tables.iter().filter(|e| e.name != entry.name).map(|e| e.name.as_str()).collect();
+    Some(Found { others, ..Found::near(entry) })
+}
+
+fn without_remarks(name: &str) -> String {
+    let mut depth = 0_u32;
+    let outside = |c: &char| {
+        match c {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            _ => return depth == 0,
+        }
+        false
+    };
+    name.chars().filter(outside).collect()
+}
+
+/// Whether a set's values were read off a published plot.
+fn is_digitized(entry: &Entry) -> bool {
+    entry.header.as_ref().is_some_and(|header| header.source.contains("digitized"))
+}
+
+fn ambiguous(name: &str, candidates: &[&Entry]) -> NameError {
+    const NAMED: usize = 5;
+    let mut named: Vec<String> = candidates.iter().take(NAMED).map(|e| e.name.clone()).collect();
+    if candidates.len() > NAMED {
+        named.push(format!("or {} others", candidates.len() - NAMED));
+    }
+    NameError::Ambiguous { name: name.to_owned(), candidates: named }
 }
 
 /// Up to three names that are like the wanted one.

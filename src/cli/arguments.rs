@@ -7,6 +7,7 @@ use clap::{Args, Parser, ValueEnum};
 use super::bench::BenchArguments;
 use super::inspect::arguments::InspectArguments;
 use super::render::arguments::RenderArguments;
+use crate::document::start::Start;
 
 /// See, measure and explain how digital cameras render color, from spectra.
 ///
@@ -26,38 +27,51 @@ const EXAMPLES: &str = "\
 Examples:
   chromascope leaf.csv
   chromascope locus --camera \"Nikon D70\" --observer \"CIE 1931 2°\" --temperatures 2856,5500,6504
-  chromascope patches --camera \"Canon EOS 10D\" --illuminant D55 --transform observer --out patches.csv
+  chromascope patches --camera \"Canon EOS 10D\" --illuminant D55 --out patches.csv
   chromascope render --mesh head --camera \"Nikon D70\" --out pictures
   chromascope inspect measured.txt --csv measured.csv
   chromascope list cameras
 
-Names are those of `chromascope list`, case and punctuation aside; a part will do where only one name has it.";
+Names are those of `chromascope list`. Case, punctuation and words such as CIE, illuminant, standard and observer are ignored; whole
+words, or any unambiguous substring, match. What was taken for a name that is not exact is said on standard error.
+No command writes over a file that it reads, nor over any other file without --force.";
 
 const LOCUS_EXAMPLES: &str = "\
 Examples:
-  chromascope locus > first_screen.csv
-  chromascope locus --camera \"Nikon D70\" --camera mine.csv --from 2000 --to 10000 --count 50
-  chromascope locus --camera \"Nikon D70\" --transform observer --reference \"CIE 1964 10°\" --illuminant D65
+  chromascope locus > loci.csv
+  chromascope locus --preset paper --from 2000 --to 10000 --count 50
+  chromascope locus --camera \"Nikon D70\" --camera mine.csv --reference \"CIE 1964 10°\" --illuminant A --white D55
 
-Temperatures are in kelvins, from 1 to 1e15. Rows come by source, in the order named, then by temperature.
-A place without chromaticity is left empty.";
+Columns: sensor, temperature_k, x, y, u_prime, v_prime; distance_xy and distance_uv, the distances to the reference at the same
+temperature, in x, y and in u\u{2032}, v\u{2032}; cct_error_k, the correlated color temperature of x, y (CIE 1931 2°, within 1000\u{2013}20000 K and
+0.05 of the Planckian locus) minus the true temperature; arc_length_xy, the length of the locus in x, y from the first row of the
+sensor; then the conditions: reference, illuminant, white_balance, transform, preset.
+
+Temperatures are in kelvins, from 1 to 1e15. Rows come by sensor, in the order named, then by temperature. What is not defined is
+left empty.";
 
 const PATCHES_EXAMPLES: &str = "\
 Examples:
-  chromascope patches --chart \"ColorChecker five\"
+  chromascope patches --preset paper
   chromascope patches --camera \"Canon EOS 10D\" --illuminant A --white D55
-  chromascope patches --camera mine.csv --chart leaves.csv --illuminant daylight:6504 --out leaves_seen.csv
+  chromascope patches --camera mine.csv --per photon --chart leaves.csv --illuminant daylight:6504 --out leaves_seen.csv
+  chromascope patches --radiance measured.csv --radiance-white \"white tile\"
 
-r, g, b are after white balance, empty for CIE observers; Y is 1 for a perfect white. A file's reflectances are
-fractions or percent, its wavelengths nm or µm; what had to be guessed is said on standard error.";
+Columns: sensor, patch; r, g, b after white balance (empty for CIE observers); x_tristimulus, y_tristimulus, z_tristimulus (Y = 1
+for a perfect diffuser); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
+delta_e_2000, delta_e_1976, delta_uv_prime, delta_xy, the differences from the reference; then the conditions: reference,
+illuminant, white_balance, transform, preset. What is not defined is left empty: with the paper's matrix, Eq 13 takes RGB as sRGB
+whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*.
+
+A file's reflectances are fractions or percent, its wavelengths nm or µm; guesses are said on standard error.";
 
 /// What can be computed without a window.
 #[derive(Debug, clap::Subcommand)]
 pub(super) enum Subcommand {
-    /// Planckian loci as CSV: `source,temperature_k,x,y,u_prime,v_prime`
+    /// Planckian loci as CSV: chromaticity, distances to the reference, CCT error and arc length of blackbodies by temperature
     #[command(after_help = LOCUS_EXAMPLES)]
     Locus(LocusArguments),
-    /// Chart patches as CSV: `source,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y`
+    /// Chart patches or measured radiances as CSV: RGB, XYZ, xy, u′v′, L*a*b* and differences from the reference
     #[command(after_help = PATCHES_EXAMPLES)]
     Patches(PatchesArguments),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
@@ -76,34 +90,59 @@ pub(super) enum Subcommand {
     },
 }
 
-/// Through what is looked, for tables and pictures.
+/// Sensors, the reference and the color transform, for tables and pictures.
 #[derive(Debug, Args)]
 pub(super) struct SourceArguments {
-    /// An observer; may be repeated. Without any source: the truth, the paper's three cameras and, in tables, CIE 1931 2°
+    /// Where everything starts that no other option names: reference, sensors, color transform and, in tables, illuminant, white
+    /// balance and patches
+    #[arg(long, value_enum, default_value_t = Start::Colorimetry)]
+    pub(super) preset: Start,
+    /// An observer; may be repeated. Without any sensor: those of the preset
     #[arg(long, value_name = "NAME")]
     pub(super) observer: Vec<String>,
     /// A camera, or a file with three sensitivities; may be repeated
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) camera: Vec<String>,
-    /// The way to the diagram: Eq 13 for cameras and RGB observers, or a matrix fitted to an observer
-    #[arg(long, value_enum, default_value_t = Transform::Paper)]
-    pub(super) transform: Transform,
-    /// The observer fitted to, with `--transform observer` [default: CIE 1931 2°]
+    /// What the sensitivities in camera files are a response to, whatever the files say: equal energy or equal numbers of photons
+    /// at each wavelength
+    #[arg(long, value_enum, value_name = "UNIT")]
+    pub(super) per: Option<Per>,
+    /// The reference observer, which all sensors are compared with [default: the preset's]
     #[arg(long, value_name = "OBSERVER")]
     pub(super) reference: Option<String>,
+    /// The color transform from camera RGB to XYZ [default: the preset's]
+    #[arg(long, value_enum)]
+    pub(super) transform: Option<Transform>,
+    /// The observer that 3×3 matrices are fitted to [default: the reference if it is an XYZ observer, else CIE 1931 2°]
+    #[arg(long, value_name = "OBSERVER")]
+    pub(super) fit_to: Option<String>,
 }
 
-/// What both tables take.
+impl SourceArguments {
+    /// Whether no sensor was named.
+    pub(super) fn names_no_sensor(&self) -> bool {
+        self.observer.is_empty() && self.camera.is_empty()
+    }
+}
+
+/// Arguments of both tables.
 #[derive(Debug, Args)]
 pub(super) struct CommonArguments {
     #[command(flatten)]
     pub(super) sources: SourceArguments,
-    /// The light: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: E]
+    /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: the preset's]
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) illuminant: Option<String>,
+    /// The white-balance target, the RGB a perfect diffuser is mapped to: `unity`, an illuminant, `daylight:K` or `blackbody:K`
+    /// [default: the preset's]
+    #[arg(long, value_name = "WHITE", visible_alias = "white-balance")]
+    pub(super) white: Option<String>,
     /// Where to write; `-` or nothing for standard output
     #[arg(long, value_name = "FILE")]
     pub(super) out: Option<PathBuf>,
+    /// Replaces the file named by --out if it exists
+    #[arg(long)]
+    pub(super) force: bool,
 }
 
 /// What `locus` takes.
@@ -130,21 +169,35 @@ pub(super) struct LocusArguments {
 pub(super) struct PatchesArguments {
     #[command(flatten)]
     pub(super) common: CommonArguments,
-    /// A chart, a material, or a file with reflectances [default: ColorChecker 24 (Ohta 1997)]
+    /// A chart, a material, or a file with reflectances [default: the preset's]
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) chart: Option<String>,
-    /// The color a perfect white is to take: `unity`, a light's name, `daylight:K` or `blackbody:K`
-    #[arg(long, value_name = "WHITE", default_value = "unity")]
-    pub(super) white: String,
+    /// A file with spectra of radiance, which are integrated as they are: no chart and no illuminant is named then. Without
+    /// --radiance-white they are balanced to equal energy, X, Y, Z are relative, and there is no L*a*b*
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["chart", "illuminant"])]
+    pub(super) radiance: Option<String>,
+    /// The radiance of a perfect diffuser among those of the file: it takes the white-balance target and Y = 1
+    #[arg(long, value_name = "NAME", requires = "radiance")]
+    pub(super) radiance_white: Option<String>,
 }
 
-/// The way to the diagram.
+/// A color transform from camera RGB to XYZ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Transform {
-    /// Eq 13
+    /// Eq 13 for cameras and RGB observers
     Paper,
-    /// A matrix fitted to an observer
-    Observer,
+    /// A 3×3 matrix for each sensor, fitted over 190 training reflectances
+    #[value(alias = "observer")]
+    Fitted,
+}
+
+/// What sensitivities are a response to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Per {
+    /// Equal energy at each wavelength
+    Energy,
+    /// Equal numbers of photons at each wavelength
+    Photon,
 }
 
 /// A kind of data sets to list.

@@ -7,7 +7,8 @@ use chromascope_core::figure::Figure;
 use chromascope_core::render::Stop;
 use clap::Args;
 
-use super::{CliError, put, say, write_to};
+use super::outputs::{put, write_to};
+use super::{CliError, say};
 use crate::bench::{self, Effort, Measurement, Progress, Report, Workload};
 use crate::export::{Paper, png, png_file, svg};
 use crate::figures::pareto::duration;
@@ -26,6 +27,9 @@ A line gives: threads, median time per item, ratio to the case's first method, l
 /// The file of all measurements.
 const JSON: &str = "bench.json";
 
+/// The table of all measurements.
+const CSV: &str = "bench.csv";
+
 /// What `bench` takes.
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "switches of a command line")]
@@ -37,7 +41,7 @@ pub(super) struct BenchArguments {
     #[arg(long, value_name = "DIR", required_unless_present = "list")]
     out: Option<PathBuf>,
     /// Write over the measurements of an earlier run in that folder
-    #[arg(long)]
+    #[arg(long, visible_alias = "force")]
     replace: bool,
     /// These workloads alone
     #[arg(long, value_name = "NAME", value_delimiter = ',', num_args = 1.., value_parser = workload)]
@@ -63,15 +67,16 @@ pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     };
     // Better now than after a quarter of an hour.
     make_folder(folder)?;
-    if !arguments.replace && folder.join(JSON).exists() {
-        let reason =
-            format!("{} has the {JSON} of an earlier run; give another folder, or --replace", folder.display());
-        return Err(CliError::Argument { argument: "--out", reason });
-    }
     let plan: Vec<Workload> = Workload::ALL
         .into_iter()
         .filter(|workload| arguments.only.is_empty() || arguments.only.contains(workload))
         .collect();
+    let known = names(&plan).into_iter().find(|name| folder.join(name).exists());
+    if let Some(name) = known.filter(|_| !arguments.replace) {
+        let reason =
+            format!("{} has the {name} of an earlier run; give another folder, or --replace", folder.display());
+        return Err(CliError::Argument { argument: "--out", reason });
+    }
     let effort = if arguments.trial {
         Effort::Trial
     } else if arguments.quick {
@@ -87,6 +92,12 @@ pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     }
     let count = report.measurements.len();
     put(&format!("{count} measurements in {} files in {}\n", files.len(), folder.display()), None)
+}
+
+/// The names of the files that a run writes.
+fn names(plan: &[Workload]) -> Vec<String> {
+    let figures = plan.iter().flat_map(|workload| ["svg", "png"].map(|ending| format!("{}.{ending}", workload.name())));
+    [JSON, CSV].map(str::to_owned).into_iter().chain(figures).collect()
 }
 
 /// The folder, made if need be, in which a file can be made.
@@ -140,7 +151,7 @@ fn line(m: &Measurement) -> String {
 fn files(report: &Report, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, CliError> {
     let mut files = vec![
         (folder.join(JSON), report.to_json()?.into_bytes()),
-        (folder.join("bench.csv"), report.table().to_csv().into_bytes()),
+        (folder.join(CSV), report.table().to_csv().into_bytes()),
     ];
     let figures = report.workloads().into_iter().filter_map(|workload| Some((workload, report.figure(workload)?)));
     for (workload, figure) in figures {

@@ -19,8 +19,9 @@ use chromascope_core::table::{self, Certainty, Decided, ReadError, Role, Table};
 use self::arguments::InspectArguments;
 use self::out::Out;
 use self::samples::Tabulated;
+use super::outputs::put;
 use super::request::read;
-use super::{CliError, put, say};
+use super::{CliError, say};
 use crate::files::reason;
 
 /// A file, or why there is nothing to say about it.
@@ -79,7 +80,7 @@ impl Failure {
 /// Reads the files one by one, and says about each what is asked for. One that fails does not keep the others back.
 pub(super) fn run(arguments: &InspectArguments) -> Result<(), CliError> {
     let (files, several) = files(&arguments.files)?;
-    let mut out = Out::new(arguments, &files, several)?;
+    let out = Out::new(arguments, &files, several)?;
     let mut failures = Vec::new();
     if arguments.json && several {
         put("[\n", None)?;
@@ -91,7 +92,7 @@ pub(super) fn run(arguments: &InspectArguments) -> Result<(), CliError> {
             put(&(json::of(&inspected) + end), None)?;
         }
         let done = match &inspected.result {
-            Ok(understood) => tell(&inspected.name, understood, index > 0, &mut out, arguments),
+            Ok(understood) => tell(&inspected.name, understood, index, &out, arguments),
             Err(failure) => Err(CliError::File(failure.sentence(&inspected.name))),
         };
         if let Err(error) = done {
@@ -117,17 +118,17 @@ pub(super) fn run(arguments: &InspectArguments) -> Result<(), CliError> {
 fn tell(
     name: &str,
     understood: &Understood,
-    further: bool,
-    out: &mut Out,
+    index: usize,
+    out: &Out,
     arguments: &InspectArguments,
 ) -> Result<(), CliError> {
     if !arguments.json {
-        let gap = if further { "\n" } else { "" };
+        let gap = if index > 0 { "\n" } else { "" };
         let text = format!("{gap}{}", report::of(name, understood));
         if out.is_standard_output() { say(&text) } else { put(&text, None)? }
     }
     match &understood.written {
-        Some(written) => out.take(name, &written.text),
+        Some(written) => out.put(index, &written.text),
         None => Ok(()),
     }
 }

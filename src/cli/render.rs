@@ -22,7 +22,8 @@ use rayon::prelude::*;
 
 use self::arguments::{Format, RenderArguments};
 use self::setup::Setup;
-use super::{CliError, put, say, write_to};
+use super::outputs::{self, is_standard_output, put, write_to};
+use super::{CliError, say};
 use crate::document::WhiteChoice;
 use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
 use crate::laboratory::plans;
@@ -33,7 +34,6 @@ use crate::scene::{Scene, SceneError, Source};
 pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let start = Instant::now();
     let setup = Setup::new(arguments, matches)?;
-    make_folder(&arguments.out)?;
     let results = Results::bounded();
     let made = patiently("rendering", || Made::new(arguments, &setup, &results))?;
     let files = Instant::now();
@@ -42,7 +42,7 @@ pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(
     // Before anything is asked for the sake of measuring.
     let counts = results.counts();
     let lines = made.lines(&counts, &times);
-    let to_stdout = arguments.stats.as_deref().is_some_and(|path| path == Path::new("-"));
+    let to_stdout = arguments.stats.as_deref().is_some_and(is_standard_output);
     if to_stdout {
         say(&lines);
     } else {
@@ -107,12 +107,15 @@ impl<'a> Made<'a> {
         }
         let comparable = |source: &Source| Ok(scene.comparable(source.kind, &source.name)?.err());
         let not_comparable = sources.iter().map(comparable).collect::<Result<_, SceneError>>()?;
+        let files = file_names(arguments, &setup.mesh_name, &sources);
+        let outputs = files.iter().map(PathBuf::as_path).chain(arguments.stats.as_deref());
+        outputs::check(outputs, &setup.request.inputs(), arguments.force)?;
+        make_folder(&arguments.out)?;
         let pictures = match &*results.ask(&query) {
             Ok(Some(pictures)) => pictures.clone(),
             Ok(None) => return Err(CliError::File("the pictures were not finished".to_owned())),
             Err(error) => return Err(SceneError::Rendering { name: document.truth.clone(), error: *error }.into()),
         };
-        let files = file_names(arguments, &setup.mesh_name, &sources);
         Ok(Self { setup, scene, sources, not_comparable, files, query, pictures })
     }
 
@@ -202,7 +205,7 @@ impl<'a> Made<'a> {
     fn difference(&self, index: usize) -> String {
         match (&self.pictures.differences[index], self.not_comparable[index]) {
             _ if self.sources[index].is_truth => "the truth".to_owned(),
-            (_, Some(NoDifference::Ways)) => "no \u{394}E*00 by Eq 13; add --transform observer to compare".to_owned(),
+            (_, Some(NoDifference::Ways)) => "no \u{394}E*00 by Eq 13; add --transform fitted to compare".to_owned(),
             (_, Some(other)) => format!("no \u{394}E*00: {other}"),
             (Some(difference), None) if difference.map.is_empty() => "nothing is lit".to_owned(),
             (Some(difference), None) => {
@@ -266,12 +269,12 @@ fn slug(name: &str) -> String {
     if slug.is_empty() { "unnamed".to_owned() } else { slug }
 }
 
-/// What the balance is called.
-fn white_name(white: &WhiteChoice) -> String {
+/// The name of a white-balance target.
+pub(super) fn white_name(white: &WhiteChoice) -> String {
     match white {
         WhiteChoice::Unity => "unity".to_owned(),
         WhiteChoice::Light(name) => name.clone(),
         WhiteChoice::Daylight(kelvin) => format!("daylight {kelvin} K"),
-        WhiteChoice::BlackBody(kelvin) => format!("black body {kelvin} K"),
+        WhiteChoice::BlackBody(kelvin) => format!("blackbody {kelvin} K"),
     }
 }

@@ -2,23 +2,26 @@
 
 use std::fs;
 use std::io::{self, Read as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use chromascope_core::query::Shared;
-use chromascope_core::table::MAX_BYTES;
+use chromascope_core::spectral::Primaries;
+use chromascope_core::table::{self, MAX_BYTES};
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 
-use super::arguments::{CommonArguments, SourceArguments, Transform};
+use super::arguments::{CommonArguments, Per, SourceArguments, Transform};
 use super::{CliError, say};
-use crate::catalog::import::import_warned;
-use crate::catalog::names::find;
+use crate::catalog::import::{Origin, imported};
+use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry, Kind};
-use crate::document::own::{OwnSet, Role};
-use crate::document::render::{LEAF, SKIN};
+use crate::document::own::{OwnSet, Role, Wishes};
+use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
-use crate::document::{CHART, Document, Light, REFERENCE, Subset, WayChoice, WhiteChoice};
+use crate::document::{CHART, CIE_1931, Document, Light, Subset, WayChoice, WhiteChoice};
 use crate::files::reason;
+use crate::results::Results;
+use crate::scene::Scene;
 
 /// The name of the paper's five patches as a chart of their own.
 pub(super) const FIVE: &str = "ColorChecker five";
@@ -31,32 +34,63 @@ pub(super) struct Request {
     pub(super) catalog: Catalog,
     /// The sources asked for.
     pub(super) sources: Vec<(Kind, String)>,
+    /// The start that stands where nothing was named.
+    pub(super) preset: Start,
+    per: Option<Per>,
+    read: Vec<PathBuf>,
 }
 
 impl Request {
-    /// From what both tables take. `matches` knows in which order sources were named.
+    /// Reads the arguments that both tables take. `matches` knows in which order sources were named.
     pub(super) fn new(arguments: &CommonArguments, matches: &ArgMatches) -> Result<Self, CliError> {
-        let mut request = Self::of_sources(&arguments.sources, matches, Start::Paper.sensors())?;
+        let mut request = Self::of_sources(&arguments.sources, matches)?;
         if let Some(illuminant) = &arguments.illuminant {
             request.set_light(illuminant)?;
+        }
+        if let Some(white) = &arguments.white {
+            request.set_white(white)?;
         }
         Ok(request)
     }
 
-    /// From sources and their way to the diagram; `first` are those looked through where none is named.
-    pub(super) fn of_sources(
-        arguments: &SourceArguments,
-        matches: &ArgMatches,
-        first: &[(&str, Kind)],
-    ) -> Result<Self, CliError> {
-        let document = Document { compared: Vec::new(), ..Document::paper() };
-        let mut request = Self { document, catalog: Catalog::built_in(), sources: Vec::new() };
+    /// Reads sources, reference and color transform; the rest is the preset's.
+    pub(super) fn of_sources(arguments: &SourceArguments, matches: &ArgMatches) -> Result<Self, CliError> {
+        let preset = arguments.preset;
+        let document = Document { compared: Vec::new(), ..preset.document() };
+        let catalog = Catalog::built_in();
+        let (sources, read) = (Vec::new(), Vec::new());
+        let mut request = Self { document, catalog, sources, preset, per: arguments.per, read };
         request.sources = request.named_sources(arguments, matches)?;
-        if request.sources.is_empty() {
-            request.sources = first.iter().map(|&(name, kind)| (kind, name.to_owned())).collect();
+        if arguments.per.is_some() && request.document.own.is_empty() {
+            let reason = "only sensitivities from a file can be taken otherwise; name one with --camera".to_owned();
+            return Err(CliError::Argument { argument: "--per", reason });
         }
-        request.set_way(arguments)?;
+        request.set_transform(arguments)?;
+        if arguments.names_no_sensor() {
+            request.sources = request.presets_sources();
+        }
         Ok(request)
+    }
+
+    /// The preset's sensors, with the reference that was named in the place of the preset's.
+    fn presets_sources(&self) -> Vec<(Kind, String)> {
+        let mut sources = vec![(Kind::Observer, self.document.truth.clone())];
+        for (name, kind) in self.preset.sensors().iter().skip(1) {
+            let sensor = (*kind, (*name).to_owned());
+            if !sources.contains(&sensor) {
+                sources.push(sensor);
+            }
+        }
+        sources
+    }
+
+    /// Files that were read or are going to be: none of them may be written over.
+    pub(super) fn inputs(&self) -> Vec<PathBuf> {
+        let mesh = match &self.document.render.mesh {
+            MeshChoice::File(path) => Some(path.clone()),
+            _ => None,
+        };
+        self.read.iter().cloned().chain(mesh).collect()
     }
 
     fn named_sources(
@@ -76,24 +110,41 @@ impl Request {
                 let found = if kind == Kind::Camera && is_file(name) {
                     self.open(name, Role::Camera)?.name.clone()
                 } else {
-                    self.name(kind, name)?
+                    let argument = if kind == Kind::Camera { "--camera" } else { "--observer" };
+                    self.name(argument, kind, name)?
                 };
                 Ok((kind, found))
             })
             .collect()
     }
 
-    fn set_way(&mut self, arguments: &SourceArguments) -> Result<(), CliError> {
-        self.document.way = match (arguments.transform, &arguments.reference) {
-            (Transform::Paper, None) => WayChoice::Paper,
-            (Transform::Paper, Some(_)) => {
-                let reason = "only a fit has a reference; add --transform observer".to_owned();
-                return Err(CliError::Argument { argument: "--reference", reason });
+    fn set_transform(&mut self, arguments: &SourceArguments) -> Result<(), CliError> {
+        if let Some(reference) = &arguments.reference {
+            self.document.truth = self.name("--reference", Kind::Observer, reference)?;
+        }
+        let fitted = match (arguments.transform, &arguments.fit_to) {
+            (Some(Transform::Paper), Some(_)) => {
+                let reason = "only fitted matrices have a target; add --transform fitted".to_owned();
+                return Err(CliError::Argument { argument: "--fit-to", reason });
             }
-            (Transform::Observer, None) => WayChoice::Observer(REFERENCE.to_owned()),
-            (Transform::Observer, Some(name)) => WayChoice::Observer(self.name(Kind::Observer, name)?),
+            (Some(transform), _) => transform == Transform::Fitted,
+            (None, Some(_)) => true,
+            (None, None) => self.document.way != WayChoice::Paper,
+        };
+        self.document.way = match &arguments.fit_to {
+            _ if !fitted => WayChoice::Paper,
+            Some(target) => WayChoice::Observer(self.name("--fit-to", Kind::Observer, target)?),
+            None if self.reference_is_xyz() => WayChoice::Observer(self.document.truth.clone()),
+            None => WayChoice::Observer(CIE_1931.to_owned()),
         };
         Ok(())
+    }
+
+    fn reference_is_xyz(&self) -> bool {
+        let results = Results::default();
+        let scene = Scene { document: &self.document, catalog: &self.catalog, results: &results };
+        let reference = scene.sensor(Kind::Observer, &self.document.truth);
+        reference.is_ok_and(|sensor| sensor.primaries() == Primaries::Xyz)
     }
 
     /// Chooses the light.
@@ -106,7 +157,7 @@ impl Request {
         let name = if is_file(illuminant) {
             self.open(illuminant, Role::Illuminant)?.name.clone()
         } else {
-            self.name(Kind::Illuminant, illuminant)?
+            self.illuminant("--illuminant", illuminant)?
         };
         self.document.light = Light::Set(name);
         Ok(())
@@ -114,9 +165,9 @@ impl Request {
 
     /// Chooses the patches.
     pub(super) fn set_chart(&mut self, chart: Option<&str>) -> Result<(), CliError> {
-        self.document.subset = Subset::All;
         let Some(chart) = chart else { return Ok(()) };
         if is_file(chart) {
+            self.document.subset = Subset::All;
             let set = self.open(chart, Role::Reflectance)?;
             self.document.chart.clone_from(&set.name);
             return Ok(());
@@ -124,7 +175,9 @@ impl Request {
         let found = self.chart_name(chart)?;
         if found == FIVE {
             self.document.subset = Subset::Five;
+            CHART.clone_into(&mut self.document.chart);
         } else {
+            self.document.subset = Subset::All;
             self.document.chart = found;
         }
         Ok(())
@@ -143,7 +196,7 @@ impl Request {
                 }
                 set.name.clone()
             }
-            _ => self.name(Kind::Material, material)?,
+            _ => self.name("--material", Kind::Material, material)?,
         };
         Ok(())
     }
@@ -156,23 +209,42 @@ impl Request {
             ..chart.clone()
         });
         let sets = [Kind::Chart, Kind::Material].into_iter().flat_map(|kind| self.catalog.of_kind(kind));
-        Ok(find(sets.chain(&five), "chart", typed)?.name.clone())
+        let found = find(sets.chain(&five), "chart", typed)?;
+        tell("--chart", typed, &found);
+        Ok(found.entry.name.clone())
     }
 
-    /// Chooses the white.
+    /// Chooses the white-balance target.
     pub(super) fn set_white(&mut self, white: &str) -> Result<(), CliError> {
         self.document.white = match radiator("--white", white)? {
             Some((Radiator::Daylight, kelvin)) => WhiteChoice::Daylight(kelvin),
             Some((Radiator::BlackBody, kelvin)) => WhiteChoice::BlackBody(kelvin),
-            None if white.eq_ignore_ascii_case("unity") => WhiteChoice::Unity,
-            None => WhiteChoice::Light(self.name(Kind::Illuminant, white)?),
+            None if white.trim().eq_ignore_ascii_case("unity") => WhiteChoice::Unity,
+            None => WhiteChoice::Light(self.illuminant("--white", white)?),
         };
         Ok(())
     }
 
-    /// The catalog's name for what was typed.
-    fn name(&self, kind: Kind, typed: &str) -> Result<String, CliError> {
-        Ok(find(self.catalog.of_kind(kind), kind.singular(), typed)?.name.clone())
+    /// The catalog's name for an illuminant. A formula without its temperature is no name for a measured set.
+    fn illuminant(&self, argument: &'static str, typed: &str) -> Result<String, CliError> {
+        let formula = match telling_words(typed).concat().as_str() {
+            "daylight" => "daylight",
+            "blackbody" | "planckian" | "planckianradiator" => "blackbody",
+            _ => return self.name(argument, Kind::Illuminant, typed),
+        };
+        let sets = self.catalog.of_kind(Kind::Illuminant).map(|entry| entry.name.as_str());
+        let sets: Vec<&str> = sets.filter(|name| name.to_lowercase().starts_with(formula)).collect();
+        let or =
+            if sets.is_empty() { String::new() } else { format!(", or the full name of a set: {}", sets.join(", ")) };
+        let reason = format!("\"{typed}\" alone has no temperature; write {formula}:5500{or}");
+        Err(CliError::Argument { argument, reason })
+    }
+
+    /// The catalog's name for what was typed; another one than that is said.
+    fn name(&self, argument: &str, kind: Kind, typed: &str) -> Result<String, CliError> {
+        let found = find(self.catalog.of_kind(kind), kind.singular(), typed)?;
+        tell(argument, typed, &found);
+        Ok(found.entry.name.clone())
     }
 
     /// Reads a file as a set of the document's own, under a name that no other set has; says what had to be guessed.
@@ -181,14 +253,8 @@ impl Request {
         if let Some(known) = known {
             return Ok(known.clone());
         }
-        let bytes = read(path).map_err(|error| CliError::File(format!("{path}: {}", reason(&error))))?;
-        let (imported, warnings) =
-            import_warned(path, &bytes, Some(role)).map_err(|error| CliError::File(format!("{path}: {error}")))?;
-        let mut set = imported.set;
+        let mut set = self.read(path, role)?;
         check_curves(&set)?;
-        if imported.guessed || !warnings.is_empty() {
-            say(&format!("chromascope: {}\n", imported.message));
-        }
         let kind = Entry::from_own(&Shared::new(set.clone())).kind;
         let taken =
             |name: &str| self.catalog.get(kind, name).is_some() || self.document.own.iter().any(|own| own.name == name);
@@ -198,6 +264,30 @@ impl Request {
         let set = Shared::new(set);
         self.document.own.push(set.clone());
         Ok(set)
+    }
+
+    /// Reads a file with all its curves; says what had to be guessed.
+    pub(super) fn read(&mut self, path: &str, role: Role) -> Result<OwnSet, CliError> {
+        self.read.push(PathBuf::from(path));
+        let bytes = read(path).map_err(|error| CliError::File(format!("{path}: {}", reason(&error))))?;
+        let mut wishes = Wishes::for_role(Some(role));
+        let table = table::read(&bytes, &wishes.options).map_err(|error| CliError::File(format!("{path}: {error}")))?;
+        wishes.taken = Some((0..table.curves.len()).collect());
+        if role == Role::Camera {
+            wishes.per_photon = self.per.map(|per| per == Per::Photon);
+        }
+        let imported = imported(&Origin::named(path, &bytes), &table, &wishes);
+        if imported.guessed || !table.warnings.is_empty() {
+            say(&format!("chromascope: {}\n", imported.message));
+        }
+        Ok(imported.set)
+    }
+}
+
+/// Says what was taken for a name that is not exact.
+fn tell(argument: &str, typed: &str, found: &Found<'_>) {
+    if let Some(note) = found.note() {
+        say(&format!("chromascope: {argument} \"{typed}\": {note}\n"));
     }
 }
 
@@ -228,15 +318,15 @@ fn is_named_pipe(_: &Path) -> bool {
 /// Whether a file holds as many curves as its use takes.
 fn check_curves(set: &OwnSet) -> Result<(), CliError> {
     let wanted = match set.role {
-        Role::Camera if set.curves.len() < 3 => "a camera takes three: red, green and blue",
-        Role::Illuminant if set.curves.len() > 1 => "a light is one; keep the one meant",
+        Role::Camera if set.curves.len() < 3 => "expected three for a camera: red, green and blue",
+        Role::Illuminant if set.curves.len() > 1 => "expected exactly one curve for an illuminant",
         _ => return Ok(()),
     };
     let count = match set.curves.len() {
         1 => "1 curve".to_owned(),
         n => format!("{n} curves"),
     };
-    Err(CliError::File(format!("{}: {count}, but {wanted}", set.file)))
+    Err(CliError::File(format!("{}: {count}; {wanted}", set.file)))
 }
 
 /// A light that is a formula of temperature.

@@ -2,33 +2,110 @@
 
 use std::fmt::Write as _;
 
-use chromascope_core::query::Temperatures;
+use chromascope_core::colorimetry::Xy;
+use chromascope_core::light::{PlanckianLocus, RadiationConstants};
+use chromascope_core::query::compare::{locus_distance_uv, locus_distance_xy, patch_difference};
+use chromascope_core::query::{
+    Ask as _, LocusPoint, Metric, NearestBlackBodyOf, NoDifference, PatchColor, Temperatures,
+};
+use chromascope_core::spectral::Primaries;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 
-use super::CliError;
-use super::arguments::{ListKind, LocusArguments, PatchesArguments};
+use super::arguments::{CommonArguments, ListKind, LocusArguments, PatchesArguments};
+use super::radiance::Radiances;
 use super::request::{FIVE, Request};
+use super::{CliError, outputs, say};
 use crate::catalog::{Catalog, Kind};
-use crate::document::LOCUS_RANGE_K;
+use crate::document::{CIE_1931, LOCUS_RANGE_K, WayChoice};
 use crate::results::Results;
-use crate::scene::{LOCUS_POINTS, Scene};
+use crate::scene::{LOCUS_POINTS, Scene, SceneError};
+
+const LOCUS_HEAD: &str = "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv,cct_error_k,arc_length_xy";
+const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,\
+                            lab_l,lab_a,lab_b,delta_e_2000,delta_e_1976,delta_uv_prime,delta_xy";
+const CONDITIONS: &str = ",reference,illuminant,white_balance,transform,preset\n";
 
 /// Loci, a row for each source and temperature.
 pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<String, CliError> {
     let temperatures = temperatures(arguments)?;
     let request = Request::new(&arguments.common, matches)?;
+    check_out(&arguments.common, &request)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-    let mut text = "source,temperature_k,x,y,u_prime,v_prime\n".to_owned();
+    let conditions = conditions(&request, &scene.light_name());
+    let reference = scene.locus_at(Kind::Observer, &request.document.truth, temperatures.clone())?;
+    let observer = scene.sensor(Kind::Observer, CIE_1931)?;
+    let nearest = results.ask(&NearestBlackBodyOf { observer, constants: RadiationConstants::Paper });
+    let nearest = (*nearest).as_ref().ok();
+    let mut text = [LOCUS_HEAD, CONDITIONS].concat();
     for (kind, name) in &request.sources {
         let locus = scene.locus_at(*kind, name, temperatures.clone())?;
-        for point in &locus.points {
-            let row = [point.xy.map(|p| p.x), point.xy.map(|p| p.y), point.uv.map(|p| p.u), point.uv.map(|p| p.v)];
-            add_row(&mut text, &[field(name), point.temperature.get().to_string()], &row);
+        let comparable = scene.comparable(*kind, name)?;
+        let mut before: Option<&LocusPoint> = None;
+        let mut length = 0.0;
+        for (point, reference) in locus.points.iter().zip(&reference.points) {
+            let step = before.and_then(|before| Some(before.xy?.distance(point.xy?)));
+            length += step.unwrap_or(0.0);
+            before = Some(point);
+            let places = [point.xy.map(|p| p.x), point.xy.map(|p| p.y), point.uv.map(|p| p.u), point.uv.map(|p| p.v)];
+            let distance = |measure: fn(&LocusPoint, &LocusPoint) -> Result<f64, NoDifference>| {
+                comparable.and_then(|()| measure(reference, point)).ok()
+            };
+            let rest = [
+                distance(locus_distance_xy),
+                distance(locus_distance_uv),
+                cct_error(nearest, point),
+                point.xy.map(|_| length),
+            ];
+            let row = [places, rest].concat();
+            add_row(&mut text, &[&field(name), &point.temperature.get().to_string()], &row, &conditions);
         }
     }
+    say_if_not_comparable(&scene, &request)?;
     Ok(text)
+}
+
+/// The correlated color temperature of a blackbody's chromaticity minus its true temperature.
+fn cct_error(nearest: Option<&PlanckianLocus>, point: &LocusPoint) -> Option<f64> {
+    let xy: Xy = point.xy?;
+    let cct = nearest?.cct_of_xy(xy).ok()?;
+    Some(cct.temperature.get() - point.temperature.get())
+}
+
+/// Refuses an output before anything is computed.
+fn check_out(arguments: &CommonArguments, request: &Request) -> Result<(), CliError> {
+    outputs::check(arguments.out.as_deref(), &request.inputs(), arguments.force)
+}
+
+/// The last cells of each row: under what the table was made.
+fn conditions(request: &Request, illuminant: &str) -> String {
+    let document = &request.document;
+    let transform = match &document.way {
+        WayChoice::Paper => "paper matrix (Eq 13)".to_owned(),
+        WayChoice::Observer(target) => format!("3x3 fitted to {target}"),
+    };
+    let white = super::render::white_name(&document.white);
+    let cells = [document.truth.as_str(), illuminant, &white, &transform, request.preset.key()];
+    cells.map(|cell| format!(",{}", field(cell))).concat() + "\n"
+}
+
+/// Says once why distances are missing where the reference is a CIE observer beside the paper's matrix.
+fn say_if_not_comparable(scene: &Scene<'_>, request: &Request) -> Result<(), SceneError> {
+    let reference = &request.document.truth;
+    if scene.sensor(Kind::Observer, reference)?.primaries() != Primaries::Xyz {
+        return Ok(());
+    }
+    for (kind, name) in &request.sources {
+        if scene.comparable(*kind, name)?.is_err() {
+            say(&format!(
+                "chromascope: differences from {reference} are left empty: it counts in XYZ, to which Eq 13 does not apply; add \
+                 --transform fitted to compare cameras with it\n"
+            ));
+            return Ok(());
+        }
+    }
+    Ok(())
 }
 
 fn temperatures(arguments: &LocusArguments) -> Result<Temperatures, CliError> {
@@ -49,25 +126,55 @@ fn temperatures(arguments: &LocusArguments) -> Result<Temperatures, CliError> {
     })
 }
 
-/// Patches, a row for each source and patch.
+/// Patches or radiances, a row for each source and spectrum.
 pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<String, CliError> {
     let mut request = Request::new(&arguments.common, matches)?;
     request.set_chart(arguments.chart.as_deref())?;
-    request.set_white(&arguments.white)?;
+    let radiances = match &arguments.radiance {
+        Some(file) => Some(Radiances::open(&mut request, file, arguments.radiance_white.as_deref())?),
+        None => None,
+    };
+    check_out(&arguments.common, &request)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-    let patches = scene.patches()?;
-    let mut text = "source,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y\n".to_owned();
+    let (illuminant, names) = match &radiances {
+        Some(radiances) => (radiances.illuminant(), radiances.names.clone()),
+        None => (scene.light_name(), scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect()),
+    };
+    let colors = |kind: Kind, name: &str| match &radiances {
+        Some(radiances) => radiances.colors(&scene, kind, name),
+        None => scene.patch_colors(kind, name),
+    };
+    let conditions = conditions(&request, &illuminant);
+    let reference = colors(Kind::Observer, &request.document.truth)?;
+    let mut text = [PATCHES_HEAD, CONDITIONS].concat();
     for (kind, name) in &request.sources {
-        for (patch, color) in patches.patches().iter().zip(scene.patch_colors(*kind, name)?) {
-            let rgb = color.rgb.map_or([None; 3], |rgb| rgb.map(Some));
-            let xyz = [color.xyz.x, color.xyz.y, color.xyz.z].map(Some);
-            let xy = [color.xy.map(|p| p.x), color.xy.map(|p| p.y)];
-            let row: Vec<Option<f64>> = rgb.into_iter().chain(xyz).chain(xy).collect();
-            add_row(&mut text, &[field(name), field(&patch.name)], &row);
+        let comparable = scene.comparable(*kind, name)?;
+        // Eq 13 takes RGB as sRGB whatever the sensor: distances between its colors are not ΔE*.
+        let by_eq_13 =
+            request.document.way == WayChoice::Paper && scene.sensor(*kind, name)?.primaries() != Primaries::Xyz;
+        for ((patch, color), reference) in names.iter().zip(colors(*kind, name)?).zip(&reference) {
+            let difference = |metric: Metric| {
+                let defined = !by_eq_13 || matches!(metric, Metric::UvPrime | Metric::Xy);
+                comparable.ok().filter(|()| defined).and_then(|()| patch_difference(metric, reference, &color).ok())
+            };
+            let differences = [Metric::DeltaE2000, Metric::DeltaE1976, Metric::UvPrime, Metric::Xy].map(difference);
+            let row = [&color_cells(&color)[..], &differences].concat();
+            add_row(&mut text, &[&field(name), &field(patch)], &row, &conditions);
         }
     }
+    say_if_not_comparable(&scene, &request)?;
     Ok(text)
+}
+
+/// RGB, XYZ, xy, u′v′ and L*a*b*.
+fn color_cells(color: &PatchColor) -> Vec<Option<f64>> {
+    let rgb = color.rgb.map_or([None; 3], |rgb| rgb.map(Some));
+    let xyz = [color.xyz.x, color.xyz.y, color.xyz.z].map(Some);
+    let xy = [color.xy.map(|p| p.x), color.xy.map(|p| p.y)];
+    let uv = [color.uv.map(|p| p.u), color.uv.map(|p| p.v)];
+    let lab = color.lab.map_or([None; 3], |lab| [lab.l, lab.a, lab.b].map(Some));
+    [&rgb[..], &xyz, &xy, &uv, &lab].concat()
 }
 
 /// The names of the built-in sets.
@@ -91,7 +198,7 @@ pub(super) fn list(kind: Option<ListKind>) -> String {
     }
 }
 
-fn add_row(text: &mut String, heads: &[String], numbers: &[Option<f64>]) {
+fn add_row(text: &mut String, heads: &[&str], numbers: &[Option<f64>], conditions: &str) {
     text.push_str(&heads.join(","));
     for value in numbers {
         text.push(',');
@@ -100,7 +207,7 @@ fn add_row(text: &mut String, heads: &[String], numbers: &[Option<f64>]) {
             let _infallible = write!(text, "{}", significant(*value));
         }
     }
-    text.push('\n');
+    text.push_str(conditions);
 }
 
 /// Fifteen significant digits, without an exponent where that stays short.

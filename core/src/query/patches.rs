@@ -7,6 +7,7 @@ use crate::colorimetry::rgb::{EncodedSrgb, encode_srgb};
 use crate::colorimetry::{Lab, UvPrime, Xy, Xyz};
 use crate::object::PatchSet;
 use crate::spectral::{GridSpectrum, Sensor};
+use glam::DVec3;
 
 /// The way to the diagram, holding what it needs.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -108,20 +109,23 @@ impl Query for PatchColorsOf {
         let rendering = ask.ask(&self.rendering);
         let rendering = (*rendering).as_ref().map_err(|&e| e)?;
         let product = under_light(&self.rendering.sensor, &self.rendering.light);
-        let colors = self.patches.patches().iter().map(|patch| {
-            let signals = rendering.patch_signals(raw(&product, patch.grid.values()).to_array());
-            let xyz = rendering.xyz(signals);
-            let linear = rendering.linear_srgb(xyz);
-            PatchColor {
-                rgb: rendering.is_rgb.then(|| signals.to_array()),
-                xyz,
-                xy: xyz.chromaticity(),
-                uv: xyz.uv_prime(),
-                lab: rendering.lab(xyz),
-                linear,
-                srgb: encode_srgb(linear),
-            }
-        });
-        Ok(colors.collect())
+        let patches = self.patches.patches().iter();
+        Ok(patches.map(|patch| color(rendering, raw(&product, patch.grid.values()))).collect())
+    }
+}
+
+/// The color of raw integrals.
+pub(super) fn color(rendering: &Rendering, raw: DVec3) -> PatchColor {
+    let signals = rendering.patch_signals(raw.to_array());
+    let xyz = rendering.xyz(signals);
+    let linear = rendering.linear_srgb(xyz);
+    PatchColor {
+        rgb: rendering.is_rgb.then(|| signals.to_array()),
+        xyz,
+        xy: xyz.chromaticity(),
+        uv: xyz.uv_prime(),
+        lab: rendering.lab(xyz),
+        linear,
+        srgb: encode_srgb(linear),
     }
 }

@@ -46,6 +46,9 @@ pub(in crate::cli) struct InspectArguments {
     /// Where to write the curves as CSV: a file, a folder for several files, or `-` for standard output
     #[arg(long, value_name = "OUT")]
     pub(super) csv: Option<PathBuf>,
+    /// Replaces files named by --csv that exist; never one that is read
+    #[arg(long)]
+    pub(super) force: bool,
     /// Resamples the curves, in CSV and JSON, to whole multiples of so many nanometers
     #[arg(long, value_name = "NM", value_parser = step)]
     pub(super) step: Option<f64>,

@@ -5,69 +5,65 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::arguments::InspectArguments;
-use crate::cli::{CliError, put};
+use super::is_standard_input;
+use crate::cli::CliError;
+use crate::cli::outputs::{self, is_standard_output, put};
 
 /// Where the tables of files go.
-pub(super) struct Out {
-    place: Place,
-    /// What is being read, which no table may replace.
-    sources: Vec<PathBuf>,
-}
-
-enum Place {
+pub(super) enum Out {
     Nowhere,
     StandardOutput,
-    File(PathBuf),
-    Folder { path: PathBuf, taken: HashSet<String> },
+    /// A file for each file that is read, in the same order.
+    Files(Vec<PathBuf>),
 }
 
 impl Out {
-    /// As asked for; a folder is made if there is none.
+    /// As asked for; a folder is made if there is none. Nothing is made or written if one of the tables may not be.
     pub(super) fn new(arguments: &InspectArguments, files: &[String], several: bool) -> Result<Self, CliError> {
         let wrong = |reason: &str| Err(CliError::Argument { argument: "--csv", reason: reason.to_owned() });
-        let place = match arguments.csv.as_deref() {
-            None => Place::Nowhere,
-            Some(path) if path == Path::new("-") && arguments.json => {
-                return wrong("JSON goes to standard output already; name a file");
-            }
-            Some(path) if path == Path::new("-") && several => {
-                return wrong("several tables make no table; name a folder");
-            }
-            Some(path) if path == Path::new("-") => Place::StandardOutput,
-            Some(path) if path.is_dir() => Place::Folder { path: path.to_owned(), taken: HashSet::new() },
-            Some(path) if several => {
-                if path.exists() {
-                    return wrong(&format!("{} is a file; several files need a folder", path.display()));
-                }
-                fs::create_dir_all(path).map_err(|error| CliError::Output { path: path.to_owned(), error })?;
-                Place::Folder { path: path.to_owned(), taken: HashSet::new() }
-            }
-            Some(path) => Place::File(path.to_owned()),
+        let Some(path) = arguments.csv.as_deref() else { return Ok(Self::Nowhere) };
+        if is_standard_output(path) {
+            return match (arguments.json, several) {
+                (true, _) => wrong("JSON goes to standard output already; name a file"),
+                (_, true) => wrong("several tables make no table; name a folder"),
+                _ => Ok(Self::StandardOutput),
+            };
+        }
+        let folder = several || path.is_dir();
+        if folder && path.exists() && !path.is_dir() {
+            return wrong(&format!("{} is a file; several files need a folder", path.display()));
+        }
+        let mut taken = HashSet::new();
+        let tables: Vec<PathBuf> = if folder {
+            files.iter().map(|file| path.join(free_name(file, &mut taken))).collect()
+        } else {
+            vec![path.to_owned()]
         };
-        let sources = files.iter().filter_map(|file| fs::canonicalize(file).ok()).collect();
-        Ok(Self { place, sources })
+        outputs::check(tables.iter().map(PathBuf::as_path), &inputs(files), arguments.force)?;
+        if folder {
+            fs::create_dir_all(path).map_err(|error| CliError::Output { path: path.to_owned(), error })?;
+        }
+        Ok(Self::Files(tables))
     }
 
     /// Whether tables go where reports go else.
     pub(super) fn is_standard_output(&self) -> bool {
-        matches!(self.place, Place::StandardOutput)
+        matches!(self, Self::StandardOutput)
     }
 
-    /// Writes a file's table.
-    pub(super) fn take(&mut self, source: &str, text: &str) -> Result<(), CliError> {
-        let path = match &mut self.place {
-            Place::Nowhere => return Ok(()),
-            Place::StandardOutput => return put(text, None),
-            Place::File(path) => path.clone(),
-            Place::Folder { path, taken } => path.join(free_name(source, taken)),
-        };
-        // A shell's `*` and a folder that is its own OUT would else put tables in the place of measurements.
-        if fs::canonicalize(&path).is_ok_and(|path| self.sources.contains(&path)) {
-            let path = path.display();
-            return Err(CliError::File(format!("{path}: a file that is read is not written over; name another OUT")));
+    /// Writes the table of the file that is read in this place.
+    pub(super) fn put(&self, index: usize, text: &str) -> Result<(), CliError> {
+        match self {
+            Self::Nowhere => Ok(()),
+            Self::StandardOutput => put(text, None),
+            Self::Files(paths) => paths.get(index).map_or(Ok(()), |path| put(text, Some(path))),
         }
-        put(text, Some(&path))
     }
+}
+
+/// What is read; standard input too, which may have been led there from a file.
+fn inputs(files: &[String]) -> Vec<PathBuf> {
+    files.iter().map(|file| PathBuf::from(if is_standard_input(file) { "/dev/stdin" } else { file })).collect()
 }
 
 /// The file's name with another ending, and a number where another file has that name already.

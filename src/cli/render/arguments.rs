@@ -17,9 +17,9 @@ Examples:
   chromascope render --mesh sphere --material mine.csv --illuminant A --white A --format exr
 
 The light's direction is in view axes: x to the right, y up, z towards the eye. Angles are in degrees, lengths in meters,
-distances in radii of the mesh. A picture is called after mesh and source, as in head_nikon-d70.png, and replaces an older one.
+distances in radii of the mesh. A picture is named for mesh and sensor, as in head_nikon-d70.png; --force replaces existing ones.
 OpenEXR holds Eq 12 before exposure, with \u{3c0}f in the place of P for the radiometric and microfacet readings: R G B after white
-balance, X Y Z, and the coverage A. Without any source: the truth (Stiles & Burch) and the paper's three cameras.";
+balance, X Y Z, and the coverage A. Without any sensor: the preset's reference and cameras.";
 
 /// What `render` takes.
 #[derive(Debug, Args)]
@@ -36,11 +36,12 @@ pub(in crate::cli) struct RenderArguments {
     /// The reflectance: `skin`, `leaf`, a name, or a file [default: skin; leaf for the fern]
     #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
     pub(super) material: Option<String>,
-    /// The light: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: Direct sun (ASTM G173)]
+    /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: Direct sun (ASTM G173)]
     #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
     pub(super) illuminant: Option<String>,
-    /// The color a perfect white is to take: `unity`, a light's name, `daylight:K` or `blackbody:K` [default: D55]
-    #[arg(long, value_name = "WHITE", help_heading = SCENE)]
+    /// The white-balance target, the RGB a perfect diffuser is mapped to: `unity`, an illuminant, `daylight:K` or `blackbody:K`
+    /// [default: D55]
+    #[arg(long, value_name = "WHITE", visible_alias = "white-balance", help_heading = SCENE)]
     pub(super) white: Option<String>,
     /// The way to the light in view axes: right, up, towards the eye [default: 25° up, 25° left]
     #[arg(long, value_name = "x,y,z", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
@@ -101,6 +102,9 @@ pub(in crate::cli) struct RenderArguments {
     /// Measures times, counts and errors, and writes them as JSON; `-` for standard output
     #[arg(long, value_name = "FILE", help_heading = PICTURE)]
     pub(super) stats: Option<PathBuf>,
+    /// Replaces pictures and statistics that exist
+    #[arg(long, help_heading = PICTURE)]
+    pub(super) force: bool,
 }
 
 const SCENE: &str = "Scene";

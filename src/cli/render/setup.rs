@@ -11,12 +11,11 @@ use chromascope_core::scene::{Mesh, Viewpoint};
 use clap::ArgMatches;
 
 use super::arguments::RenderArguments;
-use crate::catalog::meshes;
+use crate::catalog::{Kind, meshes};
 use crate::cli::request::Request;
 use crate::cli::{CliError, say};
 use crate::document::render::{BALANCE, MeshChoice, QualityChoice, RenderSettings, RoughnessChoice, SUN};
-use crate::document::start::Start;
-use crate::document::{Compared, Light, REFERENCE, WhiteChoice};
+use crate::document::{Compared, Light, WhiteChoice};
 use crate::scene::render::Finish;
 use crate::view::render::Orbit;
 
@@ -39,8 +38,11 @@ impl Setup {
         // What only arguments decide comes before files are read.
         let viewpoint = viewpoint(arguments, &choice)?;
         let size = raster(arguments)?;
-        let first: Vec<_> = Start::Paper.sensors().iter().copied().filter(|(name, _)| *name != REFERENCE).collect();
-        let mut request = Request::of_sources(&arguments.sources, matches, &first)?;
+        let mut request = Request::of_sources(&arguments.sources, matches)?;
+        if arguments.sources.names_no_sensor() {
+            let Request { document, sources, .. } = &mut request;
+            sources.retain(|(kind, name)| *kind == Kind::Camera || *name == document.truth);
+        }
         request.document.render = settings(arguments, choice)?;
         match &arguments.illuminant {
             Some(illuminant) => request.set_light(illuminant)?,

@@ -1,0 +1,112 @@
+//! Files that commands write: checked before anything is written, then written whole or not at all.
+//!
+//! No command writes over a file that it reads, nor over any other file unless told to by `--force`. Streams (standard output,
+//! pipes, devices such as `/dev/null`) are written into.
+
+use std::fs;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use super::CliError;
+
+/// A file as the file system knows it, by whatever name or link it is reached.
+#[derive(Debug, PartialEq, Eq)]
+enum Identity {
+    /// Device and inode.
+    #[cfg(unix)]
+    Inode(u64, u64),
+    /// The path without links.
+    Path(PathBuf),
+}
+
+impl Identity {
+    /// Identifies an existing file.
+    #[cfg(unix)]
+    fn existing(path: &Path) -> Option<Self> {
+        use std::os::unix::fs::MetadataExt as _;
+        fs::metadata(path).ok().map(|known| Self::Inode(known.dev(), known.ino()))
+    }
+
+    /// Identifies an existing file.
+    #[cfg(not(unix))]
+    fn existing(path: &Path) -> Option<Self> {
+        fs::canonicalize(path).ok().map(Self::Path)
+    }
+
+    /// Identifies a file, existing or not.
+    fn new(path: &Path) -> Self {
+        Self::existing(path).unwrap_or_else(|| {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+            Self::Path(path.file_name().map_or_else(|| path.to_owned(), |name| folder.join(name)))
+        })
+    }
+}
+
+/// Refuses all outputs if one is an input, is named twice, or exists and is not to be replaced.
+pub(super) fn check<'a>(
+    outputs: impl IntoIterator<Item = &'a Path>,
+    inputs: &[PathBuf],
+    force: bool,
+) -> Result<(), CliError> {
+    let inputs: Vec<Identity> = inputs.iter().filter_map(|path| Identity::existing(path)).collect();
+    let mut taken = Vec::new();
+    for path in outputs.into_iter().filter(|path| !is_stream(path)) {
+        let identity = Identity::new(path);
+        if inputs.contains(&identity) {
+            return Err(CliError::Input(path.to_owned()));
+        }
+        // A link that leads nowhere is something that exists, too.
+        if !force && fs::symlink_metadata(path).is_ok() && !path.is_dir() {
+            return Err(CliError::Exists(path.to_owned()));
+        }
+        if taken.contains(&identity) {
+            return Err(CliError::Twice(path.to_owned()));
+        }
+        taken.push(identity);
+    }
+    Ok(())
+}
+
+/// Whether a path means standard output.
+pub(super) fn is_standard_output(path: &Path) -> bool {
+    ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
+}
+
+/// Whether a path is an open file of the shell's. What that leads to is the shell's business.
+fn is_descriptor(path: &Path) -> bool {
+    path == Path::new("/dev/stderr") || ["/dev/fd", "/proc/self/fd"].iter().any(|folder| path.starts_with(folder))
+}
+
+/// Whether bytes that are written to a path replace nothing.
+fn is_stream(path: &Path) -> bool {
+    let no_file = || fs::metadata(path).is_ok_and(|known| !known.is_file() && !known.is_dir());
+    is_standard_output(path) || is_descriptor(path) || no_file()
+}
+
+/// Writes a text to a file, whole or not at all, or to standard output.
+pub(super) fn put(text: &str, out: Option<&Path>) -> Result<(), CliError> {
+    let path = out.filter(|path| !is_standard_output(path));
+    match path.map_or_else(|| print(text), |path| write_to(path, text.as_bytes())) {
+        // Whoever read it has seen enough, as `head` does.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => Err(CliError::Output { path: path.unwrap_or(Path::new("standard output")).to_owned(), error }),
+        Ok(()) => Ok(()),
+    }
+}
+
+fn print(text: &str) -> io::Result<()> {
+    let mut stdout = io::stdout().lock();
+    stdout.write_all(text.as_bytes())?;
+    stdout.flush()
+}
+
+/// A file is replaced whole, behind a link if it is one; a stream is written into.
+pub(super) fn write_to(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    match fs::metadata(path) {
+        Ok(_) if is_descriptor(path) => fs::OpenOptions::new().append(true).open(path)?.write_all(bytes),
+        Ok(known) if known.is_file() => crate::files::write_atomically(&fs::canonicalize(path)?, bytes),
+        Ok(known) if !known.is_dir() => fs::OpenOptions::new().write(true).open(path)?.write_all(bytes),
+        _ => crate::files::write_atomically(path, bytes),
+    }
+}
