@@ -213,8 +213,9 @@ fn ambiguous(name: &str, candidates: &[&Entry]) -> NameError {
 
 /// Up to three names that are like the wanted one.
 fn nearest(entries: &[&Entry], wanted: &str) -> Vec<String> {
-    let mut scored: Vec<(f64, &str)> =
-        entries.iter().map(|e| (strsim::jaro_winkler(&folded(&e.name), wanted), e.name.as_str())).collect();
+    let alike = |name: &str| strsim::jaro_winkler(&folded(name), wanted);
+    let score = |name: &str| alike(name).max(alike(&without_remarks(name)));
+    let mut scored: Vec<(f64, &str)> = entries.iter().map(|e| (score(&e.name), e.name.as_str())).collect();
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
     scored.iter().filter(|s| s.0 > 0.7).take(3).map(|s| s.1.to_owned()).collect()
 }

@@ -73,9 +73,10 @@ pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
         .collect();
     let known = names(&plan).into_iter().find(|name| folder.join(name).exists());
     if let Some(name) = known.filter(|_| !arguments.replace) {
-        let reason =
-            format!("{} has the {name} of an earlier run; give another folder, or --replace", folder.display());
-        return Err(CliError::Argument { argument: "--out", reason });
+        let folder = folder.display();
+        return Err(CliError::File(format!(
+            "{folder}: {name} of an earlier run exists; give another folder, or --replace"
+        )));
     }
     let effort = if arguments.trial {
         Effort::Trial

@@ -2,6 +2,10 @@
 
 mod files;
 mod inspect;
+mod names;
+mod outputs;
+mod presets;
+mod radiance;
 mod reference;
 
 use std::path::PathBuf;
@@ -44,24 +48,40 @@ fn number(cell: &str) -> f64 {
     cell.parse().unwrap_or_else(|_| panic!("no number: {cell}"))
 }
 
+/// The conditions that each row ends with.
+const CONDITIONS: &str = "reference,illuminant,white_balance,transform,preset";
+/// The paper's conditions, as each row ends with them.
+const PAPER: [&str; 5] = ["Stiles & Burch 1955 2°", "E", "unity", "paper matrix (Eq 13)", "paper"];
+
+/// The cells of a column, by its head.
+fn column<'a>(rows: &'a [Vec<String>], head: &str) -> Vec<&'a str> {
+    let index = rows[0].iter().position(|cell| cell == head).unwrap_or_else(|| panic!("no column {head}"));
+    rows[1..].iter().map(|row| row[index].as_str()).collect()
+}
+
 #[test]
 fn loci_of_the_first_screen() {
     let rows = table(&["locus"]);
-    assert_eq!(rows[0].join(","), "source,temperature_k,x,y,u_prime,v_prime");
-    assert_eq!(rows.len(), 1 + 5 * 200);
-    assert_eq!((rows[1][0].as_str(), rows[1][1].as_str()), ("Stiles & Burch 1955 2°", "1000"));
-    assert_eq!((rows[1000][0].as_str(), rows[1000][1].as_str()), ("CIE 1931 2°", "20000"));
+    assert_eq!(
+        rows[0].join(","),
+        format!(
+            "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv,cct_error_k,arc_length_xy,{CONDITIONS}"
+        )
+    );
+    assert_eq!(rows.len(), 1 + 4 * 200);
+    assert_eq!((rows[1][0].as_str(), rows[1][1].as_str()), ("CIE 1931 2°", "1000"));
+    assert_eq!((rows[800][0].as_str(), rows[800][1].as_str()), ("Kodak DCS200", "20000"));
     let mired: Vec<f64> = rows[1..=200].iter().map(|row| 1e6 / number(&row[1])).collect();
     let step = mired[1] - mired[0];
     assert!(mired.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-9), "evenly in 1/T");
     let digits = |cell: &str| cell.trim_start_matches(['-', '0', '.']).chars().filter(char::is_ascii_digit).count();
-    assert!(rows[1..].iter().all(|row| row[2..].iter().all(|cell| digits(cell) >= 12)));
+    assert!(rows[1..].iter().all(|row| row[2..6].iter().all(|cell| digits(cell) >= 12)));
 }
 
 /// Computed with numpy from the same tables, by plain sums: an independent program.
 #[test]
 fn loci_agree_with_another_program() {
-    let rows = table(&["locus", "--temperatures", "5500,1000"]);
+    let rows = table(&["locus", "--preset", "paper", "--temperatures", "5500,1000"]);
     // Source, T, x, y.
     for (row, expected) in [
         (1, ["Stiles & Burch 1955 2°", "5500", "0.314229510181784", "0.335803197066415"]),
@@ -89,7 +109,7 @@ fn sources_and_temperatures_keep_their_order() {
         "6500,3000",
     ]);
     let heads: Vec<(&str, &str)> = rows[1..].iter().map(|row| (row[0].as_str(), row[1].as_str())).collect();
-    let names = ["Nikon D70 (2007 figure)", "CIE 1931 2°", "Canon EOS 10D (2007 figure)"];
+    let names = ["Nikon D70 (A.M.P.A.S.)", "CIE 1931 2°", "Canon EOS 10D (2007 figure)"];
     let expected: Vec<(&str, &str)> = names.iter().flat_map(|name| [(*name, "6500"), (*name, "3000")]).collect();
     assert_eq!(heads, expected);
 }
@@ -97,13 +117,19 @@ fn sources_and_temperatures_keep_their_order() {
 #[test]
 fn any_temperature_is_finite() {
     let rows = table(&["locus", "--temperatures", "1,1e15"]);
-    assert!(rows[1..].iter().all(|row| row[2..].iter().all(|cell| cell.is_empty() || number(cell).is_finite())));
+    assert!(rows[1..].iter().all(|row| row[2..10].iter().all(|cell| cell.is_empty() || number(cell).is_finite())));
 }
 
 #[test]
 fn patches_of_the_default_chart() {
     let rows = table(&["patches", "--observer", "CIE 1931 2°", "--camera", "Kodak DCS200"]);
-    assert_eq!(rows[0].join(","), "source,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y");
+    assert_eq!(
+        rows[0].join(","),
+        format!(
+            "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,lab_l,lab_a,lab_b,\
+             delta_e_2000,delta_e_1976,delta_uv_prime,delta_xy,{CONDITIONS}"
+        )
+    );
     assert_eq!(rows.len(), 1 + 2 * 24);
     assert!(rows[1][2..5].iter().all(String::is_empty), "CIE observers have no RGB");
     assert!(rows[25][2..5].iter().all(|cell| !cell.is_empty()));
@@ -121,9 +147,9 @@ fn a_perfect_white_takes_the_white() {
     let d55 = table(&["patches", "--chart", chart, "--camera", "Sony ILCE-9", "--white", "D55"]);
     let digits: Vec<String> = d55[1][2..5].iter().map(|cell| format!("{:.4}", number(cell))).collect();
     assert_eq!(digits, ["1.1040", "0.9870", "0.8233"], "the paper's");
-    let fitted = ["patches", "--chart", chart, "--illuminant", "D65", "--transform", "observer"];
+    let fitted = ["patches", "--chart", chart, "--illuminant", "D65", "--transform", "fitted"];
     let rows = table(&[&fitted[..], &["--camera", "Kodak DCS200", "--observer", "CIE 1931 2°"]].concat());
-    for (camera, observer) in rows[1][5..].iter().zip(&rows[2][5..]) {
+    for (camera, observer) in rows[1][5..10].iter().zip(&rows[2][5..10]) {
         assert!((number(camera) - number(observer)).abs() < 1e-12, "white stays white");
     }
 }
@@ -155,8 +181,9 @@ fn mistakes_are_named() {
     refused(&["locus", "--camera", "Nikn D70"], &["Nikn D70", "did you mean", "Nikon D70 (2007 figure)"]);
     refused(&["locus", "--camera", "Nikon"], &["could be", "Nikon D200"]);
     refused(&["locus", "--camera", "missing.csv"], &["missing.csv"]);
-    refused(&["locus", "--reference", "CIE 1964 10°"], &["--transform observer"]);
-    refused(&["locus", "--observer", "CIE 2006 2° cone fundamentals"], &["Eq 13", "--transform observer"]);
+    refused(&["locus", "--fit-to", "CIE 1964 10°", "--transform", "paper"], &["--transform fitted"]);
+    let cones = ["--observer", "CIE 2006 2° cone fundamentals"];
+    refused(&[&["locus", "--transform", "paper"], &cones[..]].concat(), &["Eq 13", "--transform fitted"]);
     refused(&["locus", "--from", "2000", "--temperatures", "3000"], &["--from"]);
     refused(&["locus", "--count", "0"], &["--count"]);
     refused(&["locus", "--temperatures=-5"], &["-5"]);
@@ -169,6 +196,7 @@ fn mistakes_are_named() {
 #[test]
 fn out_is_a_file_or_standard_output() {
     let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("locus_out.csv");
+    let _absent = std::fs::remove_file(&path);
     let arguments = ["locus", "--count", "3", "--out"];
     let output = run(&[&arguments[..], &[path.to_str().unwrap()]].concat());
     assert!(output.status.success() && output.stdout.is_empty());

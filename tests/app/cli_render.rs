@@ -18,7 +18,7 @@ use exr::prelude::{AnyChannels, AttributeValue, FlatImage, FlatSamples, Layer};
 use serde_json::Value;
 
 /// Little enough to be rendered by a program that was not optimized.
-const SMALL: [&str; 6] = ["--mesh", "sphere", "--triangles", "800", "--size", "40x30"];
+const SMALL: [&str; 8] = ["--preset", "paper", "--mesh", "sphere", "--triangles", "800", "--size", "40x30"];
 const D70: [&str; 2] = ["--camera", "Nikon D70 (2007 figure)"];
 
 /// A folder of one test's own, empty.
@@ -37,9 +37,9 @@ fn run(folder: &Path, arguments: &[&str]) -> Output {
     command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap()
 }
 
-/// What it says on standard output.
+/// What it says on standard output. Pictures of earlier calls in the same folder are replaced.
 fn rendered(folder: &Path, arguments: &[&str]) -> String {
-    let output = run(folder, arguments);
+    let output = run(folder, &[arguments, &["--force"]].concat());
     assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }
@@ -99,11 +99,11 @@ fn read_exr(path: &Path) -> (Layer<AnyChannels<FlatSamples>>, BTreeMap<String, V
 }
 
 #[test]
-fn without_sources_the_truth_and_the_papers_three() {
+fn without_sources_those_of_the_preset() {
     let folder = folder("first");
     let text = rendered(&folder, &[&SMALL[..], &["--out", "new/folder"]].concat());
     let lines: Vec<&str> = text.lines().collect();
-    let starts = ["s-b-1955", "canon-eos-10d", "nikon-d70", "kodak-dcs200"];
+    let starts = ["s-b-1955", "canon-eos-10d-2007", "nikon-d70-2007", "kodak-dcs200"];
     for (line, start) in lines.iter().zip(starts) {
         assert!(
             line.starts_with(&format!("new/folder/sphere_{start}.png: ").replace('/', std::path::MAIN_SEPARATOR_STR)),
@@ -114,13 +114,41 @@ fn without_sources_the_truth_and_the_papers_three() {
     assert!(lines[4].starts_with("4 pictures of 40x30, ") && lines[4].contains(" ms ("), "{}", lines[4]);
     assert_eq!(lines.len(), 5);
     assert_eq!(pictures_in(&folder.join("new/folder")).len(), 4);
+    rendered(&folder, &["--mesh", "sphere", "--triangles", "800", "--size", "8x8", "--out", "default"]);
+    let expected = ["canon-eos-5d-mark-ii", "cie-1931-2", "kodak-dcs200", "nikon-d70-a-m-p-a-s"];
+    assert_eq!(pictures_in(&folder.join("default")), expected.map(|name| format!("sphere_{name}.png")));
+}
+
+#[test]
+fn nothing_that_exists_is_replaced_unless_told_to() {
+    let folder = folder("kept");
+    let stats = folder.join("stats.json");
+    let arguments = [&SMALL[..], &D70, &["--stats", "stats.json"]].concat();
+    std::fs::write(&stats, "mine").unwrap();
+    // One of two outputs is refused, so that neither is written.
+    refused(&folder, &arguments, 1, &["stats.json", "--force"]);
+    assert_eq!(std::fs::read_to_string(&stats).unwrap(), "mine");
+    assert!(run(&folder, &[&arguments[..], &["--force"]].concat()).status.success());
+    assert!(std::fs::read_to_string(&stats).unwrap().starts_with('{'));
+    let picture = pictures_in(&folder).into_iter().find(|name| name.starts_with("sphere_nikon-d70")).unwrap();
+    std::fs::remove_file(&stats).unwrap();
+    std::fs::write(folder.join(&picture), "mine").unwrap();
+    let output = run(&folder, &arguments);
+    assert_eq!((output.status.code(), stats.exists()), (Some(1), false));
+    // What is read is not written over, even if told to.
+    std::fs::write(folder.join("gray.csv"), "wavelength_nm,gray\n380,0.2\n780,0.2\n").unwrap();
+    let arguments = [&SMALL[..], &D70, &["--material", "gray.csv", "--stats", "./gray.csv", "--force"]].concat();
+    let output = run(&folder, &arguments);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(1) && message.contains("gray.csv: this command reads it"), "{message}");
+    assert!(std::fs::read_to_string(folder.join("gray.csv")).unwrap().starts_with("wavelength_nm"));
 }
 
 #[test]
 fn a_png_shows_the_windows_pixels() {
     let folder = folder("png");
     rendered(&folder, &[&SMALL[..], &D70].concat());
-    let picture = image::open(folder.join("sphere_nikon-d70.png")).unwrap().into_rgba8();
+    let picture = image::open(folder.join("sphere_nikon-d70-2007.png")).unwrap().into_rgba8();
     let (window, _) = as_in_the_window(1, Quality::Full);
     let window = window.pictures[0].as_ref().unwrap();
     assert_eq!((picture.width() as usize, picture.height() as usize), (window.width, window.height));
@@ -133,7 +161,7 @@ fn a_png_shows_the_windows_pixels() {
 fn exr_holds_the_numbers() {
     let folder = folder("exr");
     rendered(&folder, &[&SMALL[..], &D70, &["--samples", "2", "--format", "exr", "--exposure", "-3"]].concat());
-    let path = folder.join("sphere_nikon-d70.exr");
+    let path = folder.join("sphere_nikon-d70-2007.exr");
     let (layer, channels) = read_exr(&path);
     assert_eq!((layer.size.width(), layer.size.height()), (40, 30));
     assert_eq!(channels.keys().collect::<Vec<_>>(), ["A", "B", "G", "R", "X", "Y", "Z"]);
@@ -168,7 +196,7 @@ fn exr_says_what_it_is_of_and_is_the_same_each_time() {
     let surface = ["--sigma", "4e-6", "--tau", "9e-6", "--patch", "30e-6,60e-6", "--ior", "1.5", "--light", "-1,0,1"];
     let arguments = [&SMALL[..], &D70, &surface, &["--format", "exr", "--reading", "paper"]].concat();
     rendered(&folder, &arguments);
-    let path = folder.join("sphere_nikon-d70.exr");
+    let path = folder.join("sphere_nikon-d70-2007.exr");
     let first = std::fs::read(&path).unwrap();
     rendered(&folder, &arguments);
     assert!(first == std::fs::read(&path).unwrap(), "two runs, the same bytes");
@@ -205,10 +233,10 @@ fn exr_says_what_it_is_of_and_is_the_same_each_time() {
 fn a_cie_observer_has_no_red_green_and_blue() {
     let folder = folder("exr_cie");
     let text = rendered(&folder, &[&SMALL[..], &["--observer", "CIE 1931 2°", "--format", "exr"]].concat());
-    assert!(text.contains("add --transform observer"), "{text}");
+    assert!(text.contains("add --transform fitted"), "{text}");
     let (_, channels) = read_exr(&folder.join("sphere_cie-1931-2.exr"));
     assert_eq!(channels.keys().collect::<Vec<_>>(), ["A", "X", "Y", "Z"]);
-    let fitted = ["--observer", "CIE 1931 2°", "--transform", "observer"];
+    let fitted = ["--observer", "CIE 1931 2°", "--transform", "fitted"];
     assert!(rendered(&folder, &[&SMALL[..], &fitted].concat()).contains("ΔE*00 mean"));
 }
 
@@ -259,7 +287,7 @@ fn qualities_agree_and_readings_do_not() {
     let small = ["--mesh", "sphere", "--triangles", "800", "--size", "16x12", "--format", "exr"];
     let of = |arguments: &[&str]| {
         rendered(&folder, &[&small[..], &D70, arguments].concat());
-        read_exr(&folder.join("sphere_nikon-d70.exr")).1["G"].clone()
+        read_exr(&folder.join("sphere_nikon-d70-2007.exr")).1["G"].clone()
     };
     let exact = of(&["--quality", "exact"]);
     let peak = exact.iter().copied().fold(0.0, f32::max);
@@ -317,7 +345,7 @@ fn meshes_and_materials_come_from_files() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{message}");
     assert!(message.contains("taking the first, dark") && message.contains("My Square.obj: "), "{message}");
-    assert_eq!(pictures_in(&folder), ["my-square_nikon-d70.png"]);
+    assert_eq!(pictures_in(&folder), ["my-square_nikon-d70-2007.png"]);
     let behind = rendered(&folder, &[&arguments[..], &D70, &["--light=0,0,-1"]].concat());
     assert!(behind.contains("nothing is lit"), "{behind}");
 }
@@ -348,8 +376,9 @@ fn mistakes_are_named() {
     refused(&folder, &["--reading", "papre"], 2, &["'paper'"]);
     refused(&folder, &["--quality", "best"], 2, &["--quality", "exact"]);
     refused(&folder, &["--white", "daylight:warm"], 2, &["--white", "daylight:5500"]);
-    refused(&folder, &["--reference", "CIE 1964 10°"], 2, &["--transform observer"]);
-    refused(&folder, &["--observer", "CIE 2006 2° cone fundamentals"], 1, &["Eq 13", "--transform observer"]);
+    refused(&folder, &["--fit-to", "CIE 1964 10°", "--transform", "paper"], 2, &["--transform fitted"]);
+    let cones = ["--transform", "paper", "--observer", "CIE 2006 2° cone fundamentals"];
+    refused(&folder, &cones, 1, &["Eq 13", "--transform fitted"]);
     refused(&folder, &["--out", "broken.obj"], 2, &["--out", "broken.obj", "folder"]);
 }
 
@@ -372,10 +401,11 @@ fn the_meshs_own_roughness_is_darker_and_has_no_one_error() {
 /// differ to the eye. `UPDATE_SCREENSHOTS=1 cargo test` writes them.
 #[test]
 fn head_and_fern_look_as_they_did() {
-    let folder = folder("kept");
+    let folder = folder("looks");
     for mesh in ["head", "fern"] {
         for reading in ["radiometric", "paper"] {
-            let what = ["--mesh", mesh, "--reading", reading, "--triangles", "20000", "--size", "96x96"];
+            let what =
+                ["--preset", "paper", "--mesh", mesh, "--reading", reading, "--triangles", "20000", "--size", "96x96"];
             rendered(&folder, &[&what[..], &["--samples", "2", "--camera", "Nikon D70 (2007 figure)"]].concat());
             let picture = pictures_in(&folder).into_iter().find(|name| name.starts_with(mesh)).unwrap();
             let now = image::open(folder.join(&picture)).unwrap().to_rgba8();

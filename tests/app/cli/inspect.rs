@@ -227,7 +227,7 @@ fn what_is_read_is_not_written_over() {
     for out in [leaf.as_str(), folder.to_str().unwrap()] {
         let output = inspect(&[&leaf, "--csv", out]);
         assert_eq!(output.status.code(), Some(1));
-        assert!(said(&output).1.contains("is not written over"));
+        assert!(said(&output).1.contains("this command reads it"));
         assert_eq!(std::fs::read_to_string(&leaf).unwrap(), text);
     }
 }

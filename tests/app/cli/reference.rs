@@ -2,7 +2,7 @@
 
 #![allow(clippy::unreadable_literal, reason = "figures as another program printed them")]
 
-use super::{file, number, table};
+use super::{PAPER, file, number, table};
 
 /// Agreement asked for; both sums have 400 terms in double precision.
 const TOLERANCE: f64 = 1e-11;
@@ -46,26 +46,27 @@ fn loci_by_the_paper() {
         ("CIE 1931 2°", [0.44754183740874315, 0.40743815438129044, 0.25595121084170874, 0.5242853975659871]),
         ("CIE 1931 2°", [0.25649609797431394, 0.25775096052007973, 0.1838675336351399, 0.41572591551563476]),
     ];
-    let rows = table(&["locus", "--temperatures", "1000,2856,20000"]);
+    let rows = table(&["locus", "--preset", "paper", "--temperatures", "1000,2856,20000"]);
     assert_eq!(rows.len(), 1 + expected.len());
     for (row, (source, places)) in rows[1..].iter().zip(expected) {
         assert_eq!(row[0], source);
-        assert_close(&row[2..], &places);
+        assert_close(&row[2..6], &places);
+        assert_eq!(row[10..], PAPER);
     }
 }
 
 #[test]
 fn loci_by_an_observer() {
-    let fit = ["--transform", "observer", "--reference", "CIE 1964 10°", "--illuminant", "D65"];
+    let fit = ["--transform", "fitted", "--fit-to", "CIE 1964 10°", "--illuminant", "D65"];
     let sources = ["--camera", "Nikon D200", "--observer", "CIE 2006 2° cone fundamentals"];
     let rows = table(&[&["locus", "--temperatures", "4000"], &fit[..], &sources[..]].concat());
-    assert_close(&rows[1][2..], &[0.3812026786364257, 0.3707348374623452, 0.22804615639523612, 0.499013999093392]);
-    assert_close(&rows[2][2..], &[0.3834664325221403, 0.3753322270287063, 0.22767603794218297, 0.501404636775346]);
+    assert_close(&rows[1][2..6], &[0.3812026786364257, 0.3707348374623452, 0.22804615639523612, 0.499013999093392]);
+    assert_close(&rows[2][2..6], &[0.3834664325221403, 0.3753322270287063, 0.22767603794218297, 0.501404636775346]);
 }
 
 fn of_patches(rows: &[Vec<String>], source: &str) -> Vec<Vec<String>> {
     let wanted = ["dark skin", "orange yellow", "cyan"];
-    let patch = |name: &str| rows.iter().find(|row| row[0] == source && row[1] == name).unwrap()[2..].to_vec();
+    let patch = |name: &str| rows.iter().find(|row| row[0] == source && row[1] == name).unwrap()[2..10].to_vec();
     wanted.map(patch).to_vec()
 }
 
@@ -73,7 +74,8 @@ fn of_patches(rows: &[Vec<String>], source: &str) -> Vec<Vec<String>> {
 #[test]
 fn patches_by_the_paper() {
     let sources = ["--camera", "Canon EOS 10D (2007 figure)", "--observer", "CIE 1964 10°"];
-    let rows = table(&[&["patches", "--illuminant", "A", "--white", "D55"], &sources[..]].concat());
+    let rows =
+        table(&[&["patches", "--transform", "paper", "--illuminant", "A", "--white", "D55"], &sources[..]].concat());
     let camera = [
         [0.16403118723710713, 0.08423458473193814, 0.04819441639631084, 0.10646784127625816],
         [0.688298424731199, 0.36975858719553434, 0.09319649222198485, 0.4329019079863378],
@@ -100,7 +102,7 @@ fn patches_by_the_paper() {
 
 #[test]
 fn patches_by_an_observer() {
-    let rows = table(&["patches", "--illuminant", "D65", "--transform", "observer", "--camera", "Nikon D200"]);
+    let rows = table(&["patches", "--illuminant", "D65", "--transform", "fitted", "--camera", "Nikon D200"]);
     let signals = [
         [0.14097195727180317, 0.07824108757764948, 0.056604071251004466],
         [0.5803504708838866, 0.3135539895935983, 0.09127098283275925],
@@ -125,7 +127,7 @@ fn a_perfect_white_through_any_camera() {
     let sources = cameras.iter().flat_map(|name| ["--camera", *name]).chain(["--observer", "Stiles & Burch 1955 2°"]);
     let sources: Vec<&str> = sources.collect();
     for light in ["E", "A", "D65", "blackbody:3000", "daylight:5503"] {
-        let common = ["patches", "--chart", chart.to_str().unwrap(), "--illuminant", light];
+        let common = ["patches", "--preset", "paper", "--chart", chart.to_str().unwrap(), "--illuminant", light];
         let unity = table(&[&common[..], &sources].concat());
         assert_eq!(unity.len(), 7);
         assert!(unity[1..].iter().all(|row| row[2..5].iter().all(|cell| number(cell) == 1.0)), "{light}: {unity:?}");

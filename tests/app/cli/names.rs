@@ -1,0 +1,132 @@
+//! Names as people type them: exact ones, standard designations, whole words, parts.
+
+use chromascope::catalog::names::{Found, NameError, find};
+use chromascope::catalog::{Catalog, Kind};
+
+use super::{column, refused, run, table};
+
+fn found(catalog: &Catalog, kind: Kind, name: &str) -> Result<(String, bool), NameError> {
+    let Found { entry, exact, .. } = find(catalog.of_kind(kind), kind.singular(), name)?;
+    Ok((entry.name.clone(), exact))
+}
+
+/// The name and what is said about it.
+fn taken(kind: Kind, name: &str) -> (String, Option<String>) {
+    let catalog = Catalog::built_in();
+    let found = find(catalog.of_kind(kind), kind.singular(), name).unwrap_or_else(|error| panic!("{name}: {error}"));
+    (found.entry.name.clone(), found.note())
+}
+
+#[test]
+fn every_built_in_name_finds_exactly_itself() {
+    let catalog = Catalog::built_in();
+    for entry in catalog.entries() {
+        let name = &entry.name;
+        let spaced: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { ' ' }).collect();
+        let bare: String = name.chars().filter(|c| c.is_alphanumeric()).collect();
+        for typed in [name.clone(), name.to_lowercase(), name.to_uppercase(), spaced, bare] {
+            assert_eq!(found(&catalog, entry.kind, &typed), Ok((name.clone(), true)), "{typed}");
+        }
+    }
+}
+
+#[test]
+fn standard_designations_are_exact() {
+    for (kind, typed, name) in [
+        (Kind::Illuminant, "CIE D65", "D65"),
+        (Kind::Illuminant, "CIE D50", "D50"),
+        (Kind::Illuminant, "CIE A", "A"),
+        (Kind::Illuminant, "illuminant A", "A"),
+        (Kind::Illuminant, "CIE standard illuminant D65", "D65"),
+        (Kind::Illuminant, "CIE Illuminant ID65", "ID65"),
+        (Kind::Illuminant, "ID50", "ID50"),
+        (Kind::Illuminant, "CIE FL3.1", "FL3.1"),
+        (Kind::Observer, "CIE 1931 2 degree standard observer", "CIE 1931 2°"),
+        (Kind::Observer, "1964 10deg", "CIE 1964 10°"),
+        (Kind::Observer, "CIE 1931 2º", "CIE 1931 2°"),
+    ] {
+        assert_eq!(taken(kind, typed), (name.to_owned(), None), "{typed}");
+    }
+}
+
+#[test]
+fn whole_words_win_over_parts_and_what_was_taken_is_known() {
+    for (kind, typed, name) in [
+        (Kind::Observer, "CIE 1931 standard observer", "CIE 1931 2°"),
+        (Kind::Camera, "5D Mark II", "Canon EOS 5D Mark II"),
+        (Kind::Camera, "5D Mark III", "Canon EOS 5D Mark III"),
+        (Kind::Camera, "EOS R", "Canon EOS R"),
+        (Kind::Camera, "EOS R5", "Canon EOS R5"),
+        (Kind::Camera, "D200", "Nikon D200"),
+        (Kind::Camera, "10D", "Canon EOS 10D (2007 figure)"),
+        (Kind::Camera, "EOS 400D", "Canon Digital Rebel XTi"),
+        (Kind::Illuminant, "tungst", "ISO 7589 studio tungsten"),
+        (Kind::Illuminant, "tungsten", "ISO 7589 studio tungsten"),
+    ] {
+        assert_eq!(taken(kind, typed), (name.to_owned(), Some(format!("taking {name}"))), "{typed}");
+    }
+    // Of several tables of one model the first that was measured, and the others are named.
+    for typed in ["Nikon D70", "d70"] {
+        let (name, note) = taken(Kind::Camera, typed);
+        let expected = "taking Nikon D70 (A.M.P.A.S.); also there: Nikon D70 (2007 figure), Nikon D70 (UPenn 2011)";
+        assert_eq!(name, "Nikon D70 (A.M.P.A.S.)");
+        let mut parts: Vec<&str> = note.as_deref().unwrap().split([';', ',']).collect();
+        parts[1] = parts[1].trim_start_matches(" also there:");
+        parts[1..].sort_unstable();
+        let mut wanted: Vec<&str> = expected.split([';', ',']).collect();
+        wanted[1] = wanted[1].trim_start_matches(" also there:");
+        wanted[1..].sort_unstable();
+        assert_eq!(parts, wanted);
+    }
+}
+
+#[test]
+fn what_could_be_several_is_refused() {
+    let catalog = Catalog::built_in();
+    for (kind, typed) in [
+        (Kind::Camera, "Nikon"),
+        (Kind::Camera, "Mark II"),
+        (Kind::Camera, "EOS-1Ds"),
+        (Kind::Observer, "2°"),
+        (Kind::Observer, "Stiles & Burch"),
+        (Kind::Illuminant, "FL3.1x"),
+        (Kind::Illuminant, ""),
+        (Kind::Illuminant, "°"),
+        (Kind::Material, "skin"),
+    ] {
+        assert!(found(&catalog, kind, typed).is_err(), "{typed}");
+    }
+}
+
+#[test]
+fn the_command_line_says_what_was_taken() {
+    let stderr = |arguments: &[&str]| {
+        let output = run(&[&["patches", "--camera", "Kodak DCS200"], arguments].concat());
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(stderr(&["--illuminant", "CIE D65"]), "");
+    let said = stderr(&["--illuminant", "tungst"]);
+    assert_eq!(said, "chromascope: --illuminant \"tungst\": taking ISO 7589 studio tungsten\n");
+    assert!(stderr(&["--white", "tungsten"]).starts_with("chromascope: --white \"tungsten\": taking ISO"));
+    for typed in ["daylight", "CIE daylight", "Daylight illuminant"] {
+        refused(&["patches", "--illuminant", typed], &["daylight:5500", "Daylight (Stanford)"]);
+        refused(&["patches", "--white", typed], &["daylight:5500"]);
+    }
+    refused(&["patches", "--illuminant", "blackbody"], &["blackbody:5500"]);
+    assert!(run(&["patches", "--illuminant", "Daylight (Stanford)"]).status.success());
+}
+
+/// x and y of a perfect diffuser under D65 and D50 over 380 to 780 nm, not of ID65 and ID50.
+#[test]
+fn cie_d65_is_not_id65() {
+    let chart = super::file("diffuser_for_names.csv", "wavelength_nm,white\n380,1\n780,1\n");
+    let of = |light: &str| {
+        let chart = chart.to_str().unwrap();
+        let rows = table(&["patches", "--chart", chart, "--observer", "CIE 1931 2°", "--illuminant", light]);
+        assert!(["D65", "D50"].contains(&column(&rows, "illuminant")[0]));
+        ["x", "y"].map(|head| format!("{:.5}", super::number(column(&rows, head)[0])))
+    };
+    assert_eq!(of("CIE D65"), ["0.31274", "0.32905"]);
+    assert_eq!(of("CIE D50"), of("D50"));
+}
