@@ -5,7 +5,6 @@ use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use chromascope_core::query::Shared;
-use chromascope_core::spectral::Primaries;
 use chromascope_core::table::{self, MAX_BYTES};
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
@@ -20,8 +19,6 @@ use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
 use crate::document::{CHART, CIE_1931, Document, Light, Subset, WayChoice, WhiteChoice};
 use crate::files::reason;
-use crate::results::Results;
-use crate::scene::Scene;
 
 /// The name of the paper's five patches as a chart of their own.
 pub(super) const FIVE: &str = "ColorChecker five";
@@ -131,20 +128,15 @@ impl Request {
             (None, Some(_)) => true,
             (None, None) => self.document.way != WayChoice::Paper,
         };
-        self.document.way = match &arguments.fit_to {
+        let reference = self.catalog.get(Kind::Observer, &self.document.truth);
+        let transform = match &arguments.fit_to {
             _ if !fitted => WayChoice::Paper,
             Some(target) => WayChoice::Observer(self.name("--fit-to", Kind::Observer, target)?),
-            None if self.reference_is_xyz() => WayChoice::Observer(self.document.truth.clone()),
+            None if reference.is_some_and(Entry::counts_in_xyz) => WayChoice::Observer(self.document.truth.clone()),
             None => WayChoice::Observer(CIE_1931.to_owned()),
         };
+        self.document.set_transform(transform);
         Ok(())
-    }
-
-    fn reference_is_xyz(&self) -> bool {
-        let results = Results::default();
-        let scene = Scene { document: &self.document, catalog: &self.catalog, results: &results };
-        let reference = scene.sensor(Kind::Observer, &self.document.truth);
-        reference.is_ok_and(|sensor| sensor.primaries() == Primaries::Xyz)
     }
 
     /// Chooses the light.

@@ -19,7 +19,7 @@ use super::{CliError, outputs, say};
 use crate::catalog::{Catalog, Kind};
 use crate::document::{CIE_1931, LOCUS_RANGE_K, WayChoice};
 use crate::results::Results;
-use crate::scene::{LOCUS_POINTS, Scene, SceneError};
+use crate::scene::{Caution, LOCUS_POINTS, Scene, SceneError};
 
 const LOCUS_HEAD: &str = "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv,cct_error_k,arc_length_xy";
 const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,\
@@ -62,7 +62,7 @@ pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<
             add_row(&mut text, &[&field(name), &point.temperature.get().to_string()], &row, &conditions);
         }
     }
-    say_if_not_comparable(&scene, &request)?;
+    say_caution(&scene, &request)?;
     Ok(text)
 }
 
@@ -90,21 +90,20 @@ fn conditions(request: &Request, illuminant: &str) -> String {
     cells.map(|cell| format!(",{}", field(cell))).concat() + "\n"
 }
 
-/// Says once why distances are missing where the reference is a CIE observer beside the paper's matrix.
-fn say_if_not_comparable(scene: &Scene<'_>, request: &Request) -> Result<(), SceneError> {
-    let reference = &request.document.truth;
-    if scene.sensor(Kind::Observer, reference)?.primaries() != Primaries::Xyz {
-        return Ok(());
-    }
-    for (kind, name) in &request.sources {
-        if scene.comparable(*kind, name)?.is_err() {
-            say(&format!(
-                "chromascope: differences from {reference} are left empty: it counts in XYZ, to which Eq 13 does not apply; add \
-                 --transform fitted to compare cameras with it\n"
-            ));
-            return Ok(());
+/// Says once what keeps differences from the reference empty, or from being those of the color transform alone.
+fn say_caution(scene: &Scene<'_>, request: &Request) -> Result<(), SceneError> {
+    let Some(caution) = scene.caution() else { return Ok(()) };
+    let remedy = match caution {
+        Caution::FitDiffers { .. } => "",
+        Caution::NotComparable { .. } => {
+            let comparable = request.sources.iter().map(|(kind, name)| scene.comparable(*kind, name));
+            if comparable.collect::<Result<Vec<_>, _>>()?.iter().all(Result::is_ok) {
+                return Ok(());
+            }
+            " Their differences are left empty; add --transform fitted."
         }
-    }
+    };
+    say(&format!("chromascope: {}{remedy}\n", caution.sentence()));
     Ok(())
 }
 
@@ -163,7 +162,7 @@ pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Res
             add_row(&mut text, &[&field(name), &field(patch)], &row, &conditions);
         }
     }
-    say_if_not_comparable(&scene, &request)?;
+    say_caution(&scene, &request)?;
     Ok(text)
 }
 

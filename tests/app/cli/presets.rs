@@ -30,7 +30,10 @@ fn every_table_says_under_what_it_was_made() {
         );
         let fit = conditions(&[command, "--reference", "Stiles & Burch 1955 2°", "--fit-to", "CIE 2015 2°"]);
         assert_eq!((fit[0].as_str(), fit[3].as_str()), ("Stiles & Burch 1955 2°", "3x3 fitted to CIE 2015 2°"));
-        // An RGB observer is no target.
+        // An RGB observer is no target, and that the two differ is said.
+        let output = run(&[command, "--reference", "Stiles & Burch 1955 2°"]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(said.contains("fitted to CIE 1931 2°") && said.lines().count() == 1, "{said}");
         let rgb = conditions(&[command, "--reference", "Stiles & Burch 1955 2°"]);
         assert_eq!(rgb[3], "3x3 fitted to CIE 1931 2°");
     }
