@@ -49,7 +49,9 @@ impl Radiances {
         let colors = Arc::unwrap_or_clone(answer);
         let mut colors = colors.map_err(|error| SceneError::Rendering { name: name.to_owned(), error })?;
         if adopted.is_none() {
-            colors.iter_mut().for_each(|color| color.lab = None);
+            for color in &mut colors {
+                color.lab = None;
+            }
         }
         Ok(colors)
     }

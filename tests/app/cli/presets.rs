@@ -144,7 +144,7 @@ fn camera_files_can_be_taken_per_photon() {
         let cells: Vec<f64> = line.split(',').map(number).collect();
         // Per photon: of light of equal power there are as many photons as wavelength.
         let row: Vec<String> = cells[1..].iter().map(|value| (value / cells[0]).to_string()).collect();
-        photon += &format!("{},{}\n", cells[0], row.join(","));
+        photon.extend([cells[0].to_string(), ",".to_owned(), row.join(","), "\n".to_owned()]);
     }
     let photon = super::file("per_photon.csv", &photon);
     let x = |file: &std::path::Path, per: &str| {

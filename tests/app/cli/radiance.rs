@@ -12,7 +12,7 @@ fn booth() -> String {
     let mut text = String::from("wavelength_nm,white tile,gray\n");
     for line in d65.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit())) {
         let (nm, power) = line.split_once(',').unwrap();
-        text += &format!("{nm},{power},{}\n", 0.2 * number(power));
+        text.extend([nm, ",", power, ",", &(0.2 * number(power)).to_string(), "\n"]);
     }
     text
 }
