@@ -187,6 +187,9 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     } else if shown {
         words.max.x = place.x - UNIT;
     }
+    if entry.is_digitized() {
+        words.max.x -= lines::right_aligned(ui, words, "digitized", TextStyle::Small, context.theme.weak) + UNIT;
+    }
     let color = if enabled { context.theme.text } else { context.theme.weak };
     let shown = if entry.kind == Kind::Illuminant && entry.name == "E" { "E, equal energy" } else { &entry.name };
     lines::elided(ui, words, shown, TextStyle::Body, color);
