@@ -259,16 +259,9 @@ fn table(scene: &Scene<'_>) -> Table {
         for (index, (color, patch)) in colors.iter().zip(patches.patches()).enumerate() {
             let truth = truth.get(index);
             let [dxy, duv] = near(color.xy, color.uv, truth.and_then(|t| t.xy), truth.and_then(|t| t.uv));
-            table.push(row(
-                &source.label,
-                "patch",
-                Cell::Empty,
-                Cell::from(patch.name.as_str()),
-                color.xy,
-                color.uv,
-                dxy,
-                duv,
-            ));
+            let places =
+                row(&source.label, "patch", Cell::Empty, Cell::from(patch.name.as_str()), color.xy, color.uv, dxy, duv);
+            table.push(places.into_iter().chain([Cell::Empty]));
         }
     }
     table
