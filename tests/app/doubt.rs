@@ -107,8 +107,7 @@ fn the_strip_marks_minima_and_says_what_they_follow() {
     for (ring, expected) in rings.iter().zip(expected) {
         assert!((ring - expected).abs() < 15.0, "{rings:?}");
     }
-    let mut document = Document::default();
-    document.light = Light::Set("A".to_owned());
+    let mut document = Document { light: Light::Set("A".to_owned()), ..Document::default() };
     let (note, rings) = minima(&document);
     assert_eq!(note, "distance to reference (Δxy), balanced to A (ring: minimum)");
     assert!(rings.len() == 3 && rings.iter().all(|ring| (ring - 2858.0).abs() < 6.0), "{rings:?}");
