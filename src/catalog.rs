@@ -111,6 +111,11 @@ impl Entry {
         self.header.as_ref().is_some_and(|header| header.columns.first().is_some_and(|head| head == "x_bar"))
     }
 
+    /// Whether its figures were read off a published figure.
+    pub fn is_digitized(&self) -> bool {
+        self.header.as_ref().is_some_and(Header::is_digitized)
+    }
+
     /// An entry for one of the user's sets.
     pub fn from_own(set: &Shared<OwnSet>) -> Self {
         let kind = match set.role {
@@ -149,11 +154,15 @@ impl Catalog {
                 add_entries(&mut entries, kind, path, &header);
             }
         }
-        entries.sort_by_cached_key(|e| (e.kind, names::sort_key(&e.name)));
+        entries.sort_by_cached_key(|e| {
+            // Of one model's tables the measured ones come first.
+            let model = e.name.split_once(" (").map_or(e.name.as_str(), |(model, _)| model);
+            (e.kind, names::sort_key(model), e.is_digitized(), names::sort_key(&e.name))
+        });
         Self { entries }
     }
 
-    /// All sets, by kind and then by name.
+    /// All sets, by kind and then by name; of one model, measured tables before digitized ones.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
     }

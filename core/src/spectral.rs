@@ -10,5 +10,5 @@ pub mod sensor;
 
 pub use dataset::{Dataset, DatasetError, Header};
 pub use distribution::{DistributionError, SpectralDistribution};
-pub use grid::{Assumed, GridSpectrum, Quantity};
-pub use sensor::{Primaries, Response, Sensor, SensorError};
+pub use grid::{Assumed, GridSpectrum, Interpolation, Quantity};
+pub use sensor::{Evidence, Primaries, Response, Sensor, SensorError};

@@ -162,10 +162,13 @@ fn facts(entry: &Entry) -> Facts<'_> {
 fn header_comments(kind: Kind, header: &Header) -> Vec<(String, String)> {
     let mut comments =
         vec![("source".to_owned(), header.source.clone()), ("license".to_owned(), header.license.clone())];
+    if let Some(origin) = &header.origin {
+        comments.push(("note".to_owned(), format!("Origin: {origin}.")));
+    }
     comments.extend(header.notes.iter().map(|note| ("note".to_owned(), note.clone())));
-    // Formats have a place for what a camera responds to; for observers it is said in words.
-    if let Some(response) = header.response.as_ref().filter(|_| kind == Kind::Observer) {
-        comments.push(("note".to_owned(), format!("Responses are {response}.")));
+    // Formats have a place for what a camera responds to, but not for the evidence; for observers all is said in words.
+    if let Some(response) = header.response.as_ref().filter(|_| matches!(kind, Kind::Camera | Kind::Observer)) {
+        comments.push(("note".to_owned(), format!("Response: {response}.")));
     }
     comments
 }

@@ -10,6 +10,8 @@ use chromascope_core::figure::{
     Axis, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Ticks,
 };
 
+use chromascope_core::spectral::sensor::TAIL_BELOW_K;
+
 use crate::document::{Diagram, WayChoice};
 use crate::scene::{Scene, Source};
 use crate::thing::{SourceId, Things};
@@ -186,7 +188,14 @@ fn legend_entry(source: &Source) -> LegendEntry {
 
 /// The conditions of a diagram in sentences.
 pub fn caption(scene: &Scene<'_>) -> String {
-    format!("{} Loci from 1000 to 20000 K.", conditions(scene))
+    let cut = |source: &&Source| source.visible && scene.extrapolated_below(source.kind, &source.name).is_some();
+    let cut: Vec<String> = scene.sources().iter().filter(cut).map(|source| source.label.clone()).collect();
+    let dotted = if cut.is_empty() {
+        String::new()
+    } else {
+        format!(" Dotted below {TAIL_BELOW_K:.0} K, where the sensitivity table ends too early: {}.", cut.join(", "))
+    };
+    format!("{} Loci from 1000 to 20000 K, balanced to {}.{dotted}", conditions(scene), scene.locus_balance())
 }
 
 /// The conditions in sentences.
@@ -222,6 +231,7 @@ fn table(scene: &Scene<'_>) -> Table {
         "v_prime",
         "distance_xy",
         "distance_uv",
+        "extrapolated",
     ]);
     let truth_locus = scene.locus(crate::catalog::Kind::Observer, &scene.document.truth).ok();
     for source in scene.sources().iter().filter(|source| source.visible) {
@@ -231,12 +241,15 @@ fn table(scene: &Scene<'_>) -> Table {
             let uv = uv.zip(tuv).filter(|_| comparable).map(|(a, b)| a.distance(b));
             [Cell::from(xy), Cell::from(uv)]
         };
+        let below = scene.extrapolated_below(source.kind, &source.name).map_or(0.0, |(below, _)| below);
         if let Ok(locus) = scene.locus(source.kind, &source.name) {
             for (index, point) in locus.points.iter().enumerate() {
                 let truth = truth_locus.as_ref().and_then(|truth| truth.points.get(index));
                 let [dxy, duv] = near(point.xy, point.uv, truth.and_then(|t| t.xy), truth.and_then(|t| t.uv));
                 let temperature = Cell::from(point.temperature.get());
-                table.push(row(&source.label, "locus", temperature, Cell::Empty, point.xy, point.uv, dxy, duv));
+                let extrapolated = if point.temperature.get() < below { "true" } else { "false" };
+                let places = row(&source.label, "locus", temperature, Cell::Empty, point.xy, point.uv, dxy, duv);
+                table.push(places.into_iter().chain([Cell::from(extrapolated)]));
             }
         }
         let truth = scene.patch_colors(crate::catalog::Kind::Observer, &scene.document.truth).unwrap_or_default();
@@ -246,16 +259,9 @@ fn table(scene: &Scene<'_>) -> Table {
         for (index, (color, patch)) in colors.iter().zip(patches.patches()).enumerate() {
             let truth = truth.get(index);
             let [dxy, duv] = near(color.xy, color.uv, truth.and_then(|t| t.xy), truth.and_then(|t| t.uv));
-            table.push(row(
-                &source.label,
-                "patch",
-                Cell::Empty,
-                Cell::from(patch.name.as_str()),
-                color.xy,
-                color.uv,
-                dxy,
-                duv,
-            ));
+            let places =
+                row(&source.label, "patch", Cell::Empty, Cell::from(patch.name.as_str()), color.xy, color.uv, dxy, duv);
+            table.push(places.into_iter().chain([Cell::Empty]));
         }
     }
     table

@@ -1,13 +1,14 @@
-//! Distance to the truth over temperature.
+//! Distance to the reference over temperature.
 
 use chromascope_core::figure::{
-    Anchor, Axis, Ink, InkRole, MIN_LABEL_SPACING, Mark, Panel, Rect, Shape, TextSize, Ticks,
+    Anchor, Axis, Dash, Ink, InkRole, MIN_LABEL_SPACING, Mark, Marker, Panel, Rect, Shape, TextSize, Ticks,
 };
 
 use super::chromaticity::id;
 use crate::catalog::Kind;
-use crate::document::{Diagram, LOCUS_RANGE_K};
-use crate::scene::Scene;
+use crate::document::LOCUS_RANGE_K;
+use crate::scene::locus::{distance, split};
+use crate::scene::{Scene, Source};
 use crate::thing::{Thing, Things};
 
 /// The strip with what its lines stand for.
@@ -22,12 +23,12 @@ pub struct Strip {
 /// Temperatures that are written below, in kelvins.
 const TICKS: [f64; 7] = [1000.0, 1200.0, 1500.0, 2000.0, 3000.0, 5000.0, 20_000.0];
 
-/// Builds the strip; none where no source can be compared with the truth.
+/// Builds the strip; none where no source can be compared with the reference.
 pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     let truth = scene.locus(Kind::Observer, &scene.document.truth).ok()?;
     let diagram = scene.document.diagram;
     let mut things = Things::default();
-    let mut marks = Vec::new();
+    let (mut marks, mut minima) = (Vec::new(), Vec::new());
     let mut top = 0.0_f64;
     let sources = scene.sources();
     for source in sources.iter().filter(|source| source.visible && !source.is_truth) {
@@ -35,24 +36,27 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
             continue;
         }
         let Ok(locus) = scene.locus(source.kind, &source.name) else { continue };
-        let distance = |i: usize| {
-            let (a, b) = (&locus.points[i], truth.points.get(i)?);
-            match diagram {
-                Diagram::Xy => a.xy.zip(b.xy).map(|(a, b)| a.distance(b)),
-                Diagram::UvPrime => a.uv.zip(b.uv).map(|(a, b)| a.distance(b)),
-            }
-        };
-        let points: Vec<[f64; 2]> = (0..locus.points.len())
-            .map(|i| [locus.points[i].temperature.mired(), distance(i).unwrap_or(f64::NAN)])
-            .collect();
+        let pairs = locus.points.iter().zip(&truth.points);
+        let points: Vec<[f64; 2]> =
+            pairs.map(|(a, b)| [a.temperature.mired(), distance(a, b, diagram).unwrap_or(f64::NAN)]).collect();
         top = points.iter().map(|p| p[1]).filter(|d| d.is_finite()).fold(top, f64::max);
         let tag = things.tag(Thing::Source(id(source)));
-        let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });
-        marks.push(line.with_stroke(source.role, source.width).with_halo(InkRole::Plot));
+        let below = scene.extrapolated_below(source.kind, &source.name).map(|(below, _)| below);
+        let [measured, beyond] = split(&points, |index| 1e6 / points[index][0], below);
+        let line = |points| {
+            let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });
+            line.with_stroke(source.role, source.width)
+        };
+        marks.push(line(measured).with_halo(InkRole::Plot));
+        if !beyond.is_empty() {
+            marks.push(line(beyond).with_dash(Dash::Dotted));
+        }
+        minima.extend(minimum(scene, source, &mut things));
     }
     if marks.is_empty() {
         return None;
     }
+    marks.append(&mut minima);
     // A locus that goes to infinity leaves the strip; the others stay readable.
     let top = (top * 1.15).clamp(1e-6, 0.6);
     let kelvin = scene.document.temperature_k;
@@ -63,9 +67,26 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     let y = Axis::new("", [0.0, top]).with_ticks(Ticks::At(height_ticks(top, size[1] - 28.0))).with_grid(true);
     let mut panel =
         Panel::new("Distance to the reference over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
-    panel.note = format!("distance to reference ({}) over temperature", super::chromaticity::distance_symbol(diagram));
+    panel.note = format!(
+        "distance to reference ({}), balanced to {} (ring: minimum)",
+        super::chromaticity::distance_symbol(diagram),
+        scene.locus_balance()
+    );
     panel.marks = marks;
     Some(Strip { panel, things })
+}
+
+/// The ring at a distance's minimum: it follows the balance, not the camera.
+fn minimum(scene: &Scene<'_>, source: &Source, things: &mut Things) -> Option<Mark> {
+    let nearest = scene.nearest_to_reference(source.kind, &source.name, scene.document.diagram)?;
+    if nearest.at_end {
+        return None;
+    }
+    let tag = things.tag(Thing::Radiator { source: id(source), kelvin: nearest.kelvin.round() });
+    let ring =
+        Shape::Points { points: vec![[1e6 / nearest.kelvin, nearest.distance]], marker: Marker::Circle, radius: 3.5 };
+    let mark = Mark::new(tag, format!("{}: minimum at {:.0} K", source.label, nearest.kelvin), ring);
+    Some(mark.with_stroke(source.role, 1.5).with_fill(InkRole::Plot))
 }
 
 /// One round number, and zero where there is room for both: the strip is low.

@@ -228,9 +228,13 @@ fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         for source in context.scene.sources().iter().filter(|source| source.visible && !source.is_truth) {
             let id = crate::thing::SourceId { kind: source.kind, name: source.name.clone() };
             if let Some(distance) = chromaticity::blackbody_distance(&context.scene, &id, kelvin) {
-                lines.push(format!("{}: {distance}", source.label));
+                let below = context.scene.extrapolated_below(id.kind, &id.name);
+                let mark = if below.is_some_and(|(below, _)| kelvin < below) { " (extrapolated)" } else { "" };
+                lines.push(format!("{}: {distance}{mark}", source.label));
             }
         }
+        let balance = context.scene.locus_balance();
+        lines.push(format!("Signals balanced to {balance}: the minima (rings) follow it."));
         lines.push("Drag to set the temperature.".to_owned());
         widgets::read_at_pointer(&response, &lines);
     }

@@ -11,7 +11,7 @@ use crate::document::history::History;
 use crate::theme::{ROW, UNIT};
 use crate::view::HelpPage;
 use crate::view::import::ImportItem;
-use crate::widgets::WHAT_YOU_SEE;
+use crate::widgets::{WHAT_YOU_SEE, facts};
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Shows what is open.
@@ -73,8 +73,10 @@ fn what_you_see(ui: &mut Ui) {
         WHAT_YOU_SEE,
         "Chromaticity. The thick line is what the observer chosen as Truth sees as a glowing body cools from 20000 K (blue) to \
          1000 K (red); thinner lines are what each camera records. Points are the patches of a chart; a tail leads from a \
-         camera's point to the truth's. The strip below shows each camera's distance from the truth over temperature; drag in \
-         it to set the temperature.",
+         camera's point to the truth's. The strip below shows each camera's distance from the reference over temperature; a \
+         ring marks its minimum, which lies where signals are balanced (equal energy by the paper's matrix, the light by a fitted \
+         transform) and says little about the camera. Loci and distances are dotted where they are extrapolated: below 2500 K for \
+         tables that end before 720 nm. Drag in the strip to set the temperature.",
         "Swatches. The same patches as colors: the left half as the truth sees them, the right half as the camera records \
          them. The bar below a swatch is the difference. A notched corner marks a color that the screen cannot show.",
         "Spectra. The light, the reflectances and the sensitivities that all of this is computed from. Dotted parts were not \
@@ -146,8 +148,28 @@ fn keyboard(ui: &mut Ui, context: &PaneContext<'_>) {
     });
 }
 
+/// What holds for every table.
+const DATA: [&str; 5] = [
+    "Every built-in table with its source and terms. Hover a name in the Library for its notes.",
+    "Resampling. Integrals run over 380–780 nm at 1 nm by the trapezoid rule. Tables with uniform steps of 5 nm or more are \
+     brought to 1 nm by Sprague's interpolation (CIE 167:2005); all others, and every light, linearly. Reflectances and camera \
+     sensitivities that interpolation makes negative become zero; color matching functions keep their negative lobes.",
+    "Beyond a table's ends. Sensitivities count as zero there, so each channel is integrated over its own table only; \
+     reflectances and lights hold their end values, which are drawn dotted. A camera whose table ends before 720 nm has its locus \
+     dotted below 2500 K: there the missing red tail matters. Cutting the measured Nikon D70 at 700 nm moves its 1000 K point by \
+     two thirds of its distance to the reference (Eq 13).",
+    "Per energy or per photon. Stated: the source says it, or it follows from the definition. Inferred: concluded from how the \
+     source or its programs use the table; the note gives the grounds. Unknown: taken as per energy.",
+    "Digitized tables were read off a published figure; of one model's tables they stand last. A table of the Kodak DCS420, the \
+     third camera of the 2007 paper, is in Zhao et al. 2009 (Zenodo 4297288), which could not be obtained: its sister, the DCS200, \
+     stands in. Open reads a copy that you have.",
+];
+
 fn data(ui: &mut Ui, context: &PaneContext<'_>) {
-    ui.label("Every built-in table with its source and terms. Hover a name in the Library for its notes.");
+    for paragraph in DATA {
+        ui.label(paragraph);
+        ui.add_space(UNIT);
+    }
     let mut shown = std::collections::BTreeSet::new();
     for kind in Kind::ALL {
         ui.add_space(2.0 * UNIT);
@@ -155,6 +177,12 @@ fn data(ui: &mut Ui, context: &PaneContext<'_>) {
         for header in context.scene.catalog.of_kind(kind).filter_map(|entry| entry.header.as_ref()) {
             if shown.insert((kind, header.title.clone())) {
                 ui.label(RichText::new(&header.title).strong());
+                if matches!(kind, Kind::Camera | Kind::Observer) {
+                    ui.label(RichText::new(format!("Response: {}", facts::response_of(header))).small());
+                }
+                if header.is_digitized() {
+                    ui.label(RichText::new("Origin: digitized from a figure").small());
+                }
                 ui.label(RichText::new(&header.source).small());
                 ui.label(RichText::new(&header.license).small().color(context.theme.weak));
             }

@@ -9,7 +9,7 @@ mod source;
 mod welcome;
 
 use chromascope_core::query::NoDifference;
-use chromascope_core::spectral::{Assumed, Sensor};
+use chromascope_core::spectral::{Assumed, Evidence, Sensor};
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
@@ -150,8 +150,19 @@ fn assumptions(scene: &Scene<'_>, id: &SourceId, label: &str) -> Vec<String> {
     let mut words = Vec::new();
     if let Ok(sensor) = scene.sensor(id.kind, &id.name) {
         words.push(format!("{label}: measured {}; counts as zero outside.", measured_words(&sensor)));
-        if sensor.response() == chromascope_core::spectral::Response::Unknown {
-            words.push(format!("{label}: per energy or per photon is not stated; taken per energy."));
+        let header = scene.entry(id.kind, &id.name).ok().and_then(|entry| entry.header);
+        match header.map(|header| header.response_evidence()) {
+            Some(Evidence::Unknown) => {
+                words.push(format!("{label}: per energy or per photon is not stated; taken per energy."));
+            }
+            Some(Evidence::Inferred) => words.push(format!("{label}: per energy is inferred, not stated.")),
+            Some(Evidence::Stated) | None => {}
+        }
+        if let Some(below) = sensor.extrapolated_below_k() {
+            let end = number(sensor.support_nm()[1]);
+            words.push(format!(
+                "{label}: its locus below {below:.0} K (dotted) depends on the tail beyond {end} nm, which the table lacks."
+            ));
         }
     }
     if let Ok(light) = scene.light() {

@@ -1,7 +1,8 @@
 //! What is known about a data set: for tooltips and for the inspector.
 
 use chromascope_core::query::Ask;
-use chromascope_core::spectral::Response;
+use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
+use chromascope_core::spectral::{Evidence, Header, Interpolation, Quantity, Response, SpectralDistribution};
 use egui::text::LayoutJob;
 use egui::{TextFormat, Ui};
 
@@ -14,6 +15,37 @@ use crate::theme::{SMALL, Theme, UNIT};
 
 /// A fact with its caption.
 pub type Fact = (&'static str, String);
+
+/// What a built-in table's sensitivities are a response to, with the evidence and its grounds.
+pub fn response_of(header: &Header) -> String {
+    let words = match (header.response(), header.response_evidence()) {
+        (Response::Unknown, _) | (_, Evidence::Unknown) => "unknown, taken as per energy".to_owned(),
+        (response, Evidence::Stated) => format!("{}, stated", response_words(response)),
+        (response, Evidence::Inferred) => format!("{}, inferred", response_words(response)),
+    };
+    match header.response_note() {
+        Some(note) => format!("{words}: {note}"),
+        None => words,
+    }
+}
+
+/// How a table is brought to the 1 nm grid, and what holds beyond its ends.
+pub fn resampling_words(curve: &SpectralDistribution, quantity: Quantity) -> String {
+    let steps = match Interpolation::of(curve, quantity) {
+        Interpolation::None => "none needed, 1 nm as measured",
+        Interpolation::Sprague => "to 1 nm by Sprague's interpolation",
+        Interpolation::Linear => "to 1 nm, linear between samples",
+    };
+    let range = curve.range_nm();
+    if range[0] <= FIRST_NM && range[1] >= LAST_NM {
+        return steps.to_owned();
+    }
+    let beyond = match quantity {
+        Quantity::Light | Quantity::Reflectance => "end values held",
+        Quantity::CameraSensitivity | Quantity::MatchingFunction => "zero",
+    };
+    format!("{steps}; {beyond} outside {}", range_words(range))
+}
 
 /// What a response is to, with what is assumed where nobody says.
 pub const fn response_words(response: Response) -> &'static str {
@@ -29,19 +61,32 @@ pub fn range_words([first, last]: [f64; 2]) -> String {
     format!("{}–{} nm", number(first), number(last))
 }
 
-/// The range that all curves of a set are within; parses the set.
-fn range(scene: &Scene<'_>, entry: &Entry) -> Option<[f64; 2]> {
-    let ranges: Vec<[f64; 2]> = match &entry.place {
+/// The range that all curves of a set are within, and the first curve; parses the set.
+fn range(scene: &Scene<'_>, entry: &Entry) -> Option<([f64; 2], SpectralDistribution)> {
+    let curves: Vec<SpectralDistribution> = match &entry.place {
         Place::BuiltIn { path, column } => {
             let file = scene.results.ask(&FileOf(path));
             let dataset = (*file).as_ref().ok()?;
             let wanted = |index: usize| column.is_none_or(|c| c == index);
             let curves = dataset.curves.iter().enumerate().filter(|(index, _)| wanted(*index));
-            curves.map(|(_, curve)| curve.range_nm()).collect()
+            curves.map(|(_, curve)| curve.clone()).collect()
         }
-        Place::Own(set) => set.curves_in_nm().ok()?.iter().map(|(_, curve)| curve.range_nm()).collect(),
+        Place::Own(set) => set.curves_in_nm().ok()?.into_iter().map(|(_, curve)| curve).collect(),
     };
-    ranges.into_iter().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+    let ranges = curves.iter().map(SpectralDistribution::range_nm);
+    let range = ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+    Some((range, curves.into_iter().next()?))
+}
+
+/// What a kind's tables hold, where that is known.
+const fn quantity(kind: Kind) -> Option<Quantity> {
+    match kind {
+        Kind::Camera => Some(Quantity::CameraSensitivity),
+        Kind::Observer => Some(Quantity::MatchingFunction),
+        Kind::Chart | Kind::Material => Some(Quantity::Reflectance),
+        Kind::Illuminant => Some(Quantity::Light),
+        Kind::Unsorted => None,
+    }
 }
 
 /// All that is known about a set. `with_range` parses it.
@@ -52,16 +97,23 @@ pub fn of(scene: &Scene<'_>, entry: &Entry, with_range: bool) -> Vec<Fact> {
         let unit = if header.unit == "1" { String::new() } else { format!(", in {}", header.unit) };
         facts.push(("Quantity", format!("{}{unit}", header.quantity)));
     }
-    if with_range && let Some(range) = range(scene, entry) {
+    if with_range && let Some((range, curve)) = range(scene, entry) {
         facts.push(("Range", range_words(range)));
+        facts.extend(quantity(entry.kind).map(|quantity| ("Resampled", resampling_words(&curve, quantity))));
     }
     if let Some(header) = &entry.header {
         if is_sensor {
-            facts.push(("Response", response_words(header.response()).to_owned()));
+            facts.push(("Response", response_of(header)));
+        }
+        if header.is_digitized() {
+            facts.push(("Origin", "digitized from a figure".to_owned()));
         }
         facts.push(("Source", header.source.clone()));
         facts.push(("Terms", header.license.clone()));
-        facts.extend(header.notes.iter().map(|note| ("Note", note.clone())));
+        // The grounds of the response stand beside it.
+        let told = header.response_note().filter(|_| is_sensor);
+        let notes = header.notes.iter().filter(|note| Some(note.as_str()) != told);
+        facts.extend(notes.map(|note| ("Note", note.clone())));
     }
     if let Place::Own(set) = &entry.place {
         facts.push(("File", set.file.clone()));

@@ -22,6 +22,11 @@ pub fn elided(ui: &Ui, rect: Rect, words: &str, style: TextStyle, color: Color32
     cut
 }
 
+/// Width of a line of text.
+pub fn width(ui: &Ui, words: &str, style: TextStyle) -> f32 {
+    WidgetText::from(words).into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, style).size().x
+}
+
 /// Draws a line of text that ends at the right of a rectangle. Returns its width.
 pub fn right_aligned(ui: &Ui, rect: Rect, words: &str, style: TextStyle, color: Color32) -> f32 {
     let galley = WidgetText::from(words).into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, style);

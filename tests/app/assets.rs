@@ -5,17 +5,22 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use chromascope::catalog::{Catalog, Kind};
+use chromascope_core::spectral::Dataset;
+
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets");
 const FOLDERS: [&str; 5] = ["observers", "cameras", "charts", "illuminants", "materials"];
-const RESPONSES: [&str; 3] = ["per energy", "per photon", "unknown"];
+const RESPONSES: [&str; 5] =
+    ["per energy (stated)", "per energy (inferred)", "per photon (stated)", "per photon (inferred)", "unknown"];
 /// Header keys in the order they must have; the flag says whether the key may be left out.
-const KEYS: [(&str, bool); 9] = [
+const KEYS: [(&str, bool); 10] = [
     ("title", false),
     ("also", true),
     ("short", true),
     ("quantity", false),
     ("unit", false),
     ("response", true),
+    ("origin", true),
     ("source", false),
     ("license", false),
     ("note", false),
@@ -236,4 +241,73 @@ fn names_are_unique() {
 fn observers_and_cameras_are_all_there() {
     assert_eq!(files_in("observers").len(), 8, "observers");
     assert_eq!(files_in("cameras").len(), 58, "cameras");
+}
+
+/// The response's state is the one that the file's own notes give.
+#[test]
+fn what_a_note_infers_the_header_calls_inferred() {
+    let mut counts = BTreeMap::new();
+    for file in data_files().into_iter().filter(DataFile::is_sensitivity) {
+        let response = file.value("response").unwrap_or_default();
+        let inferred = file.notes_mention("Taken as per energy") || file.notes_mention("only if both are per energy");
+        let silent = file.notes_mention("does not say per energy or per photon") && !inferred;
+        let expected = match (inferred, silent) {
+            (true, _) => "per energy (inferred)",
+            (_, true) => "unknown",
+            _ => "per energy (stated)",
+        };
+        assert_eq!(response, expected, "{}", file.at(1));
+        if file.folder == "cameras" {
+            *counts.entry(response.to_owned()).or_insert(0) += 1;
+        }
+        // Each state has its grounds in a note, which the window shows beside it.
+        let header = Dataset::read_header(&fs::read_to_string(&file.path).unwrap()).unwrap();
+        assert!(header.response_note().is_some(), "{}: no note gives the grounds", file.at(1));
+    }
+    let expected = [("per energy (inferred)", 54), ("per energy (stated)", 2), ("unknown", 2)];
+    assert_eq!(counts, expected.map(|(response, count)| (response.to_owned(), count)).into());
+}
+
+#[test]
+fn digitized_tables_say_so_and_come_after_measured_ones() {
+    let digitized: Vec<String> =
+        data_files().iter().filter(|file| file.value("origin").is_some()).map(|file| file.at(1)).collect();
+    assert_eq!(
+        digitized,
+        ["assets/cameras/canon_eos_10d_2007_figure.csv:1", "assets/cameras/nikon_d70_2007_figure.csv:1"]
+    );
+    for file in data_files() {
+        assert_eq!(file.value("origin").is_some(), file.notes_mention("Digitized from"), "{}", file.at(1));
+        assert!(file.value("origin").is_none_or(|origin| origin == "digitized figure"), "{}", file.at(1));
+    }
+    let catalog = Catalog::built_in();
+    let d70s: Vec<&str> = catalog
+        .of_kind(Kind::Camera)
+        .map(|entry| entry.name.as_str())
+        .filter(|name| name.starts_with("Nikon D70 "))
+        .collect();
+    assert_eq!(d70s, ["Nikon D70 (A.M.P.A.S.)", "Nikon D70 (UPenn 2011)", "Nikon D70 (2007 figure)"]);
+}
+
+/// Notes name other sets by the names that the catalog has.
+#[test]
+fn notes_name_sets_that_there_are() {
+    let titles: BTreeSet<String> =
+        data_files().iter().filter_map(|file| file.value("title").map(str::to_owned)).collect();
+    for file in data_files() {
+        for (line, key, value) in &file.header {
+            for (before, after) in [("Differs from ", " by "), ("Close to ", ":"), ("same measurement as ", ":")] {
+                let Some((_, rest)) = value.split_once(before).filter(|_| key == "note") else { continue };
+                let Some((name, _)) = rest.split_once(after) else { continue };
+                let name = name.split_once(", ").map_or(name, |(name, _)| name);
+                assert!(titles.contains(name), "{}: no set is named `{name}`", file.at(*line));
+            }
+        }
+    }
+}
+
+#[test]
+fn nobody_says_that_the_dcs420_has_no_table() {
+    let kodak = fs::read_to_string(Path::new(ROOT).join("cameras/kodak_dcs200.csv")).unwrap();
+    assert!(kodak.contains("Zenodo 4297288") && !kodak.contains("No public table"));
 }

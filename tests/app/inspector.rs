@@ -95,6 +95,27 @@ fn every_kind_of_thing_has_its_page() {
 }
 
 #[test]
+fn a_sensor_says_what_its_table_leaves_in_doubt() {
+    let mut window = window();
+    for (name, words) in [
+        ("Nikon D70 (2007 figure)", "unknown, taken as per energy: The plot does not say"),
+        ("Nikon D70 (2007 figure)", "digitized from a figure"),
+        ("Nikon D70 (2007 figure)", "misses the raw values of a real D70 by 4.5 %"),
+        ("Nikon D70 (2007 figure)", "to 1 nm by Sprague's interpolation; zero outside 400–700 nm"),
+        ("Nikon D70 (2007 figure)", "its locus below 2500 K (dotted) depends on the tail beyond 700 nm"),
+        ("Nikon D70 (2007 figure)", "signals balanced to equal energy, which it follows"),
+        ("Nikon D70 (A.M.P.A.S.)", "per energy, inferred: The table says only that its unit is relative."),
+        ("Kodak DCS200", "per energy, stated: Per energy, as Psychtoolbox states"),
+        ("Kodak DCS200", "Zenodo 4297288"),
+    ] {
+        select(&mut window, Thing::Source(camera(name)));
+        assert!(says(&window, words), "{name}: {words}");
+    }
+    select(&mut window, Thing::Light);
+    assert!(says(&window, "Resampled"), "how the light is resampled");
+}
+
+#[test]
 fn pinned_things_stand_side_by_side() {
     let mut window = window();
     for source in ["Kodak DCS200", "Nikon D70 (2007 figure)"] {

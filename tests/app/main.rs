@@ -9,6 +9,7 @@ mod bench;
 mod cli;
 mod cli_render;
 mod cpu_renderer;
+mod doubt;
 mod exports;
 mod figure;
 mod import;

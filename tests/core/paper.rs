@@ -4,17 +4,21 @@
 //! from an independent computation.
 
 use chromascope_core::camera::White;
+use chromascope_core::colorimetry::lab::lab_from_xyz;
+use chromascope_core::colorimetry::rgb::srgb_white;
 use chromascope_core::colorimetry::rgb::{SRGB_FROM_XYZ_PUBLISHED, srgb_from_xyz};
-use chromascope_core::colorimetry::{Xy, Xyz};
+use chromascope_core::colorimetry::{Xy, Xyz, delta_e_2000};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::object::{PAPER_FIVE, PatchSet};
-use chromascope_core::query::{Ask, Direct, LocusOf, PatchColorsOf, Shared, Temperatures};
-use chromascope_core::spectral::{Sensor, SpectralDistribution};
+use chromascope_core::query::{
+    Ask, Direct, LocusOf, PatchColor, PatchColorsOf, RenderingOf, Shared, Temperatures, WayOf,
+};
+use chromascope_core::spectral::{Primaries, Response, Sensor, SpectralDistribution};
 use glam::DVec3;
 
 use crate::support::{
-    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, assert_xy, by_paper, chart, dataset, kelvin, measured,
-    reference, sensor, sensors,
+    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, assert_xy, by_paper, chart, dataset, kelvin, light,
+    measured, patches, reference, sensor, sensors, training,
 };
 
 const D70_AMPAS: &str = "cameras/nikon_d70_a_m_p_a_s.csv";
@@ -252,4 +256,170 @@ fn five_nm_white() -> Xyz {
         wavelengths.map(|nm| at(&d55.curves[0], nm) * at(&observer.curves[c], nm)).sum()
     });
     Xyz::new(sums[0] / sums[1], 1.0, sums[2] / sums[1])
+}
+
+/// Cameras through 3×3 matrices fitted to CIE 1931 2° under a light.
+fn fitted(path: &str, illuminant: &str) -> RenderingOf {
+    RenderingOf {
+        sensor: Shared::new(sensor(path)),
+        light: Shared::new(light(illuminant)),
+        white: White::UNITY,
+        way: WayOf::Observer { reference: Shared::new(sensor(CIE_1931)), training: Shared::new(training()) },
+    }
+}
+
+fn colors(rendering: RenderingOf, patches: &PatchSet) -> Vec<PatchColor> {
+    (*Direct.ask(&PatchColorsOf { rendering, patches: Shared::new(patches.clone()) })).clone().unwrap()
+}
+
+/// The README says "in xy": by a color difference that is one, red is the worst of the five.
+#[test]
+fn red_and_orange_yellow_are_nearer_only_in_chromaticity_by_eq_13() {
+    let five = chart().subset(&PAPER_FIVE);
+    let truth = colors(by_paper(&Shared::new(sensor(TRUTH))), &five);
+    let reference = colors(fitted(CIE_1931, "illuminants/d65.csv"), &five);
+    for (camera, red, green, blue, orange_yellow) in
+        [(CANON_10D, 3.04, 1.11, 0.92, 0.90), (NIKON_D70, 2.16, 1.11, 1.27, 0.73)]
+    {
+        let own = colors(by_paper(&Shared::new(sensor(camera))), &five);
+        let uv = |patch: usize| own[patch].uv.unwrap().distance(truth[patch].uv.unwrap());
+        assert!(uv(0).max(uv(4)) < uv(1).min(uv(2)), "{camera}: u′v′ by Eq 13");
+        let own = colors(fitted(camera, "illuminants/d65.csv"), &five);
+        let expected = [red, green, blue, f64::NAN, orange_yellow];
+        for patch in [0, 1, 2, 4] {
+            let difference = delta_e_2000(own[patch].lab.unwrap(), reference[patch].lab.unwrap());
+            assert_near(&format!("{camera} {}", PAPER_FIVE[patch]), difference, expected[patch], 0.006);
+        }
+        assert!(red > green.max(blue), "{camera}: red is no nearer");
+    }
+}
+
+/// L* 50 for the reference, by scaling the reflectance.
+fn at_lightness_50(rendering: &RenderingOf, material: &PatchSet) -> PatchSet {
+    let scaled = |factor: f64| {
+        let patch = &material.patches()[0];
+        PatchSet::new([(patch.name.clone(), patch.measured.map(|_, v| v * factor).unwrap())])
+    };
+    let (mut low, mut high) = (0.01, 20.0);
+    for _ in 0..60 {
+        let middle = f64::midpoint(low, high);
+        if colors(rendering.clone(), &scaled(middle))[0].lab.unwrap().l > 50.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    scaled(low)
+}
+
+/// Skin seems worse than leaves because it is lighter: at equal lightness the two are nearly the same, and by the fitted transform
+/// the leaf is worse.
+#[test]
+fn skin_against_leaf_compares_lightness() {
+    let skin = patches("materials/skin_vrhel.csv").subset(&["Skin Caucasian mean (Vrhel)"]);
+    let leaf = patches("materials/leaves_vrhel.csv").subset(&["Fern-like bush leaf 024 (Vrhel)"]);
+    let sun = "illuminants/direct_sun_astm_g173.csv";
+    let d55 = White::from_light(&dataset("illuminants/d55.csv").curves[0], &sensor(CIE_1931)).unwrap();
+    let eq_13 =
+        |path: &str| RenderingOf { light: Shared::new(light(sun)), white: d55, ..by_paper(&Shared::new(sensor(path))) };
+    let difference = |a: RenderingOf, b: RenderingOf, material: &PatchSet| {
+        let (a, b) = (colors(a, material)[0], colors(b, material)[0]);
+        // As before Lab's adopted white followed the balance: the white of sRGB.
+        let d65 = |xyz: Xyz| lab_from_xyz(xyz, srgb_white()).unwrap();
+        [delta_e_2000(a.lab.unwrap(), b.lab.unwrap()), delta_e_2000(d65(a.xyz), d65(b.xyz))]
+    };
+    // Eq 13 with the adopted white of the balance, Eq 13 with D65, fitted; skin and leaf each.
+    for (camera, own, in_d65, by_fit) in [
+        (CANON_10D, [4.41, 4.30], [3.95, 3.91], [2.19, 3.22]),
+        (NIKON_D70, [4.08, 3.31], [3.64, 3.02], [1.49, 2.43]),
+        (D70_AMPAS, [3.91, 3.17], [f64::NAN; 2], [1.00, 1.55]),
+    ] {
+        for (index, material) in [&skin, &leaf].into_iter().enumerate() {
+            let equal = at_lightness_50(&eq_13(TRUTH), material);
+            let [now, before] = difference(eq_13(TRUTH), eq_13(camera), &equal);
+            let what = format!("{camera} {}", material.patches()[0].name);
+            assert_near(&what, now, own[index], 0.006);
+            if in_d65[index].is_finite() {
+                assert_near(&format!("{what}, D65"), before, in_d65[index], 0.03);
+            }
+            let equal = at_lightness_50(&fitted(CIE_1931, sun), material);
+            let [now, _] = difference(fitted(CIE_1931, sun), fitted(camera, sun), &equal);
+            assert_near(&format!("{what}, fitted"), now, by_fit[index], 0.006);
+        }
+    }
+}
+
+/// The minimum near daylight is the balance speaking: balanced to A, every camera agrees best at A.
+#[test]
+fn the_minimum_follows_the_balance() {
+    let along = |rendering: RenderingOf| -> Vec<Xy> {
+        let temperatures = Temperatures::List(temperatures().iter().map(|&t| kelvin(t)).collect());
+        let locus = Direct.ask(&LocusOf { rendering, temperatures, constants: RadiationConstants::Paper });
+        (*locus).clone().unwrap().points.iter().map(|point| point.xy.unwrap()).collect()
+    };
+    let a = "illuminants/a.csv";
+    let reference = along(fitted(CIE_1931, a));
+    for camera in [CANON_10D, NIKON_D70, D70_AMPAS, DCS200] {
+        let own = along(fitted(camera, a));
+        let d = own.iter().zip(&reference).map(|(a, b)| a.distance(*b)).collect();
+        assert_near(camera, Distances { t: temperatures(), d }.minimum_at(), 2858.0, 6.0);
+    }
+    // The white-balance target is no balance of loci: it multiplies the camera's signals and the reference's alike.
+    let target = White::from_light(&dataset(a).curves[0], &sensor(CIE_1931)).unwrap();
+    let with_target = |path: &str| along(RenderingOf { white: target, ..by_paper(&Shared::new(sensor(path))) });
+    let d = with_target(NIKON_D70).iter().zip(with_target(TRUTH)).map(|(a, b)| a.distance(b)).collect();
+    assert_near("target A, Eq 13", Distances { t: temperatures(), d }.minimum_at(), 5944.0, 20.0);
+}
+
+#[test]
+fn the_kodaks_skin_is_less_saturated() {
+    let skin = patches("materials/skin_vrhel.csv").subset(&["Skin Caucasian mean (Vrhel)"]);
+    let d55 = White::from_light(&dataset("illuminants/d55.csv").curves[0], &sensor(CIE_1931)).unwrap();
+    let sun = Shared::new(light("illuminants/direct_sun_astm_g173.csv"));
+    for (path, expected) in [(TRUTH, 0.66), (CANON_10D, 0.61), (NIKON_D70, 0.61), (DCS200, 0.44)] {
+        let rendering = RenderingOf { light: sun.clone(), white: d55, ..by_paper(&Shared::new(sensor(path))) };
+        let [r, g, b] = colors(rendering, &skin)[0].linear;
+        let (high, low) = (r.max(g).max(b), r.min(g).min(b));
+        assert_near(path, (high - low) / high, expected, 0.006);
+    }
+}
+
+/// A camera's table without what lies beyond a wavelength.
+fn cut(path: &str, last: f64) -> Sensor {
+    let curves: Vec<SpectralDistribution> = dataset(path)
+        .curves
+        .iter()
+        .map(|curve| {
+            let samples = curve.wavelengths_nm().iter().zip(curve.values()).filter(|(nm, _)| **nm <= last);
+            let (nm, values) = samples.map(|(nm, value)| (*nm, *value)).unzip();
+            SpectralDistribution::new(nm, values).unwrap()
+        })
+        .collect();
+    Sensor::new(Primaries::Camera, curves.try_into().unwrap(), Response::PerEnergy).unwrap()
+}
+
+/// Two thirds of the D70's distance at 1000 K is the size of what a table's end at 700 nm does there.
+#[test]
+fn below_2500_k_a_table_that_ends_at_700_nm_misses_its_tail() {
+    let t = [1000.0, 1500.0, 2000.0, 2500.0, 3000.0, 6500.0];
+    let (truth, whole, short) =
+        (locus(sensor(TRUTH), &t), locus(sensor(D70_AMPAS), &t), locus(cut(D70_AMPAS, 700.0), &t));
+    let moved: Vec<f64> = whole.iter().zip(&short).map(|(a, b)| a.distance(*b)).collect();
+    let (measured, figure) = (truth[0].distance(whole[0]), truth[0].distance(locus(sensor(NIKON_D70), &t)[0]));
+    assert_near("moved at 1000 K", moved[0], 0.0213, 1e-4);
+    assert_near("share of the measured table's distance", moved[0] / measured, 0.64, 0.01);
+    assert_near("share of the 2007 figure's distance", moved[0] / figure, 0.67, 0.015);
+    // It moves the point, but not away: the whole table is no nearer to the reference.
+    assert!(truth[0].distance(short[0]) < measured);
+    assert_near("moved at 1500 K", moved[1], 0.0047, 1e-4);
+    assert!(moved.windows(2).all(|pair| pair[1] < pair[0]), "{moved:?}");
+    assert!(moved[2] > 0.001 && moved[3..].iter().all(|d| *d < 0.001), "{moved:?}");
+    for (table, below) in [(cut(D70_AMPAS, 700.0), Some(2500.0)), (cut(D70_AMPAS, 715.0), Some(2500.0))] {
+        assert_eq!(table.extrapolated_below_k(), below);
+    }
+    for whole in [cut(D70_AMPAS, 720.0), sensor(D70_AMPAS), sensor(TRUTH), sensor(CIE_1931)] {
+        assert_eq!(whole.extrapolated_below_k(), None);
+    }
+    let short = sensors("cameras").into_iter().filter(|(_, camera)| camera.extrapolated_below_k().is_some());
+    assert_eq!(short.count(), 4, "cameras whose tables end before 720 nm");
 }

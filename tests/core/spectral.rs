@@ -4,8 +4,8 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{
-    Dataset, DatasetError, DistributionError, GridSpectrum, Primaries, Quantity, Response, Sensor, SensorError,
-    SpectralDistribution,
+    Dataset, DatasetError, DistributionError, Evidence, GridSpectrum, Interpolation, Primaries, Quantity, Response,
+    Sensor, SensorError, SpectralDistribution,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -225,8 +225,42 @@ fn a_data_file_is_read_whole() {
     assert_eq!(data.header.columns, ["a", "b"]);
     assert_eq!(data.curves[1].values(), [0.2, -0.4]);
     assert_eq!(data.header.response(), Response::Unknown);
+    assert_eq!(data.header.response_evidence(), Evidence::Unknown);
+    assert_eq!((data.header.response_note(), data.header.is_digitized()), (None, false));
     assert_eq!(Dataset::read_header(FILE).unwrap(), data.header);
     assert_eq!(Dataset::read(&FILE.replace('\n', "\r\n")).unwrap(), data);
+}
+
+#[test]
+fn a_response_is_stated_inferred_or_unknown() {
+    for (said, response, evidence) in [
+        ("per energy (stated)", Response::PerEnergy, Evidence::Stated),
+        ("per energy (inferred)", Response::PerEnergy, Evidence::Inferred),
+        ("per photon (inferred)", Response::PerPhoton, Evidence::Inferred),
+        ("per photon", Response::PerPhoton, Evidence::Stated),
+        ("unknown", Response::Unknown, Evidence::Unknown),
+        ("", Response::Unknown, Evidence::Unknown),
+    ] {
+        let text = FILE.replace("# source", &format!("# response: {said}\n# origin: digitized figure\n# source"));
+        let header = Dataset::read_header(&text.replace("note: two", "note: Taken as per energy")).unwrap();
+        assert_eq!((header.response(), header.response_evidence()), (response, evidence), "{said}");
+        assert_eq!(header.response_note(), Some("Taken as per energy"));
+        assert!(header.is_digitized());
+    }
+}
+
+#[test]
+fn interpolation_says_what_resampling_does() {
+    let values: Vec<f64> = (0..41).map(|i| f64::from(i * i)).collect();
+    for (step, smooth) in [(1.0, Interpolation::None), (2.0, Interpolation::Linear), (10.0, Interpolation::Sprague)] {
+        for quantity in ALL {
+            let light = quantity == Quantity::Light && step > 1.0;
+            let expected = if light { Interpolation::Linear } else { smooth };
+            assert_eq!(Interpolation::of(&table(380.0, step, &values), quantity), expected, "{quantity:?} {step} nm");
+        }
+    }
+    assert_eq!(Interpolation::of(&table(380.5, 1.0, &values), Quantity::Light), Interpolation::Linear);
+    assert_eq!(Interpolation::of(&table(400.0, 10.0, &values[..5]), Quantity::Reflectance), Interpolation::Linear);
 }
 
 #[test]

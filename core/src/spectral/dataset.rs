@@ -4,7 +4,8 @@
 //! # title: Canon EOS 10D
 //! # quantity: relative spectral sensitivity
 //! # unit: 1
-//! # response: per energy
+//! # response: per energy (inferred)
+//! # origin: digitized figure
 //! # source: …
 //! # license: …
 //! # note: …
@@ -14,7 +15,7 @@
 //!
 //! This reader is strict, for files we write ourselves; a person's files go through [`crate::table`].
 
-use super::{DistributionError, Response, SpectralDistribution};
+use super::{DistributionError, Evidence, Response, SpectralDistribution};
 
 /// The facts at the top of a data file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -29,8 +30,10 @@ pub struct Header {
     pub quantity: String,
     /// Their unit; `1` for ratios.
     pub unit: String,
-    /// For sensitivities, what they are a response to.
+    /// For sensitivities, what they are a response to, and on which evidence.
     pub response: Option<String>,
+    /// How the figures came to be, where they are not a published table of a measurement.
+    pub origin: Option<String>,
     /// Who measured and published them, and where they were read.
     pub source: String,
     /// Under what terms.
@@ -44,11 +47,38 @@ pub struct Header {
 impl Header {
     /// What sensitivities are a response to; unknown unless the header says it.
     pub fn response(&self) -> Response {
-        match self.response.as_deref() {
-            Some("per energy") => Response::PerEnergy,
-            Some("per photon") => Response::PerPhoton,
+        match self.said_of_response().0 {
+            "per energy" => Response::PerEnergy,
+            "per photon" => Response::PerPhoton,
             _ => Response::Unknown,
         }
+    }
+
+    /// Evidence for [`Header::response`]: stated unless the header says that it is inferred.
+    pub fn response_evidence(&self) -> Evidence {
+        match (self.response(), self.said_of_response().1) {
+            (Response::Unknown, _) => Evidence::Unknown,
+            (_, "inferred") => Evidence::Inferred,
+            _ => Evidence::Stated,
+        }
+    }
+
+    /// The note that gives the grounds for [`Header::response`], if one does.
+    pub fn response_note(&self) -> Option<&str> {
+        let grounds = |note: &&String| note.to_lowercase().contains("per energy");
+        self.notes.iter().find(grounds).map(String::as_str)
+    }
+
+    /// Whether the figures were read off a published figure, not taken from a table of a measurement.
+    pub fn is_digitized(&self) -> bool {
+        self.origin.as_deref() == Some("digitized figure")
+    }
+
+    /// The value of `response` without and within its parentheses.
+    fn said_of_response(&self) -> (&str, &str) {
+        let said = self.response.as_deref().unwrap_or_default();
+        let (response, evidence) = said.split_once('(').unwrap_or((said, ""));
+        (response.trim(), evidence.trim_end_matches(')').trim())
     }
 }
 
@@ -149,6 +179,7 @@ fn read_header(text: &str) -> Result<(Header, usize), DatasetError> {
             "quantity" => header.quantity = value,
             "unit" => header.unit = value,
             "response" => header.response = Some(value),
+            "origin" => header.origin = Some(value),
             "source" => header.source = value,
             "license" => header.license = value,
             "note" => header.notes.push(value),

@@ -56,6 +56,35 @@ impl Quantity {
     }
 }
 
+/// How a table is brought to the steps of the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Interpolation {
+    /// None: the table has a sample at each wavelength of the grid that it covers.
+    None,
+    /// Sprague's fifth-degree polynomial (CIE 167:2005).
+    Sprague,
+    /// Linear between neighboring samples.
+    Linear,
+}
+
+impl Interpolation {
+    /// The interpolation of a table by the convention of its quantity.
+    pub fn of(spectrum: &SpectralDistribution, quantity: Quantity) -> Self {
+        let first = spectrum.range_nm()[0];
+        match spectrum.uniform_step_nm() {
+            Some(step) if (step - STEP_NM).abs() < 1e-9 && first.fract() == 0.0 => Self::None,
+            Some(_) if sprague(spectrum, quantity).is_some() => Self::Sprague,
+            _ => Self::Linear,
+        }
+    }
+}
+
+/// Sprague's interpolation of a table that the convention gives it to.
+fn sprague(spectrum: &SpectralDistribution, quantity: Quantity) -> Option<Sprague> {
+    let step = spectrum.uniform_step_nm().filter(|&step| step >= 5.0 && quantity != Quantity::Light)?;
+    Sprague::new(spectrum.range_nm()[0], step, spectrum.values())
+}
+
 /// Where a spectrum on the grid was not measured: its end values hold there (sensitivities: zero).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Assumed {
@@ -93,10 +122,7 @@ impl GridSpectrum {
     /// Error against a 1 nm table for smooth spectra: below 5e-7 of an integral at 5 nm, 2e-4 at 10 nm.
     pub fn resample(spectrum: &SpectralDistribution, quantity: Quantity) -> Self {
         let [first, last] = spectrum.range_nm();
-        let smooth = spectrum
-            .uniform_step_nm()
-            .filter(|&step| step >= 5.0 && quantity != Quantity::Light)
-            .and_then(|step| Sprague::new(first, step, spectrum.values()));
+        let smooth = sprague(spectrum, quantity);
         let mut values = Box::new([0.0; COUNT]);
         for (index, value) in values.iter_mut().enumerate() {
             let x = wavelength_nm(index);

@@ -126,8 +126,14 @@ pub(super) fn per_photon(grid: &Grid, role: Role, quantity: &Decided<Quantity>) 
     }
     let said = grid.header.comment("response").map(|response| response.trim().to_lowercase());
     match said.as_deref() {
-        Some("per photon") => return Some(Decided::certain(true, "The comment “response” says so")),
-        Some("per energy") => return Some(Decided::certain(false, "The comment “response” says so")),
+        Some("per photon" | "per photon (stated)") => {
+            return Some(Decided::certain(true, "The comment “response” says so"));
+        }
+        Some("per energy" | "per energy (stated)") => {
+            return Some(Decided::certain(false, "The comment “response” says so"));
+        }
+        Some("per photon (inferred)") => return Some(Decided::guess(true, "The comment “response” says: inferred")),
+        Some("per energy (inferred)") => return Some(Decided::guess(false, "The comment “response” says: inferred")),
         _ => {}
     }
     Some(if quantity.value == Quantity::QuantumEfficiency {

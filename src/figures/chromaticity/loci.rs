@@ -6,6 +6,7 @@ use chromascope_core::units::Kelvin;
 
 use super::ground::text;
 use super::{Drawing, id};
+use crate::scene::locus::split;
 use crate::scene::{Scene, Source};
 use crate::thing::Thing;
 
@@ -40,8 +41,16 @@ fn add_one(drawing: &mut Drawing<'_>, source: &Source, locus: &[LocusPoint]) {
     if points.iter().all(|p| !p[0].is_finite()) {
         drawing.refused.push(format!("{}: no chromaticity: the signals sum to nothing", source.label));
     }
-    let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });
-    drawing.marks.push(line.with_stroke(source.role, source.width).with_halo(InkRole::Plot));
+    let below = drawing.scene.extrapolated_below(source.kind, &source.name).map(|(below, _)| below);
+    let [measured, beyond] = split(&points, |index| locus[index].temperature.get(), below);
+    let line = |points| {
+        let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });
+        line.with_stroke(source.role, source.width)
+    };
+    drawing.marks.push(line(measured).with_halo(InkRole::Plot));
+    if !beyond.is_empty() {
+        drawing.marks.push(line(beyond).with_dash(Dash::Dotted));
+    }
     for kelvin in TICKS {
         let Some(at) = at_temperature(drawing, source, kelvin) else { continue };
         let thing = Thing::Radiator { source: id(source), kelvin };

@@ -126,6 +126,13 @@ fn why_apart(scene: &Scene<'_>, source: &SourceId) -> Option<String> {
 fn describe_radiator(scene: &Scene<'_>, source: &SourceId, kelvin: f64) -> Vec<String> {
     let mut lines = vec![format!("{}, blackbody {kelvin:.0} K", label(scene, source))];
     let Some(point) = blackbody(scene, source.kind, &source.name, kelvin) else { return lines };
+    if let Some((below, end)) = scene.extrapolated_below(source.kind, &source.name).filter(|(below, _)| kelvin < *below)
+    {
+        lines.push(format!(
+            "extrapolated: below {below:.0} K the table's missing tail beyond {} nm matters",
+            number(end)
+        ));
+    }
     lines.extend(coordinates(point.xy, point.uv));
     if let Some(why) = why_apart(scene, source) {
         lines.push(why);

@@ -1,7 +1,6 @@
 //! All about a camera or an observer, and about the light.
 
-use chromascope_core::query::{LocusPoint, NoDifference, compare};
-use chromascope_core::spectral::Primaries;
+use chromascope_core::spectral::{Primaries, Quantity};
 use egui::{RichText, Ui};
 
 use super::{
@@ -10,7 +9,7 @@ use super::{
 };
 use crate::catalog::{Kind, Place};
 use crate::command::Command;
-use crate::document::{Light, REFERENCE};
+use crate::document::{Diagram, Light, REFERENCE};
 use crate::panes::PaneContext;
 use crate::scene::Scene;
 use crate::theme::UNIT;
@@ -34,7 +33,11 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, context: &mut PaneContext<'_>) {
     note(ui, &theme, format!("{}: {}{also}", id.kind.singular(), entry.name));
     let mut measured = measures(&scene, id);
     match scene.sensor(id.kind, &id.name) {
-        Ok(sensor) => measured.push(("Measured", measured_words(&sensor))),
+        Ok(sensor) => {
+            measured.push(("Measured", measured_words(&sensor)));
+            let words = facts::resampling_words(&sensor.curves()[0], sensor.primaries().quantity());
+            measured.push(("Resampled", words));
+        }
         Err(error) => failure(ui, &theme, &error.to_string()),
     }
     if let Err(error) = scene.patch_colors(id.kind, &id.name) {
@@ -56,7 +59,7 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, context: &mut PaneContext<'_>) {
     }
 }
 
-/// How far the source is from the truth, in a few numbers.
+/// How far the sensor is from the reference, in a few numbers.
 fn measures(scene: &Scene<'_>, id: &SourceId) -> Vec<Fact> {
     let mut facts: Vec<Fact> = Vec::new();
     let truth = truth_id(scene);
@@ -83,22 +86,14 @@ fn measures(scene: &Scene<'_>, id: &SourceId) -> Vec<Fact> {
     facts.push(("Locus length", words));
     if truth != *id
         && let Ok(Ok(())) = scene.comparable(id.kind, &id.name)
-        && let Ok(seen) = scene.locus(truth.kind, &truth.name)
-        && let Some((kelvin, distance)) = nearest(&seen.points, &locus.points)
+        && let Some(nearest) = scene.nearest_to_reference(id.kind, &id.name, Diagram::Xy)
     {
-        let words = format!("at {} K, Δxy {}", fixed(kelvin, 0), fixed(distance, 4));
+        let balance = scene.locus_balance();
+        let (kelvin, distance) = (fixed(nearest.kelvin, 0), fixed(nearest.distance, 4));
+        let words = format!("at {kelvin} K, Δxy {distance} (signals balanced to {balance}, which it follows)");
         facts.push(("Nearest to the reference", words));
     }
     facts
-}
-
-/// Where two loci come nearest at the same temperature.
-fn nearest(a: &[LocusPoint], b: &[LocusPoint]) -> Option<(f64, f64)> {
-    let distances = a.iter().zip(b).filter_map(|(a, b)| {
-        let distance: Result<f64, NoDifference> = compare::locus_distance_xy(a, b);
-        Some((a.temperature.get(), distance.ok()?))
-    });
-    distances.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// The light on the scene.
@@ -112,7 +107,10 @@ pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
             return;
         }
     };
-    let mut measured: Vec<Fact> = vec![("Range", range_words(light.measured.range_nm()))];
+    let mut measured: Vec<Fact> = vec![
+        ("Range", range_words(light.measured.range_nm())),
+        ("Resampled", facts::resampling_words(&light.measured, Quantity::Light)),
+    ];
     if let Ok(observer) = scene.sensor(Kind::Observer, REFERENCE)
         && observer.primaries() == Primaries::Xyz
     {

@@ -15,6 +15,9 @@ use crate::widgets::{facts, focus_rim, lines};
 /// Width that a scroll bar lies over.
 pub(super) const SCROLL_BAR: f32 = 10.0;
 
+/// Width that the tag of a digitized table takes.
+const DIGITIZED: f32 = 64.0;
+
 /// One row of the list.
 pub(super) enum Row<'a> {
     /// The head of a group.
@@ -186,6 +189,10 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
         words.max.x -= lines::right_aligned(ui, words, "yours", TextStyle::Small, context.theme.weak) + UNIT;
     } else if shown {
         words.max.x = place.x - UNIT;
+    }
+    // A tag that cuts the name off says less than the name does.
+    if entry.is_digitized() && lines::width(ui, &entry.name, TextStyle::Body) + DIGITIZED < words.width() {
+        words.max.x -= lines::right_aligned(ui, words, "digitized", TextStyle::Small, context.theme.weak) + UNIT;
     }
     let color = if enabled { context.theme.text } else { context.theme.weak };
     let shown = if entry.kind == Kind::Illuminant && entry.name == "E" { "E, equal energy" } else { &entry.name };

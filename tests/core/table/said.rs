@@ -50,6 +50,15 @@ fn responses_per_photon() {
     let rows = "nm,R,G,B\n400,0.1,0.2,0.3\n500,0.2,0.3,0.4\n";
     assert_eq!(response(&format!("# response: per photon\n{rows}")), Some((true, Certainty::Certain)));
     assert_eq!(response(&format!("# response: per energy\n{rows}")), Some((false, Certainty::Certain)));
+    // As in the program's own tables: what is stated is certain, what is inferred stays a guess.
+    for (said, expected) in [
+        ("per photon (stated)", (true, Certainty::Certain)),
+        ("per energy (stated)", (false, Certainty::Certain)),
+        ("per photon (inferred)", (true, Certainty::Guess)),
+        ("per energy (inferred)", (false, Certainty::Guess)),
+    ] {
+        assert_eq!(response(&format!("# response: {said}\n{rows}")), Some(expected), "{said}");
+    }
     assert_eq!(response(rows), Some((false, Certainty::Guess)));
     assert_eq!(response("nm,QE R,QE G,QE B\n400,5,6,7\n500,6,7,8\n"), Some((true, Certainty::Certain)));
     assert_eq!(response("nm,a\n400,0.1\n500,0.2\n"), None);

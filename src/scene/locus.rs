@@ -1,0 +1,95 @@
+//! Questions about loci beside the reference's: where they are nearest, what they are balanced to, where they are extrapolated.
+
+use chromascope_core::query::{LocusPoint, Temperatures};
+use chromascope_core::units::Kelvin;
+
+use super::Scene;
+use crate::catalog::Kind;
+use crate::document::{Diagram, WayChoice};
+
+/// The smallest distance between a locus and the reference's at equal temperature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// The temperature in kelvins.
+    pub kelvin: f64,
+    /// The distance there.
+    pub distance: f64,
+    /// Whether it lies at an end of the temperatures, where it is no minimum of the curve.
+    pub at_end: bool,
+}
+
+/// Temperatures between two neighbors of the locus at which the minimum is looked for.
+const FINE: usize = 41;
+
+impl Scene<'_> {
+    /// The smallest distance of a source's locus from the reference's in a diagram, to a fortieth of the locus's steps.
+    pub fn nearest_to_reference(&self, kind: Kind, name: &str, diagram: Diagram) -> Option<Nearest> {
+        let coarse = self.locus_distances(kind, name, Self::locus_temperatures().ok()?, diagram)?;
+        let at = smallest(&coarse)?;
+        let (first, last) = (at.saturating_sub(1), (at + 1).min(coarse.len() - 1));
+        let fine = Temperatures::Range { from: coarse[first].0, to: coarse[last].0, count: FINE };
+        let fine = self.locus_distances(kind, name, fine, diagram)?;
+        let (kelvin, distance) = fine[smallest(&fine)?];
+        let at_end = [coarse[0].0, coarse[coarse.len() - 1].0].contains(&kelvin);
+        Some(Nearest { kelvin: kelvin.get(), distance, at_end })
+    }
+
+    /// Temperatures with the distances of a source's locus from the reference's; NaN where there is no chromaticity.
+    fn locus_distances(
+        &self,
+        kind: Kind,
+        name: &str,
+        temperatures: Temperatures,
+        diagram: Diagram,
+    ) -> Option<Vec<(Kelvin, f64)>> {
+        let reference = self.locus_at(Kind::Observer, &self.document.truth, temperatures.clone()).ok()?;
+        let own = self.locus_at(kind, name, temperatures).ok()?;
+        let pairs = own.points.iter().zip(&reference.points);
+        Some(pairs.map(|(a, b)| (a.temperature, distance(a, b, diagram).unwrap_or(f64::NAN))).collect())
+    }
+
+    /// The light along which balanced signals are 1 : 1 : 1, so that all loci meet the reference's near its temperature.
+    ///
+    /// Eq 15 balances loci to equal energy, a fitted transform to the light on the scene. The white-balance target moves neither.
+    pub fn locus_balance(&self) -> String {
+        match self.document.way {
+            WayChoice::Paper => "equal energy".to_owned(),
+            WayChoice::Observer(_) => self.light_name(),
+        }
+    }
+
+    /// Temperature in kelvins below which a source's locus is extrapolated, with the wavelength in nanometers where its table ends.
+    pub fn extrapolated_below(&self, kind: Kind, name: &str) -> Option<(f64, f64)> {
+        let sensor = self.sensor(kind, name).ok()?;
+        Some((sensor.extrapolated_below_k()?, sensor.support_nm()[1]))
+    }
+}
+
+/// The distance of two points in a diagram.
+pub fn distance(a: &LocusPoint, b: &LocusPoint, diagram: Diagram) -> Option<f64> {
+    match diagram {
+        Diagram::Xy => a.xy.zip(b.xy).map(|(a, b)| a.distance(b)),
+        Diagram::UvPrime => a.uv.zip(b.uv).map(|(a, b)| a.distance(b)),
+    }
+}
+
+fn smallest(distances: &[(Kelvin, f64)]) -> Option<usize> {
+    let known = distances.iter().enumerate().filter(|(_, (_, distance))| distance.is_finite());
+    known.min_by(|a, b| a.1.1.total_cmp(&b.1.1)).map(|(index, _)| index)
+}
+
+/// A line split where a condition on the temperature changes: full length each, NaN where the other one is drawn; the point at the
+/// change belongs to both.
+pub fn split(points: &[[f64; 2]], kelvin: impl Fn(usize) -> f64, below: Option<f64>) -> [Vec<[f64; 2]>; 2] {
+    const GAP: [f64; 2] = [f64::NAN; 2];
+    let Some(below) = below else { return [points.to_vec(), Vec::new()] };
+    let beyond = |index: usize| kelvin(index) < below;
+    // A segment is extrapolated where one of its ends is.
+    let dotted = |index: usize| {
+        beyond(index) || (index > 0 && beyond(index - 1)) || (index + 1 < points.len() && beyond(index + 1))
+    };
+    let take = |keep: &dyn Fn(usize) -> bool| {
+        points.iter().enumerate().map(|(index, point)| if keep(index) { *point } else { GAP }).collect()
+    };
+    [take(&|index| !beyond(index)), take(&dotted)]
+}
