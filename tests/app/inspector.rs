@@ -130,7 +130,7 @@ fn a_sensor_that_is_removed_leaves_the_inspector() {
         assert!(!window.state().compares(Kind::Camera, name));
         let view = window.state().view();
         assert_eq!((&view.selected, &view.hovered), (&None, &None), "by undo: {by_undo}");
-        assert_eq!(view.pinned, [other.clone()]);
+        assert_eq!(view.pinned, std::slice::from_ref(&other));
         assert!(!says(&window, name) || !says(&window, "Unpin B"));
         if by_undo {
             window.state_mut().push(Command::Redo);
