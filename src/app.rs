@@ -1,8 +1,10 @@
 //! The program in its window: takes in events, carries out commands, shows panes.
 
 mod commands;
+mod focus;
 mod imports;
 mod meshes;
+mod notice;
 mod path_prompt;
 mod pictures;
 mod saving;
@@ -50,6 +52,8 @@ pub struct ChromascopeApp {
     last_read: std::collections::HashMap<String, u64>,
     arrangement: Arrangement,
     first_frame: Option<std::time::Instant>,
+    /// The control that had the keyboard in the last frame.
+    focus: Option<egui::Id>,
 }
 
 impl ChromascopeApp {
@@ -81,6 +85,7 @@ impl ChromascopeApp {
             last_read: std::collections::HashMap::new(),
             arrangement: Arrangement::default(),
             first_frame: None,
+            focus: None,
         }
     }
 
@@ -127,6 +132,11 @@ impl ChromascopeApp {
         &self.opened
     }
 
+    /// Whether a path is being asked for.
+    pub fn is_asking(&self) -> bool {
+        self.files.is_asking()
+    }
+
     /// Where pictures are made.
     pub fn studio(&self) -> &Studio {
         &self.studio
@@ -149,6 +159,9 @@ impl ChromascopeApp {
 
     /// Keys, clipboard and dropped files become commands.
     fn take_input(&mut self, ctx: &egui::Context) {
+        if self.files.is_asking() {
+            return self.keep_keys_for_path(ctx);
+        }
         let typing = ctx.text_edit_focused();
         let focused = self.view.focused.unwrap_or(PaneKind::Chromaticity);
         for binding in key_bindings(focused) {
@@ -173,6 +186,31 @@ impl ChromascopeApp {
                 }
                 _ => {}
             }
+        }
+        if ctx.input(|input| !input.pointer.any_down()) {
+            self.history.end_gesture();
+        }
+    }
+
+    /// While a path is asked for, keys are meant for that: none is a shortcut, and until the box or dialog has the keyboard
+    /// they go nowhere. Esc closes the box, and brings it where a dialog does not come.
+    fn keep_keys_for_path(&mut self, ctx: &egui::Context) {
+        self.view.blink = false;
+        let escape = ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape));
+        if self.files.is_waiting() {
+            let is_key = |event: &Event| {
+                matches!(
+                    event,
+                    Event::Key { .. } | Event::Text(_) | Event::Paste(_) | Event::Copy | Event::Cut | Event::Ime(_)
+                )
+            };
+            ctx.input_mut(|input| input.events.retain(|event| !is_key(event)));
+            if escape && self.files.stop_waiting() {
+                return;
+            }
+        }
+        if escape {
+            self.commands.push(Command::Escape);
         }
         if ctx.input(|input| !input.pointer.any_down()) {
             self.history.end_gesture();
@@ -218,10 +256,14 @@ impl ChromascopeApp {
         };
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", 48.0, true);
+        let copy = files.copy().map(|copy| (copy, bar(ui, "other window", 24.0, true)));
         let status = bar(ui, "status", 24.0, false);
         let area = CentralPanel::default().frame(Frame::NONE.fill(theme.panel)).show(ui, |ui| ui.max_rect()).inner;
         panes::menu::show(ui, menu, history, &mut context);
         panes::scene_bar::show(ui, conditions, &mut context);
+        if let Some(((words, file), rect)) = copy {
+            notice::other_window(ui, rect, &words, file, &theme);
+        }
         let saved = &context.view.saved;
         *arrangement = arrange(
             saved.workspace,
@@ -250,6 +292,7 @@ impl ChromascopeApp {
         panes::help::show(ui, history, &mut context);
         path_prompt::show(ui, &theme, files);
         context.studio.end_frame();
+        focus::ring(ui.ctx(), &theme);
         drop_veil(ui, theme);
     }
 }
@@ -305,6 +348,7 @@ impl eframe::App for ChromascopeApp {
         self.take_opened();
         self.take_meshes();
         self.take_input(ctx);
+        focus::into_sight(ctx, &mut self.focus);
         self.carry_out(ctx);
         self.autosave(ctx);
     }
@@ -319,7 +363,8 @@ impl eframe::App for ChromascopeApp {
             // What is under the pointer is marked in panes that were already drawn.
             ui.ctx().request_repaint();
         }
-        if !self.commands.is_empty() {
+        let focus_moved = ui.memory(egui::Memory::focused) != self.focus;
+        if !self.commands.is_empty() || focus_moved {
             ui.ctx().request_repaint();
         }
         if let Some(start) = self.first_frame.take() {
@@ -328,7 +373,14 @@ impl eframe::App for ChromascopeApp {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        eframe::set_value(storage, LAYOUT_KEY, &self.saved_view());
+        if self.files.copy().is_none() {
+            eframe::set_value(storage, LAYOUT_KEY, &self.saved_view());
+        }
         self.files.save_document(self.history.document());
+    }
+
+    fn persist_egui_memory(&self) -> bool {
+        // A second window leaves what the first one keeps as it is.
+        self.files.copy().is_none()
     }
 }

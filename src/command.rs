@@ -116,6 +116,9 @@ pub enum Format {
 }
 
 impl Format {
+    /// All forms.
+    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Csv];
+
     /// The ending of its files.
     pub const fn extension(self) -> &'static str {
         match self {

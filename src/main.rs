@@ -11,7 +11,12 @@ fn main() -> ExitCode {
         cli::Outcome::Done(code) => return ExitCode::from(code),
         cli::Outcome::Window(files) => files,
     };
-    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn")).init();
+    let logger = env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn")).build();
+    // Errors come through whatever the environment says: by them dialogs that are not there are told from Cancel.
+    log::set_max_level(logger.filter().max(log::LevelFilter::Error));
+    if let Err(error) = log::set_boxed_logger(Box::new(files::DialogLog::new(logger))) {
+        cli::say(&format!("chromascope: no log: {error}\n"));
+    }
     files::install_panic_hook();
     match app::run(opened, start) {
         Ok(()) => ExitCode::SUCCESS,

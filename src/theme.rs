@@ -40,6 +40,9 @@ pub const DIAGRAM_FILL: f32 = 0.16;
 /// Opacity of what is not selected while something is.
 pub const FADED: f32 = 0.35;
 
+/// Width of the ring around the control that has the keyboard.
+pub const FOCUS: f32 = 2.0;
+
 /// Corner radius of controls.
 const CORNER: u8 = 3;
 
@@ -106,6 +109,8 @@ pub struct Theme {
     pub text: Color32,
     /// Text of less weight.
     pub weak: Color32,
+    /// The ring around the control that has the keyboard.
+    pub focus: Color32,
     /// Something to look after.
     pub warning: Color32,
     /// Something failed.
@@ -137,6 +142,7 @@ impl Theme {
         grid: hex(0x002C_2C2C),
         text: hex(0x00DE_DEDE),
         weak: hex(0x00A2_A2A2),
+        focus: hex(0x00FF_FFFF),
         warning: hex(0x00F2_B84B),
         error: hex(0x00FF_7B72),
         surround: Surround::Middle,
@@ -166,6 +172,7 @@ impl Theme {
         grid: hex(0x00E8_E8E8),
         text: hex(0x001C_1C1C),
         weak: hex(0x0056_5656),
+        focus: hex(0x0000_0000),
         warning: hex(0x008A_5A00),
         error: hex(0x00B3_261E),
         surround: Surround::Middle,
@@ -254,7 +261,7 @@ impl Theme {
         widgets.noninteractive = widget(self.panel, Stroke::new(1.0, self.line));
         widgets.inactive = widget(self.control, Stroke::NONE);
         widgets.hovered = widget(self.hover, Stroke::NONE);
-        // Pressed or focused: the rim is the focus ring, for those who use the keyboard.
+        // Pressed or focused; what has the keyboard also has a ring.
         widgets.active = widget(self.hover, Stroke::new(1.5, self.text));
         widgets.open = widget(self.hover, Stroke::NONE);
         visuals.selection.bg_fill = self.chosen;

@@ -9,9 +9,10 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::document::Compared;
 use crate::paint::Emphasis;
 use crate::theme::Surround;
-use crate::thing::{Standing, Thing, Things};
+use crate::thing::{SourceId, Standing, Thing, Things};
 use crate::workspaces::{Layout, PaneKind, Workspace};
 use accuracy::AccuracyView;
 use chromascope_core::figure::Tag;
@@ -231,6 +232,21 @@ impl View {
     /// A thing was clicked: it is chosen, or let go if it was.
     pub fn click(&mut self, thing: Option<&Thing>) {
         self.selected = if self.selected.as_ref() == thing { None } else { thing.cloned() };
+    }
+
+    /// Lets go of sensors that a step removed from the comparison: they are no longer selected, pinned or under the pointer.
+    pub fn let_go_of_removed(&mut self, before: &[Compared], after: &[Compared]) {
+        let has = |list: &[Compared], id: &SourceId| list.iter().any(|c| c.kind == id.kind && c.name == id.name);
+        let gone = |id: &SourceId| has(before, id) && !has(after, id);
+        let is_gone = |thing: &mut Thing| thing.source().is_some_and(gone);
+        for thing in [&mut self.selected, &mut self.hovered, &mut self.next_hovered] {
+            thing.take_if(is_gone);
+        }
+        self.pinned.retain(|thing| !thing.source().is_some_and(gone));
+        for place in [&mut self.render.pinned, &mut self.render.hovered] {
+            place.take_if(|place| gone(&place.source));
+        }
+        self.render.chosen.take_if(|id| gone(id));
     }
 
     /// How a drawn thing stands out.

@@ -3,6 +3,7 @@
 pub mod caution;
 pub mod facts;
 pub mod lines;
+pub mod number_field;
 pub mod tolerance;
 
 use chromascope_core::figure::{Cell, Ink, LegendEntry, Stroke, Table};
@@ -276,4 +277,13 @@ pub fn read_at_pointer(response: &Response, lines: &[String]) {
             }
         }
     });
+}
+
+/// Selects all text of a field, so that typing replaces it.
+pub fn mark_all(ui: &Ui, id: egui::Id, text: &str) {
+    use egui::text::{CCursor, CCursorRange};
+    let mut state = egui::TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+    let all = CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()));
+    state.cursor.set_char_range(Some(all));
+    state.store(ui.ctx(), id);
 }

@@ -1,5 +1,8 @@
 //! Carrying out commands.
 
+use std::sync::Arc;
+
+use chromascope_core::figure::Figure;
 use egui::ViewportCommand;
 
 use super::ChromascopeApp;
@@ -9,7 +12,7 @@ use crate::catalog::opened::Request;
 use crate::command::{Command, Format};
 use crate::document::history::History;
 use crate::export;
-use crate::files::{FileEvent, SaveRequest};
+use crate::files::{FileEvent, FileForm, SaveRequest};
 use crate::laboratory::SceneRunOf;
 use crate::panes;
 use crate::scene::Scene;
@@ -265,7 +268,7 @@ impl ChromascopeApp {
     }
 
     /// The pane's figure as on screen, or a message that it has none.
-    fn figure(&mut self, pane: PaneKind) -> Option<chromascope_core::figure::Figure> {
+    fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let figure = panes::figure(pane, &scene, &self.view);
         if figure.is_none() {
@@ -277,23 +280,18 @@ impl ChromascopeApp {
         figure
     }
 
+    /// Asks where to save a pane's figure. The ending of the path decides in which form, the asked for one is offered.
     fn export(&mut self, pane: PaneKind, format: Format) {
         let Some(figure) = self.figure(pane) else { return };
-        let svg = || export::svg(&figure, &Theme::LIGHT, export::Paper::default());
-        let bytes = match format {
-            Format::Svg => Ok(svg().into_bytes()),
-            Format::Csv => Ok(figure.table.to_csv().into_bytes()),
-            Format::Png => export::png(&svg(), PICTURE_SCALE).and_then(|picture| export::png_file(&picture)),
-        };
-        match bytes {
-            Ok(bytes) => {
-                let name = format!("{}.{}", self.file_stem(pane), format.extension());
-                let extension = format.extension();
-                let what = format!("{} as {}", pane.title(), extension.to_uppercase());
-                self.files.ask_to_save(SaveRequest { what, name, extension, bytes, note: String::new() });
-            }
-            Err(error) => self.view.fail(error.to_string()),
-        }
+        let figure = Arc::new(figure);
+        let others = Format::ALL.into_iter().filter(|other| *other != format);
+        let forms = std::iter::once(format).chain(others).map(|format| {
+            let figure = Arc::clone(&figure);
+            FileForm::new(format.extension(), move || file_of(&figure, format))
+        });
+        let name = format!("{}.{}", self.file_stem(pane), format.extension());
+        let what = format!("{} as {}", pane.title(), format.extension().to_uppercase());
+        self.files.ask_to_save(SaveRequest { what, name, forms: forms.collect(), note: String::new() });
     }
 
     /// What a file of a pane is called, without its ending.
@@ -333,5 +331,18 @@ impl ChromascopeApp {
     /// Whether a set of this kind and name is on the list.
     pub fn compares(&self, kind: Kind, name: &str) -> bool {
         self.history.document().compared(kind, name).is_some()
+    }
+}
+
+/// A figure's file in a form; the error is a sentence.
+fn file_of(figure: &Figure, format: Format) -> Result<Vec<u8>, String> {
+    let svg = || export::svg(figure, &Theme::LIGHT, export::Paper::default());
+    match format {
+        Format::Svg => Ok(svg().into_bytes()),
+        Format::Csv => Ok(figure.table.to_csv().into_bytes()),
+        Format::Png => {
+            let file = export::png(&svg(), PICTURE_SCALE).and_then(|picture| export::png_file(&picture));
+            file.map_err(|error| error.to_string())
+        }
     }
 }

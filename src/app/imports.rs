@@ -194,12 +194,15 @@ impl ChromascopeApp {
         self.step(|history| history.apply(action));
     }
 
-    /// Goes to another state of the document; what is looked at in Import follows sets to their new names.
+    /// Goes to another state of the document; what is looked at in Import follows sets to their new names, and sensors that
+    /// are no longer compared are let go.
     pub(super) fn step(&mut self, go: impl FnOnce(&mut History)) {
-        let before = self.history.document().own.clone();
+        let before = self.history.document();
+        let (own, compared) = (before.own.clone(), before.compared.clone());
         go(&mut self.history);
-        self.view.import.follow_names(&before, &self.history.document().own);
-        self.follow_selection(&before);
+        self.view.let_go_of_removed(&compared, &self.history.document().compared);
+        self.view.import.follow_names(&own, &self.history.document().own);
+        self.follow_selection(&own);
     }
 
     /// Where a step made a set of the file on show, or took the set away, the same contents stay on show.

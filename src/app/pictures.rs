@@ -6,7 +6,7 @@ use super::ChromascopeApp;
 use crate::document::WhiteChoice;
 use crate::export::render::{Provenance, exr_bytes};
 use crate::figures::render::{index_of, mesh_name};
-use crate::files::SaveRequest;
+use crate::files::{FileForm, SaveRequest};
 use crate::scene::Scene;
 use crate::thing::SourceId;
 
@@ -18,7 +18,8 @@ impl ChromascopeApp {
                 let name: String = source.name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
                 let name = format!("{name}.exr");
                 let what = format!("the picture of {}", source.name);
-                self.files.ask_to_save(SaveRequest { what, name, extension: "exr", bytes, note: String::new() });
+                let forms = vec![FileForm::of_bytes("exr", bytes)];
+                self.files.ask_to_save(SaveRequest { what, name, forms, note: String::new() });
             }
             Some(Err(why)) => self.view.fail(why),
             None => self.view.fail(format!("{}: there is no picture yet.", source.name)),

@@ -3,7 +3,7 @@
 use super::ChromascopeApp;
 use crate::catalog::Kind;
 use crate::export::spectra::{self, Form};
-use crate::files::SaveRequest;
+use crate::files::{FileForm, SaveRequest};
 use crate::results::Results;
 use crate::scene::Scene;
 
@@ -22,9 +22,8 @@ impl ChromascopeApp {
             Ok(SaveRequest {
                 what,
                 name: file.name,
-                extension: form.format.ending(),
+                forms: vec![FileForm::of_bytes(form.format.ending(), file.text.into_bytes())],
                 note: spectra::notes_in_words(&file.notes),
-                bytes: file.text.into_bytes(),
             })
         });
     }

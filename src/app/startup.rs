@@ -49,13 +49,16 @@ pub fn run(files: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         .with_icon(icon());
     let mut options = NativeOptions { viewport, persist_window: true, ..NativeOptions::default() };
     prefer_x11(&mut options);
+    let mut kept = Files::new(eframe::storage_dir(APP_ID));
+    let copy = kept.copy().map(|(_, file)| file.to_owned());
+    // The place of the window and the layout are the first window's.
+    options.persist_window = copy.is_none();
     eframe::run_native(
         APP_ID,
         options,
         Box::new(move |cc| {
             let mut saved: SavedView = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY)).unwrap_or_default();
             saved.render.mend();
-            let mut kept = Files::new(eframe::storage_dir(APP_ID));
             let history = History::new(kept.kept_document());
             let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);
             app.report_first_frame(start);
@@ -63,6 +66,9 @@ pub fn run(files: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
             Ok(Box::new(app))
         }),
     )?;
+    if let Some(copy) = copy.filter(|copy| copy.exists()) {
+        crate::cli::say(&format!("chromascope: this window's document is kept in {}\n", copy.display()));
+    }
     Ok(())
 }
 

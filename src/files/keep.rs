@@ -6,13 +6,12 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
+use super::profile::{OtherWindow, Profile};
 use super::write_atomically;
 use crate::document::{Document, session};
 
 /// A document is written this long after its last change.
 const REST: Duration = Duration::from_secs(2);
-/// The file it is kept in.
-const FILE: &str = "document.json";
 
 /// What the panic hook saves: the last document seen, and where.
 static LAST: Mutex<Option<(PathBuf, Document)>> = Mutex::new(None);
@@ -20,7 +19,7 @@ static LAST: Mutex<Option<(PathBuf, Document)>> = Mutex::new(None);
 /// Writes the document to the program's folder.
 #[derive(Debug)]
 pub(super) struct Keeper {
-    file: Option<PathBuf>,
+    profile: Profile,
     seen: Option<Document>,
     saved: Option<Document>,
     changed: Instant,
@@ -30,21 +29,29 @@ pub(super) struct Keeper {
 
 impl Keeper {
     pub(super) fn new(folder: Option<PathBuf>) -> Self {
-        Self {
-            file: folder.map(|folder| folder.join(FILE)),
-            seen: None,
-            saved: None,
-            changed: Instant::now(),
-            writer: None,
-        }
+        Self { profile: Profile::claim(folder), seen: None, saved: None, changed: Instant::now(), writer: None }
+    }
+
+    /// The window that has the profile, where it is not this one, and the file of this one's copy.
+    pub(super) fn other(&self) -> Option<(OtherWindow, &Path)> {
+        self.profile.other.zip(self.profile.file.as_deref())
+    }
+
+    /// Documents that other windows kept beside this one's since it was written.
+    pub(super) fn copies(&self) -> Vec<PathBuf> {
+        self.profile.copies_since()
     }
 
     /// The document kept, or the first screen; with a sentence where one was there and could not be read.
     pub(super) fn load(&mut self) -> (Document, Option<String>) {
-        let text = self.file.as_ref().and_then(|file| fs::read_to_string(file).ok());
+        let text = self.profile.first.as_ref().and_then(|file| fs::read_to_string(file).ok());
         let (document, complaint) = match text.map(|text| session::from_json(&text)) {
             None => (Document::default(), None),
             Some(Ok(document)) => (document, None),
+            // What is another window's is left to it.
+            Some(Err(error)) if self.profile.other.is_some() => {
+                (Document::default(), Some(format!("The other window's document cannot be read ({error}).")))
+            }
             Some(Err(error)) => (Document::default(), Some(self.set_aside(&error.to_string()))),
         };
         // What is opened before the first frame is a change already.
@@ -54,7 +61,7 @@ impl Keeper {
 
     /// A kept document that cannot be read is not overwritten.
     fn set_aside(&self, why: &str) -> String {
-        let file = self.file.clone().unwrap_or_default();
+        let file = self.profile.file.clone().unwrap_or_default();
         let aside = file.with_extension("unreadable.json");
         match fs::rename(&file, &aside) {
             Ok(()) => format!("What was kept of the last run cannot be read ({why}). It is now {}.", aside.display()),
@@ -64,7 +71,7 @@ impl Keeper {
 
     /// Notes a change, and writes it when the document has come to rest.
     pub(super) fn watch(&mut self, document: &Document, ctx: &egui::Context) -> Result<(), String> {
-        let Some(file) = self.file.clone() else { return Ok(()) };
+        let Some(file) = self.profile.file.clone() else { return Ok(()) };
         if self.seen.as_ref() != Some(document) {
             self.seen = Some(document.clone());
             self.changed = Instant::now();
@@ -108,7 +115,7 @@ impl Keeper {
     /// Writes the document now, unless it is as it was written.
     pub(super) fn save(&mut self, document: &Document) -> Result<(), String> {
         let before = self.written();
-        let Some(file) = self.file.clone() else { return Ok(()) };
+        let Some(file) = self.profile.file.clone() else { return Ok(()) };
         if self.saved.as_ref() == Some(document) && before.is_ok() {
             return Ok(());
         }

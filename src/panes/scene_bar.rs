@@ -1,12 +1,13 @@
 //! All conditions in one bar: reference, light, temperature, patches, white balance, color transform, difference.
 
-use egui::{Align, ComboBox, DragValue, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
+use egui::{Align, ComboBox, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::action::{Action, CompareAction, SceneAction};
 use crate::catalog::Kind;
 use crate::document::{DifferenceChoice, Light, Subset, WayChoice, WhiteChoice};
 use crate::theme::{ROW, UNIT};
+use crate::widgets::number_field::NumberField;
 
 /// Temperatures of the slider, in mired from hot to cold; the slider runs like the strip, cold at the left.
 const MIRED: [f64; 2] = [50.0, 1000.0];
@@ -129,21 +130,20 @@ fn temperature(ui: &mut Ui, slider_width: f32, context: &mut PaneContext<'_>) {
         set = Some((kelvin / 10.0).round() * 10.0);
     }
     slider.on_hover_text("Drag: evenly in mired (10⁶/T), as in the strip below the diagram");
-    let mut kelvin = now;
-    let field = DragValue::new(&mut kelvin)
-        .range(crate::document::LOCUS_RANGE_K[0]..=crate::document::LOCUS_RANGE_K[1])
-        .speed(10.0)
-        .fixed_decimals(0)
-        .suffix(" K");
-    let field = ui.add_sized([66.0, ROW], field);
-    field.widget_info(|| egui::WidgetInfo::slider(true, now, "Temperature in kelvins"));
-    if std::mem::take(&mut context.view.focus_temperature) {
-        field.request_focus();
-    }
-    if field.changed() {
-        set = Some(kelvin);
-    }
-    field.on_hover_text("Temperature in kelvins: drag, or click and type (T)");
+    let [coldest, hottest] = crate::document::LOCUS_RANGE_K;
+    let coldest = if context.scene.document.light == Light::Daylight { 4000.0 } else { coldest };
+    let field = NumberField {
+        id: egui::Id::unique("temperature in kelvins"),
+        now,
+        range: [coldest, hottest],
+        speed: 10.0,
+        unit: "K",
+        name: "Temperature in kelvins",
+        hint: "Temperature in kelvins: drag, or click and type (T)",
+    };
+    let (rect, _) = ui.allocate_exact_size(Vec2::new(66.0, ROW), Sense::hover());
+    let focus = std::mem::take(&mut context.view.focus_temperature);
+    set = field.show(ui, rect, focus, context).or(set);
     if let Some(kelvin) = set.filter(|kelvin| *kelvin != now) {
         context.push(Action::Scene(SceneAction::SetTemperature(kelvin)));
     }

@@ -129,3 +129,43 @@ fn pinned_things_stand_side_by_side() {
     press(&mut window, Role::Button, "Unpin A");
     assert_eq!(window.state().view().pinned, [patch("Nikon D70 (2007 figure)", "blue")]);
 }
+
+#[test]
+fn a_sensor_that_is_removed_leaves_the_inspector() {
+    use chromascope::action::{Action, CompareAction};
+    use chromascope::command::Command;
+    let mut window = window();
+    let name = "Canon EOS 5D";
+    let add = Action::Compare(CompareAction::Add(Kind::Camera, name.to_owned()));
+    let remove = Action::Compare(CompareAction::Remove(Kind::Camera, name.to_owned()));
+    let other = patch("Kodak DCS200", "blue");
+    for by_undo in [false, true] {
+        window.state_mut().push(add.clone());
+        window.run();
+        let view = window.state_mut().view_mut();
+        view.selected = Some(Thing::Source(camera(name)));
+        view.pinned = vec![patch(name, "blue"), other.clone(), patch(name, "red")];
+        view.hovered = Some(Thing::Radiator { source: camera(name), kelvin: 5500.0 });
+        window.state_mut().push(if by_undo { Command::Undo } else { remove.clone().into() });
+        window.run();
+        assert!(!window.state().compares(Kind::Camera, name));
+        let view = window.state().view();
+        assert_eq!((&view.selected, &view.hovered), (&None, &None), "by undo: {by_undo}");
+        assert_eq!(view.pinned, std::slice::from_ref(&other));
+        assert!(!says(&window, name) || !says(&window, "Unpin B"));
+        if by_undo {
+            window.state_mut().push(Command::Redo);
+            window.run();
+        }
+        window.state_mut().push(remove.clone());
+        window.run();
+        window.state_mut().view_mut().pinned.clear();
+    }
+    // What stays compared stays selected.
+    select(&mut window, patch("Kodak DCS200", "blue"));
+    window.state_mut().push(add);
+    window.run();
+    window.state_mut().push(remove);
+    window.run();
+    assert_eq!(window.state().view().selected, Some(other));
+}

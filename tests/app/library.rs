@@ -155,3 +155,97 @@ fn a_source_that_cannot_be_computed_says_why() {
         .query_all_by(|node| node.label().is_some_and(|label| label.contains("Eq 13 takes RGB, not cone signals")));
     assert!(warnings.count() > 0);
 }
+
+/// The cameras compared, in order of name.
+fn cameras(window: &Window) -> Vec<String> {
+    let compared = &window.state().history().document().compared;
+    let mut names: Vec<String> =
+        compared.iter().filter(|source| source.kind == Kind::Camera).map(|source| source.name.clone()).collect();
+    names.sort();
+    names
+}
+
+fn click_at(window: &mut Window, at: egui::Pos2) {
+    window.hover_at(at);
+    window.run_steps(1);
+    for pressed in [true, false] {
+        let button = egui::PointerButton::Primary;
+        window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers: egui::Modifiers::NONE });
+        window.run_steps(1);
+    }
+    window.run();
+}
+
+/// Clicks eight times at the place of a set: each click toggles that set and no other, and the list stands still.
+fn click_eight_times(window: &mut Window, name: &str) {
+    let before = cameras(window);
+    let rect = window.get_by_role_and_label(Role::CheckBox, name).rect();
+    for click in 0..8 {
+        click_at(window, rect.left_center() + egui::vec2(40.0, 0.0));
+        let mut wanted = before.clone();
+        if (click % 2 == 0) == before.contains(&name.to_owned()) {
+            wanted.retain(|known| known != name);
+        } else if !wanted.contains(&name.to_owned()) {
+            wanted.push(name.to_owned());
+            wanted.sort();
+        }
+        assert_eq!(cameras(window), wanted, "{name}, click {click}");
+        assert_eq!(window.get_by_role_and_label(Role::CheckBox, name).rect(), rect, "{name}, click {click}");
+    }
+}
+
+/// The camera whose row is at a place.
+fn camera_at(window: &Window, at: egui::Pos2) -> String {
+    let row = window.get_by(|node| {
+        node.role() == Role::CheckBox && rect_of(node).y_range().contains(at.y) && rect_of(node).bottom() > at.y
+    });
+    row.accesskit_node().label().expect("a name")
+}
+
+fn rect_of(node: &egui_kittest::kittest::AccessKitNode<'_>) -> egui::Rect {
+    node.bounding_box().map_or(egui::Rect::NOTHING, |b| {
+        egui::Rect::from_min_max(egui::pos2(b.x0 as f32, b.y0 as f32), egui::pos2(b.x1 as f32, b.y1 as f32))
+    })
+}
+
+#[test]
+fn the_list_stands_still_while_cameras_are_ticked() {
+    for size in [[1280.0, 800.0], [900.0, 600.0]] {
+        let mut window = open(size, egui::Theme::Dark);
+        let at = window.get_by_role_and_label(Role::CheckBox, "Canon EOS 5D").rect().center();
+        for scroll in [0.0, -150.0, -30.0, 77.0, -400.0] {
+            window.hover_at(at);
+            window.event(egui::Event::MouseWheel {
+                unit: egui::MouseWheelUnit::Point,
+                delta: egui::vec2(0.0, scroll),
+                phase: egui::TouchPhase::Move,
+                modifiers: egui::Modifiers::NONE,
+                source: egui::MouseWheelSource::Wheel,
+            });
+            window.run_steps(40);
+            let name = camera_at(&window, at);
+            click_eight_times(&mut window, &name);
+        }
+        // As many as find a place: the list below is where it was.
+        for name in ["Canon EOS M", "Canon EOS R10", "Nikon D850", "Nikon Z f"] {
+            search(&mut window, name);
+            click_eight_times(&mut window, name);
+            press(&mut window, Role::CheckBox, name);
+        }
+        search(&mut window, "nikon d70");
+        click_eight_times(&mut window, "Nikon D70 (2007 figure)");
+        click_eight_times(&mut window, "Nikon D700");
+    }
+}
+
+#[test]
+fn a_ticked_camera_is_in_sight_above() {
+    let mut window = open([900.0, 600.0], egui::Theme::Dark);
+    for name in ["Canon EOS M", "Nikon D850", "Nikon Z f"] {
+        search(&mut window, name);
+        press(&mut window, Role::CheckBox, name);
+        let row = window.get_by_role_and_label(Role::Button, &format!("Hide {name}")).rect();
+        let field = window.get_by_role_and_label(Role::TextInput, "Search the library").rect();
+        assert!(row.bottom() < field.top() && row.height() > 20.0, "{name}: {row}, {field}");
+    }
+}

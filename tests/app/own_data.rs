@@ -6,7 +6,7 @@ use std::sync::Arc;
 use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
 use chromascope::document::Document;
-use chromascope::files::{Files, write_atomically};
+use chromascope::files::{FileEvent, Files, write_atomically};
 use chromascope::view::Weight;
 use egui_kittest::Harness;
 
@@ -132,4 +132,95 @@ fn what_was_opened_before_the_first_frame_is_kept() {
     files.autosave(&document, &egui::Context::default());
     files.save_document(&document);
     assert_eq!(Files::new(Some(folder.path().to_owned())).kept_document(), document);
+}
+
+/// All files of a folder with their contents, but for the lock.
+fn contents(folder: &Path) -> Vec<(String, String)> {
+    let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
+    let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
+    let mut files: Vec<_> = files
+        .map(|path| (name(&path), std::fs::read_to_string(&path).unwrap()))
+        .filter(|f| f.0 != "window.lock")
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn a_second_window_keeps_a_document_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |kelvin| Document { temperature_k: kelvin, ..Document::paper() };
+    let open = || Files::new(Some(folder.path().to_owned()));
+    let mut first = open();
+    assert!(first.copy().is_none());
+    first.kept_document();
+    first.save_document(&of(3000.0));
+    let kept = contents(folder.path());
+    let mut second = open();
+    let (words, copy) = second.copy().map(|(words, copy)| (words, copy.to_owned())).expect("it is the second");
+    let process = std::process::id();
+    let wanted = format!(
+        "Another Chromascope window (process {process}) is open: changes here are kept in a copy, not in its document."
+    );
+    assert_eq!(words, wanted);
+    assert_eq!(second.kept_document(), of(3000.0), "it begins with what the first one kept");
+    second.save_document(&of(3000.0));
+    assert_eq!(contents(folder.path()), kept, "nothing was changed");
+    second.save_document(&of(4000.0));
+    first.save_document(&of(5000.0));
+    second.save_document(&of(6000.0));
+    assert_eq!(contents(folder.path()).len(), 2);
+    drop(second);
+    drop(first);
+    // The copy stays where it was said to be; the next window has the first one's document and says where the copy is.
+    let mut next = open();
+    assert!(next.copy().is_none());
+    assert_eq!(next.kept_document(), of(5000.0));
+    assert!(copy.exists());
+    let said = next.poll().into_iter().find_map(|event| match event {
+        FileEvent::Said(words) => Some(words),
+        _ => None,
+    });
+    assert_eq!(said, Some(format!("The document of another window is kept in {}.", copy.display())));
+    next.save_document(&of(7000.0));
+    drop(next);
+    let mut after = open();
+    assert_eq!(after.kept_document(), of(7000.0));
+    assert!(after.poll().is_empty(), "said once");
+    let text = std::fs::read_to_string(&copy).unwrap();
+    assert_eq!(chromascope::document::session::from_json(&text).unwrap(), of(6000.0));
+}
+
+#[test]
+fn a_second_window_does_not_set_the_first_ones_document_aside() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut first = Files::new(Some(folder.path().to_owned()));
+    first.kept_document();
+    std::fs::write(folder.path().join("document.json"), "{ broken").unwrap();
+    let mut second = Files::new(Some(folder.path().to_owned()));
+    assert_eq!(second.kept_document(), Document::default());
+    assert_eq!(contents(folder.path()), [("document.json".to_owned(), "{ broken".to_owned())]);
+}
+
+#[test]
+fn the_second_window_says_so_as_long_as_it_is_open() {
+    let folder = tempfile::tempdir().unwrap();
+    let _first = Files::new(Some(folder.path().to_owned()));
+    let second = Files::new(Some(folder.path().to_owned()));
+    for size in [[1280.0, 800.0], [900.0, 600.0]] {
+        let files = Files::new(Some(folder.path().to_owned()));
+        assert!(files.copy().is_some() && second.copy().is_some());
+        let mut window =
+            Harness::builder().with_size(size).renderer(crate::cpu_renderer::Cpu::default()).build_eframe(|cc| {
+                let history = chromascope::document::history::History::new(Document::paper());
+                ChromascopeApp::new(&cc.egui_ctx, history, chromascope::view::SavedView::default(), files)
+            });
+        window.run();
+        window.state_mut().view_mut().say("Something else.");
+        window.run();
+        assert!(crate::import_switches::says(&window, "is open: changes here are kept in a copy"));
+        assert!(!eframe::App::persist_egui_memory(window.state()), "the layout is the first one's");
+    }
+    let window = window();
+    assert!(eframe::App::persist_egui_memory(window.state()));
 }

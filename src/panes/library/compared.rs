@@ -120,7 +120,7 @@ fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &Source, context: &mut 
     if response.hovered() {
         context.view.hover(Some(&thing));
     }
-    if selected || response.has_focus() {
+    if selected {
         let stroke = egui::Stroke::new(1.5, context.theme.text);
         ui.painter().rect_stroke(row, 3.0, stroke, egui::StrokeKind::Inside);
     }

@@ -1,14 +1,16 @@
 //! The pane's column: the legend above, the search and the list below.
 
-use egui::{Key, Rect, ScrollArea, TextEdit, Ui, UiBuilder, Vec2};
+use egui::{Id, Key, Rect, ScrollArea, TextEdit, Ui, UiBuilder, Vec2};
 
 use super::{compared, sets};
+use crate::catalog::Kind;
 use crate::panes::PaneContext;
 use crate::theme::{ROW, UNIT};
+use crate::widgets::mark_all;
 use crate::workspaces::PaneKind;
 
-/// So many compared sources stand without scrolling.
-const WITHOUT_SCROLLING: usize = 10;
+/// Share of the pane's height for the compared sensors, and the least and most rows of it.
+const COMPARED: (f32, [f32; 2]) = (0.36, [3.0, 8.0]);
 
 /// Shows the pane in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
@@ -23,19 +25,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     column.set_clip_rect(rect.intersect(ui.clip_rect()));
     column.spacing_mut().item_spacing.y = UNIT;
     heading(&mut column, "Compared", context);
-    let sources = context.scene.sources();
-    let pitch = ROW + UNIT;
-    let wanted = pitch * sources.len() as f32;
-    let most = (pitch * WITHOUT_SCROLLING as f32).min((inner.height() * 0.45).max(3.0 * pitch));
-    let area = ScrollArea::vertical().id_salt("compared").max_height(most).auto_shrink([false, true]);
-    area.show(&mut column, |ui| {
-        if wanted > most {
-            ui.set_max_width(ui.available_width() - sets::SCROLL_BAR);
-        }
-        for source in &sources {
-            compared::row(ui, source, context);
-        }
-    });
+    compared(&mut column, inner.height(), context);
     column.separator();
     heading(&mut column, "Library", context);
     let rows = sets::rows(context);
@@ -44,6 +34,34 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         sets::choose(entry, true, context);
     }
     sets::list(&mut column, &rows, context);
+}
+
+/// The compared sensors. Their list is as high whatever their number is: the library below stands still while sensors are ticked.
+fn compared(ui: &mut Ui, height: f32, context: &mut PaneContext<'_>) {
+    let sources = context.scene.sources();
+    let pitch = ROW + UNIT;
+    let (share, [least, most]) = COMPARED;
+    let rows = (share * height / pitch).floor().clamp(least, most);
+    let seen = Id::unique("compared sensors seen");
+    let now: Vec<(Kind, String)> = sources.iter().map(|source| (source.kind, source.name.clone())).collect();
+    let before: Option<Vec<(Kind, String)>> = ui.data(|data| data.get_temp(seen));
+    let area = ScrollArea::vertical().id_salt("compared").max_height(rows * pitch).auto_shrink(false);
+    area.show(ui, |ui| {
+        if sources.len() as f32 > rows {
+            ui.set_max_width(ui.available_width() - sets::SCROLL_BAR);
+        }
+        for (source, key) in sources.iter().zip(&now) {
+            let top = ui.cursor().min;
+            compared::row(ui, source, context);
+            // One that was just added is brought into sight.
+            if before.as_ref().is_some_and(|before| before.len() < now.len() && !before.contains(key)) {
+                ui.scroll_to_rect(Rect::from_min_size(top, Vec2::new(1.0, ROW)), None);
+            }
+        }
+    });
+    if before.as_ref() != Some(&now) {
+        ui.data_mut(|data| data.insert_temp(seen, now));
+    }
 }
 
 fn heading(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
@@ -74,13 +92,4 @@ fn search_field(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
         return ui.input(|input| input.key_pressed(Key::Enter)) && !context.view.search.trim().is_empty();
     }
     false
-}
-
-/// Marks what is in the field, so that typing replaces it.
-fn mark_all(ui: &Ui, id: egui::Id, text: &str) {
-    use egui::text::{CCursor, CCursorRange};
-    let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
-    let all = CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()));
-    state.cursor.set_char_range(Some(all));
-    state.store(ui.ctx(), id);
 }

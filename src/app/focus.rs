@@ -1,0 +1,40 @@
+//! The keyboard's place on screen: a ring around the control that has it, which is scrolled into sight.
+
+use egui::accesskit::{Action, ActionRequest, TreeId};
+use egui::{Context, Event, Id, Stroke, StrokeKind};
+
+use crate::theme::{FOCUS, Theme};
+
+/// Draws a ring around the control that has the keyboard, whatever draws the control. A second line of the ground's color
+/// within shows the ring on any color.
+pub(super) fn ring(ctx: &Context, theme: &Theme) {
+    let focused = ctx.memory(egui::Memory::focused).filter(|_| ctx.input(|input| input.focused));
+    let Some(response) = focused.and_then(|id| ctx.read_response(id)) else { return };
+    let rect = response.interact_rect;
+    if !rect.is_positive() {
+        return;
+    }
+    let painter = ctx.layer_painter(response.layer_id);
+    painter.rect_stroke(rect.shrink(FOCUS), 2.0, Stroke::new(1.0, theme.panel), StrokeKind::Inside);
+    painter.rect_stroke(rect, 3.0, Stroke::new(FOCUS, theme.focus), StrokeKind::Inside);
+}
+
+/// Scrolls a control that has just got the keyboard into sight. Only the control's own scroll areas know how: they are asked
+/// as a screen reader does.
+pub(super) fn into_sight(ctx: &Context, before: &mut Option<Id>) {
+    let focused = ctx.memory(egui::Memory::focused);
+    if *before == focused {
+        return;
+    }
+    let Some(response) = focused.and_then(|id| ctx.read_response(id)) else {
+        *before = focused;
+        return;
+    };
+    *before = focused;
+    if response.interact_rect.expand(0.5).contains_rect(response.rect) {
+        return;
+    }
+    let target_node = response.id.accesskit_id();
+    let request = ActionRequest { action: Action::ScrollIntoView, target_tree: TreeId::ROOT, target_node, data: None };
+    ctx.input_mut(|input| input.events.push(Event::AccessKitActionRequest(request)));
+}

@@ -1,0 +1,156 @@
+//! The system's file dialogs, and telling one that was cancelled from one that was never there.
+
+use std::cell::Cell;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use crate::catalog::meshes::ENDINGS as MESH_ENDINGS;
+
+/// A dialog that closes within this time without an answer was never seen by a person.
+const NO_DIALOG: Duration = Duration::from_millis(300);
+/// Endings offered first when opening.
+const ENDINGS: [&str; 30] = [
+    "csv", "txt", "tsv", "dat", "asc", "prn", "trm", "ssm", "abs", "irr", "spectrum", "ttt", "trt", "tat", "jaz",
+    "dta", "dpt", "sp", "cmf", "ccss", "ti3", "cgats", "jdx", "dx", "jcm", "spdx", "cxf", "xml", "json", "xls",
+];
+
+/// A question to the user, answered with paths.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// Files to open.
+    Files,
+    /// A folder whose files are to be opened.
+    Folder,
+    /// A path to save to.
+    Save {
+        /// Title of the dialog.
+        title: String,
+        /// The name offered.
+        name: String,
+        /// The endings of the forms it can be saved in.
+        endings: Vec<&'static str>,
+    },
+}
+
+/// The outcome of a dialog.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// Paths, at least one.
+    Chosen(Vec<PathBuf>),
+    /// Nothing, because the user says so.
+    Cancelled,
+    /// No dialog could be shown.
+    Missing,
+}
+
+/// File dialogs. They are asked on a thread of their own and may take as long as they like.
+pub trait Dialogs: Send + Sync {
+    /// Asks and waits for the answer.
+    fn ask(&self, question: &Question) -> Answer;
+}
+
+/// The system's dialogs.
+pub(super) struct System;
+
+impl Dialogs for System {
+    fn ask(&self, question: &Question) -> Answer {
+        let start = Instant::now();
+        FAILED.set(false);
+        let chosen = match question {
+            Question::Files => rfd::FileDialog::new()
+                .set_title("Open spectra, camera sensitivities or a mesh")
+                .add_filter("Spectra and meshes", &[&ENDINGS[..], &MESH_ENDINGS].concat())
+                .add_filter("Text and CSV", &ENDINGS)
+                .add_filter("Meshes", &MESH_ENDINGS)
+                .add_filter("All files", &["*"])
+                .pick_files(),
+            Question::Folder => rfd::FileDialog::new()
+                .set_title("Open all spectra of a folder")
+                .pick_folder()
+                .map(|folder| vec![folder]),
+            Question::Save { title, name, endings } => {
+                let dialog = rfd::FileDialog::new().set_title(title).set_file_name(name);
+                let dialog = endings.iter().fold(dialog, |dialog, ending| dialog.add_filter(*ending, &[*ending]));
+                dialog.save_file().map(|path| vec![path])
+            }
+        };
+        match chosen {
+            Some(paths) if !paths.is_empty() => Answer::Chosen(paths),
+            _ if FAILED.get() || start.elapsed() < NO_DIALOG => Answer::Missing,
+            _ => Answer::Cancelled,
+        }
+    }
+}
+
+thread_local! {
+    /// Whether the dialog of this thread failed. The library says so in its log alone: to its caller a missing dialog looks
+    /// like Cancel.
+    static FAILED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// A logger that hears of dialogs that fail, and passes everything on.
+pub struct DialogLog<L>(L);
+
+impl<L: log::Log> DialogLog<L> {
+    /// Listens in front of another logger.
+    pub fn new(logger: L) -> Self {
+        Self(logger)
+    }
+}
+
+impl<L: log::Log> log::Log for DialogLog<L> {
+    fn enabled(&self, metadata: &log::Metadata<'_>) -> bool {
+        is_of_dialogs(metadata) || self.0.enabled(metadata)
+    }
+
+    fn log(&self, record: &log::Record<'_>) {
+        // A portal that fails is followed by zenity; only when that fails too there is no dialog.
+        if is_of_dialogs(record.metadata()) && record.args().to_string().contains("with zenity") {
+            FAILED.set(true);
+        }
+        if self.0.enabled(record.metadata()) {
+            self.0.log(record);
+        }
+    }
+
+    fn flush(&self) {
+        self.0.flush();
+    }
+}
+
+fn is_of_dialogs(metadata: &log::Metadata<'_>) -> bool {
+    metadata.level() == log::Level::Error && metadata.target().starts_with("rfd")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Deaf;
+
+    impl log::Log for Deaf {
+        fn enabled(&self, _: &log::Metadata<'_>) -> bool {
+            false
+        }
+
+        fn log(&self, _: &log::Record<'_>) {
+            panic!("nothing is meant for it");
+        }
+
+        fn flush(&self) {}
+    }
+
+    #[test]
+    fn a_dialog_that_fails_is_heard_of_in_the_log() {
+        let logger = DialogLog::new(Deaf);
+        let say = |level, target, words: &str| {
+            let record = |args| log::Record::builder().level(level).target(target).args(args).build();
+            log::Log::log(&logger, &record(format_args!("{words}")));
+            FAILED.replace(false)
+        };
+        let zenity = "Failed to save file with zenity: No such file or directory (os error 2)";
+        assert!(say(log::Level::Error, "rfd::backend::xdg_desktop_portal", zenity));
+        assert!(!say(log::Level::Error, "rfd::backend::xdg_desktop_portal", "SaveFile failed: no portal"));
+        assert!(!say(log::Level::Error, "elsewhere", zenity));
+    }
+}

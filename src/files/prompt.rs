@@ -1,0 +1,162 @@
+//! The path box: a path that is typed in the window, with completion.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::{SaveRequest, reason};
+
+/// So many completions are listed.
+const MOST: usize = 200;
+
+/// A path to be typed, where there is no dialog or what was chosen there cannot be.
+#[derive(Clone, Debug, Default)]
+pub struct PathPrompt {
+    /// The text typed.
+    pub text: String,
+    /// The thing to be saved there; none for opening.
+    pub save: Option<SaveRequest>,
+    /// A file that is there already, which a person was told of.
+    pub replaces: Option<PathBuf>,
+    /// The reason why the path typed was not taken.
+    pub failure: Option<String>,
+    /// Names that the path typed could go on with.
+    pub candidates: Vec<String>,
+    /// Whether the field takes the keyboard in this frame, with the cursor at the end.
+    pub focus: bool,
+    /// Whether the cursor goes to the end of the text in this frame.
+    pub to_end: bool,
+    /// Whether it stands in for a dialog that is not there.
+    pub no_dialog: bool,
+    /// The dialog it stands in for.
+    pub(super) ticket: u64,
+}
+
+impl PathPrompt {
+    pub(super) fn new(save: Option<SaveRequest>, ticket: u64) -> Self {
+        let text = save.as_ref().map_or_else(String::new, |request| request.name.clone());
+        Self { text, save, focus: true, no_dialog: true, ticket, ..Self::default() }
+    }
+
+    /// What was said of the path goes, because another one is typed.
+    pub fn typed(&mut self) {
+        self.replaces = None;
+        self.failure = None;
+        self.candidates.clear();
+    }
+
+    /// The same with a reason why it was not taken.
+    pub(super) fn refused(self, why: impl Into<String>) -> Self {
+        Self { failure: Some(why.into()), replaces: None, candidates: Vec::new(), focus: true, ..self }
+    }
+}
+
+/// The path of a text, in which a leading `~` is the home folder.
+pub(super) fn expanded(text: &str, home: Option<&Path>) -> PathBuf {
+    let rest = text.strip_prefix('~').filter(|rest| rest.is_empty() || rest.starts_with(std::path::is_separator));
+    match rest.zip(home) {
+        Some((rest, home)) => home.join(rest.trim_start_matches(std::path::is_separator)),
+        None => PathBuf::from(text),
+    }
+}
+
+/// Why a path cannot be opened, if so.
+pub(super) fn cannot_open(path: &Path) -> Option<String> {
+    let facts = match fs::metadata(path) {
+        Ok(facts) => facts,
+        Err(error) => return Some(format!("{}: {}.", path.display(), reason(&error))),
+    };
+    // Only these are opened on trial: a pipe would wait for its other end.
+    let tried = if facts.is_dir() {
+        fs::read_dir(path).map(drop)
+    } else if facts.is_file() {
+        fs::File::open(path).map(drop)
+    } else {
+        Ok(())
+    };
+    tried.err().map(|error| format!("{}: {}.", path.display(), reason(&error)))
+}
+
+/// A completed text.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Completed {
+    /// The text it was asked for.
+    pub(super) of: String,
+    /// As far as all names agree.
+    pub(super) text: String,
+    /// The names it could go on with, where there are several.
+    pub(super) candidates: Vec<String>,
+}
+
+/// Completes a path as a shell does.
+pub(super) fn complete(typed: &str, home: Option<&Path>) -> Completed {
+    let as_it_is = |candidates| Completed { of: typed.to_owned(), text: typed.to_owned(), candidates };
+    let separator = std::path::MAIN_SEPARATOR;
+    if typed == "~" && home.is_some() {
+        return Completed { text: format!("~{separator}"), ..as_it_is(Vec::new()) };
+    }
+    let (folder, start) = typed.split_at(typed.rfind(std::path::is_separator).map_or(0, |at| at + 1));
+    let place = if folder.is_empty() { PathBuf::from(".") } else { expanded(folder, home) };
+    let mut names: Vec<String> = fs::read_dir(place)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter_map(|file| Some((file.file_name().into_string().ok()?, file.path().is_dir())))
+        .filter(|(name, _)| name.starts_with(start) && (start.starts_with('.') || !name.starts_with('.')))
+        .map(|(name, is_folder)| if is_folder { name + std::path::MAIN_SEPARATOR_STR } else { name })
+        .collect();
+    names.sort();
+    match names.as_slice() {
+        [] => as_it_is(Vec::new()),
+        [one] => Completed { text: format!("{folder}{one}"), ..as_it_is(Vec::new()) },
+        [first, .., last] => {
+            // In order, what the first and the last share all share.
+            let shared: String = first.chars().zip(last.chars()).take_while(|(a, b)| a == b).map(|(a, _)| a).collect();
+            let text = format!("{folder}{shared}");
+            names.truncate(MOST);
+            Completed { text, ..as_it_is(names) }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_completed_as_far_as_names_agree() {
+        let home = tempfile::tempdir().expect("a folder");
+        let path = home.path();
+        for folder in ["spectra", "spectra/deep"] {
+            fs::create_dir(path.join(folder)).expect("made");
+        }
+        for file in ["leaf one.csv", "leaf two.csv", ".hidden", "spectra/Älg.csv"] {
+            fs::write(path.join(file), "x").expect("written");
+        }
+        let complete = |text: &str| {
+            let done = complete(text, Some(path));
+            (done.text, done.candidates.join("|"))
+        };
+        let is = |text: &str, candidates: &str| (text.to_owned(), candidates.to_owned());
+        assert_eq!(complete("~"), is("~/", ""));
+        assert_eq!(complete("~/l"), is("~/leaf ", "leaf one.csv|leaf two.csv"));
+        assert_eq!(complete("~/leaf t"), is("~/leaf two.csv", ""));
+        assert_eq!(complete("~/s"), is("~/spectra/", ""));
+        assert_eq!(complete("~/spectra/Ä"), is("~/spectra/Älg.csv", ""));
+        assert_eq!(complete("~/spectra/"), is("~/spectra/", "deep/|Älg.csv"));
+        assert_eq!(complete("~/."), is("~/.hidden", ""));
+        assert_eq!(complete("~/none"), is("~/none", ""));
+        let full = format!("{}/sp", path.display());
+        assert_eq!(complete(&full), is(&format!("{}/spectra/", path.display()), ""));
+    }
+
+    #[test]
+    fn the_home_folder_is_written_as_a_tilde() {
+        let home = Path::new("/home/me");
+        for (text, path) in
+            [("~", "/home/me"), ("~/x y", "/home/me/x y"), ("~you/x", "~you/x"), ("/a/~", "/a/~"), ("b", "b")]
+        {
+            assert_eq!(expanded(text, Some(home)), Path::new(path), "{text}");
+        }
+        assert_eq!(expanded("~/x", None), Path::new("~/x"));
+    }
+}
