@@ -107,21 +107,31 @@ impl Query for PatchColorsOf {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let rendering = ask.ask(&self.rendering);
         let rendering = (*rendering).as_ref().map_err(|&e| e)?;
-        let product = under_light(&self.rendering.sensor, &self.rendering.light);
-        let colors = self.patches.patches().iter().map(|patch| {
-            let signals = rendering.patch_signals(raw(&product, patch.grid.values()).to_array());
-            let xyz = rendering.xyz(signals);
-            let linear = rendering.linear_srgb(xyz);
-            PatchColor {
-                rgb: rendering.is_rgb.then(|| signals.to_array()),
-                xyz,
-                xy: xyz.chromaticity(),
-                uv: xyz.uv_prime(),
-                lab: rendering.lab(xyz),
-                linear,
-                srgb: encode_srgb(linear),
-            }
-        });
-        Ok(colors.collect())
+        let reflectances = self.patches.patches().iter().map(|patch| &patch.grid);
+        Ok(patch_colors(&self.rendering, rendering, reflectances))
     }
+}
+
+/// Colors of flat reflectances through a sensor whose rendering is `rendering`.
+pub(crate) fn patch_colors<'a>(
+    of: &RenderingOf,
+    rendering: &Rendering,
+    reflectances: impl Iterator<Item = &'a GridSpectrum>,
+) -> Vec<PatchColor> {
+    let product = under_light(&of.sensor, &of.light);
+    let color = |reflectance: &GridSpectrum| {
+        let signals = rendering.patch_signals(raw(&product, reflectance.values()).to_array());
+        let xyz = rendering.xyz(signals);
+        let linear = rendering.linear_srgb(xyz);
+        PatchColor {
+            rgb: rendering.is_rgb.then(|| signals.to_array()),
+            xyz,
+            xy: xyz.chromaticity(),
+            uv: xyz.uv_prime(),
+            lab: rendering.lab(xyz),
+            linear,
+            srgb: encode_srgb(linear),
+        }
+    };
+    reflectances.map(color).collect()
 }
