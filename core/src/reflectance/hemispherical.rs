@@ -18,7 +18,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// 2π/λ0, in 1/m.
 const WAVE_NUMBER: f64 = TAU / (LAMBDA_0_NM * 1e-9);
 /// Panels of half a turn around the mirror direction.
-const AZIMUTHS: u32 = 3;
+const AZIMUTHS: u32 = 4;
 /// Panels along a radius at most: correlation lengths up to 1 m.
 const RADII: u32 = 32;
 
