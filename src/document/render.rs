@@ -280,7 +280,7 @@ impl ReadingChoice {
                  surfaces turn yellow: a white under D55 goes from xy (0.332, 0.347) to (0.373, 0.379)."
             }
             Self::Microfacet => {
-                "Beckmann's own geometric factor in place of the cos θi of Eq 3. Reciprocal (Helmholtz): diffuse component only."
+                "Beckmann's own geometric factor in place of the cos θi of Eq 3. Only the diffuse component is reciprocal (Helmholtz)."
             }
             Self::Lambertian => "No model: every direction gets the same share. The quickest, and a plain reference.",
         }

@@ -18,7 +18,7 @@ Examples:
   chromascope render --mesh sphere --material mine.csv --illuminant A --white A --format exr
 
 The light's direction is in view axes: x to the right, y up, z towards the eye. Angles are in degrees, lengths in meters,
-distances in radii of the mesh. A picture is called after mesh and source, as in head_nikon-d70.png, and replaces an older one.
+distances in radii of the mesh. A picture is called after mesh and source, as in head_nikon-d70-2007.png, and replaces an older one.
 OpenEXR holds Eq 12 before exposure, with \u{3c0}f in the place of P for the radiometric and microfacet readings: R G B after white
 balance, X Y Z, and the coverage A. Without any source: the truth (Stiles & Burch) and the paper's three cameras.";
 
