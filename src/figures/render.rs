@@ -93,7 +93,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
         None => caption(scene),
     };
     if shown.len() > 1 || !shot.sources.iter().all(|source| source.is_truth) {
-        figure.caption.push_str(&format!(" {}", headline::MEANING));
+        figure.caption = format!("{} {}", figure.caption, headline::MEANING);
     }
     figure.table = table(shot, headline::measure(scene.document));
     Some(figure)

@@ -365,7 +365,7 @@ fn mistakes_are_named() {
     refused(&folder, &["--mesh", "broken.obj"], 1, &["broken.obj, line 2", "decimal point"]);
     refused(&folder, &["--material", "Vrhel"], 1, &["could be", "(Vrhel)"]);
     refused(&folder, &["--material", "Lead 001"], 1, &["no material is named \"Lead 001\""]);
-    refused(&folder, &["--camera", "Nikn D70"], 1, &["did you mean", "Nikon D70 (2007 figure)"]);
+    refused(&folder, &["--camera", "Nikn D70"], 1, &["did you mean", "Nikon D70 (A.M.P.A.S.)"]);
     refused(&folder, &["--sigma", "5"], 2, &["--sigma", "meters", "5e-6"]);
     refused(&folder, &["--tau", "0"], 2, &["--tau", "10e-6"]);
     refused(&folder, &["--patch", "1e-6"], 2, &["--patch", "2 wanted", "50e-6,50e-6"]);

@@ -54,7 +54,7 @@ impl HemisphericalReflectance {
 /// ```
 pub fn directional_hemispherical(surface: &Surface, reading: Reading, theta_i: f64) -> HemisphericalReflectance {
     let (sin_i, cos_i) = theta_i.sin_cos();
-    if !(cos_i > 0.0) {
+    if cos_i <= 0.0 || cos_i.is_nan() {
         return HemisphericalReflectance::default();
     }
     if reading == Reading::Lambertian {

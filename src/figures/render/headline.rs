@@ -58,7 +58,7 @@ mod tests {
     #[test]
     fn a_picture_without_light_has_no_difference() {
         let bright = Some(BrightSamples { count: 2, median: 2.0, p95: 4.0 });
-        let some = Difference { stride: 1, map: vec![1.0; 3], mean: 1.0, max: 5.0, facing: Some(3.14), bright };
+        let some = Difference { stride: 1, map: vec![1.0; 3], mean: 1.0, max: 5.0, facing: Some(3.12), bright };
         let said = [Detail::Number, Detail::Measure, Detail::Quantiles, Detail::Largest];
         assert_eq!(
             said.map(|detail| words(&some, "ΔE*00", detail)),

@@ -58,7 +58,7 @@ fn sentence(light: ReturnedLight, reading: Reading) -> Words {
     }
     if let Some(from) = light.exceeds_one_from_deg {
         let from = number(from.round());
-        text.push_str(&format!("; more than 1 from {from}°: energy is not conserved"));
+        text = format!("{text}; more than 1 from {from}°: energy is not conserved");
     }
     Words { text, is_warning: light.exceeds_one_from_deg.is_some() }
 }
@@ -79,16 +79,16 @@ mod tests {
 
     #[test]
     fn the_default_skin_returns_half_of_the_light() {
-        let words = said(|_| ()).unwrap();
+        let words = said(|_| ()).expect("a sentence");
         assert_eq!(words.text, "Returns 0.49 of the light at normal incidence (0.03 at 85°)");
         assert!(!words.is_warning);
     }
 
     #[test]
     fn more_light_than_comes_is_a_warning() {
-        let words = said(|document| document.render.reading = ReadingChoice::Microfacet).unwrap();
+        let words = said(|document| document.render.reading = ReadingChoice::Microfacet).expect("a sentence");
         assert!(words.is_warning && words.text.contains("; more than 1 from 7"), "{}", words.text);
-        let words = said(|document| document.render.reading = ReadingChoice::Paper).unwrap();
+        let words = said(|document| document.render.reading = ReadingChoice::Paper).expect("a sentence");
         assert!(!words.is_warning && words.text.contains("e-6 of the light") && words.text.ends_with("P for π f"));
     }
 

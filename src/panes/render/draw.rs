@@ -243,15 +243,15 @@ pub(super) fn choosers(ui: &mut Ui, stand: &Stand, sources: &[Source], context: 
     let made = shot.as_deref().and_then(|shot| index_of(shot, &id(&now)));
     let rest = Rect::from_min_max(Pos2::new(place.right() + 8.0, row.top()), row.max);
     let made = shot.as_deref().zip(made).and_then(|(shot, at)| note(shot, at, rest.width() + 90.0, context));
-    if let Some(note) = made.and_then(|note| note.short) {
-        if rest.width() > 90.0 {
-            painter.text(
-                rest.right_center(),
-                Align2::RIGHT_CENTER,
-                note,
-                FontId::proportional(crate::theme::SMALL),
-                context.theme.surround.label(),
-            );
-        }
+    if let Some(note) = made.and_then(|note| note.short)
+        && rest.width() > 90.0
+    {
+        painter.text(
+            rest.right_center(),
+            Align2::RIGHT_CENTER,
+            note,
+            FontId::proportional(crate::theme::SMALL),
+            context.theme.surround.label(),
+        );
     }
 }

@@ -25,6 +25,9 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         (RenderAction::Figure8, "Figure 8", "The paper's head"),
         (RenderAction::Figure9, "Figure 9", "The paper's fern"),
     ];
+    // All of them have room in a narrow pane.
+    ui.spacing_mut().button_padding.x = 0.5 * UNIT;
+    ui.spacing_mut().item_spacing.x = 0.75 * UNIT;
     for (action, words, mesh) in figures {
         let hint = format!(
             "{mesh} in parallel sunlight, balanced to D55, by the reflectance model that is chosen under Surface (at first \

@@ -185,7 +185,7 @@ fn reading(ui: &mut Ui, now: ReadingChoice, context: &mut PaneContext<'_>) {
 
 /// Where the model is stretched.
 fn cautions(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
-    if settings.reading == ReadingChoice::Lambertian {
+    if settings.reading == ReadingChoice::Lambertian || settings.roughness == RoughnessChoice::Mesh {
         return;
     }
     match settings.surface() {
@@ -203,7 +203,7 @@ fn cautions(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
                 let whole = format!("{caution}.");
                 let said = whole.split([',', ':']).next().unwrap_or(&whole);
                 let words = if caution == Caution::Steep {
-                    format!("Empirical lobe: {}", lowered(said))
+                    format!("Empirical lobe, outside the model's validity: {}", lowered(said))
                 } else {
                     said.to_owned()
                 };
