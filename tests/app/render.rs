@@ -457,28 +457,3 @@ fn a_pixel_is_marked_in_the_diagram_beside_the_pictures() {
     window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [0.45, 0.3], source });
     assert_eq!(diamonds(window.state().view()), 4, "one for each source");
 }
-
-#[test]
-fn zz_look() {
-    for (name, size, theme) in
-        [("900d", [900.0, 600.0], egui::Theme::Dark), ("1280l", [1280.0, 800.0], egui::Theme::Light)]
-    {
-        let mut window = window(size, theme);
-        window.render().unwrap().save(format!("/tmp/d_{name}.png")).unwrap();
-        if size[0] > 1000.0 {
-            render(&mut window, |settings| settings.reading = ReadingChoice::Microfacet);
-            window.state_mut().view_mut().saved.render.mode = RenderMode::Difference;
-            settle(&mut window);
-            window.render().unwrap().save("/tmp/d_diff.png").unwrap();
-            window.state_mut().view_mut().saved.render.mode = RenderMode::Grid;
-            render(&mut window, |settings| {
-                *settings = RenderSettings { triangles: 9000, ..RenderSettings::default().as_in_the_paper() }
-            });
-            settle(&mut window);
-            window.render().unwrap().save("/tmp/d_paper8.png").unwrap();
-            render(&mut window, |settings| settings.roughness = chromascope::document::render::RoughnessChoice::Mesh);
-            settle(&mut window);
-            window.render().unwrap().save("/tmp/d_mesh.png").unwrap();
-        }
-    }
-}

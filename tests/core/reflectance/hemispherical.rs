@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use chromascope_core::query::render::ReturnedLightOf;
 use chromascope_core::query::{Ask, Direct};
 use chromascope_core::reflectance::{
-    Geometry, IlluminatedArea, Reading, Specular, Surface, diffuse_prefactor, diffuse_sum, directional_hemispherical,
-    kappa,
+    Geometry, IlluminatedArea, Precision, Reading, Specular, Surface, diffuse_prefactor, diffuse_sum,
+    directional_hemispherical, kappa,
 };
 
 use super::integral;
@@ -24,7 +24,7 @@ fn brute_force(surface: &Surface, reading: Reading, theta_i: f64) -> f64 {
         let around = |phi: f64| {
             let geometry = Geometry::from_angles(theta_i, theta_s, phi);
             let b = (k * surface.tau_m()).powi(2) * geometry.vxy2_by_k2 / 4.0;
-            let sum = diffuse_sum(kappa(surface, &geometry), b, Default::default());
+            let sum = diffuse_sum(kappa(surface, &geometry), b, Precision::default());
             diffuse_prefactor(surface, &geometry, reading) * sum
         };
         2.0 * integral(0.0, PI, 60, around) * theta_s.sin() * theta_s.cos()

@@ -236,7 +236,7 @@ fn untinted_lobes_keep_every_qualitys_error_on_a_dark_material() {
     for sigma_m in [0.4e-6, 0.06e-6, 2e-9] {
         let with = |quality| {
             let (specular, size) = (Specular::Fresnel, RasterSize::new(20, 20));
-            let mut studio = Studio { specular, sigma_m, quality, size, ..Studio::new() };
+            let mut studio = Studio { size, sigma_m, specular, quality, ..Studio::new() };
             studio.reflectance = Shared::new(GridSpectrum::from_fn(|nm| if nm > 600.0 { 0.04 } else { 0.02 }));
             studio.sources.truncate(2);
             studio
@@ -266,7 +266,7 @@ fn the_headline_is_the_patch_that_patches_print() {
     for (sigma_m, light_up, reading) in
         [(5e-6, 25.0, Reading::Radiometric), (0.1e-6, 80.0, Reading::Paper), (5e-6, -60.0, Reading::Lambertian)]
     {
-        let pictures = Studio { sigma_m, light_up, reading, ..studio.clone() }.take(&Direct);
+        let pictures = Studio { light_up, sigma_m, reading, ..studio.clone() }.take(&Direct);
         for (source, difference) in studio.sources.iter().zip(&pictures.differences).skip(1) {
             let expected = patch_difference(Metric::DeltaE2000, &color(source), &color(&studio.sources[0])).unwrap();
             assert_eq!(difference.as_ref().unwrap().facing, Some(expected));
