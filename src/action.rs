@@ -90,6 +90,10 @@ pub enum RenderAction {
     Figure8,
     /// The paper's Figure 9: the fern under sunlight, balanced to D55.
     Figure9,
+    /// Figure 8 in the paper's own setup: point light, Eq 12 in the paper's normalization.
+    PaperFigure8,
+    /// Figure 9 in the paper's own setup.
+    PaperFigure9,
 }
 
 /// Changes to the user's own sets.
@@ -265,6 +269,8 @@ impl RenderAction {
             Self::Open(_) => "Open a mesh",
             Self::Figure8 => "Figure 8",
             Self::Figure9 => "Figure 9",
+            Self::PaperFigure8 => "Figure 8, as in the paper",
+            Self::PaperFigure9 => "Figure 9, as in the paper",
         }
     }
 
@@ -278,11 +284,12 @@ impl RenderAction {
                 document.render.mesh = MeshChoice::File(path.clone());
                 return;
             }
-            Self::Figure8 => RenderSettings::default(),
-            Self::Figure9 => RenderSettings::fern(),
+            Self::Figure8 => RenderSettings::default().with_model_of(&document.render),
+            Self::Figure9 => RenderSettings::fern().with_model_of(&document.render),
+            Self::PaperFigure8 => RenderSettings::default().as_in_the_paper(),
+            Self::PaperFigure9 => RenderSettings::fern().as_in_the_paper(),
         };
-        // The reading is what the two versions of each figure differ in, so it stays as it was chosen.
-        document.render = RenderSettings { reading: document.render.reading, ..figure };
+        document.render = figure;
         document.light = Light::Set(SUN.to_owned());
         document.white = WhiteChoice::Light(BALANCE.to_owned());
     }

@@ -17,6 +17,7 @@
 pub mod coherent;
 pub mod fresnel;
 pub mod geometry;
+pub mod hemispherical;
 pub mod power;
 pub mod reading;
 pub mod regimes;
@@ -24,10 +25,11 @@ pub mod sum;
 pub mod surface;
 
 pub use geometry::Geometry;
-pub use power::{beta, coherent_prefactor, diffuse_prefactor, factor, factor_by, kappa, wavelength_power};
+pub use hemispherical::{HemisphericalReflectance, directional_hemispherical};
+pub use power::{beta, coherent_prefactor, diffuse_prefactor, factor, factor_by, factors_by, kappa, wavelength_power};
 pub use reading::{Method, Reading};
 pub use regimes::{Regime, diffuse_sum_by_regimes};
 pub use sum::{
     Precision, SeriesTerms, diffuse_sum, diffuse_sums_into, ln_diffuse_sum, ln_diffuse_sums_into, series_terms,
 };
-pub use surface::{Caution, Surface, SurfaceError};
+pub use surface::{Caution, IlluminatedArea, Specular, Surface, SurfaceError};

@@ -26,6 +26,8 @@ use super::outputs::{self, is_standard_output, put, write_to};
 use super::{CliError, say};
 use crate::document::WhiteChoice;
 use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
+use crate::figures::render::headline::{self, Detail};
+use crate::figures::render::returned;
 use crate::laboratory::plans;
 use crate::results::{Count, Results};
 use crate::scene::{Scene, SceneError, Source};
@@ -169,6 +171,7 @@ impl<'a> Made<'a> {
             format!("{}: {}{plan}", path.display(), self.difference(index))
         });
         let mut lines: Vec<String> = lines.collect();
+        lines.extend(returned::words(&self.scene).map(|words| format!("surface: {}", words.text)));
         let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
         let stages = counts.iter().map(|(name, count)| (*name, count.own_time));
         let stages = stages.chain([("mesh file", times.reading), ("files", times.writing)]);
@@ -207,9 +210,8 @@ impl<'a> Made<'a> {
             _ if self.sources[index].is_truth => "the truth".to_owned(),
             (_, Some(NoDifference::Ways)) => "no \u{394}E*00 by Eq 13; add --transform fitted to compare".to_owned(),
             (_, Some(other)) => format!("no \u{394}E*00: {other}"),
-            (Some(difference), None) if difference.map.is_empty() => "nothing is lit".to_owned(),
             (Some(difference), None) => {
-                format!("\u{394}E*00 mean {:.2}, max {:.2}", difference.mean, difference.max)
+                headline::words(difference, headline::measure(self.scene.document), Detail::Largest)
             }
             (None, None) => "no \u{394}E*00".to_owned(),
         }

@@ -1,5 +1,7 @@
 //! What the Render pane looks at: mesh, material, surface, light's place, quality. Part of the document.
 
+pub mod model;
+
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
@@ -8,6 +10,7 @@ use chromascope_core::query::render::Roughness;
 use chromascope_core::reflectance::{Reading, Surface, SurfaceError};
 use chromascope_core::render::Quality;
 use chromascope_core::scene::lighting::{Lighting, LightingError, SUN_RADIUS};
+use model::{AreaChoice, SpecularChoice};
 use serde::{Deserialize, Serialize};
 
 /// The skin of the default head.
@@ -18,6 +21,9 @@ pub const LEAF: &str = "Fern-like bush leaf 024 (Vrhel)";
 pub const SUN: &str = "Direct sun (ASTM G173)";
 /// The balance of the paper's third experiment.
 pub const BALANCE: &str = "D55";
+
+/// The distance that a near light begins with, in radii of the mesh.
+pub const NEAR: f64 = 4.0;
 
 /// How many triangles the program's own meshes may have.
 pub const TRIANGLES: RangeInclusive<usize> = 2_000..=2_000_000;
@@ -46,16 +52,21 @@ pub struct RenderSettings {
     pub material: String,
     /// Height deviation σ in micrometers.
     pub sigma_um: f64,
-    /// Where σ is from.
+    /// Where σ and τ are from.
     pub roughness: RoughnessChoice,
     /// Correlation length τ in micrometers.
     pub tau_um: f64,
-    /// Half sides X and Y of a patch in micrometers.
+    /// Half-widths X and Y of the coherently illuminated area in micrometers.
     pub half_sides_um: [f64; 2],
+    /// The area A that follows from them.
+    pub area: AreaChoice,
     /// Refractive index.
     pub index: f64,
     /// How Eq 1 is read.
     pub reading: ReadingChoice,
+    /// The reflectance factor of the coherent component.
+    #[serde(default = "SpecularChoice::before")]
+    pub specular: SpecularChoice,
     /// How exactly integrals are made.
     pub quality: QualityChoice,
     /// The error that [`QualityChoice::Tolerance`] allows, relative to the peak.
@@ -85,8 +96,10 @@ impl Default for RenderSettings {
             roughness: RoughnessChoice::Surface,
             tau_um: 10.0,
             half_sides_um: [50.0, 50.0],
+            area: AreaChoice::FourXy,
             index: 1.40,
             reading: ReadingChoice::Radiometric,
+            specular: SpecularChoice::Fresnel,
             quality: QualityChoice::Full,
             tolerance: TOLERANCE,
             light_up_deg: 25.0,
@@ -123,6 +136,25 @@ impl RenderSettings {
         Self { mesh: MeshChoice::Fern, material: LEAF.to_owned(), index: 1.45, ..Self::default() }
     }
 
+    /// These settings with the reflectance model of others.
+    #[must_use]
+    pub fn with_model_of(self, other: &Self) -> Self {
+        Self { reading: other.reading, specular: other.specular, area: other.area, ..self }
+    }
+
+    /// The paper's own setup of the same mesh: a point light, and Eq 1–12 as printed. σ and τ are not given in the paper.
+    #[must_use]
+    pub fn as_in_the_paper(self) -> Self {
+        Self {
+            reading: ReadingChoice::Paper,
+            specular: SpecularChoice::Paper,
+            area: AreaChoice::Xy,
+            light_distance: Some(NEAR),
+            light_radius: 0.0,
+            ..self
+        }
+    }
+
     /// How exactly integrals are made.
     pub fn quality(&self) -> Quality {
         match self.quality {
@@ -139,7 +171,8 @@ impl RenderSettings {
     /// The surface in meters.
     pub fn surface(&self) -> Result<Surface, SurfaceError> {
         let [x, y] = self.half_sides_um;
-        Surface::new(self.sigma_um * 1e-6, self.tau_um * 1e-6, x * 1e-6, y * 1e-6, self.index)
+        let surface = Surface::new(self.sigma_um * 1e-6, self.tau_um * 1e-6, x * 1e-6, y * 1e-6, self.index)?;
+        Ok(surface.with_area(self.area.area()).with_specular(self.specular.specular()))
     }
 
     /// The light's place in view axes.
@@ -170,23 +203,23 @@ pub enum MeshChoice {
     File(PathBuf),
 }
 
-/// Where the height deviation is from.
+/// Where σ and τ are from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RoughnessChoice {
-    /// The number that is set.
+    /// The numbers that are set.
     #[default]
     Surface,
-    /// The heights of each vertex's neighbors about its tangent plane, as in the paper.
+    /// Heights and radius of each vertex's neighborhood, as in the paper.
     Mesh,
 }
 
 impl RoughnessChoice {
     /// Why one would not choose the mesh.
-    pub const WHY_NOT: &'static str = "The paper's way: σ at each vertex from the heights of its neighbors about the \
-        tangent plane, P at the vertices, interpolated. These are heights of the mesh, not of the skin: on a head of some \
-        thousand triangles about a tenth of a millimeter and more, which makes g some tens of millions and the picture almost \
-        black; with more triangles σ shrinks.";
+    pub const WHY_NOT: &'static str = "As in the paper: at each vertex σ from the heights of its neighbors about the tangent \
+        plane, τ from the radius of that neighborhood; P at the vertices, interpolated. These are lengths of the mesh, not of \
+        the material: tenths of a millimeter and millimeters, so that g is some tens of millions, and the width of the gloss, \
+        2σ/τ, is the angle at which triangles meet. With more triangles it narrows.";
 
     /// The core's.
     pub const fn roughness(self) -> Roughness {
@@ -204,9 +237,9 @@ pub enum ReadingChoice {
     /// Radiance per irradiance.
     #[default]
     Radiometric,
-    /// Eq 1 to 12 to the letter.
+    /// Eq 1 to 12 as printed.
     Paper,
-    /// Beckmann's own geometric factor: reciprocal.
+    /// Beckmann's own geometric factor: its diffuse component is reciprocal.
     Microfacet,
     /// No model: all directions alike.
     Lambertian,
@@ -243,11 +276,11 @@ impl ReadingChoice {
                 "Scattered radiance per incident irradiance: Eq 1 times A / (λ² cos θs). A rough white stays white."
             }
             Self::Paper => {
-                "Eq 1 to 12 to the letter. Eq 4 goes with λ² and no λ⁻² beside it, so rough surfaces turn yellow: a white \
-                 under D55 goes from xy (0.332, 0.347) to (0.373, 0.379)."
+                "Eq 1 to 12 as printed, but for A, which is chosen beside X and Y. Eq 4 goes with λ² and no λ⁻² beside it, so rough \
+                 surfaces turn yellow: a white under D55 goes from xy (0.332, 0.347) to (0.373, 0.379)."
             }
             Self::Microfacet => {
-                "Beckmann's own geometric factor in place of the cos θi of Eq 3: light and eye can change places."
+                "Beckmann's own geometric factor in place of the cos θi of Eq 3. Only the diffuse component is reciprocal (Helmholtz)."
             }
             Self::Lambertian => "No model: every direction gets the same share. The quickest, and a plain reference.",
         }

@@ -1,5 +1,6 @@
 //! The named starts: what is compared, and under which conditions, on the first screen and after a reset.
 
+use super::render::model::SpecularChoice;
 use super::{CHART, CIE_1931, Document, Light, Subset, TRUTH, WayChoice};
 use crate::catalog::Kind;
 use serde::{Deserialize, Serialize};
@@ -71,6 +72,8 @@ impl Start {
             CHART.clone_into(&mut document.chart);
             document.subset = Subset::All;
             document.set_transform(WayChoice::Observer(CIE_1931.to_owned()));
+        } else {
+            document.render.specular = SpecularChoice::Paper;
         }
         for (name, kind) in self.sensors() {
             document.compare(name, *kind);

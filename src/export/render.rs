@@ -3,7 +3,7 @@
 use std::io::{Cursor, Seek, Write};
 
 use chromascope_core::camera::Rendering;
-use chromascope_core::reflectance::{Reading, Surface};
+use chromascope_core::reflectance::{Reading, Specular, Surface};
 use chromascope_core::render::{CameraImage, Picture, Quality};
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::lighting::{Distance, Lighting};
@@ -140,6 +140,8 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         ("tau", AttributeValue::F64(surface.tau_m())),
         ("halfSideX", AttributeValue::F64(surface.half_x_m())),
         ("halfSideY", AttributeValue::F64(surface.half_y_m())),
+        ("illuminatedArea", AttributeValue::F64(surface.area_m2())),
+        ("specular", text(specular_name(surface.specular()))),
         ("refractiveIndex", AttributeValue::F64(surface.index())),
         ("orbit", three(orbit)),
         ("fieldOfView", AttributeValue::F64(viewpoint.field_of_view().to_degrees())),
@@ -177,6 +179,14 @@ pub const fn reading_name(reading: Reading) -> &'static str {
         Reading::Paper => "paper",
         Reading::Microfacet => "microfacet",
         Reading::Lambertian => "lambertian",
+    }
+}
+
+/// The name of the coherent component's reflectance factor, as the command line takes it.
+pub const fn specular_name(specular: Specular) -> &'static str {
+    match specular {
+        Specular::Paper => "paper",
+        Specular::Fresnel => "fresnel",
     }
 }
 

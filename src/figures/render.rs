@@ -1,11 +1,14 @@
 //! The rendered pictures as a figure, and their pixels in words.
 
 pub mod difference;
+pub mod headline;
+pub mod returned;
 
 use chromascope_core::figure::{Anchor, Cell, Figure, Image, Ink, Mark, Panel, Rect, Shape, Table, TextSize};
 
+use self::headline::Detail;
 use super::chromaticity::viewing_conditions;
-use crate::document::render::MeshChoice;
+use crate::document::render::{MeshChoice, RoughnessChoice};
 use crate::scene::Scene;
 use crate::studio::Shot;
 use crate::studio::pixel::{self, LitPixel, PixelReading, PixelShows};
@@ -55,7 +58,9 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
         let source = &shot.sources[at];
         let label = if source.is_truth { format!("Truth, {}", source.label) } else { source.label.clone() };
         let difference = made.differences.get(at).and_then(Option::as_ref);
-        let note = difference.map(|difference| format!("mean ΔE {}", fixed(difference.mean, 1)));
+        let measure = headline::measure(scene.document);
+        let detail = if maps.is_some() { Detail::Measure } else { Detail::Quantiles };
+        let note = difference.map(|difference| headline::words(difference, measure, detail));
         let middle = y + CAPTION / 2.0;
         let marker = Shape::Points { points: vec![[x + 7.0, middle]], marker: source.marker, radius: 5.0 };
         let mark = Mark::new(Things::NONE, label.clone(), marker).with_stroke(ink, 1.5);
@@ -76,14 +81,21 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
         }
     }
     if let Some(end) = maps {
-        panel.marks.extend(difference::scale(end, [GAP, all[1] - difference::SCALE], all[0] - 2.0 * GAP, ink));
+        let measure = headline::measure(scene.document);
+        panel.marks.extend(difference::scale(end, measure, [GAP, all[1] - difference::SCALE], all[0] - 2.0 * GAP, ink));
     }
     figure.panels.push(panel);
     figure.caption = match maps {
-        Some(_) => format!("Maps of ΔE*00 to the truth; black: no light. {}", caption(scene)),
+        Some(_) => {
+            let measure = headline::measure(scene.document);
+            format!("Maps of {measure} from the reference; black: no light. {}", caption(scene))
+        }
         None => caption(scene),
     };
-    figure.table = table(shot);
+    if shown.len() > 1 || !shot.sources.iter().all(|source| source.is_truth) {
+        figure.caption = format!("{} {}", figure.caption, headline::MEANING);
+    }
+    figure.table = table(shot, headline::measure(scene.document));
     Some(figure)
 }
 
@@ -107,23 +119,40 @@ pub fn mesh_name(mesh: &MeshChoice) -> String {
 fn caption(scene: &Scene<'_>) -> String {
     let settings = &scene.document.render;
     let mesh = mesh_name(&settings.mesh);
+    let roughness = match settings.roughness {
+        RoughnessChoice::Surface => format!("σ = {} µm, τ = {} µm", settings.sigma_um, settings.tau_um),
+        RoughnessChoice::Mesh => "σ and τ from the mesh".to_owned(),
+    };
     format!(
-        "Mesh: {mesh}. Material: {}, σ = {} µm, τ = {} µm, n = {}. Reading: {}. {}",
+        "Mesh: {mesh}. Material: {}, {roughness}, n = {}. Normalization of P: {}; coherent component: {}; {}. {}",
         settings.material,
-        settings.sigma_um,
-        settings.tau_um,
         settings.index,
         settings.reading.label(),
+        settings.specular.label(),
+        settings.area.label(),
         viewing_conditions(scene)
     )
 }
 
-fn table(shot: &Shot) -> Table {
-    let mut table =
-        Table::new(["source", "mean_de00", "max_de00", "clipped_samples", "pixels_across", "pixels_down", "time_ms"]);
+fn table(shot: &Shot, measure: &str) -> Table {
+    let mut table = Table::new([
+        "source",
+        "mean_de00",
+        "max_de00",
+        "clipped_samples",
+        "pixels_across",
+        "pixels_down",
+        "time_ms",
+        "measure",
+        "facing_light",
+        "median_above_l20",
+        "p95_above_l20",
+        "samples_above_l20",
+    ]);
     let Some(made) = shot.made() else { return table };
     for (at, source) in shot.sources.iter().enumerate() {
         let difference = made.differences.get(at).and_then(Option::as_ref);
+        let bright = difference.and_then(|difference| difference.bright);
         let picture = made.pictures.get(at).and_then(|picture| picture.as_ref().ok());
         table.push([
             Cell::from(source.label.as_str()),
@@ -133,6 +162,11 @@ fn table(shot: &Shot) -> Table {
             Cell::from(picture.map(|picture| picture.width as f64)),
             Cell::from(picture.map(|picture| picture.height as f64)),
             Cell::from(shot.time.as_secs_f64() * 1e3),
+            Cell::from(if source.is_truth { "" } else { measure }),
+            Cell::from(difference.and_then(|difference| difference.facing)),
+            Cell::from(bright.map(|bright| bright.median)),
+            Cell::from(bright.map(|bright| bright.p95)),
+            Cell::from(difference.map(|_| bright.map_or(0.0, |bright| bright.count as f64))),
         ]);
     }
     table
@@ -156,15 +190,17 @@ pub fn pixel_line(scene: &Scene<'_>, render: &RenderView, place: &PixelPlace) ->
             return Some(format!("{label}, pixel {x}, {y}: beside the mesh. {hint}"));
         }
         PixelShows::Unlit => "no light reaches it".to_owned(),
-        PixelShows::Lit(lit) => {
-            facts(lit).into_iter().map(|(name, value)| format!("{name} {value}")).collect::<Vec<_>>().join("  ")
-        }
+        PixelShows::Lit(lit) => facts(lit, headline::measure(scene.document))
+            .into_iter()
+            .map(|(name, value)| format!("{name} {value}"))
+            .collect::<Vec<_>>()
+            .join("  "),
     };
     Some(format!("{label}, pixel {x}, {y}: {rest}"))
 }
 
-/// A lit pixel's numbers with their names.
-pub fn facts(lit: &LitPixel) -> Vec<(&'static str, String)> {
+/// A lit pixel's numbers with their names; `measure` is that of its difference ([`headline::measure`]).
+pub fn facts(lit: &LitPixel, measure: &'static str) -> Vec<(&'static str, String)> {
     let three = |values: [f64; 3], decimals: usize| values.map(|v| fixed(v, decimals)).join(" ");
     let mut facts = vec![("RGB", three(lit.linear, 3))];
     if let Some(xy) = lit.xy {
@@ -174,7 +210,7 @@ pub fn facts(lit: &LitPixel) -> Vec<(&'static str, String)> {
         facts.push(("Lab", three([lab.l, lab.a, lab.b], 1)));
     }
     if let Some(difference) = lit.difference {
-        facts.push(("ΔE*00", fixed(difference, 1)));
+        facts.push((measure, fixed(difference, 1)));
     }
     if let Some((g, _)) = lit.roughness {
         let decimals = if g >= 100.0 { 0 } else { 3 };

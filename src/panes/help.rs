@@ -195,13 +195,14 @@ fn equations(ui: &mut Ui) {
         (
             "Eq 1",
             "P = ρ₀² exp(−g) + D,  ρ₀ = sinc(v_x X) sinc(v_y Y),  g = σ² v_z²",
-            "Light scattered by a rough surface: a mirror term and a diffuse one. σ: deviation of heights; τ: their correlation \
-             length; X, Y: half sides of the patch. sinc x = sin x / x; the light comes from azimuth π.",
+            "Light scattered by a rough surface: a coherent (specular) component and a diffuse one. σ: RMS roughness; τ: \
+             correlation length; X, Y: half-widths of the illuminated area. sinc x = sin x / x; the light comes from azimuth \
+             π. Fresnel, untinted: ρ₀² times F at the half vector, without S(λ).",
         ),
         (
             "Eq 2",
             "D = (π τ² / A) G² exp(−g) Σ gⁿ / (n! n) exp(−τ² v_xy² / (4 n))",
-            "n from 1 on, A = 4 X Y. Summed by one method for all g: around its saddle, directly where few terms count.",
+            "n from 1 on. A = 4XY; the paper prints XY, which can be chosen, but its patch is 2X by 2Y. Summed by one method for all g: around its saddle, directly where few terms count.",
         ),
         (
             "Eq 3",
@@ -348,6 +349,8 @@ fn find(typed: &str, history: &History, context: &PaneContext<'_>) -> Vec<Found>
     for (action, words) in [
         (RenderAction::Figure8, "Figure 8: a head under direct sunlight"),
         (RenderAction::Figure9, "Figure 9: a fern under direct sunlight"),
+        (RenderAction::PaperFigure8, "Figure 8, as in the paper: point light, Eq 12 as printed"),
+        (RenderAction::PaperFigure9, "Figure 9, as in the paper: point light, Eq 12 as printed"),
     ] {
         if matches(words) {
             let command = Command::Do(Action::Render(action));

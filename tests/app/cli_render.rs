@@ -110,9 +110,11 @@ fn without_sources_those_of_the_preset() {
             "{line}"
         );
     }
-    assert!(lines[0].ends_with(": the truth") && lines[1].contains("ΔE*00 mean ") && lines[1].contains(", max "));
-    assert!(lines[4].starts_with("4 pictures of 40x30, ") && lines[4].contains(" ms ("), "{}", lines[4]);
-    assert_eq!(lines.len(), 5);
+    assert!(lines[0].ends_with(": the truth") && lines[1].contains("Δ of Eq 13 colors "));
+    assert!(lines[1].contains(" facing light, median ") && lines[1].contains(", max "), "{}", lines[1]);
+    assert_eq!(lines[4], "surface: Returns 0.49 of the light at normal incidence (0.03 at 85°)");
+    assert!(lines[5].starts_with("4 pictures of 40x30, ") && lines[5].contains(" ms ("), "{}", lines[5]);
+    assert_eq!(lines.len(), 6);
     assert_eq!(pictures_in(&folder.join("new/folder")).len(), 4);
     rendered(&folder, &["--mesh", "sphere", "--triangles", "800", "--size", "8x8", "--out", "default"]);
     let expected = ["canon-eos-5d-mark-ii", "cie-1931-2", "kodak-dcs200", "nikon-d70-a-m-p-a-s"];
@@ -211,6 +213,7 @@ fn exr_says_what_it_is_of_and_is_the_same_each_time() {
     assert_eq!(text(of("balance")), "D55");
     assert_eq!(text(of("illuminant")), "Direct sun (ASTM G173)");
     assert_eq!(text(of("reading")), "paper");
+    assert_eq!(text(of("specular")), "paper");
     let number = |name: &str| match of(name) {
         AttributeValue::F64(number) => *number,
         other => panic!("{other:?}"),
@@ -237,7 +240,7 @@ fn a_cie_observer_has_no_red_green_and_blue() {
     let (_, channels) = read_exr(&folder.join("sphere_cie-1931-2.exr"));
     assert_eq!(channels.keys().collect::<Vec<_>>(), ["A", "X", "Y", "Z"]);
     let fitted = ["--observer", "CIE 1931 2°", "--transform", "fitted"];
-    assert!(rendered(&folder, &[&SMALL[..], &fitted].concat()).contains("ΔE*00 mean"));
+    assert!(rendered(&folder, &[&SMALL[..], &fitted].concat()).contains(": ΔE*00 "));
 }
 
 #[test]
@@ -246,7 +249,7 @@ fn statistics_are_json() {
     let smooth = ["--sigma", "3e-7", "--tau", "3e-6", "--patch", "2e-6,2e-6", "--stats", "-"];
     let output = run(&folder, &[&SMALL[..], &D70, &smooth].concat());
     let message = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && message.contains("sphere_nikon-d70-2007.png: ΔE*00"), "{message}");
+    assert!(output.status.success() && message.contains("sphere_nikon-d70-2007.png: Δ of Eq 13 colors "), "{message}");
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(json["size"], serde_json::json!({ "width": 40, "height": 30, "samples_per_side": 1 }));
     assert_eq!(json["settings"]["sigma_m"], 3e-7);
@@ -265,6 +268,12 @@ fn statistics_are_json() {
     let source = &json["sources"][0];
     assert_eq!(source["name"], "Nikon D70 (2007 figure)");
     assert_eq!(source["delta_e_2000"]["samples"], json["samples"]["lit"]);
+    let difference = &source["difference"];
+    assert_eq!(difference["measure"], "Δ of Eq 13 colors");
+    let of = |name: &str| difference[name].as_f64().unwrap_or_else(|| panic!("{name}"));
+    assert!(of("facing_light") > 0.0 && of("median_above_l20") <= of("p95_above_l20"), "{difference}");
+    assert!(of("samples_above_l20") <= json["samples"]["lit"].as_f64().unwrap(), "{difference}");
+    assert!(json["settings"]["returned_light"]["normal_incidence"].as_f64().is_some_and(|share| share > 0.3));
     let wavelengths = &source["wavelengths"];
     assert_eq!((&wavelengths["of"], &wavelengths["in_a_table_place"]), (&Value::from(401), &Value::from(9)));
     let accuracy = &json["accuracy"];
@@ -279,6 +288,31 @@ fn statistics_are_json() {
     let sums = |way: &str| accuracy[way]["samples_by_sums"].as_u64().unwrap();
     assert!(sums("chosen") == 0 && sums("exact") > 0 && sums("regimes") == sums("exact"), "{accuracy}");
     assert!(accuracy["samples"].as_u64().is_some_and(|samples| samples > 0 && samples <= 2000));
+}
+
+#[test]
+fn the_coherent_component_and_the_area_can_be_chosen() {
+    let folder = folder("specular");
+    let small = ["--mesh", "sphere", "--triangles", "800", "--size", "24x24", "--sigma", "0", "--stats", "-"];
+    let of = |arguments: &[&str]| -> Value {
+        serde_json::from_str(&rendered(&folder, &[&small[..], &D70, arguments].concat())).unwrap()
+    };
+    let share = |stats: &Value| stats["settings"]["returned_light"]["normal_incidence"].as_f64().unwrap();
+    let [paper, fresnel] = ["paper", "fresnel"].map(|specular| of(&["--specular", specular]));
+    assert_eq!(
+        (&paper["settings"]["specular"], &fresnel["settings"]["specular"]),
+        (&"paper".into(), &"fresnel".into())
+    );
+    assert!((share(&paper) - 1.0).abs() < 1e-9 && (share(&fresnel) - 1.0 / 36.0).abs() < 1e-9);
+    let printed = of(&["--specular", "paper", "--area", "xy"]);
+    assert_eq!(printed["settings"]["area_m2"], 2.5e-9);
+    assert!((share(&printed) - 0.25).abs() < 1e-9);
+    let help = String::from_utf8(run(&folder, &["--help"]).stdout).unwrap();
+    let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        words.contains("0.49 and 0.03 of the light (radiometric)") && words.contains("diffuse component only"),
+        "{words}"
+    );
 }
 
 #[test]
@@ -347,7 +381,7 @@ fn meshes_and_materials_come_from_files() {
     assert!(message.contains("taking the first, dark") && message.contains("My Square.obj: "), "{message}");
     assert_eq!(pictures_in(&folder), ["my-square_nikon-d70-2007.png"]);
     let behind = rendered(&folder, &[&arguments[..], &D70, &["--light=0,0,-1"]].concat());
-    assert!(behind.contains("nothing is lit"), "{behind}");
+    assert!(behind.contains(": no light\n"), "{behind}");
 }
 
 #[test]
@@ -359,7 +393,7 @@ fn mistakes_are_named() {
     refused(&folder, &["--mesh", "broken.obj"], 1, &["broken.obj, line 2", "decimal point"]);
     refused(&folder, &["--material", "Vrhel"], 1, &["could be", "(Vrhel)"]);
     refused(&folder, &["--material", "Lead 001"], 1, &["no material is named \"Lead 001\""]);
-    refused(&folder, &["--camera", "Nikn D70"], 1, &["did you mean", "Nikon D70 (2007 figure)"]);
+    refused(&folder, &["--camera", "Nikn D70"], 1, &["did you mean", "Nikon D70 (A.M.P.A.S.)"]);
     refused(&folder, &["--sigma", "5"], 2, &["--sigma", "meters", "5e-6"]);
     refused(&folder, &["--tau", "0"], 2, &["--tau", "10e-6"]);
     refused(&folder, &["--patch", "1e-6"], 2, &["--patch", "2 wanted", "50e-6,50e-6"]);
@@ -383,18 +417,20 @@ fn mistakes_are_named() {
 }
 
 #[test]
-fn the_meshs_own_roughness_is_darker_and_has_no_one_error() {
+fn the_meshs_own_roughness_is_a_narrow_gloss_and_has_no_one_error() {
     let folder = folder("from_mesh");
     let by = |more: &[&str]| {
         let name = if more.is_empty() { "given.json" } else { "mesh.json" };
         let head = ["--mesh", "head", "--triangles", "3000", "--size", "32x32", "--stats", name];
-        rendered(&folder, &[&head[..], &D70, more].concat());
-        serde_json::from_slice::<Value>(&std::fs::read(folder.join(name)).unwrap()).unwrap()
+        let said = rendered(&folder, &[&head[..], &D70, more].concat());
+        (said, serde_json::from_slice::<Value>(&std::fs::read(folder.join(name)).unwrap()).unwrap())
     };
-    let (given, mesh) = (by(&[]), by(&["--sigma-from-mesh"]));
-    let peak = |stats: &Value| stats["sources"][0]["peak_signal"].as_f64().unwrap();
-    assert!(peak(&mesh) < 0.1 * peak(&given), "{} and {}", peak(&mesh), peak(&given));
+    let ((said, given), (unsaid, mesh)) = (by(&[]), by(&["--sigma-from-mesh"]));
+    let bright = |stats: &Value| stats["sources"][0]["difference"]["samples_above_l20"].as_u64().unwrap();
+    assert!(bright(&mesh) < bright(&given) / 2, "{} and {}", bright(&mesh), bright(&given));
     assert!(given["accuracy"].is_object() && mesh["accuracy"].is_null());
+    assert_eq!(mesh["settings"]["tau_from_mesh"], true);
+    assert!(said.contains("surface: Returns 0.49") && !unsaid.contains("surface: "), "no one surface: {unsaid}");
 }
 
 /// Small pictures kept beside the tests: what head and fern look like through the truth and a camera, in all readings that

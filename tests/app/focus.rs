@@ -18,7 +18,7 @@ fn focused(window: &Window) -> Option<egui::Response> {
 
 fn name_of(window: &Window, id: egui::Id) -> String {
     use egui_kittest::kittest::{NodeT as _, Queryable as _};
-    let node = window.query_by(egui_kittest::kittest::AccessKitNode::is_focused);
+    let node = window.query_by(|node| node.is_focused() && !node.is_hidden());
     node.and_then(|node| node.accesskit_node().label()).unwrap_or_else(|| format!("{id:?}"))
 }
 

@@ -8,8 +8,9 @@ use chromascope::app::ChromascopeApp;
 use chromascope::catalog::Kind;
 use chromascope::catalog::meshes::MeshState;
 use chromascope::command::Command;
+use chromascope::document::render::model::{AreaChoice, SpecularChoice};
 use chromascope::document::render::{BALANCE, MeshChoice, QualityChoice, ReadingChoice, RenderSettings, SUN};
-use chromascope::document::{Document, Light, WhiteChoice};
+use chromascope::document::{Document, Light, WhiteChoice, session};
 use chromascope::panes;
 use chromascope::scene::Scene;
 use chromascope::thing::SourceId;
@@ -79,7 +80,12 @@ fn the_truth_and_three_cameras_stand_side_by_side() {
     let captions = captions(&window);
     assert_eq!(captions.len(), 4, "{captions:?}");
     assert!(captions[0].starts_with("Picture: Truth"), "{captions:?}");
-    assert!(captions[1..].iter().all(|caption| caption.contains("mean ΔE")), "{captions:?}");
+    assert!(
+        captions[1..]
+            .iter()
+            .all(|caption| caption.contains("Δ of Eq 13 colors") && caption.contains(" facing light, median ")),
+        "{captions:?}"
+    );
     let shot = window.state().view().render.shot.clone().unwrap();
     assert!(shot.is_last && shot.query.shading.geometry.visibility.size.samples == 3);
     let pixels = &shot.made().unwrap().pictures[0].as_ref().unwrap().rgba;
@@ -108,6 +114,60 @@ fn a_figure_keeps_the_reading() {
     window.run_steps(2);
     assert_eq!(document(&window).render.reading, ReadingChoice::Paper);
     assert_eq!(document(&window).white, WhiteChoice::Light(BALANCE.to_owned()));
+}
+
+#[test]
+fn a_figure_as_in_the_paper_has_a_point_light_and_the_papers_normalization() {
+    let mut document = Document::colorimetry();
+    assert_eq!(document.render.specular, SpecularChoice::Fresnel);
+    assert_eq!(Document::paper().render.specular, SpecularChoice::Paper);
+    for (action, name, mesh) in [
+        (RenderAction::PaperFigure8, "Figure 8, as in the paper", MeshChoice::Head),
+        (RenderAction::PaperFigure9, "Figure 9, as in the paper", MeshChoice::Fern),
+    ] {
+        let action = Action::Render(action);
+        assert_eq!(action.name(), name);
+        action.apply(&mut document);
+        let settings = &document.render;
+        assert_eq!(
+            (&settings.mesh, settings.reading, settings.specular),
+            (&mesh, ReadingChoice::Paper, SpecularChoice::Paper)
+        );
+        assert_eq!((settings.area, settings.light_radius), (AreaChoice::Xy, 0.0));
+        assert!(settings.light_distance.is_some());
+        assert_eq!(document.light, Light::Set(SUN.to_owned()));
+    }
+    // The program's own keeps the model that was chosen, and has parallel light again.
+    Action::Render(RenderAction::Figure8).apply(&mut document);
+    assert_eq!((document.render.light_distance, document.render.area), (None, AreaChoice::Xy));
+}
+
+#[test]
+fn a_saved_session_keeps_the_coherent_component_that_it_was_made_with() {
+    let mut saved: serde_json::Value = serde_json::to_value(Document::colorimetry()).unwrap();
+    let settings = saved["render"].as_object_mut().unwrap();
+    assert_eq!((settings.remove("specular"), settings.remove("area")), (Some("fresnel".into()), Some("4xy".into())));
+    let opened = session::from_json(&saved.to_string()).unwrap();
+    assert_eq!((opened.render.specular, opened.render.area), (SpecularChoice::Paper, AreaChoice::FourXy));
+}
+
+#[test]
+fn the_surface_says_its_limits_where_it_is_chosen() {
+    let mut window = small();
+    let says = |window: &Window, words: &str| {
+        window.query_all_by(|node| node.value().is_some_and(|label| label.contains(words))).count() > 0
+    };
+    assert!(says(&window, "Returns 0.49 of the light at normal incidence (0.03 at 85°)"));
+    render(&mut window, |settings| settings.reading = ReadingChoice::Microfacet);
+    assert!(says(&window, "more than 1 from 7") && says(&window, "Only the diffuse component is reciprocal"));
+    render(&mut window, |settings| settings.reading = ReadingChoice::Lambertian);
+    assert!(!says(&window, "Returns 0"));
+    // Both choices of the coherent component and of the area are there.
+    render(&mut window, |settings| settings.reading = ReadingChoice::Radiometric);
+    assert!(window.query_by_role_and_label(Role::ComboBox, "Coherent component: As in the paper").is_some());
+    window.get_by_role_and_label(Role::RadioButton, "A = XY").click();
+    window.run_steps(2);
+    assert_eq!(document(&window).render.area, AreaChoice::Xy);
 }
 
 #[test]
@@ -307,7 +367,7 @@ fn a_click_keeps_a_pixel_and_escape_lets_go() {
     window.hover_at(at);
     window.run_steps(2);
     let point = window.state().view().point.clone().expect("the pointer reads");
-    assert!(point.contains("pixel") && point.contains("ΔE*00"), "{point}");
+    assert!(point.contains("pixel") && point.contains("Δ of Eq 13 colors"), "{point}");
     window.drag_at(at);
     window.drop_at(at);
     settle(&mut window);

@@ -3,6 +3,7 @@
 mod coherent;
 mod fresnel;
 mod geometry;
+mod hemispherical;
 mod power;
 mod regimes;
 mod sum;

@@ -1,6 +1,6 @@
 //! Meshes, eyes and lights.
 
-use chromascope_core::scene::roughness::vertex_deviations;
+use chromascope_core::scene::roughness::{VertexRoughness, vertex_roughness};
 use chromascope_core::scene::{Lighting, Mesh, MeshError, PlacedLight, Viewpoint, head, shapes};
 use glam::{DVec3, Vec3};
 
@@ -10,24 +10,44 @@ fn median(mut values: Vec<f32>) -> f32 {
     values[values.len() / 2]
 }
 
+/// σ at each vertex.
+fn sigmas(mesh: &Mesh) -> Vec<f32> {
+    vertex_roughness(mesh).iter().map(|v| v.sigma_m).collect()
+}
+
 #[test]
 fn a_sphere_is_as_uneven_as_its_edges_are_long() {
     let mesh = shapes::sphere(20_000);
     // A neighbor at distance d lies d²/2r below the tangent plane.
-    let (r, deviations) = (0.1, vertex_deviations(&mesh));
+    let (r, roughness) = (0.1, vertex_roughness(&mesh));
     let longest = mesh.triangles().iter().flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]);
     let longest = longest.map(|(a, b)| mesh.positions()[a as usize].distance(mesh.positions()[b as usize]));
     let longest = longest.fold(0.0, f32::max);
-    assert!(deviations.iter().all(|&sigma| sigma > 0.0 && sigma <= longest * longest / (2.0 * r) * 1.001));
-    assert!(vertex_deviations(&shapes::plane(100)).iter().all(|&sigma| sigma == 0.0));
+    let sigma = |v: &VertexRoughness| v.sigma_m > 0.0 && v.sigma_m <= longest * longest / (2.0 * r) * 1.001;
+    assert!(roughness.iter().all(sigma));
+    assert!(vertex_roughness(&shapes::plane(100)).iter().all(|v| v.sigma_m == 0.0));
+}
+
+#[test]
+fn the_correlation_length_of_a_vertex_is_the_radius_of_its_neighborhood() {
+    let corners = [[0.0, 0.0], [3.0, 0.0], [0.0, 4.0], [9.0, 9.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+    let mesh = Mesh::with_smooth_normals(corners.to_vec(), vec![[0, 1, 2]]).unwrap();
+    let taus: Vec<f32> = vertex_roughness(&mesh).iter().map(|v| v.tau_m).collect();
+    assert_eq!(taus, [4.0, 5.0, 5.0, 0.0]);
+    // A ball's heights go with the square of its neighborhood's radius: σ/τ shrinks with it.
+    let slopes = [2_000, 20_000].map(|count| {
+        let roughness = vertex_roughness(&shapes::sphere(count));
+        median(roughness.iter().map(|v| v.sigma_m / v.tau_m).collect())
+    });
+    assert!((slopes[0] / slopes[1] - 10_f32.sqrt()).abs() < 0.2, "{slopes:?}");
 }
 
 #[test]
 fn a_head_is_ten_thousand_times_too_uneven_to_scatter_light() {
     // The paper's head had some thousand triangles.
-    let coarse = median(vertex_deviations(&head::head(9_000)));
+    let coarse = median(sigmas(&head::head(9_000)));
     assert!((5e-5..1e-3).contains(&coarse), "{coarse} m");
-    let fine = median(vertex_deviations(&head::head(100_000)));
+    let fine = median(sigmas(&head::head(100_000)));
     assert!(fine < coarse / 4.0, "{fine} m: it says more of the triangles than of the skin");
 }
 
@@ -87,7 +107,7 @@ fn the_largest_vertices_have_bounds_and_unevenness() {
         vec![Vec3::new(x, x, x), Vec3::new(1.1 * x, x, -x), Vec3::new(1.2 * x, -x, x), Vec3::new(x, 1.5 * x, x)];
     let mesh = Mesh::with_smooth_normals(positions, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
     assert!(mesh.bounds().center().is_finite() && mesh.bounds().radius.is_finite());
-    assert!(vertex_deviations(&mesh).iter().all(|d| d.is_finite()));
+    assert!(vertex_roughness(&mesh).iter().all(|v| v.sigma_m.is_finite() && v.tau_m.is_finite()));
 }
 
 #[test]

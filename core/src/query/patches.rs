@@ -108,9 +108,8 @@ impl Query for PatchColorsOf {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let rendering = ask.ask(&self.rendering);
         let rendering = (*rendering).as_ref().map_err(|&e| e)?;
-        let product = under_light(&self.rendering.sensor, &self.rendering.light);
-        let patches = self.patches.patches().iter();
-        Ok(patches.map(|patch| color(rendering, raw(&product, patch.grid.values()))).collect())
+        let reflectances = self.patches.patches().iter().map(|patch| &patch.grid);
+        Ok(patch_colors(&self.rendering, rendering, reflectances))
     }
 }
 
@@ -128,4 +127,14 @@ pub(super) fn color(rendering: &Rendering, raw: DVec3) -> PatchColor {
         linear,
         srgb: encode_srgb(linear),
     }
+}
+
+/// Colors of flat reflectances through a sensor whose rendering is `rendering`.
+pub(crate) fn patch_colors<'a>(
+    of: &RenderingOf,
+    rendering: &Rendering,
+    reflectances: impl Iterator<Item = &'a GridSpectrum>,
+) -> Vec<PatchColor> {
+    let product = under_light(&of.sensor, &of.light);
+    reflectances.map(|reflectance| color(rendering, raw(&product, reflectance.values()))).collect()
 }

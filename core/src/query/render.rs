@@ -3,21 +3,26 @@
 //! A viewpoint knows no light, a light's place no spectrum, a surface no camera, a camera's signals no white balance: so moving
 //! a slider asks again only what depends on it.
 
+pub mod difference;
 pub mod picture;
 pub mod plan;
+pub mod returned;
 
-pub use picture::{Difference, ExposureOf, PictureOf, Pictures, PicturesOf, SourceOf};
+pub use difference::{BrightSamples, Difference, DifferenceOf};
+pub use picture::{ExposureOf, PictureOf, Pictures, PicturesOf, SourceOf};
 pub use plan::{PlanOf, ReachOf};
+pub use returned::{ReturnedLight, ReturnedLightOf};
 
 use super::{Ask, Query, Shared};
 use crate::camera::{NoRendering, rendering::white_divisors};
-use crate::reflectance::{Reading, Surface, wavelength_power};
+use crate::reflectance::{Reading, Specular, Surface, wavelength_power};
 use crate::render::mirror::Reach;
 use crate::render::{
     Against, CameraImage, DiffuseTable, GeometryImage, Measure, Quality, RasterSize, ShadingImage, ShadowTree, Shadows,
     VertexImage, Visibility,
 };
-use crate::scene::{Lighting, Mesh, Viewpoint, fern, head, roughness::vertex_deviations, shapes};
+use crate::scene::roughness::{VertexRoughness, vertex_roughness};
+use crate::scene::{Lighting, Mesh, Viewpoint, fern, head, shapes};
 use crate::spectral::{GridSpectrum, Sensor};
 use std::sync::Arc;
 
@@ -131,28 +136,28 @@ impl Query for GeometryOf {
     }
 }
 
-/// How uneven is a mesh at each of its vertices? In meters.
+/// Roughness of a mesh at each of its vertices.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct DeviationsOf(pub MeshOf);
+pub struct MeshRoughnessOf(pub MeshOf);
 
-impl Query for DeviationsOf {
-    type Answer = Vec<f32>;
-    const NAME: &'static str = "deviations";
+impl Query for MeshRoughnessOf {
+    type Answer = Vec<VertexRoughness>;
+    const NAME: &'static str = "mesh roughness";
     const WHOLE: bool = true;
     const KEPT: usize = 3;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        vertex_deviations(&ask.ask(&self.0))
+        vertex_roughness(&ask.ask(&self.0))
     }
 }
 
-/// Where σ is from.
+/// Where σ and τ are from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Roughness {
     /// The surface's own, the same everywhere.
     #[default]
     Surface,
-    /// The mesh's unevenness, vertex by vertex; P is interpolated between vertices. The paper's way.
+    /// Heights and radius of each vertex's neighborhood in the mesh; P is interpolated between vertices. The paper's.
     Mesh,
 }
 
@@ -163,7 +168,7 @@ pub struct ShadingOf {
     pub geometry: GeometryOf,
     /// The surface.
     pub surface: Surface,
-    /// Where σ is from.
+    /// Where σ and τ are from.
     pub roughness: Roughness,
     /// How Eq 1 is read.
     pub reading: Reading,
@@ -185,12 +190,12 @@ impl Query for ShadingOf {
         let geometry = (*geometry).as_ref()?;
         if self.roughness == Roughness::Mesh {
             let GeometryOf { visibility: seen, lighting, .. } = &self.geometry;
-            let (mesh, deviations) = (ask.ask(&seen.mesh), ask.ask(&DeviationsOf(seen.mesh.clone())));
+            let (mesh, roughness) = (ask.ask(&seen.mesh), ask.ask(&MeshRoughnessOf(seen.mesh.clone())));
             let visibility = ask.ask(seen);
             let visibility = (*visibility).as_ref()?;
             let vertices = VertexImage::new(&mesh, visibility, Arc::clone(geometry), lighting, &ask.stop())?;
             let (surface, reading, quality) = (self.surface, self.reading, self.quality);
-            return ShadingImage::by_vertices(Arc::new(vertices), &deviations, surface, reading, quality, &ask.stop());
+            return ShadingImage::by_vertices(Arc::new(vertices), &roughness, surface, reading, quality, &ask.stop());
         }
         ShadingImage::new(Arc::clone(geometry), self.surface, self.reading, self.quality, &ask.stop())
     }
@@ -217,6 +222,24 @@ impl Query for MeasureOf {
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         let divisors = white_divisors(&self.sensor, &self.light)?;
         Ok(Measure::new(&self.sensor, &self.light, &self.reflectance, divisors, wavelength_power(self.reading)))
+    }
+}
+
+impl MeasureOf {
+    /// The measure that a shaded mesh takes: where lobes are untinted, with the weights of a white for them.
+    pub fn in_picture(&self, shading: &ShadingImage, ask: &impl Ask) -> Arc<<Self as Query>::Answer> {
+        let measure = ask.ask(self);
+        let white = self.untinted(shading).map(|white| ask.ask(&white));
+        match (&*measure, white.as_deref()) {
+            (Ok(own), Some(Ok(white))) => Arc::new(Ok(own.clone().with_untinted(Arc::new(white.clone())))),
+            _ => measure,
+        }
+    }
+
+    /// That of a white, where a shaded mesh has lobes that do not take the material's color.
+    fn untinted(&self, shading: &ShadingImage) -> Option<Self> {
+        let any = shading.surface().specular() == Specular::Fresnel && !shading.mirrors().is_empty();
+        any.then(|| Self { reflectance: Shared::new(GridSpectrum::constant(1.0)), ..self.clone() })
     }
 }
 
@@ -256,12 +279,15 @@ impl Query for CameraImageOf {
     }
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let measure = ask.ask(&self.measure);
-        let measure = (*measure).as_ref().map_err(|&e| e)?;
         let shading = ask.ask(&self.shading);
         let Some(shading) = (*shading).as_ref() else { return Ok(None) };
+        let measure = self.measure.in_picture(shading, ask);
+        let measure = (*measure).as_ref().map_err(|&e| e)?;
         let reach = match Reach::accuracy_in(shading) {
-            Some(accuracy) => (*ask.ask(&ReachOf { measure: self.measure.clone(), accuracy }))?,
+            Some(accuracy) => {
+                let of = self.measure.untinted(shading).unwrap_or_else(|| self.measure.clone());
+                (*ask.ask(&ReachOf { measure: of, accuracy }))?
+            }
             None => Reach::usual_in(shading, measure),
         };
         if let Some(accuracy) = shading.plan_accuracy() {

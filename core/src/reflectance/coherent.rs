@@ -51,7 +51,7 @@ pub fn mean_sinc_squared(u0: f64, half_width: f64) -> f64 {
 }
 
 /// The positive half of the eight-point Gauss–Legendre rule: nodes and weights.
-const GAUSS: [[f64; 2]; 4] = [
+pub(super) const GAUSS: [[f64; 2]; 4] = [
     [0.183_434_642_495_649_8, 0.362_683_783_378_362],
     [0.525_532_409_916_329, 0.313_706_645_877_887_3],
     [0.796_666_477_413_626_7, 0.222_381_034_453_374_48],

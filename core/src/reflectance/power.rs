@@ -8,12 +8,12 @@
 //! grazing views stay finite.
 
 use super::coherent::rho0_squared;
-use super::fresnel::{transmittance, transmittance_by_cosine};
+use super::fresnel::{reflectance, transmittance, transmittance_by_cosine};
 use super::geometry::Geometry;
 use super::reading::{Method, Reading};
 use super::regimes::diffuse_sum_by_regimes;
 use super::sum::diffuse_sum;
-use super::surface::Surface;
+use super::surface::{Specular, Surface};
 use std::f64::consts::{PI, TAU};
 
 /// λ0, in nanometers: κ is g at this wavelength.
@@ -23,7 +23,7 @@ const LAMBDA_0_M: f64 = 550e-9;
 /// Where values that grow without bound are cut: a thousandth of what a product of two parts could still carry.
 const LARGEST: f64 = 1e150;
 
-/// What multiplies S(λ) in Eq 12, with the diffuse sum at full precision: see [`factor_by`].
+/// Sum of the diffuse and the coherent component in Eq 12, with the diffuse sum at full precision: see [`factor_by`].
 pub fn factor(
     surface: &Surface,
     geometry: &Geometry,
@@ -34,17 +34,8 @@ pub fn factor(
     factor_by(surface, geometry, wavelength_nm, reading, Method::default(), angular_radius)
 }
 
-/// What multiplies S(λ) in Eq 12, dimensionless, at a wavelength in nanometers under a light of an angular radius in radians.
-///
-/// ```text
-/// Radiometric, Microfacet   π f,  f = A/(λ² cos θs) (cos θi ρ0² e^-g + D)
-/// Paper                     P = ρ0² e^-g + D
-/// Lambertian                1
-/// D = (π τ²/A) G² S(g, b),  G² = T(θi) T(θs) cos θi,  A = 4XY
-/// ```
-/// For [`Reading::Microfacet`] the cos θi within G² is `4 (l·ĥ)⁴/(cos θi (cos θi + cos θs)²)`, and `cos θi/cos θs` before ρ0² is 1,
-/// which it is in the mirror direction. As in the paper, the mirror term carries no Fresnel factor. ρ0² is its mean over the
-/// light's disk. 0 unless both light and viewer are before the surface; always finite.
+/// Sum of the two components of [`factors_by`]: the factor beside S(λ) in Eq 12 where both carry it ([`Specular::Paper`]), or of
+/// a white.
 pub fn factor_by(
     surface: &Surface,
     geometry: &Geometry,
@@ -53,11 +44,35 @@ pub fn factor_by(
     method: Method,
     angular_radius: f64,
 ) -> f64 {
+    let [diffuse, coherent] = factors_by(surface, geometry, wavelength_nm, reading, method, angular_radius);
+    bounded(diffuse + coherent)
+}
+
+/// The diffuse and the coherent component of P or π f in Eq 12, dimensionless, at a wavelength in nanometers under a light of an
+/// angular radius in radians. S(λ) multiplies the diffuse one, and the coherent one under [`Specular::Paper`].
+///
+/// ```text
+/// Radiometric, Microfacet   π f,  f = A/(λ² cos θs) (cos θi ρ0² e^-g + D)
+/// Paper                     P = ρ0² e^-g + D
+/// Lambertian                1
+/// D = (π τ²/A) G² S(g, b),  G² = T(θi) T(θs) cos θi,  A = 4XY
+/// ```
+/// For [`Reading::Microfacet`] the cos θi within G² is `4 (l·ĥ)⁴/(cos θi (cos θi + cos θs)²)`, and `cos θi/cos θs` before ρ0² is 1,
+/// which it is in the mirror direction. Under [`Specular::Fresnel`] ρ0² is multiplied by F(l·ĥ); in the paper it carries no
+/// Fresnel factor. ρ0² is its mean over the light's disk. 0 unless both light and viewer are before the surface; always finite.
+pub fn factors_by(
+    surface: &Surface,
+    geometry: &Geometry,
+    wavelength_nm: f64,
+    reading: Reading,
+    method: Method,
+    angular_radius: f64,
+) -> [f64; 2] {
     if !(geometry.is_lit() && wavelength_nm > 0.0 && wavelength_nm.is_finite()) {
-        return 0.0;
+        return [0.0; 2];
     }
     if reading == Reading::Lambertian {
-        return 1.0;
+        return [1.0, 0.0];
     }
     let wave_number = TAU / (wavelength_nm * 1e-9);
     let ratio = LAMBDA_0_NM / wavelength_nm;
@@ -69,9 +84,10 @@ pub fn factor_by(
         Method::Regimes => diffuse_sum_by_regimes(g, b),
     };
     let pattern = rho0_squared(geometry, surface, wave_number, angular_radius) * (-g).exp();
-    let total =
-        diffuse_prefactor(surface, geometry, reading) * sum + coherent_prefactor(surface, geometry, reading) * pattern;
-    bounded(bounded(ratio.powi(wavelength_power(reading))) * bounded(total))
+    let power = bounded(ratio.powi(wavelength_power(reading)));
+    let (diffuse, coherent) =
+        (diffuse_prefactor(surface, geometry, reading), coherent_prefactor(surface, geometry, reading));
+    [diffuse * sum, coherent * pattern].map(|component| bounded(power * bounded(component)))
 }
 
 /// What stands before `(λ0/λ)^p S(g, βg)`: dimensionless, without wavelength.
@@ -118,13 +134,15 @@ pub fn diffuse_prefactor(surface: &Surface, geometry: &Geometry, reading: Readin
     })
 }
 
-/// What stands before `(λ0/λ)^p ρ0² e^-g`, the mirror term: dimensionless, without wavelength.
+/// Factor before `(λ0/λ)^p ρ0² e^-g`, the coherent component: dimensionless, without wavelength.
 ///
 /// ```text
 /// Radiometric   π A/λ0² · cos θi/cos θs
 /// Microfacet    π A/λ0²
 /// Paper         1
 /// ```
+/// Under [`Specular::Fresnel`] times F(l·ĥ), Fresnel's reflectance at the half vector: `((n − 1)/(n + 1))²` at normal incidence.
+///
 /// 0 for [`Reading::Lambertian`], and unless both light and viewer are before the surface.
 #[inline]
 pub fn coherent_prefactor(surface: &Surface, geometry: &Geometry, reading: Reading) -> f64 {
@@ -132,11 +150,15 @@ pub fn coherent_prefactor(surface: &Surface, geometry: &Geometry, reading: Readi
         return 0.0;
     }
     let patch = PI * surface.area_m2() / (LAMBDA_0_M * LAMBDA_0_M);
-    match reading {
+    let mirror = match reading {
         Reading::Radiometric => bounded(patch * (geometry.cos_i / geometry.cos_s)),
         Reading::Microfacet => patch,
         Reading::Paper => 1.0,
         Reading::Lambertian => 0.0,
+    };
+    match surface.specular() {
+        Specular::Paper => mirror,
+        Specular::Fresnel => mirror * reflectance(geometry.cos_half2.max(0.0).sqrt(), surface.index()),
     }
 }
 

@@ -15,11 +15,12 @@ pub enum Reading {
     /// rough surfaces scatter all wavelengths alike, as geometrical optics demands.
     #[default]
     Radiometric,
-    /// P itself, Eq 1–3 to the letter with A = 4XY: for reproducing the paper.
+    /// P itself, Eq 1–3 as printed but for A, which is 4XY or XY ([`super::IlluminatedArea`]): for reproducing the paper.
     Paper,
     /// π f with the form factor cos θi in G² replaced by Beckmann's own, `4 (l·ĥ)⁴/(cos θi (cos θi + cos θs)²)`.
     ///
-    /// Light and viewer can be exchanged, and on rough surfaces f equals a microfacet reflectance without shadowing, with
+    /// The diffuse component is reciprocal (Helmholtz). The coherent one is not: X lies in the plane of incidence, which turns
+    /// when light and viewer are exchanged. On rough surfaces f equals a microfacet reflectance without shadowing, with
     /// Beckmann's slope distribution of roughness 2σ/τ.
     Microfacet,
     /// 1: a surface that scatters evenly, whatever its roughness.

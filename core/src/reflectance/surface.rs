@@ -28,7 +28,40 @@ pub enum SurfaceError {
     Index,
 }
 
-/// The roughness, patch and refractive index of a surface. Lengths in meters.
+/// The area A of the coherently illuminated patch with half-widths X and Y.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum IlluminatedArea {
+    /// A = 4XY: with the arguments `v_x X` and `v_y Y` of the paper's sinc the patch is 2X by 2Y, and only with this area do
+    /// the coherent and the diffuse component add up to what falls on the surface.
+    #[default]
+    FourXy,
+    /// A = XY, as the paper prints it. Radiometrically three quarters of the coherent component are lost; in the paper's own
+    /// normalization the diffuse component is four times stronger relative to the coherent one.
+    Xy,
+}
+
+impl IlluminatedArea {
+    /// A / XY.
+    const fn factor(self) -> f64 {
+        match self {
+            Self::FourXy => 4.0,
+            Self::Xy => 1.0,
+        }
+    }
+}
+
+/// The reflectance factor of the coherent (specular) component.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Specular {
+    /// The paper's: no Fresnel factor, and S(λ) multiplies it, as if the boundary were a perfect mirror of the material's
+    /// color. At n = 1.4 and normal incidence 36 times brighter than a dielectric.
+    #[default]
+    Paper,
+    /// Fresnel's reflectance at the half vector, independent of S(λ): a dielectric boundary reflects all wavelengths alike.
+    Fresnel,
+}
+
+/// The roughness, illuminated area and refractive index of a surface. Lengths in meters.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
     sigma_m: f64,
@@ -36,6 +69,8 @@ pub struct Surface {
     half_x_m: f64,
     half_y_m: f64,
     index: f64,
+    area: IlluminatedArea,
+    specular: Specular,
 }
 
 impl Surface {
@@ -45,7 +80,26 @@ impl Surface {
         Self { sigma_m: if sigma_m > 0.0 { sigma_m.min(*SIGMA_M.end()) } else { 0.0 }, ..self }
     }
 
-    /// Takes σ from 0 to 1 m, τ and the half sides X and Y from 1 nm to 1 m, and an index above 0 and up to 1000.
+    /// This surface with another correlation length in meters; values outside 1 nm to 1 m count as the nearest end, NaN as 1 nm.
+    #[must_use]
+    pub fn with_tau(self, tau_m: f64) -> Self {
+        let (low, high) = (*LENGTH_M.start(), *LENGTH_M.end());
+        Self { tau_m: if tau_m > low { tau_m.min(high) } else { low }, ..self }
+    }
+
+    /// This surface with another area of the illuminated patch.
+    #[must_use]
+    pub const fn with_area(self, area: IlluminatedArea) -> Self {
+        Self { area, ..self }
+    }
+
+    /// This surface with another reflectance factor of the coherent component.
+    #[must_use]
+    pub const fn with_specular(self, specular: Specular) -> Self {
+        Self { specular, ..self }
+    }
+
+    /// A = 4XY and the paper's coherent component; takes σ from 0 to 1 m, τ and the half sides X and Y from 1 nm to 1 m, and an index above 0 and up to 1000.
     ///
     /// ```
     /// use chromascope_core::reflectance::Surface;
@@ -67,25 +121,26 @@ impl Surface {
             return Err(SurfaceError::Index);
         }
         // Negative zero equals zero, so it must hash as zero.
-        Ok(Self { sigma_m: sigma_m + 0.0, tau_m, half_x_m, half_y_m, index })
+        let (area, specular) = (IlluminatedArea::default(), Specular::default());
+        Ok(Self { sigma_m: sigma_m + 0.0, tau_m, half_x_m, half_y_m, index, area, specular })
     }
 
-    /// σ: the standard deviation of the heights, in meters.
+    /// σ: the RMS roughness, in meters.
     pub const fn sigma_m(&self) -> f64 {
         self.sigma_m
     }
 
-    /// τ: the distance at which the heights' correlation has fallen to 1/e, in meters.
+    /// τ: the correlation length, the lag at which the height autocorrelation has fallen to 1/e, in meters.
     pub const fn tau_m(&self) -> f64 {
         self.tau_m
     }
 
-    /// X: half the side of the coherently lit patch along the plane of incidence, in meters.
+    /// X: half-width of the coherently illuminated area in the plane of incidence, in meters.
     pub const fn half_x_m(&self) -> f64 {
         self.half_x_m
     }
 
-    /// Y: half the side across the plane of incidence, in meters.
+    /// Y: half-width across the plane of incidence, in meters.
     pub const fn half_y_m(&self) -> f64 {
         self.half_y_m
     }
@@ -95,12 +150,19 @@ impl Surface {
         self.index
     }
 
-    /// A = 4XY: the patch's area in square meters.
-    ///
-    /// The paper writes XY; but with its sinc arguments `v_x X` and `v_y Y` the sides are 2X and 2Y, and only with their product
-    /// do mirror and diffuse light add up to what falls on the surface.
+    /// A: the illuminated area in square meters, 4XY or XY ([`IlluminatedArea`]).
     pub const fn area_m2(&self) -> f64 {
-        4.0 * self.half_x_m * self.half_y_m
+        self.area.factor() * self.half_x_m * self.half_y_m
+    }
+
+    /// Which area stands for A.
+    pub const fn area(&self) -> IlluminatedArea {
+        self.area
+    }
+
+    /// The reflectance factor of the coherent component.
+    pub const fn specular(&self) -> Specular {
+        self.specular
     }
 
     /// The heights' root mean square slope, √2 σ/τ.
@@ -142,27 +204,28 @@ impl fmt::Display for Caution {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::SmallPatch => {
-                "The patch is shorter than ten correlation lengths: too small to stand for the surface, and the scattered power can exceed 1"
+                "The illuminated area is narrower than ten correlation lengths: too small to stand for the surface, and the scattered power can exceed 1"
             }
             Self::ShortCorrelation => {
                 "The correlation length is shorter than a wavelength: tangent planes no longer stand for the surface"
             }
             Self::Steep => {
-                "The slopes exceed 0.4, where facets shadow each other, which the model leaves out: take it as an empirical lobe"
+                "The RMS slope exceeds 0.4, where facets shadow each other, which the model leaves out: outside its validity, the lobe is empirical"
             }
         })
     }
 }
 
 impl Surface {
-    fn bits(&self) -> [u64; 5] {
-        [self.sigma_m, self.tau_m, self.half_x_m, self.half_y_m, self.index].map(f64::to_bits)
+    fn key(&self) -> ([u64; 5], IlluminatedArea, Specular) {
+        let numbers = [self.sigma_m, self.tau_m, self.half_x_m, self.half_y_m, self.index];
+        (numbers.map(f64::to_bits), self.area, self.specular)
     }
 }
 
 impl PartialEq for Surface {
     fn eq(&self, other: &Self) -> bool {
-        self.bits() == other.bits()
+        self.key() == other.key()
     }
 }
 
@@ -170,6 +233,6 @@ impl Eq for Surface {}
 
 impl Hash for Surface {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        self.bits().hash(state);
+        self.key().hash(state);
     }
 }

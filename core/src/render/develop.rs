@@ -235,7 +235,8 @@ impl Measurement {
     }
 }
 
-/// ΔE*00 between two pictures of the same geometry at each lit sample, or at each `stride`-th of them; none if stopped.
+/// ΔE*00 between two pictures of the same geometry, and the reference's L*, at each lit sample or at each `stride`-th of them;
+/// none if stopped.
 pub fn differences(
     image: &CameraImage,
     measured: &Measurement,
@@ -243,17 +244,19 @@ pub fn differences(
     measured_truth: &Measurement,
     stride: usize,
     stop: &Stop,
-) -> Option<Vec<f32>> {
+) -> Option<(Vec<f32>, Vec<f32>)> {
     let stride = stride.max(1);
     let count = image.signals().len().min(truth.signals().len()).div_ceil(stride);
     let at = |index: usize| {
         if index.is_multiple_of(1024) && stop.is_set() {
-            return 0.0;
+            return (0.0, 0.0);
         }
         let (a, b) = (image.signals()[index * stride], truth.signals()[index * stride]);
         let labs = measured.lab(a).zip(measured_truth.lab(b));
-        labs.map_or(0.0, |(a, b)| crate::colorimetry::difference::delta_e_2000(a, b) as f32)
+        let difference = |(a, b): (Lab, Lab)| (crate::colorimetry::difference::delta_e_2000(a, b) as f32, b.l as f32);
+        labs.map_or((0.0, 0.0), difference)
     };
-    let map: Vec<f32> = (0..count).into_par_iter().with_min_len(512).map(at).collect();
-    (!stop.is_set()).then_some(map)
+    let (mut map, mut lightness) = (Vec::new(), Vec::new());
+    (0..count).into_par_iter().with_min_len(512).map(at).unzip_into_vecs(&mut map, &mut lightness);
+    (!stop.is_set()).then_some((map, lightness))
 }

@@ -9,6 +9,7 @@ use crate::spectral::grid::{COUNT, wavelength_nm};
 use crate::spectral::{GridSpectrum, Sensor};
 use glam::DVec3;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// The wavelength that κ is g at, in nanometers.
 pub const LAMBDA_0_NM: f64 = 550.0;
@@ -38,6 +39,7 @@ pub struct Measure {
     moments: [[f64; MOMENTS]; 3],
     totals: [f64; 3],
     settled_m: f64,
+    untinted: Option<Arc<Measure>>,
 }
 
 /// Wavelengths for a table with errors below 1e-6 of the peak.
@@ -77,7 +79,19 @@ impl Measure {
         let fine = nodes(&dense, FINE_NODES);
         let totals = [0, 1, 2].map(|c: usize| dense.iter().map(|node| node.weights[c]).sum());
         let settled_m = settled(&dense, unsigned);
-        Self { dense, coarse, fine, moments, totals, settled_m }
+        Self { dense, coarse, fine, moments, totals, settled_m, untinted: None }
+    }
+
+    /// This measure with another for the coherent component: that of a white, where a boundary's reflection does not take the
+    /// material's color ([`crate::reflectance::Specular::Fresnel`]).
+    #[must_use]
+    pub fn with_untinted(self, white: Arc<Measure>) -> Self {
+        Self { untinted: Some(white), ..self }
+    }
+
+    /// The weights of the coherent component: those of a white, or its own.
+    pub fn coherent(&self) -> &Self {
+        self.untinted.as_deref().unwrap_or(self)
     }
 
     /// All wavelengths of the grid with any weight: the reference.

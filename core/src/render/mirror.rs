@@ -32,7 +32,7 @@ impl Reach {
         let (still_m, settled_m) = match quality {
             // What oscillates in between is a thousandth of the lobe.
             Quality::Preview => (2e-6, 2e-6),
-            Quality::Full => (1e-6, measure.settled_m()),
+            Quality::Full => (1e-6, measure.coherent().settled_m()),
             Quality::Fine => (0.4e-6, f64::INFINITY),
             Quality::Exact | Quality::Regimes => (0.0, f64::INFINITY),
             Quality::Within(accuracy) => return Self::within(measure, accuracy),
@@ -66,13 +66,13 @@ impl Reach {
         Self::of(if fine || none { Quality::Exact } else { shading.quality() }, measure)
     }
 
-    /// The widest that keeps the error of this measure's lobe within an accuracy, relative to its height `front Σ|w|`: each of
+    /// The widest that keeps the error of this measure's lobe ([`Measure::coherent`]) within an accuracy, relative to its height `front Σ|w|`: each of
     /// the lobe's table, the few wavelengths and what is left of the oscillation on two axes takes a part.
     ///
     /// The few wavelengths are compared with all at sixteen paths to an octave, along one axis and beside another, and at five κ,
     /// with a margin of two; the oscillation is bounded by its envelope over the wavelengths.
     pub fn within(measure: &Measure, accuracy: Accuracy) -> Self {
-        let error = accuracy.max_relative_error();
+        let (error, measure) = (accuracy.max_relative_error(), measure.coherent());
         let settled_m = settled(measure.dense(), error / 8.0);
         let still_m = still(measure, settled_m, error / 4.0);
         Self { still_m, settled_m, quick: LOBE_ERROR <= error / 4.0 }

@@ -12,8 +12,9 @@ use super::vertices::VertexImage;
 use crate::accuracy::Accuracy;
 use crate::reflectance::coherent::rho0_squared_bound;
 use crate::reflectance::{
-    Geometry, Precision, Reading, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa, ln_diffuse_sum,
+    Geometry, Precision, Reading, Specular, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa, ln_diffuse_sum,
 };
+use crate::scene::roughness::VertexRoughness;
 use crate::spectral::grid::{FIRST_NM, LAST_NM};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -30,6 +31,9 @@ const EXACT_MIRROR_SHARE: f64 = 1e-14;
 
 /// The share of an accuracy's error that mirror terms left out may take.
 const MIRROR_OF_ERROR: f64 = 0.1;
+
+/// Reflectance of the darkest material that untinted lobes are weighed against: which one it is a surface does not know.
+const DARKEST: f64 = 1.0 / 64.0;
 
 /// How exactly the spectral integral is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -174,29 +178,31 @@ impl ShadingImage {
         Self::shade(geometry, None, surface, reading, quality, stop)
     }
 
-    /// Prepares every vertex in place of the samples between them, each with a σ of its own in meters (the paper's way); none
-    /// if stopped. Deviations beyond a meter count as one.
+    /// Prepares every vertex in place of the samples between them, each with a σ and a τ of its own, as the paper does; none if
+    /// stopped.
     pub fn by_vertices(
         vertices: Arc<VertexImage>,
-        deviations: &[f32],
+        roughness: &[VertexRoughness],
         surface: Surface,
         reading: Reading,
         quality: Quality,
         stop: &Stop,
     ) -> Option<Self> {
         let geometry = Arc::clone(vertices.geometry());
-        Self::shade(geometry, Some((vertices, deviations)), surface, reading, quality, stop)
+        Self::shade(geometry, Some((vertices, roughness)), surface, reading, quality, stop)
     }
 
     fn shade(
         geometry: Arc<GeometryImage>,
-        vertices: Option<(Arc<VertexImage>, &[f32])>,
+        vertices: Option<(Arc<VertexImage>, &[VertexRoughness])>,
         surface: Surface,
         reading: Reading,
         quality: Quality,
         stop: &Stop,
     ) -> Option<Self> {
-        let material = Material { reading, quality, angular_radius: geometry.angular_radius() };
+        let untinted = surface.specular() == Specular::Fresnel;
+        let darkest = if untinted { DARKEST } else { 1.0 };
+        let material = Material { reading, quality, angular_radius: geometry.angular_radius(), darkest };
         let (shades, Lobes { mirrors, scale: mirror_scale, diffuse_scale }) = match &vertices {
             None => {
                 let place = |index: usize| {
@@ -205,11 +211,11 @@ impl ShadingImage {
                 };
                 material.shaded(geometry.angles().len(), place, stop)?
             }
-            Some((vertices, deviations)) => {
+            Some((vertices, roughness)) => {
                 let place = |index: usize| Place {
                     geometry: vertices.geometries()[index],
                     light: 1.0,
-                    surface: surface.with_sigma(deviations.get(index).copied().unwrap_or(0.0).into()),
+                    surface: roughness.get(index).copied().unwrap_or_default().of(surface),
                 };
                 material.shaded(vertices.geometries().len(), place, stop)?
             }
@@ -336,6 +342,8 @@ struct Material {
     reading: Reading,
     quality: Quality,
     angular_radius: f64,
+    /// Reflectance that diffuse parts are weighed with beside lobes: 1 where both take the material's color.
+    darkest: f64,
 }
 
 impl Material {
@@ -346,7 +354,7 @@ impl Material {
         let shades: Vec<Shade> = (0..count).into_par_iter().with_min_len(chunk).map(shade).collect();
         let (diffuse, share) = (Brightness::of(&shades), self.quality.mirror_share());
         // What the lobes add to the picture's brightness leaves out more, never less.
-        let least = share * diffuse.brightest;
+        let least = share * diffuse.brightest * self.darkest;
         let lobes = |run: usize| {
             let all = (run * chunk..count.min((run + 1) * chunk)).take_while(|_| !stop.is_set());
             all.filter_map(|index| self.lobe(&place(index), index, least)).collect()
@@ -356,7 +364,7 @@ impl Material {
             return None;
         }
         let height = |lobe: &Lobe| lobe.at_550_nm(&place(lobe.mirror.index as usize), self.angular_radius);
-        let lobes = Lobes::worth_having(&lobes.concat(), diffuse, height, share);
+        let lobes = Lobes::worth_having(&lobes.concat(), diffuse, self.darkest, height, share);
         Some((shades, lobes))
     }
 

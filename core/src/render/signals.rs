@@ -143,7 +143,8 @@ impl Camera<'_> {
 
     fn mirror_nodes(&self) -> Nodes<'_> {
         let Reach { still_m, settled_m, quick } = self.reach;
-        Nodes { smooth: self.measure.fine(), every: self.measure.dense(), still_m, settled_m, quick }
+        let measure = self.measure.coherent();
+        Nodes { smooth: measure.fine(), every: measure.dense(), still_m, settled_m, quick }
     }
 }
 

@@ -103,10 +103,14 @@ pub(super) fn measure(made: &Made<'_>) -> Option<Measured> {
 impl Bench {
     fn new(made: &Made<'_>, geometry: Arc<GeometryImage>) -> Self {
         let needs_table = made.pictures.shading.table > 0;
+        let shading = made.scene.results.ask(&made.query.shading);
         let cameras = made.query.sources.iter().map(|source| {
             let of = made.query.image(&source.rendering).measure;
             let table = needs_table.then(|| made.scene.results.ask(&DiffuseTableOf(of.clone())));
-            let measure = made.scene.results.ask(&of);
+            let measure = match (*shading).as_ref() {
+                Some(shading) => of.in_picture(shading, made.scene.results),
+                None => made.scene.results.ask(&of),
+            };
             let planned = planned(made, &of, (*measure).as_ref().ok());
             Camera { measure, table, planned }
         });

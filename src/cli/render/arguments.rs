@@ -6,6 +6,7 @@ use chromascope_core::render::visibility::MAX_SIDE;
 use clap::{Args, ValueEnum};
 
 use crate::cli::arguments::SourceArguments;
+use crate::document::render::model::{AreaChoice, SpecularChoice};
 use crate::document::render::{QualityChoice, ReadingChoice, TOLERANCES};
 
 pub(in crate::cli) const EXAMPLES: &str = "\
@@ -56,24 +57,32 @@ pub(in crate::cli) struct RenderArguments {
     /// The vertical field of view in degrees [default: 30, or what shows 30 across in an upright picture]
     #[arg(long, value_name = "DEGREES", value_parser = finite, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) fov: Option<f64>,
-    /// The deviation of the surface's heights in meters [default: 5e-6]
+    /// RMS roughness in meters [default: 5e-6]
     #[arg(long, value_name = "METERS", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) sigma: Option<f64>,
-    /// Takes the deviation of heights from the mesh, vertex by vertex, as the paper does: nearly black pictures
+    /// Takes RMS roughness and correlation length from the mesh, vertex by vertex, as the paper does: heights about the tangent
+    /// plane and radius of the neighborhood. Dark but for a narrow gloss
     #[arg(long, help_heading = SURFACE)]
     pub(super) sigma_from_mesh: bool,
-    /// The correlation length of the surface's heights in meters [default: 10e-6]
+    /// Correlation length in meters: lag at which the height autocorrelation falls to 1/e [default: 10e-6]
     #[arg(long, value_name = "METERS", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) tau: Option<f64>,
-    /// Half the sides of a patch of the surface in meters [default: 50e-6,50e-6]
+    /// Half-widths of the coherently illuminated area in meters [default: 50e-6,50e-6]
     #[arg(long, value_name = "X,Y", value_parser = two, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) patch: Option<[f64; 2]>,
     /// The refractive index [default: 1.4; 1.45 for the fern]
     #[arg(long, value_name = "N", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) ior: Option<f64>,
-    /// How Eq 1 is read
+    /// Area A of the patch with those half-widths: 4xy conserves energy, xy is what the paper prints [default: 4xy]
+    #[arg(long, value_enum, hide_default_value = true, default_value_t = AreaName::FourXy, help_heading = SURFACE)]
+    pub(super) area: AreaName,
+    /// Normalization of P. Returned at normal incidence, and at 85°, by the default surface: 0.49 and 0.03 of the light
+    /// (radiometric), 0.49 and 1.38 (microfacet: more than 1 from about 70°)
     #[arg(long, value_enum, default_value_t = ReadingName::Radiometric, help_heading = SURFACE)]
     pub(super) reading: ReadingName,
+    /// Reflectance factor of the coherent (specular) component [default: fresnel; paper in the paper's start]
+    #[arg(long, value_enum, help_heading = SURFACE)]
+    pub(super) specular: Option<SpecularName>,
     /// How exactly the sums over wavelengths are made
     #[arg(long, value_enum, default_value_t = QualityName::Full, help_heading = PICTURE)]
     pub(super) quality: QualityName,
@@ -111,14 +120,51 @@ const SCENE: &str = "Scene";
 const SURFACE: &str = "Surface";
 const PICTURE: &str = "Picture";
 
-/// How Eq 1 is read.
+/// Reflectance factor of the coherent component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum SpecularName {
+    /// No Fresnel factor, tinted by the material: 36 times too bright for n = 1.4 at normal incidence
+    Paper,
+    /// Fresnel's reflectance, untinted
+    Fresnel,
+}
+
+impl SpecularName {
+    pub(super) fn choice(self) -> SpecularChoice {
+        match self {
+            Self::Paper => SpecularChoice::Paper,
+            Self::Fresnel => SpecularChoice::Fresnel,
+        }
+    }
+}
+
+/// Area of the illuminated patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum AreaName {
+    /// A = 4XY
+    #[value(name = "4xy")]
+    FourXy,
+    /// A = XY, as printed
+    Xy,
+}
+
+impl AreaName {
+    pub(super) fn choice(self) -> AreaChoice {
+        match self {
+            Self::FourXy => AreaChoice::FourXy,
+            Self::Xy => AreaChoice::Xy,
+        }
+    }
+}
+
+/// Normalization of P.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum ReadingName {
     /// Radiance per irradiance
     Radiometric,
-    /// Eq 1 to 12 to the letter
+    /// Eq 1 to 12 as printed, but for A
     Paper,
-    /// Beckmann's own geometric factor: reciprocal
+    /// Beckmann's own geometric factor; reciprocal: diffuse component only
     Microfacet,
     /// No model: all directions alike
     Lambertian,

@@ -10,10 +10,11 @@ use chromascope_core::scene::viewpoint::ViewpointError;
 use chromascope_core::scene::{Mesh, Viewpoint};
 use clap::ArgMatches;
 
-use super::arguments::RenderArguments;
+use super::arguments::{RenderArguments, SpecularName};
 use crate::catalog::{Kind, meshes};
 use crate::cli::request::Request;
 use crate::cli::{CliError, say};
+use crate::document::render::model::SpecularChoice;
 use crate::document::render::{BALANCE, MeshChoice, QualityChoice, RenderSettings, RoughnessChoice, SUN};
 use crate::document::{Compared, Light, WhiteChoice};
 use crate::scene::render::Finish;
@@ -43,7 +44,8 @@ impl Setup {
             let Request { document, sources, .. } = &mut request;
             sources.retain(|(kind, name)| *kind == Kind::Camera || *name == document.truth);
         }
-        request.document.render = settings(arguments, choice)?;
+        let specular = request.document.render.specular;
+        request.document.render = settings(arguments, choice, specular)?;
         match &arguments.illuminant {
             Some(illuminant) => request.set_light(illuminant)?,
             None => request.document.light = Light::Set(SUN.to_owned()),
@@ -122,7 +124,11 @@ fn read_mesh(path: &PathBuf) -> Result<Shared<Mesh>, CliError> {
 }
 
 /// What differs from the settings of the paper's head or fern.
-fn settings(arguments: &RenderArguments, mesh: MeshChoice) -> Result<RenderSettings, CliError> {
+fn settings(
+    arguments: &RenderArguments,
+    mesh: MeshChoice,
+    specular: SpecularChoice,
+) -> Result<RenderSettings, CliError> {
     const MICRO: f64 = 1e6;
     let usual = if mesh == MeshChoice::Fern { RenderSettings::fern() } else { RenderSettings::default() };
     let mut settings = RenderSettings {
@@ -132,8 +138,10 @@ fn settings(arguments: &RenderArguments, mesh: MeshChoice) -> Result<RenderSetti
         roughness: if arguments.sigma_from_mesh { RoughnessChoice::Mesh } else { RoughnessChoice::Surface },
         tau_um: arguments.tau.map_or(usual.tau_um, |tau| tau * MICRO),
         half_sides_um: arguments.patch.map_or(usual.half_sides_um, |sides| sides.map(|side| side * MICRO)),
+        area: arguments.area.choice(),
         index: arguments.ior.unwrap_or(usual.index),
         reading: arguments.reading.choice(),
+        specular: arguments.specular.map_or(specular, SpecularName::choice),
         quality: if arguments.tolerance.is_some() { QualityChoice::Tolerance } else { arguments.quality.choice() },
         tolerance: arguments.tolerance.unwrap_or(usual.tolerance),
         shadows: !arguments.no_shadows,

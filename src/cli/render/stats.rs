@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 use super::accuracy::{self, Cost, Errors, Measured};
 use super::{Made, Times, white_name};
 use crate::export::render::{quality_name, reading_name};
+use crate::figures::render::{headline, returned};
 use crate::laboratory::plans;
 use crate::results::Count;
 
@@ -72,9 +73,20 @@ fn settings(made: &Made<'_>) -> Value {
         "quality": quality_name(shading.quality),
         "tolerance": shading.quality.accuracy().map(Accuracy::max_relative_error),
         "sigma_m": plain(surface.sigma_m()),
+        "tau_from_mesh": shading.roughness == Roughness::Mesh,
         "sigma_from_mesh": shading.roughness == Roughness::Mesh,
         "tau_m": plain(surface.tau_m()),
         "half_sides_m": [plain(surface.half_x_m()), plain(surface.half_y_m())],
+        "area_m2": plain(surface.area_m2()),
+        "area": document.render.area.key(),
+        "specular": document.render.specular.key(),
+        "returned_light": returned::of(&made.scene).map(|light| {
+            json!({
+                "normal_incidence": light.normal,
+                "at_85_deg": light.grazing,
+                "exceeds_one_from_deg": light.exceeds_one_from_deg,
+            })
+        }),
         "refractive_index": surface.index(),
         "light_direction": shading.geometry.lighting.place().to_array(),
         "shadows": document.render.shadows,
@@ -126,6 +138,15 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
         "is_truth": source.is_truth,
         "delta_e_2000": difference.filter(|difference| !difference.map.is_empty()).map(|difference| {
             json!({ "mean": difference.mean, "max": difference.max, "samples": difference.map.len() })
+        }),
+        "difference": difference.map(|difference| {
+            json!({
+                "measure": headline::measure(made.scene.document),
+                "facing_light": difference.facing,
+                "median_above_l20": difference.bright.map(|bright| bright.median),
+                "p95_above_l20": difference.bright.map(|bright| bright.p95),
+                "samples_above_l20": difference.bright.map_or(0, |bright| bright.count),
+            })
         }),
         "clipped_samples": pictures.pictures[index].as_ref().ok().map(|picture| picture.clipped),
         "plan": plan(made, index),

@@ -1,4 +1,4 @@
-//! Maps of differences to the truth.
+//! Maps of differences from the reference.
 
 use chromascope_core::figure::{Anchor, Image, Ink, Mark, Shape};
 
@@ -33,7 +33,7 @@ pub fn steps(end: f32) -> u8 {
 pub(super) const SCALE: f64 = 38.0;
 
 /// The scale in a figure: the ramp with its values, from an upper left corner on.
-pub(super) fn scale(end: f32, [x, y]: [f64; 2], width: f64, ink: Ink) -> Vec<Mark> {
+pub(super) fn scale(end: f32, measure: &str, [x, y]: [f64; 2], width: f64, ink: Ink) -> Vec<Mark> {
     let pixels: u16 = 256;
     let ramp = (0..pixels).flat_map(|i| {
         let [r, g, b] = difference_ramp(f32::from(i) / f32::from(pixels - 1));
@@ -48,7 +48,7 @@ pub(super) fn scale(end: f32, [x, y]: [f64; 2], width: f64, ink: Ink) -> Vec<Mar
     for step in 0..=steps {
         let share = f64::from(step) / f64::from(steps);
         let words = number((share * f64::from(end) * 100.0).round() / 100.0);
-        let words = if step == steps { format!("ΔE {words}") } else { words };
+        let words = if step == steps { format!("{measure} {words}") } else { words };
         marks.push(text(&words, [left + share * (right - left), y + 26.0], Anchor::CENTER, ink));
     }
     marks

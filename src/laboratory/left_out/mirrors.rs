@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::DeviationsOf;
+use chromascope_core::query::render::MeshRoughnessOf;
 use chromascope_core::reflectance::{Geometry, Reading, Surface, coherent_prefactor, kappa};
 use chromascope_core::render::Measure;
 use chromascope_core::render::mirror::{Nodes, Reach, mirror_sum};
@@ -23,13 +23,13 @@ pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<LeftOut> 
     if of.reading == Reading::Lambertian || skipped.is_empty() {
         return None;
     }
-    let deviations = shading.vertices().map(|_| ask.ask(&DeviationsOf(of.geometry.visibility.mesh.clone())));
+    let roughness = shading.vertices().map(|_| ask.ask(&MeshRoughnessOf(of.geometry.visibility.mesh.clone())));
     let surface = *shading.surface();
     let place = |index: usize| -> Option<(Geometry, f64, Surface)> {
-        match (shading.vertices(), &deviations) {
-            (Some(vertices), Some(deviations)) => {
-                let sigma = deviations.get(index).copied().unwrap_or(0.0);
-                Some((*vertices.geometries().get(index)?, 1.0, surface.with_sigma(sigma.into())))
+        match (shading.vertices(), &roughness) {
+            (Some(vertices), Some(roughness)) => {
+                let own = roughness.get(index).copied().unwrap_or_default();
+                Some((*vertices.geometries().get(index)?, 1.0, own.of(surface)))
             }
             _ => shading.geometry().angles().get(index).map(|angles| (angles.geometry(), angles.light(), surface)),
         }
@@ -53,6 +53,7 @@ pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<LeftOut> 
     let radius = shading.geometry().angular_radius();
     let sum = |(measure, reach): (&Measure, &Reach)| {
         let Reach { still_m, settled_m, quick } = *reach;
+        let measure = measure.coherent();
         let nodes = Nodes { smooth: measure.fine(), every: measure.dense(), still_m, settled_m, quick };
         taken.iter().map(|mirror| mirror_sum(mirror, &surface, nodes, radius)).collect::<Vec<_>>()
     };

@@ -33,7 +33,7 @@ impl Ways {
         ask: &impl Ask,
     ) -> Option<Self> {
         let of = pictures.image(&source.rendering).measure;
-        let measure = ask.ask(&of);
+        let measure = of.in_picture(shading, ask);
         (*measure).as_ref().ok()?;
         let table = shading.needs_table().then(|| ask.ask(&DiffuseTableOf(of.clone())));
         let wanted = shading.demand().zip(shading.plan_accuracy());

@@ -4,7 +4,7 @@ use egui::{Grid, RichText, Ui};
 
 use super::note;
 use crate::figures::chromaticity::id;
-use crate::figures::render::{facts, pixel_of};
+use crate::figures::render::{facts, headline, index_of, pixel_of};
 use crate::panes::PaneContext;
 use crate::studio::pixel::PixelShows;
 use crate::theme::UNIT;
@@ -28,13 +28,18 @@ pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
         let place = PixelPlace { source: id(source), ..pinned.clone() };
         let Some(reading) = pixel_of(&context.scene, render, &place) else { continue };
         key_and_label(ui, source, &context.theme);
+        let made = shot.made().zip(index_of(&shot, &place.source));
+        if let Some(difference) = made.and_then(|(made, at)| made.differences.get(at)?.as_ref()) {
+            let measure = headline::measure(context.scene.document);
+            note(ui, &context.theme, headline::words(difference, measure, headline::Detail::Quantiles));
+        }
         match reading.shows {
             PixelShows::Nothing => note(ui, &context.theme, "Beside the mesh."),
             PixelShows::Unlit => note(ui, &context.theme, "No light reaches it."),
             PixelShows::Lit(lit) => {
                 let grid = Grid::new(("pixel", &source.name)).num_columns(2).min_row_height(0.0);
                 grid.spacing([3.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
-                    for (name, value) in facts(&lit) {
+                    for (name, value) in facts(&lit, headline::measure(context.scene.document)) {
                         ui.monospace(name);
                         ui.monospace(value);
                         ui.end_row();

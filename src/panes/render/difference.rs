@@ -8,8 +8,9 @@ use crate::theme::{SMALL, difference_ramp};
 /// The scale: what the ramp's colors stand for.
 pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, end: f32, context: &PaneContext<'_>) {
     let color = context.theme.surround.label();
+    let measure = crate::figures::render::headline::measure(context.scene.document);
     let font = FontId::proportional(SMALL);
-    let words = "ΔE*00 to the truth";
+    let words = format!("{measure} from the reference");
     let title = painter.text(rect.left_center() + Vec2::new(8.0, 0.0), Align2::LEFT_CENTER, words, font.clone(), color);
     let left = title.right() + 16.0;
     let bar = Rect::from_min_max(
@@ -27,7 +28,7 @@ pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, end: f32, contex
     let dark = Pos2::new(rect.right() - 8.0, bar.center().y);
     painter.text(dark, Align2::RIGHT_CENTER, "black: no light", font, color);
     let response = ui.interact(rect, ui.scope_id().with("difference scale"), Sense::hover());
-    let said = format!("Scale of ΔE*00 to the truth, from 0 to {end}");
+    let said = format!("Scale of {measure} from the reference, from 0 to {end}");
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &said));
-    response.on_hover_text("ΔE*00 of each lit sample; a white of the same roughness that faces the light has Y = 1.");
+    response.on_hover_text("Of each lit sample; a white of the same roughness that faces the light has Y = 1.");
 }

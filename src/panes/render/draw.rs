@@ -8,6 +8,7 @@ use egui::{
 use super::cells::{CAPTION, Cell, Stand, chosen};
 use super::difference;
 use crate::figures::chromaticity::id;
+use crate::figures::render::headline::{self, Detail};
 use crate::figures::render::{difference as maps, index_of};
 use crate::paint::{self, PictureOf};
 use crate::panes::PaneContext;
@@ -16,12 +17,13 @@ use crate::studio::Shot;
 use crate::theme::TEXT;
 use crate::thing::Things;
 use crate::view::render::RenderMode;
-use crate::widgets::lines::{self, fixed};
+use crate::widgets::lines;
 
-/// From this width of a caption on it tells the mean difference, in full, and with the largest.
+/// From this width of a caption on it states the difference: its number, with its measure, with quantiles, with the largest.
 const WITH_NOTE: f32 = 150.0;
-const WITH_MEAN: f32 = 230.0;
-const WITH_LARGEST: f32 = 260.0;
+const WITH_MEASURE: f32 = 270.0;
+const WITH_QUANTILES: f32 = 470.0;
+const WITH_LARGEST: f32 = 540.0;
 /// The radius of the ring around the pixel that is kept.
 const RING: f32 = 7.0;
 
@@ -40,8 +42,8 @@ pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &Stand, context: &
             picture(ui, painter, stand, index, (shot, at), scale, context);
         }
         if stand.mode == RenderMode::Grid || stand.mode == RenderMode::Difference {
-            let note = found.and_then(|(shot, at)| note(shot, at, stand.mode, cell.caption.width()));
-            caption(ui, painter, cell, source, note.as_deref(), context);
+            let note = found.and_then(|(shot, at)| note(shot, at, cell.caption.width(), context));
+            caption(ui, painter, cell, source, note.as_ref(), context);
         }
         ring(painter, stand, index, context);
     }
@@ -92,16 +94,24 @@ fn picture(
     painter.galley(area.min, galley, context.theme.surround.label());
 }
 
-/// What stands at the right of a caption.
-fn note(shot: &Shot, at: usize, mode: RenderMode, width: f32) -> Option<String> {
+/// The difference at the right of a caption, as far as there is room, and in full.
+struct Note {
+    short: Option<String>,
+    full: String,
+}
+
+/// The note of a picture's caption.
+fn note(shot: &Shot, at: usize, width: f32, context: &PaneContext<'_>) -> Option<Note> {
     let difference = shot.made()?.differences.get(at)?.as_ref()?;
-    let mean = fixed(difference.mean, 1);
-    Some(match mode {
-        RenderMode::Difference if width >= WITH_LARGEST => format!("mean ΔE {mean}  max {}", fixed(difference.max, 1)),
-        _ if width >= WITH_MEAN => format!("mean ΔE {mean}"),
-        _ if width >= WITH_NOTE => format!("ΔE {mean}"),
-        _ => return None,
-    })
+    let words = |detail| headline::words(difference, headline::measure(context.scene.document), detail);
+    let steps = [
+        (WITH_LARGEST, Detail::Largest),
+        (WITH_QUANTILES, Detail::Quantiles),
+        (WITH_MEASURE, Detail::Measure),
+        (WITH_NOTE, Detail::Number),
+    ];
+    let short = steps.into_iter().find(|(least, _)| width >= *least).map(|(_, detail)| words(detail));
+    Some(Note { short, full: words(Detail::Largest) })
 }
 
 /// What a source is called above its picture.
@@ -115,20 +125,24 @@ fn caption(
     painter: &Painter,
     cell: &Cell,
     source: &Source,
-    note: Option<&str>,
+    note: Option<&Note>,
     context: &PaneContext<'_>,
 ) {
     let color = context.theme.surround.label();
     let rect = cell.caption.shrink2(Vec2::new(8.0, 0.0));
     marker(painter, Rect::from_min_size(rect.min, Vec2::new(16.0, CAPTION)), source, context);
-    let right = note.map_or(0.0, |note| lines::right_aligned(ui, rect, note, TextStyle::Small, color) + 8.0);
+    let right = note
+        .and_then(|note| note.short.as_deref())
+        .map_or(0.0, |note| lines::right_aligned(ui, rect, note, TextStyle::Small, color) + 8.0);
     let words = title(source);
     let left = Rect::from_min_max(rect.min + Vec2::new(20.0, 0.0), rect.max - Vec2::new(right, 0.0));
     let cut = lines::elided(ui, left, &words, TextStyle::Body, color);
-    let said = note.map_or_else(|| words.clone(), |note| format!("{words}, {note}"));
+    let said = note.map_or_else(|| words.clone(), |note| format!("{words}, {}", note.full));
     let response = ui.interact(cell.caption, ui.scope_id().with(("caption", &words)), Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("Picture: {said}")));
-    if cut {
+    if note.is_some() {
+        response.on_hover_text(format!("{said}. {}", headline::MEANING));
+    } else if cut {
         response.on_hover_text(said);
     }
 }
@@ -226,19 +240,18 @@ pub(super) fn choosers(ui: &mut Ui, stand: &Stand, sources: &[Source], context: 
     });
     let said = format!("Source on show: {}", title(&now));
     response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
-    let made = shot
-        .as_deref()
-        .and_then(|shot| index_of(shot, &id(&now)).and_then(|at| note(shot, at, stand.mode, row.width())));
-    if let Some(note) = made {
-        let rest = Rect::from_min_max(Pos2::new(place.right() + 8.0, row.top()), row.max);
-        if rest.width() > 90.0 {
-            painter.text(
-                rest.right_center(),
-                Align2::RIGHT_CENTER,
-                note,
-                FontId::proportional(crate::theme::SMALL),
-                context.theme.surround.label(),
-            );
-        }
+    let made = shot.as_deref().and_then(|shot| index_of(shot, &id(&now)));
+    let rest = Rect::from_min_max(Pos2::new(place.right() + 8.0, row.top()), row.max);
+    let made = shot.as_deref().zip(made).and_then(|(shot, at)| note(shot, at, rest.width() + 90.0, context));
+    if let Some(note) = made.and_then(|note| note.short)
+        && rest.width() > 90.0
+    {
+        painter.text(
+            rest.right_center(),
+            Align2::RIGHT_CENTER,
+            note,
+            FontId::proportional(crate::theme::SMALL),
+            context.theme.surround.label(),
+        );
     }
 }

@@ -22,23 +22,37 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     ui.add_space(UNIT);
     let figures = [
-        (
-            RenderAction::Figure8,
-            "Figure 8",
-            "The paper's head under direct sunlight, balanced to D55, in the reading of Eq 1 that is chosen under Surface. Sets Light \
-             and White too, in one step; ticked sources stay.",
-        ),
-        (
-            RenderAction::Figure9,
-            "Figure 9",
-            "The paper's fern under direct sunlight, balanced to D55, in the reading of Eq 1 that is chosen under Surface. Sets Light \
-             and White too, in one step; ticked sources stay.",
-        ),
+        (RenderAction::Figure8, "Figure 8", "The paper's head"),
+        (RenderAction::Figure9, "Figure 9", "The paper's fern"),
     ];
-    for (action, words, hint) in figures {
+    // All of them have room in a narrow pane.
+    ui.spacing_mut().button_padding.x = 0.5 * UNIT;
+    ui.spacing_mut().item_spacing.x = 0.75 * UNIT;
+    for (action, words, mesh) in figures {
+        let hint = format!(
+            "{mesh} in parallel sunlight, balanced to D55, by the reflectance model that is chosen under Surface (at first \
+             radiometric). Sets Light and White too, in one step; ticked sensors stay."
+        );
         if ui.button(words).on_hover_text(hint).clicked() {
-            context.view.saved.render.orbit = None;
-            context.push(Action::Render(action));
+            set_up(action, context);
         }
     }
+    let menu = ui.menu_button("⋯", |ui| {
+        for action in [RenderAction::PaperFigure8, RenderAction::PaperFigure9] {
+            let words = Action::Render(action.clone()).name();
+            let hint = "The paper's own setup: a point light, and Eq 12 with P as printed: no Fresnel factor, A = XY. σ and τ are \
+                        not given there; they are this program's.";
+            if ui.button(words).on_hover_text(hint).clicked() {
+                set_up(action, context);
+                ui.close();
+            }
+        }
+    });
+    menu.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Figures as in the paper"));
+    menu.response.on_hover_text("Figures 8 and 9 as in the paper: point light, the paper's normalization");
+}
+
+fn set_up(action: RenderAction, context: &mut PaneContext<'_>) {
+    context.view.saved.render.orbit = None;
+    context.push(Action::Render(action));
 }

@@ -2,7 +2,7 @@
 
 use egui::{Grid, RichText, Ui};
 
-use crate::figures::render::{facts, index_of, pixel_of};
+use crate::figures::render::{facts, headline, index_of, pixel_of};
 use crate::panes::PaneContext;
 use crate::studio::pixel::PixelShows;
 use crate::theme::UNIT;
@@ -39,15 +39,15 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
         PixelShows::Lit(lit) => {
             let numbers = Grid::new("pixel").num_columns(2).spacing([3.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
-                for (name, value) in facts(&lit) {
+                for (name, value) in facts(&lit, headline::measure(context.scene.document)) {
                     ui.monospace(name);
                     ui.monospace(value);
                     ui.end_row();
                 }
             });
             numbers.response.on_hover_text(
-                "RGB: linear sRGB at this exposure, before clipping. xy, Lab and ΔE*00: a white of the same roughness that \
-                 faces the light has Y = 1. g: at 550 nm.",
+                "RGB: linear sRGB at this exposure, before clipping. xy, Lab and the difference from the reference: a white of the \
+                 same roughness that faces the light has Y = 1. g: at 550 nm.",
             );
             others(ui, &place, context);
             if let Some((_, way)) = lit.roughness {
@@ -72,6 +72,7 @@ fn shown(place: PixelPlace, render: &RenderView) -> PixelPlace {
 fn others(ui: &mut Ui, place: &PixelPlace, context: &PaneContext<'_>) {
     let render = &context.view.render;
     let Some(shot) = render.shot.as_deref() else { return };
+    let delta = if headline::measure(context.scene.document).starts_with("ΔE") { "ΔE" } else { "Δ" };
     Grid::new("pixel through all").num_columns(3).spacing([2.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
         for source in &shot.sources {
             let place = PixelPlace { at: place.at, source: SourceId { kind: source.kind, name: source.name.clone() } };
@@ -80,7 +81,7 @@ fn others(ui: &mut Ui, place: &PixelPlace, context: &PaneContext<'_>) {
                 continue;
             };
             let xy = lit.xy.map_or_else(|| "no xy".to_owned(), |xy| format!("{:.4} {:.4}", xy.x, xy.y));
-            let difference = lit.difference.map_or_else(String::new, |difference| format!("ΔE {difference:.1}"));
+            let difference = lit.difference.map_or_else(String::new, |difference| format!("{delta} {difference:.1}"));
             ui.label(RichText::new(&source.label).small());
             ui.label(RichText::new(xy).small().monospace());
             ui.label(RichText::new(difference).small().monospace());

@@ -6,13 +6,11 @@ use egui::{ComboBox, Ui};
 use super::{Dial, caption, material, set};
 use crate::catalog::meshes::MeshState;
 use crate::command::Command;
-use crate::document::render::{MeshChoice, RenderSettings};
+use crate::document::render::{MeshChoice, NEAR, RenderSettings};
 use crate::panes::PaneContext;
 
 /// How many triangles can be chosen.
 const TRIANGLES: std::ops::RangeInclusive<f64> = 2e3..=2e6;
-/// The distance that a near light begins with, in scene radii.
-const NEAR: f64 = 4.0;
 
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -105,7 +103,8 @@ fn light(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) 
             set(context, "Shadows", |settings| settings.shadows = shadows);
         }
         let mut disk = settings.light_radius > 0.0;
-        let hint = "A light as wide as the Sun blurs the mirror term; a point does not. Only smooth surfaces show it.";
+        let hint =
+            "A light as wide as the Sun blurs the specular lobe; a point does not. Only smooth surfaces show it.";
         if ui.checkbox(&mut disk, "Sun's disk").on_hover_text(hint).changed() {
             set(context, "Sun's disk", |settings| settings.light_radius = if disk { SUN_RADIUS } else { 0.0 });
         }

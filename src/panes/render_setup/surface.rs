@@ -1,10 +1,12 @@
-//! Roughness and refractive index, and how the model is read.
+//! Roughness and refractive index, the choices of the reflectance model, and its limits.
 
 use chromascope_core::reflectance::Caution;
 use egui::{ComboBox, RichText, Ui};
 
 use super::{Dial, set};
+use crate::document::render::model::{AreaChoice, SpecularChoice};
 use crate::document::render::{LEAF, ReadingChoice, RenderSettings, RoughnessChoice, SKIN};
+use crate::figures::render::returned;
 use crate::panes::PaneContext;
 
 /// Shows the group.
@@ -17,13 +19,55 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if let Some(to) = dial.show(ui, settings.index) {
         set(context, "Refractive index", |settings| settings.index = to.clamp(0.01, 1000.0));
     }
+    area(ui, &settings, context);
     reading(ui, settings.reading, context);
     let why = settings.reading.why();
     // What follows from it, which its last sentence says; the pointer reads all.
     let last = why.rsplit(". ").next().unwrap_or(why).split(':').next().unwrap_or(why);
     let last = last.trim_end_matches('.');
     ui.label(RichText::new(last).small().color(context.theme.weak)).on_hover_text(why);
+    if settings.reading != ReadingChoice::Lambertian {
+        specular(ui, settings.specular, context);
+        returned_light(ui, &settings, context);
+    }
     cautions(ui, &settings, context);
+}
+
+/// The area A that the half-widths stand for.
+fn area(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
+    ui.horizontal(|ui| {
+        for choice in AreaChoice::ALL {
+            if ui.radio(settings.area == choice, choice.label()).on_hover_text(choice.why()).clicked() {
+                set(context, "Illuminated area", |settings| settings.area = choice);
+            }
+        }
+    });
+}
+
+/// The reflectance factor of the coherent component.
+fn specular(ui: &mut Ui, now: SpecularChoice, context: &mut PaneContext<'_>) {
+    ui.horizontal(|ui| {
+        let combo = ComboBox::from_id_salt("specular").width(150.0).selected_text(now.label());
+        let response = combo.show_ui(ui, |ui| {
+            for choice in SpecularChoice::ALL {
+                if ui.selectable_label(now == choice, choice.label()).on_hover_text(choice.why()).clicked() {
+                    set(context, "Coherent component", |settings| settings.specular = choice);
+                }
+            }
+        });
+        let said = format!("Coherent component: {}", now.label());
+        response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
+        response.response.on_hover_text(now.why());
+        ui.label("Specular").on_hover_text(now.why());
+    });
+}
+
+/// The share of light that the surface returns, with a warning where that is more than came.
+fn returned_light(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
+    let Some(words) = returned::words(&context.scene) else { return };
+    let color = if words.is_warning { context.theme.warning } else { context.theme.weak };
+    let hint = returned::meaning(settings.reading);
+    ui.label(RichText::new(words.text).small().color(color)).on_hover_text(hint);
 }
 
 /// Surfaces to begin with.
@@ -36,14 +80,14 @@ fn presets(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 SKIN,
                 1.40,
                 rough.sigma_um,
-                "σ 5 µm, τ 10 µm, n 1.40: an empirical lobe; its slope exceeds the model's comfort",
+                "σ 5 µm, τ 10 µm, n 1.40. RMS slope 0.7: outside the model's validity, the lobe is empirical",
             ),
             (
                 "Leaf",
                 LEAF,
                 1.45,
                 rough.sigma_um,
-                "σ 5 µm, τ 10 µm, n 1.45: an empirical lobe; its slope exceeds the model's comfort",
+                "σ 5 µm, τ 10 µm, n 1.45. RMS slope 0.7: outside the model's validity, the lobe is empirical",
             ),
             (
                 "Smooth",
@@ -75,31 +119,35 @@ fn lengths(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
         hint,
         beyond: true,
     };
-    let sigma =
-        length("Roughness σ", 0.0, 0.01, "The standard deviation of the surface's heights; type up to 1e6, a meter");
+    let sigma = length("Roughness σ", 0.0, 0.01, "RMS roughness; type up to 1e6, a meter");
     if let Some(to) = sigma.show(ui, settings.sigma_um) {
         set(context, "Roughness", |settings| settings.sigma_um = to.clamp(0.0, 1e6));
     }
     let from_mesh = settings.roughness == RoughnessChoice::Mesh;
     let mut wanted = from_mesh;
-    let said = ui.checkbox(&mut wanted, "σ from the mesh, as in the paper").on_hover_text(RoughnessChoice::WHY_NOT);
+    let said =
+        ui.checkbox(&mut wanted, "σ and τ from the mesh, as in the paper").on_hover_text(RoughnessChoice::WHY_NOT);
     if said.changed() {
         let to = if wanted { RoughnessChoice::Mesh } else { RoughnessChoice::Surface };
         set(context, "Roughness from the mesh", |settings| settings.roughness = to);
     }
     if from_mesh {
-        let words = RichText::new("Heights of the mesh, not the skin: nearly black").small();
+        let words = RichText::new("Lengths of the mesh, not of the material: dark but for a narrow gloss").small();
         ui.label(words.color(context.theme.warning)).on_hover_text(RoughnessChoice::WHY_NOT);
     }
-    let tau =
-        length("Correlation τ", 0.001, 0.001, "The distance at which heights know half of each other no more: 1/e");
+    let tau = length(
+        "Correlation τ",
+        0.001,
+        0.001,
+        "Correlation length: lag at which the height autocorrelation falls to 1/e",
+    );
     if let Some(to) = tau.show(ui, settings.tau_um) {
         set(context, "Correlation length", |settings| settings.tau_um = to.clamp(0.001, 1e6));
     }
     ui.horizontal(|ui| {
         for (axis, name, hint) in [
-            (0, "X", "Half the side of the patch that counts as one, along the plane of incidence"),
-            (1, "Y", "Half the side across the plane of incidence"),
+            (0, "X", "Half-width of the coherently illuminated area, in the plane of incidence"),
+            (1, "Y", "Half-width of the coherently illuminated area, across the plane of incidence"),
         ] {
             let mut value = settings.half_sides_um[axis];
             let field = egui::DragValue::new(&mut value)
@@ -109,12 +157,12 @@ fn lengths(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
                 .suffix(" µm");
             let response = ui.add(field);
             ui.label(name).on_hover_text(hint);
-            response.widget_info(|| egui::WidgetInfo::slider(true, value, format!("Half side {name}")));
+            response.widget_info(|| egui::WidgetInfo::slider(true, value, format!("Half-width {name}")));
             if response.on_hover_text(hint).changed() {
-                set(context, "Half sides", |settings| settings.half_sides_um[axis] = value);
+                set(context, "Half-widths", |settings| settings.half_sides_um[axis] = value);
             }
         }
-        ui.label(RichText::new("half sides").small().color(context.theme.weak));
+        ui.label(RichText::new("half-widths").small().color(context.theme.weak));
     });
 }
 
@@ -137,7 +185,7 @@ fn reading(ui: &mut Ui, now: ReadingChoice, context: &mut PaneContext<'_>) {
 
 /// Where the model is stretched.
 fn cautions(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
-    if settings.reading == ReadingChoice::Lambertian {
+    if settings.reading == ReadingChoice::Lambertian || settings.roughness == RoughnessChoice::Mesh {
         return;
     }
     match settings.surface() {
@@ -155,7 +203,7 @@ fn cautions(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
                 let whole = format!("{caution}.");
                 let said = whole.split([',', ':']).next().unwrap_or(&whole);
                 let words = if caution == Caution::Steep {
-                    format!("Empirical lobe: {}", lowered(said))
+                    format!("Empirical lobe, outside the model's validity: {}", lowered(said))
                 } else {
                     said.to_owned()
                 };

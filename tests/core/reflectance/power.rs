@@ -6,8 +6,8 @@ use chromascope_core::reflectance::coherent::rho0_squared;
 use chromascope_core::reflectance::fresnel::transmittance;
 use chromascope_core::reflectance::power::factor_by;
 use chromascope_core::reflectance::{
-    Geometry, Method, Precision, Reading, Surface, beta, coherent_prefactor, diffuse_prefactor, diffuse_sum, factor,
-    kappa, wavelength_power,
+    Geometry, IlluminatedArea, Method, Precision, Reading, Specular, Surface, beta, coherent_prefactor,
+    diffuse_prefactor, diffuse_sum, factor, factors_by, fresnel, kappa, wavelength_power,
 };
 use proptest::prelude::*;
 
@@ -25,6 +25,67 @@ fn albedo(surface: &Surface, theta_i: f64, pieces: [u32; 2]) -> f64 {
         2.0 * integral(0.0, PI, pieces[1], around) * theta_s.sin() * theta_s.cos()
     };
     integral(0.0, FRAC_PI_2, pieces[0], ring) / PI
+}
+
+#[test]
+fn the_papers_coherent_component_is_36_times_too_bright() {
+    let paper = Surface::new(0.05e-6, 10e-6, 50e-6, 50e-6, 1.4).unwrap();
+    let dielectric = paper.with_specular(Specular::Fresnel);
+    for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet] {
+        let ratio = |theta: f64| {
+            let mirrored = Geometry::from_angles(theta, theta, 0.0);
+            let at = |surface| factors_by(surface, &mirrored, 550.0, reading, Method::default(), 0.0);
+            let ([diffuse, tinted], [same, untinted]) = (at(&paper), at(&dielectric));
+            assert_eq!(diffuse, same, "the diffuse component is left as it is");
+            untinted / tinted
+        };
+        assert_near("normal incidence", ratio(0.0), 1.0 / 36.0, 1e-15);
+        for theta in [0.3, 1.0, 1.5_f64] {
+            assert_near(
+                "Fresnel at the angle of incidence",
+                ratio(theta),
+                fresnel::reflectance(theta.cos(), 1.4),
+                1e-12,
+            );
+        }
+    }
+}
+
+#[test]
+fn the_area_as_printed_is_a_quarter_of_the_patch() {
+    let whole = Surface::new(0.05e-6, 10e-6, 50e-6, 40e-6, 1.4).unwrap();
+    let printed = whole.with_area(IlluminatedArea::Xy);
+    assert_near("A = 4XY", whole.area_m2(), 8e-9, 1e-22);
+    assert_near("A = XY", printed.area_m2(), 2e-9, 1e-22);
+    let mirrored = Geometry::from_angles(0.4, 0.4, 0.0);
+    let ratio = |reading| {
+        let at = |surface| factors_by(surface, &mirrored, 550.0, reading, Method::default(), 0.0);
+        let (printed, whole) = (at(&printed), at(&whole));
+        [printed[0] / whole[0], printed[1] / whole[1]]
+    };
+    for (reading, [diffuse, coherent]) in
+        [(Reading::Paper, [4.0, 1.0]), (Reading::Radiometric, [1.0, 0.25]), (Reading::Microfacet, [1.0, 0.25])]
+    {
+        let [found_diffuse, found_coherent] = ratio(reading);
+        assert_near("diffuse", found_diffuse, diffuse, 1e-12);
+        assert_near("coherent", found_coherent, coherent, 1e-12);
+    }
+}
+
+#[test]
+fn only_the_diffuse_component_is_reciprocal() {
+    let surface = Surface::new(0.05e-6, 10e-6, 50e-6, 20e-6, 1.4).unwrap();
+    let (normal, light, viewer) = (glam::DVec3::Z, glam::DVec3::new(-0.5, 0.1, 0.8), glam::DVec3::new(0.49, 0.0, 0.9));
+    let (light, viewer) = (light.normalize(), viewer.normalize());
+    let by = |light, viewer| {
+        let geometry = Geometry::from_directions(light, viewer, normal);
+        factors_by(&surface, &geometry, 550.0, Reading::Microfacet, Method::default(), 0.0)
+    };
+    let ([diffuse, coherent], [diffuse_back, coherent_back]) = (by(light, viewer), by(viewer, light));
+    assert!((diffuse_back / diffuse - 1.0).abs() < 1e-12 && diffuse > 0.0, "{diffuse} {diffuse_back}");
+    // The plane of incidence, along which X lies, turns with the exchange.
+    assert!((coherent_back / coherent - 1.0).abs() > 0.01, "{coherent} {coherent_back}");
+    assert!(coherent > 0.0);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use chromascope_core::camera::White;
 use chromascope_core::query::render::{GeometryOf, Roughness, ShadingOf, VisibilityOf};
 use chromascope_core::query::render::{MeshOf, Pictures, PicturesOf, SourceOf};
 use chromascope_core::query::{Ask, Query, RenderingOf, Shared, WayOf};
-use chromascope_core::reflectance::{Reading, Surface};
+use chromascope_core::reflectance::{Reading, Specular, Surface};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_core::scene::{Lighting, Viewpoint, lighting::SUN_RADIUS};
 use chromascope_core::spectral::GridSpectrum;
@@ -26,6 +26,8 @@ pub(super) struct Studio {
     pub yaw: f64,
     pub light_up: f64,
     pub sigma_m: f64,
+    pub tau_m: f64,
+    pub specular: Specular,
     pub shadows: Shadows,
     pub reading: Reading,
     pub roughness: Roughness,
@@ -54,6 +56,8 @@ impl Studio {
             yaw: 0.0,
             light_up: 25.0,
             sigma_m: 5e-6,
+            tau_m: 10e-6,
+            specular: Specular::Paper,
             shadows: Shadows::Full,
             reading: Reading::Radiometric,
             roughness: Roughness::Surface,
@@ -63,7 +67,7 @@ impl Studio {
     }
 
     pub(super) fn surface(&self) -> Surface {
-        Surface::new(self.sigma_m, 10e-6, 50e-6, 50e-6, 1.4).unwrap()
+        Surface::new(self.sigma_m, self.tau_m, 50e-6, 50e-6, 1.4).unwrap().with_specular(self.specular)
     }
 
     pub(super) fn question(&self) -> PicturesOf {

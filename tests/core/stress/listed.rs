@@ -53,13 +53,18 @@ const WALKED: &[(&str, &str)] = &[
     ("math/least_squares", "matrix_keeping"),
     ("math/ln", "ln ln_1p"),
     ("query/loci", "Temperatures::to_vec"),
+    ("query/render/difference", "BrightSamples::new"),
     ("reflectance/coherent", "sinc mean_sinc_squared sine_integral rho0_squared rho0_squared_bound is_negligible"),
     ("reflectance/fresnel", "reflectance transmittance transmittance_by_cosine"),
     (
         "reflectance/geometry",
         "Geometry::from_angles Geometry::from_directions Geometry::quickly_from_directions Geometry::is_lit",
     ),
-    ("reflectance/power", "factor factor_by diffuse_prefactor coherent_prefactor wavelength_power kappa beta"),
+    ("reflectance/hemispherical", "directional_hemispherical HemisphericalReflectance::total"),
+    (
+        "reflectance/power",
+        "factor factor_by factors_by diffuse_prefactor coherent_prefactor wavelength_power kappa beta",
+    ),
     ("reflectance/regimes", "Regime::of diffuse_sum_by_regimes"),
     (
         "reflectance/sum",
@@ -68,7 +73,7 @@ const WALKED: &[(&str, &str)] = &[
     ("reflectance/sum/terms", "series_terms"),
     (
         "reflectance/surface",
-        "Surface::with_sigma Surface::new Surface::sigma_m Surface::tau_m Surface::half_x_m Surface::half_y_m Surface::index Surface::area_m2 Surface::slope Surface::cautions",
+        "Surface::with_sigma Surface::with_tau Surface::with_area Surface::with_specular Surface::new Surface::sigma_m Surface::tau_m Surface::half_x_m Surface::half_y_m Surface::index Surface::area_m2 Surface::slope Surface::cautions",
     ),
     ("render/develop", "Development::new develop Measurement::new Measurement::xyz Measurement::lab differences"),
     (
@@ -82,7 +87,7 @@ const WALKED: &[(&str, &str)] = &[
     ("render/lobe", "mean_sinc_squared_quick"),
     (
         "render/measure",
-        "Measure::new Measure::dense Measure::coarse Measure::fine Measure::shared Measure::moments Measure::totals Measure::settled_m",
+        "Measure::new Measure::dense Measure::coarse Measure::fine Measure::shared Measure::moments Measure::totals Measure::settled_m Measure::with_untinted",
     ),
     ("render/mirror", "mirror_sum Reach::of Reach::within Reach::in_picture"),
     ("render/plan", "Plan::new Plan::demand Plan::bytes Plan::explanation Plan::at Plan::fill"),
@@ -107,7 +112,7 @@ const WALKED: &[(&str, &str)] = &[
         "scene/mesh",
         "Bounds::center Mesh::new Mesh::with_smooth_normals Mesh::positions Mesh::normals Mesh::triangles Mesh::bounds smooth_normals",
     ),
-    ("scene/roughness", "vertex_deviations"),
+    ("scene/roughness", "vertex_roughness VertexRoughness::of"),
     ("scene/shapes", "sphere plane"),
     (
         "scene/viewpoint",
@@ -131,7 +136,7 @@ const WALKED: &[(&str, &str)] = &[
 /// Not walked, and why.
 const NOT_WALKED: &[(&str, &str)] = &[
     (
-        "spectral/grid Interpolation::of, spectral/sensor Sensor::extrapolated_below_k, object PatchSet::new, object PatchSet::from_dataset, object PatchSet::patches, object PatchSet::subset, query/shared Shared::new, render Stop::at, render Stop::is_set, colorimetry/tristimulus Xyz::from_vector, render/geometry GeometryImage::placed, render/geometry GeometryImage::counts, render/geometry GeometryImage::chunk, render/shading ShadingImage::quality, render/shading ShadingImage::vertices, render/shading ShadingImage::shades, render/shading ShadingImage::mirrors, render/shading ShadingImage::counts, render/signals CameraImage::placed, render/vertices VertexImage::geometries, render/vertices VertexImage::geometry, render/visibility Visibility::hits, render/visibility Visibility::size, render/visibility Visibility::eye, spectral/sensor Primaries::quantity, spectral/sensor Primaries::channels, spectral/sensor Sensor::response, spectral/sensor Sensor::curves, scene/viewpoint Viewpoint::field_of_view, scene/lighting Lighting::distance, render/geometry Placed::size, render/geometry Placed::samples, render/geometry Placed::seen, render/geometry GeometryImage::angular_radius, render/shading ShadingImage::geometry, render/shading ShadingImage::surface",
+        "spectral/grid Interpolation::of, spectral/sensor Sensor::extrapolated_below_k, object PatchSet::new, object PatchSet::from_dataset, object PatchSet::patches, object PatchSet::subset, query/shared Shared::new, render Stop::at, render Stop::is_set, colorimetry/tristimulus Xyz::from_vector, render/geometry GeometryImage::placed, render/geometry GeometryImage::counts, render/geometry GeometryImage::chunk, render/shading ShadingImage::quality, render/shading ShadingImage::vertices, render/shading ShadingImage::shades, render/shading ShadingImage::mirrors, render/shading ShadingImage::counts, render/signals CameraImage::placed, render/vertices VertexImage::geometries, render/vertices VertexImage::geometry, render/visibility Visibility::hits, render/visibility Visibility::size, render/visibility Visibility::eye, spectral/sensor Primaries::quantity, spectral/sensor Primaries::channels, spectral/sensor Sensor::response, spectral/sensor Sensor::curves, scene/viewpoint Viewpoint::field_of_view, scene/lighting Lighting::distance, render/geometry Placed::size, render/geometry Placed::samples, render/geometry Placed::seen, render/geometry GeometryImage::angular_radius, reflectance/surface Surface::area, reflectance/surface Surface::specular, render/measure Measure::coherent, render/shading ShadingImage::geometry, render/shading ShadingImage::surface",
         "keeps and hands out what it is given",
     ),
     (
@@ -139,7 +144,7 @@ const NOT_WALKED: &[(&str, &str)] = &[
         "part of a picture, and walked with it",
     ),
     (
-        "query/compare comparable_by_paper, query/compare patch_difference, query/compare locus_distance_xy, query/compare locus_distance_uv, query/loci Locus::length_xy, query/render/picture Facing::factor, query/render/picture PicturesOf::exposure, query/render/picture PicturesOf::image, query/render/picture PicturesOf::picture, query/render/picture PicturesOf::difference",
+        "query/compare comparable_by_paper, query/compare patch_difference, query/compare locus_distance_xy, query/compare locus_distance_uv, query/loci Locus::length_xy, query/render MeasureOf::in_picture, query/render/picture Facing::factor, query/render/picture PicturesOf::exposure, query/render/picture PicturesOf::image, query/render/picture PicturesOf::picture, query/render/picture PicturesOf::difference",
         "asks what others compute; tests/core/query.rs",
     ),
     (

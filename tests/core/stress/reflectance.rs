@@ -6,8 +6,8 @@ use chromascope_core::reflectance::coherent::{
 };
 use chromascope_core::reflectance::fresnel::{reflectance, transmittance, transmittance_by_cosine};
 use chromascope_core::reflectance::{
-    Geometry, Method, Precision, Reading, Surface, beta, coherent_prefactor, diffuse_prefactor, diffuse_sum, factor,
-    factor_by, kappa, wavelength_power,
+    Geometry, IlluminatedArea, Method, Precision, Reading, Specular, Surface, beta, coherent_prefactor,
+    diffuse_prefactor, diffuse_sum, directional_hemispherical, factor, factor_by, factors_by, kappa, wavelength_power,
 };
 use chromascope_core::render::lobe::mean_sinc_squared_quick;
 use glam::DVec3;
@@ -243,6 +243,7 @@ fn surface(&[sigma, tau, x, y, index, ..]: &Case, v: &mut Verdict) {
     let usual = Surface::new(1e-6, 1e-5, 1e-4, 1e-4, 1.5).expect("a usual surface");
     let rough = usual.with_sigma(sigma);
     v.holds("σ beyond 0 to 1 m", (0.0..=1.0).contains(&rough.sigma_m()));
+    v.holds("τ beyond 1 nm to 1 m", (1e-9..=1.0).contains(&usual.with_tau(tau).tau_m()));
     let Ok(surface) = Surface::new(sigma, tau, x, y, index) else { return v.refuse() };
     v.all_finite([surface.area_m2(), surface.slope(), surface.index(), surface.half_x_m(), surface.half_y_m()]);
     v.holds("no length", surface.tau_m() > 0.0 && surface.area_m2() > 0.0 && surface.slope() >= 0.0);
@@ -257,6 +258,15 @@ fn draw_power(d: &mut Draw) -> Case {
 
 fn power(&[sigma, tau, half, index, i, s, phi, nm]: &Case, v: &mut Verdict) {
     let Ok(surface) = Surface::new(sigma, tau, half, half, index) else { return v.refuse() };
+    let returned = directional_hemispherical(&surface, Reading::Microfacet, i);
+    v.all_finite([returned.diffuse, returned.coherent, returned.total()]);
+    for surface in [surface, surface.with_area(IlluminatedArea::Xy).with_specular(Specular::Fresnel)] {
+        power_of(&surface, [i, s, phi, nm], v);
+    }
+}
+
+fn power_of(surface: &Surface, [i, s, phi, nm]: [f64; 4], v: &mut Verdict) {
+    let surface = *surface;
     let g = Geometry::from_angles(i, s, phi);
     let back = Geometry { cos_i: g.cos_s, cos_s: g.cos_i, ..g };
     let (k, b) = (kappa(&surface, &g), beta(&surface, &g));
@@ -274,6 +284,8 @@ fn power(&[sigma, tau, half, index, i, s, phi, nm]: &Case, v: &mut Verdict) {
             v.finite(value);
             v.holds("below 0", value >= 0.0);
             v.holds("light in the dark", g.is_lit() || value == 0.0);
+            let parts = factors_by(&surface, &g, nm, reading, Method::default(), radius);
+            v.holds("not the sum of its parts", parts[0] >= 0.0 && parts[1] >= 0.0 && parts[0] + parts[1] >= value);
             let regimes = factor_by(&surface, &g, nm, reading, Method::Regimes, radius);
             v.holds("regimes not finite", regimes.is_finite() && regimes >= 0.0);
             let (diffuse, coherent) =

@@ -4,6 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use chromascope_core::camera::{Rendering, Way, White};
 use chromascope_core::colorimetry::Xyz;
+use chromascope_core::query::render::BrightSamples;
 use chromascope_core::reflectance::{Precision, Reading, Surface, wavelength_power};
 use chromascope_core::render::develop::differences;
 use chromascope_core::render::diffuse::{by_moments, by_nodes, by_nodes_into, by_regimes, rough_basis};
@@ -295,13 +296,15 @@ fn picture(&[key, sigma, tau, half, index, reading, quality, kind]: &Case, v: &m
     let plain = ShadingImage::new(Arc::clone(&geometry), surface, reading, quality, &Stop::NEVER);
     let vertices =
         VertexImage::new(&mesh, &seen, Arc::clone(&geometry), &lighting, &Stop::NEVER).expect("never stopped");
-    let heights = roughness::vertex_deviations(&mesh);
-    v.all_finite(heights.iter().map(|h| f64::from(*h)));
+    let heights = roughness::vertex_roughness(&mesh);
+    v.all_finite(heights.iter().flat_map(|h| [h.sigma_m, h.tau_m].map(f64::from)));
+    v.all_finite(heights.iter().map(|h| h.of(surface).slope()));
     let rough = ShadingImage::by_vertices(Arc::new(vertices), &heights, surface, reading, quality, &Stop::NEVER);
     let images = [plain, rough].map(|shading| {
         let shading = shading.expect("never stopped");
         let table = shading.needs_table().then_some(&scene.table);
-        CameraImage::new(&shading, &scene.measure, table, &Stop::NEVER).expect("never stopped")
+        let measure = scene.measure.clone().with_untinted(Arc::new(scene.measure.clone()));
+        CameraImage::new(&shading, &measure, table, &Stop::NEVER).expect("never stopped")
     });
     for image in &images {
         v.all_finite(image.signals().iter().flatten().map(|s| f64::from(*s)));
@@ -309,6 +312,8 @@ fn picture(&[key, sigma, tau, half, index, reading, quality, kind]: &Case, v: &m
         v.holds("no picture", develop(image, &development, &Stop::NEVER).is_some_and(|p| p.rgba.len() == 120));
     }
     let measured = Measurement::new(&scene.rendering, 1.0);
-    let map = differences(&images[0], &measured, &images[1], &measured, 1, &Stop::NEVER).expect("never stopped");
-    v.all_finite(map.into_iter().map(f64::from));
+    let (map, lightness) =
+        differences(&images[0], &measured, &images[1], &measured, 1, &Stop::NEVER).expect("never stopped");
+    v.all_finite(BrightSamples::new(&map, &lightness).into_iter().flat_map(|bright| [bright.median, bright.p95]));
+    v.all_finite(map.into_iter().chain(lightness).map(f64::from));
 }

@@ -1,7 +1,7 @@
 //! Places of lights and eyes, meshes of any size.
 
 use chromascope_core::scene::mesh::smooth_normals;
-use chromascope_core::scene::roughness::vertex_deviations;
+use chromascope_core::scene::roughness::vertex_roughness;
 use chromascope_core::scene::{Lighting, Mesh, PlacedLight, Viewpoint, shapes};
 use glam::{DVec3, Vec3};
 
@@ -85,7 +85,7 @@ fn mesh(&[key, kind, size, count, ..]: &Case, v: &mut Verdict) {
         };
         let (bounds, center) = (mesh.bounds(), mesh.bounds().center());
         v.holds("bounds that are no numbers", bounds.radius.is_finite() && center.is_finite());
-        v.all_finite(vertex_deviations(&mesh).into_iter().map(f64::from));
+        v.all_finite(vertex_roughness(&mesh).into_iter().flat_map(|v| [v.sigma_m, v.tau_m].map(f64::from)));
         mesh.normals().iter().for_each(|n| v.error((f64::from(n.length()) - 1.0).abs()));
         let smooth = smooth_normals(mesh.positions(), mesh.triangles());
         v.holds("a normal that is no number", smooth.iter().all(|n| n.is_finite()));

@@ -1,14 +1,14 @@
 //! Pictures side by side: one exposure for all, differences to the truth.
 
+use super::difference::{Difference, DifferenceOf};
 use super::{CameraImageOf, MeasureOf, ShadingOf};
 use crate::camera::NoRendering;
 use crate::colorimetry::Xyz;
 use crate::query::{Ask, Query, RenderingOf, Shared};
-use crate::reflectance::{Geometry, Reading, Surface, factor};
-use crate::render::develop::{develop, differences};
-use crate::render::{
-    CameraImage, Development, GeometryCounts, GeometryImage, Measure, Measurement, Picture, ShadingCounts,
-};
+use crate::reflectance::power::factors_by;
+use crate::reflectance::{Geometry, Method, Reading, Specular, Surface};
+use crate::render::develop::develop;
+use crate::render::{CameraImage, Development, GeometryCounts, GeometryImage, Measure, Picture, ShadingCounts};
 use crate::spectral::GridSpectrum;
 use glam::DVec3;
 use std::sync::Arc;
@@ -54,28 +54,30 @@ impl Query for ExposureOf {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let rendering = ask.ask(&self.truth);
         let rendering = (*rendering).as_ref().map_err(|&e| e)?;
-        let xyz = |reflectance: Shared<GridSpectrum>| -> Result<Xyz, NoRendering> {
+        let measure = |reflectance: Shared<GridSpectrum>| {
             let (sensor, light) = (self.truth.sensor.clone(), self.truth.light.clone());
-            let measure = ask.ask(&MeasureOf { sensor, light, reflectance, reading: Reading::Lambertian });
-            let signals = self.signals((*measure).as_ref().map_err(|&e| e)?);
-            Ok(rendering.xyz(rendering.white * signals))
+            ask.ask(&MeasureOf { sensor, light, reflectance, reading: Reading::Lambertian })
         };
-        let white = xyz(Shared::new(GridSpectrum::constant(1.0)))?;
-        Ok(Facing { material: xyz(self.reflectance.clone())?, white: white.y })
+        let (white, material) = (measure(Shared::new(GridSpectrum::constant(1.0))), measure(self.reflectance.clone()));
+        let white = (*white).as_ref().map_err(|&e| e)?;
+        let material = (*material).as_ref().map_err(|&e| e)?;
+        let xyz = |measure: &Measure| rendering.xyz(rendering.white * self.signals(measure, white));
+        Ok(Facing { material: xyz(material), white: xyz(white).y })
     }
 }
 
 impl ExposureOf {
     /// `∫ C_c S P L dλ / ∫ C_c L dλ` with light, eye and normal along one line, where nothing oscillates: a few wavelengths do.
-    fn signals(&self, measure: &Measure) -> DVec3 {
+    /// An untinted coherent component is weighed by the measure of a white.
+    fn signals(&self, material: &Measure, white: &Measure) -> DVec3 {
         let facing = Geometry::from_angles(0.0, 0.0, 0.0);
         let radius = f64::from_bits(self.angular_radius);
-        let mut sum = DVec3::ZERO;
-        for node in measure.fine() {
-            let p = factor(&self.surface, &facing, node.wavelength_nm, self.reading, radius);
-            sum += DVec3::from_array(node.weights) * p;
-        }
-        sum
+        let component = |measure: &Measure, which: usize| {
+            let at = |nm| factors_by(&self.surface, &facing, nm, self.reading, Method::default(), radius)[which];
+            measure.fine().iter().map(|node| DVec3::from_array(node.weights) * at(node.wavelength_nm)).sum::<DVec3>()
+        };
+        let untinted = self.surface.specular() == Specular::Fresnel;
+        component(material, 0) + component(if untinted { white } else { material }, 1)
     }
 }
 
@@ -120,63 +122,6 @@ impl Query for PictureOf {
         let background = self.background.map(|color| color.map(f32::from_bits));
         let development = Development::new(rendering, facing.factor(f64::from_bits(self.ev)), background);
         Ok(develop(image, &development, &ask.stop()).map(Arc::new))
-    }
-}
-
-/// How far is a camera's picture from the truth's, sample by sample?
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct DifferenceOf {
-    /// The camera's signals.
-    pub image: CameraImageOf,
-    /// How they are balanced.
-    pub rendering: RenderingOf,
-    /// The truth's signals.
-    pub truth: CameraImageOf,
-    /// What colors are measured by, with the truth's balance.
-    pub exposure: ExposureOf,
-    /// Each how many of the lit samples are compared.
-    pub stride: usize,
-}
-
-/// Differences to the truth.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
-    /// Each how many of the lit samples were compared.
-    pub stride: usize,
-    /// ΔE*00 at those.
-    pub map: Vec<f32>,
-    /// Its mean.
-    pub mean: f64,
-    /// Its largest.
-    pub max: f64,
-}
-
-impl Query for DifferenceOf {
-    type Answer = Result<Option<Arc<Difference>>, NoRendering>;
-    const NAME: &'static str = "difference";
-    const KEPT: usize = 64;
-
-    fn bytes(difference: &Self::Answer) -> usize {
-        difference.as_ref().ok().and_then(Option::as_ref).map_or(0, |difference| size_of_val(&*difference.map))
-    }
-
-    fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let facing = ask.ask(&self.exposure);
-        let facing = (*facing).as_ref().map_err(|&e| e)?;
-        let [rendering, truth] = [&self.rendering, &self.exposure.truth].map(|of| ask.ask(of));
-        let measured = Measurement::new((*rendering).as_ref().map_err(|&e| e)?, facing.white);
-        let measured_truth = Measurement::new((*truth).as_ref().map_err(|&e| e)?, facing.white);
-        let [image, truth] = [&self.image, &self.truth].map(|of| ask.ask(of));
-        let (Some(image), Some(truth)) = ((*image).as_ref().map_err(|&e| e)?, (*truth).as_ref().map_err(|&e| e)?)
-        else {
-            return Ok(None);
-        };
-        let map = differences(image, &measured, truth, &measured_truth, self.stride, &ask.stop());
-        Ok(map.map(|map| {
-            let mean = map.iter().map(|&d| f64::from(d)).sum::<f64>() / map.len().max(1) as f64;
-            let max = f64::from(map.iter().copied().fold(0.0, f32::max));
-            Arc::new(Difference { stride: self.stride, map, mean, max })
-        }))
     }
 }
 

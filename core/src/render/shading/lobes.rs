@@ -39,29 +39,31 @@ impl Lobe {
 
 impl Lobes {
     /// Those above a share of the brightest sample. How bright that is at least is found at 550 nm: of some diffuse parts, and of
-    /// the lobes that may be highest by `at_550_nm`.
+    /// the lobes that may be highest by `at_550_nm`. Beside lobes, diffuse parts count with a reflectance of `darkest`.
     pub(super) fn worth_having(
         lobes: &[Lobe],
         diffuse: Brightness,
+        darkest: f64,
         at_550_nm: impl Fn(&Lobe) -> f64 + Sync,
         share: f64,
     ) -> Self {
         // The others make nothing brighter.
-        let mut highest: Vec<&Lobe> = lobes.iter().filter(|lobe| lobe.most > diffuse.brightest).collect();
+        let mut highest: Vec<&Lobe> = lobes.iter().filter(|lobe| lobe.most > darkest * diffuse.brightest).collect();
         let order = |a: &&Lobe, b: &&Lobe| b.most.total_cmp(&a.most).then(a.mirror.index.cmp(&b.mirror.index));
         if highest.len() > LOOKED_AT {
             highest.select_nth_unstable_by(LOOKED_AT, order);
             highest.truncate(LOOKED_AT);
         }
         let mirror = highest.par_iter().map(|lobe| at_550_nm(lobe)).reduce(|| 0.0, f64::max);
-        let brightest = diffuse.brightest.max(mirror);
+        let brightest = (darkest * diffuse.brightest).max(mirror);
         let threshold = share * brightest;
         let kept = || lobes.iter().filter(|lobe| lobe.most > threshold);
         let height = kept().map(|lobe| lobe.height).fold(0.0, f64::max);
         Self {
             mirrors: kept().map(|lobe| lobe.mirror).collect(),
             scale: brightness::scale(brightest, height),
-            diffuse_scale: brightness::scale(brightest, diffuse.highest),
+            // A darker material makes this larger.
+            diffuse_scale: brightness::scale(diffuse.brightest.max(mirror), diffuse.highest),
         }
     }
 }

@@ -1,0 +1,105 @@
+//! Differences of a camera's picture from the reference's.
+
+use super::{CameraImageOf, ExposureOf};
+use crate::camera::NoRendering;
+use crate::query::compare::{Metric, patch_difference};
+use crate::query::patches::patch_colors;
+use crate::query::{Ask, Query, RenderingOf};
+use crate::render::Measurement;
+use crate::render::develop::differences;
+use std::sync::Arc;
+
+/// L* of the reference above which samples count in [`BrightSamples`].
+pub const BRIGHT_L: f64 = 20.0;
+
+/// Differences of a camera's picture from the reference's, sample by sample.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct DifferenceOf {
+    /// The camera's signals.
+    pub image: CameraImageOf,
+    /// How they are balanced.
+    pub rendering: RenderingOf,
+    /// The reference's signals.
+    pub truth: CameraImageOf,
+    /// The material, and the scale of colors, with the reference's balance.
+    pub exposure: ExposureOf,
+    /// Each how many of the lit samples are compared.
+    pub stride: usize,
+}
+
+/// Differences from the reference.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// Each how many of the lit samples were compared.
+    pub stride: usize,
+    /// ΔE*00 at those.
+    pub map: Vec<f32>,
+    /// Mean over all lit samples: as dark samples differ little, it falls with the share of them.
+    pub mean: f64,
+    /// Largest.
+    pub max: f64,
+    /// ΔE*00 of the material as a flat patch that faces the light: [`patch_difference`] of the same reflectance.
+    pub facing: Option<f64>,
+    /// Quantiles over the samples that are bright in the reference; none where there is no such sample.
+    pub bright: Option<BrightSamples>,
+}
+
+/// Quantiles of ΔE*00 over the lit samples whose L* in the reference is above [`BRIGHT_L`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BrightSamples {
+    /// How many were compared.
+    pub count: usize,
+    /// Median.
+    pub median: f64,
+    /// 95th percentile.
+    pub p95: f64,
+}
+
+impl BrightSamples {
+    /// Nearest-rank quantiles; none of nothing.
+    pub fn new(map: &[f32], lightness: &[f32]) -> Option<Self> {
+        let bright = map.iter().zip(lightness).filter(|(_, l)| f64::from(**l) > BRIGHT_L);
+        let mut values: Vec<f32> = bright.map(|(difference, _)| *difference).collect();
+        let count = values.len();
+        let mut quantile = |percent: usize| {
+            let rank = (percent * count).div_ceil(100).max(1) - 1;
+            f64::from(*values.select_nth_unstable_by(rank, f32::total_cmp).1)
+        };
+        (count > 0).then(|| Self { count, median: quantile(50), p95: quantile(95) })
+    }
+}
+
+impl Query for DifferenceOf {
+    type Answer = Result<Option<Arc<Difference>>, NoRendering>;
+    const NAME: &'static str = "difference";
+    const KEPT: usize = 64;
+
+    fn bytes(difference: &Self::Answer) -> usize {
+        difference.as_ref().ok().and_then(Option::as_ref).map_or(0, |difference| size_of_val(&*difference.map))
+    }
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let facing = ask.ask(&self.exposure);
+        let facing = (*facing).as_ref().map_err(|&e| e)?;
+        let [rendering, truth] = [&self.rendering, &self.exposure.truth].map(|of| ask.ask(of));
+        let (rendering, reference) = ((*rendering).as_ref().map_err(|&e| e)?, (*truth).as_ref().map_err(|&e| e)?);
+        let measured = Measurement::new(rendering, facing.white);
+        let measured_truth = Measurement::new(reference, facing.white);
+        let [image, truth] = [&self.image, &self.truth].map(|of| ask.ask(of));
+        let (Some(image), Some(truth)) = ((*image).as_ref().map_err(|&e| e)?, (*truth).as_ref().map_err(|&e| e)?)
+        else {
+            return Ok(None);
+        };
+        let Some((map, lightness)) = differences(image, &measured, truth, &measured_truth, self.stride, &ask.stop())
+        else {
+            return Ok(None);
+        };
+        let mean = map.iter().map(|&d| f64::from(d)).sum::<f64>() / map.len().max(1) as f64;
+        let max = f64::from(map.iter().copied().fold(0.0, f32::max));
+        let flat = |of, rendering| patch_colors(of, rendering, std::iter::once(&*self.exposure.reflectance));
+        let flat = [flat(&self.rendering, rendering), flat(&self.exposure.truth, reference)];
+        let facing = patch_difference(Metric::DeltaE2000, &flat[0][0], &flat[1][0]).ok();
+        let bright = BrightSamples::new(&map, &lightness);
+        Ok(Some(Arc::new(Difference { stride: self.stride, map, mean, max, facing, bright })))
+    }
+}

@@ -1,0 +1,100 @@
+//! The share of light that the chosen surface returns, in words: where the reflectance model says its limits.
+
+use chromascope_core::query::Ask as _;
+use chromascope_core::query::render::{ReturnedLight, ReturnedLightOf};
+use chromascope_core::reflectance::{Reading, Surface};
+
+use crate::document::render::{ReadingChoice, RoughnessChoice};
+use crate::number::number;
+use crate::scene::Scene;
+
+/// A sentence on the share of light returned.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Words {
+    /// The sentence.
+    pub text: String,
+    /// Whether more light is returned than comes.
+    pub is_warning: bool,
+}
+
+/// The share for the surface that is chosen; none where each vertex has a roughness of its own, and where there is no model.
+pub fn of(scene: &Scene<'_>) -> Option<ReturnedLight> {
+    let settings = &scene.document.render;
+    if settings.roughness == RoughnessChoice::Mesh || settings.reading == ReadingChoice::Lambertian {
+        return None;
+    }
+    let surface: Surface = settings.surface().ok()?;
+    Some(*scene.results.ask(&ReturnedLightOf { surface, reading: settings.reading.reading() }))
+}
+
+/// The share for the surface that is chosen, in words.
+pub fn words(scene: &Scene<'_>) -> Option<Words> {
+    of(scene).map(|light| sentence(light, scene.document.render.reading.reading()))
+}
+
+/// What the sentence means, for a hint.
+pub const fn meaning(reading: ReadingChoice) -> &'static str {
+    match reading {
+        ReadingChoice::Paper => {
+            "The model's directional-hemispherical reflectance at 550 nm, diffuse and coherent, for S(λ) = 1. P is relative to a \
+             smooth mirror, and depends on A: no reflectance follows from it. This is what Eq 12 makes of it."
+        }
+        _ => {
+            "The model's directional-hemispherical reflectance at 550 nm, diffuse and coherent, for S(λ) = 1: ∫ f cos θs dω. There \
+             is no multiple scattering, shadowing or masking, so light is lost at grazing angles, or made."
+        }
+    }
+}
+
+fn sentence(light: ReturnedLight, reading: Reading) -> Words {
+    let share = |value: f64| {
+        let decimals = if value < 0.005 && value > 0.0 { return format!("{value:.0e}") } else { 2 };
+        crate::widgets::lines::fixed(value, decimals)
+    };
+    let (normal, grazing) = (share(light.normal), share(light.grazing));
+    let mut text = format!("Returns {normal} of the light at normal incidence ({grazing} at 85°)");
+    if reading == Reading::Paper {
+        text.push_str(", taking P for π f");
+    }
+    if let Some(from) = light.exceeds_one_from_deg {
+        let from = number(from.round());
+        text = format!("{text}; more than 1 from {from}°: energy is not conserved");
+    }
+    Words { text, is_warning: light.exceeds_one_from_deg.is_some() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalog::Catalog;
+    use crate::document::Document;
+    use crate::results::Results;
+
+    fn said(change: impl FnOnce(&mut Document)) -> Option<Words> {
+        let mut document = Document::colorimetry();
+        change(&mut document);
+        let (catalog, results) = (Catalog::built_in(), Results::bounded());
+        words(&Scene { document: &document, catalog: &catalog, results: &results })
+    }
+
+    #[test]
+    fn the_default_skin_returns_half_of_the_light() {
+        let words = said(|_| ()).expect("a sentence");
+        assert_eq!(words.text, "Returns 0.49 of the light at normal incidence (0.03 at 85°)");
+        assert!(!words.is_warning);
+    }
+
+    #[test]
+    fn more_light_than_comes_is_a_warning() {
+        let words = said(|document| document.render.reading = ReadingChoice::Microfacet).expect("a sentence");
+        assert!(words.is_warning && words.text.contains("; more than 1 from 7"), "{}", words.text);
+        let words = said(|document| document.render.reading = ReadingChoice::Paper).expect("a sentence");
+        assert!(!words.is_warning && words.text.contains("e-6 of the light") && words.text.ends_with("P for π f"));
+    }
+
+    #[test]
+    fn without_one_surface_nothing_is_said() {
+        assert_eq!(said(|document| document.render.reading = ReadingChoice::Lambertian), None);
+        assert_eq!(said(|document| document.render.roughness = RoughnessChoice::Mesh), None);
+    }
+}
