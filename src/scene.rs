@@ -183,7 +183,7 @@ impl<'a> Scene<'a> {
     pub fn light(&self) -> Result<LoadedLight, SceneError> {
         let (of, name) = match &self.document.light {
             Light::Set(name) => (LightOf::Set(self.entry(Kind::Illuminant, name)?.place), name.as_str()),
-            Light::BlackBody => (LightOf::BlackBody(self.temperature()?), "black body"),
+            Light::BlackBody => (LightOf::BlackBody(self.temperature()?), "blackbody"),
             Light::Daylight => (LightOf::Daylight(self.temperature()?), "daylight"),
         };
         self.loaded(&of, name)
@@ -198,7 +198,7 @@ impl<'a> Scene<'a> {
     pub fn light_name(&self) -> String {
         match &self.document.light {
             Light::Set(name) => name.clone(),
-            Light::BlackBody => format!("black body {:.0} K", self.document.temperature_k),
+            Light::BlackBody => format!("blackbody {:.0} K", self.document.temperature_k),
             Light::Daylight => format!("daylight {:.0} K", self.document.temperature_k),
         }
     }
@@ -245,8 +245,8 @@ impl<'a> Scene<'a> {
                 White::from_chromaticity(xy).ok_or_else(|| SceneError::White(format!("daylight {kelvin} K")))
             }
             WhiteChoice::BlackBody(kelvin) => {
-                let light = self.loaded(&LightOf::BlackBody(Kelvin::new(*kelvin)?), "black body")?;
-                self.white_of(&light, &format!("black body {kelvin} K"))
+                let light = self.loaded(&LightOf::BlackBody(Kelvin::new(*kelvin)?), "blackbody")?;
+                self.white_of(&light, &format!("blackbody {kelvin} K"))
             }
         }
     }

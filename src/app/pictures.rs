@@ -43,7 +43,7 @@ impl ChromascopeApp {
             WhiteChoice::Unity => "unity".to_owned(),
             WhiteChoice::Light(name) => name.clone(),
             WhiteChoice::Daylight(kelvin) => format!("daylight {kelvin:.0} K"),
-            WhiteChoice::BlackBody(kelvin) => format!("black body {kelvin:.0} K"),
+            WhiteChoice::BlackBody(kelvin) => format!("blackbody {kelvin:.0} K"),
         };
         let shading = &shot.query.shading;
         let provenance = Provenance {

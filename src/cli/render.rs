@@ -207,7 +207,7 @@ impl<'a> Made<'a> {
     /// How far a picture is from the truth, in words.
     fn difference(&self, index: usize) -> String {
         match (&self.pictures.differences[index], self.not_comparable[index]) {
-            _ if self.sources[index].is_truth => "the truth".to_owned(),
+            _ if self.sources[index].is_truth => "the reference".to_owned(),
             (_, Some(NoDifference::Ways)) => "no \u{394}E*00 by Eq 13; add --transform fitted to compare".to_owned(),
             (_, Some(other)) => format!("no \u{394}E*00: {other}"),
             (Some(difference), None) => {

@@ -213,7 +213,7 @@ pub fn viewing_conditions(scene: &Scene<'_>) -> String {
         crate::document::WhiteChoice::Unity => "unity".to_owned(),
         crate::document::WhiteChoice::Light(name) => name.clone(),
         crate::document::WhiteChoice::Daylight(kelvin) => format!("daylight {kelvin:.0} K"),
-        crate::document::WhiteChoice::BlackBody(kelvin) => format!("black body {kelvin:.0} K"),
+        crate::document::WhiteChoice::BlackBody(kelvin) => format!("blackbody {kelvin:.0} K"),
     };
     format!("Reference: {}. Light: {}. White balance: {white}.", scene.document.truth, scene.light_name())
 }

@@ -56,7 +56,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
         let x = GAP + (place % columns) as f64 * (WIDTH + GAP);
         let y = GAP + (place / columns) as f64 * (height + CAPTION + GAP);
         let source = &shot.sources[at];
-        let label = if source.is_truth { format!("Truth, {}", source.label) } else { source.label.clone() };
+        let label = if source.is_truth { format!("Reference, {}", source.label) } else { source.label.clone() };
         let difference = made.differences.get(at).and_then(Option::as_ref);
         let measure = headline::measure(scene.document);
         let detail = if maps.is_some() { Detail::Measure } else { Detail::Quantiles };

@@ -236,7 +236,7 @@ fn equations(ui: &mut Ui) {
             "E(λ, T) = c₁ / (λ⁵ (exp(c₂ / (λ T)) − 1))",
             "Planck's law, with the paper's constants c₁ = 3.74183e−16 W m², c₂ = 1.4388e−2 m K.",
         ),
-        ("Eq 15", "I_c(T) = s_c ∫ C_c E dλ / ∫ C_c dλ", "A black body through a camera, balanced to equal energy."),
+        ("Eq 15", "I_c(T) = s_c ∫ C_c E dλ / ∫ C_c dλ", "A blackbody through a camera, balanced to equal energy."),
         ("Eq 16", "I_c = s_c ∫ C_c S L dλ / ∫ C_c L dλ", "A patch through a camera, balanced to the light."),
         (
             "Observer",

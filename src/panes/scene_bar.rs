@@ -85,16 +85,16 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let shown = match &now {
         Light::Set(name) if name == "E" && ui.available_width() > 130.0 => "E, equal energy".to_owned(),
         Light::Set(name) => name.clone(),
-        Light::BlackBody => "Black body".to_owned(),
+        Light::BlackBody => "Blackbody".to_owned(),
         Light::Daylight => "Daylight".to_owned(),
     };
-    choice(ui, "Light", "The light on the scene. Black body and Daylight follow the temperature.", &shown, |ui| {
+    choice(ui, "Light", "The light on the scene. Blackbody and Daylight follow the temperature.", &shown, |ui| {
         let mut offer = |ui: &mut Ui, light: Light, words: &str| {
             if ui.selectable_label(now == light, words).clicked() {
                 context.commands.push(Action::Scene(SceneAction::SetLight(light)).into());
             }
         };
-        offer(ui, Light::BlackBody, "Black body of the temperature");
+        offer(ui, Light::BlackBody, "Blackbody of the temperature");
         offer(ui, Light::Daylight, "Daylight of the temperature, 4000–20000 K");
         ui.separator();
         for entry in context.scene.entries(Kind::Illuminant) {
@@ -180,7 +180,7 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
         WhiteChoice::Unity => "Unity".to_owned(),
         WhiteChoice::Light(name) => name.clone(),
         WhiteChoice::Daylight(kelvin) => format!("Daylight {kelvin:.0} K"),
-        WhiteChoice::BlackBody(kelvin) => format!("Black body {kelvin:.0} K"),
+        WhiteChoice::BlackBody(kelvin) => format!("Blackbody {kelvin:.0} K"),
     };
     let hint = "White-balance target: the RGB that a perfect diffuser under the light is mapped to (Eq 11). With a fitted color \
                 transform it changes camera RGB only; the matrix compensates for it.";
@@ -193,7 +193,7 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
         let kelvin = context.scene.document.temperature_k;
         offer(ui, WhiteChoice::Unity, "Unity, 1 : 1 : 1 (the paper's experiments 1 and 2)");
         offer(ui, WhiteChoice::Daylight(kelvin.max(4000.0)), &format!("Daylight {:.0} K", kelvin.max(4000.0)));
-        offer(ui, WhiteChoice::BlackBody(kelvin), &format!("Black body {kelvin:.0} K"));
+        offer(ui, WhiteChoice::BlackBody(kelvin), &format!("Blackbody {kelvin:.0} K"));
         ui.separator();
         for entry in context.scene.entries(Kind::Illuminant) {
             offer(ui, WhiteChoice::Light(entry.name.clone()), &entry.name);

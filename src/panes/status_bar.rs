@@ -178,7 +178,7 @@ fn describe(thing: &Thing, context: &PaneContext<'_>) -> String {
             let locus = list.ok().and_then(|list| scene.locus_at(source.kind, &source.name, list).ok());
             let place = locus.and_then(|locus| locus.points.first().map(|point| at(point.xy)));
             let place = place.map_or_else(String::new, |place| format!(": {place}"));
-            format!("{}, black body {} K{place}", label(source), fixed(*kelvin, 0))
+            format!("{}, blackbody {} K{place}", label(source), fixed(*kelvin, 0))
         }
     }
 }

@@ -196,7 +196,7 @@ fn a_source_without_a_plan_says_why() {
     window.state_mut().push(Command::Show(Workspace::Accuracy));
     let flat =
         RenderSettings { reading: ReadingChoice::Lambertian, ..window.state().history().document().render.clone() };
-    window.state_mut().push(Action::Render(RenderAction::Set { what: "Reading", to: Box::new(flat) }));
+    window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to: Box::new(flat) }));
     window.run_steps(2);
     take_in(&mut window);
     assert_eq!(window.query_all_by_label_contains("No sample takes a spectral integral.").count(), 4);

@@ -110,7 +110,7 @@ fn without_sources_those_of_the_preset() {
             "{line}"
         );
     }
-    assert!(lines[0].ends_with(": the truth") && lines[1].contains("Δ of Eq 13 colors "));
+    assert!(lines[0].ends_with(": the reference") && lines[1].contains("Δ of Eq 13 colors "));
     assert!(lines[1].contains(" facing light, median ") && lines[1].contains(", max "), "{}", lines[1]);
     assert_eq!(lines[4], "surface: Returns 0.49 of the light at normal incidence (0.03 at 85°)");
     assert!(lines[5].starts_with("4 pictures of 40x30, ") && lines[5].contains(" ms ("), "{}", lines[5]);

@@ -84,7 +84,7 @@ fn every_kind_of_thing_has_its_page() {
         (Thing::Source(camera("Canon EOS 10D (2007 figure)")), assumed),
         (
             Thing::Radiator { source: camera("Nikon D70 (2007 figure)"), kelvin: 5500.0 },
-            "black body, 5500 K = 181.8 mired",
+            "blackbody, 5500 K = 181.8 mired",
         ),
         (Thing::Patch { source: None, patch: "red".to_owned() }, "Kodak DCS200, red"),
         (Thing::Light, "for CIE 1931 2°"),

@@ -72,7 +72,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     // Without spectral integrals there is little to measure.
     let flat = |settings: &RenderSettings| RenderSettings { reading: ReadingChoice::Lambertian, ..settings.clone() };
     let to = Box::new(flat(&window.state().history().document().render));
-    window.state_mut().push(Action::Render(RenderAction::Set { what: "Reading", to }));
+    window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to }));
     window.state_mut().push(Command::Measure);
     window.run_steps(2);
     window.state().laboratory().wait();

@@ -79,7 +79,7 @@ fn the_truth_and_three_cameras_stand_side_by_side() {
     let window = small();
     let captions = captions(&window);
     assert_eq!(captions.len(), 4, "{captions:?}");
-    assert!(captions[0].starts_with("Picture: Truth"), "{captions:?}");
+    assert!(captions[0].starts_with("Picture: Reference"), "{captions:?}");
     assert!(
         captions[1..]
             .iter()
@@ -312,7 +312,7 @@ fn the_divider_moves_by_drag_and_by_keys() {
     let mut window = small();
     window.state_mut().view_mut().saved.render.mode = RenderMode::Split;
     settle(&mut window);
-    let divider = "Divider between truth and source";
+    let divider = "Divider between reference and sensor";
     let start = window.get_by_role_and_label(Role::Slider, divider).rect().center();
     window.hover_at(start);
     window.drag_at(start);

@@ -37,7 +37,7 @@ pub(super) fn rows_of(points: &[Option<LocusPoint>]) -> Vec<Row> {
 pub(super) fn show(ui: &mut Ui, id: &SourceId, kelvin: f64, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);
-    note(ui, &theme, format!("black body, {} K = {} mired", fixed(kelvin, 0), fixed(1e6 / kelvin, 1)));
+    note(ui, &theme, format!("blackbody, {} K = {} mired", fixed(kelvin, 0), fixed(1e6 / kelvin, 1)));
     let truth = truth_id(&scene);
     let is_truth = truth == *id;
     let points = point_of(&scene, id, kelvin).and_then(|own| Ok((own, point_of(&scene, &truth, kelvin)?)));
@@ -63,7 +63,7 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, kelvin: f64, context: &mut PaneCo
     let rows = rows_of(&points);
     numbers::show(ui, &theme, &heads, &rows, 84.0);
     match scene.document.light {
-        Light::BlackBody => note(ui, &theme, "The light on the scene is a black body of the marked temperature."),
+        Light::BlackBody => note(ui, &theme, "The light on the scene is a blackbody of the marked temperature."),
         Light::Daylight => {
             note(
                 ui,

@@ -116,7 +116,7 @@ fn note(shot: &Shot, at: usize, width: f32, context: &PaneContext<'_>) -> Option
 
 /// What a source is called above its picture.
 fn title(source: &Source) -> String {
-    if source.is_truth { format!("Truth, {}", source.label) } else { source.label.clone() }
+    if source.is_truth { format!("Reference, {}", source.label) } else { source.label.clone() }
 }
 
 /// A source's marker and name, and a note at the right.
@@ -175,7 +175,7 @@ pub(super) fn divider(ui: &mut Ui, stand: &Stand, context: &mut PaneContext<'_>)
     let line = Rect::from_min_max(Pos2::new(x - 6.0, picture.top()), Pos2::new(x + 6.0, picture.bottom()));
     let response = ui.interact(line, ui.scope_id().with("divider"), Sense::click_and_drag());
     let share = f64::from(context.view.saved.render.split);
-    response.widget_info(|| egui::WidgetInfo::slider(true, 100.0 * share, "Divider between truth and source"));
+    response.widget_info(|| egui::WidgetInfo::slider(true, 100.0 * share, "Divider between reference and sensor"));
     let color = context.theme.surround.label();
     let width = if response.hovered() || response.dragged() || response.has_focus() { 2.0 } else { 1.0 };
     ui.painter().vline(x, picture.y_range(), Stroke::new(width, color));

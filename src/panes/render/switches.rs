@@ -12,9 +12,9 @@ use crate::widgets;
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let modes = [
         (RenderMode::Grid, "Grid", "All sources side by side"),
-        (RenderMode::Split, "Split", "The truth at the left, a source at the right, with a divider to drag"),
+        (RenderMode::Split, "Split", "The reference at the left, a sensor at the right, with a divider to drag"),
         (RenderMode::One, "One", "One source, large (double click a picture)"),
-        (RenderMode::Difference, "Difference", "How far each source is from the truth, pixel by pixel"),
+        (RenderMode::Difference, "Difference", "Difference of each sensor from the reference, pixel by pixel"),
     ];
     if let Some(mode) = widgets::segmented(ui, &modes, context.view.saved.render.mode) {
         context.view.saved.render.mode = mode;

@@ -110,7 +110,7 @@ fn light(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) 
         }
         let mut near = settings.light_distance.is_some();
         let hint = "From a point at a distance instead of parallel rays, without the inverse square";
-        if ui.checkbox(&mut near, "Near").on_hover_text(hint).changed() {
+        if ui.checkbox(&mut near, "Point light").on_hover_text(hint).changed() {
             set(context, "Near light", |settings| settings.light_distance = near.then_some(NEAR));
         }
     });

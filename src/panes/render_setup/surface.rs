@@ -172,14 +172,14 @@ fn reading(ui: &mut Ui, now: ReadingChoice, context: &mut PaneContext<'_>) {
         let response = combo.show_ui(ui, |ui| {
             for reading in ReadingChoice::ALL {
                 if ui.selectable_label(now == reading, reading.label()).on_hover_text(reading.why()).clicked() {
-                    set(context, "Reading", |settings| settings.reading = reading);
+                    set(context, "Normalization", |settings| settings.reading = reading);
                 }
             }
         });
-        let said = format!("Reading: {}", now.label());
+        let said = format!("Normalization: {}", now.label());
         response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
         response.response.on_hover_text(now.why());
-        ui.label("Reading of Eq 1");
+        ui.label("Normalization");
     });
 }
 
