@@ -2,6 +2,7 @@
 //!
 //! Panes, exports and the command line all ask through here, so that they cannot disagree.
 
+pub mod conditions;
 pub mod locus;
 pub mod render;
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use chromascope_core::figure::Figure;
+use chromascope_core::figure::{Figure, Table};
 use egui::ViewportCommand;
 
 use super::ChromascopeApp;
@@ -16,6 +16,7 @@ use crate::files::{FileEvent, FileForm, SaveRequest};
 use crate::laboratory::SceneRunOf;
 use crate::panes;
 use crate::scene::Scene;
+use crate::scene::conditions::CONDITIONS;
 use crate::theme::Theme;
 use crate::view::SavedView;
 use crate::view::accuracy::Shows;
@@ -287,7 +288,8 @@ impl ChromascopeApp {
         let others = Format::ALL.into_iter().filter(|other| *other != format);
         let forms = std::iter::once(format).chain(others).map(|format| {
             let figure = Arc::clone(&figure);
-            FileForm::new(format.extension(), move || file_of(&figure, format))
+            let numbers = self.numbers(pane, &figure);
+            FileForm::new(format.extension(), move || file_of(&figure, &numbers, format))
         });
         let name = format!("{}.{}", self.file_stem(pane), format.extension());
         let what = format!("{} as {}", pane.title(), format.extension().to_uppercase());
@@ -318,9 +320,19 @@ impl ChromascopeApp {
 
     fn copy_numbers(&mut self, ctx: &egui::Context, pane: PaneKind) {
         if let Some(figure) = self.figure(pane) {
-            ctx.copy_text(figure.table.to_tsv());
+            ctx.copy_text(self.numbers(pane, &figure).to_tsv());
             self.view.say(format!("{}: {} rows of numbers copied.", pane.title(), figure.table.rows.len()));
         }
+    }
+
+    /// The numbers of a pane as they leave the program: with the conditions they were made under, where they depend on them.
+    fn numbers(&self, pane: PaneKind, figure: &Figure) -> Table {
+        if !matches!(pane, PaneKind::Chromaticity | PaneKind::Swatches | PaneKind::Render) {
+            return figure.table.clone();
+        }
+        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
+        let cells: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
+        figure.table.clone().with_constants(&cells)
     }
 
     /// Keeps the document on disk shortly after it changed, so that nothing is lost.
@@ -335,11 +347,11 @@ impl ChromascopeApp {
 }
 
 /// A figure's file in a form; the error is a sentence.
-fn file_of(figure: &Figure, format: Format) -> Result<Vec<u8>, String> {
+fn file_of(figure: &Figure, numbers: &Table, format: Format) -> Result<Vec<u8>, String> {
     let svg = || export::svg(figure, &Theme::LIGHT, export::Paper::default());
     match format {
         Format::Svg => Ok(svg().into_bytes()),
-        Format::Csv => Ok(figure.table.to_csv().into_bytes()),
+        Format::Csv => Ok(numbers.to_csv().into_bytes()),
         Format::Png => {
             let file = export::png(&svg(), PICTURE_SCALE).and_then(|picture| export::png_file(&picture));
             file.map_err(|error| error.to_string())

@@ -3,7 +3,6 @@
 use chromascope_core::query::Ask as _;
 
 use super::ChromascopeApp;
-use crate::document::WhiteChoice;
 use crate::export::render::{Provenance, exr_bytes};
 use crate::figures::render::{index_of, mesh_name};
 use crate::files::{FileForm, SaveRequest};
@@ -39,12 +38,7 @@ impl ChromascopeApp {
         let rendering = (*rendering).as_ref().ok()?;
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
-        let white = match &document.white {
-            WhiteChoice::Unity => "unity".to_owned(),
-            WhiteChoice::Light(name) => name.clone(),
-            WhiteChoice::Daylight(kelvin) => format!("daylight {kelvin:.0} K"),
-            WhiteChoice::BlackBody(kelvin) => format!("blackbody {kelvin:.0} K"),
-        };
+        let white = document.white.name();
         let shading = &shot.query.shading;
         let provenance = Provenance {
             source: &source.name,

@@ -24,7 +24,6 @@ use self::arguments::{Format, RenderArguments};
 use self::setup::Setup;
 use super::outputs::{self, is_standard_output, put, write_to};
 use super::{CliError, say};
-use crate::document::WhiteChoice;
 use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
 use crate::figures::render::headline::{self, Detail};
 use crate::figures::render::returned;
@@ -123,7 +122,7 @@ impl<'a> Made<'a> {
 
     /// Writes the files side by side: encoding takes longer than the disk.
     fn write(&self, arguments: &RenderArguments) -> Result<(), CliError> {
-        let names = [self.scene.light_name(), white_name(&self.scene.document.white)];
+        let names = [self.scene.light_name(), self.scene.document.white.name()];
         let contents = (0..self.files.len()).map(|index| self.content(index, arguments, &names));
         let contents = contents.collect::<Result<Vec<_>, _>>()?;
         contents.par_iter().zip(&self.files).try_for_each(|(content, path)| {
@@ -269,14 +268,4 @@ fn slug(name: &str) -> String {
     let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let slug = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
     if slug.is_empty() { "unnamed".to_owned() } else { slug }
-}
-
-/// The name of a white-balance target.
-pub(super) fn white_name(white: &WhiteChoice) -> String {
-    match white {
-        WhiteChoice::Unity => "unity".to_owned(),
-        WhiteChoice::Light(name) => name.clone(),
-        WhiteChoice::Daylight(kelvin) => format!("daylight {kelvin} K"),
-        WhiteChoice::BlackBody(kelvin) => format!("blackbody {kelvin} K"),
-    }
 }

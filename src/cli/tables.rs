@@ -19,12 +19,12 @@ use super::{CliError, outputs, say};
 use crate::catalog::{Catalog, Kind};
 use crate::document::{CIE_1931, LOCUS_RANGE_K, WayChoice};
 use crate::results::Results;
+use crate::scene::conditions::CONDITIONS;
 use crate::scene::{Caution, LOCUS_POINTS, Scene, SceneError};
 
 const LOCUS_HEAD: &str = "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv,cct_error_k,arc_length_xy";
 const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,\
                             lab_l,lab_a,lab_b,delta_e_2000,delta_e_1976,delta_uv_prime,delta_xy";
-const CONDITIONS: &str = ",reference,illuminant,white_balance,transform,preset\n";
 
 /// Loci, a row for each source and temperature.
 pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<String, CliError> {
@@ -33,12 +33,12 @@ pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<
     check_out(&arguments.common, &request)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-    let conditions = conditions(&request, &scene.light_name());
+    let conditions = conditions(&scene, &scene.light_name());
     let reference = scene.locus_at(Kind::Observer, &request.document.truth, temperatures.clone())?;
     let observer = scene.sensor(Kind::Observer, CIE_1931)?;
     let nearest = results.ask(&NearestBlackBodyOf { observer, constants: RadiationConstants::Paper });
     let nearest = (*nearest).as_ref().ok();
-    let mut text = [LOCUS_HEAD, CONDITIONS].concat();
+    let mut text = head(LOCUS_HEAD);
     for (kind, name) in &request.sources {
         let locus = scene.locus_at(*kind, name, temperatures.clone())?;
         let comparable = scene.comparable(*kind, name)?;
@@ -79,15 +79,13 @@ fn check_out(arguments: &CommonArguments, request: &Request) -> Result<(), CliEr
 }
 
 /// The last cells of each row: under what the table was made.
-fn conditions(request: &Request, illuminant: &str) -> String {
-    let document = &request.document;
-    let transform = match &document.way {
-        WayChoice::Paper => "paper matrix (Eq 13)".to_owned(),
-        WayChoice::Observer(target) => format!("3x3 fitted to {target}"),
-    };
-    let white = super::render::white_name(&document.white);
-    let cells = [document.truth.as_str(), illuminant, &white, &transform, request.preset.key()];
-    cells.map(|cell| format!(",{}", field(cell))).concat() + "\n"
+fn conditions(scene: &Scene<'_>, illuminant: &str) -> String {
+    scene.conditions_under(illuminant).map(|cell| format!(",{}", field(&cell))).concat() + "\n"
+}
+
+/// The head of a table.
+fn head(columns: &str) -> String {
+    format!("{columns},{}\n", CONDITIONS.join(","))
 }
 
 /// Says once what keeps differences from the reference empty, or from being those of the color transform alone.
@@ -144,9 +142,9 @@ pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Res
         Some(radiances) => radiances.colors(&scene, kind, name),
         None => scene.patch_colors(kind, name),
     };
-    let conditions = conditions(&request, &illuminant);
+    let conditions = conditions(&scene, &illuminant);
     let reference = colors(Kind::Observer, &request.document.truth)?;
-    let mut text = [PATCHES_HEAD, CONDITIONS].concat();
+    let mut text = head(PATCHES_HEAD);
     for (kind, name) in &request.sources {
         let comparable = scene.comparable(*kind, name)?;
         // Eq 13 takes RGB as sRGB whatever the sensor: distances between its colors are not ΔE*.

@@ -209,12 +209,7 @@ pub fn conditions(scene: &Scene<'_>) -> String {
 
 /// The conditions that have nothing to do with patches and diagram, in sentences.
 pub fn viewing_conditions(scene: &Scene<'_>) -> String {
-    let white = match &scene.document.white {
-        crate::document::WhiteChoice::Unity => "unity".to_owned(),
-        crate::document::WhiteChoice::Light(name) => name.clone(),
-        crate::document::WhiteChoice::Daylight(kelvin) => format!("daylight {kelvin:.0} K"),
-        crate::document::WhiteChoice::BlackBody(kelvin) => format!("blackbody {kelvin:.0} K"),
-    };
+    let white = scene.document.white.name();
     format!("Reference: {}. Light: {}. White balance: {white}.", scene.document.truth, scene.light_name())
 }
 

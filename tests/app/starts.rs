@@ -3,12 +3,14 @@
 use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::{Catalog, Kind};
+use chromascope::command::Command;
 use chromascope::document::start::Start;
 use chromascope::document::{
     CIE_1931, Diagram, DifferenceChoice, Document, Light, Subset, TRUTH, WayChoice, WhiteChoice, session,
 };
 use chromascope::results::Results;
 use chromascope::scene::{Caution, Scene};
+use chromascope::workspaces::PaneKind;
 use chromascope_core::colorimetry::lab::lab_from_xyz;
 use chromascope_core::colorimetry::{Lab, Xyz, delta_e_2000};
 use chromascope_core::query::PatchColor;
@@ -224,4 +226,23 @@ fn the_adopted_white_follows_the_white_balance_target() {
 
 fn light(name: &str) -> WhiteChoice {
     WhiteChoice::Light(name.to_owned())
+}
+
+#[test]
+fn numbers_that_leave_the_window_say_under_what_they_were_made() {
+    let mut window = open_with(Document::colorimetry(), SIZE, egui::Theme::Dark);
+    for pane in [PaneKind::Chromaticity, PaneKind::Swatches] {
+        window.state_mut().push(Command::CopyNumbers(pane));
+        window.step();
+        let commands = &window.output().platform_output.commands;
+        let text = commands.iter().find_map(|command| match command {
+            egui::OutputCommand::CopyText(text) => Some(text.clone()),
+            _ => None,
+        });
+        let text = text.expect("numbers were copied");
+        let mut lines = text.lines();
+        assert!(lines.next().unwrap().ends_with("reference\tilluminant\twhite_balance\ttransform\tpreset"));
+        let under = "CIE 1931 2°\tD65\tunity\t3x3 fitted to CIE 1931 2°\tcolorimetry";
+        assert!(lines.all(|line| line.ends_with(under)), "{pane:?}");
+    }
 }

@@ -56,6 +56,18 @@ impl Table {
         self.rows.push(row.into_iter().collect());
     }
 
+    /// The table with columns at the end that hold the same text in every row, such as the conditions it was made under.
+    #[must_use]
+    pub fn with_constants(mut self, columns: &[(&str, String)]) -> Self {
+        let width = self.columns.len();
+        self.columns.extend(columns.iter().map(|(name, _)| (*name).to_owned()));
+        for row in &mut self.rows {
+            row.resize(width, Cell::Empty);
+            row.extend(columns.iter().map(|(_, text)| Cell::Text(text.clone())));
+        }
+        self
+    }
+
     /// The table as comma-separated values (RFC 4180, but with `\n`): a header line, then the rows. Numbers are
     /// written with as many digits as it takes to read the same double back, at most 17.
     pub fn to_csv(&self) -> String {

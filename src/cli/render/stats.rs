@@ -12,7 +12,7 @@ use chromascope_core::spectral::grid::COUNT;
 use serde_json::{Value, json};
 
 use super::accuracy::{self, Cost, Errors, Measured};
-use super::{Made, Times, white_name};
+use super::{Made, Times};
 use crate::export::render::{quality_name, reading_name};
 use crate::figures::render::{headline, returned};
 use crate::laboratory::plans;
@@ -68,7 +68,7 @@ fn settings(made: &Made<'_>) -> Value {
     json!({
         "material": document.render.material,
         "illuminant": made.scene.light_name(),
-        "white": white_name(&document.white),
+        "white": document.white.name(),
         "reading": reading_name(shading.reading),
         "quality": quality_name(shading.quality),
         "tolerance": shading.quality.accuracy().map(Accuracy::max_relative_error),
