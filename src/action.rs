@@ -41,11 +41,11 @@ pub enum CompareAction {
     /// Gives a source another label; an empty one takes it back.
     Rename(Kind, String, String),
     /// Compares with another observer, adding it where it is not compared. A fitted color transform follows to an observer that
-    /// counts in XYZ.
+    /// has XYZ color matching functions.
     SetReference {
         /// The observer.
         name: String,
-        /// Whether it counts in XYZ, so that it can be fitted to.
+        /// Whether its color matching functions are XYZ, so that it can be fitted to.
         counts_in_xyz: bool,
     },
 }
@@ -256,7 +256,7 @@ impl SceneAction {
             Self::SetWhite(white) => document.white = white.clone(),
             Self::SetWay(way) => document.set_transform(way.clone()),
             Self::SetDifference(difference) => document.difference = *difference,
-            Self::SetDiagram(diagram) => document.diagram = *diagram,
+            Self::SetDiagram(diagram) => document.set_diagram(*diagram),
             Self::SetOverlays(overlays) => document.overlays = *overlays,
         }
     }
@@ -284,8 +284,8 @@ impl RenderAction {
                 document.render.mesh = MeshChoice::File(path.clone());
                 return;
             }
-            Self::Figure8 => RenderSettings::default().with_model_of(&document.render),
-            Self::Figure9 => RenderSettings::fern().with_model_of(&document.render),
+            Self::Figure8 => RenderSettings { specular: document.start.specular(), ..RenderSettings::default() },
+            Self::Figure9 => RenderSettings { specular: document.start.specular(), ..RenderSettings::fern() },
             Self::PaperFigure8 => RenderSettings::default().as_in_the_paper(),
             Self::PaperFigure9 => RenderSettings::fern().as_in_the_paper(),
         };

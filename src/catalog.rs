@@ -106,7 +106,7 @@ impl Entry {
         matches!(self.place, Place::Own(_))
     }
 
-    /// Whether an observer counts in XYZ, by its column heads alone: nothing is parsed for a menu.
+    /// Whether an observer's color matching functions are XYZ, by its column heads alone: nothing is parsed for a menu.
     pub fn counts_in_xyz(&self) -> bool {
         self.header.as_ref().is_some_and(|header| header.columns.first().is_some_and(|head| head == "x_bar"))
     }

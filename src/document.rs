@@ -330,13 +330,28 @@ impl Document {
         self.compared.iter().find(|c| c.kind == kind && c.name == name)
     }
 
-    /// Takes another color transform, with the measure of difference that it starts with unless it already has one of its own.
+    /// Takes another color transform. The measure of difference changes with it where it was the one that the former starts with,
+    /// and where the new one does not offer it.
     pub fn set_transform(&mut self, transform: WayChoice) {
+        let preferred = |way: &WayChoice| DifferenceChoice::preferred(way, self.diagram);
         let fitted = |way: &WayChoice| matches!(way, WayChoice::Observer(_));
-        if fitted(&self.way) != fitted(&transform) {
-            self.difference = DifferenceChoice::preferred(&transform, self.diagram);
+        let was_preferred = fitted(&self.way) != fitted(&transform) && self.difference == preferred(&self.way);
+        // The formula has no meaning under Eq 13 unless it is chosen there.
+        let loses_meaning = fitted(&self.way) && !fitted(&transform) && self.difference.is_of_lab();
+        if was_preferred || loses_meaning || !DifferenceChoice::offered(&transform).contains(&self.difference) {
+            self.difference = preferred(&transform);
         }
         self.way = transform;
+    }
+
+    /// Shows other coordinates; a distance in the former diagram becomes that in the new one under Eq 13.
+    pub fn set_diagram(&mut self, diagram: Diagram) {
+        let follows =
+            self.way == WayChoice::Paper && self.difference == DifferenceChoice::preferred(&self.way, self.diagram);
+        self.diagram = diagram;
+        if follows {
+            self.difference = DifferenceChoice::preferred(&self.way, diagram);
+        }
     }
 
     /// Whether a source is the truth.

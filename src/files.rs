@@ -58,6 +58,8 @@ pub struct Files {
     waiting: Option<asking::Waiting>,
     /// Whether something that is to be saved is being made.
     making: bool,
+    /// How many files that are being made are no longer wanted.
+    unwanted: usize,
     /// The number of the last dialog.
     ticket: u64,
     home: Option<PathBuf>,
@@ -77,6 +79,7 @@ impl Files {
             dialogs: Some(Arc::new(dialogs::System)),
             waiting: None,
             making: false,
+            unwanted: 0,
             ticket: 0,
             home: std::env::home_dir(),
             wake: None,
@@ -116,7 +119,11 @@ impl Files {
         }
         let copies: Vec<String> = self.keeper.copies().iter().map(|path| path.display().to_string()).collect();
         if !copies.is_empty() {
-            let words = format!("The document of another window is kept in {}.", copies.join(" and "));
+            let words = format!(
+                "The document of another window is kept in {}. To use it, close Chromascope and rename it to document.json; \
+                 delete it if it is not needed.",
+                copies.join(" and ")
+            );
             self.note(Note::Event(FileEvent::Said(words)));
         }
         document
@@ -144,6 +151,10 @@ impl Files {
             ctx.request_repaint_after(after);
         }
         for note in notes {
+            if self.unwanted > 0 && matches!(note, Note::ToSave(_) | Note::NotMade(_)) {
+                self.unwanted -= 1;
+                continue;
+            }
             match note {
                 Note::Event(event) => events.push(event),
                 Note::Answered(ticket, answer, request) => self.answered(ticket, answer, request),

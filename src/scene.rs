@@ -100,7 +100,7 @@ pub struct Source {
 /// A condition under which the numbers do not mean what a reader expects.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Caution {
-    /// The reference counts in XYZ while Eq 13 takes RGB: no camera can be compared with it.
+    /// The reference is an XYZ observer while Eq 13 takes RGB: no camera can be compared with it.
     NotComparable {
         /// The reference, to which cameras can be fitted.
         reference: String,
@@ -111,7 +111,7 @@ pub enum Caution {
         target: String,
         /// The reference.
         reference: String,
-        /// Whether the reference counts in XYZ, so that it can be fitted to.
+        /// Whether the reference is an XYZ observer, so that it can be fitted to.
         can_fit: bool,
     },
 }
@@ -121,7 +121,7 @@ impl Caution {
     pub fn sentence(&self) -> String {
         match self {
             Self::NotComparable { reference } => {
-                format!("{reference} counts in XYZ, but Eq 13 takes RGB: cameras cannot be compared with it.")
+                format!("{reference} is an XYZ observer, but Eq 13 takes RGB: cameras cannot be compared with it.")
             }
             Self::FitDiffers { target, reference, .. } => {
                 format!("Compared with {reference}, but the color transform is fitted to {target}.")

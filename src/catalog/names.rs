@@ -179,7 +179,7 @@ fn plainest<'a>(candidates: &[&'a Entry]) -> Option<Found<'a>> {
     }
     let tables: Vec<&Entry> =
         candidates.iter().zip(&models).filter(|(_, model)| *model == shortest).map(|(entry, _)| *entry).collect();
-    let entry = tables.iter().copied().find(|e| !is_digitized(e)).or_else(|| tables.first().copied())?;
+    let entry = tables.iter().copied().find(|e| !e.is_digitized()).or_else(|| tables.first().copied())?;
     let others = tables.iter().filter(|e| e.name != entry.name).map(|e| e.name.as_str()).collect();
     Some(Found { others, ..Found::near(entry) })
 }
@@ -195,11 +195,6 @@ fn without_remarks(name: &str) -> String {
         false
     };
     name.chars().filter(outside).collect()
-}
-
-/// Whether a set's values were read off a published plot.
-fn is_digitized(entry: &Entry) -> bool {
-    entry.header.as_ref().is_some_and(|header| header.source.contains("digitized"))
 }
 
 fn ambiguous(name: &str, candidates: &[&Entry]) -> NameError {

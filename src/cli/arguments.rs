@@ -61,7 +61,7 @@ Columns: sensor, patch; r, g, b after white balance (empty for CIE observers); x
 for a perfect diffuser); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
 delta_e_2000, delta_e_1976, delta_uv_prime, delta_xy, the differences from the reference; then the conditions: reference,
 illuminant, white_balance, transform, preset. What is not defined is left empty: with the paper's matrix, Eq 13 takes RGB as sRGB
-whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*.
+whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*, and their L*a*b* is not that of the CIE.
 
 A file's reflectances are fractions or percent, its wavelengths nm or µm; guesses are said on standard error.";
 

@@ -75,7 +75,9 @@ pub(super) fn is_standard_output(path: &Path) -> bool {
 
 /// Whether a path is an open file of the shell's. What that leads to is the shell's business.
 fn is_descriptor(path: &Path) -> bool {
-    path == Path::new("/dev/stderr") || ["/dev/fd", "/proc/self/fd"].iter().any(|folder| path.starts_with(folder))
+    let number = |rest: &Path| rest.to_str().is_some_and(|text| text.parse::<u32>().is_ok());
+    let in_folder = |folder: &&str| path.strip_prefix(folder).is_ok_and(number);
+    path == Path::new("/dev/stderr") || ["/dev/fd", "/proc/self/fd"].iter().any(|folder| in_folder(&folder))
 }
 
 /// Whether bytes that are written to a path replace nothing.

@@ -47,7 +47,8 @@ pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<
         for (point, reference) in locus.points.iter().zip(&reference.points) {
             let step = before.and_then(|before| Some(before.xy?.distance(point.xy?)));
             length += step.unwrap_or(0.0);
-            before = Some(point);
+            // A point without chromaticity is a gap that the length bridges.
+            before = if point.xy.is_some() { Some(point) } else { before };
             let places = [point.xy.map(|p| p.x), point.xy.map(|p| p.y), point.uv.map(|p| p.u), point.uv.map(|p| p.v)];
             let distance = |measure: fn(&LocusPoint, &LocusPoint) -> Result<f64, NoDifference>| {
                 comparable.and_then(|()| measure(reference, point)).ok()

@@ -136,12 +136,6 @@ impl RenderSettings {
         Self { mesh: MeshChoice::Fern, material: LEAF.to_owned(), index: 1.45, ..Self::default() }
     }
 
-    /// These settings with the reflectance model of others.
-    #[must_use]
-    pub fn with_model_of(self, other: &Self) -> Self {
-        Self { reading: other.reading, specular: other.specular, area: other.area, ..self }
-    }
-
     /// The paper's own setup of the same mesh: a point light, and Eq 1–12 as printed. σ and τ are not given in the paper.
     #[must_use]
     pub fn as_in_the_paper(self) -> Self {

@@ -1,7 +1,7 @@
 //! The document as JSON: what is kept between runs, and what session files are.
 
 use super::start::Start;
-use super::{Document, VERSION};
+use super::{DifferenceChoice, Document, VERSION};
 use crate::catalog::Kind;
 
 /// Why a saved document cannot be opened.
@@ -48,8 +48,9 @@ const RENAMED: [(&str, &str); 2] =
 /// which was the only one.
 fn renew(value: &mut serde_json::Value) -> Result<(), SessionError> {
     let Some(old) = value.as_object_mut() else { return Ok(()) };
-    let own: Vec<String> =
-        old.get("own").and_then(|own| own.as_array()).into_iter().flatten().filter_map(name).collect();
+    let is_camera = |set: &&serde_json::Value| set.get("role").and_then(|role| role.as_str()) == Some("camera");
+    let sets = old.get("own").and_then(|own| own.as_array());
+    let own: Vec<String> = sets.into_iter().flatten().filter(is_camera).filter_map(name).collect();
     for compared in old.get_mut("compared").and_then(|list| list.as_array_mut()).into_iter().flatten() {
         let Some(known) = name(compared).filter(|name| !own.contains(name)) else { continue };
         if compared.get("kind").and_then(|kind| kind.as_str()) != Some("camera") {
@@ -60,6 +61,14 @@ fn renew(value: &mut serde_json::Value) -> Result<(), SessionError> {
         }
     }
     old.insert("version".to_owned(), VERSION.into());
+    // ΔE*00 was all that the first version began with; under Eq 13, where it is none, the distance in the diagram takes its place.
+    let was_fitted = old.get("way").is_some_and(|way| way.as_str() != Some("paper"));
+    if !was_fitted && old.get("difference").and_then(|d| d.as_str()).is_some_and(|d| d.starts_with("delta-e")) {
+        old.remove("difference");
+        let diagram = old.get("diagram").and_then(|diagram| diagram.as_str());
+        let distance = if diagram == Some("uv-prime") { DifferenceChoice::UvPrime } else { DifferenceChoice::Xy };
+        old.insert("difference".to_owned(), serde_json::to_value(distance)?);
+    }
     let serde_json::Value::Object(defaults) = serde_json::to_value(Start::Paper.document())? else { return Ok(()) };
     for (key, default) in defaults {
         old.entry(key).or_insert(default);

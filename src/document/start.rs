@@ -63,6 +63,14 @@ impl Start {
         }
     }
 
+    /// The specular component that it renders with.
+    pub const fn specular(self) -> SpecularChoice {
+        match self {
+            Self::Colorimetry => SpecularChoice::Fresnel,
+            Self::Paper => SpecularChoice::Paper,
+        }
+    }
+
     /// The document that it sets up.
     pub fn document(self) -> Document {
         let mut document = Document::blank(self);
@@ -72,9 +80,8 @@ impl Start {
             CHART.clone_into(&mut document.chart);
             document.subset = Subset::All;
             document.set_transform(WayChoice::Observer(CIE_1931.to_owned()));
-        } else {
-            document.render.specular = SpecularChoice::Paper;
         }
+        document.render.specular = self.specular();
         for (name, kind) in self.sensors() {
             document.compare(name, *kind);
         }

@@ -216,7 +216,7 @@ pub fn viewing_conditions(scene: &Scene<'_>) -> String {
 /// All points as numbers.
 fn table(scene: &Scene<'_>) -> Table {
     let mut table = Table::new([
-        "source",
+        "sensor",
         "kind",
         "temperature_k",
         "patch",

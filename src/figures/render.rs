@@ -136,9 +136,9 @@ fn caption(scene: &Scene<'_>) -> String {
 
 fn table(shot: &Shot, measure: &str) -> Table {
     let mut table = Table::new([
-        "source",
-        "mean_de00",
-        "max_de00",
+        "sensor",
+        "mean_of_lit",
+        "max_of_lit",
         "clipped_samples",
         "pixels_across",
         "pixels_down",

@@ -305,7 +305,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
 
 fn table(scene: &Scene<'_>) -> Table {
     let mut table = Table::new([
-        "source",
+        "sensor",
         "patch",
         "r",
         "g",
@@ -323,9 +323,11 @@ fn table(scene: &Scene<'_>) -> Table {
         "srgb_b",
         "clipped",
         "difference",
+        "measure",
     ]);
     let names: Vec<String> =
         scene.patches().map(|set| set.patches().iter().map(|p| p.name.clone()).collect()).unwrap_or_default();
+    let measure = scene.difference_name();
     for row in rows(scene) {
         for ((color, difference), name) in row.colors.iter().flatten().zip(&names) {
             let part = |i: usize| Cell::from(color.rgb.map(|rgb| rgb[i]));
@@ -349,6 +351,7 @@ fn table(scene: &Scene<'_>) -> Table {
                 sb,
                 Cell::from(if color.srgb.clipped { "yes" } else { "no" }),
                 Cell::from(*difference),
+                Cell::from(if difference.is_some() { measure } else { "" }),
             ]);
         }
     }

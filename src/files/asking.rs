@@ -112,6 +112,8 @@ impl Files {
     /// Stops waiting for a dialog: the path is asked for in the window. Returns whether one was waited for.
     pub fn stop_waiting(&mut self) -> bool {
         let made = std::mem::take(&mut self.making);
+        // What is being made cannot be stopped; it is dropped when it arrives.
+        self.unwanted += usize::from(made);
         let Some(Waiting { ticket, request }) = self.waiting.take() else { return made };
         self.ask_for_path(request, ticket);
         true

@@ -39,7 +39,7 @@ impl Keeper {
 
     /// Documents that other windows kept beside this one's since it was written.
     pub(super) fn copies(&self) -> Vec<PathBuf> {
-        self.profile.copies_since()
+        self.profile.copies()
     }
 
     /// The document kept, or the first screen; with a sentence where one was there and could not be read.

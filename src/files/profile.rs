@@ -3,7 +3,6 @@
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 /// The file that the first window's document is kept in.
 const DOCUMENT: &str = "document.json";
@@ -50,16 +49,11 @@ impl Profile {
         }
     }
 
-    /// Copies that other windows kept since the first window's document was written.
-    pub(super) fn copies_since(&self) -> Vec<PathBuf> {
+    /// Copies of the document that other windows kept.
+    pub(super) fn copies(&self) -> Vec<PathBuf> {
         let Some(first) = self.first.as_ref().filter(|_| self.other.is_none()) else { return Vec::new() };
-        let written = |path: &Path| fs::metadata(path).and_then(|facts| facts.modified()).ok();
-        let since = written(first).unwrap_or(SystemTime::UNIX_EPOCH);
         let files = first.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
-        let mut copies: Vec<PathBuf> = files
-            .map(|file| file.path())
-            .filter(|path| is_copy(path) && written(path).is_some_and(|at| at > since))
-            .collect();
+        let mut copies: Vec<PathBuf> = files.map(|file| file.path()).filter(|path| is_copy(path)).collect();
         copies.sort();
         copies
     }

@@ -71,33 +71,33 @@ fn show_page(ui: &Ui, page: HelpPage, context: &mut PaneContext<'_>) {
 fn what_you_see(ui: &mut Ui) {
     for paragraph in [
         WHAT_YOU_SEE,
-        "Chromaticity. The thick line is what the observer chosen as Truth sees as a glowing body cools from 20000 K (blue) to \
-         1000 K (red); thinner lines are what each camera records. Points are the patches of a chart; a tail leads from a \
-         camera's point to the truth's. The strip below shows each camera's distance from the reference over temperature; a \
+        "Chromaticity. The thick line is the Planckian locus of the reference observer, from 20000 K (blue) to 1000 K (red); \
+         thinner lines are those of the cameras. Points are the patches of a chart; a tail leads from a \
+         camera's point to the reference's. The strip below shows each camera's distance from the reference over temperature; a \
          ring marks its minimum, which lies where signals are balanced (equal energy by the paper's matrix, the light by a fitted \
          transform) and says little about the camera. Loci and distances are dotted where they are extrapolated: below 2500 K for \
          tables that end before 720 nm. Drag in the strip to set the temperature.",
-        "Swatches. The same patches as colors: the left half as the truth sees them, the right half as the camera records \
+        "Swatches. The same patches as colors: the left half as the reference sees them, the right half as the camera records \
          them. The bar below a swatch is the difference. A notched corner marks a color that the screen cannot show.",
         "Spectra. The light, the reflectances and the sensitivities that all of this is computed from. Dotted parts were not \
          measured: the last value is held.",
         "Render. A head, a fern or a mesh of yours with measured skin or leaf under the light, through each camera beside the \
-         truth. Drag to orbit, all pictures together; the wheel moves nearer; a click keeps a pixel, a double click shows its \
-         picture alone. Figure 8 and Figure 9 are the paper's, with Light and White; Reading says what its Eq 1 stands for. \
-         Difference maps how far each camera is from the truth.",
+         reference. Drag to orbit, all pictures together; the wheel moves nearer; a click keeps a pixel, a double click shows its \
+         picture alone. Figure 8 and Figure 9 are the paper's, with light and white balance; Normalization says what its Eq 1 stands for. \
+         Difference maps how far each camera is from the reference.",
         "Accuracy. What the scene on show costs by each method, with its error, measured when you press Run: no figure without \
          its error; Bench does the same on inputs of its own. Left out lists what was not computed, and the time that computing \
-         it took. Under Tolerance you choose the largest error; each camera then says which way keeps it, and the error that \
-         was certified.",
+         it took. Under Tolerance you choose the largest error; each camera then says which method keeps it, with an estimated \
+         error bound.",
         "Color transform: paper matrix. Camera and RGB observer signals, balanced so that a flat spectrum is 1 : 1 : 1, go through the \
          matrix of Eq 13; equal energy falls on D65 (0.3127, 0.3290). CIE observers are drawn directly, with equal energy at \
          (1/3, 1/3), so they differ from the others by construction and cannot be compared with them. Eq 13 takes an observer's RGB \
          as sRGB, so the ΔE*00 formula on its colors is not ΔE*00: it is called Δ of Eq 13 colors, and distances in the diagram \
          come first.",
         "Color transform: fitted. CIE observers directly; all others through a 3×3 matrix, fitted to the named observer over 190 \
-         training reflectances under the chosen light so that white stays white. Then everything can be compared. Another reference takes the fit along where it \
-         counts in XYZ.",
-        "Hover to read, click to keep, Esc to let go. Drop files anywhere, or paste numbers: spectra and camera sensitivities \
+         training reflectances under the chosen light so that white stays white. Then everything can be compared. The fit follows when another XYZ \
+         observer becomes the reference.",
+        "Hover to read, click to select, Esc to deselect. Drop files anywhere, or paste numbers: spectra and camera sensitivities \
          as text, with any delimiter. What was decided on reading is shown and can be changed. One file is put to use as what it \
          is; of several at once cameras are put on show, and light and patches stay.",
         "Import. Before each file stands a mark: a dot, read; a ring, read with guesses; a diamond, read with guesses that nobody \

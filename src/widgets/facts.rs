@@ -63,19 +63,21 @@ pub fn range_words([first, last]: [f64; 2]) -> String {
 
 /// The range that all curves of a set are within, and the first curve; parses the set.
 fn range(scene: &Scene<'_>, entry: &Entry) -> Option<([f64; 2], SpectralDistribution)> {
-    let curves: Vec<SpectralDistribution> = match &entry.place {
+    let union = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+    match &entry.place {
         Place::BuiltIn { path, column } => {
             let file = scene.results.ask(&FileOf(path));
-            let dataset = (*file).as_ref().ok()?;
-            let wanted = |index: usize| column.is_none_or(|c| c == index);
-            let curves = dataset.curves.iter().enumerate().filter(|(index, _)| wanted(*index));
-            curves.map(|(_, curve)| curve.clone()).collect()
+            let curves = &(*file).as_ref().ok()?.curves;
+            let curves = column.map_or(&curves[..], |column| curves.get(column).map_or(&[], std::slice::from_ref));
+            let range = curves.iter().map(SpectralDistribution::range_nm).reduce(union)?;
+            Some((range, curves.first()?.clone()))
         }
-        Place::Own(set) => set.curves_in_nm().ok()?.into_iter().map(|(_, curve)| curve).collect(),
-    };
-    let ranges = curves.iter().map(SpectralDistribution::range_nm);
-    let range = ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
-    Some((range, curves.into_iter().next()?))
+        Place::Own(set) => {
+            let curves = set.curves_in_nm().ok()?;
+            let range = curves.iter().map(|(_, curve)| curve.range_nm()).reduce(union)?;
+            Some((range, curves.into_iter().next()?.1))
+        }
+    }
 }
 
 /// What a kind's tables hold, where that is known.

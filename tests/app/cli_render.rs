@@ -267,7 +267,7 @@ fn statistics_are_json() {
     }
     let source = &json["sources"][0];
     assert_eq!(source["name"], "Nikon D70 (2007 figure)");
-    assert_eq!(source["delta_e_2000"]["samples"], json["samples"]["lit"]);
+    assert_eq!(source["difference"]["samples_of_lit"], json["samples"]["lit"]);
     let difference = &source["difference"];
     assert_eq!(difference["measure"], "Δ of Eq 13 colors");
     let of = |name: &str| difference[name].as_f64().unwrap_or_else(|| panic!("{name}"));

@@ -271,3 +271,14 @@ fn a_set_that_is_renamed_keeps_its_uses_and_gets_no_others() {
     rename("bark", "stem", &mut document);
     assert_eq!(document.chart, "stem");
 }
+
+#[test]
+fn an_imported_set_of_another_kind_does_not_keep_a_camera_from_its_present_name() {
+    let mut document = Document::paper();
+    document.own.push(Shared::new(own("Nikon D70", Role::Reflectance)));
+    let mut json: serde_json::Value = serde_json::from_str(&session::to_json(&document).unwrap()).unwrap();
+    json["version"] = 1.into();
+    json["compared"] = serde_json::json!([{"name": "Nikon D70", "kind": "camera", "slot": 0}]);
+    let document = session::from_json(&json.to_string()).unwrap();
+    assert!(document.compared(Kind::Camera, "Nikon D70 (2007 figure)").is_some(), "{:?}", document.compared);
+}

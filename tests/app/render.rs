@@ -107,12 +107,12 @@ fn a_figure_sets_light_and_white_in_one_step() {
 }
 
 #[test]
-fn a_figure_keeps_the_reading() {
+fn a_figure_is_radiometric() {
     let mut window = small();
     render(&mut window, |settings| settings.reading = ReadingChoice::Paper);
     window.get_by_role_and_label(Role::Button, "Figure 8").click();
     window.run_steps(2);
-    assert_eq!(document(&window).render.reading, ReadingChoice::Paper);
+    assert_eq!(document(&window).render.reading, ReadingChoice::Radiometric);
     assert_eq!(document(&window).white, WhiteChoice::Light(BALANCE.to_owned()));
 }
 
@@ -137,9 +137,13 @@ fn a_figure_as_in_the_paper_has_a_point_light_and_the_papers_normalization() {
         assert!(settings.light_distance.is_some());
         assert_eq!(document.light, Light::Set(SUN.to_owned()));
     }
-    // The program's own keeps the model that was chosen, and has parallel light again.
+    // The program's own has parallel light and the radiometric normalization again, and its start's specular component.
     Action::Render(RenderAction::Figure8).apply(&mut document);
-    assert_eq!((document.render.light_distance, document.render.area), (None, AreaChoice::Xy));
+    assert_eq!((document.render.light_distance, document.render.area), (None, AreaChoice::FourXy));
+    assert_eq!(
+        (document.render.reading, document.render.specular),
+        (ReadingChoice::Radiometric, SpecularChoice::Fresnel)
+    );
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The two named starts; what a change of reference or color transform does; the names of differences.
 
-use chromascope::action::{Action, CompareAction, SceneAction};
+use chromascope::action::{Action, CompareAction, RenderAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::{Catalog, Kind};
 use chromascope::command::Command;
@@ -92,13 +92,14 @@ fn a_document_of_version_1_is_the_papers_with_its_cameras_under_their_present_na
         {"name": "Stiles & Burch 1955 2°", "kind": "observer", "slot": 0},
         {"name": "Nikon D70", "kind": "camera", "slot": 1},
         {"name": "Canon EOS 10D", "kind": "camera", "slot": 0, "label": "mine"}],
-        "difference": "delta-e2000", "kept": 7}"#;
+        "way": "paper", "difference": "delta-e2000", "kept": 7}"#;
     let document = session::from_json(json).unwrap();
     assert_eq!((document.start, &document.way), (Start::Paper, &WayChoice::Paper));
     assert_eq!((document.truth.as_str(), &document.light), (TRUTH, &Light::Set("E".to_owned())));
     assert!(document.compared(Kind::Camera, "Nikon D70 (2007 figure)").is_some());
     let canon = document.compared(Kind::Camera, "Canon EOS 10D (2007 figure)").unwrap();
     assert_eq!((canon.slot, canon.label.as_deref()), (0, Some("mine")));
+    assert_eq!(document.difference, DifferenceChoice::Xy, "what was called ΔE*00 under Eq 13 was none");
     assert_eq!(document.unknown.get("kept").and_then(serde_json::Value::as_u64), Some(7));
     let again = session::from_json(&session::to_json(&document).unwrap()).unwrap();
     assert_eq!(again, document);
@@ -123,6 +124,33 @@ fn eq_13_has_no_delta_e() {
     document.difference = DifferenceChoice::DeltaE1976;
     Action::Scene(SceneAction::SetWay(WayChoice::Paper)).apply(&mut document);
     assert_eq!(document.difference, DifferenceChoice::UvPrime, "the distance in the diagram that is shown");
+}
+
+#[test]
+fn a_measure_that_was_chosen_stays_and_a_distance_follows_the_diagram() {
+    let mut document = Document::colorimetry();
+    Action::Scene(SceneAction::SetDifference(DifferenceChoice::UvPrime)).apply(&mut document);
+    Action::Scene(SceneAction::SetWay(WayChoice::Paper)).apply(&mut document);
+    assert_eq!(document.difference, DifferenceChoice::UvPrime);
+    fit_to(CIE_1931).apply(&mut document);
+    assert_eq!(document.difference, DifferenceChoice::UvPrime);
+    let mut document = Document::paper();
+    Action::Scene(SceneAction::SetDiagram(Diagram::UvPrime)).apply(&mut document);
+    assert_eq!(document.difference, DifferenceChoice::UvPrime);
+    Action::Scene(SceneAction::SetDifference(DifferenceChoice::DeltaE2000)).apply(&mut document);
+    Action::Scene(SceneAction::SetDiagram(Diagram::Xy)).apply(&mut document);
+    assert_eq!(document.difference, DifferenceChoice::DeltaE2000, "what was chosen stays");
+}
+
+#[test]
+fn figure_8_is_the_same_after_the_papers_own() {
+    let mut document = Document::paper();
+    Action::Render(RenderAction::Figure8).apply(&mut document);
+    let first = document.clone();
+    Action::Render(RenderAction::PaperFigure8).apply(&mut document);
+    assert_ne!(document.render, first.render);
+    Action::Render(RenderAction::Figure8).apply(&mut document);
+    assert_eq!(document.render, first.render);
 }
 
 /// Whether anything in the window says these words.

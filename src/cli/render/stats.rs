@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 
 use super::accuracy::{self, Cost, Errors, Measured};
 use super::{Made, Times};
+use crate::document::WayChoice;
 use crate::export::render::{quality_name, reading_name};
 use crate::figures::render::{headline, returned};
 use crate::laboratory::plans;
@@ -69,6 +70,9 @@ fn settings(made: &Made<'_>) -> Value {
         "material": document.render.material,
         "illuminant": made.scene.light_name(),
         "white": document.white.name(),
+        "reference": document.truth,
+        "transform": made.scene.conditions()[3],
+        "preset": document.start.key(),
         "reading": reading_name(shading.reading),
         "quality": quality_name(shading.quality),
         "tolerance": shading.quality.accuracy().map(Accuracy::max_relative_error),
@@ -135,13 +139,18 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
         "name": source.name,
         "kind": source.kind.singular(),
         "file": made.files[index].display().to_string(),
+        "is_reference": source.is_truth,
         "is_truth": source.is_truth,
-        "delta_e_2000": difference.filter(|difference| !difference.map.is_empty()).map(|difference| {
+        // Under Eq 13 the formula gives no ΔE*00; its numbers are under "difference" with the measure's name.
+        "delta_e_2000": difference.filter(|_| made.scene.document.way != WayChoice::Paper).filter(|difference| !difference.map.is_empty()).map(|difference| {
             json!({ "mean": difference.mean, "max": difference.max, "samples": difference.map.len() })
         }),
         "difference": difference.map(|difference| {
             json!({
                 "measure": headline::measure(made.scene.document),
+                "mean_of_lit": (!difference.map.is_empty()).then_some(difference.mean),
+                "max_of_lit": (!difference.map.is_empty()).then_some(difference.max),
+                "samples_of_lit": difference.map.len(),
                 "facing_light": difference.facing,
                 "median_above_l20": difference.bright.map(|bright| bright.median),
                 "p95_above_l20": difference.bright.map(|bright| bright.p95),

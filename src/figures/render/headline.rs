@@ -30,16 +30,19 @@ pub fn measure(document: &Document) -> &'static str {
     DifferenceChoice::DeltaE2000.name_under(&document.way)
 }
 
-/// The difference of a picture in words: "no light" and "too dark" where nothing could be seen of it.
+/// The difference of a picture in words: "no light" where nothing is lit; the quantiles are of samples that are bright enough to judge.
 pub fn words(difference: &Difference, measure: &str, detail: Detail) -> String {
     if difference.map.is_empty() {
         return "no light".to_owned();
     }
-    let Some(bright) = difference.bright else { return "too dark".to_owned() };
     let short = measure.split(['E', ' ']).next().unwrap_or(measure);
     let facing = difference.facing.map_or_else(|| "undefined".to_owned(), |facing| fixed(facing, 1));
     let quantiles = || {
-        format!("{measure} {facing} facing light, median {}, 95 % {}", fixed(bright.median, 1), fixed(bright.p95, 1))
+        let rest = difference.bright.map_or_else(
+            || "all else too dark to judge".to_owned(),
+            |bright| format!("median {}, 95 % {}", fixed(bright.median, 1), fixed(bright.p95, 1)),
+        );
+        format!("{measure} {facing} facing light, {rest}")
     };
     match detail {
         Detail::Number if measure.starts_with("ΔE") => format!("{short}E {facing}"),
@@ -72,7 +75,9 @@ mod tests {
         assert_eq!(words(&some, "Δ of Eq 13 colors", Detail::Number), "Δ 3.1");
         let dark = Difference { bright: None, ..some.clone() };
         let unlit = Difference { map: Vec::new(), mean: 0.0, max: 0.0, ..dark.clone() };
-        assert!(said.iter().all(|&detail| words(&dark, "ΔE*00", detail) == "too dark"));
+        assert_eq!(words(&dark, "ΔE*00", Detail::Number), "ΔE 3.1");
+        let whole = words(&dark, "ΔE*00", Detail::Quantiles);
+        assert_eq!(whole, "ΔE*00 3.1 facing light, all else too dark to judge");
         assert!(said.iter().all(|&detail| words(&unlit, "ΔE*00", detail) == "no light"));
     }
 

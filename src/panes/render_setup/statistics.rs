@@ -45,7 +45,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ("By table", shading.table.to_string()),
             ("By sums", shading.sums.to_string()),
             ("By a plan", shading.planned.to_string()),
-            ("Mirror terms", format!("{}, {} left out", shading.mirrors, shading.mirrors_skipped)),
+            ("Specular terms", format!("{}, {} skipped", shading.mirrors, shading.mirrors_skipped)),
             ("Wavelengths", wavelengths.to_owned()),
         ],
     );

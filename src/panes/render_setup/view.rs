@@ -62,7 +62,7 @@ fn without_picture(ui: &mut Ui, context: &PaneContext<'_>) {
     if !names.is_empty() {
         let words = format!("No picture: {}", names.join(", "));
         ui.label(RichText::new(words).small().color(context.theme.weak)).on_hover_text(
-            "Eq 13 takes the signals of cameras and of Stiles & Burch; with an observer under To diagram all have pictures.",
+            "Eq 13 takes the signals of cameras and of Stiles & Burch; with a fitted color transform all have pictures.",
         );
     }
 }
