@@ -43,8 +43,8 @@ Examples:
   chromascope locus --camera \"Nikon D70\" --camera mine.csv --reference \"CIE 1964 10°\" --illuminant A --white D55
 
 Columns: sensor, temperature_k, x, y, u_prime, v_prime; distance_xy and distance_uv, the distances to the reference at the same
-temperature, in x, y and in u\u{2032}, v\u{2032}; cct_error_k, the correlated color temperature of x, y (CIE 1931 2°, within 1000\u{2013}20000 K and
-0.05 of the Planckian locus) minus the true temperature; arc_length_xy, the length of the locus in x, y from the first row of the
+temperature, in x, y and in u\u{2032}, v\u{2032}; cct_error_k, the correlated color temperature read on the reference's
+own locus (nearest in CIE 1960 u, v, within 0.05) minus the true temperature, so that the reference has no error; arc_length_xy, the length of the locus in x, y from the first row of the
 sensor; then the conditions: reference, illuminant, white_balance, transform, preset.
 
 Temperatures are in kelvins, from 1 to 1e15. Rows come by sensor, in the order named, then by temperature. What is not defined is

@@ -1,23 +1,23 @@
 //! The tables that the commands print.
 
+mod cct;
+
 use std::fmt::Write as _;
 
-use chromascope_core::colorimetry::Xy;
-use chromascope_core::light::{PlanckianLocus, RadiationConstants};
 use chromascope_core::query::compare::{locus_distance_uv, locus_distance_xy, patch_difference};
-use chromascope_core::query::{
-    Ask as _, LocusPoint, Metric, NearestBlackBodyOf, NoDifference, PatchColor, Temperatures,
-};
+use chromascope_core::query::{LocusPoint, Metric, NoDifference, PatchColor, Temperatures};
 use chromascope_core::spectral::Primaries;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
+
+use cct::ReferenceLocus;
 
 use super::arguments::{CommonArguments, ListKind, LocusArguments, PatchesArguments};
 use super::radiance::Radiances;
 use super::request::{FIVE, Request};
 use super::{CliError, outputs, say};
 use crate::catalog::{Catalog, Kind};
-use crate::document::{CIE_1931, LOCUS_RANGE_K, WayChoice};
+use crate::document::{LOCUS_RANGE_K, WayChoice};
 use crate::results::Results;
 use crate::scene::conditions::CONDITIONS;
 use crate::scene::{Caution, LOCUS_POINTS, Scene, SceneError};
@@ -35,9 +35,7 @@ pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let conditions = conditions(&scene, &scene.light_name());
     let reference = scene.locus_at(Kind::Observer, &request.document.truth, temperatures.clone())?;
-    let observer = scene.sensor(Kind::Observer, CIE_1931)?;
-    let nearest = results.ask(&NearestBlackBodyOf { observer, constants: RadiationConstants::Paper });
-    let nearest = (*nearest).as_ref().ok();
+    let own = ReferenceLocus::new(&scene)?;
     let mut text = head(LOCUS_HEAD);
     for (kind, name) in &request.sources {
         let locus = scene.locus_at(*kind, name, temperatures.clone())?;
@@ -56,7 +54,7 @@ pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<
             let rest = [
                 distance(locus_distance_xy),
                 distance(locus_distance_uv),
-                cct_error(nearest, point),
+                comparable.ok().and_then(|()| own.error_k(point)),
                 point.xy.map(|_| length),
             ];
             let row = [places, rest].concat();
@@ -65,13 +63,6 @@ pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<
     }
     say_caution(&scene, &request)?;
     Ok(text)
-}
-
-/// The correlated color temperature of a blackbody's chromaticity minus its true temperature.
-fn cct_error(nearest: Option<&PlanckianLocus>, point: &LocusPoint) -> Option<f64> {
-    let xy: Xy = point.xy?;
-    let cct = nearest?.cct_of_xy(xy).ok()?;
-    Some(cct.temperature.get() - point.temperature.get())
 }
 
 /// Refuses an output before anything is computed.

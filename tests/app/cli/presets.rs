@@ -117,12 +117,24 @@ fn loci_have_distances_cct_errors_and_lengths() {
         let length: f64 = (start..row).map(|k| (x[k + 1] - x[k]).hypot(y[k + 1] - y[k])).sum();
         assert!((arc[row] - length).abs() < 1e-12, "{row}");
     }
-    // The observer that defines CCT makes no error, and beyond 20000 K nothing is defined.
-    assert!(cct[..4].iter().all(|error| error.unwrap().abs() < 1e-6), "{cct:?}");
-    assert_eq!(cct[4], None);
+    // The reference makes no error by itself.
+    assert!(cct[..5].iter().all(|error| error.unwrap().abs() < 0.02), "{cct:?}");
     // A camera that is fitted under D65 sees D65's temperature nearly right, and incandescent light less so.
     let of = |row: usize| cct[row].unwrap().abs();
     assert!(of(7) > 0.0 && of(7) < 400.0, "{cct:?}");
+}
+
+#[test]
+fn under_eq_13_too_the_reference_reads_true_temperatures() {
+    let rows = table(&["locus", "--preset", "paper", "--temperatures", "2856,5500"]);
+    let cct = numbers(&rows, "cct_error_k");
+    assert!(cct[..2].iter().all(|error| error.unwrap().abs() < 0.02), "{cct:?}");
+    // By a search over 20,000 points of the table, 1.4 K apart at 5500 K: 10D, D70, DCS200 at 2856 and 5500 K.
+    let expected = [73.3, 130.9, 95.1, 92.0, 1589.4, 155.1];
+    for (found, expected) in cct[2..8].iter().zip(expected) {
+        assert!((found.unwrap() - expected).abs() < 0.7, "{cct:?}");
+    }
+    assert!(cct[8..].iter().all(Option::is_none), "a CIE observer is not comparable under Eq 13: {cct:?}");
 }
 
 #[test]
