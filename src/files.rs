@@ -18,6 +18,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
 use crate::document::Document;
+use crate::document::start::Start;
 
 pub use dialogs::{Answer, DialogLog, Dialogs, Question};
 pub use keep::{install_panic_hook, panic_saves};
@@ -113,6 +114,13 @@ impl Files {
 
     /// The document as it was kept, else the first screen.
     pub fn kept_document(&mut self) -> Document {
+        if self.keeper.is_first_run() {
+            let words = format!(
+                "Start: {}. The other start is one click away, in the Inspector or under Edit.",
+                Start::default().name()
+            );
+            self.note(Note::Event(FileEvent::Said(words)));
+        }
         let (document, message) = self.keeper.load();
         if let Some(message) = message {
             self.note(Note::Event(FileEvent::Failed(message)));

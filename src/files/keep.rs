@@ -37,9 +37,14 @@ impl Keeper {
         self.profile.other.zip(self.profile.file.as_deref())
     }
 
-    /// Documents that other windows kept beside this one's since it was written.
+    /// Documents that other windows kept beside this one's.
     pub(super) fn copies(&self) -> Vec<PathBuf> {
         self.profile.copies()
+    }
+
+    /// Whether no document was kept before, by this window or another.
+    pub(super) fn is_first_run(&self) -> bool {
+        self.profile.first.as_ref().is_some_and(|file| !file.exists())
     }
 
     /// The document kept, or the first screen; with a sentence where one was there and could not be read.

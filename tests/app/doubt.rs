@@ -75,7 +75,7 @@ fn tooltip_caption_and_table_say_what_is_extrapolated() {
             "Dotted below 2500 K, where the sensitivity table ends too early: Canon 10D (2007), Nikon D70 (2007).";
         assert!(figure.caption.contains(cut), "{}", figure.caption);
         let column = |name: &str| figure.table.columns.iter().position(|c| c == name).expect("a column");
-        let [source, kelvin, extrapolated] = ["source", "temperature_k", "extrapolated"].map(column);
+        let [source, kelvin, extrapolated] = ["sensor", "temperature_k", "extrapolated"].map(column);
         for row in &figure.table.rows {
             let Some(Cell::Number(kelvin)) = row.get(kelvin) else {
                 assert_eq!(row.get(extrapolated), Some(&Cell::Empty), "patches have none");

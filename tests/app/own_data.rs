@@ -226,3 +226,26 @@ fn the_second_window_says_so_as_long_as_it_is_open() {
     let window = window();
     assert!(eframe::App::persist_egui_memory(window.state()));
 }
+
+#[test]
+fn the_first_run_names_its_start_and_where_the_other_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = || {
+        let mut files = Files::new(Some(folder.path().to_owned()));
+        files.save_document(&Document::paper());
+        files.poll()
+    };
+    let first = {
+        let mut files = Files::new(Some(folder.path().to_owned()));
+        files.kept_document();
+        files.poll()
+    };
+    assert!(
+        matches!(first.as_slice(), [FileEvent::Said(words)] if words.starts_with("Start: Colorimetry.")),
+        "{first:?}"
+    );
+    assert!(said().is_empty());
+    let mut files = Files::new(Some(folder.path().to_owned()));
+    assert_eq!(files.kept_document(), Document::paper(), "the start is kept");
+    assert!(files.poll().is_empty());
+}
