@@ -14,7 +14,7 @@ mod tables;
 
 use std::ffi::OsString;
 use std::io::{self, Write as _};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{CommandFactory as _, FromArgMatches as _};
 
@@ -127,6 +127,13 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         Err(error) => return Outcome::Done(explain(&error)),
     };
     let (Some(subcommand), Some((_, matches))) = (parsed.subcommand, matches.subcommand()) else {
+        if let Some(word) = parsed.files.iter().find(|file| is_mistyped_command(file)) {
+            say(&format!(
+                "chromascope: {}: no command and no file is called so; see chromascope --help\n",
+                word.display()
+            ));
+            return Outcome::Done(2);
+        }
         return Outcome::Window(parsed.files);
     };
     let result = match subcommand {
@@ -148,6 +155,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
             error.code()
         }
     })
+}
+
+/// Whether what stands for a file is a bare word that no file has: a command that was mistyped.
+fn is_mistyped_command(file: &Path) -> bool {
+    file.components().count() == 1 && file.extension().is_none() && !file.exists()
 }
 
 /// Prints help, the version or a complaint about the arguments where it belongs.

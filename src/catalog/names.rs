@@ -129,7 +129,9 @@ pub fn find<'a>(
         return Err(NameError::Unknown { kind, name: name.to_owned(), nearest: Vec::new() });
     }
     if let Some(entry) = exact(&entries, &folded(name), &wanted) {
-        return Ok(Found::exact(entry));
+        // A short name is not listed, and may leave out what tells two sets apart.
+        let is_short = folded(&entry.name) != folded(name) && telling_words(&entry.name).concat() != wanted;
+        return Ok(if is_short { Found::near(entry) } else { Found::exact(entry) });
     }
     let all_in = |text: &str| {
         let words = words(text);

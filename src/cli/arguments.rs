@@ -44,8 +44,8 @@ Examples:
 
 Columns: sensor, temperature_k, x, y, u_prime, v_prime; distance_xy and distance_uv, the distances to the reference at the same
 temperature, in x, y and in u\u{2032}, v\u{2032}; cct_error_k, the correlated color temperature read on the reference's
-own locus (nearest in CIE 1960 u, v, within 0.05) minus the true temperature, so that the reference has no error; arc_length_xy, the length of the locus in x, y from the first row of the
-sensor; then the conditions: reference, illuminant, white_balance, transform, preset.
+own locus (nearest in CIE 1960 u, v, within 0.05) minus the true temperature, so that the reference's is 0 (within 0.02 K); arc_length_xy, the length in x, y of the
+straight steps from row to row since the sensor's first (more rows, nearer to the locus's own length); then the conditions: reference, illuminant, white_balance, transform, preset.
 
 Temperatures are in kelvins, from 1 to 1e15. Rows come by sensor, in the order named, then by temperature. What is not defined is
 left empty.";
@@ -58,7 +58,7 @@ Examples:
   chromascope patches --radiance measured.csv --radiance-white \"white tile\"
 
 Columns: sensor, patch; r, g, b after white balance (empty for CIE observers); x_tristimulus, y_tristimulus, z_tristimulus (Y = 1
-for a perfect diffuser); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
+for a perfect diffuser, under Eq 13 within 5e-5); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
 delta_e_2000, delta_e_1976, delta_uv_prime, delta_xy, the differences from the reference; then the conditions: reference,
 illuminant, white_balance, transform, preset. What is not defined is left empty: with the paper's matrix, Eq 13 takes RGB as sRGB
 whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*, and their L*a*b* is not that of the CIE.

@@ -77,7 +77,7 @@ pub(super) fn is_standard_output(path: &Path) -> bool {
 fn is_descriptor(path: &Path) -> bool {
     let number = |rest: &Path| rest.to_str().is_some_and(|text| text.parse::<u32>().is_ok());
     let in_folder = |folder: &&str| path.strip_prefix(folder).is_ok_and(number);
-    path == Path::new("/dev/stderr") || ["/dev/fd", "/proc/self/fd"].iter().any(|folder| in_folder(&folder))
+    path == Path::new("/dev/stderr") || ["/dev/fd", "/proc/self/fd"].iter().any(in_folder)
 }
 
 /// Whether bytes that are written to a path replace nothing.

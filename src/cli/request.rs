@@ -104,7 +104,7 @@ impl Request {
         named
             .into_iter()
             .map(|(_, kind, name)| {
-                let found = if kind == Kind::Camera && is_file(name) {
+                let found = if kind == Kind::Camera && self.means_file("--camera", &[kind], name) {
                     self.open(name, Role::Camera)?.name.clone()
                 } else {
                     let argument = if kind == Kind::Camera { "--camera" } else { "--observer" };
@@ -139,6 +139,17 @@ impl Request {
         Ok(())
     }
 
+    /// Whether an argument means a file. A built-in set's own name means that set, even beside a file that is called so.
+    fn means_file(&self, argument: &str, kinds: &[Kind], typed: &str) -> bool {
+        let built_in = kinds.iter().any(|kind| self.catalog.get(*kind, typed).is_some());
+        if built_in && Path::new(typed).is_file() {
+            say(&format!(
+                "chromascope: {argument} \"{typed}\": taking the built-in set; for the file, write ./{typed}\n"
+            ));
+        }
+        !built_in && is_file(typed)
+    }
+
     /// Chooses the light.
     pub(super) fn set_light(&mut self, illuminant: &str) -> Result<(), CliError> {
         if let Some((light, kelvin)) = radiator("--illuminant", illuminant)? {
@@ -146,7 +157,7 @@ impl Request {
             self.document.temperature_k = kelvin;
             return Ok(());
         }
-        let name = if is_file(illuminant) {
+        let name = if self.means_file("--illuminant", &[Kind::Illuminant], illuminant) {
             self.open(illuminant, Role::Illuminant)?.name.clone()
         } else {
             self.illuminant("--illuminant", illuminant)?
@@ -158,7 +169,7 @@ impl Request {
     /// Chooses the patches.
     pub(super) fn set_chart(&mut self, chart: Option<&str>) -> Result<(), CliError> {
         let Some(chart) = chart else { return Ok(()) };
-        if is_file(chart) {
+        if self.means_file("--chart", &[Kind::Chart, Kind::Material], chart) {
             self.document.subset = Subset::All;
             let set = self.open(chart, Role::Reflectance)?;
             self.document.chart.clone_from(&set.name);
@@ -180,7 +191,7 @@ impl Request {
         self.document.render.material = match material.to_ascii_lowercase().as_str() {
             "skin" => SKIN.to_owned(),
             "leaf" => LEAF.to_owned(),
-            _ if is_file(material) => {
+            _ if self.means_file("--material", &[Kind::Material, Kind::Chart], material) => {
                 let set = self.open(material, Role::Reflectance)?;
                 if let [first, _, ..] = set.curves.as_slice() {
                     let count = set.curves.len();
@@ -271,6 +282,13 @@ impl Request {
         let imported = imported(&Origin::named(path, &bytes), &table, &wishes);
         if imported.guessed || !table.warnings.is_empty() {
             say(&format!("chromascope: {}\n", imported.message));
+        }
+        let response = table.reading.per_photon.as_ref().filter(|_| role == Role::Camera && self.per.is_none());
+        if let Some(response) = response.filter(|response| response.certainty == table::Certainty::Guess) {
+            let what = if response.value { "photon" } else { "energy" };
+            say(&format!(
+                "chromascope: {path}: taken as responses per {what}, a guess; --per energy or --per photon decides\n"
+            ));
         }
         Ok(imported.set)
     }

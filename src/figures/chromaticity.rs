@@ -195,7 +195,7 @@ pub fn caption(scene: &Scene<'_>) -> String {
     } else {
         format!(" Dotted below {TAIL_BELOW_K:.0} K, where the sensitivity table ends too early: {}.", cut.join(", "))
     };
-    format!("{} Loci from 1000 to 20000 K, balanced to {}.{dotted}", conditions(scene), scene.locus_balance())
+    format!("{} Loci from 1000 to 20000 K, normalized to {}.{dotted}", conditions(scene), scene.locus_balance())
 }
 
 /// The conditions in sentences.

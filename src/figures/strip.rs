@@ -68,7 +68,7 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     let mut panel =
         Panel::new("Distance to the reference over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.note = format!(
-        "distance to reference ({}), balanced to {} (ring: minimum)",
+        "distance to reference ({}), normalized to {} (ring: minimum)",
         super::chromaticity::distance_symbol(diagram),
         scene.locus_balance()
     );

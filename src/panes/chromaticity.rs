@@ -234,7 +234,7 @@ fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             }
         }
         let balance = context.scene.locus_balance();
-        lines.push(format!("Signals balanced to {balance}: the minima (rings) follow it."));
+        lines.push(format!("Signals normalized to {balance}: the minima (rings) follow it."));
         lines.push("Drag to set the temperature.".to_owned());
         widgets::read_at_pointer(&response, &lines);
     }

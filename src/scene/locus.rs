@@ -21,17 +21,28 @@ pub struct Nearest {
 /// Temperatures between two neighbors of the locus at which the minimum is looked for.
 const FINE: usize = 41;
 
+/// Abscissa of the lowest point of the parabola through three evenly spaced points; none where it has none between the outer two.
+/// Squared distances are nearly a parabola even where a distance falls to almost zero.
+fn vertex([[x0, y0], [x1, y1], [x2, y2]]: [[f64; 2]; 3]) -> Option<f64> {
+    let (bend, slope) = (y0 - 2.0 * y1 + y2, (y2 - y0) / 2.0);
+    let steps = -slope / bend;
+    (bend > 0.0 && steps.abs() <= 1.0).then(|| x1 + steps * (x2 - x0) / 2.0)
+}
+
 impl Scene<'_> {
-    /// The smallest distance of a source's locus from the reference's in a diagram, to a fortieth of the locus's steps.
+    /// The smallest distance of a source's locus from the reference's in a diagram, its temperature within 1 K near 6000 K.
     pub fn nearest_to_reference(&self, kind: Kind, name: &str, diagram: Diagram) -> Option<Nearest> {
         let coarse = self.locus_distances(kind, name, Self::locus_temperatures().ok()?, diagram)?;
         let at = smallest(&coarse)?;
         let (first, last) = (at.saturating_sub(1), (at + 1).min(coarse.len() - 1));
         let fine = Temperatures::Range { from: coarse[first].0, to: coarse[last].0, count: FINE };
         let fine = self.locus_distances(kind, name, fine, diagram)?;
-        let (kelvin, distance) = fine[smallest(&fine)?];
+        let at = smallest(&fine)?;
+        let (kelvin, distance) = fine[at];
         let at_end = [coarse[0].0, coarse[coarse.len() - 1].0].contains(&kelvin);
-        Some(Nearest { kelvin: kelvin.get(), distance, at_end })
+        let neighbors = at.checked_sub(1).map(|before| [before, at, at + 1]).filter(|three| three[2] < fine.len());
+        let mired = neighbors.and_then(|three| vertex(three.map(|i| [fine[i].0.mired(), fine[i].1.powi(2)])));
+        Some(Nearest { kelvin: mired.map_or(kelvin.get(), |mired| 1e6 / mired), distance, at_end })
     }
 
     /// Temperatures with the distances of a source's locus from the reference's; NaN where there is no chromaticity.

@@ -39,7 +39,7 @@ pub enum NoRendering {
     #[error("Eq 13 takes RGB, not cone signals; choose a fitted color transform")]
     ConesNeedObserver,
     /// The reference of a fit must count in XYZ.
-    #[error("the reference observer must be a CIE XYZ observer")]
+    #[error("the observer that a color transform is fitted to must be an XYZ observer")]
     Reference,
     /// The color that white is to take leaves a channel at zero, which no matrix can undo.
     #[error("the chosen white leaves a channel at zero; choose another white")]

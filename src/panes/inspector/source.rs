@@ -90,7 +90,7 @@ fn measures(scene: &Scene<'_>, id: &SourceId) -> Vec<Fact> {
     {
         let balance = scene.locus_balance();
         let (kelvin, distance) = (fixed(nearest.kelvin, 0), fixed(nearest.distance, 4));
-        let words = format!("at {kelvin} K, Δxy {distance} (signals balanced to {balance}, which it follows)");
+        let words = format!("at {kelvin} K, Δxy {distance} (signals normalized to {balance}, which it follows)");
         facts.push(("Nearest to the reference", words));
     }
     facts

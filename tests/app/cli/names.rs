@@ -130,3 +130,27 @@ fn cie_d65_is_not_id65() {
     assert_eq!(of("CIE D65"), ["0.31274", "0.32905"]);
     assert_eq!(of("CIE D50"), of("D50"));
 }
+
+#[test]
+fn a_built_in_sets_name_means_it_even_beside_a_file_that_is_called_so() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("shadow");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("D65"), "wavelength_nm,D65\n380,1\n780,9\n").unwrap();
+    let patches = |illuminant: &str| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_chromascope"));
+        let arguments = ["patches", "--chart", "ColorChecker five", "--illuminant", illuminant];
+        let output = command.args(arguments).current_dir(&folder).output().unwrap();
+        (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (built_in, said) = patches("D65");
+    assert!(said.contains("taking the built-in set; for the file, write ./D65"), "{said}");
+    assert!(built_in.contains("0.542363476"), "red under D65: {built_in}");
+    assert_ne!(patches("./D65").0, built_in);
+}
+
+#[test]
+fn a_mistyped_command_is_named() {
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_chromascope")).arg("lists").output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(2) && said.contains("lists: no command and no file"), "{said}");
+}
