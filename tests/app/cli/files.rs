@@ -84,10 +84,7 @@ fn what_was_guessed_is_said_beside_the_table() {
     assert!(output.status.success() && said.contains("read as percent"), "{said}");
     let rows = String::from_utf8(output.stdout).unwrap();
     assert!(rows.lines().nth(1).unwrap().starts_with("Nikon D70 (2007 figure),bare leaf,0."), "{rows}");
-    assert!(
-        run(&["locus", "--camera", &asset("cameras/kodak_dcs200.csv")]).stderr.is_empty(),
-        "nothing to guess"
-    );
+    assert!(run(&["locus", "--camera", &asset("cameras/kodak_dcs200.csv")]).stderr.is_empty(), "nothing to guess");
 }
 
 #[test]
