@@ -70,9 +70,7 @@ macro_rules! step {
     };
     (@ $sums:ident, [$($row:literal $spectrum:ident),*], $curves:ident, $lanes:literal, $n:literal) => {
         let curve = $curves[$n].0;
-        $(for k in 0..$lanes {
-            $sums[$row][$n][k] = $spectrum[k].mul_add(curve[k], $sums[$row][$n][k]);
-        })*
+        $($sums[$row][$n] = std::array::from_fn(|k| $spectrum[k].mul_add(curve[k], $sums[$row][$n][k]));)*
     };
 }
 
