@@ -9,6 +9,7 @@ mod accuracy;
 mod batch;
 mod camera;
 mod colorimetry;
+mod corpus;
 mod double;
 mod fern;
 mod figure;
