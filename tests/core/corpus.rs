@@ -149,7 +149,12 @@ fn a_wrong_truth_is_found() {
     let file = folder().join("plain_reflectance.csv");
     let truth = fs::read_to_string(folder().join("plain_reflectance.truth")).expect("it is there");
     assert_eq!(faults(&file, &truth), Vec::<String>::new());
-    for (from, to) in [("0.055", "0.0551"), ("role: reflectances", "role: transmittances"), ("Leaf Refl", "Leaves Refl"), ("sure", "guess")] {
+    for (from, to) in [
+        ("0.055", "0.0551"),
+        ("role: reflectances", "role: transmittances"),
+        ("Leaf Refl", "Leaves Refl"),
+        ("sure", "guess"),
+    ] {
         assert!(truth.contains(from), "{from}");
         assert!(!faults(&file, &truth.replace(from, to)).is_empty(), "{from} for {to}");
     }
