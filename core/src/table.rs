@@ -6,13 +6,17 @@
 //!
 //! What is read: numbers in columns (wavelengths down the first column, or across a header row), separated by commas,
 //! semicolons, tabs or spaces; points or commas as decimal marks; UTF-8, UTF-16, Shift-JIS or Windows-1252; any line ends;
-//! comments (`# key: value`), headers, units in headers, gaps (`NaN`, `---`, empty), any order of wavelengths.
+//! comments (`# key: value`), headers, units in headers, gaps (`NaN`, `---`, empty, −999 and its kin where they stand out), any
+//! order of wavelengths.
+//!
+//! Lights counted in photons (µmol m⁻² s⁻¹ nm⁻¹), per frequency or per wave number become energies per nanometer, as the decision
+//! "Spectral unit" says with the factor.
 //!
 //! Families with a grammar of their own are recognized by content and read too: CGATS (Argyll, X-Rite), JCAMP-DX, XML
-//! (TM-27, `CxF`), JSON (rawtoaces, dcamprof, with comments), lamp meters that write wavelengths into labels, and files
+//! (TM-27, `CxF`), JSON (rawtoaces, dcamprof with comments, Wasatch ENLIGHTEN), lamp meters that write wavelengths into labels, and files
 //! that put wavelengths and values on alternate lines.
 //!
-//! What is not read: binary files, and XML or JSON of other layouts. They are named in the error.
+//! What is not read: binary files, and XML or JSON of other layouts. They are named in the error, with what helps.
 //!
 //! Reading is total: it does not panic, takes time proportional to the input, and needs a few times its memory, most of it
 //! the samples themselves (16 bytes each). The limits are [`MAX_BYTES`], [`MAX_CURVES`] and [`MAX_SAMPLES`].
@@ -29,19 +33,22 @@
 //!
 //! The way of a file: `text` (bytes to text), `families` (who takes it), for numbers in columns `sniff` (which
 //! separators, where the numbers begin), `header` (names, units, comments), `columns` or `wide` (text to numbers), then
-//! `wavelengths` (unit, order, repeats), `scale` (role, percent), `quantity`, and here the curves. A reader for another family of
+//! `wavelengths` (unit, order, repeats), `gaps`, `scale` (role, percent), `quantity`, `photons`, and here the curves. A reader for another family of
 //! files is a small file in `families`: it fills the same `Grid`, and all after it is shared.
 
 mod bands;
 mod columns;
+mod decimal;
 mod dialect;
 mod error;
 mod families;
 mod family;
+mod gaps;
 mod grid;
 mod header;
 mod instrument;
 mod nearly;
+mod photons;
 mod preview;
 mod quantity;
 mod raw;
@@ -52,6 +59,7 @@ mod switch;
 mod text;
 mod thousands;
 mod trial;
+mod units;
 mod warning;
 mod watch;
 mod wavelengths;
@@ -73,7 +81,7 @@ pub use reading::{
 pub use scale::{Role, Values};
 pub use switch::Switch;
 pub use text::{BinaryKind, MAX_BYTES};
-pub use warning::{LineList, Warning};
+pub use warning::{LineList, Sentinel, Warning};
 use watch::Log;
 pub use watch::Watch;
 pub use wavelengths::WavelengthUnit;
@@ -100,7 +108,8 @@ pub struct ReadOptions {
     pub wavelength_unit: Option<WavelengthUnit>,
     /// The column of the wavelengths, from 1, where they run down one.
     pub wavelength_column: Option<usize>,
-    /// What the values stand for. Left open, only reflectances and transmittances are scaled.
+    /// What the values stand for. Left open, only reflectances and transmittances are scaled. [`Values::Plain`] keeps lights in
+    /// photons or per frequency as they are written, too.
     pub values: Option<Values>,
     /// Which of several tables, blocks or groups in one file is taken, from 1 in the order of the file.
     pub part: Option<usize>,
@@ -198,10 +207,13 @@ fn finish(
     let step_nm = Steps::of(&grid.wavelengths);
     wavelengths::warn(&grid, step_nm, &mut warnings);
     warnings.look(usize::MAX)?;
+    gaps::take(&mut grid, &mut warnings);
+    photons::suggest_role(&mut grid);
     let scale = scale::decide(&grid, options);
     let quantity = quantity::decide(&grid, &scale.role, &mut warnings);
     let per_photon = quantity::per_photon(&grid, scale.role.value, &quantity);
     scale::convert(&mut grid, &scale);
+    notes.extend(photons::to_energy(&mut grid, scale.role.value, &wavelength_unit, options));
     scale::warn(&scale, &grid, &mut warnings);
     let mut decimal_mark = layout.decimal_mark;
     if scale.denies_thousands() && warnings.warnings.contains(&Warning::MaybeThousands) {

@@ -76,7 +76,8 @@ pub fn imported(origin: &Origin, table: &Table, wishes: &Wishes) -> Imported {
 
 /// The guesses that change numbers or what a set is used as.
 pub fn weighty_guesses(table: &Table) -> Vec<table::Decision> {
-    let weighty = |what: &str| matches!(what, "Role" | "Wavelengths" | "Values" | "Separator" | "Part");
+    let weighty =
+        |what: &str| matches!(what, "Role" | "Wavelengths" | "Values" | "Separator" | "Part" | "Spectral unit");
     let decisions = table.decisions().into_iter();
     decisions.filter(|decision| decision.certainty == Certainty::Guess && weighty(decision.what)).collect()
 }

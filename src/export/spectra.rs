@@ -8,39 +8,42 @@ use crate::catalog::load::{FileOf, LoadError};
 use crate::catalog::{Entry, Kind, Place};
 use crate::document::own::{OwnSet, Role};
 
-/// A format, and the step that curves are brought to.
+/// A format, and the wavelengths that curves are brought to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Form {
     /// The format.
     pub format: Format,
-    /// The step in nanometers; none for the curves as measured.
-    pub step_nm: Option<f64>,
+    /// The wavelengths.
+    pub grid: Grid,
 }
 
 impl Form {
     /// All that are offered, in the order of a menu.
-    pub const ALL: [Self; 9] = [
-        Self::new(Format::Csv, None),
-        Self::new(Format::Csv, Some(1.0)),
-        Self::new(Format::Csv, Some(5.0)),
-        Self::new(Format::Csv, Some(10.0)),
-        Self::new(Format::RawtoacesJson, None),
-        Self::new(Format::DcamprofJson, None),
-        Self::new(Format::ArgyllSp, None),
-        Self::new(Format::ArgyllCmf, None),
-        Self::new(Format::Cgats, None),
+    pub const ALL: [Self; 11] = [
+        Self::new(Format::Csv, Grid::Native),
+        Self::new(Format::Csv, Grid::Step(1.0)),
+        Self::new(Format::Csv, Grid::Step(5.0)),
+        Self::new(Format::Csv, Grid::Step(10.0)),
+        Self::new(Format::Csv, Grid::Average(5.0)),
+        Self::new(Format::Csv, Grid::Average(10.0)),
+        Self::new(Format::RawtoacesJson, Grid::Native),
+        Self::new(Format::DcamprofJson, Grid::Native),
+        Self::new(Format::ArgyllSp, Grid::Native),
+        Self::new(Format::ArgyllCmf, Grid::Native),
+        Self::new(Format::Cgats, Grid::Native),
     ];
 
-    const fn new(format: Format, step_nm: Option<f64>) -> Self {
-        Self { format, step_nm }
+    const fn new(format: Format, grid: Grid) -> Self {
+        Self { format, grid }
     }
 
     /// The words of a menu.
     pub fn name(self) -> String {
-        match (self.format, self.step_nm) {
-            (Format::Csv, None) => "CSV, as measured".to_owned(),
-            (format, None) => format.to_string(),
-            (format, Some(step)) => format!("{}, every {step} nm", format.name()),
+        match (self.format, self.grid) {
+            (Format::Csv, Grid::Native) => "CSV, as measured".to_owned(),
+            (format, Grid::Native) => format.to_string(),
+            (format, Grid::Step(step)) => format!("{}, every {step} nm", format.name()),
+            (format, Grid::Average(step)) => format!("{}, averages over {step} nm", format.name()),
         }
     }
 }
@@ -97,7 +100,7 @@ pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, Sp
         .collect();
     let Facts { title, content, unit, comments } = facts(entry);
     let sheet = Sheet { title, content, curves: &traces, unit: unit.as_deref(), created: None, comments: &comments };
-    let written = write(&sheet, form.format, form.step_nm.map_or(Grid::Native, Grid::Step))?;
+    let written = write(&sheet, form.format, form.grid)?;
     let name = format!("{}.{}", file_name(&entry.name), form.format.ending());
     Ok(SpectraFile { name, text: written.text, notes: written.notes })
 }

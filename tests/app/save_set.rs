@@ -7,7 +7,7 @@ use chromascope::document::own::{OwnSet, Role};
 use chromascope::export::spectra::{Form, file, fits, notes_in_words};
 use chromascope::results::Results;
 use chromascope_core::query::Shared;
-use chromascope_core::table::write::Format;
+use chromascope_core::table::write::{Format, Grid};
 use egui::accesskit;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
@@ -22,7 +22,7 @@ fn own(file: &str, text: &str, role: Role) -> OwnSet {
 }
 
 fn form(format: Format, step_nm: Option<f64>) -> Form {
-    Form { format, step_nm }
+    Form { format, grid: step_nm.map_or(Grid::Native, Grid::Step) }
 }
 
 /// The values at the wavelengths that both have, which must be some. Not every format has names.
@@ -64,7 +64,14 @@ fn every_format_reads_back_as_the_same_set() {
                 assert_eq!(read.set.name, entry.name);
                 assert!(written.text.contains("# source: ") && written.text.contains("# license: "));
             }
-            agree(&read.set, curve, index, &known);
+            if let Grid::Average(step) = form.grid {
+                let told =
+                    format!("# resampling: band averages every {step} nm: means of the linear interpolant over ±");
+                assert!(written.text.contains(&told), "{}", written.text);
+                assert!(notes_in_words(&written.notes).contains(&format!("averaged over bands of {step} nm")));
+            } else {
+                agree(&read.set, curve, index, &known);
+            }
             count += 1;
         }
     }
@@ -102,7 +109,7 @@ fn own_sets_keep_all_curves_and_say_how_they_were_read() {
         let leaf = own("leaf.txt", "400 5.5\n500 10\n600 99\n700 80\n", role);
         assert!(leaf.percent);
         let entry = Entry::from_own(&Shared::new(leaf.clone()));
-        for form in Form::ALL.into_iter().filter(|form| fits(&entry, *form).is_ok() && form.step_nm.is_none()) {
+        for form in Form::ALL.into_iter().filter(|form| fits(&entry, *form).is_ok() && form.grid == Grid::Native) {
             let written = file(&entry, form, &results).unwrap();
             let again = import(&written.name, written.text.as_bytes(), Some(role)).unwrap().set;
             let values: Vec<f64> =

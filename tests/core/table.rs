@@ -6,6 +6,7 @@ mod bands;
 mod columns;
 mod damage;
 mod doubts;
+mod light_units;
 mod limits;
 mod parts;
 mod rows;
@@ -379,7 +380,7 @@ fn wavelengths_across() {
     assert_eq!(table.curves[0].wavelengths_nm, [380.0, 385.0, 390.0, 395.0, 400.0]);
     assert_eq!(samples(&table.curves[1]), [(380.0, 0.2), (385.0, 0.3), (395.0, 0.5), (400.0, 0.6)]);
     assert_eq!((table.curves[1].missing, table.reading.rows, table.reading.header_line), (1, 3, Some(1)));
-    assert_eq!(table.warnings[0].to_string(), "1 missing values, line 3: left out");
+    assert_eq!(table.warnings[0].to_string(), "1 missing value, line 3: left out");
     let texts = "Date,Mode,Sample name,Wavelengths(nm),400.5,401,402,403,404\n3/8/22,Reflectance,leaf 1,,5,6,7,8,9\n";
     let table = ok(texts);
     assert_eq!((names(&table), table.role.value), (vec!["leaf 1"], Role::Reflectance));

@@ -1,5 +1,6 @@
 //! Curves written in every format, read back, and held against what the other programs' readers ask for.
 
+mod averages;
 mod layouts;
 mod limits;
 mod random;

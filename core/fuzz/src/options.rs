@@ -5,7 +5,7 @@ use chromascope_core::table::{DecimalMark, Delimiter, Orientation, ReadOptions, 
 /// How many bytes make the choices.
 pub const LENGTH: usize = 6;
 
-const READERS: [Reader; 10] = [
+const READERS: [Reader; 11] = [
     Reader::Table,
     Reader::Cgats,
     Reader::Jcamp,
@@ -13,6 +13,7 @@ const READERS: [Reader; 10] = [
     Reader::Cxf,
     Reader::Rawtoaces,
     Reader::Dcamprof,
+    Reader::Enlighten,
     Reader::Labels,
     Reader::Alternate,
     Reader::Camspec,

@@ -154,7 +154,7 @@ impl Dialect {
         }
         let (sign, digits) = cell.strip_prefix('-').map_or((1.0, cell), |rest| (-1.0, rest));
         let (whole, fraction) = digits.split_once(mark).unwrap_or((digits, ""));
-        let spaced = matches!(self.delimiter, Delimiter::Semicolon | Delimiter::Tab);
+        let spaced = matches!(self.delimiter, Delimiter::Semicolon | Delimiter::Tab | Delimiter::Comma);
         let separates =
             |c: char| c == other || (spaced && matches!(c, ' ' | '\u{a0}' | '\u{202f}' | '\'' | '\u{2019}'));
         let separator = whole.chars().find(|&c| separates(c))?;
@@ -196,7 +196,9 @@ impl Dialect {
         let in_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '-' | '+' | 'e' | 'E');
         let (number, unit) = cell.split_at(cell.find(|c: char| !in_number(c))?);
         let value = self.number(number).filter(|value| value.is_finite())?;
-        Some((value, unit.trim())).filter(|(_, unit)| quantity::is_value_unit(unit))
+        // `10% gray` is a name.
+        let sole = |unit: &str| !unit.starts_with('%') || unit == "%";
+        Some((value, unit.trim())).filter(|(_, unit)| quantity::is_value_unit(unit) && sole(unit))
     }
 
     /// Whether a number is written with this dialect's decimal mark.

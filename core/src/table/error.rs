@@ -17,7 +17,7 @@ pub enum ReadError {
         limit: usize,
     },
     /// The file is binary.
-    #[error("this is {kind}, not text: export the measurement as text or CSV")]
+    #[error("this is {kind}, not text: {}", kind.remedy())]
     Binary {
         /// What it is.
         kind: BinaryKind,

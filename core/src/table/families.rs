@@ -44,7 +44,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
         Reader::Jcamp => jcamp::read(text, options, log),
         Reader::Tm27 => tm27::read(text, options, log),
         Reader::Cxf => cxf::read(text, log),
-        Reader::Rawtoaces | Reader::Dcamprof => json::read(text, options, log),
+        Reader::Rawtoaces | Reader::Dcamprof | Reader::Enlighten => json::read(text, options, log),
         Reader::Labels => labels::read(text, options, log),
         Reader::Alternate => alternate::read(text, log),
         Reader::Camspec => camspec::read(text, log),
@@ -67,7 +67,7 @@ fn fits(reader: Reader, text: &str) -> bool {
         Reader::Tm27 | Reader::Cxf => {
             family::recognize(text) == Some(Family::Xml) && xml::recognize(text).is_none_or(|found| found == reader)
         }
-        Reader::Rawtoaces | Reader::Dcamprof => family::recognize(text) == Some(Family::Json),
+        Reader::Rawtoaces | Reader::Dcamprof | Reader::Enlighten => family::recognize(text) == Some(Family::Json),
         Reader::Labels => labels::recognize(text),
         Reader::Alternate => alternate::recognize(text),
         Reader::Camspec => camspec::recognize(text),

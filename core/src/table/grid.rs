@@ -1,7 +1,7 @@
 //! What every reader fills: wavelengths as written, and the values of each curve beside them.
 
 use super::header::Header;
-use super::warning::{LineList, Warning};
+use super::warning::{LineList, Sentinel, Warning};
 use super::watch::Log;
 use super::{Curve, Decided, Dropped, DroppedRow, Part, Quantity, ReadError, Role, WavelengthUnit};
 
@@ -36,6 +36,8 @@ pub(super) struct Grid {
     pub(super) wavelength_column: Option<usize>,
     /// Whether each curve has wavelengths of its own, so that one it lacks is no gap.
     pub(super) own_wavelengths: bool,
+    /// A number that stands for missing values, to be told with the gaps.
+    pub(super) sentinel: Option<Sentinel>,
     /// Rows left out.
     pub(super) dropped: Vec<DroppedRow>,
 }
@@ -166,7 +168,7 @@ impl Grid {
                 curve.missing = 0;
             }
         } else {
-            warn_gaps(&gaps, &self.lines, log);
+            warn_gaps(&gaps, &self.lines, self.sentinel.take(), log);
         }
         if let Some(first) = first_empty {
             log.push(Warning::EmptyCurves { count: empty, first });
@@ -187,7 +189,7 @@ fn curve(raw: RawCurve, wavelengths: &[f64], missing: usize) -> Curve {
     Curve { name, named, wavelengths_nm, values, missing, unit }
 }
 
-fn warn_gaps(gaps: &[u32], lines: &[usize], log: &mut Log<'_>) {
+fn warn_gaps(gaps: &[u32], lines: &[usize], sentinel: Option<Sentinel>, log: &mut Log<'_>) {
     let cells: usize = gaps.iter().map(|&count| count as usize).sum();
     if cells == 0 {
         return;
@@ -203,7 +205,7 @@ fn warn_gaps(gaps: &[u32], lines: &[usize], log: &mut Log<'_>) {
     for line in gap_lines {
         list.add(line);
     }
-    log.push(Warning::Gaps { cells, lines: list });
+    log.push(Warning::Gaps { cells, lines: list, sentinel });
 }
 
 fn retain<T>(items: &mut Vec<T>, marked: &[bool]) {

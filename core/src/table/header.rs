@@ -7,13 +7,13 @@ use super::scale::{Role, Values};
 use super::sniff::Layout;
 use super::text::{Lines, Section, comment};
 use super::words::{self, XUnit};
-use super::{MAX_CURVES, WavelengthUnit};
+use super::{MAX_CURVES, WavelengthUnit, photons};
 
 /// How many comments are kept; more is not a header.
 const MAX_COMMENTS: usize = 1000;
 
 /// How far above the numbers the names and the units may stand, in lines with text.
-const NEAR: usize = 3;
+const NEAR: usize = 6;
 
 /// What was found above the numbers.
 #[derive(Debug, Default)]
@@ -33,6 +33,10 @@ pub(super) struct Header {
     pub(super) quantity: Option<(usize, Quantity)>,
     /// The unit of all values.
     pub(super) unit: Option<String>,
+    /// The line that says that all values are photons.
+    pub(super) photons: Option<usize>,
+    /// The line that says that sensitivities are responses per photon.
+    pub(super) per_photon: Option<usize>,
     /// In what the wavelengths are measured, and the line that says so.
     pub(super) medium: Option<(usize, Medium)>,
     /// What a comment or a unit line says the values are.
@@ -116,6 +120,7 @@ impl Header {
         }
         if matches!(lower.as_str(), "response" | "title" | "description") {
             self.mentioned = self.mentioned.or_else(|| words::role(value).map(|role| (line, role)));
+            self.take_photons(line, value);
         }
         // `wavelength_unit`, `x unit` and the like; a plain `unit` is that of the values.
         let about_x = words::x_unit_in_prose(&format!("{} {value}", lower.replace('_', " ")));
@@ -127,7 +132,15 @@ impl Header {
         }
     }
 
+    /// Takes what a title or free text says of responses per photon.
+    fn take_photons(&mut self, line: usize, text: &str) {
+        self.per_photon = self.per_photon.or_else(|| photons::says_per_photon(text).then_some(line));
+        self.photons = self.photons.or_else(|| photons::said_in_prose(text).then_some(line));
+    }
+
     fn take_value_unit(&mut self, line: usize, text: &str) {
+        self.take_photons(line, text);
+        self.photons = self.photons.or_else(|| photons::names_photons(text).then_some(line));
         let plain_after_other = |values: &Values| *values == Values::Plain && self.values.is_some();
         if let Some(values) = words::values(text).filter(|values| !plain_after_other(values)) {
             self.values = Some((line, values));
@@ -144,14 +157,16 @@ impl Header {
             self.x_unit = Some((line, unit));
         }
         self.medium = words::medium(text).map(|medium| (line, medium)).or(self.medium);
+        self.take_photons(line, text);
         let start = text.trim_start().as_bytes();
-        let about_y = start.get(..6).is_some_and(|start| start.eq_ignore_ascii_case(b"y unit"))
-            || start.get(..5).is_some_and(|start| start.eq_ignore_ascii_case(b"yunit"))
-            || start.get(..9).is_some_and(|start| start.eq_ignore_ascii_case(b"yaxisunit"));
-        if about_y {
+        let begins =
+            |word: &str| start.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word.as_bytes()));
+        let about_y =
+            ["y unit", "yunit", "yaxisunit", "unit:", "units:", "unit,", "units,"].iter().any(|word| begins(word));
+        if about_y || is_title_with_unit(text) {
             self.take_value_unit(line, text);
             let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| quantity::unit(value));
-            self.unit = unit.or(self.unit.take());
+            self.unit = unit.or_else(|| quantity::unit(bare_title(text))).or(self.unit.take());
         }
         self.take_mode(line, text);
         self.mentioned = words::role(text).map(|role| (line, role)).or(self.mentioned);
@@ -168,17 +183,28 @@ impl Header {
 
     /// The names, and units below them, from the lines just above the numbers.
     fn take_names(&mut self, near: &[(usize, &str)], layout: &Layout) {
-        for &(number, line) in near.iter().rev() {
+        let mut rows = near.iter().rev();
+        while let Some(&(number, line)) = rows.next() {
             let is_comment = comment(line).is_some();
-            let cells = split(layout.dialect(), comment(line).unwrap_or(line));
+            let mut cells = split(layout.dialect(), comment(line).unwrap_or(line));
             let exact = is_comment || layout.delimiter.value == Delimiter::Spaces;
             if cells.len() < 2 || (exact && cells.len() != layout.width) {
                 let unit_alone = cells.len() == 1 && self.units.is_empty() && is_unit(&cells[0]);
                 if unit_alone {
                     self.x_unit = words::x_unit(&cells[0]).map(|unit| (number, unit));
                 }
+                // Rows that are named themselves go on above one of units, or one left empty.
+                if unit_alone && is_keyed(layout, rows.clone()) || cells.len() == 1 && row_key(&cells[0]).is_some() {
+                    continue;
+                }
                 self.take_joined(number, line);
                 return;
+            }
+            let mut number = number;
+            if row_key(&cells[0]).is_some_and(|key| key != RowKey::Name)
+                && let Some(named) = name_row(layout, rows.clone())
+            {
+                (number, cells) = named;
             }
             if is_key_and_value(layout, &cells) {
                 return;
@@ -197,7 +223,9 @@ impl Header {
             self.names = cells;
             self.line = Some(number);
             // Some programs name only the curves.
-            if self.names.len() + 1 == layout.width && !self.names.iter().any(|name| words::names_wavelengths(name)) {
+            let headed =
+                row_key(&self.names[0]).is_some() || self.names.iter().any(|name| words::names_wavelengths(name));
+            if self.names.len() + 1 == layout.width && !headed {
                 self.names.insert(0, String::new());
             }
             return;
@@ -222,6 +250,52 @@ impl Header {
             self.x_unit = Some((number, unit));
         }
     }
+}
+
+/// What a row above several curves gives of each, as its first cell says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum RowKey {
+    Name,
+    Number,
+    Time,
+}
+
+fn row_key(cell: &str) -> Option<RowKey> {
+    match cell.trim().trim_end_matches(':').to_ascii_lowercase().as_str() {
+        "name" | "names" | "sample" | "sample name" | "label" => Some(RowKey::Name),
+        "index" | "no" | "no." | "nr" | "number" | "id" => Some(RowKey::Number),
+        "time" | "date" | "date/time" | "timestamp" => Some(RowKey::Time),
+        _ => None,
+    }
+}
+
+/// Whether the next row above is one of names, numbers or times.
+fn is_keyed<'a>(layout: &Layout, mut rows: impl Iterator<Item = &'a (usize, &'a str)>) -> bool {
+    let cells = rows.next().map(|(_, line)| split(layout.dialect(), line));
+    cells.is_some_and(|cells| cells.first().is_some_and(|cell| row_key(cell).is_some()))
+}
+
+/// The row of names among rows of numbers and times.
+fn name_row<'a>(layout: &Layout, rows: impl Iterator<Item = &'a (usize, &'a str)>) -> Option<(usize, Vec<String>)> {
+    let rows = rows.map(|(number, line)| (*number, split(layout.dialect(), line)));
+    let mut keyed = rows.take_while(|(_, cells)| cells.first().is_some_and(|cell| row_key(cell).is_some()));
+    keyed.find(|(_, cells)| cells.len() > 1 && row_key(&cells[0]) == Some(RowKey::Name))
+}
+
+/// A line that is a title, without separators that fill it up.
+fn bare_title(text: &str) -> &str {
+    text.trim_matches([' ', '\t', ',', ';', '"'])
+}
+
+/// Whether a line stands alone and names a quantity with its unit in brackets: `Irradiance [µW/cm2/nm],`.
+fn is_title_with_unit(text: &str) -> bool {
+    const LONGEST: usize = 80;
+    let title = bare_title(text);
+    title.len() <= LONGEST
+        && !title.contains([',', ';'])
+        && title.ends_with([']', ')'])
+        && quantity::without_unit(title) != title
+        && words::quantity(title).is_some()
 }
 
 /// Whether a line above two columns is a setting of the instrument, such as `LUX 695`, and no pair of names.
@@ -270,12 +344,18 @@ fn is_unit_row(cells: &[String]) -> bool {
     bracketed * 2 >= cells.len() || (is_unit(&cells[0]) && cells[1..].iter().all(|cell| looks_like_unit(cell)))
 }
 
+/// Whether a cell begins with a number that no unit begins with, as names do: `10% gray`, `5R 4/14`.
+fn begins_with_figure(cell: &str) -> bool {
+    let inverse = cell.strip_prefix('1').is_some_and(|rest| rest.trim_start().starts_with('/'));
+    cell.starts_with(|c: char| c.is_ascii_digit()) && !inverse && !cell.contains("10^")
+}
+
 fn looks_like_unit(cell: &str) -> bool {
     // `leaf (%)` is a name with its unit, `(%)` a unit.
     let named = !cell.starts_with(['[', '(']) && cell.contains(['[', '(']);
     !named
         && (cell.is_empty()
             || cell.starts_with(['[', '('])
-            || cell.contains(['%', '/'])
+            || (cell.contains(['%', '/']) && !begins_with_figure(cell))
             || matches!(cell.to_ascii_lowercase().as_str(), "a.u." | "counts" | "1" | "-"))
 }

@@ -8,7 +8,7 @@ use super::grid::Grid;
 use super::text::excerpt;
 use super::watch::Log;
 use super::words;
-use super::{Certainty, Decided, Role, Warning};
+use super::{Certainty, Decided, Role, Warning, photons};
 
 /// The physical quantity of values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -136,6 +136,9 @@ pub(super) fn per_photon(grid: &Grid, role: Role, quantity: &Decided<Quantity>) 
         Some("per energy (inferred)") => return Some(Decided::guess(false, "The comment “response” says: inferred")),
         _ => {}
     }
+    if let Some(said) = photons::response(grid) {
+        return Some(said);
+    }
     Some(if quantity.value == Quantity::QuantumEfficiency {
         Decided::certain(true, "Quantum efficiencies are counted per photon")
     } else {
@@ -148,6 +151,9 @@ pub(super) fn of_unit(unit: &str) -> Option<Quantity> {
     const LONGEST: usize = 40;
     if unit.len() > LONGEST {
         return None;
+    }
+    if let Some(quantity) = photons::quantity(unit) {
+        return Some(quantity);
     }
     let lower: String = unit.to_lowercase().chars().filter(|c| !matches!(c, ' ' | '^' | '·' | '*' | '-')).collect();
     let lower = lower.replace("watt", "w").replace('²', "2");
@@ -225,7 +231,9 @@ fn is_unit(text: &str) -> bool {
     let lower = text.to_lowercase();
     let whole =
         ["a.u.", "au", "a. u.", "arb. units", "arb.u.", "relative", "rel.", "fraction", "dbm", "db", "dn", "dl"];
-    text.contains('%')
+    // `10%` is a figure, `%` a unit.
+    (text.contains('%') && words::says_percent(text))
+        || photons::is_unit(text)
         || whole.contains(&lower.as_str())
         || words::says_counts(&lower)
         || words::says_percent(&lower)

@@ -153,6 +153,8 @@ pub enum Reader {
     Rawtoaces,
     /// JSON of dcamprof, with or without comments.
     Dcamprof,
+    /// JSON of Wasatch ENLIGHTEN.
+    Enlighten,
     /// One sample a line, its wavelength at the end of a label, as Sekonic meters write.
     Labels,
     /// Wavelengths and values on alternate lines, as Macam writes.
@@ -171,6 +173,7 @@ impl fmt::Display for Reader {
             Self::Cxf => "CxF",
             Self::Rawtoaces => "rawtoaces JSON",
             Self::Dcamprof => "dcamprof JSON",
+            Self::Enlighten => "Wasatch ENLIGHTEN JSON",
             Self::Labels => "one labeled sample a line",
             Self::Camspec => "database of cameras, untested on a real file",
             Self::Alternate => "wavelengths and values on alternate lines",

@@ -10,7 +10,7 @@ use super::text::excerpt;
 use super::warning::Warning;
 use super::watch::Log;
 use super::words::{self, Channel};
-use super::{Certainty, Curve, Decided, ReadOptions};
+use super::{Certainty, Curve, Decided, ReadOptions, decimal};
 
 /// What the curves of a table are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -325,7 +325,7 @@ pub(super) fn convert(grid: &mut Grid, scale: &Scale) {
         relabel(curve, values, scale.role.value);
         let plain = |value: f64| match values {
             Values::Plain => value,
-            Values::Percent => value / 100.0,
+            Values::Percent => decimal::shifted(value, -2),
             Values::Absorbance => 10_f64.powf(-value),
             Values::Decibels => 10_f64.powf(value / 10.0),
         };

@@ -155,6 +155,12 @@ fn try_all(
     let dialects = dialects.map(|&(delimiter, mark)| Dialect { delimiter, mark, thousands: chosen });
     let grouped = Dialect { delimiter: Delimiter::Comma, mark: DecimalMark::Point, thousands: true };
     let dialects = dialects.chain(quoted.then_some(grouped));
+    let look = if section.line == 1 { SAMPLE_BYTES } else { LONGEST_HEADER_LATER };
+    let start = &section.text[..section.text.floor_char_boundary(look)];
+    let told = options.decimal_mark.is_none() && thousands::has_grouped(start);
+    let others = CANDIDATES.iter().filter(|candidate| told && wanted(candidate) && candidate.0 != Delimiter::Comma);
+    let others = others.filter(|candidate| candidate.0 != Delimiter::CommaSpace);
+    let dialects = dialects.chain(others.map(|&(delimiter, mark)| Dialect { delimiter, mark, thousands: true }));
     let mut trials: Vec<Trial> = dialects.map(|dialect| Trial::new(dialect, mixed)).collect();
     let share = LEAST_LATER.max(LONGEST_HEADER_LATER.min(*budget));
     let (mut lines, mut bytes) = (0, 0);
@@ -203,6 +209,10 @@ fn choose<'a>(trials: &'a [Trial], options: &ReadOptions) -> Option<&'a Trial> {
                 trial.quoted == 0 && options.decimal_mark != Some(DecimalMark::Comma)
             }
             (Delimiter::CommaSpace, DecimalMark::Comma) => trial.marks == 0 && options.delimiter.is_none(),
+            // Of two marks one must be seen to stand before fractions.
+            (Delimiter::Semicolon | Delimiter::Tab | Delimiter::Spaces, _) => {
+                trial.dialect.thousands && options.decimal_mark.is_none() && !trial.has_fractions()
+            }
             _ => false,
         };
         let rank = |trial: &Trial| (trial.rows(options.orientation), trial.best.steady());
@@ -263,6 +273,10 @@ fn marks(
         return (mark, trial.dialect.thousands, None);
     }
     let delimiter = trial.dialect.delimiter;
+    let seen = trial.dialect.thousands && delimiter != Delimiter::Comma;
+    if trial.has_fractions() && (seen || thousands::beside_fractions(section, delimiter, mark.value, from)) {
+        return (mark, true, None);
+    }
     let sign = match mark.value {
         _ if delimiter == Delimiter::Comma => ',',
         DecimalMark::Comma => ',',

@@ -46,6 +46,35 @@ pub(super) fn groups(
     score > 0.0
 }
 
+/// Whether a mark that stands before no fraction groups thousands in the rows from a line on, `1,000` beside `0.390`: where
+/// fractions are seen to stand after the other mark, it can mean nothing else.
+pub(super) fn beside_fractions(
+    section: Section<'_>,
+    delimiter: Delimiter,
+    fractions: DecimalMark,
+    from: usize,
+) -> bool {
+    let other = if fractions == DecimalMark::Point { ',' } else { '.' };
+    let dialect = Dialect::new(delimiter, fractions);
+    let content = Lines::of(section).skip_while(|(number, _)| *number < from);
+    // Commas that separate stand in every line; one within a cell is quoted.
+    let sign = if delimiter == Delimiter::Comma && other == ',' { '"' } else { other };
+    let marked = content.filter(|(_, line)| line.contains(sign) && comment(line).is_none());
+    let grouped = |cell: &str| cell.contains(other) && may_be_thousands(cell);
+    marked.map(|(_, line)| dialect.cells(line).take(MAX_CURVES + 1).any(grouped)).any(|found| found)
+}
+
+/// Whether a text has a number such as `1,000` or `1.000` in it that no comma of a list makes.
+pub(super) fn has_grouped(text: &str) -> bool {
+    let bytes = text.as_bytes();
+    let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
+    let mut signs = bytes.iter().enumerate().filter(|(_, byte)| matches!(byte, b',' | b'.'));
+    let commas_and_points = bytes.contains(&b',') && bytes.contains(&b'.');
+    commas_and_points
+        && signs
+            .any(|(at, _)| at > 0 && digit(at - 1) && digit(at + 1) && digit(at + 2) && digit(at + 3) && !digit(at + 4))
+}
+
 /// How a number is written.
 enum Written {
     /// Digits alone.

@@ -33,6 +33,8 @@ pub(super) struct Shape {
     /// Cells with this dialect's decimal mark, and those that may be thousands, such as `4.800`.
     marks: usize,
     grouped: usize,
+    /// Those with a mark that can only stand before a fraction, `0.390`.
+    fractions: usize,
     /// Whether a cell after the first is written like `05`, as only digits after a decimal mark are.
     padded: bool,
     /// Cells up to and including the last that is text.
@@ -113,6 +115,7 @@ impl Shape {
         self.leads |= index == 0;
         self.marks += usize::from(marked);
         self.grouped += usize::from(marked && index > 0 && may_be_thousands(cell));
+        self.fractions += usize::from(marked && !may_be_thousands(cell));
         let bytes = cell.as_bytes();
         self.padded |= index > 0 && bytes.len() > 1 && bytes[0] == b'0' && bytes.iter().all(u8::is_ascii_digit);
         self.tail.push(index, value);
@@ -277,6 +280,7 @@ pub(super) struct Trial {
     pub(super) quoted: usize,
     /// Those of them that may be thousands.
     grouped: usize,
+    fractions: usize,
     /// The first row with a cell like `05`.
     pub(super) padded_line: Option<usize>,
     /// Lines of a single number: how many, and the first.
@@ -296,6 +300,7 @@ impl Trial {
             marks: 0,
             quoted: 0,
             grouped: 0,
+            fractions: 0,
             padded_line: None,
             single: 0,
             single_line: 0,
@@ -314,6 +319,7 @@ impl Trial {
             self.marks += shape.marks;
             self.quoted += if shape.marks > 0 && line.contains('"') { shape.marks } else { 0 };
             self.grouped += shape.grouped;
+            self.fractions += shape.fractions;
             if shape.padded {
                 self.padded_line = self.padded_line.or(Some(number));
             }
@@ -337,6 +343,7 @@ impl Trial {
             across.push(number);
             self.marks += shape.marks;
             self.grouped += shape.grouped;
+            self.fractions += shape.fractions;
         }
     }
 
@@ -363,6 +370,7 @@ impl Trial {
                 self.marks += shape.marks;
                 self.quoted += if line.contains('"') { shape.marks } else { 0 };
                 self.grouped += shape.grouped;
+                self.fractions += shape.fractions;
             } else {
                 across.misses += 1;
             }
@@ -373,6 +381,11 @@ impl Trial {
     pub(super) fn may_be_thousands(&self) -> bool {
         const FEWEST: usize = 4;
         self.grouped >= FEWEST && self.grouped == self.marks
+    }
+
+    /// Whether a mark is seen that can only stand before a fraction.
+    pub(super) fn has_fractions(&self) -> bool {
+        self.fractions > 0
     }
 
     /// The same for a single mark.

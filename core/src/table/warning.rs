@@ -55,6 +55,15 @@ impl fmt::Display for LineList {
     }
 }
 
+/// A number that stands for a missing value, such as −999.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sentinel {
+    /// The number.
+    pub number: f64,
+    /// The first curve in which it stands: its name in quotes, and its column if it has one.
+    pub curve: String,
+}
+
 /// Something a person should know about a file that was read all the same.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -63,8 +72,10 @@ pub enum Warning {
     Gaps {
         /// How many cells.
         cells: usize,
-        /// Where.
+        /// Where; empty where the rows of the file are curves, or not known.
         lines: LineList,
+        /// A number that was taken for a missing value.
+        sentinel: Option<Sentinel>,
     },
     /// Curves with fewer than two values: left out.
     EmptyCurves {
@@ -298,7 +309,20 @@ impl Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Gaps { cells, lines } => write!(f, "{cells} missing values, {lines}: left out"),
+            Self::Gaps { cells, lines, sentinel } => {
+                write!(f, "{cells} missing value{}", if *cells == 1 { "" } else { "s" })?;
+                if !lines.is_empty() {
+                    write!(f, ", {lines}")?;
+                }
+                f.write_str(": left out")?;
+                match sentinel {
+                    Some(Sentinel { number, curve }) if number.abs() >= 1e9 => {
+                        write!(f, " ({number:e} in {curve} stands for no value)")
+                    }
+                    Some(Sentinel { number, curve }) => write!(f, " ({number} in {curve} stands for no value)"),
+                    None => Ok(()),
+                }
+            }
             Self::SkippedColumns { wavelength_column } => {
                 write!(f, "Wavelengths stand in column {wavelength_column}: the columns before it are left out")
             }

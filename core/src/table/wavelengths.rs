@@ -9,7 +9,7 @@ use super::reading::clean;
 use super::warning::{LineList, Warning};
 use super::watch::Log;
 use super::words::XUnit;
-use super::{Decided, Dropped, ReadError, ReadOptions, Steps};
+use super::{Decided, Dropped, ReadError, ReadOptions, Steps, decimal};
 
 /// The unit in which wavelengths are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -65,8 +65,8 @@ impl WavelengthUnit {
     pub fn nanometers(self, value: f64) -> f64 {
         match self {
             Self::Nanometer => value,
-            Self::Micrometer => clean(value * 1000.0),
-            Self::Angstrom => clean(value / 10.0),
+            Self::Micrometer => clean(decimal::shifted(value, 3)),
+            Self::Angstrom => clean(decimal::shifted(value, -1)),
             Self::Wavenumber => clean(1e7 / value),
             Self::Terahertz => clean(SPEED_OF_LIGHT_NM_THZ / value),
         }
@@ -75,14 +75,13 @@ impl WavelengthUnit {
     /// The number in this unit that means a wavelength in nanometers, to 1e-9 of the unit: what
     /// [`nanometers`](Self::nanometers) was given.
     pub fn from_nanometers(self, nm: f64) -> f64 {
-        let number = match self {
-            Self::Nanometer => return nm,
-            Self::Micrometer => nm / 1000.0,
-            Self::Angstrom => nm * 10.0,
-            Self::Wavenumber => 1e7 / nm,
-            Self::Terahertz => SPEED_OF_LIGHT_NM_THZ / nm,
-        };
-        clean(number)
+        match self {
+            Self::Nanometer => nm,
+            Self::Micrometer => decimal::shifted(nm, -3),
+            Self::Angstrom => decimal::shifted(nm, 1),
+            Self::Wavenumber => clean(1e7 / nm),
+            Self::Terahertz => clean(SPEED_OF_LIGHT_NM_THZ / nm),
+        }
     }
 }
 

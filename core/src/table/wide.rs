@@ -43,7 +43,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
         log.push(Warning::TextBelow { line });
     }
     if rows.gaps > 0 {
-        log.push(Warning::Gaps { cells: rows.gaps, lines: rows.gap_lines });
+        log.push(Warning::Gaps { cells: rows.gaps, lines: rows.gap_lines, sentinel: None });
     }
     header.mentioned = rows.mentioned.or(header.mentioned);
     let count = rows.curves.len();

@@ -10,7 +10,14 @@
 //! Sprague's interpolation in even tables with steps of 5 nm or more of anything but a light, linear in all others. The
 //! new wavelengths are whole multiples of the step; where one falls on a sample (to 1e-6 nm), the sample is kept to the last
 //! bit, and nothing is ever written beyond a curve's own range. A step coarser than that of the curve picks samples without
-//! averaging, which loses narrow lines; a [`Note`] says so. Largest errors on the way to 1 nm of a bell with σ = 30 nm and
+//! averaging, which loses narrow lines; a [`Note`] says so, and [`Grid::Average`] keeps them:
+//!
+//! ```text
+//! V_k = 1/Δ ∫ v(λ) dλ    over |λ − kΔ| ≤ Δ/2
+//! ```
+//!
+//! with v the linear interpolant of the samples, whose integral is taken exactly (to rounding): the average of a curve that is
+//! linear between its samples. Bands that a curve does not cover as a whole are not written. Largest errors of points on the way to 1 nm of a bell with σ = 30 nm and
 //! height 1 that a table cuts off at 0.2:
 //!
 //! | from | Sprague | in the two cells at each end | linear |
@@ -50,8 +57,20 @@ pub enum Grid {
     /// largest of 1, 5 and 10 nm that is not above the curves' own step, over the range that all share.
     #[default]
     Native,
-    /// Whole multiples of a step in nanometers, at least 0.001 nm.
+    /// Whole multiples of a step in nanometers, at least 0.001 nm: the values there.
     Step(f64),
+    /// Whole multiples of a step in nanometers, at least 0.001 nm: the means over the band of one step around each.
+    Average(f64),
+}
+
+impl Grid {
+    /// The step in nanometers, if one was asked for.
+    pub fn step_nm(self) -> Option<f64> {
+        match self {
+            Self::Native => None,
+            Self::Step(step) | Self::Average(step) => Some(step),
+        }
+    }
 }
 
 /// A format that curves can be written in.

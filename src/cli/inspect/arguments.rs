@@ -16,6 +16,7 @@ Examples:
   chromascope inspect leaf.txt
   chromascope inspect leaf.txt --values percent --csv leaf.csv
   chromascope inspect measured/ --step 5 --csv tables
+  chromascope inspect lamp.txt --step 5 --average --csv -
   chromascope inspect lamp.spdx --csv - | head
   chromascope inspect *.sp --json | jq '.[].kind'
 
@@ -52,6 +53,10 @@ pub(in crate::cli) struct InspectArguments {
     /// Resamples the curves, in CSV and JSON, to whole multiples of so many nanometers
     #[arg(long, value_name = "NM", value_parser = step)]
     pub(super) step: Option<f64>,
+    /// With --step, averages the curves over bands of that width around each wavelength, which keeps narrow lines, instead of
+    /// taking their values there
+    #[arg(long, requires = "step")]
+    average: bool,
     /// What the curves are
     #[arg(long, value_name = "ROLE", value_parser = named::<Role>(&ROLES), help_heading = READING)]
     role: Option<Role>,
@@ -102,8 +107,8 @@ const UNITS: [(&str, &[&str]); 5] = [
 const DELIMITERS: [&str; 6] = ["comma", "comma-space", "semicolon", "tab", "spaces", "elements"];
 const MARKS: [&str; 2] = ["point", "comma"];
 const WAYS: [&str; 2] = ["down", "across"];
-const READERS: [&str; 10] =
-    ["table", "cgats", "jcamp", "tm27", "cxf", "rawtoaces", "dcamprof", "labels", "alternate", "camspec"];
+const READERS: [&str; 11] =
+    ["table", "cgats", "jcamp", "tm27", "cxf", "rawtoaces", "dcamprof", "enlighten", "labels", "alternate", "camspec"];
 
 /// Takes the names that sessions use too.
 fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
@@ -155,6 +160,6 @@ impl InspectArguments {
 
     /// The wavelengths of what is written.
     pub(super) fn grid(&self) -> Grid {
-        self.step.map_or(Grid::Native, Grid::Step)
+        self.step.map_or(Grid::Native, if self.average { Grid::Average } else { Grid::Step })
     }
 }

@@ -48,7 +48,7 @@ const DELIMITERS: [(Delimiter, &str); 5] = [
 const ORIENTATIONS: [(Orientation, &str); 2] =
     [(Orientation::Down, "Down a column"), (Orientation::Across, "Across a row")];
 
-const READERS: [(Reader, &str); 10] = [
+const READERS: [(Reader, &str); 11] = [
     (Reader::Table, "Table of numbers"),
     (Reader::Cgats, "CGATS"),
     (Reader::Jcamp, "JCAMP-DX"),
@@ -56,6 +56,7 @@ const READERS: [(Reader, &str); 10] = [
     (Reader::Cxf, "CxF"),
     (Reader::Rawtoaces, "rawtoaces"),
     (Reader::Dcamprof, "dcamprof"),
+    (Reader::Enlighten, "Wasatch ENLIGHTEN"),
     (Reader::Labels, "Labeled lines"),
     (Reader::Alternate, "Alternate lines"),
     (Reader::Camspec, "Camera database"),

@@ -65,8 +65,7 @@ fn every_decision_has_a_line() {
         let line = format!("  {}: {} ({}): {}\n", decision.what, decision.value, decision.certainty, decision.why);
         assert!(text.contains(&line), "{line}{text}");
     }
-    for line in ["  Range: 400 to 430 nm\n", "  Step: 10 nm\n", "  Curves: 1: ", "  Warning: 1 missing values, line 4"]
-    {
+    for line in ["  Range: 400 to 430 nm\n", "  Step: 10 nm\n", "  Curves: 1: ", "  Warning: 1 missing value, line 4"] {
         assert!(text.contains(line), "{line}: {text}");
     }
 }
@@ -96,6 +95,24 @@ fn the_table_is_fractions_and_reads_back() {
     let (table, report) = said(&output);
     assert!(table.contains("\n405,0.0574") && table.ends_with("\n430,0.0825\n"), "{table}");
     assert!(report.contains("  Written: resampled to 5 nm"), "{report}");
+}
+
+#[test]
+fn averages_stand_beside_points() {
+    let lamp = "nm,Lamp (W/m2/nm)\n".to_owned()
+        + &(400..=430).map(|nm| format!("{nm},{}\n", if nm == 407 { 11 } else { 1 })).collect::<String>();
+    let lamp = put(&folder("averages"), "lamp.csv", &lamp);
+    let output = inspect(&[&lamp, "--csv", "-", "--step", "10"]);
+    let (table, report) = said(&output);
+    assert!(table.ends_with("\n400,1\n410,1\n420,1\n430,1\n"), "{table}");
+    assert!(report.contains("without averaging"), "{report}");
+    let output = inspect(&[&lamp, "--csv", "-", "--step", "10", "--average"]);
+    let (table, report) = said(&output);
+    // The triangle over 406 to 408 nm has the area 10; whole bands alone are written.
+    assert!(table.ends_with("\n410,2\n420,1\n"), "{table}");
+    assert!(report.contains("  Written: averaged over bands of 10 nm (means of the linear interpolant)"), "{report}");
+    let curve = &json(&[&lamp, "--step", "10", "--average"])["curves"][0];
+    assert_eq!(curve["values"], serde_json::json!([2.0, 1.0]));
 }
 
 #[test]
@@ -241,6 +258,7 @@ fn wrong_arguments_are_told_from_wrong_files() {
         &[][..],
         &[&leaf, "--step", "0"],
         &[&leaf, "--step", "nan"],
+        &[&leaf, "--average"],
         &[&leaf, "--role", "leaf"],
         &[&leaf, "--part", "0"],
         &[&leaf, "--json", "--csv", "-"],

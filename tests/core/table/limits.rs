@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::damage::{SOUND, check};
 use super::*;
 
-const READERS: [Reader; 10] = [
+const READERS: [Reader; 11] = [
     Reader::Table,
     Reader::Cgats,
     Reader::Jcamp,
@@ -16,13 +16,14 @@ const READERS: [Reader; 10] = [
     Reader::Cxf,
     Reader::Rawtoaces,
     Reader::Dcamprof,
+    Reader::Enlighten,
     Reader::Labels,
     Reader::Alternate,
     Reader::Camspec,
 ];
 
 /// A file for each reader, as short as its traps allow.
-const FAMILIES: [&str; 12] = [
+const FAMILIES: [&str; 13] = [
     "CGATS.17\nSPECTRAL_NORM \"100\"\nBEGIN_DATA_FORMAT\nSAMPLE_NAME nm400 nm410\nEND_DATA_FORMAT\nBEGIN_DATA\n\
      \"a \"\"b\" 5 -9999 # c\nd 5,5 6,5\nEND_DATA\nCAL\n",
     "CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPECTRAL_NM SPECTRAL_PCT SPECTRAL_NM SPECTRAL_PCT\nEND_DATA_FORMAT\nBEGIN_DATA\n\
@@ -40,6 +41,8 @@ const FAMILIES: [&str; 12] = [
      \"data\":{\"main\":{\"400\":[0.1,0.2],\"390\":[0.3,0.4]}}}}",
     "// a\n{\"ssf_bands\":[400,420,10], // b\n\"red_ssf\":[0.1,0.5,1],\"green_ssf\":[1,2,3],\"blue_ssf\":[3,2,1]}",
     "{\"bands\":[400,410,420],\"scale\":0.5,/* a */\"spectrum\":[1,2,3]}",
+    "{\"metadata\":{\"Label\":\"a\",\"Technique\":\"Reflectance\"},\"spectrometerSettings\":{\"wavelengths\":[400,410,420]},\
+     \"spectrum\":{\"dark\":null,\"processed\":[1,null,3],\"raw\":[1,2,3]}}",
     "Title,a\nSpectral Data 380[nm],0.1\nSpectral Data 381[nm],0.2\nSpectral Data 382[nm],---\nSpectral Data 383[nm],1\n\
      Spectral Data 384[nm],2\nSpectral Data 385[nm],3\n",
     "@1/5/97\n#No Title\n 2.5E+02\n 0.0E+00\n 2.51E+02\n 1,5E-04\n",

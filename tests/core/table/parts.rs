@@ -150,6 +150,7 @@ fn the_reader_of_another_layout() {
         Reader::Cxf,
         Reader::Rawtoaces,
         Reader::Dcamprof,
+        Reader::Enlighten,
         Reader::Labels,
         Reader::Alternate,
         Reader::Camspec,

@@ -73,7 +73,7 @@ fn the_processed_column_is_taken() {
         [nm]   ;[counts] ;[counts] ;[counts] ;[% transmittance] \r\n275.27;768.60;885.60;795.90;23.333\r\n\
         275.87;790.30;885.92;808.92;19.477\r\n";
     let table = ok(avantes);
-    assert_eq!((names(&table), table.curves[0].values[0]), (vec!["Transmittance"], 23.333 / 100.0));
+    assert_eq!((names(&table), table.curves[0].values[0]), (vec!["Transmittance"], 0.233_33));
     assert_eq!(table.warnings, [Warning::Invisible]);
     let french = avantes.replace('.', ",");
     assert_eq!(ok(&french).curves, table.curves);

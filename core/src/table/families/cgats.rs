@@ -16,7 +16,7 @@ use super::super::watch::Log;
 use super::super::words;
 use super::super::{
     Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, Part, ReadError, ReadOptions,
-    Reader, Role, Values, Warning, WavelengthUnit,
+    Reader, Role, Values, Warning, WavelengthUnit, decimal,
 };
 use super::Found;
 
@@ -30,8 +30,13 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
         {
             file.header.take_comment(number, key.trim(), value.trim());
         }
-        let mut tokens = tokens::of(line);
-        while let Some(token) = tokens.next() {
+        let tokens = match place {
+            Place::Keywords => tokens::of(line).collect(),
+            Place::Format => tokens::fields(line),
+            Place::Data if file.at == 0 => tokens::set(line, file.fields.len()),
+            Place::Data => tokens::of(line).collect(),
+        };
+        for token in tokens {
             log.at(token.start() as usize - text.as_ptr() as usize)?;
             place = match (place, token.bare().unwrap_or_default()) {
                 (_, "BEGIN_DATA_FORMAT") => {
@@ -48,7 +53,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
                     Place::Keywords
                 }
                 (Place::Keywords, _) => {
-                    file.keyword(number, &token, tokens.next());
+                    file.keyword(number, &token, tokens::value(line, &token));
                     break;
                 }
                 (Place::Format, _) => file.field(number, &token)?,
@@ -241,7 +246,7 @@ impl File {
             let given = Some(name).filter(|name| !name.is_empty()).or_else(|| title.clone());
             let named = given.is_some();
             let name = given.unwrap_or_else(|| format!("Set {}", i + 1));
-            let values = values.iter().map(|value| value / scale).collect();
+            let values = values.iter().map(|value| decimal::divided(*value, scale)).collect();
             RawCurve { name, named, values, unit: header.unit.clone(), ..RawCurve::default() }
         });
         let curves: Vec<RawCurve> = curves.collect();
@@ -291,7 +296,7 @@ fn warn_gaps(curves: &[RawCurve], line: usize, log: &mut Log<'_>) {
     if cells > 0 {
         let mut lines = super::super::warning::LineList::default();
         lines.add(line);
-        log.push(Warning::Gaps { cells, lines });
+        log.push(Warning::Gaps { cells, lines, sentinel: None });
     }
 }
 

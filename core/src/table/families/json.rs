@@ -1,11 +1,12 @@
-//! JSON as rawtoaces and dcamprof write it, with or without comments.
+//! JSON as rawtoaces, dcamprof and Wasatch ENLIGHTEN write it, with or without comments.
 
 mod comments;
 mod document;
+mod enlighten;
 mod rows;
 mod watched;
 
-use document::{Aces, File};
+use document::{Aces, File, Shape};
 use rows::{Fault, Rows};
 use watched::Watched;
 
@@ -17,7 +18,7 @@ use super::super::sniff::Layout;
 use super::super::watch::Log;
 use super::super::{
     Decided, DecimalMark, Decision, Delimiter, MAX_CURVES, MAX_SAMPLES, Orientation, Part, ReadError, ReadOptions,
-    Reader, Role, WavelengthUnit, quantity, words,
+    Reader, Role, WavelengthUnit, decimal, quantity, words,
 };
 use super::Found;
 use super::spectra::{self, Sample, Spectrum};
@@ -25,7 +26,7 @@ use super::spectra::{self, Sample, Spectrum};
 /// The fewest bytes for each quotation mark in a file of spectra.
 const FEWEST_BYTES: usize = 5;
 
-/// Reads a document of either layout.
+/// Reads a document of any of the layouts.
 pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     // Every list and every text has a name of its own; hostile text, which has nothing else, would need many times its size.
     if text.bytes().filter(|byte| *byte == b'"').count() > text.len() / FEWEST_BYTES + 1000 {
@@ -43,7 +44,10 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
             comments,
             ..
         } => camera(text, &bands, [r, g, b], camera_name.as_deref(), &comments.0),
-        File { bands: Some(bands), spectrum: Some(values), scale, comments, .. } => {
+        File { spectrum: Some(Shape::Curves(curves)), settings, metadata, .. } => {
+            enlighten::read(text, curves, settings, metadata.unwrap_or_default().0, options)
+        }
+        File { bands: Some(bands), spectrum: Some(Shape::Values(values)), scale, comments, .. } => {
             spectrum(text, &bands, values, scale, &comments.0)
         }
         _ => return Err(ReadError::Unsupported { family: Family::Json }),
@@ -53,7 +57,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
         Curves::Spectra(spectra) => spectra::grid(spectra, header, log)?,
         Curves::Rows { rows, names } => on_one_grid(rows, &names, header, log).map_err(|error| placed(text, error))?,
     };
-    grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "Both layouts prescribe it"));
+    grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "The layout prescribes it"));
     grid.role = role;
     // Each wavelength has one value for every curve.
     grid.rows = grid.wavelengths.len();
@@ -61,7 +65,8 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     let unit = grid.header.unit.clone();
     grid.curves.iter_mut().for_each(|curve| curve.unit.clone_from(&unit));
     let dialect = (Delimiter::Comma, DecimalMark::Point);
-    let first_line = ["data", "ssf_bands", "bands"].iter().find_map(|name| line_of(text, name)).unwrap_or(1);
+    let first_line =
+        ["data", "ssf_bands", "bands", "processed"].iter().find_map(|name| line_of(text, name)).unwrap_or(1);
     let layout = Layout::fixed(dialect, Orientation::Down, first_line, "JSON prescribes it");
     Ok(Found { grid, layout, reader, notes })
 }
@@ -272,7 +277,7 @@ fn spectrum(
     let mut notes = vec![note];
     if let Some(scale) = scale.filter(|scale| *scale > 0.0 && *scale != 1.0) {
         for value in &mut values {
-            *value /= scale;
+            *value = decimal::divided(*value, scale);
         }
         notes.push(Decision::new("Scale", &Decided::certain(format!("divided by {scale}"), says(text, "scale"))));
     }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::super::decimal;
 use super::super::dialect::{Cell, Dialect};
 use super::super::text;
 use super::super::{Curve, Reading, Table, Values, WavelengthUnit};
@@ -80,10 +81,10 @@ impl Conversion {
 
     /// Whether a number as written is a value of the table. Not all curves of a table need be converted.
     pub(super) fn gives(self, written: f64, value: f64) -> bool {
-        let scaled = written * self.factor / self.divisor;
+        let scaled = decimal::divided(written * self.factor, self.divisor);
         let converted = match self.values {
             Values::Plain => scaled,
-            Values::Percent => scaled / 100.0,
+            Values::Percent => decimal::shifted(scaled, -2),
             Values::Absorbance => 10_f64.powf(-scaled),
             Values::Decibels => 10_f64.powf(scaled / 10.0),
         };

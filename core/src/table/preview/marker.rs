@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::super::{Orientation, Reader, Table};
+use super::super::{Decision, Orientation, Reader, Table, photons};
 use super::Preview;
 use super::across::Across;
 use super::down::Down;
@@ -29,7 +29,10 @@ enum Plan {
 impl Marker {
     pub(super) fn new(preview: &Preview, table: &Table) -> Self {
         let reading = &table.reading;
+        // Photons and powers per frequency are other numbers than those written.
+        let converted = |note: &Decision| note.what == photons::DECISION && note.value.contains("converted");
         let plan = match (reading.reader.value, reading.orientation.value) {
+            _ if reading.notes.iter().any(converted) => Plan::Placed(Vec::new()),
             (Reader::Table, Orientation::Down) => Plan::Down(Down::new(preview, table)),
             (Reader::Table, Orientation::Across) => Plan::Across(Across::new(preview, table)),
             (Reader::Jcamp, _) => Plan::Placed(squeezed::jcamp(preview, table)),
@@ -38,6 +41,7 @@ impl Marker {
                 let points = pairs::place(preview, table);
                 Plan::Placed(if points.is_empty() { lists::place(preview, table) } else { points })
             }
+            (Reader::Enlighten, _) => Plan::Placed(Vec::new()),
             (Reader::Labels | Reader::Alternate | Reader::Tm27 | Reader::Rawtoaces, _) => {
                 Plan::Placed(pairs::place(preview, table))
             }

@@ -54,6 +54,9 @@ fn push_keywords(out: &mut String, sheet: &Sheet<'_>, format: Format, common: &C
             push_comment(out, key, value);
         }
     }
+    if let Some(resampling) = &common.resampling {
+        push_comment(out, "resampling", resampling);
+    }
     for (key, value) in sheet.comments() {
         push_comment(out, &key, &value);
     }

@@ -1,7 +1,7 @@
 //! One grid for all curves, as most formats want it.
 
 use super::super::MAX_SAMPLES;
-use super::resample::{Changes, SAME_NM, even_step, mean_step, multiples};
+use super::resample::{Changes, SAME_NM, Sampling, even_step, mean_step, multiples};
 use super::sheet::Piece;
 use super::{Content, Format, Grid, Note, WriteError};
 
@@ -21,6 +21,8 @@ pub(super) struct Common {
     pub(super) wavelengths: Vec<f64>,
     /// The values of each curve at those wavelengths.
     pub(super) values: Vec<Vec<f64>>,
+    /// How they were resampled, if they were.
+    pub(super) resampling: Option<String>,
 }
 
 /// The steps in nanometers that are tried where curves have no grid in common that the format takes.
@@ -34,9 +36,11 @@ pub(super) fn common(
     limits: &Limits,
     notes: &mut Vec<Note>,
 ) -> Result<Common, WriteError> {
-    let range = pieces.iter().map(Piece::range).fold(limits.range_nm, |[a, b], [from, to]| [a.max(from), b.min(to)]);
+    let sampling = Sampling::of(grid);
+    let ranges = pieces.iter().map(|piece| sampling.within(piece.range()));
+    let range = ranges.fold(limits.range_nm, |[a, b], [from, to]| [a.max(from), b.min(to)]);
     let (wavelengths, step) = match grid {
-        Grid::Step(step) => (asked(step, range, limits)?, Some(step)),
+        Grid::Step(step) | Grid::Average(step) => (asked(step, range, limits)?, Some(step)),
         Grid::Native => match own(pieces, range).filter(|own| limits.take(own)) {
             Some(own) => (own, None),
             None => sensible(pieces, range, limits).map(|(wavelengths, step)| (wavelengths, Some(step)))?,
@@ -51,10 +55,10 @@ pub(super) fn common(
     if wavelengths.len().saturating_mul(pieces.len()) > MAX_SAMPLES {
         return Err(WriteError::TooLarge);
     }
-    let mut changes = Changes::default();
+    let mut changes = Changes::new(sampling);
     let values = pieces.iter().map(|piece| changes.take(piece, content, &wavelengths)).collect();
     changes.note(step, [from, to], notes);
-    Ok(Common { wavelengths, values })
+    Ok(Common { wavelengths, values, resampling: changes.told(step) })
 }
 
 impl Limits {

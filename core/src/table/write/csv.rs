@@ -1,7 +1,7 @@
 //! Comma-separated values, with or without comments above them.
 
 use super::super::MAX_SAMPLES;
-use super::resample::{Changes, multiples};
+use super::resample::{Changes, Sampling, multiples};
 use super::sheet::Piece;
 use super::text::{push_number, push_quoted};
 use super::{Content, Grid, Note, Sheet, WriteError};
@@ -21,16 +21,17 @@ pub(super) fn write(
     notes: &mut Vec<Note>,
 ) -> Result<String, WriteError> {
     let mut pieces = sheet.pieces(notes);
-    if let Grid::Step(step) = grid {
-        resample(&mut pieces, sheet.content, step, notes)?;
-    }
+    let resampling = match grid.step_nm() {
+        Some(step) => resample(&mut pieces, sheet.content, (grid, step), notes)?,
+        None => None,
+    };
     let wavelengths = union(&pieces);
     if wavelengths.len().saturating_mul(pieces.len()) > MAX_SAMPLES {
         return Err(WriteError::TooLarge);
     }
     let mut out = String::new();
     if comments == Comments::Yes {
-        push_comments(&mut out, sheet);
+        push_comments(&mut out, sheet, resampling.as_deref());
     }
     out.push_str("wavelength_nm");
     for piece in &pieces {
@@ -42,18 +43,19 @@ pub(super) fn write(
     Ok(out)
 }
 
-/// Brings each curve to the multiples of a step within its own range.
+/// Brings each curve to the multiples of a step within its own range; says how.
 fn resample(
     pieces: &mut [Piece<'_>],
     content: Content<'_>,
-    step: f64,
+    (grid, step): (Grid, f64),
     notes: &mut Vec<Note>,
-) -> Result<(), WriteError> {
-    let mut changes = Changes::default();
+) -> Result<Option<String>, WriteError> {
+    let sampling = Sampling::of(grid);
+    let mut changes = Changes::new(sampling);
     let (mut blank, mut cells) = (0, 0_usize);
     let mut written = [f64::INFINITY, f64::NEG_INFINITY];
     for piece in pieces.iter_mut() {
-        let wavelengths = multiples(step, piece.range())?;
+        let wavelengths = multiples(step, sampling.within(piece.range()))?;
         cells += wavelengths.len();
         if cells > MAX_SAMPLES {
             return Err(WriteError::TooLarge);
@@ -73,7 +75,7 @@ fn resample(
     if blank > 0 {
         notes.push(Note::Blank { count: blank });
     }
-    Ok(())
+    Ok(changes.told(Some(step)))
 }
 
 /// Every wavelength of any curve, ascending.
@@ -92,7 +94,7 @@ fn union(pieces: &[Piece<'_>]) -> Vec<f64> {
     all
 }
 
-fn push_comments(out: &mut String, sheet: &Sheet<'_>) {
+fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) {
     let mut push = |key: &str, value: &str| {
         for part in ["# ", key, ": ", value, "\n"] {
             out.push_str(part);
@@ -117,6 +119,9 @@ fn push_comments(out: &mut String, sheet: &Sheet<'_>) {
                 push(key, &value);
             }
         }
+    }
+    if let Some(resampling) = resampling {
+        push("resampling", resampling);
     }
     for (key, value) in sheet.comments() {
         // The first colon ends the key.

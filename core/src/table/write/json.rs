@@ -16,7 +16,7 @@ pub(super) fn rawtoaces(sheet: &Sheet<'_>, grid: Grid, notes: &mut Vec<Note>) ->
         sheet.note_lone_name(notes);
     }
     let mut out = String::from("{\n    \"header\": {\n");
-    push_header(&mut out, sheet, notes);
+    push_header(&mut out, sheet, &common, notes);
     out.push_str("    },\n    \"spectral_data\": {\n");
     let (units, reflection, transmission) = match sheet.content {
         Content::Reflectance => ("reflectance", Some("other"), None),
@@ -47,7 +47,7 @@ fn even_in_single(wavelengths: &[f64]) -> bool {
     steps.next().is_some_and(|first| first > 0.0 && steps.all(|step| step == first))
 }
 
-fn push_header(out: &mut String, sheet: &Sheet<'_>, notes: &mut Vec<Note>) {
+fn push_header(out: &mut String, sheet: &Sheet<'_>, common: &Common, notes: &mut Vec<Note>) {
     let title = sheet.title();
     let (mut maker, mut camera) = (None, None);
     if let Content::Camera { manufacturer, model, .. } = sheet.content {
@@ -72,7 +72,8 @@ fn push_header(out: &mut String, sheet: &Sheet<'_>, notes: &mut Vec<Note>) {
     push_member(out, 8, "measurement_equipment", None);
     push_member(out, 8, "laboratory", None);
     push_member(out, 8, "document_creation_date", Some(sheet.created.unwrap_or_default()));
-    let comments = sheet.remarks();
+    let mut comments = sheet.remarks();
+    comments.extend(common.resampling.iter().map(|resampling| format!("resampling: {resampling}")));
     push_member(out, 8, "comments", (!comments.is_empty()).then_some(comments.join("; ")).as_deref());
     push_last(out, 8, "license", &quoted(&sheet.license()));
 }
@@ -121,6 +122,7 @@ pub(super) fn dcamprof(sheet: &Sheet<'_>, grid: Grid, notes: &mut Vec<Note>) -> 
     }
     push_member(&mut out, 4, if camera { "camera_name" } else { "description" }, Some(&title));
     let mut comments = sheet.remarks();
+    comments.extend(common.resampling.iter().map(|resampling| format!("resampling: {resampling}")));
     comments.extend(Some(sheet.license()).filter(|text| !text.is_empty()).map(|license| format!("license: {license}")));
     if !comments.is_empty() {
         let list: Vec<String> = comments.iter().map(|comment| format!("\n        {}", quoted(comment))).collect();

@@ -21,6 +21,11 @@ pub enum Note {
         /// The step in nanometers.
         to_nm: f64,
     },
+    /// Values are means over bands around multiples of a step.
+    Averaged {
+        /// The step and the width of the bands, in nanometers.
+        step_nm: f64,
+    },
     /// Some curves go on beyond what is written.
     Clipped {
         /// The first wavelength written, in nanometers.
@@ -61,6 +66,9 @@ impl fmt::Display for Note {
             Self::Thinned { from_nm, to_nm } => {
                 let from_nm = (from_nm * 1e3).round() / 1e3;
                 write!(f, "steps of {from_nm} nm became {to_nm} nm without averaging: narrow lines may be lost")
+            }
+            Self::Averaged { step_nm } => {
+                write!(f, "averaged over bands of {step_nm} nm (means of the linear interpolant)")
             }
             Self::Clipped { from_nm, to_nm } => write!(f, "only {from_nm} to {to_nm} nm is written"),
             Self::PerEnergy => f.write_str("sensitivities per photon became sensitivities per energy"),

@@ -14,9 +14,73 @@ const SMALLEST_STEP_NM: f64 = 1e-3;
 /// Whether a grid can be asked for.
 pub(super) fn check(grid: Grid) -> Result<(), WriteError> {
     match grid {
-        Grid::Step(step) if !(step.is_finite() && step >= SMALLEST_STEP_NM) => Err(WriteError::Step),
-        Grid::Step(_) | Grid::Native => Ok(()),
+        Grid::Step(step) | Grid::Average(step) if !(step.is_finite() && step >= SMALLEST_STEP_NM) => {
+            Err(WriteError::Step)
+        }
+        Grid::Step(_) | Grid::Average(_) | Grid::Native => Ok(()),
     }
+}
+
+/// How a value at a new wavelength is found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Sampling {
+    /// The value there.
+    Points,
+    /// The mean over a band of so many nanometers around it.
+    Bands(f64),
+}
+
+impl Sampling {
+    pub(super) fn of(grid: Grid) -> Self {
+        match grid {
+            Grid::Average(step) => Self::Bands(step),
+            Grid::Native | Grid::Step(_) => Self::Points,
+        }
+    }
+
+    /// The range in which a curve has values of this kind.
+    pub(super) fn within(self, [first, last]: [f64; 2]) -> [f64; 2] {
+        match self {
+            Self::Points => [first, last],
+            Self::Bands(width) => [first + width / 2.0, last - width / 2.0],
+        }
+    }
+}
+
+/// Means of the linear interpolant of a curve over bands of a width around ascending wavelengths, in time proportional to both.
+///
+/// A band that goes on beyond the curve is cut off there. The mean of a constant is that constant.
+fn band_means(piece: &Piece<'_>, centers: &[f64], width: f64) -> Vec<f64> {
+    let (wavelengths, values) = (piece.wavelengths.as_ref(), piece.values.as_ref());
+    let [first, last] = piece.range();
+    let at = |cell: usize, x: f64| {
+        let (x0, x1) = (wavelengths[cell], wavelengths[cell + 1]);
+        let t = ((x - x0) / (x1 - x0)).clamp(0.0, 1.0);
+        values[cell] * (1.0 - t) + values[cell + 1] * t
+    };
+    let cells = wavelengths.len().saturating_sub(1);
+    let mut start = 0;
+    let mean = |&center: &f64| {
+        let (from, to) = ((center - width / 2.0).max(first), (center + width / 2.0).min(last));
+        while start + 1 < cells && wavelengths[start + 1] <= from {
+            start += 1;
+        }
+        let (mut integral, mut shares) = (0.0, 0.0);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for cell in (start..cells).take_while(|cell| wavelengths[*cell] < to) {
+            let (a, b) = (wavelengths[cell].max(from), wavelengths[cell + 1].min(to));
+            let (va, vb) = (at(cell, a), at(cell, b));
+            let middle = va * 0.5 + vb * 0.5;
+            integral += (b - a) * middle;
+            shares += (b - a) / (to - from) * middle;
+            (low, high) = (low.min(va).min(vb), high.max(va).max(vb));
+        }
+        // One division rounds less; huge values overflow in sums, not in shares.
+        let mean = integral / (to - from);
+        let mean = if mean.is_finite() { mean } else { shares };
+        if low <= high { mean.clamp(low, high) } else { mean }
+    };
+    centers.iter().map(mean).collect()
 }
 
 /// The whole multiples of a step within a range.
@@ -103,6 +167,7 @@ fn finite_or(value: f64, other: impl FnOnce() -> f64) -> f64 {
 /// What resampling did, over all curves.
 #[derive(Debug, Default)]
 pub(super) struct Changes {
+    sampling: Option<Sampling>,
     interpolated: bool,
     smooth: bool,
     finest_nm: Option<f64>,
@@ -111,8 +176,19 @@ pub(super) struct Changes {
 }
 
 impl Changes {
+    pub(super) fn new(sampling: Sampling) -> Self {
+        Self { sampling: Some(sampling), ..Self::default() }
+    }
+
     /// The values of a curve at wavelengths within its range.
     pub(super) fn take(&mut self, piece: &Piece<'_>, content: Content<'_>, wavelengths: &[f64]) -> Vec<f64> {
+        let [first, last] = piece.range();
+        self.reach_nm = Some(self.reach_nm.map_or([first, last], |[a, b]| [a.min(first), b.max(last)]));
+        let step = mean_step(&piece.wavelengths);
+        self.finest_nm = Some(self.finest_nm.map_or(step, |finest| finest.min(step)));
+        if let Some(Sampling::Bands(width)) = self.sampling {
+            return band_means(piece, wavelengths, width);
+        }
         let between = Between::new(piece, content);
         let mut interpolated = false;
         let value = |&x: &f64| {
@@ -123,16 +199,28 @@ impl Changes {
         let values = wavelengths.iter().map(value).collect();
         self.interpolated |= interpolated;
         self.smooth |= interpolated && between.is_smooth();
-        let [first, last] = piece.range();
-        self.reach_nm = Some(self.reach_nm.map_or([first, last], |[a, b]| [a.min(first), b.max(last)]));
-        let step = mean_step(&piece.wavelengths);
-        self.finest_nm = Some(self.finest_nm.map_or(step, |finest| finest.min(step)));
         values
+    }
+
+    /// How the values were found, for the head of a file; nothing for a curve's own wavelengths.
+    pub(super) fn told(&self, step: Option<f64>) -> Option<String> {
+        let step = step?;
+        Some(match self.sampling {
+            Some(Sampling::Bands(width)) => format!(
+                "band averages every {step} nm: means of the linear interpolant over ±{} nm",
+                decimal_half(width)
+            ),
+            _ if self.smooth => format!("values every {step} nm, by Sprague's interpolation"),
+            _ if self.interpolated => format!("values every {step} nm, interpolated linearly"),
+            _ => format!("values every {step} nm, samples picked"),
+        })
     }
 
     /// What is to be said about it, for a step (none for the curves' own wavelengths) and the range that was written.
     pub(super) fn note(&self, step: Option<f64>, [from_nm, to_nm]: [f64; 2], notes: &mut Vec<Note>) {
-        if let Some(step_nm) = step {
+        if let Some(Sampling::Bands(step_nm)) = self.sampling {
+            notes.push(Note::Averaged { step_nm });
+        } else if let Some(step_nm) = step {
             if self.interpolated {
                 notes.push(Note::Resampled { step_nm, smooth: self.smooth });
             }
@@ -144,4 +232,9 @@ impl Changes {
             notes.push(Note::Clipped { from_nm, to_nm });
         }
     }
+}
+
+/// Half of a number without the noise of binary fractions.
+fn decimal_half(number: f64) -> f64 {
+    clean(number / 2.0)
 }

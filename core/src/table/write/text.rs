@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt::{Arguments, Write};
 
-use super::super::{Values, quantity, words};
+use super::super::{Values, photons, quantity, words};
 use super::Content;
 
 /// Appends what a format string makes.
@@ -52,6 +52,8 @@ pub(super) fn name<'a>(text: &'a str, index: usize, content: Content<'_>) -> Cow
 /// Whether a reader would convert the values under such a name. What responds to light is never scaled down from percent.
 fn misleads(name: &str, content: Content<'_>) -> bool {
     match words::values(name) {
+        // Energies are not photons or powers per frequency.
+        _ if matches!(content, Content::Illuminant | Content::Other) && photons::converts(name) => true,
         None | Some(Values::Plain) => false,
         Some(Values::Decibels) => true,
         Some(Values::Percent | Values::Absorbance) => !matches!(content, Content::Camera { .. } | Content::Observer),

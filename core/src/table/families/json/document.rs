@@ -1,9 +1,10 @@
-//! The members that the two layouts have; all others are passed over without being kept.
+//! The members that the layouts have; all others are passed over without being kept.
 
 use std::fmt;
 use std::marker::PhantomData;
 
 use serde::Deserialize;
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use super::rows::Rows;
@@ -25,7 +26,42 @@ pub(super) struct File {
     pub(super) blue_ssf: Option<Vec<f64>>,
     pub(super) bands: Option<Vec<f64>>,
     pub(super) scale: Option<f64>,
-    pub(super) spectrum: Option<Vec<f64>>,
+    pub(super) spectrum: Option<Shape>,
+    pub(super) metadata: Option<Texts>,
+    #[serde(rename = "spectrometerSettings")]
+    pub(super) settings: Option<Settings>,
+}
+
+/// A spectrum: the values of dcamprof, or the curves of ENLIGHTEN by their names.
+pub(super) enum Shape {
+    Values(Vec<f64>),
+    Curves(InOrder<Option<Vec<Option<f64>>>>),
+}
+
+impl<'de> Deserialize<'de> for Shape {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Any;
+        impl<'de> Visitor<'de> for Any {
+            type Value = Shape;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a list of numbers, or an object of lists")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Shape, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(list)).map(Shape::Values)
+            }
+            fn visit_map<M: MapAccess<'de>>(self, map: M) -> Result<Shape, M::Error> {
+                InOrder::deserialize(MapAccessDeserializer::new(map)).map(Shape::Curves)
+            }
+        }
+        deserializer.deserialize_any(Any)
+    }
+}
+
+/// What ENLIGHTEN knows of a spectrometer.
+#[derive(Deserialize)]
+pub(super) struct Settings {
+    #[serde(default)]
+    pub(super) wavelengths: Option<Vec<f64>>,
 }
 
 /// The data of rawtoaces.

@@ -1,0 +1,48 @@
+//! Shifts of the decimal point that keep a number's digits.
+
+/// A number times a power of ten, as its decimal digits with the point moved: 23.333 by −2 is 0.23333, where a binary division
+/// gives 0.23332999999999998. The digits are the shortest that mean the number; the result is the double nearest to them.
+pub(super) fn shifted(value: f64, power: i32) -> f64 {
+    // Whole numbers below 2^53 over powers of ten up to 10^22 are divided exactly rounded (W. D. Clinger 1990).
+    const EXACT: f64 = 9_007_199_254_740_992.0;
+    const LARGEST: i32 = 22;
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let mut scale = 1.0;
+    for digits in 0..=15 {
+        let whole = (value * scale).round();
+        if whole.abs() >= EXACT {
+            break;
+        }
+        if whole / scale == value {
+            let power = power - digits;
+            if (-LARGEST..=0).contains(&power) {
+                return whole / 10_f64.powi(-power);
+            }
+            if (1..=LARGEST).contains(&power) && whole.abs() * 10_f64.powi(power) < EXACT {
+                return whole * 10_f64.powi(power);
+            }
+            break;
+        }
+        scale *= 10.0;
+    }
+    by_text(value, power)
+}
+
+fn by_text(value: f64, power: i32) -> f64 {
+    let written = format!("{value:e}");
+    let parts = written.split_once('e').and_then(|(digits, exponent)| Some((digits, exponent.parse::<i32>().ok()?)));
+    let moved = parts.and_then(|(digits, exponent)| format!("{digits}e{}", exponent + power).parse().ok());
+    moved.unwrap_or_else(|| value * 10_f64.powi(power))
+}
+
+/// The exponent of a number that is a power of ten, such as 2 for 100.
+pub(super) fn power_of_ten(number: f64) -> Option<i32> {
+    (-15..=15).find(|power| 10_f64.powi(*power) == number)
+}
+
+/// A number divided by another; where that is a power of ten, by moving the decimal point.
+pub(super) fn divided(value: f64, divisor: f64) -> f64 {
+    power_of_ten(divisor).map_or(value / divisor, |power| shifted(value, -power))
+}

@@ -1,0 +1,103 @@
+//! Numbers that stand for missing values: −999, 9999, −1.23e34.
+//!
+//! Such a number is taken for a gap only where it stands out: ten times as large as all other values of its curve, or as far
+//! below them.
+
+use super::grid::{Grid, RawCurve};
+use super::warning::{LineList, Sentinel, Warning};
+use super::watch::Log;
+
+/// Numbers that programs write for missing values, as sizes; each with either sign. (−9999 is one wherever it stands.)
+const SIZES: [f64; 16] = [
+    99.0,
+    99.9,
+    99.99,
+    999.0,
+    999.25,
+    999.9,
+    999.99,
+    9_999.0,
+    9_999.9,
+    9_999.99,
+    99_999.0,
+    999_999.0,
+    9_999_999.0,
+    99_999_999.0,
+    32_768.0,
+    2_147_483_648.0,
+];
+
+/// From here to the end of single precision every number is one where the others are of a common size: −1.23e34 (USGS), 9.91e37
+/// (SCPI), 9.97e36 (netCDF).
+const HUGE: f64 = 1e29;
+const LARGEST_SINGLE: f64 = 3.402_823_6e38;
+const COMMON: f64 = 1e19;
+
+/// How far a number must stand out.
+const TIMES: f64 = 10.0;
+
+fn is_candidate(value: f64) -> bool {
+    let size = value.abs();
+    // A reading of 99 is no rarity above zero.
+    (HUGE..=LARGEST_SINGLE).contains(&size) || SIZES.contains(&size) && (value < 0.0 || size >= 999.0)
+}
+
+/// The values of a curve that stand for nothing else than themselves.
+struct Others {
+    low: f64,
+    high: f64,
+    count: usize,
+}
+
+impl Others {
+    fn of(curve: &RawCurve) -> Self {
+        let others = curve.values.iter().filter(|value| !value.is_nan() && !is_candidate(**value));
+        let none = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, count: 0 };
+        others.fold(none, |all, &value| Self {
+            low: all.low.min(value),
+            high: all.high.max(value),
+            count: all.count + 1,
+        })
+    }
+
+    /// Whether a number stands for a missing value beside these.
+    fn leave_out(&self, value: f64) -> bool {
+        if !is_candidate(value) {
+            return false;
+        }
+        let largest = self.low.abs().max(self.high.abs());
+        match () {
+            () if self.count == 0 => value < 0.0,
+            () if value.abs() >= HUGE => largest <= COMMON,
+            () if value < 0.0 => self.low >= value / TIMES,
+            () => value >= TIMES * largest,
+        }
+    }
+}
+
+/// Makes gaps of the numbers that stand for missing values.
+pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
+    let own_lines = grid.lines.len() == grid.wavelengths.len() && !grid.own_wavelengths;
+    let mut cells = 0;
+    let mut first: Option<Sentinel> = None;
+    for curve in &mut grid.curves {
+        if !curve.values.iter().any(|value| is_candidate(*value)) {
+            continue;
+        }
+        let others = Others::of(curve);
+        let Some(number) = curve.values.iter().copied().find(|value| others.leave_out(*value)) else { continue };
+        first.get_or_insert_with(|| Sentinel { number, curve: curve.told() });
+        for value in curve.values.iter_mut().filter(|value| others.leave_out(**value)) {
+            *value = f64::NAN;
+            cells += 1;
+        }
+    }
+    if let Some(sentinel) = first {
+        if own_lines {
+            // Told with the other gaps of the rows.
+            grid.sentinel = Some(sentinel);
+        } else {
+            log.push(Warning::Gaps { cells, lines: LineList::default(), sentinel: Some(sentinel) });
+        }
+    }
+}

@@ -1,0 +1,320 @@
+//! Lights counted in photons, or given per frequency or wave number: converted to energy per nanometer.
+//!
+//! A photon of wavelength λ carries the energy h c/λ; a density over another variable changes by the derivative of that
+//! variable with respect to λ (CIE S 017, "spectral concentration").
+//!
+//! ```text
+//! E_λ = N_λ · h c / λ                          N_λ in photons
+//! E_λ = n_λ · N_A h c / λ                      n_λ in moles of photons (1 µmol = 1 µE)
+//! E_λ = E_ν · |dν/dλ| = E_ν · c / λ²           per frequency ν = c/λ
+//! E_λ = E_σ · |dσ/dλ| = E_σ · 10⁷ nm cm⁻¹/λ²   per wave number σ = 10⁷ nm cm⁻¹/λ
+//! E_λ = E_µm / 1000,  E_λ = 10 E_Å             per another length
+//! ```
+//!
+//! h = 6.626 070 15e-34 J s, c = 299 792 458 m/s and N_A = 6.022 140 76e23 /mol are exact (SI 2019). Wavelengths are taken as those
+//! in vacuum; of those in air the photons' energies are 0.03 % too high. Where nothing but "photons" is said, the scale is
+//! relative, and values are kept at 550 nm.
+
+use super::grid::{Grid, RawCurve};
+use super::text::excerpt;
+use super::units::{self, Amount, Per};
+use super::{Certainty, Decided, Decision, Quantity, ReadOptions, Role, Values, WavelengthUnit, decimal, words};
+
+/// The Planck constant times the speed of light, in J nm.
+const PLANCK_LIGHT_J_NM: f64 = 6.626_070_15e-34 * 299_792_458e9;
+
+/// The speed of light in nm THz.
+const LIGHT_NM_THZ: f64 = 299_792.458;
+
+/// The wavelength in nanometers where relative photons and relative energies have the same value.
+const SAME_AT_NM: f64 = 550.0;
+
+/// What is done to the values of a curve.
+#[derive(Debug, Clone)]
+struct Conversion {
+    /// Photons for each unit of the values; infinite for a relative scale of photons; none for energies.
+    photons: Option<f64>,
+    per: Per,
+    /// The power of ten that the unit begins with.
+    ten: f64,
+    /// The unit of the result, if it has one.
+    unit: Option<String>,
+    /// What says so.
+    why: String,
+}
+
+impl Conversion {
+    /// What a unit asks for, if it asks for anything.
+    fn of_unit(text: &str, why: String) -> Option<Self> {
+        let unit = units::parse(text)?;
+        let photons = match unit.amount {
+            Amount::Photons(count) => Some(count),
+            Amount::Energy(_) => None,
+        };
+        let per = unit.per;
+        let needed = photons.is_some() || !matches!(per, Per::None | Per::Nanometer);
+        needed.then(|| Self { photons, per, ten: unit.ten, unit: Some(unit.in_energy_per_nm()), why })
+    }
+
+    /// Of photons on a relative scale.
+    fn relative(why: String) -> Self {
+        Self { photons: Some(f64::INFINITY), per: Per::None, ten: 1.0, unit: None, why }
+    }
+
+    /// A value at a wavelength in nanometers as energy per nanometer. Powers of ten keep its digits.
+    fn apply(&self, value: f64, nm: f64) -> f64 {
+        match (self.photons, self.per) {
+            (None, Per::Length(length_nm)) if self.ten == 1.0 => decimal::divided(value, length_nm),
+            _ => value * self.factor(nm),
+        }
+    }
+
+    /// The factor at a wavelength in nanometers.
+    fn factor(&self, nm: f64) -> f64 {
+        let energy = match self.photons {
+            Some(count) if count.is_finite() => count * PLANCK_LIGHT_J_NM / nm,
+            Some(_) => SAME_AT_NM / nm,
+            None => 1.0,
+        };
+        let density = match self.per {
+            Per::None | Per::Nanometer => 1.0,
+            Per::Length(length_nm) => 1.0 / length_nm,
+            Per::Frequency(thz) => LIGHT_NM_THZ / thz / (nm * nm),
+            Per::Wavenumber => 1e7 / (nm * nm),
+        };
+        energy * density * self.ten
+    }
+
+    /// The conversion in words, with its factor.
+    fn told(&self) -> String {
+        let amount = match self.photons {
+            Some(count) if !count.is_finite() => Some(("photons on a relative scale", "550 nm/λ".to_owned())),
+            Some(count) if count > 1e6 => Some(("moles of photons", "N_A h c/λ".to_owned())),
+            Some(_) => Some(("photons", "h c/λ".to_owned())),
+            None => None,
+        };
+        let density = match self.per {
+            Per::None | Per::Nanometer => None,
+            Per::Length(length_nm) => Some(("per another length", format!("1/{length_nm}"))),
+            Per::Frequency(_) => Some(("per frequency", "c/λ²".to_owned())),
+            Per::Wavenumber => Some(("per wave number", "10⁷/λ²".to_owned())),
+        };
+        let (what, by): (Vec<&str>, Vec<String>) = [amount, density].into_iter().flatten().unzip();
+        format!("{}, converted to energy per nanometer by {}", what.join(" "), by.join(" and "))
+    }
+}
+
+/// The quantity of a unit of light, or of a response to photons.
+pub(super) fn quantity(unit: &str) -> Option<Quantity> {
+    if is_per_photon(unit) {
+        return Some(Quantity::QuantumEfficiency);
+    }
+    let unit = units::parse(unit)?;
+    Some(match (unit.area.is_some(), unit.steradian) {
+        (true, true) => Quantity::Radiance,
+        (true, false) => Quantity::Irradiance,
+        (false, true) => Quantity::RadiantIntensity,
+        (false, false) => Quantity::RadiantFlux,
+    })
+}
+
+/// Whether a text is a unit of light, or of a response to photons.
+pub(super) fn is_unit(text: &str) -> bool {
+    units::parse(text).is_some() || is_per_photon(text) || is_per_energy(text) || is_photons(text)
+}
+
+/// Whether a unit is one of a response to power or energy.
+fn is_per_energy(unit: &str) -> bool {
+    const LONGEST: usize = 8;
+    unit.len() <= LONGEST && matches!(unit.to_lowercase().as_str(), "a/w" | "ma/w" | "v/w" | "mv/w" | "1/w" | "1/j")
+}
+
+fn is_photons(text: &str) -> bool {
+    matches!(text.trim().to_lowercase().as_str(), "photon" | "photons" | "quanta" | "qntm")
+}
+
+fn is_per_photon(unit: &str) -> bool {
+    const LONGEST: usize = 40;
+    if unit.len() > LONGEST {
+        return false;
+    }
+    let lower = unit.to_lowercase().replace(" per ", "/").replace(' ', "");
+    ["/photon", "/photons", "/quantum", "photon-1", "photon^-1", "photon⁻¹"].iter().any(|end| lower.ends_with(end))
+}
+
+/// Whether a text names a quantity of photons, and not just somebody's lamp.
+pub(super) fn names_photons(text: &str) -> bool {
+    const LONGEST: usize = 400;
+    const PHRASES: [&str; 10] = [
+        "photon flux",
+        "photon irradian",
+        "photon radian",
+        "photon exitan",
+        "photon fluence",
+        "photon intensity",
+        "quantum flux",
+        "quantum irradian",
+        "(qntm)",
+        "s.q.irrad",
+    ];
+    if text.len() > LONGEST || words::says_counts(text) {
+        return false;
+    }
+    let lower = text.to_lowercase().replace('_', " ");
+    let word = |word: &str| matches!(word, "ppfd" | "pfd" | "photons" | "quanta" | "qntm");
+    PHRASES.iter().any(|phrase| lower.contains(phrase))
+        || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
+}
+
+/// Whether a line of free text, such as LI-COR's `(QNTM)`, says that all values are photons.
+pub(super) fn said_in_prose(line: &str) -> bool {
+    const LONGEST: usize = 400;
+    line.len() <= LONGEST && line.contains("(QNTM)")
+}
+
+/// Whether a title or a line of free text says that sensitivities are quantum efficiencies or responses per photon.
+pub(super) fn says_per_photon(text: &str) -> bool {
+    const LONGEST: usize = 400;
+    if text.len() > LONGEST {
+        return false;
+    }
+    let lower = text.to_lowercase();
+    let qe = lower.split(|c: char| !c.is_alphanumeric()).any(|word| word == "qe");
+    let said = qe || ["quantum eff", "per photon", "/photon", "per quantum"].iter().any(|part| lower.contains(part));
+    said && !lower.contains("energ")
+}
+
+/// What a file says about whether sensitivities are responses per photon.
+pub(super) fn response(grid: &Grid) -> Option<Decided<bool>> {
+    for curve in &grid.curves {
+        let unit = curve.unit.as_deref().unwrap_or_default();
+        if is_per_photon(unit) || is_photons(unit) {
+            return Some(Decided::certain(true, format!("The unit is {unit}")));
+        }
+        if says_per_photon(&curve.label) {
+            return Some(Decided::certain(true, format!("A column is headed “{}”", excerpt(&curve.label))));
+        }
+        if is_per_energy(unit) {
+            return Some(Decided::certain(false, format!("The unit is {unit}")));
+        }
+    }
+    let line = grid.header.per_photon.or(grid.header.photons)?;
+    Some(Decided::certain(true, format!("Line {line} says so")))
+}
+
+/// What a curve needs, by its own header or by what the file says of all.
+fn of_curve(grid: &Grid, curve: &RawCurve) -> Option<Conversion> {
+    if let Some(unit) = curve.unit.as_deref().filter(|unit| units::parse(unit).is_some()) {
+        return Conversion::of_unit(unit, format!("The unit is {unit}"));
+    }
+    let headed = || format!("A column is headed “{}”", excerpt(&curve.label));
+    if units::parse(&curve.label).is_some() {
+        return Conversion::of_unit(&curve.label, headed());
+    }
+    if curve.label.to_lowercase().contains("s.q.irrad") {
+        return Conversion::of_unit("mol/m²/s/nm", headed());
+    }
+    if names_photons(&curve.label) {
+        return Some(Conversion::relative(headed()));
+    }
+    if let Some(unit) = curve.unit.as_deref().filter(|unit| is_photons(unit)) {
+        return Some(Conversion::relative(format!("The unit is {unit}")));
+    }
+    let line = grid.header.photons.filter(|_| curve.unit.is_none())?;
+    Some(Conversion::relative(format!("Line {line} says photons")))
+}
+
+/// Takes curves of photons for lights, where nothing else says what they are.
+pub(super) fn suggest_role(grid: &mut Grid) {
+    if grid.role.is_some() || grid.header.role.is_some() {
+        return;
+    }
+    let found = grid.curves.iter().find_map(|curve| of_curve(grid, curve).map(|found| (found, curve)));
+    if let Some((found, curve)) = found.filter(|(found, _)| found.photons.is_some()) {
+        let named = names_photons(&curve.label) && words::role(&curve.label).is_none();
+        grid.role = Some(if named {
+            Decided::certain(Role::Illuminant, found.why)
+        } else {
+            Decided::guess(Role::Illuminant, found.why)
+        });
+    }
+}
+
+/// Makes energies per nanometer of lights, and says so. Values that a person chose to be plain are left as they are.
+pub(super) fn to_energy(
+    grid: &mut Grid,
+    role: Role,
+    axis: &Decided<WavelengthUnit>,
+    options: &ReadOptions,
+) -> Option<Decision> {
+    if role != Role::Illuminant || options.values == Some(Values::Plain) {
+        return None;
+    }
+    let found: Vec<Option<Conversion>> = grid.curves.iter().map(|curve| of_curve(grid, curve)).collect();
+    let count = found.iter().flatten().count();
+    let Some(first) = found.iter().flatten().next() else { return unsaid(grid, axis) };
+    let some = if count < found.len() { format!(", in {count} of {} curves", found.len()) } else { String::new() };
+    // A power of ten in a unit may be meant either way.
+    let certainty = if first.ten == 1.0 { Certainty::Certain } else { Certainty::Guess };
+    let decided = Decided { value: format!("{}{some}", first.told()), certainty, why: first.why.clone() };
+    let decision = Decision::new(DECISION, &decided);
+    for (curve, conversion) in grid.curves.iter_mut().zip(&found) {
+        let Some(conversion) = conversion else { continue };
+        for (value, nm) in curve.values.iter_mut().zip(&grid.wavelengths) {
+            let converted = conversion.apply(*value, *nm);
+            *value = if converted.is_finite() { converted } else { f64::NAN };
+        }
+        curve.unit.clone_from(&conversion.unit);
+        curve.name = renamed(&curve.name);
+    }
+    Some(decision)
+}
+
+/// What the decision on the unit of lights is listed as.
+pub(super) const DECISION: &str = "Spectral unit";
+
+/// The guess that lights over frequencies or wave numbers are per nanometer, where no unit says otherwise.
+fn unsaid(grid: &Grid, axis: &Decided<WavelengthUnit>) -> Option<Decision> {
+    let other = matches!(axis.value, WavelengthUnit::Terahertz | WavelengthUnit::Wavenumber);
+    let per_nm = |curve: &RawCurve| {
+        let unit = curve.unit.as_deref().and_then(units::parse);
+        unit.is_some_and(|unit| matches!(unit.per, Per::Nanometer))
+    };
+    if !other || grid.curves.iter().all(per_nm) {
+        return None;
+    }
+    let why = format!("The axis is {}, but nothing says per what the power is", axis.value);
+    Some(Decision::new(DECISION, &Decided::guess("power per nanometer, taken as it is", why)))
+}
+
+/// A name that does not say photons, or a unit that the values have no longer.
+fn renamed(name: &str) -> String {
+    let start = units::parse(name).map_or(name.len(), |unit| unit.start);
+    let bare = name[..start].trim_end_matches(['(', '[', ',', ' ', '/']);
+    if !names_photons(bare) && !bare.is_empty() {
+        return bare.to_owned();
+    }
+    let kept = bare.split_whitespace().filter_map(|word| {
+        let lower = word.trim_matches(|c: char| !c.is_alphanumeric()).to_lowercase();
+        match lower.as_str() {
+            "photon" | "photons" | "quantum" | "quanta" | "qntm" | "photosynthetic" => None,
+            "ppfd" | "pfd" => Some("Irradiance"),
+            "s.q.irrad" => Some("s.e.irrad"),
+            _ => Some(word),
+        }
+    });
+    let name = kept.collect::<Vec<_>>().join(" ");
+    if name.is_empty() || names_photons(&name) {
+        return "Spectral power".to_owned();
+    }
+    let mut letters = name.chars();
+    match letters.next().filter(|_| bare.starts_with(char::is_uppercase)) {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => name,
+    }
+}
+
+/// Whether a column of such a name would be converted when it is read.
+pub(super) fn converts(name: &str) -> bool {
+    names_photons(name) || Conversion::of_unit(name, String::new()).is_some()
+}

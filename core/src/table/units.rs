@@ -1,0 +1,243 @@
+//! Units of light in their parts: `µmol m⁻² s⁻¹ nm⁻¹`, `photons/(s cm2 nm)`, `W/m²/THz`, `mW/(m² sr cm⁻¹)`.
+//!
+//! The parts after the first are denominators, however they are written: nobody multiplies irradiance by square meters. Only
+//! the size of an exponent counts, so that `W/m2/nm`, `W m-2 nm-1` and `W/m2 nm` are one unit, and a centimeter that is not
+//! squared is always a wave number: `W/m²/cm-1`, `W m-2 (cm-1)-1`, `W m-2 cm`.
+
+/// The Avogadro constant, exact (SI 2019).
+const AVOGADRO: f64 = 6.022_140_76e23;
+
+/// A unit of light.
+#[derive(Debug, Clone)]
+pub(super) struct Unit {
+    pub(super) amount: Amount,
+    /// The area, such as `m²`.
+    pub(super) area: Option<&'static str>,
+    pub(super) steradian: bool,
+    /// The time, such as `s`.
+    time: Option<&'static str>,
+    pub(super) per: Per,
+    /// The power of ten before it.
+    pub(super) ten: f64,
+    /// The byte of the text where it begins.
+    pub(super) start: usize,
+}
+
+/// What is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Amount {
+    /// Energy or power, as its symbol.
+    Energy(&'static str),
+    /// So many photons.
+    Photons(f64),
+}
+
+/// The variable that a spectral unit is per.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Per {
+    None,
+    Nanometer,
+    /// A length in nanometers.
+    Length(f64),
+    /// A frequency in terahertz.
+    Frequency(f64),
+    /// 1/cm.
+    Wavenumber,
+}
+
+impl Unit {
+    /// The symbol of the unit that values have as energies per nanometer.
+    pub(super) fn in_energy_per_nm(&self) -> String {
+        let (symbol, time) = match (self.amount, self.time) {
+            (Amount::Photons(_), Some("s")) => ("W", None),
+            (Amount::Photons(_), time) => ("J", time),
+            (Amount::Energy(symbol), time) => (symbol, time),
+        };
+        let spectral = (self.per != Per::None).then_some("nm");
+        let steradian = self.steradian.then_some("sr");
+        let parts = [time, self.area, steradian, spectral].into_iter().flatten();
+        parts.fold(symbol.to_owned(), |unit, part| unit + "/" + part)
+    }
+}
+
+/// A word of a unit: letters and the size of an exponent.
+struct Word<'a> {
+    letters: &'a str,
+    exponent: u32,
+    start: usize,
+}
+
+/// The unit of light in a text, which may have words before it.
+pub(super) fn parse(text: &str) -> Option<Unit> {
+    const LONGEST: usize = 200;
+    const MOST: usize = 24;
+    if text.len() > LONGEST {
+        return None;
+    }
+    let words: Vec<Word<'_>> = words(text).take(MOST).collect();
+    (0..words.len()).find_map(|at| {
+        let unit = unit(text, &words[at..])?;
+        let told = unit.area.is_some() || unit.steradian || unit.per != Per::None;
+        let photons = matches!(unit.amount, Amount::Photons(_)) && unit.time.is_some();
+        (told || photons).then_some(unit)
+    })
+}
+
+fn words(text: &str) -> impl Iterator<Item = Word<'_>> {
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        let start = at + text[at..].find(char::is_alphabetic)?;
+        let end = text[start..].find(|c: char| !c.is_alphabetic()).map_or(text.len(), |end| start + end);
+        let (exponent, length) = exponent(&text[end..]);
+        at = end + length;
+        Some(Word { letters: &text[start..end], exponent, start })
+    })
+}
+
+/// The size of the exponent that a text begins with (1 if there is none), and its length in bytes.
+fn exponent(text: &str) -> (u32, usize) {
+    let before = text.trim_start_matches(['^', '*', '(', '-', '\u{2212}', '\u{2013}', '⁻', '+']);
+    let digit = |c: char| match c {
+        '0'..='9' => c.to_digit(10),
+        '¹' => Some(1),
+        '²' => Some(2),
+        '³' => Some(3),
+        _ => None,
+    };
+    let digits: u32 = before.chars().map_while(digit).take(3).fold(0, |number, digit| number * 10 + digit);
+    let length: usize = before.chars().take_while(|c| digit(*c).is_some()).take(3).map(char::len_utf8).sum();
+    if length == 0 { (1, 0) } else { (digits, text.len() - before.len() + length) }
+}
+
+fn unit(text: &str, words: &[Word<'_>]) -> Option<Unit> {
+    let (first, rest) = words.split_first()?;
+    let lower = first.letters.to_lowercase();
+    let (amount, joined) = amount(&lower)?;
+    let (ten, start) = power_of_ten(text, first.start);
+    let mut unit = Unit { amount, area: None, steradian: false, time: None, per: Per::None, ten, start };
+    if let Some(joined) = joined {
+        unit.take(joined, first.exponent);
+    }
+    for word in rest {
+        let lower = word.letters.to_lowercase();
+        let known =
+            matches!(lower.as_str(), "per" | "photon" | "photons" | "quanta") || unit.take(&lower, word.exponent);
+        if !known {
+            break;
+        }
+    }
+    Some(unit)
+}
+
+/// The amount that a word stands for, and a length that is written right behind it, as in `Wm-2`.
+fn amount(word: &str) -> Option<(Amount, Option<&'static str>)> {
+    if let Some(amount) = plain_amount(word) {
+        return Some((amount, None));
+    }
+    ["cm", "m"].into_iter().find_map(|length| {
+        let short = word.strip_suffix(length).filter(|short| !short.is_empty() && !short.ends_with("photon"))?;
+        Some((plain_amount(short)?, Some(length)))
+    })
+}
+
+fn plain_amount(word: &str) -> Option<Amount> {
+    const PREFIXES: [(&str, f64); 11] = [
+        ("micro", 1e-6),
+        ("milli", 1e-3),
+        ("nano", 1e-9),
+        ("", 1.0),
+        ("m", 1e-3),
+        ("µ", 1e-6),
+        ("μ", 1e-6),
+        ("u", 1e-6),
+        ("n", 1e-9),
+        ("p", 1e-12),
+        ("k", 1e3),
+    ];
+    const ENERGIES: [(&str, [&str; 6]); 2] =
+        [("w", ["W", "mW", "µW", "nW", "pW", "kW"]), ("j", ["J", "mJ", "µJ", "nJ", "pJ", "kJ"])];
+    const SCALES: [f64; 6] = [1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e3];
+    PREFIXES.iter().find_map(|(prefix, scale)| {
+        let base = word.strip_prefix(prefix)?;
+        let symbol = match base {
+            "mol" | "mole" | "moles" | "einstein" | "einsteins" => return Some(Amount::Photons(scale * AVOGADRO)),
+            // Microeinsteins; a lone E is a quantity.
+            "e" if *scale == 1e-6 => return Some(Amount::Photons(scale * AVOGADRO)),
+            "photon" | "photons" | "quanta" | "quantum" => return Some(Amount::Photons(*scale)),
+            "watt" | "watts" => "w",
+            "joule" | "joules" => "j",
+            other => other,
+        };
+        let (_, symbols) = ENERGIES.iter().find(|(base, _)| *base == symbol)?;
+        let index = SCALES.iter().position(|known| known == scale)?;
+        Some(Amount::Energy(symbols[index]))
+    })
+}
+
+impl Unit {
+    /// Takes in a denominator; whether it is one.
+    fn take(&mut self, word: &str, exponent: u32) -> bool {
+        let bare = word.trim_end_matches("meters").trim_end_matches("metres");
+        let (symbol, length_nm, areas) = match word {
+            "nm" | "nanometer" | "nanometre" => return self.take_per(Per::Nanometer),
+            "um" | "µm" | "μm" | "micron" | "microns" | "micrometer" | "micrometre" => {
+                return self.take_per(Per::Length(1e3));
+            }
+            "a" | "å" | "ang" | "angstrom" | "angstroms" => return self.take_per(Per::Length(0.1)),
+            "thz" => return self.take_per(Per::Frequency(1.0)),
+            "ghz" => return self.take_per(Per::Frequency(1e-3)),
+            "mhz" => return self.take_per(Per::Frequency(1e-6)),
+            "hz" => return self.take_per(Per::Frequency(1e-12)),
+            "sr" | "steradian" | "steradians" => return !std::mem::replace(&mut self.steradian, true),
+            "s" | "sec" | "second" | "seconds" => return self.take_time("s"),
+            "h" | "hr" | "hour" => return self.take_time("h"),
+            "d" | "day" => return self.take_time("d"),
+            "m" | "meter" | "metre" => ("m", 1e9, "m²"),
+            "cm" => ("cm", 1e7, "cm²"),
+            "mm" => ("mm", 1e6, "mm²"),
+            _ => return bare != word && bare == "nano" && self.take_per(Per::Nanometer),
+        };
+        match exponent {
+            2 => self.area.replace(areas).is_none(),
+            3 => self.area.replace(areas).is_none() && self.take_per(Per::Length(length_nm)),
+            1 if symbol == "cm" => self.take_per(Per::Wavenumber),
+            1 => self.take_per(Per::Length(length_nm)),
+            _ => false,
+        }
+    }
+
+    fn take_per(&mut self, per: Per) -> bool {
+        std::mem::replace(&mut self.per, per) == Per::None
+    }
+
+    fn take_time(&mut self, time: &'static str) -> bool {
+        self.time.replace(time).is_none()
+    }
+}
+
+/// The power of ten that stands right before a unit, and where it begins: `10^15 photons`, `1e13 photons`.
+fn power_of_ten(text: &str, start: usize) -> (f64, usize) {
+    let before = text[..start].trim_end_matches([' ', '*', '·', '×']);
+    let number = |c: char| {
+        c.is_ascii_digit() || matches!(c, 'e' | 'E' | '^' | '-' | '+' | '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '⁻')
+    };
+    let at =
+        before.rfind(|c: char| !number(c)).map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
+    let written: String = before[at..].chars().map(plain).collect();
+    let power = written.strip_prefix("10").map(|rest| rest.trim_start_matches('^')).filter(|rest| !rest.is_empty());
+    let power = power.or_else(|| written.strip_prefix("1e").or_else(|| written.strip_prefix("1E")));
+    let power = power.and_then(|power| power.parse::<i32>().ok()).filter(|power| power.abs() <= 40);
+    power.map_or((1.0, start), |power| (10_f64.powi(power), at))
+}
+
+fn plain(c: char) -> char {
+    match c {
+        '⁻' => '-',
+        '⁰' => '0',
+        '¹' => '1',
+        '²' => '2',
+        '³' => '3',
+        '⁴'..='⁹' => char::from_digit(u32::from(c) - u32::from('⁰'), 10).unwrap_or(c),
+        other => other,
+    }
+}
