@@ -44,6 +44,69 @@ pub enum ReadError {
         /// The line of the values.
         line: usize,
     },
+    /// A line of values begins at another abscissa than its place in the file and the header say.
+    #[error(
+        "line {line}: begins at {found}, but FIRSTX, LASTX and NPOINTS put it at {expected}: correct the line or the \
+         header, or export the measurement again"
+    )]
+    Misplaced {
+        /// The line.
+        line: usize,
+        /// The abscissa at its head.
+        found: f64,
+        /// The abscissa that it should have.
+        expected: f64,
+    },
+    /// A line does not repeat the last value of the line before it, as lines of differences do.
+    #[error(
+        "line {line}: begins with {found}, but line {before} ends with {expected}, and both are the same value: \
+         a digit is wrong in one of them; export the measurement again"
+    )]
+    CheckFails {
+        /// The line.
+        line: usize,
+        /// Its first value.
+        found: f64,
+        /// The line before it.
+        before: usize,
+        /// The last value of that.
+        expected: f64,
+    },
+    /// Two lines give different values at one abscissa.
+    #[error(
+        "lines {other} and {line}: different values at {at}: correct the abscissas at the heads of the lines, or export \
+         the measurement again"
+    )]
+    TwoValues {
+        /// The later line.
+        line: usize,
+        /// The earlier line.
+        other: usize,
+        /// The abscissa, in the unit of the file.
+        at: f64,
+    },
+    /// DELTAX is another step than FIRSTX, LASTX and NPOINTS give, and the lines do not tell which is right.
+    #[error("line {line}: DELTAX is {announced}, but FIRSTX, LASTX and NPOINTS give {found}: correct the wrong one")]
+    StepContradicts {
+        /// The line of DELTAX.
+        line: usize,
+        /// As announced.
+        announced: f64,
+        /// As the others give it.
+        found: f64,
+    },
+    /// A value that is announced is a power of ten times that in the data.
+    #[error("line {line}: {label} announces {announced}, but the data give {found}: correct YFACTOR, or the line")]
+    ScaleContradicts {
+        /// The line that announces it.
+        line: usize,
+        /// The label.
+        label: &'static str,
+        /// As announced.
+        announced: f64,
+        /// As found, the factor applied.
+        found: f64,
+    },
     /// A list of values is longer or shorter than what it belongs to.
     #[error("line {line}: “{name}” has {found} values where {expected} are expected: is the file cut short?")]
     WrongCount {
@@ -208,6 +271,11 @@ impl ReadError {
             | Self::Malformed { line, .. }
             | Self::WrongCount { line, .. }
             | Self::NoWavelengths { line }
+            | Self::Misplaced { line, .. }
+            | Self::CheckFails { line, .. }
+            | Self::TwoValues { line, .. }
+            | Self::StepContradicts { line, .. }
+            | Self::ScaleContradicts { line, .. }
             | Self::NotANumber { line, .. }
             | Self::UnevenRow { line, .. }
             | Self::SecondTable { line }

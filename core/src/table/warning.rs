@@ -204,6 +204,36 @@ pub enum Warning {
         /// Why.
         error: Box<ReadError>,
     },
+    /// Lines out of place: their values are at the abscissas at their heads.
+    PlacedByAbscissa {
+        /// Where.
+        lines: LineList,
+    },
+    /// A header announces another value than the data hold.
+    HeaderDiffers {
+        /// Where it is announced.
+        line: usize,
+        /// The label.
+        label: &'static str,
+        /// As announced.
+        announced: f64,
+        /// As found.
+        found: f64,
+    },
+    /// Columns or rows that hold wavelengths again, another scale of them, or only count or time the others: left out.
+    OtherAxes {
+        /// Their names in quotes and their columns or lines, the first few.
+        named: String,
+        /// The column of the wavelengths, from 1, where they run down one.
+        wavelength_column: Option<usize>,
+    },
+    /// Columns with values whose names should be wavelengths and are none: left out.
+    BadWavelengths {
+        /// The line of the wavelengths.
+        line: usize,
+        /// The columns, from 1, and what stands there, the first few.
+        named: String,
+    },
     /// The file announces another number of values than it holds.
     CountDiffers {
         /// Where it is announced.
@@ -239,12 +269,15 @@ impl Warning {
             | Self::NoWavelength { lines }
             | Self::CommentedRows { lines }
             | Self::RepeatedHeader { lines }
+            | Self::PlacedByAbscissa { lines }
             | Self::Averaged { lines, .. } => lines.first().first().copied(),
             Self::Sorted { line }
             | Self::NumbersAbove { line }
             | Self::TextBelow { line }
             | Self::MoreTables { line }
             | Self::BrokenTable { line, .. }
+            | Self::HeaderDiffers { line, .. }
+            | Self::BadWavelengths { line, .. }
             | Self::CountDiffers { line, .. } => Some(*line),
             Self::BelowZero { line, .. } => *line,
             Self::Hole { lines, .. } => lines.map(|[line, _]| line),
@@ -253,6 +286,7 @@ impl Warning {
             | Self::MaybeWavelengths
             | Self::OtherQuantity { .. }
             | Self::SkippedColumns { .. }
+            | Self::OtherAxes { .. }
             | Self::TextColumns { .. }
             | Self::CommasOnly
             | Self::MaybeThousands
@@ -367,6 +401,21 @@ impl fmt::Display for Warning {
             }
             Self::OtherQuantity { quantity, role } => write!(f, "The numbers look like {quantity}, not like {role}"),
             Self::MoreTables { line } => write!(f, "line {line}: another table with spectra: left out"),
+            Self::PlacedByAbscissa { lines } => {
+                write!(f, "{lines}: not where the line before ends: placed by the wavelength at the head of the line")
+            }
+            Self::HeaderDiffers { line, label, announced, found } => {
+                write!(f, "line {line}: {label} announces {announced}, but the data give {found}")
+            }
+            Self::OtherAxes { named, wavelength_column: None } => {
+                write!(f, "{named}: another scale of the wavelengths, no spectrum: left out")
+            }
+            Self::OtherAxes { named, wavelength_column: Some(column) } => {
+                write!(f, "{named}: another scale of the wavelengths, which are those of column {column}: left out")
+            }
+            Self::BadWavelengths { line, named } => {
+                write!(f, "line {line}: {named}: no wavelength there, so the column is left out")
+            }
             Self::CountDiffers { line, expected, found } => {
                 write!(f, "line {line} announces {expected} values, but there are {found}")
             }

@@ -1,12 +1,16 @@
 //! Ordinates as JCAMP-DX squeezes them: letters that carry a digit and a sign, differences, repetitions.
 
+use super::jcamp::last_digit;
+
 /// What a line holds.
 #[derive(Debug, PartialEq)]
 pub(super) struct Ordinates {
-    /// The values of the line, without the check of the line before.
+    /// The abscissa at its head, and the unit of its last digit.
+    pub(super) head: (f64, f64),
+    /// The values of the line, with one that only repeats the last of the line before.
     pub(super) values: Vec<f64>,
-    /// The last value, if it was written as a difference: the next line then begins by repeating it.
-    pub(super) carried: Option<f64>,
+    /// Whether the last value was written as a difference: the next line then begins by repeating it.
+    pub(super) ends_in_difference: bool,
 }
 
 /// How a number was written.
@@ -23,14 +27,14 @@ enum Kind {
 /// The most values of a line, far above any line of a sound file: a few letters can ask for billions.
 const MOST_VALUES: usize = 100_000;
 
-/// Decodes a line: its abscissa is passed over, since the steps are equal. `carried` is that of the line before.
-///
-/// The error is the text that is no number.
-pub(super) fn decode(line: &str, carried: Option<f64>) -> Result<Ordinates, &str> {
+/// Decodes a line; `None` for a blank one. The error is the text that is no number.
+pub(super) fn decode(line: &str) -> Result<Option<Ordinates>, &str> {
     let mut entries = entries(line)?.into_iter();
-    if entries.next().is_some_and(|(kind, _)| kind != Kind::Value) {
-        return Err(line.trim());
-    }
+    let abscissa = match entries.next() {
+        None => return Ok(None),
+        Some((Kind::Value, number)) if !number.is_nan() => number,
+        Some(_) => return Err(line.trim()),
+    };
     let mut values: Vec<f64> = Vec::new();
     let mut before: Option<(Kind, f64)> = None;
     for (kind, number) in entries {
@@ -53,12 +57,13 @@ pub(super) fn decode(line: &str, carried: Option<f64>) -> Result<Ordinates, &str
         }
         before = Some((kind, number));
     }
-    let differs = before.is_some_and(|(kind, _)| kind == Kind::Difference);
-    let last = values.last().copied().filter(|_| differs);
-    if carried.is_some() && values.first().copied() == carried {
-        values.remove(0);
-    }
-    Ok(Ordinates { values, carried: last })
+    let ends_in_difference = before.is_some_and(|(kind, _)| kind == Kind::Difference);
+    let start = line.trim_start_matches(separates);
+    let body = start.char_indices().nth(1).map_or("", |(at, _)| &start[at..]);
+    let digits = &start[..start.len() - body.len() + end(body)];
+    // A first letter is a digit and no exponent.
+    let plain = digits.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+    Ok(Some(Ordinates { head: (abscissa, last_digit(plain)), values, ends_in_difference }))
 }
 
 /// The entries of a line. Plain numbers may have exponents, which squeezed ones never have.

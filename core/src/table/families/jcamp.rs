@@ -1,5 +1,13 @@
 //! JCAMP-DX: labeled records, blocks of blocks, points or compressed ordinates.
 
+mod checks;
+mod counts;
+mod ordinates;
+
+use counts::Source;
+pub(super) use ordinates::last_digit;
+use ordinates::{Axis, Data, Row, Written};
+
 use super::super::header::Header;
 use super::super::quantity;
 use super::super::reading::{MAX_PARTS, clean};
@@ -20,6 +28,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     blocks.retain(|block| !block.samples.is_empty());
     let parts: Vec<Part> = blocks.iter().take(MAX_PARTS).map(Block::part).collect();
     let mut notes = Vec::new();
+    let ratio = counts::settle(&mut blocks, options);
     let part = choose(&mut blocks, options, &mut notes)?;
     let part = leave_other_units(&mut blocks, part, &parts, log);
     let first_line = blocks.first().map(|block| block.data_line + 1).ok_or(ReadError::NoNumbers)?;
@@ -35,6 +44,11 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     let mut grid = spectra::grid(spectra, header, log)?;
     grid.curves.iter_mut().zip(units).for_each(|(curve, unit)| curve.unit = unit);
     (grid.parts, grid.part) = (parts, Some(part));
+    if let Some(ratio) = ratio {
+        (grid.role, grid.quantity) = (Some(ratio.role), Some(ratio.quantity));
+        notes.retain(|note: &Decision| note.what != ratio.note.what);
+        notes.push(ratio.note);
+    }
     let dialect =
         if comma { (Delimiter::CommaSpace, DecimalMark::Comma) } else { (Delimiter::Comma, DecimalMark::Point) };
     let layout = Layout::fixed(dialect, Orientation::Down, first_line, &form.1);
@@ -116,21 +130,29 @@ struct Block {
     x_units: (usize, String),
     y_units: (usize, String),
     points: (usize, Option<usize>),
-    first_x: Option<f64>,
-    last_x: Option<f64>,
-    delta_x: Option<f64>,
-    x_factor: Option<f64>,
-    y_factor: Option<f64>,
+    /// Numbers that the header announces, by label, with their lines.
+    announced: Vec<(&'static str, usize, Written)>,
+    /// What the values are, if that is not for the units to say.
+    values: Option<(usize, Values)>,
     /// How the data that the reader is in is written.
     form: Option<Form>,
     /// How the data of the block is written, and what its label says of that.
     written: Form,
     form_label: String,
     data_line: usize,
+    rows: Vec<Row>,
+    ordinates: Vec<f64>,
+    /// Whether the last line ended with a difference.
+    difference: bool,
     samples: Vec<Sample>,
-    last_ordinate: Option<f64>,
+    /// How many values there were.
+    found: usize,
+    warnings: Vec<Warning>,
     comma: bool,
 }
+
+/// Labels of numbers.
+const NUMBERS: [&str; 8] = ["FIRSTX", "LASTX", "DELTAX", "XFACTOR", "YFACTOR", "FIRSTY", "MINY", "MAXY"];
 
 /// All blocks that have a title of their own, in the order of the file.
 fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
@@ -156,9 +178,9 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
             continue;
         }
         if let Some(block) = all.last_mut().filter(|block| block.form.is_some()) {
-            let before = block.samples.len();
+            let before = block.samples.len() + block.ordinates.len();
             block.data(number, line)?;
-            total += block.samples.len() - before;
+            total += block.samples.len() + block.ordinates.len() - before;
             if total > most {
                 return Err(ReadError::TooManySamples { line: number });
             }
@@ -180,26 +202,26 @@ fn label(written: &str) -> String {
 impl Block {
     fn record(&mut self, line: usize, key: &str, value: &str) {
         const MAX_RECORDS: usize = 1000;
-        let number = || value.replace(',', ".").parse::<f64>().ok().filter(|number| number.is_finite());
         self.form = None;
         match key {
             "TITLE" => value.clone_into(&mut self.title),
             "XUNITS" => self.x_units = (line, value.to_owned()),
             "YUNITS" => self.y_units = (line, value.to_owned()),
             "NPOINTS" => self.points = (line, value.parse().ok()),
-            "FIRSTX" => self.first_x = number(),
-            "LASTX" => self.last_x = number(),
-            "DELTAX" => self.delta_x = number(),
-            "XFACTOR" => self.x_factor = number().filter(|factor| *factor != 0.0),
-            "YFACTOR" => self.y_factor = number().filter(|factor| *factor != 0.0),
-            "XYDATA" | "XYPOINTS" | "PEAKTABLE" if self.samples.is_empty() => {
-                let ordinates = label(value).starts_with("XYY");
+            "XYDATA" | "XYPOINTS" | "PEAKTABLE" if self.samples.is_empty() && self.rows.is_empty() => {
+                let ordinates = value.contains("++") || label(value).starts_with("XYY");
                 self.written = if ordinates { Form::Ordinates } else { Form::Pairs };
                 self.form = Some(self.written);
                 value.clone_into(&mut self.form_label);
                 self.data_line = line;
             }
-            _ => {}
+            _ => {
+                let known = NUMBERS.iter().find(|label| **label == key);
+                if let Some((label, number)) = known.and_then(|label| Some((*label, Written::parse(value)?))) {
+                    self.announced.retain(|(other, ..)| *other != label);
+                    self.announced.push((label, line, number));
+                }
+            }
         }
         if self.records.len() < MAX_RECORDS {
             self.records.push((key.to_owned(), value.to_owned()));
@@ -209,10 +231,11 @@ impl Block {
     fn data(&mut self, line: usize, text: &str) -> Result<(), ReadError> {
         let broken = |text: &str| ReadError::NotANumber { line, column: 1, text: excerpt(text) };
         if self.form == Some(Form::Ordinates) {
-            let found = asdf::decode(text, self.last_ordinate).map_err(broken)?;
-            self.last_ordinate = found.carried;
-            let samples = found.values.into_iter().map(|value| Sample { wavelength: f64::NAN, value, line });
-            self.samples.extend(samples);
+            let Some(found) = asdf::decode(text).map_err(broken)? else { return Ok(()) };
+            let head = Written { value: found.head.0, digit: found.head.1 };
+            self.rows.push(Row { line, head, from: self.ordinates.len(), repeats: self.difference });
+            self.difference = found.ends_in_difference;
+            self.ordinates.extend(found.values);
             return Ok(());
         }
         for pair in text.split(';').filter(|pair| !pair.trim().is_empty()) {
@@ -228,39 +251,40 @@ impl Block {
         Ok(())
     }
 
+    /// A number that the header announces, with its line.
+    fn number(&self, label: &str) -> Option<(usize, Written)> {
+        self.announced.iter().find(|(other, ..)| *other == label).map(|&(_, line, number)| (line, number))
+    }
+
+    fn factor(&self, label: &str) -> f64 {
+        self.number(label).map(|(_, factor)| factor.value).filter(|factor| *factor != 0.0).unwrap_or(1.0)
+    }
+
     /// Gives the samples their wavelengths and factors.
     fn close(&mut self) -> Result<(), ReadError> {
-        let count = self.samples.len();
-        let (x_factor, y_factor) = (self.x_factor.unwrap_or(1.0), self.y_factor.unwrap_or(1.0));
-        let ordinates = self.samples.first().is_some_and(|sample| sample.wavelength.is_nan());
-        if !ordinates {
-            for sample in &mut self.samples {
-                sample.wavelength = clean(sample.wavelength * x_factor);
-                sample.value *= y_factor;
-            }
-            return Ok(());
+        let (x_factor, y_factor) = (self.factor("XFACTOR"), self.factor("YFACTOR"));
+        for sample in &mut self.samples {
+            sample.wavelength = clean(sample.wavelength * x_factor);
         }
-        let steps = self.points.1.unwrap_or(count).saturating_sub(1) as f64;
-        let step = match (self.first_x, self.last_x) {
-            (Some(first), Some(last)) if steps > 0.0 => Some((last - first) / steps),
-            _ => self.delta_x,
-        };
-        let (Some(first), Some(step)) = (self.first_x, step) else {
-            return Err(ReadError::NoWavelengths { line: self.data_line });
-        };
-        for (index, sample) in self.samples.iter_mut().enumerate() {
-            sample.wavelength = clean(first + step * index as f64);
+        if !self.rows.is_empty() {
+            let value = |label| self.number(label).map(|(_, number)| number);
+            let first = value("FIRSTX").ok_or(ReadError::NoWavelengths { line: self.data_line })?;
+            let (last, delta, points) = (value("LASTX"), self.number("DELTAX"), self.points.1);
+            let axis = Axis { first, last, delta, points, factor: x_factor };
+            let data = Data { rows: &self.rows, ordinates: &self.ordinates };
+            let placed = data.place(&axis)?;
+            (self.samples, self.warnings) = (placed.samples, placed.warnings);
+            (self.rows, self.ordinates) = (Vec::new(), Vec::new());
+        }
+        for sample in &mut self.samples {
             sample.value *= y_factor;
         }
-        self.samples.retain(|sample| !sample.value.is_nan());
-        Ok(())
+        self.check()
     }
 
     /// Whether this is a dark or a reference spectrum.
     fn is_raw(&self) -> bool {
-        let title = self.title.to_ascii_lowercase();
-        let last = title.rsplit(':').next().unwrap_or_default();
-        last.contains("dark") || last.contains("reference") || last.contains("raw")
+        Source::of(&self.title) != Source::Other
     }
 
     /// The units of both axes, such that blocks in the same units have the same.
@@ -271,7 +295,8 @@ impl Block {
     }
 
     fn warn(&self, log: &mut Log<'_>) {
-        let found = self.samples.len();
+        log.extend(self.warnings.iter().cloned());
+        let found = self.found;
         if let (line, Some(expected)) = self.points
             && expected != found
         {
@@ -288,7 +313,7 @@ impl Block {
         let mut header = Header {
             x_unit: words::x_unit(&self.x_units.1).map(|unit| (self.x_units.0, unit)),
             role: words::role(units).map(|role| (*line, role)),
-            values: words::values(units).filter(|values| *values != Values::Plain).map(|values| (*line, values)),
+            values: self.values.or_else(|| Some((*line, words::values(units).filter(|values| *values != Values::Plain)?))),
             quantity: words::quantity(units).map(|quantity| (*line, quantity)),
             medium: words::medium(&self.x_units.1).map(|medium| (self.x_units.0, medium)),
             ..Header::default()
