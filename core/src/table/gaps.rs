@@ -27,11 +27,17 @@ const SIZES: [f64; 16] = [
     2_147_483_648.0,
 ];
 
-/// From here to the end of single precision every number is one where the others are of a common size: −1.23e34 (USGS), 9.91e37
-/// (SCPI), 9.97e36 (netCDF).
-const HUGE: f64 = 1e29;
-const LARGEST_SINGLE: f64 = 3.402_823_6e38;
+/// Sizes far beyond what is measured: of USGS (1.23e34), netCDF (9.97e36), instruments with SCPI (9.91e37), and the largest number
+/// in single precision, each to the digits that are written.
+const HUGE: [f64; 10] = [1e30, 1e34, 1.23e34, 1e35, 1e36, 9.969_21e36, 1e37, 9.9e37, 9.91e37, 3.402_823e38];
+const WRITTEN: f64 = 1e-6;
+
+/// What is measured beside them is smaller.
 const COMMON: f64 = 1e19;
+
+fn is_huge(size: f64) -> bool {
+    size >= HUGE[0] * (1.0 - WRITTEN) && HUGE.iter().any(|known| (size - known).abs() <= WRITTEN * known)
+}
 
 /// How far a number must stand out.
 const TIMES: f64 = 10.0;
@@ -39,7 +45,7 @@ const TIMES: f64 = 10.0;
 fn is_candidate(value: f64) -> bool {
     let size = value.abs();
     // A reading of 99 is no rarity above zero.
-    (HUGE..=LARGEST_SINGLE).contains(&size) || SIZES.contains(&size) && (value < 0.0 || size >= 999.0)
+    is_huge(size) || SIZES.contains(&size) && (value < 0.0 || size >= 999.0)
 }
 
 /// The values of a curve that stand for nothing else than themselves.
@@ -68,7 +74,7 @@ impl Others {
         let largest = self.low.abs().max(self.high.abs());
         match () {
             () if self.count == 0 => value < 0.0,
-            () if value.abs() >= HUGE => largest <= COMMON,
+            () if is_huge(value.abs()) => largest <= COMMON,
             () if value < 0.0 => self.low >= value / TIMES,
             () => value >= TIMES * largest,
         }

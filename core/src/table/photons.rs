@@ -11,7 +11,7 @@
 //! E_λ = E_µm / 1000,  E_λ = 10 E_Å             per another length
 //! ```
 //!
-//! h = 6.626 070 15e-34 J s, c = 299 792 458 m/s and N_A = 6.022 140 76e23 /mol are exact (SI 2019). Wavelengths are taken as those
+//! h = 6.626 070 15e-34 J s, c = 299 792 458 m/s and `N_A` = 6.022 140 76e23 /mol are exact (SI 2019). Wavelengths are taken as those
 //! in vacuum; of those in air the photons' energies are 0.03 % too high. Where nothing but "photons" is said, the scale is
 //! relative, and values are kept at 550 nm.
 

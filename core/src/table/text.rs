@@ -37,9 +37,9 @@ pub enum BinaryKind {
     Envi,
     /// A Thermo OMNIC spectrum.
     Omnic,
-    /// A PerkinElmer spectrum.
+    /// A `PerkinElmer` spectrum.
     PerkinElmer,
-    /// A Renishaw WiRE measurement.
+    /// A Renishaw `WiRE` measurement.
     Renishaw,
     /// An Andor image or spectrum.
     Andor,
@@ -49,7 +49,7 @@ pub enum BinaryKind {
     Numpy,
     /// A workspace of R.
     RData,
-    /// An SQLite database.
+    /// An `SQLite` database.
     Sqlite,
     /// A Parquet table.
     Parquet,

@@ -59,9 +59,9 @@ pub(super) fn beside_fractions(
     let content = Lines::of(section).skip_while(|(number, _)| *number < from);
     // Commas that separate stand in every line; one within a cell is quoted.
     let sign = if delimiter == Delimiter::Comma && other == ',' { '"' } else { other };
-    let marked = content.filter(|(_, line)| line.contains(sign) && comment(line).is_none());
+    let mut marked = content.filter(|(_, line)| line.contains(sign) && comment(line).is_none());
     let grouped = |cell: &str| cell.contains(other) && may_be_thousands(cell);
-    marked.map(|(_, line)| dialect.cells(line).take(MAX_CURVES + 1).any(grouped)).any(|found| found)
+    marked.any(|(_, line)| dialect.cells(line).take(MAX_CURVES + 1).any(grouped))
 }
 
 /// Whether a text has a number such as `1,000` or `1.000` in it that no comma of a list makes.

@@ -5,14 +5,16 @@ use chromascope_core::table::{Certainty, Preview, ReadOptions, Role, Values, rea
 
 use super::{ok, samples};
 
-/// h c in J nm and h c N_A in J nm/mol, multiplied by hand.
+/// h c in J nm and the same for a mole in J nm/mol, multiplied in exact fractions.
 const PHOTON_J_NM: f64 = 1.986_445_857_148_928_6e-16;
 const MOLE_J_NM: f64 = 1.196_265_656_386_970_1e8;
+
+/// A value as written, of a wavelength and an energy.
+type Written = fn(f64, f64) -> f64;
 
 #[test]
 fn one_light_in_every_unit_is_one_light() {
     let energies = [(400.0, 0.03), (450.0, 0.05), (500.0, 0.07), (600.0, 0.09), (700.0, 0.11)];
-    type Written = fn(f64, f64) -> f64;
     let forms: [(&str, Written); 9] = [
         ("W/m2/nm", |_, e| e),
         ("µmol m-2 s-1 nm-1", |nm, e| e * nm / MOLE_J_NM * 1e6),

@@ -66,7 +66,7 @@ fn every_format_says_which_was_used() {
             let out = write(&sheet, format, grid).unwrap();
             assert!(out.text.contains(told), "{format}: {}", out.text);
             let curve = &back(&out.text).curves[0];
-            assert_eq!(curve.values.contains(&1.0), true, "{format}");
+            assert!(curve.values.contains(&1.0), "{format}");
             assert_eq!(curve.values.iter().any(|value| *value > 2.0), grid == Grid::Average(5.0), "{format} {grid:?}");
         }
         assert!(!write(&sheet, format, Grid::Native).unwrap().text.contains("resampling"), "{format}");

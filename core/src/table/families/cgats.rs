@@ -31,10 +31,9 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
             file.header.take_comment(number, key.trim(), value.trim());
         }
         let tokens = match place {
-            Place::Keywords => tokens::of(line).collect(),
             Place::Format => tokens::fields(line),
             Place::Data if file.at == 0 => tokens::set(line, file.fields.len()),
-            Place::Data => tokens::of(line).collect(),
+            Place::Keywords | Place::Data => tokens::of(line).collect(),
         };
         for token in tokens {
             log.at(token.start() as usize - text.as_ptr() as usize)?;

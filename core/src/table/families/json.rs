@@ -45,7 +45,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
             ..
         } => camera(text, &bands, [r, g, b], camera_name.as_deref(), &comments.0),
         File { spectrum: Some(Shape::Curves(curves)), settings, metadata, .. } => {
-            enlighten::read(text, curves, settings, metadata.unwrap_or_default().0, options)
+            enlighten::read(text, curves, settings, &metadata.unwrap_or_default().0, options)
         }
         File { bands: Some(bands), spectrum: Some(Shape::Values(values)), scale, comments, .. } => {
             spectrum(text, &bands, values, scale, &comments.0)

@@ -11,7 +11,7 @@ pub(super) fn read(
     text: &str,
     curves: InOrder<Option<Vec<Option<f64>>>>,
     settings: Option<Settings>,
-    metadata: Vec<(String, String)>,
+    metadata: &[(String, String)],
     options: &ReadOptions,
 ) -> Result<Content, ReadError> {
     let mut curves: Vec<(String, Vec<Option<f64>>)> =
@@ -22,7 +22,7 @@ pub(super) fn read(
     let line = line_of(text, "spectrum").unwrap_or(1);
     let wavelengths = wavelengths.filter(|all| !all.is_empty()).ok_or(ReadError::NoWavelengths { line })?;
     let mut header = Header::default();
-    for (key, value) in &metadata {
+    for (key, value) in metadata {
         header.note(key, value);
     }
     let mut notes = vec![Decision::new(
