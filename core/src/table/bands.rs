@@ -1,41 +1,61 @@
-//! Wavelengths in the names of columns: `SCI 360nm`, `SPEC_380`, `R380`, `nm400`, `380 nm [%]`.
+//! Wavelengths across a header: `400`, `400nm`, or in the names of columns: `SCI 360nm`, `SPEC_380`, `R380`, `380 nm [%]`.
 
 use super::dialect::{Cell, Dialect};
 use super::wavelengths::{WavelengthUnit, plausible};
-use super::words;
+use super::{MAX_CURVES, words};
 
 /// The fewest bands that are taken for a spectrum.
-const FEWEST: usize = 5;
+pub(super) const FEWEST: usize = 5;
 
 /// What one name holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Band<'a> {
+struct Band<'a> {
     /// What stands before the wavelength, and what stands behind it and its unit.
     prefix: &'a str,
     suffix: &'a str,
-    pub(super) wavelength: f64,
-    pub(super) unit: Option<WavelengthUnit>,
+    wavelength: f64,
+    unit: Option<WavelengthUnit>,
 }
 
 impl Band<'_> {
     fn goes_with(&self, other: &Self) -> bool {
         (self.prefix, self.suffix, self.unit) == (other.prefix, other.suffix, other.unit)
     }
+
+    /// Whether nothing but a wavelength stands there.
+    fn is_plain(&self) -> bool {
+        self.prefix.is_empty() && self.suffix.is_empty()
+    }
 }
 
 /// Bands side by side whose names differ in nothing but the wavelength.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Group {
-    /// The first column, from 0, and how many there are.
+    /// The first column, from 0.
     pub(super) start: usize,
-    pub(super) count: usize,
+    /// The wavelength of each column; NaN where none can be read.
+    pub(super) wavelengths: Vec<f64>,
+    /// The unit beside the wavelengths.
+    pub(super) unit: Option<WavelengthUnit>,
     /// What stands before and behind the wavelengths.
     pub(super) prefix: String,
     pub(super) suffix: String,
 }
 
+impl Group {
+    /// The column behind the last.
+    pub(super) fn end(&self) -> usize {
+        self.start + self.wavelengths.len()
+    }
+
+    /// How many wavelengths there are.
+    pub(super) fn count(&self) -> usize {
+        self.wavelengths.iter().filter(|wavelength| !wavelength.is_nan()).count()
+    }
+}
+
 /// The wavelength in the name of a column.
-pub(super) fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
+fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
     const LONGEST: usize = 64;
     let digit = |c: char| c.is_ascii_digit();
     if name.len() > LONGEST || !name.contains(digit) {
@@ -80,40 +100,116 @@ fn is_band_prefix(prefix: &str) -> bool {
     WHOLE.contains(&bare) || bare.contains("spec") || bare.contains("wavelength") || bare.contains("reflectance")
 }
 
-/// The groups of bands in a line of names.
+/// The groups of wavelengths in a header. A cell that is empty or out of order costs its column only.
 pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
+    let mut named = false;
+    let mut bands: Vec<(usize, Band<'_>)> = Vec::new();
+    for (column, cell) in dialect.cells(line).take(MAX_CURVES + 2).enumerate() {
+        match head(dialect, cell) {
+            Some(band) => bands.push((column, band)),
+            None => named |= bands.is_empty() && words::names_wavelengths(cell),
+        }
+    }
     let mut all = Vec::new();
-    let mut run: Vec<Band<'_>> = Vec::new();
-    for (column, cell) in dialect.cells(line).enumerate() {
-        let band = band(dialect, cell);
-        let goes_on = |band: &Band<'_>| {
-            let Some(last) = run.last().filter(|last| last.goes_with(band)) else { return false };
-            let rises = run.len() < 2 || run[1].wavelength > run[0].wavelength;
-            band.wavelength != last.wavelength && (run.len() < 2 || (band.wavelength > last.wavelength) == rises)
-        };
-        if !band.as_ref().is_some_and(goes_on) {
-            all.extend(group(&run, column));
-            run.clear();
-            // A table that names the column of its wavelengths has them there.
-            if all.is_empty() && band.is_none() && words::names_wavelengths(cell) {
-                return Vec::new();
+    let mut run: Vec<(usize, Band<'_>)> = Vec::new();
+    let mut wrong = 0;
+    for (index, &(column, band)) in bands.iter().enumerate() {
+        let next = bands.get(index + 1).map(|(_, next)| next);
+        let (begun, beside) = (run.first().map(|(_, first)| first.wavelength), ends_at(&run, column));
+        match step(&run, &band, next) {
+            Step::On => {
+                if run.len() == 1 && !beside && begun.is_some_and(|first| is_far(first, band.wavelength)) {
+                    run.clear();
+                }
+                run.push((column, band));
+            }
+            Step::Wrong => wrong += 1,
+            Step::Anew => {
+                // Numbers that go up and down are values, unless a second spectrum begins where the first did.
+                if band.is_plain() && beside && begun != Some(band.wavelength) {
+                    return Vec::new();
+                }
+                all.extend(group(&run, wrong));
+                (run, wrong) = (vec![(column, band)], 0);
+            }
+            Step::Other => {
+                all.extend(group(&run, wrong));
+                (run, wrong) = (vec![(column, band)], 0);
             }
         }
-        run.extend(band);
     }
-    let columns = dialect.cells(line).count();
-    all.extend(group(&run, columns));
+    all.extend(group(&run, wrong));
+    // A table that names the column of its wavelengths has them there.
+    if named && all.first().is_some_and(|group| !(group.prefix.is_empty() && group.suffix.is_empty())) {
+        return Vec::new();
+    }
     all
 }
 
-fn group(run: &[Band<'_>], end: usize) -> Option<Group> {
-    let first = run.first().filter(|_| run.len() >= FEWEST)?;
-    let wavelengths = || run.iter().map(|band| band.wavelength);
-    let (min, max) = (wavelengths().fold(f64::INFINITY, f64::min), wavelengths().fold(f64::NEG_INFINITY, f64::max));
-    plausible(min, max, wavelengths().any(|w| w.fract() != 0.0)).then(|| Group {
-        start: end - run.len(),
-        count: run.len(),
-        prefix: first.prefix.to_owned(),
-        suffix: first.suffix.to_owned(),
-    })
+/// What a band is to those before it.
+enum Step {
+    On,
+    /// Out of order among those around it.
+    Wrong,
+    Anew,
+    /// Of another name.
+    Other,
+}
+
+fn step(run: &[(usize, Band<'_>)], band: &Band<'_>, next: Option<&Band<'_>>) -> Step {
+    let Some((_, last)) = run.last() else { return Step::On };
+    if !last.goes_with(band) {
+        return Step::Other;
+    }
+    let ([(_, first), (_, second), ..], at) = (run, band.wavelength) else {
+        return if band.wavelength == last.wavelength { Step::Anew } else { Step::On };
+    };
+    let way = (second.wavelength - first.wavelength).signum();
+    let after = |a: f64, b: f64| (b - a) * way > 0.0;
+    if let Some(next) = next.filter(|next| next.goes_with(last) && after(last.wavelength, next.wavelength))
+        && !(after(last.wavelength, at) && after(at, next.wavelength))
+    {
+        return Step::Wrong;
+    }
+    if after(last.wavelength, at) { Step::On } else { Step::Anew }
+}
+
+fn ends_at(run: &[(usize, Band<'_>)], column: usize) -> bool {
+    run.last().is_some_and(|(last, _)| last + 1 == column)
+}
+
+/// Whether a number that is set apart is none of the wavelengths that follow.
+fn is_far(first: f64, second: f64) -> bool {
+    const TIMES: f64 = 3.0;
+    first > TIMES * second || second > TIMES * first
+}
+
+/// The wavelength at the head of a column.
+fn head(dialect: Dialect, cell: &str) -> Option<Band<'_>> {
+    let plain = |wavelength, unit| Band { prefix: "", suffix: "", wavelength, unit };
+    match dialect.parse(cell) {
+        Cell::Number(wavelength) => Some(plain(wavelength, None)),
+        Cell::Gap => None,
+        Cell::Text => {
+            let label = dialect.parse_label(cell).map(|(wavelength, unit)| plain(wavelength, Some(unit)));
+            label.or_else(|| band(dialect, cell))
+        }
+    }
+}
+
+fn group(run: &[(usize, Band<'_>)], wrong: usize) -> Option<Group> {
+    /// Sound wavelengths for each that is out of order; more of those are values.
+    const SOUND: usize = 5;
+    let ((start, first), (end, _)) = (run.first().filter(|_| run.len() >= FEWEST)?, run.last()?);
+    let values = || run.iter().map(|(_, band)| band.wavelength);
+    let (min, max) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+    if !plausible(min, max, values().any(|w| w.fract() != 0.0)) || run.len() < SOUND * wrong {
+        return None;
+    }
+    let mut wavelengths = vec![f64::NAN; end + 1 - start];
+    for (column, band) in run {
+        wavelengths[column - start] = band.wavelength;
+    }
+    let (prefix, suffix) = (first.prefix.to_owned(), first.suffix.to_owned());
+    Some(Group { start: *start, wavelengths, unit: first.unit, prefix, suffix })
 }

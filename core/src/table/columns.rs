@@ -1,5 +1,6 @@
 //! Reads tables whose wavelengths run down a column.
 
+pub(super) mod axes;
 mod pairs;
 mod texts;
 
@@ -73,7 +74,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
 
 /// The column that the header names as that of the wavelengths, if it names one.
 fn wavelength_column(header: &Header) -> Option<usize> {
-    header.names.iter().position(|name| words::names_wavelengths(name))
+    words::axis(&header.names)
 }
 
 /// A line inside the table that is no row.
@@ -287,26 +288,31 @@ impl Columns {
         let (next, rows, label_unit) = (self.next, self.lines.len(), self.label_unit);
         let values = self.cells.split_off(at + 1);
         let wavelengths = self.cells.pop().unwrap_or_default();
-        let more = pairs::more_wavelengths(&header, at, &wavelengths, &values);
+        let axes = axes::find(&header, at, &wavelengths, &self.cells, &values);
         let texts: Vec<usize> = self.texts.left_out().filter(|&column| column < columns && column != at).collect();
         let is_left = |(column, values): &(usize, Vec<f64>)| {
-            more.is_empty() && !empty(values) && header.name(*column).is_some_and(|name| !words::is_count(name))
+            axes.more.is_empty() && !empty(values) && header.name(*column).is_some_and(|name| !words::is_count(name))
         };
         let before = std::mem::take(&mut self.cells).into_iter().enumerate();
-        let (left, skipped): (Vec<_>, Vec<_>) = before.filter(|(column, _)| !texts.contains(column)).partition(is_left);
+        let (left, skipped): (Vec<_>, Vec<_>) = before.filter(|(column, _)| !(texts.contains(column) || axes.left.contains(column))).partition(is_left);
         if skipped.iter().any(|(_, column)| !empty(column)) {
             log.push(Warning::SkippedColumns { wavelength_column: at + 1 });
         }
+        if !axes.left.is_empty() {
+            let named = axes::told(&header, &axes.left);
+            log.push(Warning::OtherAxes { named, wavelength_column: Some(at + 1) });
+        }
         warn_of_texts(&header, &texts, log);
-        let (mut grid, note) = if more.is_empty() {
-            let after = (at + 1..).zip(values).filter(|(column, _)| !texts.contains(column));
+        let (mut grid, note) = if axes.more.is_empty() {
+            let is_curve = |column: &usize| !(texts.contains(column) || axes.left.contains(column));
+            let after = (at + 1..).zip(values).filter(|(column, _)| is_curve(column));
             let all: Vec<_> = left.into_iter().chain(after).collect();
             let only = all.len() == 1;
             let curve = |(column, values)| self.texts.united(raw_curve(&header, column, only, values), column);
             let curves = all.into_iter().map(curve).collect();
             (Grid { wavelengths, lines: self.lines, curves, header, ..Grid::default() }, None)
         } else {
-            pairs::read(header, at, wavelengths, values, &more, &self.lines, log)?
+            pairs::read(header, at, wavelengths, values, &axes, &self.lines, log)?
         };
         grid.label_unit = label_unit;
         grid.rows = rows;

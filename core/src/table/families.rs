@@ -123,7 +123,9 @@ fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, 
         let next = read.next.take();
         let bytes = read.bytes;
         if !read.grid.parts.is_empty() {
-            return Ok(side_by_side(layout, read, options, log));
+            side_by_side(&mut read.grid, options, log);
+            taken = Some((layout, read));
+            break;
         }
         parts.push(part(&layout, &read.grid));
         if parts.len() == wanted {
@@ -160,16 +162,22 @@ fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, 
     Ok(Found { grid, layout, reader, notes })
 }
 
-/// Groups of columns in one table, one of which was taken.
-fn side_by_side(layout: Layout, read: columns::Read, options: &ReadOptions, log: &mut Log<'_>) -> Found {
-    let mut grid = read.grid;
+/// Groups of columns, or rows of several quantities, in one table, one of which was taken.
+fn side_by_side(grid: &mut Grid, options: &ReadOptions, log: &mut Log<'_>) {
+    if let Some(part) = &grid.part {
+        let taken = part.value.checked_sub(1).filter(|at| *at < grid.parts.len()).unwrap_or(0);
+        let others = wide::other_names(&grid.parts, taken);
+        if options.part.is_none() {
+            log.push(Warning::MoreQuantities { taken: grid.parts[taken].name.clone(), others });
+        }
+        return;
+    }
     let names: Vec<&str> = grid.parts.iter().map(|part| part.name.as_str()).take(MOST_NAMED).collect();
     let why = format!("{} groups of columns stand side by side, {}", grid.parts.len(), names.join(", "));
     grid.part = Some(Decided::guess(1, why));
     if options.part.is_none() {
         log.push(Warning::MoreGroups { count: grid.parts.len(), second: grid.parts[1].name.clone() });
     }
-    Found { grid, layout, reader: Decided::certain(Reader::Table, "Rows of numbers"), notes: Vec::new() }
 }
 
 /// Groups that are named in a decision.

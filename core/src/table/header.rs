@@ -210,15 +210,15 @@ impl Header {
                 return;
             }
             if self.units.is_empty() && is_unit_row(&cells) {
-                self.take_unit_cell(number, &cells);
+                self.take_unit_cell(number, &cells, layout);
                 self.units = cells;
                 continue;
             }
             if is_measured(layout, &cells) {
                 continue;
             }
-            if self.units.is_empty() {
-                self.take_unit_cell(number, &cells);
+            if self.units.is_empty() || self.x_unit.is_none() {
+                self.take_unit_cell(number, &cells, layout);
             }
             self.names = cells;
             self.line = Some(number);
@@ -244,9 +244,10 @@ impl Header {
         }
     }
 
-    fn take_unit_cell(&mut self, number: usize, cells: &[String]) {
-        let wavelength = cells.iter().find(|cell| words::names_wavelengths(cell)).or(cells.first());
-        if let Some(unit) = wavelength.and_then(|cell| words::x_unit(cell)) {
+    fn take_unit_cell(&mut self, number: usize, cells: &[String], layout: &Layout) {
+        let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
+        let column = chosen.or_else(|| words::axis(cells)).unwrap_or(0);
+        if let Some(unit) = cells.get(column).and_then(|cell| words::x_unit(cell)) {
             self.x_unit = Some((number, unit));
         }
     }

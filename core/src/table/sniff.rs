@@ -228,7 +228,7 @@ fn orientation(trial: &Trial) -> Decided<Orientation> {
     let down = trial.best.looks_like_wavelengths();
     match trial.across.as_ref().filter(|across| across.rows > 0) {
         Some(across) if !down && across.rows + 1 >= rows => {
-            Decided::certain(Orientation::Across, format!("Line {} holds {} wavelengths", across.line, across.count))
+            Decided::certain(Orientation::Across, format!("Line {} holds {} wavelengths", across.line, across.group().count()))
         }
         Some(_) => Decided::guess(Orientation::Down, "The first numbers of the rows are in order"),
         None => Decided::certain(Orientation::Down, "No line holds wavelengths side by side"),
@@ -241,10 +241,10 @@ fn lay_across(
     trial: &Trial,
     orientation: Decided<Orientation>,
 ) -> Result<Layout, ReadError> {
-    let across = trial.across.clone().filter(|across| across.rows > 0).ok_or(ReadError::NoNumbers)?;
-    let across = across.with_group(options.part.unwrap_or(1).saturating_sub(1));
+    let mut across = trial.across.clone().filter(|across| across.rows > 0).ok_or(ReadError::NoNumbers)?;
+    across.part = options.part.unwrap_or(1).saturating_sub(1);
     let rows = if across.rows == 1 { "one row".to_owned() } else { format!("{} rows", across.rows) };
-    let evidence = format!("A header of {} wavelengths with {rows} below it", across.count);
+    let evidence = format!("A header of {} wavelengths with {rows} below it", across.group().count());
     let (decimal_mark, thousands, warning) = marks(section, options, trial, across.first_row, Orientation::Across);
     Ok(Layout {
         delimiter: Decided::or_chosen(options.delimiter, || Decided::certain(trial.dialect.delimiter, evidence)),
@@ -253,7 +253,7 @@ fn lay_across(
         orientation,
         first_line: across.first_row,
         texts: 0,
-        width: across.width(),
+        width: across.group().end(),
         across: Some(across),
         wavelength_column: None,
         warnings: warning.into_iter().collect(),

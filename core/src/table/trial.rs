@@ -5,9 +5,6 @@ use super::dialect::{Cell, Dialect, may_be_thousands};
 use super::wavelengths::plausible;
 use super::{MAX_CURVES, Orientation};
 
-/// The fewest wavelengths across a row that are taken for a header.
-const FEWEST_ACROSS: usize = 5;
-
 /// Lines that may not fit below such a header before it is taken for none: the reader then tells what is wrong with them.
 const MISSES: usize = 3;
 
@@ -37,43 +34,6 @@ pub(super) struct Shape {
     fractions: usize,
     /// Whether a cell after the first is written like `05`, as only digits after a decimal mark are.
     padded: bool,
-    /// Cells up to and including the last that is text.
-    text_until: usize,
-    tail: Tail,
-}
-
-/// The numbers that end a line without interruption: what a header of wavelengths looks like.
-#[derive(Debug, Clone, Default)]
-struct Tail {
-    start: usize,
-    count: usize,
-    last: f64,
-    rises: usize,
-    falls: usize,
-    min: f64,
-    max: f64,
-    fractions: bool,
-    interrupted: bool,
-}
-
-impl Tail {
-    fn push(&mut self, index: usize, value: f64) {
-        if self.interrupted || self.count == 0 {
-            *self = Self { start: index, count: 1, last: value, min: value, max: value, ..Self::default() };
-        } else {
-            self.count += 1;
-            self.rises += usize::from(value > self.last);
-            self.falls += usize::from(value < self.last);
-            self.min = self.min.min(value);
-            self.max = self.max.max(value);
-            self.last = value;
-        }
-        self.fractions |= value.fract() != 0.0;
-    }
-
-    fn steady(&self) -> bool {
-        self.rises.max(self.falls) + 1 == self.count
-    }
 }
 
 impl Shape {
@@ -86,10 +46,7 @@ impl Shape {
             }
             match dialect.parse(cell) {
                 Cell::Number(value) => shape.number(index, value, dialect.has_mark(cell), cell),
-                Cell::Gap => {
-                    shape.gaps |= bit(index).unwrap_or(0);
-                    shape.tail.interrupted = true;
-                }
+                Cell::Gap => shape.gaps |= bit(index).unwrap_or(0),
                 Cell::Text => shape.label_or_text(index, dialect, cell),
             }
         }
@@ -105,8 +62,6 @@ impl Shape {
         self.text = true;
         self.texts |= bit(index).unwrap_or(u128::MAX);
         self.united |= bit(index).filter(|_| dialect.parse_united(cell).is_some()).unwrap_or(0);
-        self.text_until = index + 1;
-        self.tail = Tail { start: index + 1, ..Tail::default() };
     }
 
     fn number(&mut self, index: usize, value: f64, marked: bool, cell: &str) {
@@ -118,7 +73,6 @@ impl Shape {
         self.fractions += usize::from(marked && !may_be_thousands(cell));
         let bytes = cell.as_bytes();
         self.padded |= index > 0 && bytes.len() > 1 && bytes[0] == b'0' && bytes.iter().all(u8::is_ascii_digit);
-        self.tail.push(index, value);
     }
 
     /// Whether the line is a row of numbers, or of numbers with columns of text among them.
@@ -218,44 +172,32 @@ impl Run {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Across {
     pub(super) line: usize,
-    /// The first column of wavelengths, and how many there are.
-    pub(super) start: usize,
-    pub(super) count: usize,
     pub(super) first_row: usize,
     pub(super) rows: usize,
     misses: usize,
     /// Cells of the header.
     pub(super) cells: usize,
-    /// Groups of columns whose names hold the wavelengths, if they do; the first is the one above.
+    /// Its groups of wavelengths, at least one.
     pub(super) groups: Vec<Group>,
+    /// The part that is read, from 0: one of several groups, else of the quantities of the rows.
+    pub(super) part: usize,
 }
 
 impl Across {
-    /// The same header for another of its groups.
-    pub(super) fn with_group(mut self, index: usize) -> Self {
-        if let Some(Group { start, count, .. }) = self.groups.get(index) {
-            (self.start, self.count) = (*start, *count);
-        }
-        self
-    }
-
-    /// The columns up to the last wavelength.
-    pub(super) fn width(&self) -> usize {
-        self.start + self.count
+    /// The group of wavelengths that is read.
+    pub(super) fn group(&self) -> &Group {
+        self.groups.get(self.part).unwrap_or(&self.groups[0])
     }
 
     fn is_row(&self, dialect: Dialect, shape: &Shape, line: &str) -> bool {
-        if !self.groups.is_empty() {
-            let mut numbers = 0;
-            let mut cells = dialect.cells(line).skip(self.start).take(self.count).map(|cell| dialect.parse(cell));
-            let numeric = cells.all(|cell| {
-                numbers += usize::from(matches!(cell, Cell::Number(_)));
-                cell != Cell::Text
-            });
-            return numeric && numbers > 0 && shape.cells >= self.width() && shape.filled <= self.cells;
-        }
-        let numeric = shape.text_until <= self.start && shape.numbers > 0;
-        numeric && shape.cells > self.start && shape.filled <= self.width()
+        let Group { start, wavelengths, .. } = self.group();
+        let mut numbers = 0;
+        let numeric = dialect.cells(line).skip(*start).zip(wavelengths).all(|(cell, wavelength)| {
+            let cell = dialect.parse(cell);
+            numbers += usize::from(matches!(cell, Cell::Number(_)));
+            cell != Cell::Text || wavelength.is_nan()
+        });
+        numeric && numbers > 0 && shape.filled <= self.cells
     }
 
     fn push(&mut self, line: usize) {
@@ -348,21 +290,11 @@ impl Trial {
     }
 
     fn take_across(&mut self, number: usize, shape: &Shape, line: &str) {
-        let tail = &shape.tail;
-        if !self.across_tested && shape.numbers >= FEWEST_ACROSS {
-            self.across_tested = true;
-            let header = tail.count >= FEWEST_ACROSS && tail.steady() && plausible(tail.min, tail.max, tail.fractions);
-            if header {
-                let Tail { start, count, .. } = *tail;
-                let cells = start + count;
-                self.across = Some(Across { line: number, start, count, cells, ..Across::default() });
-            }
-        } else if !self.across_tested && shape.text && shape.cells >= FEWEST_ACROSS {
+        if !self.across_tested && shape.cells >= bands::FEWEST {
             let groups = bands::groups(self.dialect, line);
-            if let Some(&Group { start, count, .. }) = groups.first() {
-                self.across_tested = true;
-                let cells = shape.cells;
-                self.across = Some(Across { line: number, start, count, cells, groups, ..Across::default() });
+            self.across_tested = shape.numbers >= bands::FEWEST || !groups.is_empty();
+            if !groups.is_empty() {
+                self.across = Some(Across { line: number, cells: shape.cells, groups, ..Across::default() });
             }
         } else if let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) {
             if across.is_row(self.dialect, shape, line) {

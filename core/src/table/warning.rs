@@ -227,6 +227,13 @@ pub enum Warning {
         /// The column of the wavelengths, from 1, where they run down one.
         wavelength_column: Option<usize>,
     },
+    /// Rows of other quantities than those that were read.
+    MoreQuantities {
+        /// What was read.
+        taken: String,
+        /// The others, the first few.
+        others: String,
+    },
     /// Columns with values whose names should be wavelengths and are none: left out.
     BadWavelengths {
         /// The line of the wavelengths.
@@ -287,6 +294,7 @@ impl Warning {
             | Self::OtherQuantity { .. }
             | Self::SkippedColumns { .. }
             | Self::OtherAxes { .. }
+            | Self::MoreQuantities { .. }
             | Self::TextColumns { .. }
             | Self::CommasOnly
             | Self::MaybeThousands
@@ -392,6 +400,9 @@ impl fmt::Display for Warning {
             Self::BrokenTable { line, error } => {
                 write!(f, "line {line}: another table that cannot be read: left out ({error})")
             }
+            Self::MoreGroups { count: 2, second } if second.starts_with("columns ") => {
+                write!(f, "The {second} are another table: left out")
+            }
             Self::MoreGroups { count: 2, second } => write!(f, "The columns “{second}” are another table: left out"),
             Self::MoreGroups { count, second } => {
                 write!(f, "The columns “{second}” and {} more groups are other tables: left out", count - 2)
@@ -408,10 +419,13 @@ impl fmt::Display for Warning {
                 write!(f, "line {line}: {label} announces {announced}, but the data give {found}")
             }
             Self::OtherAxes { named, wavelength_column: None } => {
-                write!(f, "{named}: another scale of the wavelengths, no spectrum: left out")
+                write!(f, "{named}: another scale than the wavelengths, no spectrum: left out")
             }
             Self::OtherAxes { named, wavelength_column: Some(column) } => {
-                write!(f, "{named}: another scale of the wavelengths, which are those of column {column}: left out")
+                write!(f, "{named}: another scale than the wavelengths in column {column}, no spectrum: left out")
+            }
+            Self::MoreQuantities { taken, others } => {
+                write!(f, "Rows of other quantities than “{taken}”: left out ({others}): choose the part to read them")
             }
             Self::BadWavelengths { line, named } => {
                 write!(f, "line {line}: {named}: no wavelength there, so the column is left out")

@@ -1,6 +1,11 @@
 //! Reads tables whose wavelengths run across a header row: every row is a curve.
 
-use super::bands;
+mod kinds;
+
+use kinds::Label;
+
+use super::bands::Group;
+use super::columns::axes;
 use super::dialect::{Cell, Dialect};
 use super::grid::{Grid, RawCurve};
 use super::header;
@@ -10,7 +15,7 @@ use super::text::{Lines, Section, comment, excerpt};
 use super::trial::Across;
 use super::warning::{LineList, Warning};
 use super::watch::Log;
-use super::{Decided, MAX_CURVES, MAX_SAMPLES, Orientation, Part, ReadError, Role, WavelengthUnit, quantity, words};
+use super::{Decided, MAX_CURVES, MAX_SAMPLES, Orientation, Part, ReadError, Role, quantity, words};
 
 /// Reads the header row and the rows of a layout.
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Grid, ReadError> {
@@ -19,13 +24,14 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let mut lines = Lines::of(section).skip_while(|(number, _)| *number < across.line);
     let Some((_, header_line)) = lines.next() else { return Err(ReadError::NoNumbers) };
     let dialect = layout.dialect();
-    let (wavelengths, label_unit) = wavelengths(dialect, header_line, across)?;
-    let leading: Vec<&str> = dialect.cells(header_line).take(across.start).collect();
+    let group = across.group();
+    let heads: Vec<&str> = dialect.cells(header_line).collect();
+    let leading = &heads[..group.start];
     let mut header = header::read(section, layout);
     let named_unit = leading.iter().filter(|cell| words::names_wavelengths(cell)).find_map(|cell| words::x_unit(cell));
     header.x_unit = named_unit.map(|unit| (across.line, unit)).or(header.x_unit);
     header.line = Some(across.line);
-    let mut rows = Rows::new(dialect, across, name_column(&leading));
+    let mut rows = Rows::new(dialect, across, leading, suspects(dialect, &heads, across));
     let mut read = section.byte;
     for (number, line) in lines {
         read += line.len() + 1;
@@ -47,58 +53,93 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     }
     header.mentioned = rows.mentioned.or(header.mentioned);
     let count = rows.curves.len();
-    let group = across.groups.iter().position(|group| group.start == across.start);
-    let named = group.map(|group| &across.groups[group]);
-    let suffix = named.map_or("", |group| &*group.suffix);
     for curve in &mut rows.curves {
-        suffix.clone_into(&mut curve.label);
-        curve.unit = quantity::unit_cell(suffix).or_else(|| header.unit.clone());
+        group.suffix.clone_into(&mut curve.label);
+        curve.unit = quantity::unit_cell(&group.suffix).or_else(|| header.unit.clone());
     }
-    let specular = named.map(|group| &*group.prefix).filter(|prefix| words::says_specular(prefix));
+    let specular = Some(&*group.prefix).filter(|prefix| words::says_specular(prefix));
     let role = specular.map(|prefix| Decided::guess(Role::Reflectance, format!("The bands are named {prefix}")));
     let parts = across.groups.iter().filter(|_| across.groups.len() > 1).map(|group| Part {
         line: across.first_row,
-        name: group.prefix.clone(),
+        name: group_name(dialect, &heads, group),
         curves: count,
         rows: count,
     });
-    let parts: Vec<Part> = parts.take(MAX_PARTS).collect();
-    let lines = vec![across.line];
-    Ok(Grid {
-        wavelengths,
-        lines,
+    let mut parts: Vec<Part> = parts.take(MAX_PARTS).collect();
+    let mut part = None;
+    if !rows.scales.is_empty() {
+        log.push(Warning::OtherAxes { named: listed(&rows.scales), wavelength_column: None });
+    }
+    // Where columns are parts, only the first quantity of the rows can be read.
+    let wanted = if parts.is_empty() { across.part } else { 0 };
+    let kinds = kinds::settle(&mut rows.curves, &rows.labels, wanted, &mut header);
+    if !kinds.is_empty() && !parts.is_empty() {
+        log.push(Warning::MoreQuantities { taken: kinds[0].name.clone(), others: other_names(&kinds, 0) });
+    } else if !kinds.is_empty() {
+        let why = format!("The rows are of {} quantities", kinds.len());
+        (parts, part) = (kinds, Some(Decided::guess(wanted + 1, why)));
+    }
+    let count = rows.curves.len();
+    let told: Vec<String> = rows.suspects.iter().filter(|(_, filled)| *filled).map(|(at, _)| told(&heads, *at)).collect();
+    if !told.is_empty() {
+        log.push(Warning::BadWavelengths { line: across.line, named: listed(&told) });
+    }
+    let mut grid = Grid {
+        wavelengths: group.wavelengths.clone(),
+        lines: vec![across.line],
         curves: rows.curves,
         header,
-        label_unit,
+        label_unit: group.unit,
         rows: count,
         role,
         parts,
+        part,
         ..Grid::default()
-    })
+    };
+    let bad: Vec<bool> = grid.wavelengths.iter().map(|wavelength| wavelength.is_nan()).collect();
+    if bad.contains(&true) {
+        grid.remove(&bad);
+    }
+    Ok(grid)
 }
 
-fn wavelengths(dialect: Dialect, line: &str, across: &Across) -> Result<(Vec<f64>, Option<WavelengthUnit>), ReadError> {
-    let mut unit = None;
-    let mut wavelengths = Vec::with_capacity(across.count);
-    for (index, cell) in dialect.cells(line).enumerate().skip(across.start).take(across.count) {
-        let broken = || ReadError::NotANumber { line: across.line, column: index + 1, text: excerpt(cell) };
-        if let Cell::Number(value) = dialect.parse(cell) {
-            wavelengths.push(value);
-            continue;
-        }
-        let band = Some(across).filter(|across| !across.groups.is_empty()).and_then(|_| bands::band(dialect, cell));
-        if let Some(band) = band {
-            unit = band.unit;
-            wavelengths.push(band.wavelength);
-            continue;
-        }
-        let (value, label) = dialect.parse_label(cell).ok_or_else(broken)?;
-        if *unit.get_or_insert(label) != label {
-            return Err(broken());
-        }
-        wavelengths.push(value);
+/// The name of a group: what its wavelengths have in common, what stands before them, or its columns.
+fn group_name(dialect: Dialect, heads: &[&str], group: &Group) -> String {
+    let before = group.start.checked_sub(1).map(|at| heads[at]).filter(|cell| dialect.parse(cell) == Cell::Text);
+    match (group.prefix.as_str(), before) {
+        ("", Some(name)) if group.start > 1 => name.to_owned(),
+        ("", _) => format!("columns {} to {}", group.start + 1, group.end()),
+        (prefix, _) => prefix.to_owned(),
     }
-    Ok((wavelengths, unit))
+}
+
+/// Columns, from 0 and in order, at whose heads a wavelength should stand and none does.
+fn suspects(dialect: Dialect, heads: &[&str], across: &Across) -> Vec<(usize, bool)> {
+    let group = across.group();
+    let next = across.groups.iter().map(|other| other.start).filter(|start| *start > group.start).min();
+    let until = next.unwrap_or(heads.len()).min(heads.len());
+    let from = if group.start > 1 { group.start - 1 } else { group.start };
+    let is_bad = |at: &usize| {
+        let wavelength = at.checked_sub(group.start).and_then(|at| group.wavelengths.get(at));
+        let begun = heads[*at].starts_with(|c: char| c.is_ascii_digit());
+        match wavelength {
+            Some(wavelength) => wavelength.is_nan(),
+            None => begun || dialect.parse(heads[*at]) == Cell::Gap,
+        }
+    };
+    (from..until).filter(is_bad).map(|at| (at, false)).collect()
+}
+
+/// A column and what stands at its head.
+fn told(heads: &[&str], at: usize) -> String {
+    if heads[at].is_empty() { format!("column {} (empty)", at + 1) } else { format!("column {} (“{}”)", at + 1, excerpt(heads[at])) }
+}
+
+/// The first few of several.
+pub(super) fn listed(all: &[String]) -> String {
+    const MOST: usize = 4;
+    let first = all[..all.len().min(MOST)].join(", ");
+    if all.len() > MOST { format!("{first} and {} more", all.len() - MOST) } else { first }
 }
 
 /// The leading column that best names a row: one headed so, else the first.
@@ -106,6 +147,19 @@ fn name_column(leading: &[&str]) -> usize {
     const NAMES: [&str; 7] = ["name", "sample", "label", "patch", "color", "tag", "id"];
     let headed = |wanted: &&str| leading.iter().position(|cell| cell.to_lowercase().contains(*wanted));
     NAMES.iter().find_map(headed).unwrap_or(0)
+}
+
+/// The names of all parts but one, the first few.
+pub(super) fn other_names(parts: &[Part], but: usize) -> String {
+    let others = parts.iter().enumerate().filter(|(at, _)| *at != but);
+    listed(&others.map(|(_, part)| format!("“{}”", part.name)).collect::<Vec<_>>())
+}
+
+/// Whether a row holds no spectrum: wave numbers, times, or numbers that count the columns.
+fn is_scale<'a>(leading: impl Iterator<Item = &'a str>, curve: &RawCurve) -> bool {
+    let mut names = leading.filter(|cell| !cell.is_empty());
+    let Some(name) = names.next().filter(|_| curve.named) else { return false };
+    words::names_axis(name) || words::names_time(name) || words::is_count(name) && axes::counts(&curve.values)
 }
 
 /// The curves so far.
@@ -119,14 +173,25 @@ struct Rows<'a> {
     mentioned: Option<(usize, super::Role)>,
     /// A line that is no row: its number, the error it makes if rows follow, and whether it is an error by itself.
     broken: Option<(usize, ReadError, bool)>,
+    /// Columns without a wavelength at their heads, and whether they hold numbers.
+    suspects: Vec<(usize, bool)>,
+    /// What each curve is, as a cell before its values says, and the column of those cells.
+    labels: Vec<Option<Label>>,
+    kind_column: Option<usize>,
+    /// Rows that hold no spectrum but another scale, in words.
+    scales: Vec<String>,
 }
 
 impl<'a> Rows<'a> {
-    fn new(dialect: Dialect, across: &'a Across, name_column: usize) -> Self {
+    fn new(dialect: Dialect, across: &'a Across, leading: &[&str], suspects: Vec<(usize, bool)>) -> Self {
         Self {
+            suspects,
+            labels: Vec::new(),
+            kind_column: kinds::column(leading),
+            scales: Vec::new(),
             dialect,
             across,
-            name_column,
+            name_column: name_column(leading),
             curves: Vec::new(),
             gaps: 0,
             gap_lines: LineList::default(),
@@ -146,9 +211,21 @@ impl<'a> Rows<'a> {
                 if let Some((_, error, _)) = self.broken.take() {
                     return Err(error);
                 }
-                let mut leading = self.dialect.cells(line).take(self.across.start);
-                let role = leading.find_map(words::role).map(|role| (number, role));
+                let leading = || self.dialect.cells(line).take(self.across.group().start);
+                if is_scale(leading(), &curve) {
+                    self.scales.push(format!("line {number} (“{}”)", excerpt(&curve.name)));
+                    return Ok(());
+                }
+                let role = leading().find_map(words::role).map(|role| (number, role));
+                let label = match self.kind_column {
+                    Some(column) => leading().nth(column).map(|cell| Label::of(cell, number)),
+                    None => leading().map(|cell| Label::of(cell, number)).find(Label::is_said),
+                };
                 self.mentioned = self.mentioned.or(role);
+                self.labels.push(label);
+                if !self.suspects.is_empty() {
+                    self.look_at_suspects(line);
+                }
                 self.push(number, curve)
             }
         }
@@ -156,8 +233,9 @@ impl<'a> Rows<'a> {
 
     /// A row as a curve; `None` for a row of empty cells; an error, and whether the line looks like a row at all.
     fn parse(&self, number: usize, line: &str) -> Result<Option<RawCurve>, (ReadError, bool)> {
-        let (start, width) = (self.across.start, self.across.width());
-        let mut values = Vec::with_capacity(self.across.count);
+        let Group { start, wavelengths, .. } = self.across.group();
+        let (start, width) = (*start, self.across.group().end());
+        let mut values = Vec::with_capacity(wavelengths.len());
         let (mut cells, mut filled) = (0, 0);
         let mut names: (&str, &str) = ("", "");
         for cell in self.dialect.cells(line) {
@@ -166,6 +244,7 @@ impl<'a> Rows<'a> {
                 names.1 = if names.1.is_empty() { cell } else { names.1 };
             } else if cells < width {
                 values.push(match self.dialect.parse(cell) {
+                    _ if wavelengths[cells - start].is_nan() => f64::NAN,
                     Cell::Number(value) => value,
                     Cell::Gap => f64::NAN,
                     Cell::Text => {
@@ -195,11 +274,22 @@ impl<'a> Rows<'a> {
 
     /// Whether a line has as many cells as a row.
     fn is_long(&self, line: &str) -> bool {
-        self.dialect.cells(line).take(self.across.width()).count() == self.across.width()
+        let width = self.across.group().end();
+        self.dialect.cells(line).take(width).count() == width
+    }
+
+    fn look_at_suspects(&mut self, line: &str) {
+        for (column, cell) in self.dialect.cells(line).enumerate() {
+            if let Ok(at) = self.suspects.binary_search_by_key(&column, |(column, _)| *column) {
+                self.suspects[at].1 |= matches!(self.dialect.parse(cell), Cell::Number(_));
+            }
+        }
     }
 
     fn push(&mut self, number: usize, curve: RawCurve) -> Result<(), ReadError> {
-        let missing = curve.values.iter().filter(|value| value.is_nan()).count();
+        let wavelengths = &self.across.group().wavelengths;
+        let at = wavelengths.iter().zip(&curve.values).filter(|(wavelength, _)| !wavelength.is_nan());
+        let missing = at.filter(|(_, value)| value.is_nan()).count();
         if missing > 0 {
             self.gaps += missing;
             self.gap_lines.add(number);
@@ -207,7 +297,7 @@ impl<'a> Rows<'a> {
         if self.curves.len() >= MAX_CURVES {
             return Err(ReadError::TooManyCurves { line: number });
         }
-        if (self.curves.len() + 1) * self.across.count > MAX_SAMPLES {
+        if (self.curves.len() + 1) * wavelengths.len() > MAX_SAMPLES {
             return Err(ReadError::TooManySamples { line: number });
         }
         self.curves.push(curve);

@@ -80,6 +80,36 @@ pub(super) fn names_wavelengths(text: &str) -> bool {
             .is_some_and(|word| matches!(word, "wave" | "wl" | "nm" | "um" | "µm" | "μm" | "cm-1" | "1/cm" | "thz"))
 }
 
+/// Whether a column's header names a scale of the spectrum, which is no curve: wavelengths, wave numbers, energies of photons.
+pub(super) fn names_axis(text: &str) -> bool {
+    let energies = x_unit(text) == Some(XUnit::Other);
+    (names_wavelengths(text) || energies) && quantity(text).is_none() && role(text).is_none()
+}
+
+/// Whether a column's header names times and nothing else, such as `Time (s)` or `Integration time [ms]`.
+pub(super) fn names_time(text: &str) -> bool {
+    const TIMES: [&str; 6] = ["time", "timestamp", "date", "datetime", "date/time", "zeit"];
+    const BESIDE: [&str; 17] = [
+        "s", "sec", "seconds", "ms", "us", "µs", "min", "h", "hours", "utc", "local", "stamp", "integration", "exposure",
+        "acquisition", "elapsed", "measurement",
+    ];
+    let text = lower(text);
+    words(&text).any(|word| TIMES.contains(&word))
+        && words(&text).all(|word| TIMES.contains(&word) || BESIDE.contains(&word))
+}
+
+/// Which of several column headers names the wavelengths: those in nanometers before those in other units.
+pub(super) fn axis(names: &[String]) -> Option<usize> {
+    let rank = |name: &str| match x_unit(name) {
+        Some(XUnit::Wavelength(WavelengthUnit::Nanometer)) => 0,
+        Some(XUnit::Wavelength(WavelengthUnit::Micrometer | WavelengthUnit::Angstrom)) => 1,
+        None => 2,
+        Some(_) => 3,
+    };
+    let named = names.iter().enumerate().filter(|(_, name)| names_wavelengths(name));
+    named.min_by_key(|(_, name)| rank(name)).map(|(column, _)| column)
+}
+
 /// Whether a header says percent.
 pub(super) fn says_percent(text: &str) -> bool {
     let text = lower(text);

@@ -4,28 +4,21 @@ use super::super::families::spectra::{self, Sample, Spectrum};
 use super::super::grid::Grid;
 use super::super::header::Header;
 use super::super::watch::Log;
-use super::super::{Decided, Decision, ReadError, words};
+use super::super::words::{self, XUnit};
+use super::super::{Decided, Decision, ReadError, WavelengthUnit};
+use super::axes::Axes;
 use super::raw_curve;
 
-/// Which of the columns right of the wavelengths, from 0, hold wavelengths too.
-pub(super) fn more_wavelengths(header: &Header, at: usize, wavelengths: &[f64], values: &[Vec<f64>]) -> Vec<usize> {
-    let is_one = |(index, column): (usize, &Vec<f64>)| {
-        let name = header.name(at + 1 + index);
-        let named = name.is_some_and(is_name);
-        // A column with a name of its own is a curve, even if it happens to hold the same numbers.
-        let alike = name.is_none_or(|name| header.name(at) == Some(name));
-        let same = wavelengths.len() > 1 && column == wavelengths && alike;
-        (named || same).then_some(index)
+/// The unit of a column of wavelengths and that of the first, where they differ.
+fn units(header: &Header, first: usize, column: usize) -> Option<(WavelengthUnit, WavelengthUnit)> {
+    let unit = |column: usize| match header.units.get(column).and_then(|unit| words::x_unit(unit)) {
+        Some(unit) => Some(unit),
+        None => words::x_unit(header.name(column)?),
     };
-    values.iter().enumerate().filter_map(is_one).collect()
-}
-
-/// Names of curves may hold the word, but do not begin with it.
-fn is_name(name: &str) -> bool {
-    let lower = name.trim().to_lowercase();
-    lower.starts_with("wavelength")
-        || lower.starts_with("wavenumber")
-        || words::x_unit(name).is_some() && lower.len() <= 4
+    match (unit(column), unit(first)) {
+        (Some(XUnit::Wavelength(own)), Some(XUnit::Wavelength(shared))) if own != shared => Some((own, shared)),
+        _ => None,
+    }
 }
 
 /// Reads each column with the wavelengths that stand before it. Where all wavelengths are the same, the curves share them.
@@ -33,21 +26,33 @@ pub(super) fn read(
     header: Header,
     at: usize,
     first: Vec<f64>,
-    columns: Vec<Vec<f64>>,
-    more: &[usize],
+    mut columns: Vec<Vec<f64>>,
+    axes: &Axes,
     lines: &[usize],
     log: &mut Log<'_>,
 ) -> Result<(Grid, Option<Decision>), ReadError> {
-    let count = columns.len() - more.len();
+    let more = &axes.more;
+    let empty = |values: &[f64]| values.iter().all(|value| value.is_nan());
+    let is_curve = |index: usize, values: &[f64]| {
+        let column = at + 1 + index;
+        !more.contains(&index) && !axes.left.contains(&column) && (header.name(column).is_some() || !empty(values))
+    };
+    let count = columns.iter().enumerate().filter(|(index, values)| is_curve(*index, values)).count();
     let decided = |value: String| {
         let why = format!("Column {} holds wavelengths too", at + 2 + more[0]);
-        Some(Decision::new("Columns", &Decided::certain(value, why)))
+        let decided = if axes.guessed { Decided::guess(value, why) } else { Decided::certain(value, why) };
+        Some(Decision::new("Columns", &decided))
     };
     if more.iter().all(|&index| columns[index] == first) {
-        let values = columns.into_iter().enumerate().filter(|(index, _)| !more.contains(index));
+        let values = columns.into_iter().enumerate().filter(|(index, values)| is_curve(*index, values));
         let curves = values.map(|(index, values)| raw_curve(&header, at + 1 + index, count == 1, values)).collect();
         let grid = Grid { wavelengths: first, lines: lines.to_vec(), curves, header, ..Grid::default() };
         return Ok((grid, decided(format!("{count} curves over the same wavelengths"))));
+    }
+    for &index in more {
+        if let Some((own, shared)) = units(&header, at, at + 1 + index) {
+            columns[index].iter_mut().for_each(|value| *value = shared.from_nanometers(own.nanometers(*value)));
+        }
     }
     let mut own = &first;
     let (mut all, mut units) = (Vec::with_capacity(count), Vec::with_capacity(count));
@@ -55,6 +60,8 @@ pub(super) fn read(
         log.look(usize::MAX)?;
         if more.contains(&index) {
             own = values;
+        }
+        if !is_curve(index, values) {
             continue;
         }
         let curve = raw_curve(&header, at + 1 + index, count == 1, Vec::new());

@@ -22,7 +22,7 @@ pub(super) struct Across {
     line: usize,
     /// The column of the first wavelength, from 0.
     start: usize,
-    /// The wavelengths in the order of the columns; `None` for one that repeats an earlier one.
+    /// The wavelengths in the order of the columns; `None` where none can be read.
     wavelengths: Vec<Option<f64>>,
     /// The line of each curve.
     rows: Vec<usize>,
@@ -54,32 +54,17 @@ impl Across {
         across
     }
 
-    /// The last numbers of the header that stand side by side.
+    /// The wavelengths of the group that was taken.
     fn find_wavelengths(&mut self, header: &str, table: &Table) {
-        let mut goes_on = false;
-        let mut written = Vec::new();
-        for (index, cell) in self.dialect.cells(header).enumerate() {
-            let nm = cells::wavelength(self.dialect, table.reading.wavelength_unit.value, cell);
-            if let Some(nm) = nm {
-                if !goes_on {
-                    self.start = index;
-                    written.clear();
-                }
-                written.push(nm);
-            }
-            goes_on = nm.is_some();
-        }
         let groups = bands::groups(self.dialect, header);
-        let part = groups.len().min(table.reading.part.value).saturating_sub(1);
-        if let Some(group) = groups.get(part) {
-            self.start = group.start;
-            let cells = self.dialect.cells(header).skip(group.start).take(group.count);
-            let bands = cells.filter_map(|cell| bands::band(self.dialect, cell));
-            let unit = table.reading.wavelength_unit.value;
-            written = bands.map(|band| unit.nanometers(band.wavelength)).collect();
-        }
+        let part = groups.len().min(table.reading.part.value.max(1)).saturating_sub(1);
+        let Some(group) = groups.get(part) else { return };
+        self.start = group.start;
         let mut seen = BTreeSet::new();
-        self.wavelengths = written.into_iter().map(|nm| seen.insert(nm.to_bits()).then_some(nm)).collect();
+        let unit = table.reading.wavelength_unit.value;
+        let written = group.wavelengths.iter().map(|wavelength| unit.nanometers(*wavelength));
+        self.wavelengths =
+            written.map(|nm| Some(nm).filter(|nm| !nm.is_nan() && seen.insert(nm.to_bits()))).collect();
     }
 
     /// Whether a row begins with the values of a curve.
@@ -121,7 +106,7 @@ impl Across {
             None => words::x_unit(cell).map(|_| What::Unit { curve: None }),
             Some(index) => self.wavelengths.get(index).map(|nm| match nm {
                 Some(nm) => What::Wavelength { nm: *nm },
-                None => What::LeftOut { why: LeftOut::Repeated },
+                None => What::LeftOut { why: LeftOut::Column },
             }),
         })
     }
@@ -137,7 +122,7 @@ impl Across {
                 let other = (!cell.is_empty()).then_some(What::LeftOut { why: LeftOut::Column });
                 return if is_name { Some(What::Name { curve: index }) } else { other };
             };
-            let Some(nm) = self.wavelengths.get(at)? else { return Some(What::LeftOut { why: LeftOut::Repeated }) };
+            let Some(nm) = self.wavelengths.get(at)? else { return Some(What::LeftOut { why: LeftOut::Column }) };
             match (self.dialect.parse(cell), cells::at(curve, *nm)) {
                 (Cell::Number(written), Some(value)) if self.conversion.gives(written, value) => {
                     Some(What::Value { curve: index, nm: *nm, value, written })

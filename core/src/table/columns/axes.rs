@@ -1,0 +1,129 @@
+//! Columns that are no curves: wavelengths again, in another unit, at the other edges of intervals, or counts and times of rows.
+
+use super::super::header::Header;
+use super::super::wide::listed;
+use super::super::words;
+
+/// What the columns beside the first wavelengths are.
+#[derive(Debug, Default)]
+pub(super) struct Axes {
+    /// Columns, counted from the one right of the wavelengths, that hold the wavelengths of those behind them.
+    pub(super) more: Vec<usize>,
+    /// Columns of the table that are left out.
+    pub(super) left: Vec<usize>,
+    /// Whether only the numbers suggest that there are several columns of wavelengths.
+    pub(super) guessed: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    Empty,
+    Value,
+    Wavelengths,
+    /// Another scale of the same rows.
+    Scale,
+}
+
+/// Finds the columns that are no curves. `columns` are those right of the wavelengths in column `at`.
+pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Vec<f64>], columns: &[Vec<f64>]) -> Axes {
+    let mut axes = Axes::default();
+    for (column, values) in before.iter().enumerate() {
+        let name = header.name(column).unwrap_or_default();
+        let scale = words::names_axis(name) || words::names_time(name) || is_scale(wavelengths, values);
+        axes.left.extend((scale && !is_empty(values)).then_some(column));
+    }
+    let kind = |(index, column): (usize, &Vec<f64>)| kind(header, at, index, wavelengths, column);
+    let mut kinds: Vec<Kind> = columns.iter().enumerate().map(kind).collect();
+    axes.guessed = header.names.is_empty() && header.units.is_empty() && guess_pairs(wavelengths, columns, &mut kinds);
+    let mut values = 0;
+    for (index, kind) in kinds.iter().enumerate() {
+        let followed = || kinds[index + 1..].iter().find(|kind| matches!(kind, Kind::Value | Kind::Wavelengths));
+        match kind {
+            Kind::Empty => {}
+            Kind::Value => values += 1,
+            Kind::Wavelengths if values > 0 && followed() == Some(&Kind::Value) => {
+                axes.more.push(index);
+                values = 0;
+            }
+            Kind::Wavelengths | Kind::Scale => axes.left.push(at + 1 + index),
+        }
+    }
+    axes
+}
+
+/// Columns in words, the first few.
+pub(super) fn told(header: &Header, columns: &[usize]) -> String {
+    let told = |column: &usize| match header.name(*column) {
+        Some(name) => format!("column {} (“{name}”)", column + 1),
+        None => format!("column {}", column + 1),
+    };
+    listed(&columns.iter().map(told).collect::<Vec<_>>())
+}
+
+fn is_empty(column: &[f64]) -> bool {
+    column.iter().all(|value| value.is_nan())
+}
+
+fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &[f64]) -> Kind {
+    let name = header.name(at + 1 + index);
+    // A column with a name of its own is a curve, even if it happens to hold the same numbers.
+    let alike = name.is_none_or(|name| header.name(at) == Some(name));
+    let scale = || {
+        name.is_some_and(|name| words::names_time(name) || (words::is_count(name) && counts(column)))
+            || is_scale(wavelengths, column)
+    };
+    match () {
+        () if is_empty(column) => Kind::Empty,
+        () if scale() => Kind::Scale,
+        () if name.is_some_and(words::names_axis) => Kind::Wavelengths,
+        () if wavelengths.len() > 1 && column == wavelengths && alike => Kind::Wavelengths,
+        () => Kind::Value,
+    }
+}
+
+/// Whether numbers count their rows.
+pub(in super::super) fn counts(column: &[f64]) -> bool {
+    column.len() > 1 && column.windows(2).all(|pair| (pair[1] - pair[0]).abs() == 1.0 && pair[1] - pair[0] == column[1] - column[0])
+}
+
+/// The fewest rows that show how two columns belong together.
+const FEWEST: usize = 3;
+
+/// Whether a column holds the wavelengths of another in a unit that is inverse to theirs, or the upper edges of their intervals.
+fn is_scale(wavelengths: &[f64], column: &[f64]) -> bool {
+    /// Wave numbers in 1/cm, energies in eV and frequencies in THz, times nanometers.
+    const PRODUCTS: [f64; 3] = [1e7, 1_239.841_984, 299_792.458];
+    const CLOSE: f64 = 1e-3;
+    if wavelengths.len() < FEWEST {
+        return false;
+    }
+    let pairs = || wavelengths.iter().zip(column);
+    let inverse = PRODUCTS.iter().any(|product| {
+        // Also of micrometers and of ångströms.
+        [1.0, 1e-3, 10.0].iter().any(|unit| pairs().all(|(w, c)| (w * c / (product * unit) - 1.0).abs() < CLOSE))
+    });
+    inverse || wavelengths[1..] == column[..column.len() - 1]
+}
+
+/// Marks every second column as wavelengths where nothing names columns, all of those are in order over much the same range,
+/// and no other is.
+fn guess_pairs(first: &[f64], columns: &[Vec<f64>], kinds: &mut [Kind]) -> bool {
+    let filled: Vec<usize> = (0..columns.len()).filter(|&index| kinds[index] != Kind::Empty).collect();
+    let sound = |values: &[f64]| -> Option<(f64, f64)> {
+        let end = values.iter().rposition(|value| !value.is_nan()).map_or(0, |at| at + 1);
+        let values = &values[..end];
+        let ordered = |sign: f64| values.windows(2).all(|pair| sign * (pair[1] - pair[0]) > 0.0);
+        let (a, b) = (*values.first()?, *values.last()?);
+        let plausible = super::super::wavelengths::plausible(a.min(b), a.max(b), false);
+        (end > FEWEST && plausible && (ordered(1.0) || ordered(-1.0))).then_some((a.min(b), a.max(b)))
+    };
+    let Some((low, high)) = sound(first).filter(|_| filled.len() >= FEWEST && filled.len() % 2 == 1) else { return false };
+    let is_like = |index: usize| {
+        sound(&columns[index]).is_some_and(|(a, b)| 2.0 * (b.min(high) - a.max(low)) > (b - a).max(high - low))
+    };
+    let pairs = filled.iter().enumerate().all(|(place, &index)| is_like(index) == (place % 2 == 1));
+    if pairs {
+        filled.iter().skip(1).step_by(2).for_each(|&index| kinds[index] = Kind::Wavelengths);
+    }
+    pairs
+}
