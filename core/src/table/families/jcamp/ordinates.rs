@@ -228,7 +228,9 @@ impl Grid<'_> {
         }
         let mut all: Vec<(usize, Sample)> = Vec::with_capacity(data.ordinates.len());
         let mut moved = LineList::default();
-        let (mut next, mut first_moved) = (0, None);
+        let (mut next, mut first_moved) = (0_usize, None);
+        // Lines that begin at the abscissa of the value they repeat, as they should, and the first that does not.
+        let (mut standard, mut other) = (false, None);
         for (at, row) in data.rows.iter().enumerate() {
             let mut values = data.values(at);
             let Some(&first) = values.first() else { continue };
@@ -239,9 +241,13 @@ impl Grid<'_> {
                     return Err(ReadError::CheckFails { line: row.line, found: first, before, expected: last });
                 }
                 values = &values[1..];
+                standard = true;
                 next
             } else if self.fits(row.head, next as f64) {
-                // Some programs write the abscissa of what follows the repeated ordinate.
+                // Some programs write the abscissa of what follows the repeated ordinate, or repeat none.
+                if row.repeats {
+                    other = other.or(Some((at, next.saturating_sub(1))));
+                }
                 values = &values[usize::from(row.repeats && checks)..];
                 next
             } else {
@@ -256,6 +262,10 @@ impl Grid<'_> {
             });
             all.extend(samples);
             next = index + values.len();
+        }
+        let whole = self.axis.points.is_none_or(|points| points == all.len());
+        if let Some((at, expected)) = other.filter(|_| standard || !whole) {
+            return Err(self.misplaced(data, at, expected));
         }
         let mut warnings = Vec::new();
         if let Some((at, expected)) = first_moved {
