@@ -294,7 +294,8 @@ impl Columns {
             axes.more.is_empty() && !empty(values) && header.name(*column).is_some_and(|name| !words::is_count(name))
         };
         let before = std::mem::take(&mut self.cells).into_iter().enumerate();
-        let (left, skipped): (Vec<_>, Vec<_>) = before.filter(|(column, _)| !(texts.contains(column) || axes.left.contains(column))).partition(is_left);
+        let (left, skipped): (Vec<_>, Vec<_>) =
+            before.filter(|(column, _)| !(texts.contains(column) || axes.left.contains(column))).partition(is_left);
         if skipped.iter().any(|(_, column)| !empty(column)) {
             log.push(Warning::SkippedColumns { wavelength_column: at + 1 });
         }

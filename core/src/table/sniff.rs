@@ -6,7 +6,7 @@ use super::trial::{Across, Shape, Trial};
 use super::warning::Warning;
 use super::watch::Log;
 use super::wavelengths::plausible;
-use super::{Decided, Orientation, ReadError, ReadOptions, nearly, thousands};
+use super::{Decided, Orientation, ReadError, ReadOptions, bands, nearly, thousands};
 
 /// How a text is laid out.
 #[derive(Debug)]
@@ -227,9 +227,10 @@ fn orientation(trial: &Trial) -> Decided<Orientation> {
     let rows = trial.best.rows;
     let down = trial.best.looks_like_wavelengths();
     match trial.across.as_ref().filter(|across| across.rows > 0) {
-        Some(across) if !down && across.rows + 1 >= rows => {
-            Decided::certain(Orientation::Across, format!("Line {} holds {} wavelengths", across.line, across.group().count()))
-        }
+        Some(across) if !down && across.rows + 1 >= rows => Decided::certain(
+            Orientation::Across,
+            format!("Line {} holds {} wavelengths", across.line, across.group().count()),
+        ),
         Some(_) => Decided::guess(Orientation::Down, "The first numbers of the rows are in order"),
         None => Decided::certain(Orientation::Down, "No line holds wavelengths side by side"),
     }
@@ -246,6 +247,14 @@ fn lay_across(
     let rows = if across.rows == 1 { "one row".to_owned() } else { format!("{} rows", across.rows) };
     let evidence = format!("A header of {} wavelengths with {rows} below it", across.group().count());
     let (decimal_mark, thousands, warning) = marks(section, options, trial, across.first_row, Orientation::Across);
+    let dialect = Dialect { delimiter: trial.dialect.delimiter, mark: decimal_mark.value, thousands };
+    if dialect != trial.dialect
+        && let Some((_, header)) = Lines::of(section).find(|(number, _)| *number == across.line)
+    {
+        // The header too may hold marks that group thousands.
+        let groups = bands::groups(dialect, header);
+        across.groups = if groups.is_empty() { across.groups } else { groups };
+    }
     Ok(Layout {
         delimiter: Decided::or_chosen(options.delimiter, || Decided::certain(trial.dialect.delimiter, evidence)),
         decimal_mark,

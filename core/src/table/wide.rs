@@ -26,7 +26,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let dialect = layout.dialect();
     let group = across.group();
     let heads: Vec<&str> = dialect.cells(header_line).collect();
-    let leading = &heads[..group.start];
+    let leading = &heads[..group.start.min(heads.len())];
     let mut header = header::read(section, layout);
     let named_unit = leading.iter().filter(|cell| words::names_wavelengths(cell)).find_map(|cell| words::x_unit(cell));
     header.x_unit = named_unit.map(|unit| (across.line, unit)).or(header.x_unit);
@@ -80,7 +80,8 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
         (parts, part) = (kinds, Some(Decided::guess(wanted + 1, why)));
     }
     let count = rows.curves.len();
-    let told: Vec<String> = rows.suspects.iter().filter(|(_, filled)| *filled).map(|(at, _)| told(&heads, *at)).collect();
+    let told: Vec<String> =
+        rows.suspects.iter().filter(|(_, filled)| *filled).map(|(at, _)| told(&heads, *at)).collect();
     if !told.is_empty() {
         log.push(Warning::BadWavelengths { line: across.line, named: listed(&told) });
     }
@@ -105,9 +106,10 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
 
 /// The name of a group: what its wavelengths have in common, what stands before them, or its columns.
 fn group_name(dialect: Dialect, heads: &[&str], group: &Group) -> String {
-    let before = group.start.checked_sub(1).map(|at| heads[at]).filter(|cell| dialect.parse(cell) == Cell::Text);
+    let before =
+        group.start.checked_sub(1).and_then(|at| heads.get(at)).filter(|cell| dialect.parse(cell) == Cell::Text);
     match (group.prefix.as_str(), before) {
-        ("", Some(name)) if group.start > 1 => name.to_owned(),
+        ("", Some(name)) if group.start > 1 => (*name).to_owned(),
         ("", _) => format!("columns {} to {}", group.start + 1, group.end()),
         (prefix, _) => prefix.to_owned(),
     }
@@ -132,7 +134,11 @@ fn suspects(dialect: Dialect, heads: &[&str], across: &Across) -> Vec<(usize, bo
 
 /// A column and what stands at its head.
 fn told(heads: &[&str], at: usize) -> String {
-    if heads[at].is_empty() { format!("column {} (empty)", at + 1) } else { format!("column {} (“{}”)", at + 1, excerpt(heads[at])) }
+    if heads[at].is_empty() {
+        format!("column {} (empty)", at + 1)
+    } else {
+        format!("column {} (“{}”)", at + 1, excerpt(heads[at]))
+    }
 }
 
 /// The first few of several.

@@ -83,15 +83,32 @@ pub(super) fn names_wavelengths(text: &str) -> bool {
 /// Whether a column's header names a scale of the spectrum, which is no curve: wavelengths, wave numbers, energies of photons.
 pub(super) fn names_axis(text: &str) -> bool {
     let energies = x_unit(text) == Some(XUnit::Other);
-    (names_wavelengths(text) || energies) && quantity(text).is_none() && role(text).is_none()
+    // A unit of values may hold one of wavelengths, such as `W/(cm-1)`.
+    let of_values = quantity(text).is_some() || role(text).is_some() || super::quantity::unit(text).is_some();
+    (names_wavelengths(text) || energies) && !of_values
 }
 
 /// Whether a column's header names times and nothing else, such as `Time (s)` or `Integration time [ms]`.
 pub(super) fn names_time(text: &str) -> bool {
     const TIMES: [&str; 6] = ["time", "timestamp", "date", "datetime", "date/time", "zeit"];
     const BESIDE: [&str; 17] = [
-        "s", "sec", "seconds", "ms", "us", "µs", "min", "h", "hours", "utc", "local", "stamp", "integration", "exposure",
-        "acquisition", "elapsed", "measurement",
+        "s",
+        "sec",
+        "seconds",
+        "ms",
+        "us",
+        "µs",
+        "min",
+        "h",
+        "hours",
+        "utc",
+        "local",
+        "stamp",
+        "integration",
+        "exposure",
+        "acquisition",
+        "elapsed",
+        "measurement",
     ];
     let text = lower(text);
     words(&text).any(|word| TIMES.contains(&word))

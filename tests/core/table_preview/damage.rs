@@ -2,7 +2,7 @@
 
 #![allow(clippy::format_push_string, clippy::format_collect, reason = "files are written as they read")]
 
-use chromascope_core::table::{Preview, ReadOptions, read};
+use chromascope_core::table::{Preview, ReadOptions, What, read};
 use proptest::prelude::*;
 
 use super::{LEAF, Seen, families, sound};
@@ -118,5 +118,37 @@ fn a_table_that_no_reader_made_is_survived() {
         table.curves.clear();
         let marker = seen.preview.marker(&table);
         (1..=seen.preview.line_count()).for_each(|number| drop(seen.preview.marks(number, &table, &marker)));
+    }
+}
+
+#[test]
+fn what_was_moved_or_left_out_is_never_marked_as_something_else() {
+    let head = "##TITLE=t\n##XUNITS=NANOMETERS\n##YUNITS=REFLECTANCE\n##FIRSTX=400\n##LASTX=450\n##NPOINTS=6\n##XYDATA=(X++(Y..Y))\n";
+    let blocks = "id,400,410,420,430,440,,400,410,420,430,440\na,.1,.2,.3,.4,.5,,.2,.3,.4,.5,.6\n";
+    for (text, values) in [
+        // Lines in another order than their abscissas: no marks are better than wrong ones.
+        (format!("{head}400 .1 .2\n440 .5 .6\n420 .3 .4\n"), 0),
+        (format!("{head}400 .1 .2\n440 .5 .6\n"), 4),
+        ("id,400,410,420,430,440,450\na,.1,.2,.3,.4,.5,.6\n".replace("420", "4x0"), 5),
+        (blocks.to_owned(), 5),
+        ("nm;1/cm;A\n400;25000;.1\n500;20000;.2\n625;16000;.3\n".to_owned(), 3),
+        ("id,Mode,400,410,420,430,440\na,Reflectance,.1,.2,.3,.4,.5\nb,Transmittance,.2,.3,.4,.5,.6\n".to_owned(), 5),
+    ] {
+        let table = read(text.as_bytes(), &ReadOptions::default()).unwrap();
+        let preview = Preview::new(text.as_bytes()).unwrap();
+        let marker = preview.marker(&table);
+        let all = (1..=preview.line_count()).flat_map(|line| {
+            let marks = preview.marks(line, &table, &marker);
+            marks.into_iter().map(move |mark| (line, mark.what)).collect::<Vec<_>>()
+        });
+        let mut count = 0;
+        for (line, what) in all {
+            let What::Value { curve, nm, value, written } = what else { continue };
+            let curve = &table.curves[curve];
+            let at = curve.wavelengths_nm.iter().position(|other| *other == nm).unwrap();
+            assert_eq!((curve.values[at], written), (value, value), "line {line} of {text}");
+            count += 1;
+        }
+        assert_eq!(count, values, "{text}");
     }
 }

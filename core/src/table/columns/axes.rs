@@ -83,7 +83,8 @@ fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &
 
 /// Whether numbers count their rows.
 pub(in super::super) fn counts(column: &[f64]) -> bool {
-    column.len() > 1 && column.windows(2).all(|pair| (pair[1] - pair[0]).abs() == 1.0 && pair[1] - pair[0] == column[1] - column[0])
+    column.len() > 1
+        && column.windows(2).all(|pair| (pair[1] - pair[0]).abs() == 1.0 && pair[1] - pair[0] == column[1] - column[0])
 }
 
 /// The fewest rows that show how two columns belong together.
@@ -117,7 +118,9 @@ fn guess_pairs(first: &[f64], columns: &[Vec<f64>], kinds: &mut [Kind]) -> bool 
         let plausible = super::super::wavelengths::plausible(a.min(b), a.max(b), false);
         (end > FEWEST && plausible && (ordered(1.0) || ordered(-1.0))).then_some((a.min(b), a.max(b)))
     };
-    let Some((low, high)) = sound(first).filter(|_| filled.len() >= FEWEST && filled.len() % 2 == 1) else { return false };
+    let Some((low, high)) = sound(first).filter(|_| filled.len() >= FEWEST && filled.len() % 2 == 1) else {
+        return false;
+    };
     let is_like = |index: usize| {
         sound(&columns[index]).is_some_and(|(a, b)| 2.0 * (b.min(high) - a.max(low)) > (b - a).max(high - low))
     };

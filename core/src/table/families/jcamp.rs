@@ -313,7 +313,9 @@ impl Block {
         let mut header = Header {
             x_unit: words::x_unit(&self.x_units.1).map(|unit| (self.x_units.0, unit)),
             role: words::role(units).map(|role| (*line, role)),
-            values: self.values.or_else(|| Some((*line, words::values(units).filter(|values| *values != Values::Plain)?))),
+            values: self
+                .values
+                .or_else(|| Some((*line, words::values(units).filter(|values| *values != Values::Plain)?))),
             quantity: words::quantity(units).map(|quantity| (*line, quantity)),
             medium: words::medium(&self.x_units.1).map(|medium| (self.x_units.0, medium)),
             ..Header::default()

@@ -63,8 +63,7 @@ impl Across {
         let mut seen = BTreeSet::new();
         let unit = table.reading.wavelength_unit.value;
         let written = group.wavelengths.iter().map(|wavelength| unit.nanometers(*wavelength));
-        self.wavelengths =
-            written.map(|nm| Some(nm).filter(|nm| !nm.is_nan() && seen.insert(nm.to_bits()))).collect();
+        self.wavelengths = written.map(|nm| Some(nm).filter(|nm| !nm.is_nan() && seen.insert(nm.to_bits()))).collect();
     }
 
     /// Whether a row begins with the values of a curve.

@@ -42,12 +42,18 @@ impl Label {
 
 /// The column before the values that says what each row is, if its head says so.
 pub(super) fn column(leading: &[&str]) -> Option<usize> {
-    const HEADS: [&str; 7] = ["mode", "quantity", "measurement", "measurement type", "measurement mode", "data type", "type"];
+    const HEADS: [&str; 7] =
+        ["mode", "quantity", "measurement", "measurement type", "measurement mode", "data type", "type"];
     leading.iter().position(|head| HEADS.iter().any(|wanted| head.trim().eq_ignore_ascii_case(wanted)))
 }
 
 /// Leaves the rows of one quantity where there are several: the first, or the one that was asked for. Returns all as parts.
-pub(super) fn settle(curves: &mut Vec<RawCurve>, labels: &[Option<Label>], wanted: usize, header: &mut Header) -> Vec<Part> {
+pub(super) fn settle(
+    curves: &mut Vec<RawCurve>,
+    labels: &[Option<Label>],
+    wanted: usize,
+    header: &mut Header,
+) -> Vec<Part> {
     let Some(labels) = labels.iter().cloned().collect::<Option<Vec<Label>>>() else { return Vec::new() };
     if !labels.iter().any(Label::is_said) || labels.len() != curves.len() {
         return Vec::new();

@@ -34,7 +34,10 @@ impl Block {
             }
             let power = (announced.value / found).log10();
             let is_power = power.is_finite() && (power - power.round()).abs() < 1e-3 && power.round() != 0.0;
-            scales.push((near || raw || !is_power, ReadError::ScaleContradicts { line, label, announced: announced.value, found }));
+            scales.push((
+                near || raw || !is_power,
+                ReadError::ScaleContradicts { line, label, announced: announced.value, found },
+            ));
         }
         // Where all that is announced is another power of ten, the factor is wrong.
         if scales.iter().all(|(fits, _)| !fits)

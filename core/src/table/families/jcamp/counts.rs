@@ -59,7 +59,8 @@ pub(super) fn settle(blocks: &mut [Block], options: &ReadOptions) -> Option<Rati
     let (dark, reference) = (dark?, reference?);
     let alike = |other: usize| {
         let pairs = blocks[sample].samples.iter().zip(&blocks[other].samples);
-        blocks[other].samples.len() == blocks[sample].samples.len() && pairs.into_iter().all(|(a, b)| a.wavelength == b.wavelength)
+        blocks[other].samples.len() == blocks[sample].samples.len()
+            && pairs.into_iter().all(|(a, b)| a.wavelength == b.wavelength)
     };
     if options.part.is_some() || options.raw == Some(true) || !alike(dark) || !alike(reference) {
         return None;

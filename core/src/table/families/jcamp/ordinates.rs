@@ -132,9 +132,12 @@ impl Data<'_> {
     /// are not equal.
     fn points(&self, axis: &Axis) -> Option<Placed> {
         let (first, last) = (self.rows.first()?, self.rows.last()?);
-        let ends = |row: &Row, end: Written| (row.head.value * axis.factor - end.value).abs() <= row.head.digit + end.digit;
-        let whole = self.rows.len() == self.ordinates.len() && axis.points.is_none_or(|points| points == self.rows.len());
-        let ordered = |sign: f64| self.rows.windows(2).all(|pair| sign * (pair[1].head.value - pair[0].head.value) > 0.0);
+        let ends =
+            |row: &Row, end: Written| (row.head.value * axis.factor - end.value).abs() <= row.head.digit + end.digit;
+        let whole =
+            self.rows.len() == self.ordinates.len() && axis.points.is_none_or(|points| points == self.rows.len());
+        let ordered =
+            |sign: f64| self.rows.windows(2).all(|pair| sign * (pair[1].head.value - pair[0].head.value) > 0.0);
         if !(whole && ends(first, axis.first) && ends(last, axis.last?) && (ordered(1.0) || ordered(-1.0))) {
             return None;
         }
@@ -214,8 +217,7 @@ impl Grid<'_> {
 
     /// The index that the head of a line names, where its digits tell it from the next.
     fn index(&self, head: Written) -> Option<usize> {
-        let resolved = self.digits != Digits::Loose
-            && head.digit * self.axis.factor.abs() <= self.step.abs() * 1.000_1;
+        let resolved = self.digits != Digits::Loose && head.digit * self.axis.factor.abs() <= self.step.abs() * 1.000_1;
         let index = ((head.value * self.axis.factor - self.axis.first.value) / self.step).round();
         let within = (0.0..1e12).contains(&index) && resolved && self.fits(head, index);
         within.then_some(index as usize)
@@ -284,7 +286,11 @@ impl Grid<'_> {
 
     fn misplaced(&self, data: &Data<'_>, row: usize, index: usize) -> ReadError {
         let Row { line, head, .. } = data.rows[row];
-        ReadError::Misplaced { line, found: head.value, expected: clean(self.abscissa(index as f64) / self.axis.factor) }
+        ReadError::Misplaced {
+            line,
+            found: head.value,
+            expected: clean(self.abscissa(index as f64) / self.axis.factor),
+        }
     }
 }
 
