@@ -1,0 +1,183 @@
+//! Binary trees over boxes, built in n log n steps whatever the boxes are.
+//!
+//! Clustering from the leaves up needs as many passes as there are boxes where many cost the same (coincident, nested or evenly
+//! spaced ones). Splitting from the root down by the surface area heuristic in bins (Wald 2007) visits each box once a level, and
+//! the number of levels is bounded.
+
+use glam::Vec3A;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::{Bvh2, node::Bvh2Node};
+use obvhs::triangle::Triangle;
+
+/// Bins along each axis.
+const BINS: usize = 16;
+/// Levels below the root: what the stack of a traversal has room for.
+const DEEPEST: u32 = 31;
+/// Triangles from which both halves are built side by side.
+const PARALLEL: usize = 4096;
+
+/// A triangle's box.
+#[derive(Clone, Copy)]
+struct Item {
+    aabb: Aabb,
+    center: Vec3A,
+    triangle: u32,
+}
+
+/// Part of the tree that is to be built: triangles, and nodes for all below its root.
+struct Part<'a> {
+    items: &'a mut [Item],
+    nodes: &'a mut [Bvh2Node],
+    first_item: u32,
+    first_node: u32,
+    depth: u32,
+}
+
+/// Builds a tree with one triangle in each leaf.
+pub(super) fn tree(triangles: &[Triangle]) -> Bvh2 {
+    let item = |(index, triangle): (usize, &Triangle)| {
+        let aabb = triangle.aabb();
+        Item { aabb, center: aabb.center(), triangle: index as u32 }
+    };
+    let mut items: Vec<Item> = triangles.iter().enumerate().map(item).collect();
+    let mut tree = Bvh2::zeroed(items.len());
+    if let Some((root, nodes)) = tree.nodes.split_first_mut() {
+        *root = build(Part { items: &mut items, nodes, first_item: 0, first_node: 1, depth: 0 });
+    }
+    tree.primitive_indices = items.iter().map(|item| item.triangle).collect();
+    tree
+}
+
+/// Builds a part and returns its root. n leaves have 2n − 2 nodes below their root, so that each side's nodes are known before
+/// it is built.
+fn build(part: Part<'_>) -> Bvh2Node {
+    let Part { items, nodes, first_item, first_node, depth } = part;
+    if let [item] = items {
+        return Bvh2Node::new(item.aabb, 1, first_item);
+    }
+    let aabb = items.iter().fold(Aabb::empty(), |all, item| all.union(&item.aabb));
+    let middle = split(items, depth);
+    let is_large = items.len() >= PARALLEL;
+    let (left, right) = items.split_at_mut(middle);
+    let (children, below) = nodes.split_at_mut(2);
+    let (left_nodes, right_nodes) = below.split_at_mut(2 * middle - 2);
+    let (first, depth) = (first_node + 2, depth + 1);
+    let sides = [
+        Part { items: left, first_node: first, nodes: left_nodes, first_item, depth },
+        Part {
+            items: right,
+            first_node: first + 2 * middle as u32 - 2,
+            nodes: right_nodes,
+            first_item: first_item + middle as u32,
+            depth,
+        },
+    ];
+    let [left, right] = sides;
+    let (left, right) =
+        if is_large { rayon::join(|| build(left), || build(right)) } else { (build(left), build(right)) };
+    children.copy_from_slice(&[left, right]);
+    Bvh2Node::new(aabb, 0, first_node)
+}
+
+/// Reorders the items and returns how many go to the left: at least one, and no more than fit below this level.
+fn split(items: &mut [Item], depth: u32) -> usize {
+    let most = 1_usize << (DEEPEST.saturating_sub(depth + 1));
+    let fits = |left: usize| left > 0 && left < items.len() && left.max(items.len() - left) <= most;
+    let cut = Bins::new(items).best_cut();
+    if let Some(cut) = cut.filter(|cut| fits(cut.left)) {
+        return partition(items, |item| cut.is_left(item));
+    }
+    let centers = items.iter().fold(Aabb::empty(), |all, item| all.union(&Aabb::from_point(item.center)));
+    let extent = centers.max - centers.min;
+    let axis = (0..3).max_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(0);
+    let middle = items.len() / 2;
+    if extent[axis] > 0.0 {
+        items.select_nth_unstable_by(middle, |a, b| a.center[axis].total_cmp(&b.center[axis]));
+    } else {
+        // Nested boxes: the small ones apart from the large ones.
+        items.select_nth_unstable_by(middle, |a, b| a.aabb.half_area().total_cmp(&b.aabb.half_area()));
+    }
+    middle
+}
+
+/// Brings those that satisfy a condition to the front and counts them.
+fn partition(items: &mut [Item], is_left: impl Fn(&Item) -> bool) -> usize {
+    let mut left = 0;
+    for index in 0..items.len() {
+        if is_left(&items[index]) {
+            items.swap(left, index);
+            left += 1;
+        }
+    }
+    left
+}
+
+/// Boxes and counts of the items in each bin of each axis.
+struct Bins {
+    min: Vec3A,
+    scale: Vec3A,
+    bins: [[(Aabb, usize); BINS]; 3],
+}
+
+/// A plane between two bins.
+struct Cut {
+    axis: usize,
+    /// The first bin to the right of it.
+    bin: usize,
+    left: usize,
+    min: Vec3A,
+    scale: Vec3A,
+}
+
+impl Cut {
+    fn is_left(&self, item: &Item) -> bool {
+        bin(item.center, self.min, self.scale)[self.axis] < self.bin
+    }
+}
+
+/// The bin on each axis. A center that is on no axis' scale comes to the first.
+fn bin(center: Vec3A, min: Vec3A, scale: Vec3A) -> [usize; 3] {
+    ((center - min) * scale).to_array().map(|at| (at as usize).min(BINS - 1))
+}
+
+impl Bins {
+    fn new(items: &[Item]) -> Self {
+        let centers = items.iter().fold(Aabb::empty(), |all, item| all.union(&Aabb::from_point(item.center)));
+        let extent = centers.max - centers.min;
+        let scale = |extent: f32| if extent > f32::MIN_POSITIVE * 32.0 { BINS as f32 / extent } else { 0.0 };
+        let scale = Vec3A::from_array(extent.to_array().map(scale));
+        let mut bins = [[(Aabb::empty(), 0); BINS]; 3];
+        for item in items {
+            for (bins, at) in bins.iter_mut().zip(bin(item.center, centers.min, scale)) {
+                let (aabb, count) = &mut bins[at];
+                *aabb = aabb.union(&item.aabb);
+                *count += 1;
+            }
+        }
+        Self { min: centers.min, scale, bins }
+    }
+
+    /// The cut with the least sum over both sides of area times count; none where all are in one bin on every axis.
+    fn best_cut(&self) -> Option<Cut> {
+        let mut best: Option<(f32, Cut)> = None;
+        for (axis, bins) in self.bins.iter().enumerate() {
+            let mut right = [0.0; BINS];
+            let mut side = (Aabb::empty(), 0);
+            for (index, bin) in bins.iter().enumerate().skip(1).rev() {
+                side = (side.0.union(&bin.0), side.1 + bin.1);
+                right[index] = if side.1 == 0 { f32::INFINITY } else { side.0.half_area() * side.1 as f32 };
+            }
+            let mut side = (Aabb::empty(), 0);
+            for index in 1..BINS {
+                let bin = &bins[index - 1];
+                side = (side.0.union(&bin.0), side.1 + bin.1);
+                let left = if side.1 == 0 { f32::INFINITY } else { side.0.half_area() * side.1 as f32 };
+                let cost = left + right[index];
+                if cost.is_finite() && best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                    best = Some((cost, Cut { axis, bin: index, left: side.1, min: self.min, scale: self.scale }));
+                }
+            }
+        }
+        best.map(|(_, cut)| cut)
+    }
+}
