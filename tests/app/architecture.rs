@@ -43,7 +43,7 @@ const CORE_LAYERS: &[(&str, &[&str])] = &[
             "scene",
         ],
     ),
-    ("figure", &["units", "math", "colorimetry"]),
+    ("figure", &["units", "math", "table", "colorimetry"]),
     (
         "query",
         &[

@@ -5,6 +5,7 @@ mod layouts;
 mod limits;
 mod random;
 mod round_trip;
+mod streamed;
 
 use chromascope_core::table::write::{Content, Format, Grid, Note, Sheet, Trace, Written, write};
 use chromascope_core::table::{ReadOptions, Table, read};

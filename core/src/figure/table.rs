@@ -1,5 +1,7 @@
 //! The numbers beside a figure.
 
+use crate::table::guarded;
+
 /// A cell of a table.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Cell {
@@ -110,9 +112,10 @@ fn number(value: f64) -> String {
 }
 
 fn quoted(text: &str, separator: char) -> String {
+    let text = guarded(text);
     if text.contains([separator, '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
-        text.to_owned()
+        text.into_owned()
     }
 }

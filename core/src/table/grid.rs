@@ -1,6 +1,7 @@
 //! What every reader fills: wavelengths as written, and the values of each curve beside them.
 
 use super::header::Header;
+use super::names::on_one_line;
 use super::warning::{LineList, Sentinel, Warning};
 use super::watch::Log;
 use super::{Curve, Decided, Dropped, DroppedRow, Part, Quantity, ReadError, Role, WavelengthUnit};
@@ -179,6 +180,7 @@ impl Grid {
 
 fn curve(raw: RawCurve, wavelengths: &[f64], missing: usize) -> Curve {
     let RawCurve { name, named, unit, mut values, .. } = raw;
+    let name = on_one_line(&name).into_owned();
     if missing == 0 {
         values.shrink_to_fit();
         return Curve { name, named, wavelengths_nm: wavelengths.to_vec(), values, missing, unit };

@@ -1,6 +1,7 @@
 //! What stands above the numbers: comments, names of columns, units.
 
 use super::dialect::{Cell, Delimiter, Dialect};
+use super::names::unguarded;
 use super::quantity::{self, Quantity};
 use super::reading::{Medium, Orientation};
 use super::scale::{Role, Values};
@@ -328,7 +329,7 @@ fn is_measured(layout: &Layout, cells: &[String]) -> bool {
 /// The cells of a header line, unescaped, without empty ones at the end.
 pub(super) fn split(dialect: Dialect, line: &str) -> Vec<String> {
     let mut cells: Vec<String> =
-        dialect.cells(line).take(MAX_CURVES + 1).map(|cell| cell.replace("\"\"", "\"")).collect();
+        dialect.cells(line).take(MAX_CURVES + 1).map(|cell| unguarded(cell).replace("\"\"", "\"")).collect();
     while cells.last().is_some_and(String::is_empty) {
         cells.pop();
     }

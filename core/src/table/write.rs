@@ -47,6 +47,7 @@ mod text;
 
 use std::fmt;
 
+pub use csv::Prepared;
 pub use note::{Note, WriteError};
 pub use sheet::{Content, Sheet, Trace};
 
@@ -167,7 +168,12 @@ pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, W
     resample::check(grid)?;
     let mut notes = Vec::new();
     let text = match format {
-        Format::Csv => csv::write(sheet, grid, csv::Comments::Yes, &mut notes)?,
+        Format::Csv => {
+            let mut prepared = Prepared::new(sheet, grid)?;
+            let text = collected(|put| prepared.with_comments(put));
+            notes = prepared.notes();
+            text
+        }
         Format::RawtoacesJson => json::rawtoaces(sheet, grid, &mut notes)?,
         Format::DcamprofJson => json::dcamprof(sheet, grid, &mut notes)?,
         Format::ArgyllSp | Format::ArgyllCmf | Format::Cgats => cgats::write(sheet, format, grid, &mut notes)?,
@@ -179,9 +185,17 @@ pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, W
 ///
 /// Has a row for every wavelength of any curve; a cell is blank where its curve has no sample.
 pub fn canonical_csv(sheet: &Sheet<'_>, grid: Grid) -> Result<Written, WriteError> {
-    Format::Csv.fits(sheet)?;
-    resample::check(grid)?;
-    let mut notes = Vec::new();
-    let text = csv::write(sheet, grid, csv::Comments::No, &mut notes)?;
-    Ok(Written { text, notes })
+    let mut prepared = Prepared::new(sheet, grid)?;
+    let text = collected(|put| prepared.table(put));
+    Ok(Written { text, notes: prepared.notes() })
+}
+
+/// A text that is passed on in parts.
+fn collected(write: impl FnOnce(&mut dyn FnMut(&str) -> bool)) -> String {
+    let mut text = String::new();
+    write(&mut |part| {
+        text.push_str(part);
+        true
+    });
+    text
 }

@@ -1,97 +1,164 @@
-//! Comma-separated values, with or without comments above them.
+//! Comma-separated values, with or without comments above them, and samples at the wavelengths they are written at: a part at a
+//! time, so that memory does not grow with what is written.
+
+use std::borrow::Cow;
 
 use super::super::MAX_SAMPLES;
-use super::resample::{Changes, Sampling, multiples};
+use super::super::names::guarded;
+use super::resample::{self, Changes, SAME_NM, Sampling, multiples};
 use super::sheet::Piece;
 use super::text::{push_number, push_quoted};
-use super::{Content, Grid, Note, Sheet, WriteError};
+use super::{Content, Format, Grid, Note, Sheet, WriteError};
 
-/// Whether what is known about the curves stands above the table.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Comments {
-    Yes,
-    No,
+/// Bytes of text that are passed on at once; a longer row is passed on alone.
+const CHUNK: usize = 1 << 16;
+/// Cells that are resampled at once.
+const CELLS: usize = 1 << 20;
+
+/// Curves on their way out, at their own wavelengths or at multiples of a step. What can be refused was refused.
+#[derive(Debug)]
+pub struct Prepared<'a> {
+    sheet: Sheet<'a>,
+    pieces: Vec<Piece<'a>>,
+    step: Option<f64>,
+    sampling: Sampling,
+    /// Every wavelength of any curve, ascending.
+    rows: Vec<f64>,
+    changes: Changes,
+    renamed: Vec<Note>,
+    /// Curves without a value at any multiple of the step.
+    blank: usize,
 }
 
-/// Writes the table.
-pub(super) fn write(
-    sheet: &Sheet<'_>,
-    grid: Grid,
-    comments: Comments,
-    notes: &mut Vec<Note>,
-) -> Result<String, WriteError> {
-    let mut pieces = sheet.pieces(notes);
-    let resampling = match grid.step_nm() {
-        Some(step) => resample(&mut pieces, sheet.content, (grid, step), notes)?,
-        None => None,
-    };
-    let wavelengths = union(&pieces);
-    if wavelengths.len().saturating_mul(pieces.len()) > MAX_SAMPLES {
-        return Err(WriteError::TooLarge);
-    }
-    let mut out = String::new();
-    if comments == Comments::Yes {
-        push_comments(&mut out, sheet, resampling.as_deref());
-    }
-    out.push_str("wavelength_nm");
-    for piece in &pieces {
-        out.push(',');
-        push_name(&mut out, &piece.name);
-    }
-    out.push('\n');
-    push_rows(&mut out, &wavelengths, &pieces);
-    Ok(out)
-}
-
-/// Brings each curve to the multiples of a step within its own range; says how.
-fn resample(
-    pieces: &mut [Piece<'_>],
-    content: Content<'_>,
-    (grid, step): (Grid, f64),
-    notes: &mut Vec<Note>,
-) -> Result<Option<String>, WriteError> {
-    let sampling = Sampling::of(grid);
-    let mut changes = Changes::new(sampling);
-    let (mut blank, mut cells) = (0, 0_usize);
-    let mut written = [f64::INFINITY, f64::NEG_INFINITY];
-    for piece in pieces.iter_mut() {
-        let wavelengths = multiples(step, sampling.within(piece.range()))?;
-        cells += wavelengths.len();
-        if cells > MAX_SAMPLES {
+impl<'a> Prepared<'a> {
+    /// Checks the curves and finds the wavelengths they are written at.
+    pub fn new(sheet: &Sheet<'a>, grid: Grid) -> Result<Self, WriteError> {
+        Format::Csv.fits(sheet)?;
+        resample::check(grid)?;
+        let mut renamed = Vec::new();
+        let pieces = sheet.pieces(&mut renamed);
+        let (step, sampling) = (grid.step_nm(), Sampling::of(grid));
+        let rows = rows(&pieces, step, sampling)?;
+        if rows.len().saturating_mul(pieces.len()) > MAX_SAMPLES {
             return Err(WriteError::TooLarge);
         }
-        if let (Some(first), Some(last)) = (wavelengths.first(), wavelengths.last()) {
-            written = [written[0].min(*first), written[1].max(*last)];
-        } else {
-            blank += 1;
+        let is_blank = |piece: &&Piece<'_>| step.is_some() && within(&rows, sampling.within(piece.range())).is_empty();
+        let blank = pieces.iter().filter(is_blank).count();
+        if blank == pieces.len() {
+            return Err(WriteError::NoOverlap);
         }
-        piece.values = changes.take(piece, content, &wavelengths).into();
-        piece.wavelengths = wavelengths.into();
+        let changes = Changes::new(sampling);
+        Ok(Self { sheet: *sheet, pieces, step, sampling, rows, changes, renamed, blank })
     }
-    if blank == pieces.len() {
-        return Err(WriteError::NoOverlap);
+
+    /// Passes on wavelengths and values of one curve after the other, as long as `put` says to go on.
+    pub fn each(&mut self, mut put: impl FnMut(&[f64], &[f64]) -> bool) {
+        for piece in &self.pieces {
+            let piece = part(piece, &self.rows, self.step.map(|_| self.sampling), self.sheet.content, &mut self.changes);
+            if !put(&piece.wavelengths, &piece.values) {
+                return;
+            }
+        }
     }
-    changes.note(Some(step), written, notes);
-    if blank > 0 {
-        notes.push(Note::Blank { count: blank });
+
+    /// Passes on the table with its head, some lines at a time, as long as `put` says to go on.
+    pub fn table(&mut self, put: &mut dyn FnMut(&str) -> bool) {
+        self.write(String::new(), put);
     }
-    Ok(changes.told(Some(step)))
+
+    /// Passes on the table with what is known about the curves above it.
+    pub(super) fn with_comments(&mut self, put: &mut dyn FnMut(&str) -> bool) {
+        let mut out = String::new();
+        if self.step.is_some() {
+            // The head says how values were found, which is known of all curves once they were.
+            self.each(|_, _| true);
+        }
+        push_comments(&mut out, &self.sheet, self.changes.told(self.step).as_deref());
+        self.write(out, put);
+    }
+
+    fn write(&mut self, mut out: String, put: &mut dyn FnMut(&str) -> bool) {
+        out.push_str("wavelength_nm");
+        for piece in &self.pieces {
+            out.push(',');
+            push_name(&mut out, &piece.name);
+        }
+        out.push('\n');
+        for rows in self.rows.chunks((CELLS / self.pieces.len()).max(1)) {
+            let (sampling, content) = (self.step.map(|_| self.sampling), self.sheet.content);
+            let parts: Vec<Piece<'_>> =
+                self.pieces.iter().map(|piece| part(piece, rows, sampling, content, &mut self.changes)).collect();
+            if !push_rows(&mut out, rows, &parts, put) {
+                return;
+            }
+        }
+        put(&out);
+    }
+
+    /// All that is not as it was in the curves, known once they were passed on.
+    pub fn notes(&self) -> Vec<Note> {
+        let mut notes = self.renamed.clone();
+        if let (Some(step), Some(first), Some(last)) = (self.step, self.rows.first(), self.rows.last()) {
+            self.changes.note(Some(step), [*first, *last], &mut notes);
+        }
+        notes.extend((self.blank > 0).then_some(Note::Blank { count: self.blank }));
+        notes
+    }
 }
 
-/// Every wavelength of any curve, ascending.
-fn union(pieces: &[Piece<'_>]) -> Vec<f64> {
-    let mut all = Vec::new();
-    let mut before: &[f64] = &[];
+/// The wavelengths of all curves, or the multiples of a step in their ranges, ascending.
+fn rows(pieces: &[Piece<'_>], step: Option<f64>, sampling: Sampling) -> Result<Vec<f64>, WriteError> {
+    let mut rows = Vec::new();
+    let mut before: Option<&Piece<'_>> = None;
     for piece in pieces {
         // Most tables have one grid for many curves in a row.
-        if piece.wavelengths != before {
-            all.extend_from_slice(&piece.wavelengths);
+        match step {
+            Some(step) if before.is_none_or(|before| before.range() != piece.range()) => {
+                rows.extend(multiples(step, sampling.within(piece.range()))?);
+            }
+            None if before.is_none_or(|before| before.wavelengths != piece.wavelengths) => {
+                rows.extend_from_slice(&piece.wavelengths);
+            }
+            _ => {}
         }
-        before = &piece.wavelengths;
+        if step.is_some() && rows.len() > MAX_SAMPLES {
+            return Err(WriteError::TooLarge);
+        }
+        before = Some(piece);
     }
-    all.sort_unstable_by(f64::total_cmp);
-    all.dedup();
-    all
+    rows.sort_unstable_by(f64::total_cmp);
+    rows.dedup();
+    Ok(rows)
+}
+
+/// The wavelengths that a curve of this range has a value at.
+fn within(rows: &[f64], [first, last]: [f64; 2]) -> &[f64] {
+    let from = rows.partition_point(|&row| row < first - SAME_NM);
+    let to = rows.partition_point(|&row| row <= last + SAME_NM);
+    rows.get(from..to).unwrap_or_default()
+}
+
+/// What a curve has at some of the wavelengths that are written.
+fn part<'p>(
+    piece: &'p Piece<'_>,
+    rows: &[f64],
+    sampling: Option<Sampling>,
+    content: Content<'_>,
+    changes: &mut Changes,
+) -> Piece<'p> {
+    let name = Cow::Borrowed("");
+    if let Some(sampling) = sampling {
+        let wavelengths = within(rows, sampling.within(piece.range()));
+        let values = changes.take(piece, content, wavelengths).into();
+        return Piece { name, wavelengths: wavelengths.to_vec().into(), values };
+    }
+    let [Some(first), Some(last)] = [rows.first(), rows.last()] else {
+        return Piece { name, wavelengths: Cow::default(), values: Cow::default() };
+    };
+    let from = piece.wavelengths.partition_point(|own| own < first);
+    let own = from..piece.wavelengths.partition_point(|own| own <= last);
+    let (wavelengths, values) = (&piece.wavelengths[own.clone()], &piece.values[own]);
+    Piece { name, wavelengths: wavelengths.into(), values: values.into() }
 }
 
 fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) {
@@ -131,18 +198,20 @@ fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) 
 
 /// A name, quoted only where it has to be.
 fn push_name(out: &mut String, name: &str) {
+    let name = guarded(name);
     if name.contains([',', '"', ';', '\t']) {
-        push_quoted(out, name);
+        push_quoted(out, &name);
     } else {
-        out.push_str(name);
+        out.push_str(&name);
     }
 }
 
-fn push_rows(out: &mut String, wavelengths: &[f64], pieces: &[Piece<'_>]) {
-    let mut next = vec![0_usize; pieces.len()];
-    for &wavelength in wavelengths {
+/// Appends rows and passes on what has become long; says whether to go on.
+fn push_rows(out: &mut String, rows: &[f64], parts: &[Piece<'_>], put: &mut dyn FnMut(&str) -> bool) -> bool {
+    let mut next = vec![0_usize; parts.len()];
+    for &wavelength in rows {
         push_number(out, wavelength);
-        for (piece, next) in pieces.iter().zip(&mut next) {
+        for (piece, next) in parts.iter().zip(&mut next) {
             out.push(',');
             if piece.wavelengths.get(*next) == Some(&wavelength) {
                 push_number(out, piece.values[*next]);
@@ -150,5 +219,12 @@ fn push_rows(out: &mut String, wavelengths: &[f64], pieces: &[Piece<'_>]) {
             }
         }
         out.push('\n');
+        if out.len() >= CHUNK {
+            if !put(out) {
+                return false;
+            }
+            out.clear();
+        }
     }
+    true
 }

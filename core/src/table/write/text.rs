@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt::{Arguments, Write};
 
+pub(super) use super::super::names::on_one_line as one_line;
 use super::super::{Values, photons, quantity, words};
 use super::Content;
 
@@ -26,17 +27,6 @@ pub(super) fn push_real(out: &mut String, value: f64) {
         let end = out[start..].find('e').map_or(out.len(), |at| start + at);
         out.insert_str(end, ".0");
     }
-}
-
-/// A text without line breaks and other control characters, and without blanks around it.
-pub(super) fn one_line(text: &str) -> Cow<'_, str> {
-    let text = text.trim();
-    let breaks = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}');
-    if text.contains(breaks) {
-        let spaced: String = text.chars().map(|c| if breaks(c) { ' ' } else { c }).collect();
-        return Cow::Owned(spaced.trim().to_owned());
-    }
-    Cow::Borrowed(text)
 }
 
 /// The name of a curve: on one line, not blank, and not one that a reader takes for a unit which the values are not in.
