@@ -13,16 +13,17 @@ mod request;
 mod tables;
 
 use std::ffi::OsString;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::{CommandFactory as _, FromArgMatches as _};
 
 use arguments::{Arguments, Subcommand};
 use chromascope_core::camera::NoRendering;
-use outputs::put;
+use outputs::{put, show};
 
 use crate::scene::SceneError;
+pub use crate::terminal::say;
 
 /// What the command line asks for.
 pub enum Outcome {
@@ -137,16 +138,14 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         return Outcome::Window(parsed.files);
     };
     let result = match subcommand {
-        Subcommand::Locus(arguments) => {
-            tables::locus(&arguments, matches).and_then(|text| put(&text, arguments.common.out.as_deref()))
-        }
+        Subcommand::Locus(arguments) => tables::locus(&arguments, matches),
         Subcommand::Patches(arguments) => {
             tables::patches(&arguments, matches).and_then(|text| put(&text, arguments.common.out.as_deref()))
         }
         Subcommand::Render(arguments) => render::run(&arguments, matches),
         Subcommand::Inspect(arguments) => inspect::run(&arguments),
         Subcommand::Bench(arguments) => bench::run(&arguments),
-        Subcommand::List { kind } => put(&tables::list(kind), None),
+        Subcommand::List { kind } => show(&tables::list(kind)),
     };
     Outcome::Done(match result {
         Ok(()) => 0,
@@ -164,12 +163,12 @@ fn is_mistyped_command(file: &Path) -> bool {
 
 /// Prints help, the version or a complaint about the arguments where it belongs.
 fn explain(error: &clap::Error) -> u8 {
-    // Nothing can be said when the terminal is gone.
-    let _gone = error.print();
+    let text = error.render().to_string();
+    if error.use_stderr() {
+        say(&text);
+    } else {
+        // Nothing can be said when the terminal is gone.
+        let _gone = show(&text);
+    }
     u8::try_from(error.exit_code()).unwrap_or(2)
-}
-
-/// Says something on standard error.
-pub fn say(text: &str) {
-    let _gone = io::stderr().lock().write_all(text.as_bytes());
 }

@@ -11,7 +11,7 @@ mod save;
 mod watch;
 
 use std::fs;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -235,6 +235,13 @@ pub fn reason(error: &io::Error) -> String {
     text[..end].to_lowercase()
 }
 
+/// A file's name of a stem and an ending, the stem cut where both together are longer than file systems take: 255 bytes.
+pub fn fitting(stem: &str, ending: &str) -> String {
+    const LONGEST: usize = 255;
+    let room = LONGEST.saturating_sub(ending.len());
+    format!("{}{ending}", &stem[..stem.floor_char_boundary(room)])
+}
+
 /// The processor's name, where the system keeps it in a file.
 pub fn processor() -> Option<String> {
     let facts = fs::read_to_string("/proc/cpuinfo").ok()?;
@@ -244,16 +251,28 @@ pub fn processor() -> Option<String> {
 
 /// Writes a file whole or not at all: beside it first, then moved into its place.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_atomically_with(path, |file| file.write_all(bytes))
+}
+
+/// Writes a file whole or not at all, as its contents are made.
+pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::Builder::new().prefix(".chromascope-").tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    // A temporary file is private; what is saved is as readable as any new file.
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".chromascope-");
+    // A temporary file is private else; what is saved is as readable as any new file, so the system's mask applies.
     #[cfg(unix)]
-    {
+    let builder = {
         use std::os::unix::fs::PermissionsExt as _;
-        let mode = fs::metadata(path).map_or(0o644, |known| known.permissions().mode());
-        file.as_file().set_permissions(fs::Permissions::from_mode(mode))?;
+        builder.permissions(fs::Permissions::from_mode(0o666))
+    };
+    let mut file = builder.tempfile_in(folder)?;
+    write(file.as_file_mut())?;
+    file.as_file().sync_all()?;
+    // What takes the place of a file is as readable as that was.
+    if cfg!(unix)
+        && let Ok(known) = fs::metadata(path)
+    {
+        file.as_file().set_permissions(known.permissions())?;
     }
     file.persist(path).map_err(|error| error.error)?;
     Ok(())

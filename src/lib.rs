@@ -29,6 +29,7 @@ pub mod panes;
 pub mod results;
 pub mod scene;
 pub mod studio;
+pub mod terminal;
 pub mod theme;
 pub mod thing;
 pub mod view;

@@ -3,15 +3,18 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-use chromascope::{app, cli, files};
+use chromascope::{app, cli, files, terminal};
 
 fn main() -> ExitCode {
     let start = Instant::now();
+    std::panic::set_hook(Box::new(terminal::report_panic));
     let opened = match cli::run(std::env::args_os()) {
         cli::Outcome::Done(code) => return ExitCode::from(code),
         cli::Outcome::Window(files) => files,
     };
-    let logger = env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn")).build();
+    let logger = env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn"))
+        .target(env_logger::Target::Pipe(Box::new(terminal::StandardError)))
+        .build();
     // Errors come through whatever the environment says: by them dialogs that are not there are told from Cancel.
     log::set_max_level(logger.filter().max(log::LevelFilter::Error));
     if let Err(error) = log::set_boxed_logger(Box::new(files::DialogLog::new(logger))) {

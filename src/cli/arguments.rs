@@ -1,5 +1,6 @@
 //! What can be said on the command line.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, ValueEnum};
@@ -102,7 +103,7 @@ pub(super) struct SourceArguments {
     pub(super) observer: Vec<String>,
     /// A camera, or a file with three sensitivities; may be repeated
     #[arg(long, value_name = "NAME|FILE")]
-    pub(super) camera: Vec<String>,
+    pub(super) camera: Vec<OsString>,
     /// What the sensitivities in camera files are a response to, whatever the files say: equal energy or equal numbers of photons
     /// at each wavelength
     #[arg(long, value_enum, value_name = "UNIT")]
@@ -132,7 +133,7 @@ pub(super) struct CommonArguments {
     pub(super) sources: SourceArguments,
     /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: the preset's]
     #[arg(long, value_name = "NAME|FILE")]
-    pub(super) illuminant: Option<String>,
+    pub(super) illuminant: Option<OsString>,
     /// The white-balance target, the RGB a perfect diffuser is mapped to: `unity`, an illuminant, `daylight:K` or `blackbody:K`
     /// [default: the preset's]
     #[arg(long, value_name = "WHITE", visible_alias = "white-balance")]
@@ -171,11 +172,11 @@ pub(super) struct PatchesArguments {
     pub(super) common: CommonArguments,
     /// A chart, a material, or a file with reflectances [default: the preset's]
     #[arg(long, value_name = "NAME|FILE")]
-    pub(super) chart: Option<String>,
+    pub(super) chart: Option<OsString>,
     /// A file with spectra of radiance, which are integrated as they are: no chart and no illuminant is named then. Without
     /// --radiance-white they are balanced to equal energy, X, Y, Z are relative, and there is no L*a*b*
     #[arg(long, value_name = "FILE", conflicts_with_all = ["chart", "illuminant"])]
-    pub(super) radiance: Option<String>,
+    pub(super) radiance: Option<PathBuf>,
     /// The radiance of a perfect diffuser among those of the file: it takes the white-balance target and Y = 1
     #[arg(long, value_name = "NAME", requires = "radiance")]
     pub(super) radiance_white: Option<String>,

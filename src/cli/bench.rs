@@ -7,7 +7,7 @@ use chromascope_core::figure::Figure;
 use chromascope_core::render::Stop;
 use clap::Args;
 
-use super::outputs::{put, write_to};
+use super::outputs::{show, write_to};
 use super::{CliError, say};
 use crate::bench::{self, Effort, Measurement, Progress, Report, Workload};
 use crate::export::{Paper, png, png_file, svg};
@@ -63,7 +63,7 @@ fn workload(name: &str) -> Result<Workload, String> {
 pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     let (false, Some(folder)) = (arguments.list, &arguments.out) else {
         let lines = Workload::ALL.map(|workload| format!("{:<12} {}\n", workload.name(), workload.title()));
-        return put(&lines.concat(), None);
+        return show(&lines.concat());
     };
     // Better now than after a quarter of an hour.
     make_folder(folder)?;
@@ -92,7 +92,7 @@ pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
         write_to(path, bytes).map_err(|error| CliError::Output { path: path.clone(), error })?;
     }
     let count = report.measurements.len();
-    put(&format!("{count} measurements in {} files in {}\n", files.len(), folder.display()), None)
+    show(&format!("{count} measurements in {} files in {}\n", files.len(), folder.display()))
 }
 
 /// The names of the files that a run writes.

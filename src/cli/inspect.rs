@@ -14,30 +14,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
+use chromascope_core::table::write::{Prepared, Sheet, Trace};
 use chromascope_core::table::{self, Certainty, Decided, ReadError, Role, Table};
 
 use self::arguments::InspectArguments;
 use self::out::Out;
-use self::samples::Tabulated;
-use super::outputs::put;
+use super::outputs::{Stop, put, show, stream};
 use super::request::read;
 use super::{CliError, say};
 use crate::files::reason;
 
-/// A file, or why there is nothing to say about it.
-struct Inspected {
-    name: String,
-    result: Result<Understood, Failure>,
-}
-
-/// A file that was read.
-struct Understood {
-    table: Table,
-    /// The curves as they go out, if they do.
-    written: Option<Tabulated>,
-}
-
 /// Why a file could not be read or written.
+#[derive(Clone)]
 enum Failure {
     /// The system says no.
     Disk(String),
@@ -85,17 +73,9 @@ pub(super) fn run(arguments: &InspectArguments) -> Result<(), CliError> {
     if arguments.json && several {
         put("[\n", None)?;
     }
-    for (index, name) in files.iter().enumerate() {
-        let inspected = inspect(name, arguments);
-        if arguments.json {
-            let end = if several && index + 1 < files.len() { ",\n" } else { "\n" };
-            put(&(json::of(&inspected) + end), None)?;
-        }
-        let done = match &inspected.result {
-            Ok(understood) => tell(&inspected.name, understood, index, &out, arguments),
-            Err(failure) => Err(CliError::File(failure.sentence(&inspected.name))),
-        };
-        if let Err(error) = done {
+    for (index, file) in files.iter().enumerate() {
+        let end = if several && index + 1 < files.len() { ",\n" } else { "\n" };
+        if let Err(error) = answer(file, (index, end), &out, arguments)? {
             failures.push(error);
             if files.len() > 1
                 && let Some(error) = failures.last()
@@ -114,38 +94,57 @@ pub(super) fn run(arguments: &InspectArguments) -> Result<(), CliError> {
     }
 }
 
-/// The report where a person looks, the table where it is asked for.
-fn tell(
-    name: &str,
-    understood: &Understood,
-    index: usize,
+/// Says about a file what is asked for. What keeps all files back is the outer error.
+fn answer(
+    file: &Path,
+    (index, end): (usize, &str),
     out: &Out,
     arguments: &InspectArguments,
-) -> Result<(), CliError> {
-    if !arguments.json {
+) -> Result<Result<(), CliError>, CliError> {
+    let name = if is_standard_input(file) { "standard input".to_owned() } else { file.display().to_string() };
+    let told = table::on_one_line(&name);
+    let table = inspect(file, &name, arguments);
+    let curves: Vec<Trace<'_>> = table.iter().flat_map(|table| &table.curves).map(Trace::from).collect();
+    let wanted = arguments.csv.is_some() || arguments.step.is_some();
+    let prepared = table.as_ref().map_err(Clone::clone).and_then(|table| {
+        let sheet = Sheet { content: samples::content(table), curves: &curves, ..Sheet::default() };
+        let prepared = wanted.then(|| Prepared::new(&sheet, arguments.grid())).transpose().map_err(Failure::Write)?;
+        Ok((table, prepared))
+    });
+    let (table, mut prepared) = match prepared {
+        Ok(prepared) => prepared,
+        Err(failure) => {
+            if arguments.json {
+                put(&format!("{}{end}", json::failure(&name, &failure)), None)?;
+            }
+            return Ok(Err(CliError::File(failure.sentence(&told))));
+        }
+    };
+    if arguments.json {
+        stream(None, |out| {
+            json::write(out, &name, table, prepared.as_mut())?;
+            Ok(out.write_all(end.as_bytes())?)
+        })?;
+    } else {
+        let notes = prepared.as_mut().map_or_else(Vec::new, samples::notes);
         let gap = if index > 0 { "\n" } else { "" };
-        let text = format!("{gap}{}", report::of(name, understood));
-        if out.is_standard_output() { say(&text) } else { put(&text, None)? }
+        let text = format!("{gap}{}", report::of(&told, table, &notes));
+        if out.is_standard_output() { say(&text) } else { show(&text)? }
     }
-    match &understood.written {
-        Some(written) => out.put(index, &written.text),
-        None => Ok(()),
-    }
+    Ok(match (&mut prepared, out.place(index)) {
+        (Some(prepared), Some(place)) => stream(place, |out| samples::write(prepared, out)),
+        _ => Ok(()),
+    })
 }
 
-fn inspect(file: &str, arguments: &InspectArguments) -> Inspected {
-    let name = if is_standard_input(file) { "standard input" } else { file };
-    let result = contents(file).map_err(|error| Failure::Disk(reason(&error))).and_then(|bytes| {
-        let mut table = table::read(&bytes, &arguments.options()).map_err(Failure::Read)?;
-        name_the_only_curve(&mut table, name);
-        if let Some(per_photon) = arguments.per_photon() {
-            respond(&mut table, per_photon)?;
-        }
-        let wanted = arguments.csv.is_some() || arguments.step.is_some();
-        let tabulated = wanted.then(|| samples::tabulate(&table, arguments.grid()));
-        Ok(Understood { written: tabulated.transpose().map_err(Failure::Write)?, table })
-    });
-    Inspected { name: name.to_owned(), result }
+fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<Table, Failure> {
+    let bytes = contents(file).map_err(|error| Failure::Disk(reason(&error)))?;
+    let mut table = table::read(&bytes, &arguments.options()).map_err(Failure::Read)?;
+    name_the_only_curve(&mut table, name);
+    if let Some(per_photon) = arguments.per_photon() {
+        respond(&mut table, per_photon)?;
+    }
+    Ok(table)
 }
 
 /// Takes sensitivities as responses per photon or per energy, whatever the file says.
@@ -161,7 +160,7 @@ fn respond(table: &mut Table, per_photon: bool) -> Result<(), Failure> {
 /// The name that means no file.
 const STANDARD_INPUT: &str = "-";
 
-fn contents(file: &str) -> io::Result<Vec<u8>> {
+fn contents(file: &Path) -> io::Result<Vec<u8>> {
     if !is_standard_input(file) {
         return read(file);
     }
@@ -183,8 +182,8 @@ fn contents(file: &str) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-fn is_standard_input(file: &str) -> bool {
-    [STANDARD_INPUT, "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"].contains(&file)
+fn is_standard_input(file: &Path) -> bool {
+    [STANDARD_INPUT, "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"].iter().any(|name| file == Path::new(name))
 }
 
 /// Time without an end of standard input after which a notice says what is waited for.
@@ -205,17 +204,17 @@ fn name_the_only_curve(table: &mut Table, file: &str) {
         && !curve.named
     {
         let stem = || Path::new(file).file_stem().map_or_else(|| file.to_owned(), |s| s.to_string_lossy().into_owned());
-        curve.name = title.unwrap_or_else(stem);
+        curve.name = table::on_one_line(&title.unwrap_or_else(stem)).into_owned();
     }
 }
 
 /// The files that are meant, and whether there may be several: folders become what is in them, in order of name.
-fn files(named: &[PathBuf]) -> Result<(Vec<String>, bool), CliError> {
+fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, bool), CliError> {
     let mut files = Vec::new();
     let mut several = named.len() > 1;
     for path in named {
         if !path.is_dir() {
-            files.push(path.display().to_string());
+            files.push(path.clone());
             continue;
         }
         several = true;
@@ -230,13 +229,13 @@ fn files(named: &[PathBuf]) -> Result<(Vec<String>, bool), CliError> {
 }
 
 /// The files in a folder; hidden ones and folders within are left out.
-fn files_of(folder: &Path) -> io::Result<Vec<String>> {
+fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         let hidden = entry.file_name().to_string_lossy().starts_with('.');
         if !hidden && entry.path().is_file() {
-            files.push(entry.path().display().to_string());
+            files.push(entry.path());
         }
     }
     files.sort();

@@ -8,6 +8,12 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::CliError;
+use crate::files::write_atomically_with;
+use crate::scene::SceneError;
+use crate::terminal;
+
+/// Bytes that are passed on to an output at once.
+const BUFFER: usize = 1 << 16;
 
 /// A file as the file system knows it, by whatever name or link it is reached.
 #[derive(Debug, PartialEq, Eq)]
@@ -74,7 +80,7 @@ pub(super) fn is_standard_output(path: &Path) -> bool {
 }
 
 /// Whether a path is an open file of the shell's. What that leads to is the shell's business.
-fn is_descriptor(path: &Path) -> bool {
+pub(super) fn is_descriptor(path: &Path) -> bool {
     let number = |rest: &Path| rest.to_str().is_some_and(|text| text.parse::<u32>().is_ok());
     let in_folder = |folder: &&str| path.strip_prefix(folder).is_ok_and(number);
     path == Path::new("/dev/stderr") || ["/dev/fd", "/proc/self/fd"].iter().any(in_folder)
@@ -86,29 +92,86 @@ fn is_stream(path: &Path) -> bool {
     is_standard_output(path) || is_descriptor(path) || no_file()
 }
 
+/// Says something to people on standard output.
+pub(super) fn show(text: &str) -> Result<(), CliError> {
+    put(&terminal::shown(text), None)
+}
+
 /// Writes a text to a file, whole or not at all, or to standard output.
 pub(super) fn put(text: &str, out: Option<&Path>) -> Result<(), CliError> {
-    let path = out.filter(|path| !is_standard_output(path));
-    match path.map_or_else(|| print(text), |path| write_to(path, text.as_bytes())) {
-        // Whoever read it has seen enough, as `head` does.
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        Err(error) => Err(CliError::Output { path: path.unwrap_or(Path::new("standard output")).to_owned(), error }),
-        Ok(()) => Ok(()),
+    stream(out, |out| Ok(out.write_all(text.as_bytes())?))
+}
+
+/// Why writing ended early.
+pub(super) enum Stop {
+    /// The output takes no more.
+    Output(io::Error),
+    /// There is nothing more to write.
+    Because(Box<CliError>),
+}
+
+impl From<io::Error> for Stop {
+    fn from(error: io::Error) -> Self {
+        Self::Output(error)
     }
 }
 
-fn print(text: &str) -> io::Result<()> {
-    let mut stdout = io::stdout().lock();
-    stdout.write_all(text.as_bytes())?;
-    stdout.flush()
+impl From<CliError> for Stop {
+    fn from(error: CliError) -> Self {
+        Self::Because(Box::new(error))
+    }
+}
+
+impl From<SceneError> for Stop {
+    fn from(error: SceneError) -> Self {
+        CliError::from(error).into()
+    }
+}
+
+/// Writes to a file, whole or not at all, or to standard output, as it is made: nothing is held until the end.
+pub(super) fn stream(
+    out: Option<&Path>,
+    write: impl FnOnce(&mut dyn io::Write) -> Result<(), Stop>,
+) -> Result<(), CliError> {
+    let path = out.filter(|path| !is_standard_output(path));
+    let mut because = None;
+    let written = |out: &mut dyn io::Write| {
+        let mut out = io::BufWriter::with_capacity(BUFFER, out);
+        match write(&mut out) {
+            Ok(()) => out.flush(),
+            Err(Stop::Output(error)) => Err(error),
+            Err(Stop::Because(error)) => {
+                because = Some(*error);
+                Err(io::ErrorKind::Other.into())
+            }
+        }
+    };
+    let done = match path {
+        None => written(&mut io::stdout().lock()),
+        Some(path) => write_with(path, written),
+    };
+    match (done, because) {
+        (_, Some(because)) => Err(because),
+        // Whoever read it has seen enough, as `head` does.
+        (Err(error), None) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        (Err(error), None) => {
+            Err(CliError::Output { path: path.unwrap_or(Path::new("standard output")).to_owned(), error })
+        }
+        (Ok(()), None) => Ok(()),
+    }
+}
+
+/// Writes bytes to a path as [`write_with`] does.
+pub(super) fn write_to(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_with(path, |out| out.write_all(bytes))
 }
 
 /// A file is replaced whole, behind a link if it is one; a stream is written into.
-pub(super) fn write_to(path: &Path, bytes: &[u8]) -> io::Result<()> {
+fn write_with(path: &Path, write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>) -> io::Result<()> {
     match fs::metadata(path) {
-        Ok(_) if is_descriptor(path) => fs::OpenOptions::new().append(true).open(path)?.write_all(bytes),
-        Ok(known) if known.is_file() => crate::files::write_atomically(&fs::canonicalize(path)?, bytes),
-        Ok(known) if !known.is_dir() => fs::OpenOptions::new().write(true).open(path)?.write_all(bytes),
-        _ => crate::files::write_atomically(path, bytes),
+        Ok(_) if is_descriptor(path) => write(&mut fs::OpenOptions::new().append(true).open(path)?),
+        Ok(known) if known.is_file() => write_atomically_with(&fs::canonicalize(path)?, write),
+        Ok(known) if !known.is_dir() => write(&mut fs::OpenOptions::new().write(true).open(path)?),
+        _ => write_atomically_with(path, write),
     }
 }

@@ -1,12 +1,13 @@
 //! Measured radiances as `patches` takes them: integrated as they are, balanced to the radiance of a white among them.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use chromascope_core::query::{Ask as _, PatchColor, RadianceColorsOf, RenderingOf, Shared};
 use chromascope_core::spectral::{GridSpectrum, Quantity};
 
 use super::CliError;
-use super::request::Request;
+use super::request::{Request, told};
 use crate::catalog::Kind;
 use crate::catalog::names::{NameError, folded};
 use crate::document::own::Role;
@@ -22,9 +23,9 @@ pub(super) struct Radiances {
 
 impl Radiances {
     /// Reads a file of radiances.
-    pub(super) fn open(request: &mut Request, file: &str, white: Option<&str>) -> Result<Self, CliError> {
+    pub(super) fn open(request: &mut Request, file: &Path, white: Option<&str>) -> Result<Self, CliError> {
         let set = request.read(file, Role::Illuminant)?;
-        let curves = set.curves_in_nm().map_err(|error| CliError::File(format!("{file}: {error}")))?;
+        let curves = set.curves_in_nm().map_err(|error| CliError::File(format!("{}: {error}", told(file))))?;
         let names: Vec<String> = curves.iter().map(|(name, _)| name.clone()).collect();
         let white = white.map(|white| index_of(&names, white)).transpose()?;
         let on_grid = |(_, curve)| Shared::new(GridSpectrum::resample(&curve, Quantity::Light));

@@ -22,11 +22,12 @@ use rayon::prelude::*;
 
 use self::arguments::{Format, RenderArguments};
 use self::setup::Setup;
-use super::outputs::{self, is_standard_output, put, write_to};
+use super::outputs::{self, is_standard_output, put, show, write_to};
 use super::{CliError, say};
 use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
 use crate::figures::render::headline::{self, Detail};
 use crate::figures::render::returned;
+use crate::files::fitting;
 use crate::laboratory::plans;
 use crate::results::{Count, Results};
 use crate::scene::{Scene, SceneError, Source};
@@ -47,7 +48,7 @@ pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(
     if to_stdout {
         say(&lines);
     } else {
-        put(&lines, None)?;
+        show(&lines)?;
     }
     match &arguments.stats {
         Some(path) => put(&patiently("measuring", || stats::json(&made, &counts, &times)), Some(path)),
@@ -99,7 +100,7 @@ impl<'a> Made<'a> {
         let scene = Scene { document, catalog: &setup.request.catalog, results };
         let sources = scene.sources();
         let mesh = scene.mesh_of(setup.own_mesh.as_ref());
-        let mesh = mesh.ok_or_else(|| CliError::File(format!("{}: there is no mesh", arguments.mesh)))?;
+        let mesh = mesh.ok_or_else(|| CliError::File(format!("{}: there is no mesh", arguments.mesh.display())))?;
         let query = scene.pictures_of(&sources, mesh, setup.viewpoint, setup.finish, None)?;
         // Exposure goes by the truth, on show or not. What cannot be shown is said before anything large is computed.
         rendering(&scene, &document.truth, &query.truth)?;
@@ -255,12 +256,11 @@ fn file_names(arguments: &RenderArguments, mesh: &str, sources: &[Source]) -> Ve
     let mut taken: Vec<String> = Vec::new();
     for source in sources {
         let stem = format!("{}_{}", slug(mesh), slug(&source.label));
-        let numbered = (2_u32..).map(|number| format!("{stem}-{number}"));
-        let free = std::iter::once(stem.clone()).chain(numbered).find(|name| !taken.contains(name));
-        taken.extend(free);
+        let numbered = |number: &str| fitting(&stem, &format!("{number}.{}", arguments.format.ending()));
+        let numbers = std::iter::once(String::new()).chain((2_u32..).map(|number| format!("-{number}")));
+        taken.extend(numbers.map(|number| numbered(&number)).find(|name| !taken.contains(name)));
     }
-    let name = |stem: &String| format!("{stem}.{}", arguments.format.ending());
-    taken.iter().map(|stem| if here { PathBuf::from(name(stem)) } else { arguments.out.join(name(stem)) }).collect()
+    taken.into_iter().map(|name| if here { PathBuf::from(name) } else { arguments.out.join(name) }).collect()
 }
 
 /// A name that any file system takes: letters and digits, small, other signs as single hyphens.

@@ -1,5 +1,6 @@
 //! From arguments to a document: names and files become what is compared, under what.
 
+use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -10,6 +11,7 @@ use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 
 use super::arguments::{CommonArguments, Per, SourceArguments, Transform};
+use super::outputs::is_descriptor;
 use super::{CliError, say};
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
@@ -96,19 +98,20 @@ impl Request {
         matches: &ArgMatches,
     ) -> Result<Vec<(Kind, String)>, CliError> {
         let places = |id: &str| matches.indices_of(id).into_iter().flatten().collect::<Vec<usize>>();
-        let observers =
-            places("observer").into_iter().zip(&arguments.observer).map(|(at, name)| (at, Kind::Observer, name));
-        let cameras = places("camera").into_iter().zip(&arguments.camera).map(|(at, name)| (at, Kind::Camera, name));
+        let observers = arguments.observer.iter().map(OsStr::new);
+        let observers = places("observer").into_iter().zip(observers).map(|(at, name)| (at, Kind::Observer, name));
+        let cameras = arguments.camera.iter().map(OsString::as_os_str);
+        let cameras = places("camera").into_iter().zip(cameras).map(|(at, name)| (at, Kind::Camera, name));
         let mut named: Vec<_> = observers.chain(cameras).collect();
         named.sort_by_key(|(at, ..)| *at);
         named
             .into_iter()
             .map(|(_, kind, name)| {
                 let found = if kind == Kind::Camera && self.means_file("--camera", &[kind], name) {
-                    self.open(name, Role::Camera)?.name.clone()
+                    self.open(Path::new(name), Role::Camera)?.name.clone()
                 } else {
                     let argument = if kind == Kind::Camera { "--camera" } else { "--observer" };
-                    self.name(argument, kind, name)?
+                    self.name(argument, kind, &name.to_string_lossy())?
                 };
                 Ok((kind, found))
             })
@@ -140,25 +143,27 @@ impl Request {
     }
 
     /// Whether an argument means a file. A built-in set's own name means that set, even beside a file that is called so.
-    fn means_file(&self, argument: &str, kinds: &[Kind], typed: &str) -> bool {
-        let built_in = kinds.iter().any(|kind| self.catalog.get(*kind, typed).is_some());
-        if built_in && Path::new(typed).is_file() {
+    fn means_file(&self, argument: &str, kinds: &[Kind], given: &OsStr) -> bool {
+        let typed = given.to_string_lossy();
+        let built_in = kinds.iter().any(|kind| self.catalog.get(*kind, &typed).is_some());
+        if built_in && Path::new(given).is_file() {
             say(&format!(
                 "chromascope: {argument} \"{typed}\": taking the built-in set; for the file, write ./{typed}\n"
             ));
         }
-        !built_in && is_file(typed)
+        !built_in && is_file(given)
     }
 
     /// Chooses the light.
-    pub(super) fn set_light(&mut self, illuminant: &str) -> Result<(), CliError> {
+    pub(super) fn set_light(&mut self, given: &OsStr) -> Result<(), CliError> {
+        let illuminant = &*given.to_string_lossy();
         if let Some((light, kelvin)) = radiator("--illuminant", illuminant)? {
             self.document.light = if light == Radiator::Daylight { Light::Daylight } else { Light::BlackBody };
             self.document.temperature_k = kelvin;
             return Ok(());
         }
-        let name = if self.means_file("--illuminant", &[Kind::Illuminant], illuminant) {
-            self.open(illuminant, Role::Illuminant)?.name.clone()
+        let name = if self.means_file("--illuminant", &[Kind::Illuminant], given) {
+            self.open(Path::new(given), Role::Illuminant)?.name.clone()
         } else {
             self.illuminant("--illuminant", illuminant)?
         };
@@ -167,15 +172,15 @@ impl Request {
     }
 
     /// Chooses the patches.
-    pub(super) fn set_chart(&mut self, chart: Option<&str>) -> Result<(), CliError> {
+    pub(super) fn set_chart(&mut self, chart: Option<&OsStr>) -> Result<(), CliError> {
         let Some(chart) = chart else { return Ok(()) };
         if self.means_file("--chart", &[Kind::Chart, Kind::Material], chart) {
             self.document.subset = Subset::All;
-            let set = self.open(chart, Role::Reflectance)?;
+            let set = self.open(Path::new(chart), Role::Reflectance)?;
             self.document.chart.clone_from(&set.name);
             return Ok(());
         }
-        let found = self.chart_name(chart)?;
+        let found = self.chart_name(&chart.to_string_lossy())?;
         if found == FIVE {
             self.document.subset = Subset::Five;
             CHART.clone_into(&mut self.document.chart);
@@ -187,12 +192,13 @@ impl Request {
     }
 
     /// Chooses the reflectance of what is rendered.
-    pub(super) fn set_material(&mut self, material: &str) -> Result<(), CliError> {
+    pub(super) fn set_material(&mut self, given: &OsStr) -> Result<(), CliError> {
+        let material = &*given.to_string_lossy();
         self.document.render.material = match material.to_ascii_lowercase().as_str() {
             "skin" => SKIN.to_owned(),
             "leaf" => LEAF.to_owned(),
-            _ if self.means_file("--material", &[Kind::Material, Kind::Chart], material) => {
-                let set = self.open(material, Role::Reflectance)?;
+            _ if self.means_file("--material", &[Kind::Material, Kind::Chart], given) => {
+                let set = self.open(Path::new(given), Role::Reflectance)?;
                 if let [first, _, ..] = set.curves.as_slice() {
                     let count = set.curves.len();
                     say(&format!("chromascope: {material}: {count} reflectances; taking the first, {}\n", first.name));
@@ -251,18 +257,16 @@ impl Request {
     }
 
     /// Reads a file as a set of the document's own, under a name that no other set has; says what had to be guessed.
-    fn open(&mut self, path: &str, role: Role) -> Result<Shared<OwnSet>, CliError> {
-        let known = self.document.own.iter().find(|own| own.file == path && own.role == role);
+    fn open(&mut self, path: &Path, role: Role) -> Result<Shared<OwnSet>, CliError> {
+        let known = self.document.own.iter().find(|own| own.path.as_deref() == Some(path) && own.role == role);
         if let Some(known) = known {
             return Ok(known.clone());
         }
         let mut set = self.read(path, role)?;
         check_curves(&set)?;
         let kind = Entry::from_own(&Shared::new(set.clone())).kind;
-        let taken =
-            |name: &str| self.catalog.get(kind, name).is_some() || self.document.own.iter().any(|own| own.name == name);
-        if taken(&set.name) {
-            set.name = format!("{} ({path})", set.name);
+        if self.document.holder_of(kind, &set.name, None).is_some() {
+            set.name = format!("{} ({})", set.name, told(path));
         }
         let set = Shared::new(set);
         self.document.own.push(set.clone());
@@ -270,16 +274,18 @@ impl Request {
     }
 
     /// Reads a file with all its curves; says what had to be guessed.
-    pub(super) fn read(&mut self, path: &str, role: Role) -> Result<OwnSet, CliError> {
-        self.read.push(PathBuf::from(path));
-        let bytes = read(path).map_err(|error| CliError::File(format!("{path}: {}", reason(&error))))?;
+    pub(super) fn read(&mut self, path: &Path, role: Role) -> Result<OwnSet, CliError> {
+        self.read.push(path.to_owned());
+        let file = told(path);
+        let bytes = read(path).map_err(|error| CliError::File(format!("{file}: {}", reason(&error))))?;
         let mut wishes = Wishes::for_role(Some(role));
-        let table = table::read(&bytes, &wishes.options).map_err(|error| CliError::File(format!("{path}: {error}")))?;
+        let table = table::read(&bytes, &wishes.options).map_err(|error| CliError::File(format!("{file}: {error}")))?;
         wishes.taken = Some((0..table.curves.len()).collect());
         if role == Role::Camera {
             wishes.per_photon = self.per.map(|per| per == Per::Photon);
         }
-        let imported = imported(&Origin::named(path, &bytes), &table, &wishes);
+        let origin = Origin { path: Some(path.to_owned()), ..Origin::named(&file, &bytes) };
+        let imported = imported(&origin, &table, &wishes);
         if imported.guessed || !table.warnings.is_empty() {
             say(&format!("chromascope: {}\n", imported.message));
         }
@@ -287,11 +293,16 @@ impl Request {
         if let Some(response) = response.filter(|response| response.certainty == table::Certainty::Guess) {
             let what = if response.value { "photon" } else { "energy" };
             say(&format!(
-                "chromascope: {path}: taken as responses per {what}, a guess; --per energy or --per photon decides\n"
+                "chromascope: {file}: taken as responses per {what}, a guess; --per energy or --per photon decides\n"
             ));
         }
         Ok(imported.set)
     }
+}
+
+/// A path for people, on one line.
+pub(super) fn told(path: &Path) -> String {
+    table::on_one_line(&path.to_string_lossy()).into_owned()
 }
 
 /// Says what was taken for a name that is not exact.
@@ -301,27 +312,29 @@ fn tell(argument: &str, typed: &str, found: &Found<'_>) {
     }
 }
 
-/// A file's bytes, or of an endless one as many as show that it is too large. A named pipe would wait for somebody to write.
-pub(super) fn read(path: &str) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    if is_named_pipe(Path::new(path)) {
-        let why = "this is a pipe, in which nothing may ever come; lead it to standard input and write - in its place";
+/// A file's bytes, of one that is too large as many as show it. Pipes, sockets and devices are refused as in a folder: nothing may
+/// ever come of them, or no end. What a shell opened for the command (`<(...)`) is read.
+pub(super) fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let known = fs::metadata(path)?;
+    if !(known.is_file() || known.is_dir() || is_shells(path, &known)) {
+        let why = "named pipes, sockets and devices are not supported; redirect to standard input and give /dev/stdin, \
+                   or - to inspect";
         return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
     }
+    let mut bytes = Vec::new();
     fs::File::open(path)?.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
-/// Whether a path is a pipe with a name. Those that a shell opens for a command (`<(...)`) are written by somebody.
+/// Whether a path is a pipe that the shell holds open for this command.
 #[cfg(unix)]
-fn is_named_pipe(path: &Path) -> bool {
+fn is_shells(path: &Path, known: &fs::Metadata) -> bool {
     use std::os::unix::fs::FileTypeExt as _;
-    let opened = ["/dev/", "/proc/"].iter().any(|folder| path.starts_with(folder));
-    !opened && fs::metadata(path).is_ok_and(|known| known.file_type().is_fifo())
+    (is_descriptor(path) || path == Path::new("/dev/stdin")) && known.file_type().is_fifo()
 }
 
 #[cfg(not(unix))]
-fn is_named_pipe(_: &Path) -> bool {
+fn is_shells(_: &Path, _: &fs::Metadata) -> bool {
     false
 }
 
@@ -364,10 +377,11 @@ fn radiator(argument: &'static str, text: &str) -> Result<Option<(Radiator, f64)
 }
 
 /// Whether an argument means a file and not a name.
-fn is_file(argument: &str) -> bool {
+fn is_file(argument: &OsStr) -> bool {
     let path = Path::new(argument);
     let ends_as_file = path
         .extension()
         .is_some_and(|ending| ["csv", "txt", "tsv", "dat"].iter().any(|known| ending.eq_ignore_ascii_case(known)));
-    path.is_file() || ends_as_file || argument.contains(['/', '\\'])
+    // A name is text, so what is none is a file's.
+    path.is_file() || ends_as_file || argument.to_str().is_none_or(|typed| typed.contains(['/', '\\']))
 }

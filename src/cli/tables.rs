@@ -2,17 +2,19 @@
 
 mod cct;
 
-use std::fmt::Write as _;
+use std::io::Write;
 
 use chromascope_core::query::compare::{locus_distance_uv, locus_distance_xy, patch_difference};
 use chromascope_core::query::{LocusPoint, Metric, NoDifference, PatchColor, Temperatures};
 use chromascope_core::spectral::Primaries;
+use chromascope_core::table::guarded;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 
 use cct::ReferenceLocus;
 
 use super::arguments::{CommonArguments, ListKind, LocusArguments, PatchesArguments};
+use super::outputs::Stop;
 use super::radiance::Radiances;
 use super::request::{FIVE, Request};
 use super::{CliError, outputs, say};
@@ -26,27 +28,53 @@ const LOCUS_HEAD: &str = "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,d
 const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,\
                             lab_l,lab_a,lab_b,delta_e_2000,delta_e_1976,delta_uv_prime,delta_xy";
 
-/// Loci, a row for each source and temperature.
-pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<String, CliError> {
+/// Temperatures that are computed at once; a table of millions of them is written as it is made.
+const PART: usize = 1024;
+
+/// Writes loci, a row for each source and temperature.
+pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let temperatures = temperatures(arguments)?;
     let request = Request::new(&arguments.common, matches)?;
     check_out(&arguments.common, &request)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-    let conditions = conditions(&scene, &scene.light_name());
-    let reference = scene.locus_at(Kind::Observer, &request.document.truth, temperatures.clone())?;
-    let own = ReferenceLocus::new(&scene)?;
-    let mut text = head(LOCUS_HEAD);
+    // What cannot be computed is said before anything is written.
     for (kind, name) in &request.sources {
-        let locus = scene.locus_at(*kind, name, temperatures.clone())?;
-        let comparable = scene.comparable(*kind, name)?;
-        let mut before: Option<&LocusPoint> = None;
-        let mut length = 0.0;
+        scene.locus_at(*kind, name, Temperatures::List(temperatures.part(0..1)))?;
+        let _comparable = scene.comparable(*kind, name)?;
+    }
+    let own = ReferenceLocus::new(&scene)?;
+    outputs::stream(arguments.common.out.as_deref(), |out| {
+        out.write_all(head(LOCUS_HEAD).as_bytes())?;
+        for (kind, name) in &request.sources {
+            locus_rows(out, &scene, (*kind, name), &temperatures, &own)?;
+        }
+        Ok(())
+    })?;
+    Ok(say_caution(&scene, &request)?)
+}
+
+/// Writes the locus of a source.
+fn locus_rows(
+    out: &mut dyn Write,
+    scene: &Scene<'_>,
+    (kind, name): (Kind, &str),
+    temperatures: &Temperatures,
+    own: &ReferenceLocus,
+) -> Result<(), Stop> {
+    let conditions = conditions(scene, &scene.light_name());
+    let comparable = scene.comparable(kind, name)?;
+    let mut before: Option<LocusPoint> = None;
+    let mut length = 0.0;
+    for start in (0..temperatures.count()).step_by(PART) {
+        let part = Temperatures::List(temperatures.part(start..temperatures.count().min(start + PART)));
+        let reference = scene.locus_at(Kind::Observer, &scene.document.truth, part.clone())?;
+        let locus = scene.locus_at(kind, name, part)?;
         for (point, reference) in locus.points.iter().zip(&reference.points) {
             let step = before.and_then(|before| Some(before.xy?.distance(point.xy?)));
             length += step.unwrap_or(0.0);
             // A point without chromaticity is a gap that the length bridges.
-            before = if point.xy.is_some() { Some(point) } else { before };
+            before = if point.xy.is_some() { Some(*point) } else { before };
             let places = [point.xy.map(|p| p.x), point.xy.map(|p| p.y), point.uv.map(|p| p.u), point.uv.map(|p| p.v)];
             let distance = |measure: fn(&LocusPoint, &LocusPoint) -> Result<f64, NoDifference>| {
                 comparable.and_then(|()| measure(reference, point)).ok()
@@ -58,11 +86,12 @@ pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<
                 point.xy.map(|_| length),
             ];
             let row = [places, rest].concat();
-            add_row(&mut text, &[&field(name), &point.temperature.get().to_string()], &row, &conditions);
+            out.write_all(row_of(&[&field(name), &point.temperature.get().to_string()], &row, &conditions).as_bytes())?;
         }
+        // Answers that were written long ago are let go.
+        scene.results.end_frame();
     }
-    say_caution(&scene, &request)?;
-    Ok(text)
+    Ok(())
 }
 
 /// Refuses an output before anything is computed.
@@ -149,7 +178,7 @@ pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Res
             };
             let differences = [Metric::DeltaE2000, Metric::DeltaE1976, Metric::UvPrime, Metric::Xy].map(difference);
             let row = [&color_cells(&color)[..], &differences].concat();
-            add_row(&mut text, &[&field(name), &field(patch)], &row, &conditions);
+            text += &row_of(&[&field(name), &field(patch)], &row, &conditions);
         }
     }
     say_caution(&scene, &request)?;
@@ -187,16 +216,15 @@ pub(super) fn list(kind: Option<ListKind>) -> String {
     }
 }
 
-fn add_row(text: &mut String, heads: &[&str], numbers: &[Option<f64>], conditions: &str) {
-    text.push_str(&heads.join(","));
+fn row_of(heads: &[&str], numbers: &[Option<f64>], conditions: &str) -> String {
+    let mut text = heads.join(",");
     for value in numbers {
         text.push(',');
         if let Some(value) = value {
-            // Writing to a string cannot fail.
-            let _infallible = write!(text, "{}", significant(*value));
+            text += &significant(*value);
         }
     }
-    text.push_str(conditions);
+    text + conditions
 }
 
 /// Fifteen significant digits, without an exponent where that stays short.
@@ -213,7 +241,8 @@ fn significant(value: f64) -> String {
     }
 }
 
-/// A text field, quoted where it must be.
+/// A text field, quoted where it must be, that no spreadsheet takes for a formula.
 fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+    let text = guarded(text);
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into_owned() }
 }

@@ -7,6 +7,7 @@ use chromascope_core::table::write::{Content, Format, Grid, Note, Sheet, Trace, 
 use crate::catalog::load::{FileOf, LoadError};
 use crate::catalog::{Entry, Kind, Place};
 use crate::document::own::{OwnSet, Role};
+use crate::files::fitting;
 
 /// A format, and the wavelengths that curves are brought to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,8 +101,8 @@ pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, Sp
         .collect();
     let Facts { title, content, unit, comments } = facts(entry);
     let sheet = Sheet { title, content, curves: &traces, unit: unit.as_deref(), created: None, comments: &comments };
-    let written = write(&sheet, form.format, form.grid)?;
-    let name = format!("{}.{}", file_name(&entry.name), form.format.ending());
+let written = write(&sheet, form.format, form.grid)?;
+    let name = fitting(&file_name(&entry.name), &format!(".{}", form.format.ending()));
     Ok(SpectraFile { name, text: written.text, notes: written.notes })
 }
 

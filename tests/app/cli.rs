@@ -2,6 +2,7 @@
 
 mod files;
 mod inspect;
+mod manners;
 mod names;
 mod outputs;
 mod presets;

@@ -29,11 +29,22 @@ pub enum Temperatures {
 impl Temperatures {
     /// The temperatures one by one.
     pub fn to_vec(&self) -> Vec<Kelvin> {
+        self.part(0..self.count())
+    }
+
+    /// Number of temperatures.
+    pub fn count(&self) -> usize {
         match self {
-            Self::List(list) => list.clone(),
-            Self::Range { from, to, count } => {
-                (0..*count).filter_map(|index| between(*from, *to, index, *count)).collect()
-            }
+            Self::List(list) => list.len(),
+            Self::Range { count, .. } => *count,
+        }
+    }
+
+    /// The temperatures of these places, so that a long locus can be asked for a part at a time.
+    pub fn part(&self, places: std::ops::Range<usize>) -> Vec<Kelvin> {
+        match self {
+            Self::List(list) => list.get(places).unwrap_or_default().to_vec(),
+            Self::Range { from, to, count } => places.filter_map(|index| between(*from, *to, index, *count)).collect(),
         }
     }
 }

@@ -1,58 +1,79 @@
 //! What was understood, for programs.
 
-use chromascope_core::table::{Certainty, ReadError, Reading, Table};
+use std::io::{self, Write};
+
+use chromascope_core::table::write::Prepared;
+use chromascope_core::table::{Certainty, Curve, ReadError, Reading, Table};
 use serde_json::{Value, json};
 
-use super::samples::Tabulated;
-use super::{Failure, Inspected, Understood};
+use super::Failure;
 
-/// One object: a file with its curves, or with an error.
-pub(super) fn of(inspected: &Inspected) -> String {
-    let Inspected { name, result } = inspected;
-    let value = match result {
-        Ok(Understood { table, written }) => file(name, table, written.as_ref()),
-        Err(failure) => json!({ "file": name, "error": error(failure) }),
-    };
-    value.to_string()
+/// One object: a file that could not be read or written, and why.
+pub(super) fn failure(name: &str, failure: &Failure) -> Value {
+    json!({ "file": name, "error": error(failure) })
 }
 
-fn file(name: &str, table: &Table, written: Option<&Tabulated>) -> Value {
+/// Writes one object: a file with its curves, as read or, where another step is asked for, as they are written; a curve at a time.
+pub(super) fn write(
+    out: &mut dyn Write,
+    name: &str,
+    table: &Table,
+    prepared: Option<&mut Prepared<'_>>,
+) -> io::Result<()> {
+    write!(out, "{{\"file\":{},\"kind\":{},\"curves\":[", json!(name), json!(table.role.value))?;
+    let notes = match prepared {
+        Some(prepared) => {
+            let (mut curves, mut done) = (table.curves.iter().enumerate(), Ok(()));
+            prepared.each(|wavelengths, values| {
+                let Some((index, one)) = curves.next() else { return false };
+                done = curve(out, (index, one), table, (wavelengths, values));
+                done.is_ok()
+            });
+            done?;
+            prepared.notes()
+        }
+        None => {
+            for (index, one) in table.curves.iter().enumerate() {
+                curve(out, (index, one), table, (&one.wavelengths_nm, &one.values))?;
+            }
+            Vec::new()
+        }
+    };
     let decisions = table.decisions().into_iter().map(|decision| {
         let certainty = certainty(decision.certainty);
         json!({ "what": decision.what, "value": decision.value, "certainty": certainty, "why": decision.why })
     });
     let warnings = table.warnings.iter().map(|warning| json!({ "line": warning.line(), "text": warning.to_string() }));
-    json!({
-        "file": name,
-        "kind": table.role.value,
-        "curves": curves(table, written),
-        "channels": table.reading.camera_columns,
-        "decisions": decisions.collect::<Vec<_>>(),
-        "warnings": warnings.collect::<Vec<_>>(),
-        "reading": reading(&table.reading),
-        "notes": written.map_or_else(Vec::new, |written| written.notes.iter().map(ToString::to_string).collect()),
-    })
+    write!(
+        out,
+        "],\"channels\":{},\"decisions\":{},\"warnings\":{},\"reading\":{},\"notes\":{}}}",
+        json!(table.reading.camera_columns),
+        decisions.collect::<Value>(),
+        warnings.collect::<Value>(),
+        reading(&table.reading),
+        notes.iter().map(ToString::to_string).collect::<Value>(),
+    )
 }
 
-/// The curves as read, or as they are written where another step is asked for.
-fn curves(table: &Table, written: Option<&Tabulated>) -> Vec<Value> {
-    let mut resampled = written.map(|written| written.curves(table.curves.len()).into_iter());
-    let role = table.role.value;
-    let one = |curve: &chromascope_core::table::Curve| {
-        let (wavelengths, values) = match resampled.as_mut().and_then(Iterator::next) {
-            Some((wavelengths, values)) => (json!(wavelengths), json!(values)),
-            None => (json!(curve.wavelengths_nm), json!(curve.values)),
-        };
-        json!({
-            "name": curve.name,
-            "unit": if role.is_fraction() { Some("1") } else { curve.unit.as_deref() },
-            "quantity": table.reading.quantity.value.to_string(),
-            "wavelengths_nm": wavelengths,
-            "values": values,
-            "missing": curve.missing,
-        })
-    };
-    table.curves.iter().map(one).collect()
+fn curve(
+    out: &mut dyn Write,
+    (index, curve): (usize, &Curve),
+    table: &Table,
+    (wavelengths, values): (&[f64], &[f64]),
+) -> io::Result<()> {
+    let unit = if table.role.value.is_fraction() { Some("1") } else { curve.unit.as_deref() };
+    write!(
+        out,
+        "{}{{\"name\":{},\"unit\":{},\"quantity\":{},\"wavelengths_nm\":",
+        if index > 0 { "," } else { "" },
+        json!(curve.name),
+        json!(unit),
+        json!(table.reading.quantity.value.to_string()),
+    )?;
+    serde_json::to_writer(&mut *out, wavelengths)?;
+    out.write_all(b",\"values\":")?;
+    serde_json::to_writer(&mut *out, values)?;
+    write!(out, ",\"missing\":{}}}", curve.missing)
 }
 
 const fn certainty(certainty: Certainty) -> &'static str {

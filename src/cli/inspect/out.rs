@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use super::arguments::InspectArguments;
 use super::is_standard_input;
 use crate::cli::CliError;
-use crate::cli::outputs::{self, is_standard_output, put};
+use crate::cli::outputs::{self, is_standard_output};
+use crate::files::fitting;
 
 /// Where the tables of files go.
 pub(super) enum Out {
@@ -19,7 +20,7 @@ pub(super) enum Out {
 
 impl Out {
     /// As asked for; a folder is made if there is none. Nothing is made or written if one of the tables may not be.
-    pub(super) fn new(arguments: &InspectArguments, files: &[String], several: bool) -> Result<Self, CliError> {
+    pub(super) fn new(arguments: &InspectArguments, files: &[PathBuf], several: bool) -> Result<Self, CliError> {
         let wrong = |reason: &str| Err(CliError::Argument { argument: "--csv", reason: reason.to_owned() });
         let Some(path) = arguments.csv.as_deref() else { return Ok(Self::Nowhere) };
         if is_standard_output(path) {
@@ -51,30 +52,31 @@ impl Out {
         matches!(self, Self::StandardOutput)
     }
 
-    /// Writes the table of the file that is read in this place.
-    pub(super) fn put(&self, index: usize, text: &str) -> Result<(), CliError> {
+    /// Where the table of the file goes that is read in this place, if anywhere: a file, or standard output.
+    pub(super) fn place(&self, index: usize) -> Option<Option<&Path>> {
         match self {
-            Self::Nowhere => Ok(()),
-            Self::StandardOutput => put(text, None),
-            Self::Files(paths) => paths.get(index).map_or(Ok(()), |path| put(text, Some(path))),
+            Self::Nowhere => None,
+            Self::StandardOutput => Some(None),
+            Self::Files(paths) => paths.get(index).map(|path| Some(path.as_path())),
         }
     }
 }
 
 /// What is read; standard input too, which may have been led there from a file.
-fn inputs(files: &[String]) -> Vec<PathBuf> {
-    files.iter().map(|file| PathBuf::from(if is_standard_input(file) { "/dev/stdin" } else { file })).collect()
+fn inputs(files: &[PathBuf]) -> Vec<PathBuf> {
+    let place = |file: &PathBuf| if is_standard_input(file) { PathBuf::from("/dev/stdin") } else { file.clone() };
+    files.iter().map(place).collect()
 }
 
 /// The file's name with another ending, and a number where another file has that name already.
-fn free_name(source: &str, taken: &mut HashSet<String>) -> String {
-    let stem = Path::new(source).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+fn free_name(source: &Path, taken: &mut HashSet<String>) -> String {
+    let stem = source.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let stem = if stem.is_empty() || stem == "-" { "table".to_owned() } else { stem };
-    let mut name = format!("{stem}.csv");
+    let mut name = fitting(&stem, ".csv");
     let mut number = 2;
     // Some systems do not tell `A.csv` from `a.csv`.
     while !taken.insert(name.to_lowercase()) {
-        name = format!("{stem}-{number}.csv");
+        name = fitting(&stem, &format!("-{number}.csv"));
         number += 1;
     }
     name

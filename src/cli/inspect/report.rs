@@ -2,9 +2,9 @@
 
 use std::fmt::{Display, Write as _};
 
+use chromascope_core::table::write::Note;
 use chromascope_core::table::{Curve, Reading, Table};
 
-use super::Understood;
 use crate::dropped;
 
 /// How many curves are named.
@@ -13,8 +13,7 @@ const NAMED: usize = 20;
 const TOLD: usize = 6;
 
 /// The name of the file, and below it a line for each decision, fact and warning.
-pub(super) fn of(name: &str, understood: &Understood) -> String {
-    let Understood { table, written } = understood;
+pub(super) fn of(name: &str, table: &Table, notes: &[Note]) -> String {
     let mut text = format!("{name}\n");
     for decision in table.decisions() {
         line(&mut text, decision.what, format_args!("{} ({}): {}", decision.value, decision.certainty, decision.why));
@@ -23,7 +22,7 @@ pub(super) fn of(name: &str, understood: &Understood) -> String {
     for warning in &table.warnings {
         line(&mut text, "Warning", warning);
     }
-    for note in written.iter().flat_map(|written| &written.notes) {
+    for note in notes {
         line(&mut text, "Written", note);
     }
     text

@@ -1,5 +1,6 @@
 //! What `render` takes, and how its numbers are read.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use chromascope_core::render::visibility::MAX_SIDE;
@@ -29,17 +30,17 @@ pub(in crate::cli) struct RenderArguments {
     pub(in crate::cli) sources: SourceArguments,
     /// What is looked at: `head`, `fern`, `sphere`, `plane`, or an OBJ, PLY or STL file
     #[arg(long, value_name = "NAME|FILE", default_value = "head", help_heading = SCENE)]
-    pub(super) mesh: String,
+    pub(super) mesh: OsString,
     /// About how many triangles head, fern and sphere have
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(8..=5_000_000),
           help_heading = SCENE)]
     pub(super) triangles: u32,
     /// The reflectance: `skin`, `leaf`, a name, or a file [default: skin; leaf for the fern]
     #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
-    pub(super) material: Option<String>,
+    pub(super) material: Option<OsString>,
     /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: Direct sun (ASTM G173)]
     #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
-    pub(super) illuminant: Option<String>,
+    pub(super) illuminant: Option<OsString>,
     /// The white-balance target, the RGB a perfect diffuser is mapped to: `unity`, an illuminant, `daylight:K` or `blackbody:K`
     /// [default: D55]
     #[arg(long, value_name = "WHITE", visible_alias = "white-balance", help_heading = SCENE)]

@@ -1,5 +1,6 @@
 //! From arguments to a document with a rendered scene, a place to look from, and the size of the pictures.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -86,12 +87,13 @@ const MESHES: [(&str, MeshChoice); 4] = [
     ("plane", MeshChoice::Plane),
 ];
 
-fn mesh_choice(typed: &str) -> Result<MeshChoice, CliError> {
+fn mesh_choice(given: &OsStr) -> Result<MeshChoice, CliError> {
+    let typed = &*given.to_string_lossy();
     let known = MESHES.into_iter().find(|(name, _)| typed.trim().eq_ignore_ascii_case(name));
     if let Some((_, choice)) = known {
         return Ok(choice);
     }
-    let path = Path::new(typed);
+    let path = Path::new(given);
     if path.is_file() || path.extension().is_some() || typed.contains(['/', '\\']) {
         return Ok(MeshChoice::File(path.to_owned()));
     }

@@ -1,0 +1,75 @@
+//! Text for people on a terminal: nothing in it is an order to the terminal.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+use chromascope_core::table::turns_text;
+
+/// A text as it may go to a terminal. Names come from files, and control characters in them could change what the terminal does or
+/// shows: all but line feeds and tabs become escapes such as `\u{1b}`, and so do characters that turn the direction of text.
+pub fn shown(text: &str) -> Cow<'_, str> {
+    let orders = |c: char| (c.is_control() && c != '\n' && c != '\t') || turns_text(c);
+    if !text.contains(orders) {
+        return Cow::Borrowed(text);
+    }
+    let mut plain = String::with_capacity(text.len());
+    for c in text.chars() {
+        if orders(c) {
+            // Writing to a string cannot fail.
+            let _infallible = write!(plain, "{}", c.escape_unicode());
+        } else {
+            plain.push(c);
+        }
+    }
+    Cow::Owned(plain)
+}
+
+/// Says something on standard error.
+pub fn say(text: &str) {
+    // Nothing can be said when the terminal is gone.
+    let _gone = io::stderr().lock().write_all(shown(text).as_bytes());
+}
+
+/// Standard error for logs, a whole record at a time.
+#[derive(Debug, Default)]
+pub struct StandardError;
+
+impl Write for StandardError {
+    fn write(&mut self, record: &[u8]) -> io::Result<usize> {
+        io::stderr().lock().write_all(shown(&String::from_utf8_lossy(record)).as_bytes())?;
+        Ok(record.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        io::stderr().lock().flush()
+    }
+}
+
+/// Reports a panic in one line, with the file's name alone: where the program was built is nobody's business.
+pub fn report_panic(info: &std::panic::PanicHookInfo<'_>) {
+    let thread = std::thread::current();
+    let place = info.location().map_or_else(String::new, |place| {
+        let file = place.file().rsplit(['/', '\\']).next().unwrap_or_default();
+        format!(" at {file}:{}:{}", place.line(), place.column())
+    });
+    let words = info.payload_as_str().unwrap_or("no message");
+    say(&format!("chromascope: thread {} panicked{place}: {words}\n", thread.name().unwrap_or("without a name")));
+    // A backtrace names the places of sources where those are known: in builds of whoever looks for the cause.
+    if cfg!(debug_assertions) {
+        say(&format!("{}\n", std::backtrace::Backtrace::capture()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_an_order_to_the_terminal() {
+        assert_eq!(shown("a\u{1b}[31mb\u{7}"), "a\\u{1b}[31mb\\u{7}");
+        assert_eq!(shown("a\u{9b}2Jb\rc\u{7f}"), "a\\u{9b}2Jb\\u{d}c\\u{7f}");
+        assert_eq!(shown("\u{202e}gpj.exe\u{2066}"), "\\u{202e}gpj.exe\\u{2066}");
+        assert!(matches!(shown("two lines\n\twith \u{394}E\u{2a}\n"), Cow::Borrowed(_)));
+    }
+}
