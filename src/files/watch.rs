@@ -1,45 +1,103 @@
 //! Files that are watched: what another program writes is read again.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::time::{Duration, Instant};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use notify::event::ModifyKind;
 use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher as _};
 
+use crate::jobs::Clock;
+
 /// A file has come to rest when nothing was written for so long.
 const REST: Duration = Duration::from_millis(300);
-
+/// A file that never rests is read all the same, after so long.
+const RESTLESS: Duration = Duration::from_secs(1);
+/// Time between two readings of a file.
+const APART: Duration = Duration::from_millis(500);
 /// So often a folder that is gone is looked for.
 const LOOK: Duration = Duration::from_secs(1);
 
 /// Watches files through their folders, because editors and instruments often put a new file in the old one's place.
 pub(super) struct Watch {
     watcher: Option<RecommendedWatcher>,
-    heard: Receiver<Heard>,
+    heard: Arc<Mutex<Heard>>,
+    clock: Clock,
     files: BTreeSet<PathBuf>,
     folders: BTreeSet<PathBuf>,
     /// Folders that cannot be watched now, most often because they are gone.
     lost: BTreeSet<PathBuf>,
-    looked: Option<Instant>,
-    restless: Vec<(PathBuf, Instant)>,
+    looked: Option<Duration>,
 }
 
-/// What happened to a path.
-enum Heard {
-    Written(PathBuf),
-    Gone(PathBuf),
+/// What happened since it was last asked, on the thread that hears of it.
+#[derive(Default)]
+struct Heard {
+    /// What is listened for.
+    files: BTreeSet<PathBuf>,
+    folders: BTreeSet<PathBuf>,
+    changes: BTreeMap<PathBuf, Change>,
+    gone: BTreeSet<PathBuf>,
+    /// When files that changed were last told of.
+    told: BTreeMap<PathBuf, Duration>,
+}
+
+/// When a file that was not told of since was written first and last.
+#[derive(Clone, Copy, Debug)]
+struct Change {
+    first: Duration,
+    last: Duration,
+}
+
+impl Heard {
+    /// Takes in that a file was written. Returns whether that is news: of what is written again and again is asked in time.
+    fn written(&mut self, path: PathBuf, now: Duration) -> bool {
+        if !self.files.contains(&path) {
+            return false;
+        }
+        let is_news = !self.changes.contains_key(&path);
+        self.changes.entry(path).or_insert(Change { first: now, last: now }).last = now;
+        is_news
+    }
+
+    /// Takes in that a folder is gone. Returns whether that is news.
+    fn gone(&mut self, path: PathBuf) -> bool {
+        self.folders.contains(&path) && self.gone.insert(path)
+    }
+
+    /// The files that are to be read now, and after how long to ask again for others.
+    fn due(&mut self, now: Duration) -> (Vec<PathBuf>, Option<Duration>) {
+        let due = |path: &PathBuf, change: &Change| {
+            let apart = self.told.get(path).map_or(Duration::ZERO, |told| *told + APART);
+            (change.last + REST).min(change.first + RESTLESS).max(apart)
+        };
+        let when: Vec<(PathBuf, Duration)> =
+            self.changes.iter().map(|(path, change)| (path.clone(), due(path, change))).collect();
+        let again = when.iter().filter(|(_, due)| *due > now).map(|(_, due)| *due - now).min();
+        let files: Vec<PathBuf> = when.into_iter().filter(|(_, due)| *due <= now).map(|(path, _)| path).collect();
+        for path in &files {
+            self.changes.remove(path);
+            self.told.insert(path.clone(), now);
+        }
+        (files, again)
+    }
 }
 
 impl Watch {
     /// Watches nothing yet.
     pub(super) fn new(wake: Option<egui::Context>) -> Self {
-        let (sender, heard) = channel();
-        let watcher = notify::recommended_watcher(move |event| hear(event, &sender, wake.as_ref()));
+        let (heard, clock) = (Arc::<Mutex<Heard>>::default(), Clock::default());
+        let (listener, times) = (Arc::clone(&heard), clock.clone());
+        let watcher = notify::recommended_watcher(move |event| {
+            let is_news = hear(event, &mut lock(&listener), times.now());
+            if let Some(ctx) = wake.as_ref().filter(|_| is_news) {
+                ctx.request_repaint();
+            }
+        });
         let watcher = watcher.map_err(|error| log::warn!("files cannot be watched: {error}")).ok();
         let (files, folders, lost) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
-        Self { watcher, heard, files, folders, lost, looked: None, restless: Vec::new() }
+        Self { watcher, heard, clock, files, folders, lost, looked: None }
     }
 
     /// Watches these files and no others.
@@ -48,6 +106,13 @@ impl Watch {
             return;
         }
         let folders: BTreeSet<PathBuf> = files.iter().filter_map(|file| file.parent()).map(Path::to_owned).collect();
+        {
+            let mut heard = lock(&self.heard);
+            heard.changes.retain(|path, _| files.contains(path));
+            heard.told.retain(|path, _| files.contains(path));
+            heard.files.clone_from(&files);
+            heard.folders.clone_from(&folders);
+        }
         if let Some(watcher) = &mut self.watcher {
             for gone in self.folders.difference(&folders) {
                 // A folder that is gone needs no more watching.
@@ -73,33 +138,16 @@ impl Watch {
         self.files = files;
     }
 
-    /// The files that changed and have come to rest; and when to ask again, if some have not or a folder is gone.
+    /// The files that changed and have come to rest, or never rest; and when to ask again, if others changed or a folder is gone.
     pub(super) fn poll(&mut self) -> (Vec<PathBuf>, Option<Duration>) {
-        let now = Instant::now();
-        let heard: Vec<Heard> = self.heard.try_iter().collect();
-        for heard in heard {
-            match heard {
-                Heard::Written(path) => self.wait_for(path, now),
-                Heard::Gone(path) => self.lose(path),
-            }
+        let now = self.clock.now();
+        let gone = std::mem::take(&mut lock(&self.heard).gone);
+        for folder in gone {
+            self.lose(folder);
         }
         self.look_for_lost(now);
-        let (rested, restless): (Vec<_>, Vec<_>) =
-            std::mem::take(&mut self.restless).into_iter().partition(|(_, at)| now.duration_since(*at) >= REST);
-        self.restless = restless;
-        let again = match (self.restless.is_empty(), self.lost.is_empty()) {
-            (false, _) => Some(REST),
-            (true, false) => Some(LOOK),
-            (true, true) => None,
-        };
-        (rested.into_iter().map(|(path, _)| path).collect(), again)
-    }
-
-    fn wait_for(&mut self, path: PathBuf, now: Instant) {
-        if self.files.contains(&path) {
-            self.restless.retain(|(known, _)| *known != path);
-            self.restless.push((path, now));
-        }
+        let (files, again) = lock(&self.heard).due(now);
+        (files, again.or((!self.lost.is_empty()).then_some(LOOK)))
     }
 
     /// A folder of this name may be there again at once, but it is another one.
@@ -113,8 +161,8 @@ impl Watch {
         }
     }
 
-    fn look_for_lost(&mut self, now: Instant) {
-        if self.lost.is_empty() || self.looked.is_some_and(|at| now.duration_since(at) < LOOK) {
+    fn look_for_lost(&mut self, now: Duration) {
+        if self.lost.is_empty() || self.looked.is_some_and(|at| now.saturating_sub(at) < LOOK) {
             return;
         }
         self.looked = Some(now);
@@ -122,10 +170,9 @@ impl Watch {
         let found = self.lost.iter().filter(|folder| watcher.watch(folder, RecursiveMode::NonRecursive).is_ok());
         for folder in found.cloned().collect::<Vec<_>>() {
             // What was put there before it was watched counts as written just now.
-            let within: Vec<PathBuf> =
-                self.files.iter().filter(|file| file.parent() == Some(&folder) && file.is_file()).cloned().collect();
-            for file in within {
-                self.wait_for(file, now);
+            let mut heard = lock(&self.heard);
+            for file in self.files.iter().filter(|file| file.parent() == Some(&folder) && file.is_file()) {
+                heard.written(file.clone(), now);
             }
             self.lost.remove(&folder);
             self.folders.insert(folder);
@@ -133,24 +180,83 @@ impl Watch {
     }
 }
 
-/// Passes on what was written or put in place, and what is gone.
-fn hear(event: notify::Result<Event>, sender: &Sender<Heard>, wake: Option<&egui::Context>) {
-    let Ok(event) = event else { return };
-    let heard = match event.kind {
-        EventKind::Create(_) | EventKind::Modify(_) | EventKind::Any => Heard::Written,
-        EventKind::Remove(_) => Heard::Gone,
-        _ => return,
+/// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
+fn lock(heard: &Mutex<Heard>) -> MutexGuard<'_, Heard> {
+    heard.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Takes in what was written or put in place, and what is gone. Returns whether any of it is news.
+fn hear(event: notify::Result<Event>, heard: &mut Heard, now: Duration) -> bool {
+    let Ok(event) = event else { return false };
+    let is_removal = match event.kind {
+        EventKind::Create(_) | EventKind::Modify(_) | EventKind::Any => false,
+        EventKind::Remove(_) => true,
+        _ => return false,
     };
+    let mut is_news = false;
     for path in event.paths {
         // Where a folder was moved away, its name is all that tells.
-        if matches!(event.kind, EventKind::Modify(ModifyKind::Name(_))) && !path.exists() {
-            let _closed = sender.send(Heard::Gone(path));
-            continue;
-        }
-        // The receiver is gone only when the window is.
-        let _closed = sender.send(heard(path));
+        let is_moved = matches!(event.kind, EventKind::Modify(ModifyKind::Name(_))) && !path.exists();
+        is_news |= if is_removal || is_moved { heard.gone(path) } else { heard.written(path, now) };
     }
-    if let Some(ctx) = wake {
-        ctx.request_repaint();
+    is_news
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::jobs::Executor;
+
+    /// Writes a file every so often for ten seconds, to a window that is drawn when there is news and when it asked to be.
+    /// Returns how often the file was to be read, and how often the window was drawn.
+    fn readings(every: Duration) -> (usize, usize) {
+        let executor = Executor::driven();
+        let clock = executor.clock();
+        let path = PathBuf::from("/measured.csv");
+        let mut heard = Heard { files: BTreeSet::from([path.clone()]), ..Heard::default() };
+        let (mut read, mut drawn) = (0, 0);
+        let mut draw_at: Option<Duration> = None;
+        while clock.now() < Duration::from_secs(10) {
+            executor.advance(every);
+            let is_news = heard.written(path.clone(), clock.now());
+            if is_news || draw_at.is_some_and(|at| at <= clock.now()) {
+                let (files, again) = heard.due(clock.now());
+                draw_at = again.map(|after| clock.now() + after);
+                (read, drawn) = (read + files.len(), drawn + 1);
+            }
+        }
+        (read, drawn)
+    }
+
+    #[test]
+    fn a_file_that_never_rests_is_read_now_and_then_and_the_window_rests() {
+        for milliseconds in [1, 10, 100, 250] {
+            let (read, drawn) = readings(Duration::from_millis(milliseconds));
+            assert!((5..=20).contains(&read), "read {read} times in ten seconds, written every {milliseconds} ms");
+            assert!(drawn <= 80, "drawn {drawn} times in ten seconds, written every {milliseconds} ms");
+        }
+    }
+
+    #[test]
+    fn a_file_that_was_written_once_is_read_as_soon_as_it_rests() {
+        let path = PathBuf::from("/measured.csv");
+        let mut heard = Heard { files: BTreeSet::from([path.clone()]), ..Heard::default() };
+        let at = Duration::from_secs(5);
+        assert!(heard.written(path.clone(), at));
+        assert_eq!(heard.due(at), (Vec::new(), Some(REST)));
+        assert_eq!(heard.due(at + REST), (vec![path.clone()], None));
+        assert_eq!(heard.due(at + RESTLESS), (Vec::new(), None), "it is read once");
+        // Written at once again: twice a second at most.
+        let at = at + REST;
+        assert!(heard.written(path.clone(), at));
+        assert_eq!(heard.due(at + REST), (Vec::new(), Some(APART - REST)));
+        assert_eq!(heard.due(at + APART), (vec![path], None));
+    }
+
+    #[test]
+    fn what_is_written_beside_the_files_is_no_news() {
+        let mut heard = Heard { files: BTreeSet::from([PathBuf::from("/a.csv")]), ..Heard::default() };
+        assert!(!heard.written(PathBuf::from("/b.csv"), Duration::ZERO) && !heard.gone(PathBuf::from("/b.csv")));
+        assert_eq!(heard.due(Duration::from_secs(9)), (Vec::new(), None));
     }
 }
