@@ -4,6 +4,7 @@
 //! same geometry as the SVG. [`board`] draws a panel whose units are points.
 
 mod decoration;
+mod dense;
 mod hit;
 mod marks;
 mod pictures;

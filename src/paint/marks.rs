@@ -6,7 +6,7 @@ use chromascope_core::figure::{
 };
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, epaint::PathStroke};
 
-use super::{Emphasis, View, texture, triangles};
+use super::{Emphasis, View, dense, texture, triangles};
 use crate::theme::{self, Theme};
 
 /// What drawing a mark needs to know.
@@ -79,7 +79,19 @@ impl Brush<'_> {
         for pen in self.pens(mark) {
             for run in finite_runs(points) {
                 let placed: Vec<Pos2> = run.iter().map(|p| self.view.at(*p)).collect();
-                self.path(&placed, closed && run.len() == points.len(), pen);
+                let closes = closed && run.len() == points.len();
+                if closes || pen.dash.pattern(pen.width).is_some() {
+                    self.path(&placed, closes, pen);
+                    continue;
+                }
+                let (rect, pixel) = (self.view.rect, 1.0 / self.painter.ctx().pixels_per_point());
+                match dense::shortened(placed, rect, pixel) {
+                    dense::Drawn::Line(points) => self.path(&points, false, pen),
+                    dense::Drawn::Filled(columns) => {
+                        let bars = dense::bars(&columns, rect, pixel, pen.width as f32, self.color(pen.ink));
+                        self.painter.add(Shape::mesh(bars));
+                    }
+                }
             }
         }
     }

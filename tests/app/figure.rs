@@ -407,3 +407,96 @@ fn the_pointer_reads_the_nearest_black_body() {
     let expected = 449.0 * n.powi(3) + 3525.0 * n * n + 6823.3 * n + 5520.33;
     assert!((kelvin / expected - 1.0).abs() < 0.05, "{read}: {expected}");
 }
+
+/// Points of lines and corners of areas that were handed to the painter.
+fn handed(shape: &egui::Shape) -> usize {
+    match shape {
+        egui::Shape::Vec(shapes) => shapes.iter().map(handed).sum(),
+        egui::Shape::Path(path) => path.points.len(),
+        egui::Shape::Mesh(mesh) => mesh.vertices.len(),
+        _ => 1,
+    }
+}
+
+/// Curves of noise, each as one line, or as many short ones, which are drawn as they are.
+fn noise(curves: usize, samples: usize, whole: bool, amplitude: f64) -> Panel {
+    let mut panel =
+        Panel::new("noise", box_at(0.0, 0.0, 600.0, 300.0), Axis::new("", [0.0, 1.0]), Axis::new("", [0.0, 1.0]));
+    for curve in 0..curves {
+        let value = |i: usize| {
+            let mixed =
+                ((i + samples * curve) as u32).wrapping_mul(2_654_435_761).rotate_left(13).wrapping_mul(2_246_822_519);
+            let base = 0.5 + 0.2 * (6.0 * i as f64 / samples as f64 + curve as f64).sin();
+            base + amplitude * (f64::from(mixed) / f64::from(u32::MAX) - 0.5)
+        };
+        let points: Vec<[f64; 2]> = (0..samples).map(|i| [i as f64 / (samples - 1) as f64, value(i)]).collect();
+        let length = if whole { samples } else { 500 };
+        for start in (0..samples).step_by(length) {
+            let run = points[start..samples.min(start + length + 1)].to_vec();
+            let shape = Shape::Line { points: run, closed: false };
+            panel.marks.push(
+                Mark::new(Tag(curve as u32 + 1), "noise", shape).with_stroke(InkRole::Source(curve as u8 % 8), 1.0),
+            );
+        }
+    }
+    panel
+}
+
+/// A picture of a panel, and how much was handed to the painter for it.
+fn drawn(panel: Panel) -> (image::RgbaImage, usize) {
+    let mut ready = false;
+    let mut harness = Harness::builder().with_size([640.0, 340.0]).renderer(Cpu::default()).build_ui(move |ui| {
+        if !std::mem::replace(&mut ready, true) {
+            theme::apply(ui.ctx());
+            return;
+        }
+        let theme = Theme::of(ui.visuals());
+        let place = egui::Rect::from_min_size(Pos2::new(20.0, 20.0), Vec2::new(600.0, 300.0));
+        paint::still(ui.painter(), &panel, &theme, place);
+    });
+    harness.run();
+    let handed = harness.output().shapes.iter().map(|clipped| handed(&clipped.shape)).sum();
+    (harness.render().expect("the CPU renderer draws"), handed)
+}
+
+/// The largest difference between two pictures in the mean color of squares of 10 pixels.
+fn difference(a: &image::RgbaImage, b: &image::RgbaImage) -> f64 {
+    let mean = |picture: &image::RgbaImage, x: u32, y: u32, channel: usize| {
+        let sum: u32 = (0..100).map(|i| u32::from(picture.get_pixel(x + i % 10, y + i / 10).0[channel])).sum();
+        f64::from(sum) / 100.0
+    };
+    let squares = (0..a.width() / 10).flat_map(|x| (0..a.height() / 10).map(move |y| (10 * x, 10 * y)));
+    squares
+        .flat_map(|(x, y)| (0..3).map(move |c| (x, y, c)))
+        .map(|(x, y, c)| (mean(a, x, y, c) - mean(b, x, y, c)).abs())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn a_line_of_many_points_looks_as_before_and_costs_less() {
+    for (amplitude, allowed) in [(0.5, 40.0), (0.01, 30.0), (0.0, 4.0)] {
+        let [(now, few), (before, many)] = [true, false].map(|whole| drawn(noise(2, 20_000, whole, amplitude)));
+        if let Some(folder) = std::env::var_os("LOOK") {
+            let folder = std::path::PathBuf::from(folder);
+            now.save(folder.join(format!("now_{amplitude}.png"))).unwrap();
+            before.save(folder.join(format!("before_{amplitude}.png"))).unwrap();
+        }
+        assert!(few < 6000 && many > 40_000, "{amplitude}: {few} and {many} points");
+        let difference = difference(&now, &before);
+        assert!(difference < allowed, "{amplitude}: {difference}");
+    }
+}
+
+/// Two hundred curves of noise of 4,000 samples: what is handed on is bounded by the columns of the screen, what is kept is not.
+#[test]
+fn many_curves_of_noise_cost_no_more_than_the_screen_has_columns() {
+    let panel = noise(200, 4000, true, 0.5);
+    let kept: usize = panel
+        .marks
+        .iter()
+        .map(|mark| if let Shape::Line { points, .. } = &mark.shape { points.len() } else { 0 })
+        .sum();
+    let (_, handed) = drawn(panel);
+    assert!(handed < 200 * 4 * 610, "{handed} points");
+    assert_eq!(kept, 800_000);
+}
