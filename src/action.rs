@@ -300,6 +300,10 @@ impl OwnAction {
         match self {
             Self::Import(sets) => {
                 for set in sets {
+                    if let Some(index) = document.same_set(set) {
+                        bring_again(document, index, set, sets.len() == 1);
+                        continue;
+                    }
                     let mut set = Shared::new(set.clone());
                     let name = document.free_name(Entry::from_own(&set).kind, &set.name, None);
                     if name != set.name {
@@ -321,6 +325,21 @@ impl OwnAction {
                 document.forget_name(Entry::from_own(&set).kind, name);
             }
         }
+    }
+}
+
+/// Opens a file again that a set was made of. The same contents leave the set as it is, with all that a person chose for it; other
+/// contents take their place under its name.
+fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool) {
+    let name = document.own[index].name.clone();
+    if set.fingerprint != document.own[index].fingerprint {
+        replace(document, &name, &OwnSet { name: name.clone(), ..set.clone() });
+    }
+    let known = document.own[index].clone();
+    if alone {
+        document.put_to_use(&known);
+    } else {
+        document.put_beside(&known);
     }
 }
 

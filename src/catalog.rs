@@ -10,6 +10,7 @@ pub mod meshes;
 pub mod names;
 pub mod opened;
 
+use std::collections::HashSet;
 use std::sync::LazyLock;
 
 use chromascope_core::query::Shared;
@@ -53,6 +54,16 @@ impl Kind {
             Self::Illuminant => "illuminants",
             Self::Material => "materials",
             Self::Unsorted => "unsorted spectra",
+        }
+    }
+
+    /// Kind of one of the user's sets.
+    pub const fn of_own(set: &OwnSet) -> Self {
+        match set.role {
+            Role::Camera => Self::Camera,
+            Role::Reflectance | Role::Transmittance => Self::Chart,
+            Role::Illuminant => Self::Illuminant,
+            Role::Unknown => Self::Unsorted,
         }
     }
 
@@ -118,15 +129,9 @@ impl Entry {
 
     /// An entry for one of the user's sets.
     pub fn from_own(set: &Shared<OwnSet>) -> Self {
-        let kind = match set.role {
-            Role::Camera => Kind::Camera,
-            Role::Reflectance | Role::Transmittance => Kind::Chart,
-            Role::Illuminant => Kind::Illuminant,
-            Role::Unknown => Kind::Unsorted,
-        };
         let name = set.name.clone();
         Self {
-            kind,
+            kind: Kind::of_own(set),
             short: name.clone(),
             name,
             also: Some("yours".to_owned()),
@@ -172,17 +177,24 @@ impl Catalog {
         self.entries.iter().filter(move |entry| entry.kind == kind)
     }
 
-    /// The set of exactly this name.
+    /// The set of this name, else the one whose name differs by case alone.
     pub fn get(&self, kind: Kind, name: &str) -> Option<&Entry> {
-        self.of_kind(kind).find(|entry| entry.name == name)
+        let exact = self.of_kind(kind).find(|entry| entry.name == name);
+        exact.or_else(|| {
+            let wanted = names::caseless(name);
+            self.of_kind(kind).find(|entry| names::caseless(&entry.name) == wanted)
+        })
     }
 }
 
 /// Whether a built-in set has this name, among those of a kind: a user's set of that kind must have another. Patches are chosen
 /// from charts and materials alike.
 pub fn is_built_in(kind: Kind, name: &str) -> bool {
-    static NAMES: LazyLock<Catalog> = LazyLock::new(Catalog::built_in);
-    let has = |kind| NAMES.get(kind, name).is_some();
+    static NAMES: LazyLock<HashSet<(Kind, String)>> = LazyLock::new(|| {
+        Catalog::built_in().entries.iter().map(|entry| (entry.kind, names::caseless(&entry.name))).collect()
+    });
+    let name = names::caseless(name);
+    let has = |kind| NAMES.contains(&(kind, name.clone()));
     match kind {
         Kind::Chart | Kind::Material => has(Kind::Chart) || has(Kind::Material),
         _ => has(kind),

@@ -272,6 +272,8 @@ pub const CHART: &str = "ColorChecker 24 (Ohta 1997)";
 pub const TRAINING: &str = "Training reflectances (190)";
 /// The light on the scene unless the user says otherwise.
 pub const LIGHT: &str = "E";
+/// The most sensors that are compared at once: each has a place of its own in the palette.
+pub const MOST_COMPARED: usize = 256;
 /// The temperatures of a locus unless the user says otherwise, in kelvins.
 pub const LOCUS_RANGE_K: [f64; 2] = [1000.0, 20_000.0];
 
@@ -317,7 +319,7 @@ impl Document {
 
     /// Puts a source on show, in the first free place of the palette.
     pub fn compare(&mut self, name: &str, kind: Kind) {
-        if self.compared.iter().any(|c| c.kind == kind && c.name == name) {
+        if self.compared.len() >= MOST_COMPARED || self.compared.iter().any(|c| c.kind == kind && c.name == name) {
             return;
         }
         let taken = |slot: u8| self.compared.iter().any(|c| c.kind == kind && c.slot == slot);

@@ -23,6 +23,7 @@ use chromascope_core::spectral::Sensor;
 use chromascope_core::units::{Kelvin, NotPositive};
 
 use crate::catalog::load::{LightOf, LoadError, LoadedLight, PatchesOf, SensorOf};
+use crate::catalog::names::caseless;
 use crate::catalog::{Catalog, Entry, Kind, Place};
 use crate::document::{Compared, Document, LOCUS_RANGE_K, Light, REFERENCE, Subset, TRAINING, WayChoice, WhiteChoice};
 use crate::results::Results;
@@ -158,8 +159,16 @@ impl<'a> Scene<'a> {
 
     /// The set of this name; the user's own win.
     pub fn entry(&self, kind: Kind, name: &str) -> Result<Entry, SceneError> {
-        let own = self.document.own.iter().filter(|set| set.name == name).map(Entry::from_own).find(|e| e.kind == kind);
-        own.or_else(|| self.catalog.get(kind, name).cloned())
+        let own = |is_it: &dyn Fn(&str) -> bool| {
+            let mut sets = self.document.own.iter().filter(|set| Kind::of_own(set) == kind);
+            sets.find(|set| is_it(&set.name)).map(Entry::from_own)
+        };
+        own(&|known| known == name)
+            .or_else(|| self.catalog.get(kind, name).cloned())
+            .or_else(|| {
+                let wanted = caseless(name);
+                own(&|known| caseless(known) == wanted)
+            })
             .ok_or_else(|| SceneError::NoSet { kind, name: name.to_owned() })
     }
 

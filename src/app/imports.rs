@@ -85,9 +85,22 @@ impl ChromascopeApp {
         self.history.apply(&Action::Own(OwnAction::Import(wanted.clone())));
         self.history.end_gesture();
         let after = self.history.document();
-        let brought: Vec<Shared<OwnSet>> = after.own.iter().skip(before.own.len()).cloned().collect();
+        let places = wanted.iter().map(|set| before.same_set(set));
+        let again: Vec<String> = places
+            .filter_map(|place| Some(before.own.get(place?)?.name.clone()))
+            .collect::<BTreeSet<_>>()
+            .into_iter()
+            .collect();
+        let brought: Vec<Shared<OwnSet>> =
+            wanted.iter().filter_map(|set| after.own.get(after.same_set(set)?)).cloned().collect();
         let failed = !failure.is_empty();
-        let told = [message, put_to_use(&before, after, &brought), renamed(&wanted, &brought), failure];
+        let told = [
+            message,
+            put_to_use(&before, after, &brought),
+            renamed(&wanted, &brought, &again),
+            opened_again(&again),
+            failure,
+        ];
         self.view.say(told.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" "));
         if failed {
             self.view.status.weight = Weight::Warning;
@@ -371,14 +384,24 @@ impl ChromascopeApp {
 }
 
 /// Which sets have another name than their files say, because a set had that already.
-fn renamed(wanted: &[OwnSet], brought: &[Shared<OwnSet>]) -> String {
-    let mut renamed = wanted.iter().zip(brought).filter(|(wanted, set)| wanted.name != set.name);
+fn renamed(wanted: &[OwnSet], brought: &[Shared<OwnSet>], again: &[String]) -> String {
+    let is_new = |set: &Shared<OwnSet>| !again.contains(&set.name);
+    let mut renamed = wanted.iter().zip(brought).filter(|(wanted, set)| is_new(set) && wanted.name != set.name);
     let Some((first, set)) = renamed.next() else { return String::new() };
     let more = match renamed.count() {
         0 => String::new(),
         count => format!(", and {count} more so"),
     };
     format!("{} is the name of another set, so this one is {}{more}.", first.name, set.name)
+}
+
+/// Which sets were there already.
+fn opened_again(again: &[String]) -> String {
+    match again {
+        [] => String::new(),
+        [one] => format!("It is the set {one}, which was open already."),
+        many => format!("{} of them were open already.", many.len()),
+    }
 }
 
 /// What several sets that were opened at once are used as. One alone is used as what it is.

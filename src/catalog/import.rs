@@ -106,7 +106,7 @@ fn summary(table: &Table) -> String {
 fn own_set(origin: &Origin, table: &Table, wishes: &Wishes, taken: &[usize]) -> OwnSet {
     let title = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty());
     let stem = || Path::new(&origin.name).file_stem().map_or(origin.name.clone(), |s| s.to_string_lossy().into_owned());
-    let mut name = title.map_or_else(stem, str::to_owned);
+    let mut name = table::on_one_line(&title.map_or_else(stem, str::to_owned)).into_owned();
     if let Some(part) = part_name(table, wishes) {
         name = format!("{name}, {part}");
     }

@@ -1,7 +1,7 @@
 //! The document as JSON: what is kept between runs, and what session files are.
 
 use super::start::Start;
-use super::{DifferenceChoice, Document, VERSION};
+use super::{DifferenceChoice, Document, MOST_COMPARED, VERSION};
 use crate::catalog::Kind;
 
 /// Why a saved document cannot be opened.
@@ -13,6 +13,9 @@ pub enum SessionError {
     /// It is JSON of another program.
     #[error("this is not a Chromascope session (its format is \"{0}\")")]
     Format(String),
+    /// More sensors than have a place in the palette.
+    #[error("{0} sensors are compared, but at most {MOST_COMPARED} can be shown; take some out of \"compared\"")]
+    Compared(usize),
     /// A newer program wrote it.
     #[error("written by a newer Chromascope (form {0}, this one reads up to {VERSION}); update to open it")]
     Newer(u32),
@@ -37,6 +40,9 @@ pub fn from_json(json: &str) -> Result<Document, SessionError> {
         return Err(SessionError::Newer(document.version));
     }
     document.mend();
+    if document.compared.len() > MOST_COMPARED {
+        return Err(SessionError::Compared(document.compared.len()));
+    }
     Ok(document)
 }
 

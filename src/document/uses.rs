@@ -3,8 +3,10 @@
 use super::own::OwnSet;
 use super::render::RenderSettings;
 use super::{CHART, Document, LIGHT, Light, Subset, WhiteChoice};
+use crate::catalog::names::caseless;
 use crate::catalog::{Entry, Kind, is_built_in};
 use chromascope_core::query::Shared;
+use std::collections::{HashMap, HashSet};
 
 /// So many cameras at once have a color and a marker of their own.
 pub const PLACES: usize = 8;
@@ -21,7 +23,9 @@ pub enum Holder {
 impl Document {
     /// What has a name that an own set of a kind is to have; none if it is free. `except` is the place of the set itself.
     pub fn holder_of(&self, kind: Kind, name: &str, except: Option<usize>) -> Option<Holder> {
-        let own = self.own.iter().enumerate().any(|(index, set)| Some(index) != except && set.name == name);
+        let wanted = caseless(name);
+        let is_taken = |(index, set): (usize, &Shared<OwnSet>)| Some(index) != except && caseless(&set.name) == wanted;
+        let own = self.own.iter().enumerate().any(is_taken);
         match (own, is_built_in(kind, name)) {
             (true, _) => Some(Holder::Own),
             (false, true) => Some(Holder::BuiltIn),
@@ -32,15 +36,9 @@ impl Document {
     /// A name that no other set of the kind has and no other own set: `Nikon D70 (own)` beside a built-in one, else
     /// `leaf (2)`.
     pub fn free_name(&self, kind: Kind, wanted: &str, except: Option<usize>) -> String {
-        let holder = |name: &str| self.holder_of(kind, name, except);
-        let marked = || format!("{wanted} (own)");
-        match holder(wanted) {
-            None => return wanted.to_owned(),
-            Some(Holder::BuiltIn) if holder(&marked()).is_none() => return marked(),
-            Some(_) => {}
-        }
-        let names = (2..).map(|number| format!("{wanted} ({number})"));
-        names.take(self.own.len() + 2).find(|name| holder(name).is_none()).unwrap_or_else(marked)
+        let others = self.own.iter().enumerate().filter(|(index, _)| Some(*index) != except);
+        let taken: HashSet<String> = others.map(|(_, set)| caseless(&set.name)).collect();
+        free_name(kind, wanted, &taken, &mut HashMap::new())
     }
 
     /// Shows what was just opened: a camera in the list, a chart as the patches, a light as the light.
@@ -116,19 +114,57 @@ impl Document {
 
     /// Gives own sets of a session from elsewhere names that no other set has; what used them goes on doing so.
     pub(super) fn part_names(&mut self) {
+        let mut taken: HashSet<String> = self.own.iter().map(|set| caseless(&set.name)).collect();
+        let (mut seen, mut numbers) = (HashSet::new(), HashMap::new());
         for index in 0..self.own.len() {
-            let set = (*self.own[index]).clone();
-            let kind = Entry::from_own(&self.own[index]).kind;
+            let (kind, old) = (Kind::of_own(&self.own[index]), self.own[index].name.clone());
             // Of two own sets with one name the second was never reached by it.
-            let earlier = self.own[..index].iter().any(|other| other.name == set.name);
-            if !earlier && !is_built_in(kind, &set.name) {
+            let earlier = !seen.insert(caseless(&old));
+            if !earlier && !is_built_in(kind, &old) {
                 continue;
             }
-            let name = self.free_name(kind, &set.name, Some(index));
             if !earlier {
-                self.follow_name(kind, &set.name, &name);
+                taken.remove(&caseless(&old));
             }
-            self.own[index] = Shared::new(OwnSet { name, ..set });
+            let name = free_name(kind, &old, &taken, &mut numbers);
+            if !earlier {
+                self.follow_name(kind, &old, &name);
+            }
+            taken.insert(caseless(&name));
+            seen.insert(caseless(&name));
+            self.own[index] = Shared::new(OwnSet { name, ..(*self.own[index]).clone() });
+        }
+    }
+
+    /// The place of the own set that another reading of a file is of: of the same contents, or of the same file on disk, and of
+    /// the same part of it.
+    pub fn same_set(&self, set: &OwnSet) -> Option<usize> {
+        let is_same = |known: &Shared<OwnSet>| {
+            let contents = set.fingerprint.is_some() && set.fingerprint == known.fingerprint;
+            let file = set.path.is_some() && set.path == known.path;
+            (contents || file) && set.wishes.options.part == known.wishes.options.part
+        };
+        self.own.iter().position(is_same)
+    }
+}
+
+/// A name that is not among those taken (without case) and not built in. `numbers` remembers up to which number the names of a
+/// stem are taken.
+fn free_name(kind: Kind, wanted: &str, taken: &HashSet<String>, numbers: &mut HashMap<String, usize>) -> String {
+    let is_free = |name: &str| !taken.contains(&caseless(name)) && !is_built_in(kind, name);
+    let marked = format!("{wanted} (own)");
+    if is_free(wanted) {
+        return wanted.to_owned();
+    }
+    if !taken.contains(&caseless(wanted)) && is_free(&marked) {
+        return marked;
+    }
+    let number = numbers.entry(caseless(wanted)).or_insert(2);
+    loop {
+        let name = format!("{wanted} ({number})");
+        *number += 1;
+        if is_free(&name) {
+            return name;
         }
     }
 }

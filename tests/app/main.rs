@@ -29,6 +29,7 @@ mod path_box;
 mod recompute;
 mod reducer;
 mod render;
+mod same_file;
 mod save_prompt;
 mod save_set;
 mod screenshots;

@@ -159,6 +159,7 @@ fn contents(
             Ok(Some((origin, bytes, None)))
         }
         Request::Path(path) => {
+            let path = known_path(path, desk);
             job.at(&path, file, count);
             if is_mesh(&path, &beginning(&path)) {
                 return Err(Unread::Mesh(path));
@@ -167,6 +168,14 @@ fn contents(
             Ok(Some((origin(&path, &bytes), bytes, None)))
         }
     }
+}
+
+/// The path that a file is known by already, where this one leads to it by links or detours.
+fn known_path(path: PathBuf, desk: &Desk) -> PathBuf {
+    let Ok(whole) = fs::canonicalize(&path) else { return path };
+    let state = desk.lock();
+    let is_known = state.files.iter().any(|file| file.origin.path.as_ref() == Some(&whole));
+    if is_known { whole } else { path }
 }
 
 fn origin(path: &Path, bytes: &[u8]) -> Origin {

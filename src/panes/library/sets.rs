@@ -1,5 +1,8 @@
 //! All data sets in folding groups.
 
+use std::borrow::Cow;
+
+use chromascope_core::query::Shared;
 use egui::{Rect, Response, ScrollArea, Sense, TextStyle, Ui, Vec2};
 
 use super::save;
@@ -7,6 +10,7 @@ use crate::action::{Action, CompareAction, SceneAction};
 use crate::catalog::{Entry, Kind, names};
 use crate::command::Command;
 use crate::document::Light;
+use crate::document::own::OwnSet;
 use crate::panes::PaneContext;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::ImportItem;
@@ -32,15 +36,16 @@ pub(super) enum Row<'a> {
     /// A set of the program's.
     BuiltIn(&'a Entry),
     /// A set of the user's.
-    Own(Box<Entry>),
+    Own(&'a Shared<OwnSet>),
 }
 
-impl Row<'_> {
-    fn entry(&self) -> Option<&Entry> {
+impl<'a> Row<'a> {
+    /// The entry of a set, made for rows in sight only.
+    fn entry(&self) -> Option<Cow<'a, Entry>> {
         match self {
             Self::Group { .. } => None,
-            Self::BuiltIn(entry) => Some(entry),
-            Self::Own(entry) => Some(entry),
+            Self::BuiltIn(entry) => Some(Cow::Borrowed(entry)),
+            Self::Own(set) => Some(Cow::Owned(Entry::from_own(set))),
         }
     }
 }
@@ -52,10 +57,11 @@ pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
     let (document, catalog) = (context.scene.document, context.scene.catalog);
     let mut rows = Vec::new();
     for kind in Kind::ALL {
-        let matches = |entry: &Entry| !searching || names::matches_search(entry, search);
-        let own = document.own.iter().map(Entry::from_own).filter(|entry| entry.kind == kind && matches(entry));
-        let built_in = catalog.of_kind(kind).filter(|entry| matches(entry)).map(Row::BuiltIn);
-        let found: Vec<Row<'a>> = own.map(|entry| Row::Own(Box::new(entry))).chain(built_in).collect();
+        let matches = |entry: &Entry| names::matches_search(entry, search);
+        let own = document.own.iter().filter(|set| Kind::of_own(set) == kind);
+        let own = own.filter(|set| !searching || matches(&Entry::from_own(set))).map(Row::Own);
+        let built_in = catalog.of_kind(kind).filter(|entry| !searching || matches(entry)).map(Row::BuiltIn);
+        let found: Vec<Row<'a>> = own.chain(built_in).collect();
         if found.is_empty() && (searching || kind == Kind::Unsorted) {
             continue;
         }
@@ -69,7 +75,7 @@ pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
 }
 
 /// The first set of the list.
-pub(super) fn first_match<'r>(rows: &'r [Row<'_>]) -> Option<&'r Entry> {
+pub(super) fn first_match<'a>(rows: &[Row<'a>]) -> Option<Cow<'a, Entry>> {
     rows.iter().find_map(Row::entry)
 }
 
@@ -91,7 +97,7 @@ pub(super) fn list(ui: &mut Ui, rows: &[Row<'_>], context: &mut PaneContext<'_>)
             if let Row::Group { kind, count, open } = row {
                 group(ui, *kind, *count, *open, context);
             } else if let Some(entry) = row.entry() {
-                set(ui, entry, context);
+                set(ui, &entry, context);
             }
         }
     });

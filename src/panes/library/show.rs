@@ -1,5 +1,7 @@
 //! The pane's column: the legend above, the search and the list below.
 
+use std::collections::HashSet;
+
 use egui::{Id, Key, Rect, ScrollArea, TextEdit, Ui, UiBuilder, Vec2};
 
 use super::{compared, sets};
@@ -31,7 +33,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let rows = sets::rows(context);
     let chosen = search_field(&mut column, context);
     if chosen && let Some(entry) = sets::first_match(&rows) {
-        sets::choose(entry, true, context);
+        sets::choose(&entry, true, context);
     }
     sets::list(&mut column, &rows, context);
 }
@@ -46,17 +48,21 @@ fn compared(ui: &mut Ui, height: f32, context: &mut PaneContext<'_>) {
     let now: Vec<(Kind, String)> = sources.iter().map(|source| (source.kind, source.name.clone())).collect();
     let before: Option<Vec<(Kind, String)>> = ui.data(|data| data.get_temp(seen));
     let area = ScrollArea::vertical().id_salt("compared").max_height(rows * pitch).auto_shrink(false);
-    area.show(ui, |ui| {
+    // One that was just added is brought into sight.
+    let added = before.as_ref().filter(|before| before.len() < now.len()).and_then(|before| {
+        let before: HashSet<&(Kind, String)> = before.iter().collect();
+        now.iter().rposition(|key| !before.contains(key))
+    });
+    area.show_rows(ui, ROW, sources.len(), |ui, range| {
         if sources.len() as f32 > rows {
             ui.set_max_width(ui.available_width() - sets::SCROLL_BAR);
         }
-        for (source, key) in sources.iter().zip(&now) {
-            let top = ui.cursor().min;
+        if let Some(added) = added {
+            let top = ui.cursor().min + Vec2::new(0.0, pitch * (added as f32 - range.start as f32));
+            ui.scroll_to_rect(Rect::from_min_size(top, Vec2::new(1.0, ROW)), None);
+        }
+        for source in &sources[range] {
             compared::row(ui, source, context);
-            // One that was just added is brought into sight.
-            if before.as_ref().is_some_and(|before| before.len() < now.len() && !before.contains(key)) {
-                ui.scroll_to_rect(Rect::from_min_size(top, Vec2::new(1.0, ROW)), None);
-            }
         }
     });
     if before.as_ref() != Some(&now) {
