@@ -1,5 +1,8 @@
 //! What a person can point at: the same thing in every pane.
 
+use std::collections::HashMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use chromascope_core::figure::Tag;
 
 use crate::catalog::Kind;
@@ -57,6 +60,14 @@ impl Thing {
         }
     }
 
+    /// A number that equal things share.
+    fn hashed(&self) -> u64 {
+        let kelvin = if let Self::Radiator { kelvin, .. } = self { (*kelvin + 0.0).to_bits() } else { 0 };
+        let mut hasher = DefaultHasher::new();
+        (self.source(), self.patch(), kelvin).hash(&mut hasher);
+        hasher.finish()
+    }
+
     /// The patch it is, if any.
     pub fn patch(&self) -> Option<&str> {
         match self {
@@ -92,7 +103,11 @@ impl Thing {
 
 /// The things that a figure's marks stand for.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Things(Vec<Thing>);
+pub struct Things {
+    all: Vec<Thing>,
+    /// Indices of the things of each hash: a chart may have a hundred thousand patches.
+    places: HashMap<u64, Vec<usize>>,
+}
 
 impl Things {
     /// The tag for marks that stand for nothing.
@@ -100,15 +115,18 @@ impl Things {
 
     /// A tag for a thing; equal things get the same.
     pub fn tag(&mut self, thing: Thing) -> Tag {
-        let index = self.0.iter().position(|known| *known == thing).unwrap_or_else(|| {
-            self.0.push(thing);
-            self.0.len() - 1
+        let places = self.places.entry(thing.hashed()).or_default();
+        let known = places.iter().copied().find(|&index| self.all[index] == thing);
+        let index = known.unwrap_or_else(|| {
+            places.push(self.all.len());
+            self.all.push(thing);
+            self.all.len() - 1
         });
         Tag(u32::try_from(index + 1).unwrap_or(0))
     }
 
     /// What a tag stands for.
     pub fn get(&self, tag: Tag) -> Option<&Thing> {
-        self.0.get((tag.0 as usize).checked_sub(1)?)
+        self.all.get((tag.0 as usize).checked_sub(1)?)
     }
 }

@@ -85,22 +85,14 @@ impl ChromascopeApp {
         self.history.apply(&Action::Own(OwnAction::Import(wanted.clone())));
         self.history.end_gesture();
         let after = self.history.document();
-        let places = wanted.iter().map(|set| before.same_set(set));
-        let again: Vec<String> = places
-            .filter_map(|place| Some(before.own.get(place?)?.name.clone()))
-            .collect::<BTreeSet<_>>()
-            .into_iter()
-            .collect();
         let brought: Vec<Shared<OwnSet>> =
             wanted.iter().filter_map(|set| after.own.get(after.same_set(set)?)).cloned().collect();
+        let mut there: BTreeSet<&str> = before.own.iter().map(|set| set.name.as_str()).collect();
+        let (new, again): (Vec<_>, Vec<_>) =
+            wanted.iter().zip(&brought).partition(|(_, set)| there.insert(set.name.as_str()));
         let failed = !failure.is_empty();
-        let told = [
-            message,
-            put_to_use(&before, after, &brought),
-            renamed(&wanted, &brought, &again),
-            opened_again(&again),
-            failure,
-        ];
+        let told =
+            [message, put_to_use(&before, after, &brought), renamed(&new), opened_again(&again, wanted.len()), failure];
         self.view.say(told.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" "));
         if failed {
             self.view.status.weight = Weight::Warning;
@@ -384,9 +376,8 @@ impl ChromascopeApp {
 }
 
 /// Which sets have another name than their files say, because a set had that already.
-fn renamed(wanted: &[OwnSet], brought: &[Shared<OwnSet>], again: &[String]) -> String {
-    let is_new = |set: &Shared<OwnSet>| !again.contains(&set.name);
-    let mut renamed = wanted.iter().zip(brought).filter(|(wanted, set)| is_new(set) && wanted.name != set.name);
+fn renamed(new: &[(&OwnSet, &Shared<OwnSet>)]) -> String {
+    let mut renamed = new.iter().filter(|(wanted, set)| wanted.name != set.name);
     let Some((first, set)) = renamed.next() else { return String::new() };
     let more = match renamed.count() {
         0 => String::new(),
@@ -395,12 +386,13 @@ fn renamed(wanted: &[OwnSet], brought: &[Shared<OwnSet>], again: &[String]) -> S
     format!("{} is the name of another set, so this one is {}{more}.", first.name, set.name)
 }
 
-/// Which sets were there already.
-fn opened_again(again: &[String]) -> String {
+/// Which of so many files are those of sets that were there already.
+fn opened_again(again: &[(&OwnSet, &Shared<OwnSet>)], count: usize) -> String {
     match again {
         [] => String::new(),
-        [one] => format!("It is the set {one}, which was open already."),
-        many => format!("{} of them were open already.", many.len()),
+        [(_, set)] if count == 1 => format!("It is the set {}, which was open already.", set.name),
+        [(wanted, set)] => format!("{} is the set {} again.", wanted.file, set.name),
+        many => format!("{} of them are sets that were open already.", many.len()),
     }
 }
 

@@ -132,7 +132,7 @@ fn answer(
         if out.is_standard_output() { say(&text) } else { show(&text)? }
     }
     Ok(match (&mut prepared, out.place(index)) {
-        (Some(prepared), Some(place)) => stream(place, |out| samples::write(prepared, out)),
+        (Some(prepared), Some(place)) => stream(Some(place), |out| samples::write(prepared, out)),
         _ => Ok(()),
     })
 }

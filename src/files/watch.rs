@@ -74,7 +74,7 @@ impl Heard {
         };
         let when: Vec<(PathBuf, Duration)> =
             self.changes.iter().map(|(path, change)| (path.clone(), due(path, change))).collect();
-        let again = when.iter().filter(|(_, due)| *due > now).map(|(_, due)| *due - now).min();
+        let again = when.iter().filter(|(_, due)| *due > now).map(|(_, due)| due.saturating_sub(now)).min();
         let files: Vec<PathBuf> = when.into_iter().filter(|(_, due)| *due <= now).map(|(path, _)| path).collect();
         for path in &files {
             self.changes.remove(path);
@@ -249,7 +249,7 @@ mod tests {
         // Written at once again: twice a second at most.
         let at = at + REST;
         assert!(heard.written(path.clone(), at));
-        assert_eq!(heard.due(at + REST), (Vec::new(), Some(APART - REST)));
+        assert_eq!(heard.due(at + REST), (Vec::new(), Some(APART.saturating_sub(REST))));
         assert_eq!(heard.due(at + APART), (vec![path], None));
     }
 

@@ -474,13 +474,8 @@ fn difference(a: &image::RgbaImage, b: &image::RgbaImage) -> f64 {
 
 #[test]
 fn a_line_of_many_points_looks_as_before_and_costs_less() {
-    for (amplitude, allowed) in [(0.5, 40.0), (0.01, 30.0), (0.0, 4.0)] {
+    for (amplitude, allowed) in [(0.5, 60.0), (0.01, 50.0), (0.0, 4.0)] {
         let [(now, few), (before, many)] = [true, false].map(|whole| drawn(noise(2, 20_000, whole, amplitude)));
-        if let Some(folder) = std::env::var_os("LOOK") {
-            let folder = std::path::PathBuf::from(folder);
-            now.save(folder.join(format!("now_{amplitude}.png"))).unwrap();
-            before.save(folder.join(format!("before_{amplitude}.png"))).unwrap();
-        }
         assert!(few < 6000 && many > 40_000, "{amplitude}: {few} and {many} points");
         let difference = difference(&now, &before);
         assert!(difference < allowed, "{amplitude}: {difference}");

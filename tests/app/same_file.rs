@@ -4,11 +4,13 @@ use chromascope::action::{Action, OwnAction};
 use chromascope::catalog::import::{Origin, imported};
 use chromascope::catalog::names::is_same_name;
 use chromascope::catalog::{Catalog, Kind};
-use chromascope::document::own::{Fingerprint, OwnSet, Role, Wishes};
+use chromascope::document::own::{OwnSet, Role, Wishes};
 use chromascope::document::session;
 use chromascope::document::{Compared, Document, Light, MOST_COMPARED};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
+use chromascope::thing::{SourceId, Thing, Things};
+use chromascope_core::figure::Tag;
 use chromascope_core::query::Shared;
 use chromascope_core::table::{ReadOptions, read};
 
@@ -112,11 +114,24 @@ fn more_sensors_than_the_palette_has_places_are_refused_with_a_reason() {
     };
     document.compared = (0..100_000).map(compared).collect();
     let refused = session::from_json(&session::to_json(&document).unwrap()).unwrap_err().to_string();
-    assert!(refused.contains("100001 sensors") && refused.contains("256"), "{refused}");
+    assert!(refused.contains("100000 sensors") && refused.contains("256"), "{refused}");
     // No way through the window leads there.
     let mut document = Document::paper();
     (0..1000).for_each(|i| document.compare(&format!("camera {i}"), Kind::Camera));
     assert_eq!(document.compared.len(), MOST_COMPARED);
     session::from_json(&session::to_json(&document).unwrap()).unwrap();
-    assert_ne!(Fingerprint::of(b"a"), Fingerprint::of(b"b"));
+}
+
+/// By a look at all others for each, twenty thousand things would take minutes in each frame.
+#[test]
+fn equal_things_share_a_tag_however_many_there_are() {
+    let patch = |i: u32| Thing::Patch { source: None, patch: format!("patch {i}") };
+    let mut things = Things::default();
+    let tags: Vec<Tag> = (0..100_000).map(|i| things.tag(patch(i))).collect();
+    assert_eq!((tags[0], tags[99_999]), (Tag(1), Tag(100_000)));
+    assert_eq!((things.tag(patch(77_777)), things.get(tags[5])), (tags[77_777], Some(&patch(5))));
+    let source = SourceId { kind: Kind::Camera, name: "patch 1".to_owned() };
+    let radiator = |kelvin| Thing::Radiator { source: source.clone(), kelvin };
+    assert_eq!(things.tag(radiator(0.0)), things.tag(radiator(-0.0)));
+    assert_ne!(things.tag(radiator(0.0)), things.tag(Thing::Source(source.clone())));
 }

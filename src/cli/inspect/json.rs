@@ -21,23 +21,20 @@ pub(super) fn write(
     prepared: Option<&mut Prepared<'_>>,
 ) -> io::Result<()> {
     write!(out, "{{\"file\":{},\"kind\":{},\"curves\":[", json!(name), json!(table.role.value))?;
-    let notes = match prepared {
-        Some(prepared) => {
-            let (mut curves, mut done) = (table.curves.iter().enumerate(), Ok(()));
-            prepared.each(|wavelengths, values| {
-                let Some((index, one)) = curves.next() else { return false };
-                done = curve(out, (index, one), table, (wavelengths, values));
-                done.is_ok()
-            });
-            done?;
-            prepared.notes()
+    let notes = if let Some(prepared) = prepared {
+        let (mut curves, mut done) = (table.curves.iter().enumerate(), Ok(()));
+        prepared.each(|wavelengths, values| {
+            let Some((index, one)) = curves.next() else { return false };
+            done = curve(out, (index, one), table, (wavelengths, values));
+            done.is_ok()
+        });
+        done?;
+        prepared.notes()
+    } else {
+        for (index, one) in table.curves.iter().enumerate() {
+            curve(out, (index, one), table, (&one.wavelengths_nm, &one.values))?;
         }
-        None => {
-            for (index, one) in table.curves.iter().enumerate() {
-                curve(out, (index, one), table, (&one.wavelengths_nm, &one.values))?;
-            }
-            Vec::new()
-        }
+        Vec::new()
     };
     let decisions = table.decisions().into_iter().map(|decision| {
         let certainty = certainty(decision.certainty);

@@ -52,12 +52,12 @@ impl Out {
         matches!(self, Self::StandardOutput)
     }
 
-    /// Where the table of the file goes that is read in this place, if anywhere: a file, or standard output.
-    pub(super) fn place(&self, index: usize) -> Option<Option<&Path>> {
+    /// Where the table of the file goes that is read in this place, if anywhere; `-` for standard output.
+    pub(super) fn place(&self, index: usize) -> Option<&Path> {
         match self {
             Self::Nowhere => None,
-            Self::StandardOutput => Some(None),
-            Self::Files(paths) => paths.get(index).map(|path| Some(path.as_path())),
+            Self::StandardOutput => Some(Path::new("-")),
+            Self::Files(paths) => paths.get(index).map(PathBuf::as_path),
         }
     }
 }

@@ -116,7 +116,7 @@ fn partition(items: &mut [Item], is_left: impl Fn(&Item) -> bool) -> usize {
 struct Bins {
     min: Vec3A,
     scale: Vec3A,
-    bins: [[(Aabb, usize); BINS]; 3],
+    axes: [[(Aabb, usize); BINS]; 3],
 }
 
 /// A plane between two bins.
@@ -146,21 +146,21 @@ impl Bins {
         let extent = centers.max - centers.min;
         let scale = |extent: f32| if extent > f32::MIN_POSITIVE * 32.0 { BINS as f32 / extent } else { 0.0 };
         let scale = Vec3A::from_array(extent.to_array().map(scale));
-        let mut bins = [[(Aabb::empty(), 0); BINS]; 3];
+        let mut axes = [[(Aabb::empty(), 0); BINS]; 3];
         for item in items {
-            for (bins, at) in bins.iter_mut().zip(bin(item.center, centers.min, scale)) {
+            for (bins, at) in axes.iter_mut().zip(bin(item.center, centers.min, scale)) {
                 let (aabb, count) = &mut bins[at];
                 *aabb = aabb.union(&item.aabb);
                 *count += 1;
             }
         }
-        Self { min: centers.min, scale, bins }
+        Self { min: centers.min, scale, axes }
     }
 
     /// The cut with the least sum over both sides of area times count; none where all are in one bin on every axis.
     fn best_cut(&self) -> Option<Cut> {
         let mut best: Option<(f32, Cut)> = None;
-        for (axis, bins) in self.bins.iter().enumerate() {
+        for (axis, bins) in self.axes.iter().enumerate() {
             let mut right = [0.0; BINS];
             let mut side = (Aabb::empty(), 0);
             for (index, bin) in bins.iter().enumerate().skip(1).rev() {
