@@ -101,7 +101,7 @@ pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, Sp
         .collect();
     let Facts { title, content, unit, comments } = facts(entry);
     let sheet = Sheet { title, content, curves: &traces, unit: unit.as_deref(), created: None, comments: &comments };
-let written = write(&sheet, form.format, form.grid)?;
+    let written = write(&sheet, form.format, form.grid)?;
     let name = fitting(&file_name(&entry.name), &format!(".{}", form.format.ending()));
     Ok(SpectraFile { name, text: written.text, notes: written.notes })
 }

@@ -54,7 +54,8 @@ impl<'a> Prepared<'a> {
     /// Passes on wavelengths and values of one curve after the other, as long as `put` says to go on.
     pub fn each(&mut self, mut put: impl FnMut(&[f64], &[f64]) -> bool) {
         for piece in &self.pieces {
-            let piece = part(piece, &self.rows, self.step.map(|_| self.sampling), self.sheet.content, &mut self.changes);
+            let piece =
+                part(piece, &self.rows, self.step.map(|_| self.sampling), self.sheet.content, &mut self.changes);
             if !put(&piece.wavelengths, &piece.values) {
                 return;
             }
