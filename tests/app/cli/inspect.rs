@@ -99,9 +99,8 @@ fn the_table_is_fractions_and_reads_back() {
 
 #[test]
 fn averages_stand_beside_points() {
-    let lamp = "nm,Lamp (W/m2/nm)\n".to_owned()
-        + &(400..=430).map(|nm| format!("{nm},{}\n", if nm == 407 { 11 } else { 1 })).collect::<String>();
-    let lamp = put(&folder("averages"), "lamp.csv", &lamp);
+    let rows: Vec<String> = (400..=430).map(|nm| format!("{nm},{}\n", if nm == 407 { 11 } else { 1 })).collect();
+    let lamp = put(&folder("averages"), "lamp.csv", &format!("nm,Lamp (W/m2/nm)\n{}", rows.concat()));
     let output = inspect(&[&lamp, "--csv", "-", "--step", "10"]);
     let (table, report) = said(&output);
     assert!(table.ends_with("\n400,1\n410,1\n420,1\n430,1\n"), "{table}");
