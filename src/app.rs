@@ -1,8 +1,10 @@
 //! The program in its window: takes in events, carries out commands, shows panes.
 
+mod closing;
 mod commands;
 mod focus;
 mod imports;
+mod layout;
 mod meshes;
 mod notice;
 mod path_prompt;
@@ -18,7 +20,7 @@ use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
 use crate::command::{Command, key_bindings};
 use crate::document::history::History;
-use crate::files::Files;
+use crate::files::{Files, Standing};
 use crate::jobs::{Background, Executor};
 use crate::laboratory::Laboratory;
 use crate::panes::{self, PaneContext};
@@ -54,6 +56,9 @@ pub struct ChromascopeApp {
     first_frame: Option<std::time::Instant>,
     /// The control that had the keyboard in the last frame.
     focus: Option<egui::Id>,
+    closing: closing::Closing,
+    place: layout::WindowPlace,
+    ctx: egui::Context,
 }
 
 impl ChromascopeApp {
@@ -86,7 +91,15 @@ impl ChromascopeApp {
             arrangement: Arrangement::default(),
             first_frame: None,
             focus: None,
+            closing: closing::Closing::default(),
+            place: layout::WindowPlace::default(),
+            ctx: ctx.clone(),
         }
+    }
+
+    /// Takes in where the window was in the last run.
+    pub fn restore_place(&mut self, storage: Option<&dyn eframe::Storage>) {
+        self.place = layout::WindowPlace::restored(storage);
     }
 
     /// The document and its steps.
@@ -256,13 +269,20 @@ impl ChromascopeApp {
         };
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", 48.0, true);
-        let copy = files.copy().map(|copy| (copy, bar(ui, "other window", 24.0, true)));
+        let standing: Vec<(Standing, Rect)> = files
+            .standing()
+            .into_iter()
+            .zip(["first notice", "second notice", "third notice", "fourth notice", "fifth notice"])
+            .map(|(standing, id)| (standing, bar(ui, id, notice::HEIGHT, true)))
+            .collect();
         let status = bar(ui, "status", 24.0, false);
         let area = CentralPanel::default().frame(Frame::NONE.fill(theme.panel)).show(ui, |ui| ui.max_rect()).inner;
         panes::menu::show(ui, menu, history, &mut context);
         panes::scene_bar::show(ui, conditions, &mut context);
-        if let Some(((words, file), rect)) = copy {
-            notice::other_window(ui, rect, &words, file, &theme);
+        for (standing, rect) in standing {
+            if notice::show(ui, rect, &standing, &theme) {
+                files.dismiss(standing.kind);
+            }
         }
         let saved = &context.view.saved;
         *arrangement = arrange(
@@ -292,6 +312,7 @@ impl ChromascopeApp {
         panes::help::show(ui, history, &mut context);
         path_prompt::show(ui, &theme, files);
         context.studio.end_frame();
+        self.ask_about_closing(ui, &theme);
         focus::ring(ui.ctx(), &theme);
         drop_veil(ui, theme);
     }
@@ -341,9 +362,10 @@ fn drop_veil(ui: &Ui, theme: Theme) {
 }
 
 impl eframe::App for ChromascopeApp {
-    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+    fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
         self.results.end_frame();
-        self.take_files();
+        self.place.follow(ctx, frame);
+        self.take_files(ctx);
         self.take_dropped(ctx);
         self.take_opened();
         self.take_meshes();
@@ -351,6 +373,10 @@ impl eframe::App for ChromascopeApp {
         focus::into_sight(ctx, &mut self.focus);
         self.carry_out(ctx);
         self.autosave(ctx);
+        self.mind_closing(ctx);
+        if ctx.input(|input| input.events.iter().any(|event| matches!(event, Event::WindowFocused(true)))) {
+            self.view.kept = self.files.kept_documents();
+        }
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
@@ -372,15 +398,19 @@ impl eframe::App for ChromascopeApp {
         }
     }
 
-    fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        if self.files.copy().is_none() {
-            eframe::set_value(storage, LAYOUT_KEY, &self.saved_view());
+    /// Called now and then, and at the end. Nothing goes into eframe's own storage, which then writes nothing.
+    fn save(&mut self, _: &mut dyn eframe::Storage) {
+        self.save_layout(false);
+    }
+
+    fn on_exit(&mut self, _: Option<&eframe::glow::Context>) {
+        self.save_layout(true);
+        if let Err(why) = self.files.save_document(self.history.document()) {
+            log::error!("the document is not saved: {why}");
         }
-        self.files.save_document(self.history.document());
     }
 
     fn persist_egui_memory(&self) -> bool {
-        // A second window leaves what the first one keeps as it is.
-        self.files.copy().is_none()
+        false
     }
 }

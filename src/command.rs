@@ -26,6 +26,10 @@ pub enum Command {
     Open,
     /// Ask for a folder whose files are to be opened.
     OpenFolder,
+    /// Open a document in place of this one, which is kept.
+    OpenDocument(std::path::PathBuf),
+    /// Delete a document that another window kept.
+    RemoveDocument(std::path::PathBuf),
     /// Open a file or folder of the given path.
     OpenPath(std::path::PathBuf),
     /// Show a file in Import, at a line.

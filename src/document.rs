@@ -4,7 +4,9 @@
 //! versioned, unknown fields kept, the user's own data by value.
 
 pub mod history;
+pub mod kept;
 pub mod own;
+pub mod paths;
 pub mod render;
 pub mod session;
 pub mod start;
@@ -18,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use start::Start;
 
 /// The version of the saved form that this program writes.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// What is compared, under which light, with what settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

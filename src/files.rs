@@ -5,9 +5,13 @@
 mod asking;
 mod dialogs;
 mod keep;
+mod kept;
+mod last;
 mod profile;
 mod prompt;
 mod save;
+mod standing;
+mod store;
 mod watch;
 
 use std::fs;
@@ -17,13 +21,18 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
-use crate::document::Document;
-use crate::document::start::Start;
+use crate::jobs::Executor;
 
 pub use dialogs::{Answer, DialogLog, Dialogs, Question};
-pub use keep::{install_panic_hook, panic_saves};
+pub use kept::Opened as OpenedDocument;
+pub use last::{install_panic_hook, save_last, save_on_exit, save_on_signals};
+pub use profile::Copy;
 pub use prompt::PathPrompt;
 pub use save::{FileForm, SaveRequest};
+pub use standing::{Standing, StandingKind};
+
+/// The beginning of names of files that are being written.
+const TEMPORARY: &str = ".chromascope-";
 
 /// What came of a dialog, a read or a write.
 #[derive(Debug)]
@@ -32,8 +41,12 @@ pub enum FileEvent {
     Open(Vec<PathBuf>),
     /// Files changed on disk.
     Changed(Vec<PathBuf>),
-    /// Something to know: a file was written.
+    /// Something to know.
     Said(String),
+    /// A file was written: a sentence, and the description of what is in it.
+    Saved(String, String),
+    /// A document was read, and the one before it kept.
+    Document(Box<kept::Opened>),
     /// Something failed; nothing was changed.
     Failed(String),
 }
@@ -66,16 +79,24 @@ pub struct Files {
     home: Option<PathBuf>,
     wake: Option<egui::Context>,
     watch: watch::Watch,
+    standing: standing::Notices,
+    /// The layout as it was written last.
+    layout: Option<String>,
 }
 
 impl Files {
     /// With the folder that the document is kept in between runs, if any. It is this window's until it closes.
     pub fn new(folder: Option<PathBuf>) -> Self {
+        Self::on(&Executor::default(), folder)
+    }
+
+    /// Has an executor keep the document.
+    pub fn on(executor: &Executor, folder: Option<PathBuf>) -> Self {
         let (sender, receiver) = channel();
         Self {
             sender,
             receiver,
-            keeper: keep::Keeper::new(folder),
+            keeper: keep::Keeper::new(executor, folder),
             prompt: None,
             dialogs: Some(Arc::new(dialogs::System)),
             waiting: None,
@@ -85,6 +106,8 @@ impl Files {
             home: std::env::home_dir(),
             wake: None,
             watch: watch::Watch::new(None),
+            standing: standing::Notices::default(),
+            layout: None,
         }
     }
 
@@ -110,41 +133,6 @@ impl Files {
     pub fn wake(&mut self, ctx: &egui::Context) {
         self.wake = Some(ctx.clone());
         self.watch = watch::Watch::new(Some(ctx.clone()));
-    }
-
-    /// The document as it was kept, else the first screen.
-    pub fn kept_document(&mut self) -> Document {
-        if self.keeper.is_first_run() {
-            let words = format!(
-                "Start: {}. The other start is one click away, in the Inspector or under Edit.",
-                Start::default().name()
-            );
-            self.note(Note::Event(FileEvent::Said(words)));
-        }
-        let (document, message) = self.keeper.load();
-        if let Some(message) = message {
-            self.note(Note::Event(FileEvent::Failed(message)));
-        }
-        let copies: Vec<String> = self.keeper.copies().iter().map(|path| path.display().to_string()).collect();
-        if !copies.is_empty() {
-            let words = format!(
-                "The document of another window is kept in {}. To use it, close Chromascope and rename it to document.json; \
-                 delete it if it is not needed.",
-                copies.join(" and ")
-            );
-            self.note(Note::Event(FileEvent::Said(words)));
-        }
-        document
-    }
-
-    /// Where this window keeps its document while another one has the profile: a sentence that stays on screen, and the file.
-    pub fn copy(&self) -> Option<(String, &Path)> {
-        let (other, file) = self.keeper.other()?;
-        let process = other.process.map_or_else(String::new, |process| format!(" (process {process})"));
-        let words = format!(
-            "Another Chromascope window{process} is open: changes here are kept in a copy, not in its document."
-        );
-        Some((words, file))
     }
 
     /// What happened since.
@@ -185,20 +173,6 @@ impl Files {
     /// Watches these files on disk and no others.
     pub fn watch(&mut self, files: std::collections::BTreeSet<PathBuf>) {
         self.watch.files(files);
-    }
-
-    /// Keeps a changed document, a moment after it stopped changing.
-    pub fn autosave(&mut self, document: &Document, ctx: &egui::Context) {
-        if let Err(error) = self.keeper.watch(document, ctx) {
-            self.note(Note::Event(FileEvent::Failed(error)));
-        }
-    }
-
-    /// Keeps the document now.
-    pub fn save_document(&mut self, document: &Document) {
-        if let Err(error) = self.keeper.save(document) {
-            log::warn!("{error}");
-        }
     }
 
     fn in_background<N: IntoIterator<Item = Note>>(&self, work: impl FnOnce() -> N + Send + 'static) {
@@ -249,7 +223,8 @@ pub fn processor() -> Option<String> {
     Some(line.split_once(": ")?.1.trim().to_owned())
 }
 
-/// Writes a file whole or not at all: beside it first, then moved into its place.
+/// Writes a file whole or not at all: beside it first, then moved into its place. It is flushed to the disk before it takes its
+/// name, and its folder after it.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_atomically_with(path, |file| file.write_all(bytes))
 }
@@ -257,8 +232,9 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// Writes a file whole or not at all, as its contents are made.
 pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    sweep(folder);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".chromascope-");
+    builder.prefix(TEMPORARY);
     // A temporary file is private else; what is saved is as readable as any new file, so the system's mask applies.
     #[cfg(unix)]
     let builder = {
@@ -266,14 +242,34 @@ pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write)
         builder.permissions(fs::Permissions::from_mode(0o666))
     };
     let mut file = builder.tempfile_in(folder)?;
+    // Tells that it is being written. Where there are no locks, nothing is swept either.
+    let _unlocked = file.as_file().try_lock();
     write(file.as_file_mut())?;
-    file.as_file().sync_all()?;
     // What takes the place of a file is as readable as that was.
     if cfg!(unix)
         && let Ok(known) = fs::metadata(path)
     {
         file.as_file().set_permissions(known.permissions())?;
     }
+    file.as_file().sync_all()?;
     file.persist(path).map_err(|error| error.error)?;
+    // The file is in its place; some systems cannot flush a folder.
+    #[cfg(unix)]
+    if let Err(error) = fs::File::open(folder).and_then(|folder| folder.sync_all()) {
+        log::debug!("{} is not flushed: {error}", folder.display());
+    }
     Ok(())
+}
+
+/// Removes what a process that was killed was writing in a folder. What is being written is locked.
+fn sweep(folder: &Path) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in entries.filter(|entry| entry.file_name().as_encoded_bytes().starts_with(TEMPORARY.as_bytes())) {
+        let path = entry.path();
+        if entry.file_type().is_ok_and(|kind| kind.is_file())
+            && fs::File::open(&path).is_ok_and(|file| file.try_lock().is_ok())
+        {
+            let _gone = fs::remove_file(&path);
+        }
+    }
 }

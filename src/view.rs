@@ -65,6 +65,8 @@ pub struct View {
     pub palette: Option<String>,
     /// Times are neither shown nor renewed: for pictures that are compared.
     pub fixed_clock: bool,
+    /// Documents that other windows kept, and how long ago.
+    pub kept: Vec<(PathBuf, String)>,
     /// The last message.
     pub status: Status,
 }
@@ -94,6 +96,7 @@ pub struct SavedView {
     /// Groups of the library that are folded.
     pub folded: BTreeSet<String>,
     /// Files opened lately, the newest first.
+    #[serde(with = "crate::document::paths::list")]
     pub recent: Vec<PathBuf>,
     /// Where the rendered mesh is seen from, and how pictures stand.
     pub render: RenderLook,

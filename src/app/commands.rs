@@ -29,12 +29,17 @@ const PICTURE_SCALE: f32 = 2.0;
 
 impl ChromascopeApp {
     /// Finished dialogs and writes, files that changed.
-    pub(super) fn take_files(&mut self) {
+    pub(super) fn take_files(&mut self, ctx: &egui::Context) {
         for event in self.files.poll() {
             match event {
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
                 FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
+                FileEvent::Saved(message, what) => {
+                    self.view.say(message);
+                    self.saved(ctx, &what);
+                }
+                FileEvent::Document(opened) => self.take_document(*opened),
                 FileEvent::Failed(message) => self.view.fail(message),
             }
         }
@@ -60,6 +65,11 @@ impl ChromascopeApp {
             }
             Command::Open => self.files.ask_to_open(),
             Command::OpenFolder => self.files.ask_for_folder(),
+            Command::OpenDocument(path) => self.files.open_document(&path, self.history.document().clone()),
+            Command::RemoveDocument(path) => {
+                self.files.remove_document(&path);
+                self.view.kept = self.files.kept_documents();
+            }
             Command::OpenPath(path) => self.open(vec![Request::Path(path)]),
             Command::Paste(text) => {
                 let bytes = text.into_bytes().into();
@@ -335,7 +345,24 @@ impl ChromascopeApp {
         figure.table.clone().with_constants(&cells)
     }
 
-    /// Keeps the document on disk shortly after it changed, so that nothing is lost.
+    /// Puts a document that was read in the place of this one, as one step.
+    fn take_document(&mut self, opened: crate::files::OpenedDocument) {
+        if opened.before != *self.history.document() {
+            // It went on meanwhile: what it is now is kept.
+            return self.files.open_document(&opened.path, self.history.document().clone());
+        }
+        let name = opened.path.file_name().unwrap_or(opened.path.as_os_str()).to_string_lossy().into_owned();
+        self.step(|history| history.replace(format!("Open {name}"), opened.document));
+        let words =
+            format!("Opened {name}. The document before it is kept: File, Kept documents. Ctrl+Z takes it back.");
+        match opened.lost.first() {
+            None => self.view.say(words),
+            Some(first) => self.view.fail(format!("{words} It lacks what could not be read: {first}.")),
+        }
+        self.view.kept = self.files.kept_documents();
+    }
+
+    /// Keeps the document on disk as soon as it changed, so that nothing is lost.
     pub(super) fn autosave(&mut self, ctx: &egui::Context) {
         self.files.autosave(self.history.document(), ctx);
     }

@@ -10,6 +10,7 @@ use crate::action::{Action, OwnAction};
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{OpenFile, OpenedEvent, Request, Why};
+use crate::command::Command;
 use crate::document::Document;
 use crate::document::history::History;
 use crate::document::own::{Fingerprint, OwnSet, Role, Wishes};
@@ -64,6 +65,7 @@ impl ChromascopeApp {
                     self.view.import.follow(&ImportItem::File(old), &now);
                 }
                 OpenedEvent::Mesh(path) => self.open_mesh(&path),
+                OpenedEvent::Document(path) => self.push(Command::OpenDocument(path)),
                 OpenedEvent::Failed(message, files) => {
                     self.view.fail(message);
                     self.view.import.unseen.extend(files.iter().copied().map(ImportItem::File));

@@ -1,19 +1,41 @@
-//! A line that stays below the conditions while another window has the profile.
+//! Lines below the conditions that stay: another window has the profile, the document is not saved, one could not be read.
 
-use std::path::Path;
+use egui::{Button, Rect, Sense, TextStyle, Ui, Vec2};
 
-use egui::{Rect, Sense, TextStyle, Ui, Vec2};
-
+use crate::files::{Standing, StandingKind};
 use crate::theme::{Theme, UNIT};
 use crate::widgets::lines;
 
-/// Shows the line; under the pointer, where this window's document is kept.
-pub(super) fn other_window(ui: &Ui, rect: Rect, words: &str, file: &Path, theme: &Theme) {
+/// Height of a line.
+pub(super) const HEIGHT: f32 = 24.0;
+/// Width of the button that takes a line away.
+const DISMISS: f32 = 72.0;
+
+/// Shows a line; under the pointer, all of it and the file it is about. Returns whether it was dismissed.
+pub(super) fn show(ui: &mut Ui, rect: Rect, standing: &Standing, theme: &Theme) -> bool {
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    lines::warning_mark(ui.painter(), egui::pos2(inner.left() + 7.0, inner.center().y), theme.warning);
-    let text = Rect::from_min_max(inner.min + Vec2::new(5.0 * UNIT, 0.0), inner.max);
-    lines::elided(ui, text, words, TextStyle::Body, theme.warning);
-    let response = ui.interact(inner, ui.scope_id().with("other window"), Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, words));
-    response.on_hover_text(format!("The copy: {}", file.display()));
+    let color = match standing.kind {
+        StandingKind::NotSaved => theme.error,
+        StandingKind::Copies => theme.text,
+        _ => theme.warning,
+    };
+    let mut left = inner.left();
+    if standing.kind != StandingKind::Copies {
+        lines::warning_mark(ui.painter(), egui::pos2(left + 7.0, inner.center().y), color);
+        left += 5.0 * UNIT;
+    }
+    let mut right = inner.right();
+    let mut dismissed = false;
+    if standing.kind.is_dismissible() {
+        let place = Rect::from_min_max(egui::pos2(right - DISMISS, inner.top() + 2.0), inner.max - Vec2::new(0.0, 2.0));
+        dismissed = ui.put(place, Button::new("Dismiss").small()).clicked();
+        right = place.left() - 2.0 * UNIT;
+    }
+    let text = Rect::from_min_max(egui::pos2(left, inner.top()), egui::pos2(right, inner.bottom()));
+    lines::elided(ui, text, &standing.words, TextStyle::Body, color);
+    let response = ui.interact(text, ui.scope_id().with(("standing", standing.kind)), Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Status, true, &standing.words));
+    let file = standing.file.as_ref().map_or_else(String::new, |file| format!("\n{}", file.display()));
+    response.on_hover_text(format!("{}{file}", standing.words));
+    dismissed
 }

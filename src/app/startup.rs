@@ -8,7 +8,7 @@ use eframe::{NativeOptions, egui::ViewportBuilder};
 use super::{ChromascopeApp, LAYOUT_KEY};
 use crate::catalog::opened::Request;
 use crate::document::history::History;
-use crate::files::Files;
+use crate::files::{self, Files};
 use crate::view::SavedView;
 
 /// The program's name in the system: folders, window class.
@@ -35,7 +35,7 @@ pub enum WindowError {
 }
 
 /// Opens the window with these files. Returns when it is closed.
-pub fn run(files: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
+pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
     let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     if cfg!(target_os = "linux") && !set("DISPLAY") && !set("WAYLAND_DISPLAY") {
         return Err(WindowError::NoDisplay);
@@ -47,12 +47,15 @@ pub fn run(files: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         .with_min_inner_size([900.0, 600.0])
         .with_drag_and_drop(true)
         .with_icon(icon());
-    let mut options = NativeOptions { viewport, persist_window: true, ..NativeOptions::default() };
+    // The window's place is kept by the program itself, and read by eframe.
+    let mut options = NativeOptions { viewport, persist_window: false, ..NativeOptions::default() };
     prefer_x11(&mut options);
     let mut kept = Files::new(eframe::storage_dir(APP_ID));
-    let copy = kept.copy().map(|(_, file)| file.to_owned());
-    // The place of the window and the layout are the first window's.
-    options.persist_window = copy.is_none();
+    let copy = kept.copy().map(|(_, file)| file);
+    files::save_on_exit();
+    if let Err(error) = files::save_on_signals() {
+        log::warn!("signals end the program without saving: {error}");
+    }
     eframe::run_native(
         APP_ID,
         options,
@@ -61,8 +64,9 @@ pub fn run(files: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
             saved.render.mend();
             let history = History::new(kept.kept_document());
             let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);
+            app.restore_place(cc.storage);
             app.report_first_frame(start);
-            app.open(files.into_iter().map(Request::Path).collect());
+            app.open(paths.into_iter().map(Request::Path).collect());
             Ok(Box::new(app))
         }),
     )?;

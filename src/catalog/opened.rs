@@ -40,6 +40,7 @@ pub struct OpenFile {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failing {
     /// Where it is.
+    #[serde(with = "crate::document::paths")]
     pub path: PathBuf,
     /// What tells its contents from others.
     pub fingerprint: Fingerprint,
@@ -83,6 +84,8 @@ pub enum OpenedEvent {
     },
     /// A mesh is to be opened, which is not read yet.
     Mesh(PathBuf),
+    /// A document of this program is to be opened, which is not read yet.
+    Document(PathBuf),
     /// Nothing could be read; nothing was changed. The files whose text can be looked at.
     Failed(String, Vec<Fingerprint>),
 }

@@ -59,6 +59,14 @@ impl History {
         self.gesture = true;
     }
 
+    /// Puts another document in the place of this one, as a step of its own.
+    pub fn replace(&mut self, name: String, document: Document) {
+        let before = std::mem::replace(&mut self.document, document);
+        self.redo.clear();
+        self.undo.push(Step { name, document: before, action: None });
+        self.gesture = false;
+    }
+
     /// Carries out an action that repeats the last step, as part of it: undo takes all of them back at once.
     pub fn apply_again(&mut self, action: &Action) {
         if self.undo_name() != Some(&action.name()) {

@@ -14,12 +14,20 @@ pub struct OwnCurve {
     /// Its column's name.
     pub name: String,
     /// Wavelengths, ascending, in nanometers if the unit was decided right.
+    #[serde(deserialize_with = "numbers")]
     pub wavelengths: Vec<f64>,
     /// Values; percent already divided if that was decided.
+    #[serde(deserialize_with = "numbers")]
     pub values: Vec<f64>,
     /// The unit of the values as the file names it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
+}
+
+/// Numbers as JSON has them, where NaN and infinities are written as null: one of them must not cost the document.
+fn numbers<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
+    let numbers = Vec::<Option<f64>>::deserialize(from)?;
+    Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
 }
 
 /// How a person wants a file to be read. What is open is decided by its content.
@@ -60,7 +68,7 @@ pub struct OwnSet {
     /// The file it came from, or `clipboard`.
     pub file: String,
     /// Where that file was, if it was on disk.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "super::paths::option")]
     pub path: Option<PathBuf>,
     /// What tells that file's contents from others.
     #[serde(default, skip_serializing_if = "Option::is_none")]

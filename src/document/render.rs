@@ -194,7 +194,7 @@ pub enum MeshChoice {
     /// A square.
     Plane,
     /// A file of the user's.
-    File(PathBuf),
+    File(#[serde(with = "super::paths")] PathBuf),
 }
 
 /// Where σ and τ are from.

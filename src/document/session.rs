@@ -1,7 +1,10 @@
 //! The document as JSON: what is kept between runs, and what session files are.
 
+use chromascope_core::query::Shared;
+
+use super::own::{OwnSet, Role};
 use super::start::Start;
-use super::{DifferenceChoice, Document, MOST_COMPARED, VERSION};
+use super::{DifferenceChoice, Document, MOST_COMPARED, VERSION, kept};
 use crate::catalog::Kind;
 
 /// Why a saved document cannot be opened.
@@ -19,6 +22,9 @@ pub enum SessionError {
     /// A newer program wrote it.
     #[error("written by a newer Chromascope (form {0}, this one reads up to {VERSION}); update to open it")]
     Newer(u32),
+    /// One of its imported sets cannot be read.
+    #[error("{0}")]
+    Set(String),
 }
 
 /// The document as JSON, indented, with a final newline.
@@ -26,11 +32,27 @@ pub fn to_json(document: &Document) -> Result<String, SessionError> {
     Ok(serde_json::to_string_pretty(document)? + "\n")
 }
 
+/// Whether a file that begins so is a document.
+pub fn is_session(beginning: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(&beginning[..beginning.len().min(200)]);
+    let spaceless: String = text.chars().filter(|c| !c.is_whitespace()).collect();
+    spaceless.starts_with("{\"format\":\"chromascope\"")
+}
+
 /// A document from JSON. Fields that are not known are kept; fields that are missing have their defaults.
 pub fn from_json(json: &str) -> Result<Document, SessionError> {
-    let mut value: serde_json::Value = serde_json::from_str(json)?;
+    let mut elsewhere = |_: &kept::Place| Err("its curves are in another file".to_owned());
+    let read = kept::from_json(json, &mut elsewhere)?;
+    match read.lost.into_iter().next() {
+        Some(lost) => Err(SessionError::Set(lost)),
+        None => Ok(read.document),
+    }
+}
+
+/// A document from JSON without its sets, and these.
+pub(super) fn from_value(mut value: serde_json::Value, own: Vec<OwnSet>) -> Result<Document, SessionError> {
     if value.get("version").and_then(serde_json::Value::as_u64) == Some(1) {
-        renew(&mut value)?;
+        renew(&mut value, &own)?;
     }
     let mut document: Document = serde_json::from_value(value)?;
     if document.format != "chromascope" {
@@ -39,6 +61,8 @@ pub fn from_json(json: &str) -> Result<Document, SessionError> {
     if document.version > VERSION {
         return Err(SessionError::Newer(document.version));
     }
+    document.version = VERSION;
+    document.own = own.into_iter().map(Shared::new).collect();
     document.mend();
     if document.compared.len() > MOST_COMPARED {
         return Err(SessionError::Compared(document.compared.len()));
@@ -52,13 +76,11 @@ const RENAMED: [(&str, &str); 2] =
 
 /// Brings a document of version 1 to the present form: cameras by their present names; what it leaves out is the paper's start,
 /// which was the only one.
-fn renew(value: &mut serde_json::Value) -> Result<(), SessionError> {
+fn renew(value: &mut serde_json::Value, own: &[OwnSet]) -> Result<(), SessionError> {
     let Some(old) = value.as_object_mut() else { return Ok(()) };
-    let is_camera = |set: &&serde_json::Value| set.get("role").and_then(|role| role.as_str()) == Some("camera");
-    let sets = old.get("own").and_then(|own| own.as_array());
-    let own: Vec<String> = sets.into_iter().flatten().filter(is_camera).filter_map(name).collect();
+    let is_own = |name: &String| own.iter().any(|set| set.role == Role::Camera && set.name == *name);
     for compared in old.get_mut("compared").and_then(|list| list.as_array_mut()).into_iter().flatten() {
-        let Some(known) = name(compared).filter(|name| !own.contains(name)) else { continue };
+        let Some(known) = name(compared).filter(|name| !is_own(name)) else { continue };
         if compared.get("kind").and_then(|kind| kind.as_str()) != Some("camera") {
             continue;
         }

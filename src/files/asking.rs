@@ -158,7 +158,7 @@ impl Files {
             return self.ask_again(PathPrompt { replaces: Some(path), ..prompt });
         }
         self.in_background(move || {
-            let event = save::write(&path, &form, &request.note);
+            let event = save::write(&path, &form, &request);
             let again = match &event {
                 FileEvent::Failed(why) => Some(Note::NotSaved(prompt.refused(why))),
                 _ => None,

@@ -1,35 +1,198 @@
-//! Keeping the document between runs, and when the program breaks.
+//! Keeping the document between runs: each change is on disk within a second, whatever ends the program.
 
-use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
-use std::thread::{self, JoinHandle};
-use std::time::{Duration, Instant};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
-use super::profile::{OtherWindow, Profile};
-use super::write_atomically;
-use crate::document::{Document, session};
+use super::last::{self, within_moments};
+use super::profile::{self, Copy, OtherWindow, Profile};
+use super::store::{Store, Unread, Written};
+use crate::document::Document;
+use crate::jobs::{Clock, Executor};
 
-/// A document is written this long after its last change.
-const REST: Duration = Duration::from_secs(2);
-
-/// What the panic hook saves: the last document seen, and where.
-static LAST: Mutex<Option<(PathBuf, Document)>> = Mutex::new(None);
+/// A change is written at once, those that follow no sooner than so long after it.
+const PAUSE: Duration = Duration::from_millis(250);
+/// A document that could not be written is tried again after so long.
+const RETRY: Duration = Duration::from_secs(2);
 
 /// Writes the document to the program's folder.
-#[derive(Debug)]
 pub(super) struct Keeper {
     profile: Profile,
-    seen: Option<Document>,
-    saved: Option<Document>,
-    changed: Instant,
-    /// Writes beside the window: a document may hold many curves.
-    writer: Option<JoinHandle<Result<(), String>>>,
+    desk: Arc<Desk>,
+    executor: Executor,
+}
+
+/// What lies between the window and the thread that writes.
+pub(super) struct Desk {
+    state: Mutex<State>,
+    /// Held while something is written.
+    store: Mutex<Store>,
+    /// Told when there is nothing to wait for any more.
+    closing: Condvar,
+    clock: Clock,
+    is_driven: bool,
+    /// Whether there is a file to keep the document in.
+    keeps: bool,
+}
+
+#[derive(Default)]
+struct State {
+    /// The document as it is.
+    newest: Option<Arc<Document>>,
+    /// The document as it is on disk; the same one where there is nothing to write.
+    saved: Option<Arc<Document>>,
+    /// Whether a thread writes, or waits to write again.
+    running: bool,
+    /// Whether the window is closing.
+    closed: bool,
+    /// When the last writing ended.
+    ended: Option<Duration>,
+    /// The reason why the last writing did not save all.
+    failure: Option<String>,
+    /// The file that the document was moved to, because another program wrote to the one before.
+    moved: Option<PathBuf>,
+    wake: Option<egui::Context>,
+}
+
+/// What came of reading the kept document.
+pub(super) struct Loaded {
+    /// The document, or the first screen.
+    pub(super) document: Document,
+    /// A sentence where there was one that could not be read as it is, and the file that holds it now.
+    pub(super) complaint: Option<(String, PathBuf)>,
+}
+
+impl State {
+    fn is_clean(&self) -> bool {
+        match (&self.newest, &self.saved) {
+            (Some(newest), Some(saved)) => Arc::ptr_eq(newest, saved),
+            (newest, _) => newest.is_none(),
+        }
+    }
+
+    /// Takes a document in. One that is as it is on disk needs no writing.
+    fn see(&mut self, document: &Document) {
+        let is = |known: &Option<Arc<Document>>| known.as_deref() == Some(document);
+        if is(&self.newest) {
+            return;
+        }
+        self.newest =
+            Some(if is(&self.saved) { self.saved.clone() } else { None }.unwrap_or_else(|| Arc::new(document.clone())));
+    }
+
+    /// How long to rest after the last writing.
+    fn pause(&self) -> Duration {
+        if self.failure.is_some() { RETRY } else { PAUSE }
+    }
+
+    /// Takes in what came of writing a document.
+    fn written(&mut self, document: Arc<Document>, result: Result<Written, String>, now: Duration) {
+        self.ended = Some(now);
+        let before = self.failure.take();
+        match result {
+            Ok(Written { left_out, moved }) => {
+                self.moved = moved.or(self.moved.take());
+                if left_out.is_empty() {
+                    self.saved = Some(document);
+                } else {
+                    self.failure = Some(left_out);
+                }
+            }
+            Err(why) => self.failure = Some(why),
+        }
+        if before != self.failure {
+            match &self.failure {
+                Some(why) => log::warn!("the document is not saved: {why}"),
+                None => log::info!("the document is saved again"),
+            }
+            if let Some(ctx) = &self.wake {
+                ctx.request_repaint();
+            }
+        }
+    }
+}
+
+impl Desk {
+    /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn store(&self) -> MutexGuard<'_, Store> {
+        self.store.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Writes what is newest, and what comes after, until there is nothing new for a while.
+    fn work(&self) {
+        loop {
+            if !self.lock().closed {
+                self.write_newest();
+            }
+            let mut state = self.lock();
+            if self.is_driven || state.closed {
+                state.running = false;
+                return;
+            }
+            let pause = state.pause();
+            let waited = self.closing.wait_timeout_while(state, pause, |state| !state.closed);
+            state = waited.unwrap_or_else(PoisonError::into_inner).0;
+            if state.is_clean() || state.closed {
+                state.running = false;
+                return;
+            }
+        }
+    }
+
+    fn write_newest(&self) {
+        let mut store = self.store();
+        let newest = {
+            let state = self.lock();
+            if state.is_clean() {
+                return;
+            }
+            state.newest.clone()
+        };
+        if let Some(document) = newest {
+            let result = store.write(&document);
+            self.lock().written(document, result, self.clock.now());
+        }
+    }
+
+    /// Writes what is newest as the program ends. Never waits for long: the thread that holds a lock may be the one that broke.
+    /// Returns the file, if all is in it.
+    pub(super) fn save_last(&self) -> Option<PathBuf> {
+        if !self.keeps {
+            return None;
+        }
+        let mut store = within_moments(&self.store)?;
+        let newest = {
+            let state = within_moments(&self.state)?;
+            if state.is_clean() { None } else { state.newest.clone() }
+        };
+        if let Some(document) = newest {
+            let result = store.write(&document);
+            let file = result.is_ok().then(|| store.file().to_owned());
+            within_moments(&self.state)?.written(document, result, self.clock.now());
+            return file;
+        }
+        Some(store.file().to_owned())
+    }
 }
 
 impl Keeper {
-    pub(super) fn new(folder: Option<PathBuf>) -> Self {
-        Self { profile: Profile::claim(folder), seen: None, saved: None, changed: Instant::now(), writer: None }
+    pub(super) fn new(executor: &Executor, folder: Option<PathBuf>) -> Self {
+        let profile = Profile::claim(folder);
+        let failure = profile.closed.clone();
+        let desk = Arc::new(Desk {
+            state: Mutex::new(State { failure, ..State::default() }),
+            store: Mutex::new(Store::new(profile.file.clone().unwrap_or_default())),
+            closing: Condvar::new(),
+            clock: executor.clock(),
+            is_driven: executor.is_driven(),
+            keeps: profile.file.is_some(),
+        });
+        last::remember(&desk);
+        Self { profile, desk, executor: executor.clone() }
     }
 
     /// The window that has the profile, where it is not this one, and the file of this one's copy.
@@ -37,123 +200,176 @@ impl Keeper {
         self.profile.other.zip(self.profile.file.as_deref())
     }
 
-    /// Documents that other windows kept beside this one's.
-    pub(super) fn copies(&self) -> Vec<PathBuf> {
+    /// Documents that other windows kept and have no more.
+    pub(super) fn copies(&self) -> Vec<Copy> {
         self.profile.copies()
     }
 
     /// Whether no document was kept before, by this window or another.
     pub(super) fn is_first_run(&self) -> bool {
-        self.profile.first.as_ref().is_some_and(|file| !file.exists())
+        self.profile.first.as_ref().is_some_and(|file| std::fs::symlink_metadata(file).is_err())
     }
 
-    /// The document kept, or the first screen; with a sentence where one was there and could not be read.
-    pub(super) fn load(&mut self) -> (Document, Option<String>) {
-        let text = self.profile.first.as_ref().and_then(|file| fs::read_to_string(file).ok());
-        let (document, complaint) = match text.map(|text| session::from_json(&text)) {
-            None => (Document::default(), None),
-            Some(Ok(document)) => (document, None),
-            // What is another window's is left to it.
-            Some(Err(error)) if self.profile.other.is_some() => {
-                (Document::default(), Some(format!("The other window's document cannot be read ({error}).")))
+    /// The document kept, or the first screen.
+    pub(super) fn load(&mut self) -> Loaded {
+        let Some(first) = self.profile.first.clone() else {
+            return Loaded { document: Document::default(), complaint: None };
+        };
+        let mut store = self.desk.store();
+        let read = store.read(&first);
+        let is_by_value = store.is_by_value();
+        drop(store);
+        let is_others = self.profile.other.is_some();
+        let loaded = match read {
+            Ok(kept) if kept.lost.is_empty() => Loaded { document: kept.document, complaint: None },
+            Ok(kept) => {
+                let some = match kept.lost.as_slice() {
+                    [one] => one.clone(),
+                    many => format!("{} sets, the first {}", many.len(), many[0]),
+                };
+                let what = format!("An imported set of the last session could not be read ({some}).");
+                let complaint = if is_others { None } else { Some(self.set_aside(&first, &what, true)) };
+                Loaded { document: kept.document, complaint }
             }
-            Some(Err(error)) => (Document::default(), Some(self.set_aside(&error.to_string()))),
+            Err(Unread::Missing) => Loaded { document: Document::default(), complaint: None },
+            // What is another window's is left to it.
+            Err(Unread::Because(why)) if is_others => {
+                let words =
+                    format!("The document of the other window could not be read ({why}); this one starts anew.");
+                Loaded { document: Document::default(), complaint: Some((words, first)) }
+            }
+            Err(Unread::Because(why)) => {
+                let what = format!("The document of the last session could not be read ({why}).");
+                Loaded { document: Document::default(), complaint: Some(self.set_aside(&first, &what, false)) }
+            }
         };
         // What is opened before the first frame is a change already.
-        self.saved = Some(document.clone());
-        (document, complaint)
+        let document = Arc::new(loaded.document.clone());
+        let mut state = self.desk.lock();
+        state.newest = Some(Arc::clone(&document));
+        // A large document of an earlier version is taken apart now, so that the first change need not wait for that.
+        state.saved = (!is_by_value).then_some(document);
+        drop(state);
+        self.profile.tidy();
+        loaded
     }
 
-    /// A kept document that cannot be read is not overwritten.
-    fn set_aside(&self, why: &str) -> String {
-        let file = self.profile.file.clone().unwrap_or_default();
-        let aside = file.with_extension("unreadable.json");
-        match fs::rename(&file, &aside) {
-            Ok(()) => format!("What was kept of the last run cannot be read ({why}). It is now {}.", aside.display()),
-            Err(error) => format!("What was kept of the last run cannot be read ({why}; {error})."),
+    /// A kept document that cannot be read as it is is not overwritten: it is moved or copied aside, and if neither can be, this
+    /// window keeps its document in another file.
+    fn set_aside(&mut self, file: &Path, what: &str, copy: bool) -> (String, PathBuf) {
+        let aside = profile::free_aside(file.parent().unwrap_or(Path::new(".")));
+        let result = if copy { std::fs::copy(file, &aside).map(drop) } else { std::fs::rename(file, &aside) };
+        match result {
+            Ok(()) => (format!("{what} It is now {}.", aside.display()), aside),
+            Err(error) => {
+                let why = super::reason(&error);
+                self.profile.leave_document();
+                let own = self.profile.file.clone().unwrap_or_default();
+                self.desk.store().move_to(own.clone());
+                let words = format!(
+                    "{what} It stays as it is, {}, for it could not be moved ({why}); this window's document is kept in {}.",
+                    file.display(),
+                    own.display()
+                );
+                (words, file.to_owned())
+            }
         }
     }
 
-    /// Notes a change, and writes it when the document has come to rest.
-    pub(super) fn watch(&mut self, document: &Document, ctx: &egui::Context) -> Result<(), String> {
-        let Some(file) = self.profile.file.clone() else { return Ok(()) };
-        if self.seen.as_ref() != Some(document) {
-            self.seen = Some(document.clone());
-            self.changed = Instant::now();
-            *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some((file.clone(), document.clone()));
+    /// Takes in the document as it is, and has it written beside the window.
+    pub(super) fn watch(&mut self, document: &Document, ctx: &egui::Context) {
+        if !self.desk.keeps {
+            return;
         }
-        if self.writer.as_ref().is_some_and(JoinHandle::is_finished) {
-            self.written()?;
+        let mut state = self.desk.lock();
+        state.see(document);
+        if state.wake.is_none() {
+            state.wake = Some(ctx.clone());
         }
-        if self.saved.as_ref() == Some(document) {
-            return Ok(());
+        if state.is_clean() {
+            // What could not be saved is undone.
+            if self.profile.closed.is_none() {
+                state.failure = None;
+            }
+            return;
         }
-        let rested = self.changed.elapsed();
-        if rested < REST {
-            ctx.request_repaint_after(REST.saturating_sub(rested));
-            return Ok(());
+        if state.running {
+            return;
         }
-        if self.writer.is_some() {
-            ctx.request_repaint_after(REST);
-            return Ok(());
+        let rested = state.ended.map(|ended| self.desk.clock.since(ended));
+        if let Some(left) = rested.and_then(|rested| state.pause().checked_sub(rested)).filter(|left| !left.is_zero()) {
+            ctx.request_repaint_after(left);
+            return;
         }
-        // Failing again and again would only fill the log.
-        self.saved = Some(document.clone());
-        let (document, ctx) = (document.clone(), ctx.clone());
-        let work = move || {
-            let result = write(&file, &document);
-            ctx.request_repaint();
-            result
-        };
-        match thread::Builder::new().name("keep".to_owned()).spawn(work) {
-            Ok(writer) => self.writer = Some(writer),
-            Err(error) => return Err(format!("no thread for writing: {error}")),
+        state.running = true;
+        drop(state);
+        let desk = Arc::clone(&self.desk);
+        if let Err(error) = self.executor.spawn("keep", move || desk.work()) {
+            let mut state = self.desk.lock();
+            (state.running, state.ended) = (false, Some(self.desk.clock.now()));
+            state.failure = Some(format!("no thread for writing: {error}"));
         }
-        Ok(())
     }
 
-    /// Waits for what is being written, and says what came of it.
-    fn written(&mut self) -> Result<(), String> {
-        self.writer.take().map_or(Ok(()), |writer| writer.join().unwrap_or_else(|_| Err("writing failed".to_owned())))
-    }
-
-    /// Writes the document now, unless it is as it was written.
+    /// Writes the document now, unless it is as it was written. The error says why not all of it is saved.
     pub(super) fn save(&mut self, document: &Document) -> Result<(), String> {
-        let before = self.written();
-        let Some(file) = self.profile.file.clone() else { return Ok(()) };
-        if self.saved.as_ref() == Some(document) && before.is_ok() {
+        if !self.desk.keeps {
             return Ok(());
         }
-        // Failing again and again would only fill the log.
-        self.saved = Some(document.clone());
-        write(&file, document)
-    }
-}
-
-fn write(file: &Path, document: &Document) -> Result<(), String> {
-    let json = session::to_json(document).map_err(|error| error.to_string())?;
-    if let Some(folder) = file.parent() {
-        fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
-    write_atomically(file, json.as_bytes()).map_err(|error| format!("{}: {error}", file.display()))
-}
-
-/// Saves the last document seen, for a program that is about to end. Returns where, if it could.
-pub fn panic_saves() -> Option<PathBuf> {
-    // Never waits: the thread that holds the lock may be the one that broke.
-    let last = LAST.try_lock().ok()?.clone();
-    let (file, document) = last?;
-    write(&file, &document).ok()?;
-    Some(file)
-}
-
-/// Before a panic is reported, the document is saved.
-pub fn install_panic_hook() {
-    let report = std::panic::take_hook();
-    std::panic::set_hook(Box::new(move |info| {
-        if let Some(file) = panic_saves() {
-            log::error!("the document was saved to {}", file.display());
+        self.desk.lock().see(document);
+        self.desk.write_newest();
+        let state = self.desk.lock();
+        match &state.failure {
+            Some(why) if !state.is_clean() => Err(why.clone()),
+            _ => Ok(()),
         }
-        report(info);
-    }));
+    }
+
+    /// The reason why the document is not saved, while it is not.
+    pub(super) fn failure(&self) -> Option<String> {
+        self.desk.lock().failure.clone()
+    }
+
+    /// Whether all is on disk.
+    pub(super) fn is_saved(&self) -> bool {
+        self.desk.lock().is_clean()
+    }
+
+    /// The file that the document is kept in because another program wrote to the one before.
+    pub(super) fn moved(&self) -> Option<PathBuf> {
+        self.desk.lock().moved.clone()
+    }
+
+    /// The folder of the profile.
+    pub(super) fn folder(&self) -> Option<&Path> {
+        self.profile.first.as_ref()?.parent()
+    }
+
+    /// Keeps documents that others take the place of, from any thread.
+    pub(super) fn aside(&self) -> Aside {
+        Aside(self.folder().map(Path::to_owned))
+    }
+}
+
+/// Keeps documents that others take the place of.
+pub(super) struct Aside(Option<PathBuf>);
+
+impl Aside {
+    /// Writes a document to a file of its own.
+    pub(super) fn put_aside(&self, document: &Document) -> Result<(), String> {
+        let Some(folder) = &self.0 else { return Ok(()) };
+        Store::new(profile::free_copy(folder)).write(document).and_then(|written| match written.left_out {
+            why if why.is_empty() => Ok(()),
+            why => Err(why),
+        })
+    }
+}
+
+impl Drop for Keeper {
+    fn drop(&mut self) {
+        self.desk.lock().closed = true;
+        self.desk.closing.notify_all();
+        // A window that went without closing, because its display did.
+        self.desk.save_last();
+    }
 }

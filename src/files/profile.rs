@@ -1,14 +1,19 @@
-//! The profile folder belongs to one window at a time: the first one holds a lock, another one keeps a copy.
+//! The profile folder belongs to one window at a time: the first one holds a lock, another one keeps a copy under a lock of its
+//! own. The system releases the locks of a process that ended, however it ended.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::Write as _;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use super::{reason, sweep};
 
 /// The file that the first window's document is kept in.
 const DOCUMENT: &str = "document.json";
-/// The file that the first window holds locked, with the number of its process. The system releases the lock of a process that
-/// ended, however it ended.
+/// The file that the first window holds locked, with the number of its process.
 const LOCK: &str = "window.lock";
+/// The folder of the curves of imported sets, which all documents of the profile share.
+pub(super) const CURVES: &str = "curves";
 
 /// A window's part of the profile folder.
 #[derive(Debug, Default)]
@@ -19,8 +24,18 @@ pub(super) struct Profile {
     pub(super) first: Option<PathBuf>,
     /// The window that has the profile, where it is not this one.
     pub(super) other: Option<OtherWindow>,
+    /// The reason why nothing can be written, as found at the start.
+    pub(super) closed: Option<String>,
     /// Held as long as the window is open.
-    _lock: Option<File>,
+    lock: Option<Lock>,
+}
+
+/// A file that is locked, until this is dropped.
+#[derive(Debug)]
+struct Lock {
+    _file: File,
+    /// The file of a copy's lock, which goes with the window.
+    gone: Option<PathBuf>,
 }
 
 /// Another window of the program on the same profile.
@@ -30,71 +45,171 @@ pub(super) struct OtherWindow {
     pub(super) process: Option<u32>,
 }
 
+/// A document in the profile that is not this window's.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Copy {
+    /// Its file.
+    pub path: PathBuf,
+    /// When it was written last.
+    pub modified: Option<SystemTime>,
+}
+
 impl Profile {
     /// Takes the profile, or finds out who has it.
     pub(super) fn claim(folder: Option<PathBuf>) -> Self {
         let Some(folder) = folder else { return Self::default() };
         let first = Some(folder.join(DOCUMENT));
-        match lock(&folder) {
-            Ok(lock) => Self { file: first.clone(), first, other: None, _lock: Some(lock) },
+        let of_first = Self { file: first.clone(), first: first.clone(), ..Self::default() };
+        if let Err(error) = writable(&folder) {
+            return Self { closed: Some(format!("{}: {}", folder.display(), reason(&error))), ..of_first };
+        }
+        match lock(&folder.join(LOCK)) {
+            Ok(file) => {
+                sweep(&folder);
+                sweep(&folder.join(CURVES));
+                Self { lock: Some(Lock { _file: file, gone: None }), ..of_first }
+            }
             Err(TryLockError::WouldBlock) => {
                 let process = fs::read_to_string(folder.join(LOCK)).ok().and_then(|text| text.trim().parse().ok());
-                Self { file: Some(free_name(&folder)), first, other: Some(OtherWindow { process }), _lock: None }
+                Self { first, other: Some(OtherWindow { process }), ..Self::default() }.with_copy(&folder)
             }
             // Some network folders have no locks: better one document for all than none.
             Err(TryLockError::Error(error)) => {
                 log::warn!("{} cannot be locked: {error}", folder.display());
-                Self { file: first.clone(), first, other: None, _lock: None }
+                of_first
             }
         }
     }
 
-    /// Copies of the document that other windows kept.
-    pub(super) fn copies(&self) -> Vec<PathBuf> {
-        let Some(first) = self.first.as_ref().filter(|_| self.other.is_none()) else { return Vec::new() };
-        let files = first.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
-        let mut copies: Vec<PathBuf> = files.map(|file| file.path()).filter(|path| is_copy(path)).collect();
-        copies.sort();
+    /// Keeps the document in a file that no window has, nor had.
+    fn with_copy(mut self, folder: &Path) -> Self {
+        let file = free_copy(folder);
+        let own = file.with_extension("lock");
+        match lock(&own) {
+            Ok(file) => self.lock = Some(Lock { _file: file, gone: Some(own) }),
+            Err(error) => log::warn!("{} cannot be locked: {error}", own.display()),
+        }
+        self.file = Some(file);
+        self
+    }
+
+    /// Keeps this window's document in a copy from now on, because the first window's file is not to be touched.
+    pub(super) fn leave_document(&mut self) {
+        if let Some(folder) = self.first.as_ref().and_then(|first| first.parent()).map(Path::to_owned) {
+            self.file = Some(free_copy(&folder));
+        }
+    }
+
+    /// Documents that other windows kept and have no more, the newest first.
+    pub(super) fn copies(&self) -> Vec<Copy> {
+        let Some(folder) = self.first.as_ref().and_then(|first| first.parent()) else { return Vec::new() };
+        let is_free = |path: &PathBuf| is_copy(path) && self.file.as_ref() != Some(path) && !is_held(path);
+        let mut copies: Vec<Copy> = entries(folder)
+            .filter(is_free)
+            .map(|path| {
+                let modified = fs::metadata(&path).and_then(|facts| facts.modified()).ok();
+                Copy { path, modified }
+            })
+            .collect();
+        copies.sort_by(|a, b| (b.modified, &a.path).cmp(&(a.modified, &b.path)));
         copies
     }
-}
 
-fn lock(folder: &Path) -> Result<File, TryLockError> {
-    fs::create_dir_all(folder).map_err(TryLockError::Error)?;
-    let mut options = OpenOptions::new();
-    let mut file = options
-        .read(true)
-        .write(true)
-        .create(true)
-        .truncate(false)
-        .open(folder.join(LOCK))
-        .map_err(TryLockError::Error)?;
-    file.try_lock()?;
-    let written = file.set_len(0).and_then(|()| write!(file, "{}", std::process::id()));
-    if let Err(error) = written {
-        log::warn!("the lock of {} does not name this process: {error}", folder.display());
-    }
-    Ok(file)
-}
-
-/// A name for a copy that no window has, nor had.
-fn free_name(folder: &Path) -> PathBuf {
-    use std::sync::atomic::{AtomicU32, Ordering};
-    static COUNT: AtomicU32 = AtomicU32::new(1);
-    loop {
-        let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        let more = if number == 1 { String::new() } else { format!("-{number}") };
-        let path = folder.join(format!("document-{}{more}.json", std::process::id()));
-        if !path.exists() {
-            return path;
+    /// Removes locks that ended windows left, and files of curves that no document of the profile names. Only the first window
+    /// does, and only while it is alone.
+    pub(super) fn tidy(&self) {
+        let (Some(folder), None, Some(_)) = (self.first.as_ref().and_then(|f| f.parent()), self.other, &self.lock)
+        else {
+            return;
+        };
+        for path in entries(folder).filter(|path| path.extension().is_some_and(|ending| ending == "lock")) {
+            if path.file_name().is_some_and(|name| name == LOCK) {
+                continue;
+            }
+            if is_held(&path) {
+                return;
+            }
+            let _gone = fs::remove_file(&path);
+        }
+        let mut texts = Vec::new();
+        for path in entries(folder).filter(|path| name_of(path).starts_with("document")) {
+            match fs::read(&path) {
+                Ok(bytes) => texts.push(String::from_utf8_lossy(&bytes).into_owned()),
+                // What it names is not known.
+                Err(_) => return,
+            }
+        }
+        for path in entries(&folder.join(CURVES)) {
+            if !texts.iter().any(|text| text.contains(name_of(&path))) {
+                let _gone = fs::remove_file(&path);
+            }
         }
     }
 }
 
+impl Drop for Lock {
+    fn drop(&mut self) {
+        if let Some(path) = &self.gone {
+            let _gone = fs::remove_file(path);
+        }
+    }
+}
+
+/// A free name for a document that is set aside.
+pub(super) fn free_aside(folder: &Path) -> PathBuf {
+    free(folder, |number| format!("document-unreadable-{number}.json"))
+}
+
+/// A name for a copy that no window has, nor had.
+pub(super) fn free_copy(folder: &Path) -> PathBuf {
+    let process = std::process::id();
+    free(folder, |number| match number {
+        1 => format!("document-{process}.json"),
+        _ => format!("document-{process}-{number}.json"),
+    })
+}
+
+fn free(folder: &Path, name: impl Fn(u32) -> String) -> PathBuf {
+    let is_free = |path: &PathBuf| fs::symlink_metadata(path).is_err() && !path.with_extension("lock").exists();
+    let paths = (1..=u32::MAX).map(|number| folder.join(name(number)));
+    paths.into_iter().find(is_free).unwrap_or_else(|| folder.join(name(0)))
+}
+
+/// Whether files can be made in a folder, which is made if it is not there.
+fn writable(folder: &Path) -> io::Result<()> {
+    fs::create_dir_all(folder)?;
+    tempfile::Builder::new().prefix(super::TEMPORARY).tempfile_in(folder).map(drop)
+}
+
+fn lock(path: &Path) -> Result<File, TryLockError> {
+    let mut options = OpenOptions::new();
+    let mut file =
+        options.read(true).write(true).create(true).truncate(false).open(path).map_err(TryLockError::Error)?;
+    file.try_lock()?;
+    let written = file.set_len(0).and_then(|()| write!(file, "{}", std::process::id()));
+    if let Err(error) = written {
+        log::warn!("{} does not name this process: {error}", path.display());
+    }
+    Ok(file)
+}
+
+/// Whether a window holds the lock of a copy.
+fn is_held(copy: &Path) -> bool {
+    let held = |file: File| matches!(file.try_lock(), Err(TryLockError::WouldBlock));
+    File::open(copy.with_extension("lock")).is_ok_and(held)
+}
+
 fn is_copy(path: &Path) -> bool {
-    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-    let inner = name.strip_prefix("document-").and_then(|rest| rest.strip_suffix(".json"));
+    let inner = name_of(path).strip_prefix("document-").and_then(|rest| rest.strip_suffix(".json"));
     inner.is_some_and(|inner| inner.starts_with(|c: char| c.is_ascii_digit()))
+}
+
+fn name_of(path: &Path) -> &str {
+    path.file_name().and_then(|name| name.to_str()).unwrap_or_default()
+}
+
+fn entries(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path())
 }
 
 #[cfg(test)]
@@ -116,5 +231,40 @@ mod tests {
         assert!(third.file != second.file && second.file != first.file);
         drop(first);
         assert_eq!(claim().other, None);
+    }
+
+    #[test]
+    fn only_documents_of_windows_that_ended_are_copies() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let claim = || Profile::claim(Some(folder.path().to_owned()));
+        let first = claim();
+        let second = claim();
+        let copy = second.file.clone().expect("it has a copy");
+        fs::write(&copy, "{}").expect("written");
+        assert_eq!(first.copies(), [], "its window is open");
+        drop(second);
+        assert_eq!(first.copies().into_iter().map(|copy| copy.path).collect::<Vec<_>>(), [copy]);
+    }
+
+    #[test]
+    fn curves_that_no_document_names_are_removed_once_no_other_window_is_open() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let curves = folder.path().join(CURVES);
+        fs::create_dir(&curves).expect("made");
+        for name in ["a.json", "b.json", "c.json"] {
+            fs::write(curves.join(name), "[]").expect("written");
+        }
+        for (document, names) in [("document.json", "a.json"), ("document-unreadable-1.json", "{ b.json")] {
+            fs::write(folder.path().join(document), names).expect("written");
+        }
+        let left = || entries(&curves).map(|path| name_of(&path).to_owned()).collect::<std::collections::BTreeSet<_>>();
+        let claim = || Profile::claim(Some(folder.path().to_owned()));
+        let (first, second) = (claim(), claim());
+        first.tidy();
+        second.tidy();
+        assert_eq!(left().len(), 3, "the second window may be about to name one");
+        drop(second);
+        first.tidy();
+        assert_eq!(left().into_iter().collect::<Vec<_>>(), ["a.json", "b.json"]);
     }
 }

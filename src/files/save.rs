@@ -94,14 +94,14 @@ fn ending(path: &Path) -> Option<&str> {
 }
 
 /// Writes a form to a path and reports what came of it.
-pub(super) fn write(path: &Path, form: &FileForm, note: &str) -> FileEvent {
+pub(super) fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }: &SaveRequest) -> FileEvent {
     let bytes = match (form.make)() {
         Ok(bytes) => bytes,
         Err(sentence) => return FileEvent::Failed(sentence),
     };
     match write_atomically(path, &bytes) {
-        Ok(()) if note.is_empty() => FileEvent::Said(format!("Saved {}.", path.display())),
-        Ok(()) => FileEvent::Said(format!("Saved {}: {note}.", path.display())),
+        Ok(()) if note.is_empty() => FileEvent::Saved(format!("Saved {}.", path.display()), what.clone()),
+        Ok(()) => FileEvent::Saved(format!("Saved {}: {note}.", path.display()), what.clone()),
         Err(error) => {
             FileEvent::Failed(format!("Cannot write {}: {}. Your work is safe.", path.display(), reason(&error)))
         }

@@ -125,6 +125,25 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
             }
         });
     }
+    let kept = context.view.kept.clone();
+    if !kept.is_empty() {
+        ui.menu_button("Kept documents", |ui| {
+            for (path, age) in kept {
+                let words = format!("Document of another window, {age}");
+                let menu = ui.menu_button(words, |ui| {
+                    if ui.button("Open").on_hover_text("The document on screen is kept here before").clicked() {
+                        context.push(Command::OpenDocument(path.clone()));
+                        ui.close();
+                    }
+                    if ui.button("Delete").clicked() {
+                        context.push(Command::RemoveDocument(path.clone()));
+                        ui.close();
+                    }
+                });
+                menu.response.on_hover_text(path.display().to_string());
+            }
+        });
+    }
     if ui.add(Button::new("Paste data").shortcut_text("Ctrl+V")).clicked() {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste);
         ui.close();

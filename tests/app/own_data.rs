@@ -96,7 +96,7 @@ fn the_document_is_kept_between_runs() {
     let document = Document { temperature_k: 3210.0, ..Document::paper() };
     let mut files = Files::new(Some(folder.path().to_owned()));
     assert_eq!(files.kept_document(), Document::default(), "there is none yet");
-    files.save_document(&document);
+    files.save_document(&document).unwrap();
     assert_eq!(Files::new(Some(folder.path().to_owned())).kept_document(), document);
 }
 
@@ -106,8 +106,8 @@ fn what_cannot_be_read_is_set_aside_not_overwritten() {
     std::fs::write(folder.path().join("document.json"), "{ broken").unwrap();
     let mut files = Files::new(Some(folder.path().to_owned()));
     assert_eq!(files.kept_document(), Document::default());
-    files.save_document(&Document { temperature_k: 3000.0, ..Document::paper() });
-    assert_eq!(std::fs::read_to_string(folder.path().join("document.unreadable.json")).unwrap(), "{ broken");
+    files.save_document(&Document { temperature_k: 3000.0, ..Document::paper() }).unwrap();
+    assert_eq!(std::fs::read_to_string(folder.path().join("document-unreadable-1.json")).unwrap(), "{ broken");
 }
 
 #[test]
@@ -130,17 +130,17 @@ fn what_was_opened_before_the_first_frame_is_kept() {
     // As a file named on the command line that is read at once.
     document.temperature_k = 4000.0;
     files.autosave(&document, &egui::Context::default());
-    files.save_document(&document);
+    files.save_document(&document).unwrap();
     assert_eq!(Files::new(Some(folder.path().to_owned())).kept_document(), document);
 }
 
-/// All files of a folder with their contents, but for the lock.
+/// All files of a folder with their contents, but for locks.
 fn contents(folder: &Path) -> Vec<(String, String)> {
     let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
     let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
     let mut files: Vec<_> = files
         .map(|path| (name(&path), std::fs::read_to_string(&path).unwrap()))
-        .filter(|f| f.0 != "window.lock")
+        .filter(|f| !f.0.ends_with(".lock"))
         .collect();
     files.sort();
     files
@@ -154,7 +154,7 @@ fn a_second_window_keeps_a_document_of_its_own() {
     let mut first = open();
     assert!(first.copy().is_none());
     first.kept_document();
-    first.save_document(&of(3000.0));
+    first.save_document(&of(3000.0)).unwrap();
     let kept = contents(folder.path());
     let mut second = open();
     let (words, copy) = second.copy().map(|(words, copy)| (words, copy.to_owned())).expect("it is the second");
@@ -164,31 +164,27 @@ fn a_second_window_keeps_a_document_of_its_own() {
     );
     assert_eq!(words, wanted);
     assert_eq!(second.kept_document(), of(3000.0), "it begins with what the first one kept");
-    second.save_document(&of(3000.0));
+    second.save_document(&of(3000.0)).unwrap();
     assert_eq!(contents(folder.path()), kept, "nothing was changed");
-    second.save_document(&of(4000.0));
-    first.save_document(&of(5000.0));
-    second.save_document(&of(6000.0));
+    second.save_document(&of(4000.0)).unwrap();
+    first.save_document(&of(5000.0)).unwrap();
+    second.save_document(&of(6000.0)).unwrap();
     assert_eq!(contents(folder.path()).len(), 2);
     drop(second);
     drop(first);
-    // The copy stays where it was said to be; the next window has the first one's document and says where the copy is.
+    // The copy stays where it was said to be; the next window has the first one's document and says that there is a copy.
     let mut next = open();
     assert!(next.copy().is_none());
     assert_eq!(next.kept_document(), of(5000.0));
     assert!(copy.exists());
-    let said = next.poll().into_iter().find_map(|event| match event {
-        FileEvent::Said(words) => Some(words),
-        _ => None,
-    });
-    assert!(said.is_some_and(|said| {
-        said.starts_with(&format!("The document of another window is kept in {}.", copy.display()))
-    }));
-    next.save_document(&of(7000.0));
+    let said = |files: &Files| files.standing().into_iter().map(|standing| standing.words).collect::<Vec<_>>();
+    assert_eq!(said(&next), ["A document of another window is kept: File, Kept documents opens it."]);
+    assert_eq!(next.kept_documents().into_iter().map(|(path, _)| path).collect::<Vec<_>>(), [copy.clone()]);
+    next.save_document(&of(7000.0)).unwrap();
     drop(next);
     let mut after = open();
     assert_eq!(after.kept_document(), of(7000.0));
-    assert_eq!(after.poll().len(), 1, "said until the copy is taken away");
+    assert_eq!(said(&after).len(), 1, "said until the copy is taken away");
     let text = std::fs::read_to_string(&copy).unwrap();
     assert_eq!(chromascope::document::session::from_json(&text).unwrap(), of(6000.0));
 }
@@ -221,10 +217,7 @@ fn the_second_window_says_so_as_long_as_it_is_open() {
         window.state_mut().view_mut().say("Something else.");
         window.run();
         assert!(crate::import_switches::says(&window, "is open: changes here are kept in a copy"));
-        assert!(!eframe::App::persist_egui_memory(window.state()), "the layout is the first one's");
     }
-    let window = window();
-    assert!(eframe::App::persist_egui_memory(window.state()));
 }
 
 #[test]
@@ -232,7 +225,7 @@ fn the_first_run_names_its_start_and_where_the_other_is() {
     let folder = tempfile::tempdir().unwrap();
     let said = || {
         let mut files = Files::new(Some(folder.path().to_owned()));
-        files.save_document(&Document::paper());
+        files.save_document(&Document::paper()).unwrap();
         files.poll()
     };
     let first = {

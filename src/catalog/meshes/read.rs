@@ -64,12 +64,6 @@ pub enum MeshFailure {
         /// Its name.
         file: String,
     },
-    /// A session is text, and could not name this file.
-    #[error("{file}: a session cannot keep its path, which is no Unicode text; rename the file or folder")]
-    Path {
-        /// The file's name.
-        file: String,
-    },
     /// It is larger than what is read.
     #[error(
         "{file}: {} MB, but the limit is {} MB; simplify the mesh or export a part of it",
@@ -166,9 +160,6 @@ pub(super) fn read_unless(
         }
         _ => MeshFailure::Io { file: file.clone(), error },
     };
-    if path.to_str().is_none() {
-        return Err(MeshFailure::Path { file });
-    }
     // Opening a pipe would wait for somebody to write into it.
     if !std::fs::metadata(path).map_err(failed)?.is_file() {
         return Err(MeshFailure::NoFile { file });

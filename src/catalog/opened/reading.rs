@@ -12,6 +12,7 @@ use super::{Desk, Failing, Job, OpenFile, OpenedEvent, Why};
 use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
 use crate::document::own::{Fingerprint, OwnSet, Wishes};
+use crate::document::session::is_session;
 use crate::files::reason;
 
 /// How much of a file is looked at to tell a mesh from spectra.
@@ -43,6 +44,7 @@ struct Harvest {
     failed: Vec<Fingerprint>,
     paths: Vec<PathBuf>,
     meshes: Vec<PathBuf>,
+    documents: Vec<PathBuf>,
     notes: Vec<String>,
     /// How many files were to be read.
     count: usize,
@@ -70,6 +72,10 @@ pub(super) fn open(
             Ok(None) => continue,
             Err(Unread::Mesh(path)) => {
                 harvest.meshes.push(path);
+                continue;
+            }
+            Err(Unread::Document(path)) => {
+                harvest.documents.push(path);
                 continue;
             }
             Err(Unread::Because(sentence)) => {
@@ -131,6 +137,8 @@ fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
 enum Unread {
     /// It is a mesh.
     Mesh(PathBuf),
+    /// It is a document of this program.
+    Document(PathBuf),
     /// A sentence.
     Because(String),
 }
@@ -161,7 +169,11 @@ fn contents(
         Request::Path(path) => {
             let path = known_path(path, desk);
             job.at(&path, file, count);
-            if is_mesh(&path, &beginning(&path)) {
+            let beginning = beginning(&path);
+            if is_session(&beginning) {
+                return Err(Unread::Document(path));
+            }
+            if is_mesh(&path, &beginning) {
                 return Err(Unread::Mesh(path));
             }
             let bytes = read_bytes(&path).map_err(Unread::Because)?;
@@ -235,7 +247,9 @@ fn read_once(origin: &Origin, bytes: &[u8], wishes: &Wishes, job: &Job) -> Resul
 impl Harvest {
     fn into_events(self) -> Vec<OpenedEvent> {
         let failure = self.failure();
-        let mut events: Vec<OpenedEvent> = self.meshes.into_iter().map(OpenedEvent::Mesh).collect();
+        let meshes = self.meshes.into_iter().map(OpenedEvent::Mesh);
+        let mut events: Vec<OpenedEvent> =
+            meshes.chain(self.documents.into_iter().map(OpenedEvent::Document)).collect();
         if self.sets.is_empty() {
             let failed = failure.map(|told| OpenedEvent::Failed(format!("{told}. Nothing was changed."), self.failed));
             events.extend(failed);

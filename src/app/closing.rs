@@ -1,0 +1,100 @@
+//! Closing the window: not before all is saved, or a person says that it need not be.
+
+use egui::{Align2, Context, RichText, Ui, Vec2, ViewportCommand, Window};
+
+use super::ChromascopeApp;
+use crate::document::session;
+use crate::files::{FileForm, SaveRequest};
+use crate::theme::Theme;
+
+/// Description of the document where it is saved elsewhere.
+const DOCUMENT: &str = "the document";
+/// Width of the question.
+const WIDTH: f32 = 420.0;
+
+/// How far closing has come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Closing {
+    /// Nobody wants to.
+    #[default]
+    No,
+    /// It is asked what becomes of changes that could not be saved.
+    Asked,
+    /// A path for them is being asked for.
+    Elsewhere,
+    /// Nothing holds it up.
+    Agreed,
+}
+
+impl ChromascopeApp {
+    /// Holds the window open while its document cannot be saved.
+    pub(super) fn mind_closing(&mut self, ctx: &Context) {
+        if self.closing == Closing::Asked && self.files.is_saved() {
+            self.close(ctx);
+        }
+        if !ctx.input(|input| input.viewport().close_requested()) || self.closing == Closing::Agreed {
+            return;
+        }
+        if self.files.save_document(self.history.document()).is_err() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.closing = Closing::Asked;
+        }
+    }
+
+    /// Takes in that something was saved: the document elsewhere, after which nothing holds the window open.
+    pub(super) fn saved(&mut self, ctx: &Context, what: &str) {
+        if what == DOCUMENT && self.closing == Closing::Elsewhere {
+            self.close(ctx);
+        }
+    }
+
+    fn close(&mut self, ctx: &Context) {
+        self.closing = Closing::Agreed;
+        ctx.send_viewport_cmd(ViewportCommand::Close);
+    }
+
+    /// Shows the question, if it is open.
+    pub(super) fn ask_about_closing(&mut self, ui: &Ui, theme: &Theme) {
+        if self.closing != Closing::Asked {
+            return;
+        }
+        let why = self.files.standing().into_iter().next().map(|standing| standing.words).unwrap_or_default();
+        let window = Window::new("Your changes are not saved")
+            .id(egui::Id::unique("closing"))
+            .collapsible(false)
+            .resizable(false)
+            .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 96.0));
+        let content = |ui: &mut Ui| {
+            ui.set_max_width(WIDTH);
+            ui.label(RichText::new(why).color(theme.error));
+            ui.horizontal(|ui| {
+                let elsewhere = ui.button("Save elsewhere…").clicked().then_some(Closing::Elsewhere);
+                let anyway = ui.button("Close without saving").clicked().then_some(Closing::Agreed);
+                let cancel = ui.button("Cancel").clicked().then_some(Closing::No);
+                elsewhere.or(anyway).or(cancel)
+            })
+            .inner
+        };
+        match window.show(ui.ctx(), content).and_then(|shown| shown.inner).flatten() {
+            Some(Closing::Agreed) => self.close(ui.ctx()),
+            Some(Closing::Elsewhere) => {
+                self.closing = Closing::Elsewhere;
+                self.save_document_elsewhere();
+            }
+            Some(next) => self.closing = next,
+            None => {}
+        }
+    }
+
+    /// Asks where to save the document, with all of its sets in one file.
+    fn save_document_elsewhere(&mut self) {
+        let document = self.history.document().clone();
+        let make = move || session::to_json(&document).map(String::into_bytes).map_err(|error| error.to_string());
+        self.files.ask_to_save(SaveRequest {
+            what: DOCUMENT.to_owned(),
+            name: "chromascope.json".to_owned(),
+            forms: vec![FileForm::new("json", make)],
+            note: String::new(),
+        });
+    }
+}

@@ -1,0 +1,97 @@
+//! The document as it is kept between runs: small, for it is written with every change. The curves of imported sets stand in
+//! files of their own, each written once; the document names the file and the place in it.
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::Document;
+use super::own::{OwnCurve, OwnSet};
+use super::session::{SessionError, from_value};
+
+/// Key of a set whose curves stand elsewhere.
+const CURVES_IN: &str = "curves_in";
+
+/// The file that holds a set's curves, by name, and their place in its list.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Place(pub String, pub usize);
+
+/// A document that was read, with what it lacks.
+#[derive(Debug)]
+pub struct Kept {
+    /// The document.
+    pub document: Document,
+    /// Places of the curves of its sets, in their order; none for a set that the document holds itself.
+    pub places: Vec<Option<Place>>,
+    /// Sets that could not be read: each with the reason.
+    pub lost: Vec<String>,
+}
+
+/// The JSON of a document whose sets have their curves at these places, indented, with a final newline.
+pub fn to_json(document: &Document, places: &[(&OwnSet, &Place)]) -> Result<String, SessionError> {
+    let mut rest = document.clone();
+    rest.own.clear();
+    let mut value = serde_json::to_value(rest)?;
+    let sets = places.iter().map(|(set, place)| {
+        let mut head = serde_json::to_value(without_curves(set))?;
+        if let Some(head) = head.as_object_mut() {
+            head.remove("curves");
+            head.insert(CURVES_IN.to_owned(), serde_json::to_value(place)?);
+        }
+        Ok(head)
+    });
+    value["own"] = sets.collect::<Result<Vec<Value>, serde_json::Error>>()?.into();
+    Ok(serde_json::to_string_pretty(&value)? + "\n")
+}
+
+/// A document from JSON, with curves from their places: `curves` reads a file's list. A set that cannot be read is left out.
+pub fn from_json(
+    json: &str,
+    curves: &mut dyn FnMut(&Place) -> Result<Vec<OwnCurve>, String>,
+) -> Result<Kept, SessionError> {
+    let mut value: Value = serde_json::from_str(json)?;
+    let sets = value.get_mut("own").and_then(Value::as_array_mut).map(std::mem::take).unwrap_or_default();
+    let (mut own, mut places, mut lost) = (Vec::new(), Vec::new(), Vec::new());
+    for set in sets {
+        let name = set.get("name").and_then(Value::as_str).unwrap_or("a set").to_owned();
+        match with_curves(set, curves) {
+            Ok((set, place)) => {
+                own.push(set);
+                places.push(place);
+            }
+            Err(why) => lost.push(format!("{name}: {why}")),
+        }
+    }
+    Ok(Kept { document: from_value(value, own)?, places, lost })
+}
+
+fn with_curves(
+    mut set: Value,
+    curves: &mut dyn FnMut(&Place) -> Result<Vec<OwnCurve>, String>,
+) -> Result<(OwnSet, Option<Place>), String> {
+    let Some(place) = set.as_object_mut().and_then(|set| set.remove(CURVES_IN)) else {
+        return serde_json::from_value(set).map(|set| (set, None)).map_err(|error| error.to_string());
+    };
+    let place: Place = serde_json::from_value(place).map_err(|error| error.to_string())?;
+    set["curves"] = Value::Array(Vec::new());
+    let head: OwnSet = serde_json::from_value(set).map_err(|error| error.to_string())?;
+    Ok((OwnSet { curves: curves(&place)?, ..head }, Some(place)))
+}
+
+/// All of a set but its curves, which may be millions of numbers.
+fn without_curves(set: &OwnSet) -> OwnSet {
+    OwnSet {
+        name: set.name.clone(),
+        file: set.file.clone(),
+        path: set.path.clone(),
+        fingerprint: set.fingerprint,
+        wishes: set.wishes.clone(),
+        role: set.role,
+        read_as: set.read_as,
+        unit: set.unit,
+        percent: set.percent,
+        per_photon: set.per_photon,
+        channels: set.channels,
+        curves: Vec::new(),
+        decisions: set.decisions.clone(),
+    }
+}

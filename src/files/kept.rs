@@ -1,0 +1,148 @@
+//! The document and the layout between runs, and documents that other windows kept.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use super::store::{Unread, read};
+use super::{FileEvent, Files, Note, reason, write_atomically};
+use crate::document::Document;
+use crate::document::start::Start;
+
+/// The file of the window's place and layout, which eframe reads.
+const LAYOUT: &str = "app.ron";
+
+/// A document that was opened in place of another one.
+#[derive(Debug)]
+pub struct Opened {
+    /// Its file.
+    pub path: PathBuf,
+    /// The document.
+    pub document: Document,
+    /// Sets of it that could not be read, in words; may be empty.
+    pub lost: Vec<String>,
+    /// The document that it takes the place of, which is kept in a file of its own if it was changed.
+    pub before: Document,
+}
+
+impl Files {
+    /// The document as it was kept, else the first screen.
+    pub fn kept_document(&mut self) -> Document {
+        if self.keeper.is_first_run() {
+            let words = format!(
+                "Start: {}. The other start is one click away, in the Inspector or under Edit.",
+                Start::default().name()
+            );
+            self.note(Note::Event(FileEvent::Said(words)));
+        }
+        let loaded = self.keeper.load();
+        self.standing.complaint = loaded.complaint;
+        // Those of a second window's are its own doing.
+        self.standing.copies = if self.keeper.other().is_none() { self.keeper.copies().len() } else { 0 };
+        loaded.document
+    }
+
+    /// Where this window keeps its document while another one has the profile: a sentence that stays on screen, and the file.
+    pub fn copy(&self) -> Option<(String, PathBuf)> {
+        let (other, file) = self.keeper.other()?;
+        let process = other.process.map_or_else(String::new, |process| format!(" (process {process})"));
+        let words = format!(
+            "Another Chromascope window{process} is open: changes here are kept in a copy, not in its document."
+        );
+        Some((words, file.to_owned()))
+    }
+
+    /// Documents that other windows kept, and how long ago.
+    pub fn kept_documents(&self) -> Vec<(PathBuf, String)> {
+        let now = SystemTime::now();
+        let age = |modified: Option<SystemTime>| now.duration_since(modified?).ok().map(|age| age.as_secs() / 60);
+        let words = |modified| match age(modified) {
+            None => "at an unknown time".to_owned(),
+            Some(0) => "just now".to_owned(),
+            Some(minutes @ 1..60) => format!("{minutes} min ago"),
+            Some(minutes @ 60..2880) => format!("{} h ago", minutes / 60),
+            Some(minutes) => format!("{} days ago", minutes / 1440),
+        };
+        self.keeper.copies().into_iter().map(|copy| (copy.path, words(copy.modified))).collect()
+    }
+
+    /// Reads a document that is to take the place of this one, which is kept before.
+    pub fn open_document(&self, path: &Path, before: Document) {
+        let (path, keeper) = (path.to_owned(), self.keeper.aside());
+        self.in_background(move || {
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+            let event = match read(&path) {
+                Ok((kept, _)) if kept.document == before => {
+                    FileEvent::Said(format!("{name} is the document as it is."))
+                }
+                Ok((kept, _)) => {
+                    let is_untouched = before == before.start.document();
+                    match if is_untouched { Ok(()) } else { keeper.put_aside(&before) } {
+                        Ok(()) => FileEvent::Document(Box::new(Opened {
+                            path,
+                            document: kept.document,
+                            lost: kept.lost,
+                            before,
+                        })),
+                        Err(why) => FileEvent::Failed(format!(
+                            "{name} was not opened, for the document as it is could not be kept: {why}."
+                        )),
+                    }
+                }
+                Err(Unread::Missing) => FileEvent::Failed(format!("{} is no more.", path.display())),
+                Err(Unread::Because(why)) => FileEvent::Failed(format!("{name} could not be opened: {why}.")),
+            };
+            [Note::Event(event)]
+        });
+    }
+
+    /// Removes a document that another window kept.
+    pub fn remove_document(&self, path: &Path) {
+        let event = match std::fs::remove_file(path) {
+            Ok(()) => FileEvent::Said(format!("{} is deleted.", path.display())),
+            Err(error) => FileEvent::Failed(format!("{}: {}.", path.display(), reason(&error))),
+        };
+        self.note(Note::Event(event));
+    }
+
+    /// Keeps a changed document, beside the window and at once.
+    pub fn autosave(&mut self, document: &Document, ctx: &egui::Context) {
+        self.keeper.watch(document, ctx);
+    }
+
+    /// Keeps the document now. The error says why not all of it is saved.
+    pub fn save_document(&mut self, document: &Document) -> Result<(), String> {
+        self.keeper.save(document)
+    }
+
+    /// Whether the document is on disk as it was seen last.
+    pub fn is_saved(&self) -> bool {
+        self.keeper.is_saved()
+    }
+
+    /// Keeps the window's place and layout, if they changed; `now` waits until it is done. They are the first window's.
+    pub fn save_layout(&mut self, layout: &BTreeMap<String, String>, now: bool) {
+        let Some(folder) = self.keeper.folder().filter(|_| self.keeper.other().is_none()) else { return };
+        let text = match ron::ser::to_string_pretty(layout, ron::ser::PrettyConfig::default()) {
+            Ok(text) => text,
+            Err(error) => return log::warn!("the layout cannot be kept: {error}"),
+        };
+        // What is being written beside the window may not be done before the program is.
+        if self.layout.as_ref() == Some(&text) && !now {
+            return;
+        }
+        self.layout = Some(text.clone());
+        let path = folder.join(LAYOUT);
+        let write = move || -> [Note; 0] {
+            if let Err(error) = write_atomically(&path, text.as_bytes()) {
+                log::warn!("{}: {error}", path.display());
+            }
+            []
+        };
+        if now {
+            write();
+        } else {
+            self.in_background(write);
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Sentences that stay below the conditions for as long as they are true, or until a person dismisses them.
+
+use std::collections::HashSet;
+use std::path::PathBuf;
+
+use super::Files;
+
+/// A sentence that stays.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Standing {
+    /// Its subject.
+    pub kind: StandingKind,
+    /// The sentence.
+    pub words: String,
+    /// The file it is about.
+    pub file: Option<PathBuf>,
+}
+
+/// The subject of a sentence that stays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum StandingKind {
+    /// Another window has the profile.
+    OtherWindow,
+    /// The document is not saved.
+    NotSaved,
+    /// The document of the last session could not be read.
+    SetAside,
+    /// Another program wrote to the document's file.
+    Moved,
+    /// Other windows kept documents.
+    Copies,
+}
+
+impl StandingKind {
+    /// Whether a person can dismiss it.
+    pub const fn is_dismissible(self) -> bool {
+        matches!(self, Self::SetAside | Self::Moved | Self::Copies)
+    }
+}
+
+/// What the sentences are made of.
+#[derive(Debug, Default)]
+pub(super) struct Notices {
+    /// A document that could not be read: a sentence, and its file.
+    pub(super) complaint: Option<(String, PathBuf)>,
+    /// How many documents other windows had kept at the start.
+    pub(super) copies: usize,
+    dismissed: HashSet<StandingKind>,
+}
+
+impl Files {
+    /// The sentences that stay, the gravest first.
+    pub fn standing(&self) -> Vec<Standing> {
+        let Notices { complaint, copies, dismissed } = &self.standing;
+        let failure = self.keeper.failure().map(|why| {
+            let words = if self.keeper.is_saved() {
+                format!("Nothing can be saved: {why}. Changes are lost when the window closes.")
+            } else {
+                format!("Changes are not saved: {why}. Trying again until they are.")
+            };
+            Standing { kind: StandingKind::NotSaved, words, file: None }
+        });
+        let other =
+            self.copy().map(|(words, file)| Standing { kind: StandingKind::OtherWindow, words, file: Some(file) });
+        let aside =
+            complaint.clone().map(|(words, file)| Standing { kind: StandingKind::SetAside, words, file: Some(file) });
+        let moved = self.keeper.moved().map(|file| {
+            let words = "Another program wrote to the document: changes here are kept in a copy, not in it.".to_owned();
+            Standing { kind: StandingKind::Moved, words, file: Some(file) }
+        });
+        let copies = (*copies > 0).then(|| {
+            let words = match copies {
+                1 => "A document of another window is kept: File, Kept documents opens it.".to_owned(),
+                many => format!("{many} documents of other windows are kept: File, Kept documents opens them."),
+            };
+            Standing { kind: StandingKind::Copies, words, file: None }
+        });
+        let all = [failure, aside, moved, other, copies].into_iter().flatten();
+        all.filter(|standing| !dismissed.contains(&standing.kind)).collect()
+    }
+
+    /// Takes a sentence away.
+    pub fn dismiss(&mut self, kind: StandingKind) {
+        self.standing.dismissed.insert(kind);
+    }
+}

@@ -1,0 +1,210 @@
+//! The files of a kept document: a small one, written anew with every change, and the curves of imported sets beside it, each
+//! written once.
+//!
+//! So a change costs a few kilobytes, however large the sets are, and no more is needed for it to be safe than that one small
+//! file takes the place of another: there is no journal to replay, and no torn record. A file is flushed to the disk before it
+//! takes its name, and the folder after it, so that neither a kill nor a power failure leaves half of one.
+
+use std::collections::{HashMap, HashSet};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::ptr::from_ref;
+
+use chromascope_core::query::Shared;
+
+use super::profile::{CURVES, free_copy};
+use super::{reason, write_atomically};
+use crate::document::Document;
+use crate::document::kept::{self, Kept, Place};
+use crate::document::own::{Fingerprint, OwnCurve, OwnSet};
+use crate::document::session::SessionError;
+
+/// What came of writing a document.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Written {
+    /// Sets that were left out, in one sentence; may be empty.
+    pub(super) left_out: String,
+    /// The file that the document is kept in from now on, because another program wrote the one before.
+    pub(super) moved: Option<PathBuf>,
+}
+
+/// Why a kept document could not be read.
+#[derive(Debug)]
+pub(super) enum Unread {
+    /// There is none.
+    Missing,
+    /// A reason in words.
+    Because(String),
+}
+
+/// Writes one document, again and again.
+#[derive(Debug, Default)]
+pub(super) struct Store {
+    /// The document's file.
+    file: PathBuf,
+    /// Contents of that file as this window read or wrote them, the latest last. Others are another program's.
+    seen: [Option<Fingerprint>; 2],
+    /// Sets of the document as it was written, by address.
+    known: HashMap<usize, (Shared<OwnSet>, Place)>,
+    /// Curves that this window wrote, by their text.
+    written: HashMap<u128, Place>,
+    /// Whether the file on disk holds curves itself, which are lost with it.
+    by_value: bool,
+}
+
+impl Store {
+    /// Keeps a document in a file.
+    pub(super) fn new(file: PathBuf) -> Self {
+        Self { file, ..Self::default() }
+    }
+
+    /// The document's file.
+    pub(super) fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// Goes on in another file.
+    pub(super) fn move_to(&mut self, file: PathBuf) {
+        (self.file, self.seen) = (file, [None; 2]);
+    }
+
+    /// Whether the file holds curves itself, as earlier versions wrote it.
+    pub(super) fn is_by_value(&self) -> bool {
+        self.by_value
+    }
+
+    /// Reads a document, this one's or another window's.
+    pub(super) fn read(&mut self, file: &Path) -> Result<Kept, Unread> {
+        let (kept, fingerprint) = read(file)?;
+        for (set, place) in kept.document.own.iter().zip(&kept.places) {
+            if let Some(place) = place {
+                self.known.insert(address(set), (set.clone(), place.clone()));
+            }
+        }
+        if file == self.file {
+            self.seen = [None, Some(fingerprint)];
+            self.by_value = kept.places.iter().any(Option::is_none);
+        }
+        Ok(kept)
+    }
+
+    /// Writes the document. A set that cannot be written does not stop the rest.
+    pub(super) fn write(&mut self, document: &Document) -> Result<Written, String> {
+        let folder = self.file.parent().map(Path::to_owned).unwrap_or_default();
+        fs::create_dir_all(&folder).map_err(|error| format!("{}: {}", folder.display(), reason(&error)))?;
+        let moved = self.is_foreign().then(|| free_copy(&folder));
+        if let Some(copy) = &moved {
+            self.move_to(copy.clone());
+        }
+        let unwritten = self.write_new(&folder, &document.own).err();
+        if let Some(why) = unwritten.as_ref().filter(|_| self.by_value) {
+            return Err(why.clone());
+        }
+        // In place of a set that cannot be written, what was written of it before.
+        let place = |set: &Shared<OwnSet>| {
+            let before = || self.known.values().find(|(before, _)| before.name == set.name && before.role == set.role);
+            self.known.get(&address(set)).or_else(before)
+        };
+        let missing = document.own.iter().filter(|set| !self.known.contains_key(&address(set)));
+        let missing: Vec<&str> = missing.map(|set| set.name.as_str()).collect();
+        let sets: Vec<(&OwnSet, &Place)> =
+            document.own.iter().filter_map(place).map(|(set, place)| (&**set, place)).collect();
+        let json = kept::to_json(document, &sets).map_err(|error| error.to_string())?;
+        let left_out = match (unwritten, missing.as_slice()) {
+            (Some(why), [one]) => format!("{one} could not be saved ({why}); the rest is"),
+            (Some(why), many) => format!("{} imported sets could not be saved ({why}); the rest is", many.len()),
+            (None, _) => String::new(),
+        };
+        self.seen = [self.seen[1], Some(Fingerprint::of(json.as_bytes()))];
+        write_atomically(&self.file, json.as_bytes())
+            .map_err(|error| format!("{}: {}", self.file.display(), reason(&error)))?;
+        self.by_value = false;
+        let present: HashSet<usize> = document.own.iter().map(address).collect();
+        if left_out.is_empty() && self.known.len() > present.len() {
+            self.known.retain(|address, _| present.contains(address));
+        }
+        Ok(Written { left_out, moved })
+    }
+
+    /// Whether the file holds what this window neither read nor wrote.
+    fn is_foreign(&self) -> bool {
+        fs::read(&self.file).is_ok_and(|bytes| !self.seen.contains(&Some(Fingerprint::of(&bytes))))
+    }
+
+    /// Writes the curves that are in no file yet, all into one: a folder of files that is opened costs one flush.
+    fn write_new(&mut self, folder: &Path, sets: &[Shared<OwnSet>]) -> Result<(), String> {
+        let mut fresh = Vec::new();
+        for set in sets {
+            if self.known.contains_key(&address(set)) {
+                continue;
+            }
+            let text = serde_json::to_vec(&set.curves).map_err(|error| error.to_string())?;
+            let key = fingerprint(&text);
+            match self.written.get(&key) {
+                Some(place) => {
+                    self.known.insert(address(set), (set.clone(), place.clone()));
+                }
+                None => fresh.push((set, key, text)),
+            }
+        }
+        if fresh.is_empty() {
+            return Ok(());
+        }
+        let lists: Vec<&[u8]> = fresh.iter().map(|(_, _, text)| text.as_slice()).collect();
+        let text = [b"[".as_slice(), &lists.join(b",\n".as_slice()), b"]\n"].concat();
+        let keys: Vec<u8> = fresh.iter().flat_map(|(_, key, _)| key.to_le_bytes()).collect();
+        let name = format!("{:032x}.json", fingerprint(&keys));
+        let folder = folder.join(CURVES);
+        let failed = |error: io::Error| format!("{}: {}", folder.display(), reason(&error));
+        fs::create_dir_all(&folder).map_err(failed)?;
+        write_atomically(&folder.join(&name), &text).map_err(failed)?;
+        for (index, (set, key, _)) in fresh.into_iter().enumerate() {
+            let place = Place(name.clone(), index);
+            self.written.insert(key, place.clone());
+            self.known.insert(address(set), (set.clone(), place));
+        }
+        Ok(())
+    }
+}
+
+/// Reads a document with the curves it names.
+pub(super) fn read(file: &Path) -> Result<(Kept, Fingerprint), Unread> {
+    let because = |words: String| Unread::Because(words);
+    let bytes = fs::read(file).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => Unread::Missing,
+        _ => because(reason(&error)),
+    })?;
+    let text = std::str::from_utf8(&bytes).map_err(|error| because(format!("it is no text: {error}")))?;
+    let folder = file.parent().map(|folder| folder.join(CURVES)).unwrap_or_default();
+    let mut files: HashMap<String, Result<Vec<Vec<OwnCurve>>, String>> = HashMap::new();
+    let mut curves = |Place(name, index): &Place| {
+        let lists = files.entry(name.clone()).or_insert_with(|| read_curves(&folder, name)).as_ref();
+        let list = lists.map_err(Clone::clone)?.get(*index);
+        list.cloned().ok_or_else(|| format!("{name} has no list {index}"))
+    };
+    let kept = kept::from_json(text, &mut curves).map_err(|error: SessionError| because(error.to_string()))?;
+    Ok((kept, Fingerprint::of(&bytes)))
+}
+
+fn read_curves(folder: &Path, name: &str) -> Result<Vec<Vec<OwnCurve>>, String> {
+    // A name leads nowhere else.
+    if Path::new(name).file_name().is_none_or(|own| own != name) {
+        return Err(format!("{name} is no name of a file"));
+    }
+    let path = folder.join(name);
+    let bytes = fs::read(&path).map_err(|error| format!("{}: {}", path.display(), reason(&error)))?;
+    serde_json::from_slice(&bytes).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// The address of a set's contents, which is its own for as long as the set is held.
+fn address(set: &Shared<OwnSet>) -> usize {
+    from_ref::<OwnSet>(set).addr()
+}
+
+/// FNV-1a, 128 bits: names contents, of which no two differ within the life of the universe.
+fn fingerprint(bytes: &[u8]) -> u128 {
+    const OFFSET: u128 = 0x6C62_272E_07BB_0142_62B8_2175_6295_C58D;
+    const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013B;
+    bytes.iter().fold(OFFSET, |hash, &byte| (hash ^ u128::from(byte)).wrapping_mul(PRIME))
+}

@@ -1,0 +1,592 @@
+//! Keeping the document: with every change, whatever a path or a number in it is, while the disk refuses, beside other windows.
+
+use std::ffi::OsString;
+use std::fs;
+use std::os::unix::ffi::OsStringExt as _;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use chromascope::action::{Action, OwnAction, SceneAction};
+use chromascope::app::ChromascopeApp;
+use chromascope::catalog::import::import;
+use chromascope::catalog::meshes::{MeshState, MeshStore};
+use chromascope::command::Command;
+use chromascope::document::history::History;
+use chromascope::document::own::OwnSet;
+use chromascope::document::render::MeshChoice;
+use chromascope::document::{Document, session};
+use chromascope::files::{Files, StandingKind};
+use chromascope::jobs::Executor;
+use chromascope::view::SavedView;
+use egui::ViewportCommand;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::cpu_renderer::Cpu;
+use crate::import_switches::{Window, says};
+use crate::waiting::until;
+
+const LEAF: &str = "nm,leaf\n400,0.05\n500,0.1\n600,0.2\n700,0.5\n";
+
+/// A profile folder, within one that is removed afterwards.
+fn profile() -> (tempfile::TempDir, PathBuf) {
+    let around = tempfile::tempdir().unwrap();
+    let folder = around.path().join("chromascope");
+    fs::create_dir(&folder).unwrap();
+    (around, folder)
+}
+
+fn open(folder: &Path) -> Files {
+    Files::new(Some(folder.to_owned()))
+}
+
+fn of(kelvin: f64) -> Document {
+    Document { temperature_k: kelvin, ..Document::paper() }
+}
+
+fn set(name: &str) -> OwnSet {
+    OwnSet { name: name.to_owned(), ..import("leaf.csv", LEAF.as_bytes(), None).unwrap().set }
+}
+
+fn with_sets(sets: Vec<OwnSet>) -> Document {
+    let mut document = Document::paper();
+    Action::Own(OwnAction::Import(sets)).apply(&mut document);
+    document
+}
+
+/// The document that a next window begins with.
+fn kept(folder: &Path) -> Document {
+    open(folder).kept_document()
+}
+
+fn words(files: &Files, kind: StandingKind) -> Option<String> {
+    files.standing().into_iter().find(|standing| standing.kind == kind).map(|standing| standing.words)
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+fn window_with(executor: &Executor, document: Document, files: Files) -> Window {
+    let mut window =
+        Harness::builder().with_size([1280.0, 800.0]).with_pixels_per_point(1.0).renderer(Cpu::default()).build_eframe(
+            |cc| ChromascopeApp::on(executor, &cc.egui_ctx, History::new(document), SavedView::default(), files),
+        );
+    window.run_steps(2);
+    window
+}
+
+/// The program on a profile, with an executor that the test drives.
+fn window(folder: &Path) -> (Executor, Window) {
+    let executor = Executor::driven();
+    let mut files = Files::on(&executor, Some(folder.to_owned())).without_dialogs();
+    let document = files.kept_document();
+    let window = window_with(&executor, document, files);
+    (executor, window)
+}
+
+fn change(window: &mut Window, kelvin: f64) {
+    window.state_mut().push(Action::Scene(SceneAction::SetTemperature(kelvin)));
+    window.run_steps(1);
+}
+
+// ---- Paths and numbers ----
+
+fn latin_1() -> OsString {
+    OsString::from_vec(b"caf\xe9.csv".to_vec())
+}
+
+#[test]
+fn a_path_that_is_not_utf_8_is_kept_as_it_is() {
+    let (_around, folder) = profile();
+    let path = Path::new("/measured").join(latin_1());
+    let mut document = with_sets(vec![OwnSet { path: Some(path.clone()), ..set("coffee") }, set("leaf")]);
+    document.render.mesh = MeshChoice::File(path.clone());
+    open(&folder).save_document(&document).unwrap();
+    assert_eq!(kept(&folder), document);
+    let json = session::to_json(&document).unwrap();
+    assert_eq!(session::from_json(&json).unwrap(), document);
+    // Other paths stay readable, and documents of before are read.
+    document.own.clear();
+    document.render.mesh = MeshChoice::File(PathBuf::from("/measured/head.obj"));
+    let json = session::to_json(&document).unwrap();
+    assert!(json.contains("\"/measured/head.obj\""), "{json}");
+    // The view, which eframe writes in a form of its own.
+    let view = SavedView { recent: vec![path, PathBuf::from("/measured/leaf.csv")], ..SavedView::default() };
+    let ron = ron::to_string(&view).unwrap();
+    assert_eq!(ron::from_str::<SavedView>(&ron).unwrap(), view);
+}
+
+#[test]
+fn a_mesh_whose_path_is_not_utf_8_is_shown() {
+    let (_around, folder) = profile();
+    let path = folder.join(OsString::from_vec(b"caf\xe9.obj".to_vec()));
+    fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    let store = MeshStore::new(|| {});
+    until("the mesh", || match store.get(&path) {
+        MeshState::Ready(_) => Ok(()),
+        other => Err(format!("{other:?}")),
+    });
+}
+
+#[test]
+fn a_number_that_json_does_not_have_costs_no_document() {
+    let (_around, folder) = profile();
+    let mut odd = set("odd");
+    odd.curves[0].values[1] = f64::NAN;
+    odd.curves[0].values[2] = f64::INFINITY;
+    let document = with_sets(vec![odd, set("leaf")]);
+    open(&folder).save_document(&document).unwrap();
+    let again = kept(&folder);
+    assert_eq!(again.own.len(), 2);
+    assert_eq!(again.own[1], document.own[1]);
+    assert!(again.own[0].curves[0].values[1].is_nan());
+    assert!(session::from_json(&session::to_json(&document).unwrap()).is_ok());
+}
+
+#[test]
+fn numbers_are_read_back_to_the_last_bit() {
+    let mut leaf = set("leaf");
+    let values = &mut leaf.curves[0].values;
+    // Multiples of an irrational number: all digits matter.
+    *values = (1..=500).map(|i| (f64::from(i) * std::f64::consts::SQRT_2).fract()).collect();
+    leaf.curves[0].wavelengths = (1..=500).map(|i| 300.0 + f64::from(i) / 3.0).collect();
+    let document = with_sets(vec![leaf]);
+    assert_eq!(session::from_json(&session::to_json(&document).unwrap()).unwrap(), document);
+    let (_around, folder) = profile();
+    open(&folder).save_document(&document).unwrap();
+    assert_eq!(kept(&folder), document);
+}
+
+// ---- Sets beside the document ----
+
+#[test]
+fn curves_are_written_once_and_a_change_costs_little() {
+    let (_around, folder) = profile();
+    let mut files = open(&folder);
+    files.kept_document();
+    let mut leaf = set("leaf");
+    leaf.curves[0].values = (0..100_000).map(|i| f64::from(i).sqrt()).collect();
+    leaf.curves[0].wavelengths = (0..100_000).map(|i| 300.0 + f64::from(i) / 100.0).collect();
+    let mut document = with_sets(vec![leaf, set("twig")]);
+    files.save_document(&document).unwrap();
+    let curves = names(&folder.join("curves"));
+    assert_eq!(curves.len(), 1, "one file for all that came at once: {curves:?}");
+    let size = |name: &str| fs::metadata(folder.join(name)).unwrap().len();
+    assert!(size("document.json") < 10_000 && size(&format!("curves/{}", curves[0])) > 1_000_000);
+    // Another temperature, another name: neither writes the curves again.
+    document.temperature_k = 3000.0;
+    files.save_document(&document).unwrap();
+    let renamed = OwnSet { name: "branch".to_owned(), ..(*document.own[0]).clone() };
+    Action::Own(OwnAction::Replace { name: "leaf".to_owned(), with: Box::new(renamed) }).apply(&mut document);
+    files.save_document(&document).unwrap();
+    assert_eq!(names(&folder.join("curves")), curves);
+    drop(files);
+    assert_eq!(kept(&folder), document);
+}
+
+#[test]
+fn a_document_that_holds_its_curves_is_taken_apart() {
+    let (_around, folder) = profile();
+    let document = with_sets(vec![set("leaf"), set("twig")]);
+    let mut json: serde_json::Value = serde_json::from_str(&session::to_json(&document).unwrap()).unwrap();
+    json["version"] = 2.into();
+    fs::write(folder.join("document.json"), json.to_string()).unwrap();
+    let mut files = open(&folder);
+    assert_eq!(files.kept_document(), document);
+    files.save_document(&document).unwrap();
+    assert_eq!(names(&folder.join("curves")).len(), 1);
+    drop(files);
+    assert_eq!(kept(&folder), document);
+}
+
+#[test]
+fn a_set_whose_curves_are_gone_costs_only_itself() {
+    let (_around, folder) = profile();
+    let mut document = with_sets(vec![set("leaf")]);
+    let mut files = open(&folder);
+    files.save_document(&document).unwrap();
+    let first = names(&folder.join("curves"));
+    let mut twig = set("twig");
+    twig.curves[0].values[0] = 0.25;
+    Action::Own(OwnAction::Import(vec![twig])).apply(&mut document);
+    files.save_document(&document).unwrap();
+    drop(files);
+    fs::write(folder.join("curves").join(&first[0]), "[[").unwrap();
+    let before = fs::read(folder.join("document.json")).unwrap();
+    let mut files = open(&folder);
+    let again = files.kept_document();
+    assert_eq!(again.own.iter().map(|set| set.name.as_str()).collect::<Vec<_>>(), ["twig"]);
+    let said = words(&files, StandingKind::SetAside).unwrap();
+    assert!(said.contains("leaf") && said.contains("document-unreadable-1.json"), "{said}");
+    assert_eq!(fs::read(folder.join("document-unreadable-1.json")).unwrap(), before);
+}
+
+#[test]
+fn a_set_that_cannot_be_written_does_not_stop_the_rest() {
+    let (_around, folder) = profile();
+    let executor = Executor::driven();
+    let mut files = Files::on(&executor, Some(folder.clone()));
+    let document = files.kept_document();
+    // In the place of the folder of curves there is a file.
+    fs::write(folder.join("curves"), "").unwrap();
+    let mut document = Document { temperature_k: 4321.0, ..document };
+    Action::Own(OwnAction::Import(vec![set("leaf")])).apply(&mut document);
+    let why = files.save_document(&document).unwrap_err();
+    assert!(why.starts_with("leaf could not be saved (") && why.ends_with("; the rest is"), "{why}");
+    assert_eq!(
+        session::from_json(&fs::read_to_string(folder.join("document.json")).unwrap()).unwrap().temperature_k,
+        4321.0
+    );
+    assert!(words(&files, StandingKind::NotSaved).is_some_and(|words| words.contains("leaf")));
+    // It is tried again until it is.
+    fs::remove_file(folder.join("curves")).unwrap();
+    executor.advance(Duration::from_secs(2));
+    files.autosave(&document, &egui::Context::default());
+    executor.run_all();
+    assert_eq!(words(&files, StandingKind::NotSaved), None);
+    drop(files);
+    assert_eq!(kept(&folder), document);
+}
+
+// ---- Documents that cannot be read ----
+
+#[test]
+fn each_document_that_cannot_be_read_is_set_aside_under_a_name_of_its_own() {
+    let (_around, folder) = profile();
+    let whole = session::to_json(&Document::paper()).unwrap();
+    let mut invalid = whole.clone().into_bytes();
+    invalid[20] = 0xFF;
+    let truncated = whole.as_bytes()[..whole.len() / 2].to_vec();
+    let newer = whole.replace("\"version\": 3", "\"version\": 99").into_bytes();
+    for (index, (broken, why)) in
+        [(invalid, "it is no text"), (truncated, "EOF"), (newer, "newer Chromascope")].into_iter().enumerate()
+    {
+        fs::write(folder.join("document.json"), &broken).unwrap();
+        let mut files = open(&folder);
+        assert_eq!(files.kept_document(), Document::default());
+        let aside = folder.join(format!("document-unreadable-{}.json", index + 1));
+        let said = words(&files, StandingKind::SetAside).unwrap();
+        assert!(said.contains(why) && said.contains(&aside.display().to_string()), "{said}");
+        files.save_document(&of(3000.0)).unwrap();
+        assert_eq!(fs::read(&aside).unwrap(), broken);
+        assert!(words(&files, StandingKind::SetAside).is_some(), "it stays");
+        files.dismiss(StandingKind::SetAside);
+        assert_eq!(words(&files, StandingKind::SetAside), None);
+    }
+}
+
+#[test]
+fn a_document_that_the_system_does_not_give_is_set_aside_too() {
+    let (_around, folder) = profile();
+    // As without the permission, reading fails.
+    fs::create_dir(folder.join("document.json")).unwrap();
+    let mut files = open(&folder);
+    assert_eq!(files.kept_document(), Document::default());
+    assert!(words(&files, StandingKind::SetAside).is_some());
+    assert!(folder.join("document-unreadable-1.json").is_dir());
+    files.save_document(&of(3000.0)).unwrap();
+    drop(files);
+    assert_eq!(kept(&folder), of(3000.0));
+}
+
+#[test]
+fn a_sentence_about_the_document_stays_until_it_is_dismissed() {
+    let (_around, folder) = profile();
+    fs::write(folder.join("document.json"), b"\xff").unwrap();
+    let (_executor, mut window) = window(&folder);
+    let sentence = "The document of the last session could not be read";
+    window.state_mut().view_mut().say("Something else.");
+    window.run_steps(2);
+    assert!(says(&window, sentence));
+    window.get_by_role_and_label(Role::Button, "Dismiss").click();
+    window.run_steps(2);
+    assert!(!says(&window, sentence));
+}
+
+// ---- Saving while someone works, and while the disk refuses ----
+
+#[test]
+fn changes_without_pause_are_on_disk_within_a_second() {
+    let (_around, folder) = profile();
+    let (executor, mut window) = window(&folder);
+    let mut writes = 0;
+    for step in 0..100 {
+        let kelvin = 3000.0 + f64::from(step);
+        change(&mut window, kelvin);
+        while executor.run_one("keep") {
+            writes += 1;
+        }
+        executor.advance(Duration::from_millis(50));
+        let text = fs::read_to_string(folder.join("document.json")).unwrap();
+        let age = kelvin - session::from_json(&text).unwrap().temperature_k;
+        assert!(age * 50.0 < 1000.0, "{age} changes of 50 ms are not on disk");
+    }
+    assert!((10..=25).contains(&writes), "{writes} writes in 5 s");
+}
+
+#[test]
+fn a_window_that_goes_without_closing_saves() {
+    let (_around, folder) = profile();
+    let (executor, mut window) = window(&folder);
+    change(&mut window, 3456.0);
+    assert!(executor.queued().contains(&"keep".to_owned()), "nothing is written yet");
+    drop(window);
+    assert_eq!(kept(&folder).temperature_k, 3456.0);
+}
+
+/// Takes a folder away, and puts a file in its place.
+fn vanish(folder: &Path) -> PathBuf {
+    let away = folder.with_extension("away");
+    fs::rename(folder, &away).unwrap();
+    fs::write(folder, "").unwrap();
+    away
+}
+
+fn come_back(folder: &Path, away: &Path) {
+    fs::remove_file(folder).unwrap();
+    fs::rename(away, folder).unwrap();
+}
+
+#[test]
+fn a_failed_save_is_said_and_tried_again_until_it_succeeds() {
+    let (_around, folder) = profile();
+    let (executor, mut window) = window(&folder);
+    let away = vanish(&folder);
+    change(&mut window, 3456.0);
+    let mut tries = 0;
+    for _ in 0..100 {
+        while executor.run_one("keep") {
+            tries += 1;
+        }
+        executor.advance(Duration::from_millis(100));
+        window.run_steps(1);
+    }
+    assert!((4..=6).contains(&tries), "{tries} in 10 s");
+    assert!(says(&window, "Changes are not saved: "));
+    come_back(&folder, &away);
+    executor.advance(Duration::from_secs(2));
+    window.run_steps(1);
+    while executor.run_one("keep") {}
+    window.run_steps(2);
+    assert!(!says(&window, "Changes are not saved: "));
+    drop(window);
+    assert_eq!(kept(&folder).temperature_k, 3456.0);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_told_at_the_start() {
+    let around = tempfile::tempdir().unwrap();
+    fs::write(around.path().join("file"), "").unwrap();
+    let (_executor, mut window) = window(&around.path().join("file").join("chromascope"));
+    assert!(says(&window, "Nothing can be saved: "));
+    assert!(!close(&mut window), "nothing was changed, so nothing is lost");
+}
+
+/// Asks the window to close. Returns whether it held on.
+fn close(window: &mut Window) -> bool {
+    let root = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
+    root.events.push(egui::ViewportEvent::Close);
+    window.step();
+    sent(window, &ViewportCommand::CancelClose)
+}
+
+fn sent(window: &Window, command: &ViewportCommand) -> bool {
+    window.output().viewport_output[&egui::ViewportId::ROOT].commands.contains(command)
+}
+
+fn click(window: &mut Window, button: &str) -> bool {
+    window.get_by_role_and_label(Role::Button, button).click();
+    (0..3).any(|_| {
+        window.step();
+        sent(window, &ViewportCommand::Close)
+    })
+}
+
+const QUESTION: &str = "Your changes are not saved";
+
+#[test]
+fn closing_asks_while_changes_are_not_saved() {
+    let (_around, folder) = profile();
+    let (_executor, mut window) = window(&folder);
+    assert!(!close(&mut window), "all is saved");
+    let away = vanish(&folder);
+    change(&mut window, 3456.0);
+    assert!(close(&mut window));
+    window.run_steps(2);
+    assert!(says(&window, QUESTION));
+    assert!(!click(&mut window, "Cancel"));
+    assert!(!says(&window, QUESTION));
+    assert!(close(&mut window));
+    window.run_steps(2);
+    assert!(click(&mut window, "Close without saving"));
+    assert!(!close(&mut window), "it was agreed to");
+    come_back(&folder, &away);
+}
+
+#[test]
+fn what_cannot_be_saved_is_saved_elsewhere_and_opened_from_there() {
+    let (around, folder) = profile();
+    let (_executor, mut window) = window(&folder);
+    let away = vanish(&folder);
+    window.state_mut().push(Action::Own(OwnAction::Import(vec![set("leaf")])));
+    change(&mut window, 3456.0);
+    assert!(close(&mut window));
+    window.run_steps(2);
+    assert!(!click(&mut window, "Save elsewhere…"));
+    let path = around.path().join("saved.json");
+    until("the question where to", || {
+        window.run_steps(1);
+        if says(&window, "Save the document") { Ok(()) } else { Err("it is not asked".to_owned()) }
+    });
+    window.run_steps(2);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    window.run_steps(1);
+    window.get_by_role_and_label(Role::TextInput, "Path").type_text(path.to_str().unwrap());
+    window.run_steps(1);
+    window.key_press(egui::Key::Enter);
+    until("the end", || {
+        window.step();
+        if sent(&window, &ViewportCommand::Close) { Ok(()) } else { Err("it is open".to_owned()) }
+    });
+    let document = window.state().history().document().clone();
+    assert_eq!(session::from_json(&fs::read_to_string(&path).unwrap()).unwrap(), document);
+    drop(window);
+    come_back(&folder, &away);
+    // In the next session it is opened like any file; what was there is kept.
+    let (executor, mut window) = self::window(&folder);
+    window.state_mut().push(Command::OpenPath(path));
+    opens(&executor, &mut window, &document);
+}
+
+/// Waits until a document has taken the place of the one before.
+fn opens(executor: &Executor, window: &mut Window, document: &Document) {
+    until("the document", || {
+        executor.run_all();
+        window.run_steps(1);
+        if window.state().history().document() == document {
+            Ok(())
+        } else {
+            Err(window.state().view().status.text.clone())
+        }
+    });
+}
+
+// ---- Other windows ----
+
+#[test]
+fn two_windows_lose_nothing_in_any_order_of_closing() {
+    for first_closes_first in [true, false] {
+        let (_around, folder) = profile();
+        let mut first = open(&folder);
+        first.kept_document();
+        let mut second = open(&folder);
+        second.kept_document();
+        let with_leaf = with_sets(vec![set("leaf")]);
+        second.save_document(&with_leaf).unwrap();
+        first.save_document(&of(3000.0)).unwrap();
+        if first_closes_first {
+            drop(first);
+            // A third window takes the profile while the second one is open: its curves stay.
+            assert_eq!(kept(&folder), of(3000.0));
+            assert!(open(&folder).kept_documents().is_empty(), "its window is open");
+            drop(second);
+        } else {
+            drop(second);
+            drop(first);
+        }
+        let mut next = open(&folder);
+        assert_eq!(next.kept_document(), of(3000.0));
+        let copies = next.kept_documents();
+        assert_eq!(copies.len(), 1);
+        drop(next);
+        let (executor, mut window) = window(&folder);
+        assert!(says(&window, "A document of another window is kept"));
+        window.state_mut().push(Command::OpenDocument(copies[0].0.clone()));
+        opens(&executor, &mut window, &with_leaf);
+        // The document before it is kept as well, and undo brings it back.
+        assert_eq!(window.state().view().kept.len(), 2);
+        window.state_mut().push(Command::Undo);
+        window.run_steps(2);
+        assert_eq!(*window.state().history().document(), of(3000.0));
+        window.state_mut().push(Command::Redo);
+        window.run_steps(2);
+        window.state_mut().push(Command::RemoveDocument(copies[0].0.clone()));
+        window.run_steps(2);
+        assert_eq!(window.state().view().kept.len(), 1);
+        drop(window);
+        assert_eq!(kept(&folder), with_leaf);
+    }
+}
+
+#[test]
+fn a_document_that_another_program_writes_is_not_overwritten() {
+    let (_around, folder) = profile();
+    let mut files = open(&folder);
+    files.kept_document();
+    files.save_document(&of(3000.0)).unwrap();
+    // As on a folder without locks, from another machine.
+    let theirs = session::to_json(&of(4000.0)).unwrap();
+    fs::write(folder.join("document.json"), &theirs).unwrap();
+    files.save_document(&of(5000.0)).unwrap();
+    files.save_document(&of(6000.0)).unwrap();
+    assert_eq!(fs::read_to_string(folder.join("document.json")).unwrap(), theirs);
+    assert!(words(&files, StandingKind::Moved).is_some());
+    drop(files);
+    let mut next = open(&folder);
+    assert_eq!(next.kept_document(), of(4000.0));
+    let copies = next.kept_documents();
+    assert_eq!(copies.len(), 1);
+    assert_eq!(session::from_json(&fs::read_to_string(&copies[0].0).unwrap()).unwrap(), of(6000.0));
+}
+
+// ---- Temporary files and the layout ----
+
+#[test]
+fn what_a_killed_process_was_writing_is_removed() {
+    let (_around, folder) = profile();
+    fs::create_dir(folder.join("curves")).unwrap();
+    for name in [".chromascope-a1B2c3", "curves/.chromascope-d4E5f6", "unlike.chromascope-x"] {
+        fs::write(folder.join(name), "half").unwrap();
+    }
+    let held = fs::File::create(folder.join(".chromascope-held")).unwrap();
+    held.try_lock().unwrap();
+    let files = open(&folder);
+    assert_eq!(names(&folder), [".chromascope-held", "curves", "unlike.chromascope-x", "window.lock"]);
+    assert!(names(&folder.join("curves")).is_empty());
+    drop((files, held));
+}
+
+#[test]
+fn the_layout_is_the_first_windows_and_written_whole() {
+    struct Refuses;
+    impl eframe::Storage for Refuses {
+        fn get_string(&self, _: &str) -> Option<String> {
+            None
+        }
+        fn set_string(&mut self, key: &str, _: String) {
+            panic!("eframe would write {key} in place");
+        }
+        fn remove_string(&mut self, _: &str) {}
+        fn flush(&mut self) {}
+    }
+    let (_around, folder) = profile();
+    let layout = || fs::read_to_string(folder.join("app.ron"));
+    let (_executor, mut first) = window(&folder);
+    let (_also, mut second) = window(&folder);
+    eframe::App::save(second.state_mut(), &mut Refuses);
+    eframe::App::on_exit(second.state_mut(), None);
+    assert!(layout().is_err(), "the layout is the first one's");
+    eframe::App::save(first.state_mut(), &mut Refuses);
+    assert!(!eframe::App::persist_egui_memory(first.state()));
+    eframe::App::on_exit(first.state_mut(), None);
+    // As eframe reads it.
+    let values: std::collections::HashMap<String, String> = ron::from_str(&layout().unwrap()).unwrap();
+    let saved: SavedView = ron::from_str(&values["layout"]).unwrap();
+    assert_eq!(saved, first.state().saved_view());
+    assert!(values.contains_key("egui"));
+}
