@@ -79,7 +79,7 @@ impl ChromascopeApp {
             history,
             catalog: Catalog::built_in(),
             results: Results::default(),
-            view: View { saved, import, ..View::default() },
+            view: View { saved, import, kept: files.kept_documents(), ..View::default() },
             files,
             meshes: MeshStore::on(executor, move || window.request_repaint()),
             opened,

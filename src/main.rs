@@ -12,7 +12,9 @@ fn main() -> ExitCode {
         cli::Outcome::Done(code) => return ExitCode::from(code),
         cli::Outcome::Window(files) => files,
     };
-    let logger = env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn"))
+    let wanted = env_logger::Env::default().default_filter_or("warn");
+    let logger = env_logger::Builder::from_env(wanted)
+        .format_timestamp_millis()
         .target(env_logger::Target::Pipe(Box::new(terminal::StandardError)))
         .build();
     // Errors come through whatever the environment says: by them dialogs that are not there are told from Cancel.

@@ -39,7 +39,7 @@ pub(super) struct WindowPlace {
     /// Its place and size when it is neither maximized nor fills the screen.
     normal: Option<WindowGeometry>,
     /// What egui knows of it, by which a change is told.
-    seen: Option<(Option<egui::Rect>, Option<egui::Rect>, Option<bool>, Option<bool>)>,
+    seen: Option<([Option<egui::Rect>; 2], [Option<bool>; 2])>,
 }
 
 impl WindowPlace {
@@ -54,7 +54,7 @@ impl WindowPlace {
     pub(super) fn follow(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
         let now = ctx.input(|input| {
             let viewport = input.viewport();
-            (viewport.outer_rect, viewport.inner_rect, viewport.maximized, viewport.fullscreen)
+            ([viewport.outer_rect, viewport.inner_rect], [viewport.maximized, viewport.fullscreen])
         });
         if self.seen == Some(now) {
             return;

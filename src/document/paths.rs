@@ -85,7 +85,6 @@ pub mod option {
     use super::{Deserialize, Deserializer, PathBuf, Read, Serialize, Serializer, Written};
 
     /// Saves a path, if there is one.
-    #[expect(clippy::ref_option, reason = "serde passes the field")]
     pub fn serialize<S: Serializer>(path: &Option<PathBuf>, serializer: S) -> Result<S::Ok, S::Error> {
         path.as_deref().map(Written).serialize(serializer)
     }

@@ -11,7 +11,7 @@ use crate::document::Document;
 use crate::jobs::{Clock, Executor};
 
 /// A change is written at once, those that follow no sooner than so long after it.
-const PAUSE: Duration = Duration::from_millis(250);
+const PAUSE: Duration = Duration::from_millis(150);
 /// A document that could not be written is tried again after so long.
 const RETRY: Duration = Duration::from_secs(2);
 
@@ -76,6 +76,8 @@ impl State {
         if is(&self.newest) {
             return;
         }
+        // What kills are judged by (`.ci/kills`).
+        log::debug!("changed: {} K", document.temperature_k);
         self.newest =
             Some(if is(&self.saved) { self.saved.clone() } else { None }.unwrap_or_else(|| Arc::new(document.clone())));
     }
@@ -227,8 +229,9 @@ impl Keeper {
                     [one] => one.clone(),
                     many => format!("{} sets, the first {}", many.len(), many[0]),
                 };
-                let what = format!("An imported set of the last session could not be read ({some}).");
-                let complaint = if is_others { None } else { Some(self.set_aside(&first, &what, true)) };
+                let complaint = (!is_others).then(|| {
+                    self.set_aside(&first, "An imported set could not be read; the document that names it", &some, true)
+                });
                 Loaded { document: kept.document, complaint }
             }
             Err(Unread::Missing) => Loaded { document: Document::default(), complaint: None },
@@ -239,8 +242,8 @@ impl Keeper {
                 Loaded { document: Document::default(), complaint: Some((words, first)) }
             }
             Err(Unread::Because(why)) => {
-                let what = format!("The document of the last session could not be read ({why}).");
-                Loaded { document: Document::default(), complaint: Some(self.set_aside(&first, &what, false)) }
+                let complaint = self.set_aside(&first, "The last document could not be read and", &why, false);
+                Loaded { document: Document::default(), complaint: Some(complaint) }
             }
         };
         // What is opened before the first frame is a change already.
@@ -256,20 +259,20 @@ impl Keeper {
 
     /// A kept document that cannot be read as it is is not overwritten: it is moved or copied aside, and if neither can be, this
     /// window keeps its document in another file.
-    fn set_aside(&mut self, file: &Path, what: &str, copy: bool) -> (String, PathBuf) {
+    fn set_aside(&mut self, file: &Path, what: &str, why: &str, copy: bool) -> (String, PathBuf) {
         let aside = profile::free_aside(file.parent().unwrap_or(Path::new(".")));
         let result = if copy { std::fs::copy(file, &aside).map(drop) } else { std::fs::rename(file, &aside) };
         match result {
-            Ok(()) => (format!("{what} It is now {}.", aside.display()), aside),
+            Ok(()) => (format!("{what} is now {} ({why}).", aside.display()), aside),
             Err(error) => {
-                let why = super::reason(&error);
                 self.profile.leave_document();
                 let own = self.profile.file.clone().unwrap_or_default();
                 self.desk.store().move_to(own.clone());
                 let words = format!(
-                    "{what} It stays as it is, {}, for it could not be moved ({why}); this window's document is kept in {}.",
+                    "{what} stays {}; this window's is {} ({why}; it could not be moved: {}).",
                     file.display(),
-                    own.display()
+                    own.display(),
+                    super::reason(&error)
                 );
                 (words, file.to_owned())
             }

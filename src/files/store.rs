@@ -43,8 +43,10 @@ pub(super) enum Unread {
 pub(super) struct Store {
     /// The document's file.
     file: PathBuf,
-    /// Contents of that file as this window read or wrote them, the latest last. Others are another program's.
-    seen: [Option<Fingerprint>; 2],
+    /// Contents of that file as this window read or wrote them. Others are another program's.
+    seen: Option<Fingerprint>,
+    /// Contents that this window tried to write, which may be there although that failed.
+    tried: Option<Fingerprint>,
     /// Sets of the document as it was written, by address.
     known: HashMap<usize, (Shared<OwnSet>, Place)>,
     /// Curves that this window wrote, by their text.
@@ -66,7 +68,7 @@ impl Store {
 
     /// Goes on in another file.
     pub(super) fn move_to(&mut self, file: PathBuf) {
-        (self.file, self.seen) = (file, [None; 2]);
+        (self.file, self.seen, self.tried) = (file, None, None);
     }
 
     /// Whether the file holds curves itself, as earlier versions wrote it.
@@ -83,7 +85,7 @@ impl Store {
             }
         }
         if file == self.file {
-            self.seen = [None, Some(fingerprint)];
+            self.seen = Some(fingerprint);
             self.by_value = kept.places.iter().any(Option::is_none);
         }
         Ok(kept)
@@ -116,10 +118,10 @@ impl Store {
             (Some(why), many) => format!("{} imported sets could not be saved ({why}); the rest is", many.len()),
             (None, _) => String::new(),
         };
-        self.seen = [self.seen[1], Some(Fingerprint::of(json.as_bytes()))];
+        self.tried = Some(Fingerprint::of(json.as_bytes()));
         write_atomically(&self.file, json.as_bytes())
             .map_err(|error| format!("{}: {}", self.file.display(), reason(&error)))?;
-        self.by_value = false;
+        (self.seen, self.by_value) = (self.tried, false);
         let present: HashSet<usize> = document.own.iter().map(address).collect();
         if left_out.is_empty() && self.known.len() > present.len() {
             self.known.retain(|address, _| present.contains(address));
@@ -128,8 +130,13 @@ impl Store {
     }
 
     /// Whether the file holds what this window neither read nor wrote.
-    fn is_foreign(&self) -> bool {
-        fs::read(&self.file).is_ok_and(|bytes| !self.seen.contains(&Some(Fingerprint::of(&bytes))))
+    fn is_foreign(&mut self) -> bool {
+        let Ok(bytes) = fs::read(&self.file) else { return false };
+        let there = Some(Fingerprint::of(&bytes));
+        if there == self.tried {
+            self.seen = there;
+        }
+        there != self.seen
     }
 
     /// Writes the curves that are in no file yet, all into one: a folder of files that is opened costs one flush.

@@ -299,7 +299,7 @@ fn a_sentence_about_the_document_stays_until_it_is_dismissed() {
     let (_around, folder) = profile();
     fs::write(folder.join("document.json"), b"\xff").unwrap();
     let (_executor, mut window) = window(&folder);
-    let sentence = "The document of the last session could not be read";
+    let sentence = "The last document could not be read";
     window.state_mut().view_mut().say("Something else.");
     window.run_steps(2);
     assert!(says(&window, sentence));
@@ -326,7 +326,7 @@ fn changes_without_pause_are_on_disk_within_a_second() {
         let age = kelvin - session::from_json(&text).unwrap().temperature_k;
         assert!(age * 50.0 < 1000.0, "{age} changes of 50 ms are not on disk");
     }
-    assert!((10..=25).contains(&writes), "{writes} writes in 5 s");
+    assert!((10..=40).contains(&writes), "{writes} writes in 5 s");
 }
 
 #[test]
@@ -356,6 +356,8 @@ fn come_back(folder: &Path, away: &Path) {
 fn a_failed_save_is_said_and_tried_again_until_it_succeeds() {
     let (_around, folder) = profile();
     let (executor, mut window) = window(&folder);
+    change(&mut window, 3333.0);
+    executor.run_one("keep");
     let away = vanish(&folder);
     change(&mut window, 3456.0);
     let mut tries = 0;
@@ -376,6 +378,7 @@ fn a_failed_save_is_said_and_tried_again_until_it_succeeds() {
     assert!(!says(&window, "Changes are not saved: "));
     drop(window);
     assert_eq!(kept(&folder).temperature_k, 3456.0);
+    assert!(open(&folder).kept_documents().is_empty(), "what stood there was this window's own");
 }
 
 #[test]
