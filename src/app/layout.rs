@@ -32,14 +32,20 @@ impl eframe::Storage for Values {
     fn flush(&mut self) {}
 }
 
+/// What egui knows of the window's place, by which a change is told.
+#[derive(Clone, Copy, Default, PartialEq)]
+struct Seen {
+    rects: [Option<egui::Rect>; 2],
+    fills: [Option<bool>; 2],
+}
+
 /// Where the window is.
 #[derive(Default)]
 pub(super) struct WindowPlace {
     settings: Option<WindowSettings>,
     /// Its place and size when it is neither maximized nor fills the screen.
     normal: Option<WindowGeometry>,
-    /// What egui knows of it, by which a change is told.
-    seen: Option<([Option<egui::Rect>; 2], [Option<bool>; 2])>,
+    seen: Seen,
 }
 
 impl WindowPlace {
@@ -47,22 +53,22 @@ impl WindowPlace {
     pub(super) fn restored(storage: Option<&dyn eframe::Storage>) -> Self {
         let settings: Option<WindowSettings> = storage.and_then(|storage| eframe::get_value(storage, WINDOW_KEY));
         let normal = settings.as_ref().map(WindowSettings::normal_geometry);
-        Self { settings, normal, seen: None }
+        Self { settings, normal, seen: Seen::default() }
     }
 
     /// Looks where the window is, if it changed.
     pub(super) fn follow(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
         let now = ctx.input(|input| {
             let viewport = input.viewport();
-            ([viewport.outer_rect, viewport.inner_rect], [viewport.maximized, viewport.fullscreen])
+            Seen { rects: [viewport.outer_rect, viewport.inner_rect], fills: [viewport.maximized, viewport.fullscreen] }
         });
-        if self.seen == Some(now) {
+        if self.settings.is_some() && self.seen == now {
             return;
         }
         if let Some(window) = frame.winit_window() {
             let settings = WindowSettings::from_window(ctx.zoom_factor(), window, self.normal);
             (self.normal, self.settings) = (Some(settings.normal_geometry()), Some(settings));
-            self.seen = Some(now);
+            self.seen = now;
         }
     }
 }
