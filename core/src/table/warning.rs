@@ -348,23 +348,25 @@ impl Warning {
     }
 }
 
+fn gaps(f: &mut fmt::Formatter<'_>, cells: usize, lines: &LineList, sentinel: Option<&Sentinel>) -> fmt::Result {
+    write!(f, "{cells} missing value{}", if cells == 1 { "" } else { "s" })?;
+    if !lines.is_empty() {
+        write!(f, ", {lines}")?;
+    }
+    f.write_str(": left out")?;
+    match sentinel {
+        Some(Sentinel { number, curve }) if number.abs() >= 1e9 => {
+            write!(f, " ({number:e} in {curve} stands for no value)")
+        }
+        Some(Sentinel { number, curve }) => write!(f, " ({number} in {curve} stands for no value)"),
+        None => Ok(()),
+    }
+}
+
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Gaps { cells, lines, sentinel } => {
-                write!(f, "{cells} missing value{}", if *cells == 1 { "" } else { "s" })?;
-                if !lines.is_empty() {
-                    write!(f, ", {lines}")?;
-                }
-                f.write_str(": left out")?;
-                match sentinel {
-                    Some(Sentinel { number, curve }) if number.abs() >= 1e9 => {
-                        write!(f, " ({number:e} in {curve} stands for no value)")
-                    }
-                    Some(Sentinel { number, curve }) => write!(f, " ({number} in {curve} stands for no value)"),
-                    None => Ok(()),
-                }
-            }
+            Self::Gaps { cells, lines, sentinel } => gaps(f, *cells, lines, sentinel.as_ref()),
             Self::SkippedColumns { wavelength_column } => {
                 write!(f, "Wavelengths stand in column {wavelength_column}: the columns before it are left out")
             }
