@@ -37,7 +37,9 @@
 //! files is a small file in `families`: it fills the same `Grid`, and all after it is shared.
 
 mod bands;
+mod clues;
 mod columns;
+mod companions;
 mod decimal;
 mod dialect;
 mod error;
@@ -211,7 +213,8 @@ fn finish(
     warnings.look(usize::MAX)?;
     gaps::take(&mut grid, &mut warnings);
     photons::suggest_role(&mut grid);
-    let scale = scale::decide(&grid, options);
+    companions::leave_out(&mut grid, &mut warnings);
+    let scale = scale::decide(&grid, options, &mut warnings);
     let quantity = quantity::decide(&grid, &scale.role, &mut warnings);
     let per_photon = quantity::per_photon(&grid, scale.role.value, &quantity);
     scale::convert(&mut grid, &scale);

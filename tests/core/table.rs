@@ -214,7 +214,6 @@ fn percent_and_fractions() {
         ("# unit: percent\n400,5\n500,50\n", true, Sure::Certain),
         ("# quantity: reflectance\n# unit: 1\n400,0.05\n500,0.5\n", false, Sure::Certain),
         ("Y Units:  Reflectance (percent)\n400 5\n500 50\n", true, Sure::Certain),
-        ("400,5\n500,50\n", true, Sure::Guess),
         ("Wavelength (nm) Reflectance (%)\n400 5\n500 50\n", true, Sure::Certain),
         ("400,0.05\n500,0.5\n", false, Sure::Guess),
     ] {
@@ -225,7 +224,10 @@ fn percent_and_fractions() {
         let values = if percent { Values::Percent } else { Values::Plain };
         assert_eq!((decided.value, decided.certainty), (values, certainty), "{text:?}");
     }
-    let said: Vec<String> = ok("400,5\n500,98\n").decisions().iter().map(ToString::to_string).collect();
+    let open = ok("400,5\n500,98\n");
+    assert_eq!((open.role.value, open.role.certainty), (Role::Unknown, Sure::Open));
+    assert_eq!((open.reading.values.certainty, open.curves[0].values.as_slice()), (Sure::Open, &[5.0, 98.0][..]));
+    let said: Vec<String> = ok("nm,Reflectance\n400,5\n500,98\n").decisions().iter().map(ToString::to_string).collect();
     assert!(said.contains(&"Values reach 98: read as percent.".to_owned()), "{said:?}");
 }
 
@@ -288,11 +290,11 @@ fn roles() {
         (bells([600.0, 540.0, 450.0]), Is::Camera, Sure::Guess),
         ("# quantity: spectral irradiance\n400,0.1\n500,0.2\n".to_owned(), Is::Illuminant, Sure::Certain),
         ("CCT\t5198\n400\t0.1\n500\t0.2\n".to_owned(), Is::Illuminant, Sure::Guess),
-        ("400,63\n560,105.3\n600,124\n".to_owned(), Is::Unknown, Sure::Guess),
+        ("400,63\n560,105.3\n600,124\n".to_owned(), Is::Unknown, Sure::Open),
         ("nm,signal [counts]\n400,0.3\n500,0.4\n".to_owned(), Is::Unknown, Sure::Certain),
         ("nm,Transmittance (%)\n400,3\n500,4\n".to_owned(), Is::Transmittance, Sure::Certain),
         ("Y Units: T-Factor\n400 3\n500 4\n".to_owned(), Is::Transmittance, Sure::Certain),
-        ("Technique\tTransmission\nWavelength\ta (%)\n400\t3\n500\t4\n".to_owned(), Is::Transmittance, Sure::Guess),
+        ("Technique\tTransmission\nWavelength\ta (%)\n400\t3\n500\t4\n".to_owned(), Is::Transmittance, Sure::Certain),
         ("400,49\n560,100\n600,97\n".to_owned(), Is::Illuminant, Sure::Guess),
         ("nm,leaf,bark\n400,0.1,0.2\n500,0.9,1.1\n".to_owned(), Is::Reflectance, Sure::Guess),
     ] {

@@ -106,7 +106,7 @@ fn cgats_in_pairs_and_its_errors() {
     let bare = "CTI3\nBEGIN_DATA_FORMAT\nSAMPLE_ID RGB_R RGB_G\nEND_DATA_FORMAT\nBEGIN_DATA\n1 2 3\nEND_DATA\n";
     assert_eq!(error(bare), ReadError::NoWavelengths { line: 2 });
     let gap = ok(&format!("{start}1 5 6\n2 -9999 7\n3 0,5 7\nEND_DATA\n"));
-    assert_eq!((names(&gap), gap.curves[1].values[0]), (vec!["1", "3"], 0.005));
+    assert_eq!((names(&gap), gap.curves[1].values[0]), (vec!["1", "3"], 0.5));
     let second = format!(
         "{start}1 5 6\nEND_DATA\nCAL\nBEGIN_DATA_FORMAT\nSPEC_400 SPEC_410\nEND_DATA_FORMAT\nBEGIN_DATA\n1 2\nEND_DATA\n"
     );

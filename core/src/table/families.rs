@@ -173,7 +173,7 @@ fn side_by_side(grid: &mut Grid, options: &ReadOptions, log: &mut Log<'_>) {
         return;
     }
     let names: Vec<&str> = grid.parts.iter().map(|part| part.name.as_str()).take(MOST_NAMED).collect();
-    let why = format!("{} groups of columns stand side by side, {}", grid.parts.len(), names.join(", "));
+    let why = format!("{} groups of spectra stand side by side, {}", grid.parts.len(), names.join(", "));
     grid.part = Some(Decided::guess(1, why));
     if options.part.is_none() {
         log.push(Warning::MoreGroups { count: grid.parts.len(), second: grid.parts[1].name.clone() });
@@ -195,7 +195,8 @@ fn one(
     let read = match layout.orientation.value {
         Orientation::Down => columns::read(section, &layout, log)?,
         Orientation::Across => {
-            columns::Read { grid: wide::read(section, &layout, log)?, next: None, bytes: 0, note: None }
+            let grid = wide::read(section, &layout, log)?;
+            columns::Read { grid, next: None, bytes: 0, note: None }
         }
     };
     Ok((layout, read))

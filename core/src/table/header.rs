@@ -1,5 +1,6 @@
 //! What stands above the numbers: comments, names of columns, units.
 
+use super::clues::Clues;
 use super::dialect::{Cell, Delimiter, Dialect};
 use super::names::unguarded;
 use super::quantity::{self, Quantity};
@@ -44,6 +45,8 @@ pub(super) struct Header {
     pub(super) role: Option<(usize, Role)>,
     /// What free text mentions; only good for a guess.
     pub(super) mentioned: Option<(usize, Role)>,
+    /// What the settings of the instrument tell.
+    pub(super) clues: Clues,
 }
 
 impl Header {
@@ -170,7 +173,8 @@ impl Header {
             self.unit = unit.or_else(|| quantity::unit(bare_title(text))).or(self.unit.take());
         }
         self.take_mode(line, text);
-        self.mentioned = words::role(text).map(|role| (line, role)).or(self.mentioned);
+        self.mentioned = words::role_in_prose(text).map(|role| (line, role)).or(self.mentioned);
+        self.clues.take(line, text);
     }
 
     /// A line such as `Mode/Unit-->,Irradiance[µWatt/cm²]`.

@@ -13,6 +13,8 @@ pub enum Certainty {
     Certain,
     /// The content suggests it; a person should look.
     Guess,
+    /// Neither the file nor its numbers decide: the numbers stay as written until somebody chooses.
+    Open,
     /// The caller asked for it.
     Chosen,
 }
@@ -22,6 +24,7 @@ impl fmt::Display for Certainty {
         f.write_str(match self {
             Self::Certain => "certain",
             Self::Guess => "a guess",
+            Self::Open => "open",
             Self::Chosen => "chosen",
         })
     }
@@ -45,6 +48,10 @@ impl<T> Decided<T> {
 
     pub(super) fn guess(value: T, why: impl Into<String>) -> Self {
         Self { value, certainty: Certainty::Guess, why: why.into() }
+    }
+
+    pub(super) fn open(value: T, why: impl Into<String>) -> Self {
+        Self { value, certainty: Certainty::Open, why: why.into() }
     }
 
     pub(super) fn chosen(value: T) -> Self {
@@ -84,6 +91,9 @@ impl Decision {
 impl fmt::Display for Decision {
     /// One sentence: "Values reach 98: read as percent."
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.certainty == Certainty::Open {
+            return write!(f, "{}: not decided.", self.why);
+        }
         write!(f, "{}: read as {}.", self.why, self.value)
     }
 }

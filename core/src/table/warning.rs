@@ -259,6 +259,27 @@ pub enum Warning {
         /// Its largest value.
         max: f64,
     },
+    /// Columns of something else than spectra, such as temperatures: left out.
+    NotSpectra {
+        /// How many.
+        count: usize,
+        /// The first: its name in quotes, and its column if it has one.
+        first: String,
+    },
+    /// Some curves were read as percent, others as written, each by its own numbers.
+    ScalesDiffer {
+        /// How many are percent.
+        percent: usize,
+        /// The first of them: its name in quotes, and its column if it has one.
+        first: String,
+        /// The first of the others.
+        other: String,
+    },
+    /// The file says percent, but its values would be fractions.
+    SmallPercent {
+        /// The largest value as written, in words.
+        max: String,
+    },
     /// Warnings of kinds that are listed often enough: only counted. Stands last.
     More {
         /// How many.
@@ -301,6 +322,9 @@ impl Warning {
             | Self::Invisible
             | Self::GroupedThousands { .. }
             | Self::NotReflectances { .. }
+            | Self::NotSpectra { .. }
+            | Self::ScalesDiffer { .. }
+            | Self::SmallPercent { .. }
             | Self::More { .. } => None,
         }
     }
@@ -342,6 +366,14 @@ impl Warning {
             }
             Self::NotReflectances { count, first, max } => {
                 write!(f, "{count} curves reach more than a fraction of light can, the first {first} {max}")
+            }
+            Self::NotSpectra { count: 1, first } => write!(f, "{first} is no spectrum: left out"),
+            Self::NotSpectra { count, first } => {
+                write!(f, "{count} columns are no spectra, the first {first}: left out")
+            }
+            Self::ScalesDiffer { percent, first, other } => {
+                let more = if *percent == 1 { String::new() } else { format!(" and {} more", percent - 1) };
+                write!(f, "By their values {first}{more} are read as percent, others such as {other} as written")
             }
             _ => Ok(()),
         }
@@ -402,12 +434,9 @@ impl fmt::Display for Warning {
             Self::BrokenTable { line, error } => {
                 write!(f, "line {line}: another table that cannot be read: left out ({error})")
             }
-            Self::MoreGroups { count: 2, second } if second.starts_with("columns ") => {
-                write!(f, "The {second} are another table: left out")
-            }
-            Self::MoreGroups { count: 2, second } => write!(f, "The columns “{second}” are another table: left out"),
+            Self::MoreGroups { count: 2, second } => write!(f, "“{second}”, another group of spectra: left out"),
             Self::MoreGroups { count, second } => {
-                write!(f, "The columns “{second}” and {} more groups are other tables: left out", count - 2)
+                write!(f, "“{second}” and {} more groups of spectra: left out", count - 2)
             }
             Self::MaybeWavelengths => {
                 f.write_str("Nothing names the unit of wave numbers: if they are wavelengths, choose nanometers")
@@ -437,7 +466,15 @@ impl fmt::Display for Warning {
             }
             Self::More { count: 1 } => f.write_str("1 more warning like these"),
             Self::More { count } => write!(f, "{count} more warnings like these"),
+            Self::SmallPercent { max } => {
+                write!(
+                    f,
+                    "The file says percent, but no value exceeds {max}: if they are fractions, choose plain numbers"
+                )
+            }
             Self::EmptyCurves { .. }
+            | Self::NotSpectra { .. }
+            | Self::ScalesDiffer { .. }
             | Self::TextColumns { .. }
             | Self::Averaged { .. }
             | Self::BelowZero { .. }

@@ -31,6 +31,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let named_unit = leading.iter().filter(|cell| words::names_wavelengths(cell)).find_map(|cell| words::x_unit(cell));
     header.x_unit = named_unit.map(|unit| (across.line, unit)).or(header.x_unit);
     header.line = Some(across.line);
+    header.clues.take(across.line, header_line);
     let mut rows = Rows::new(dialect, across, leading, suspects(dialect, &heads, across));
     let mut read = section.byte;
     for (number, line) in lines {
@@ -57,8 +58,9 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
         group.suffix.clone_into(&mut curve.label);
         curve.unit = quantity::unit_cell(&group.suffix).or_else(|| header.unit.clone());
     }
-    let specular = Some(&*group.prefix).filter(|prefix| words::says_specular(prefix));
-    let role = specular.map(|prefix| Decided::guess(Role::Reflectance, format!("The bands are named {prefix}")));
+    let specular = words::says_specular(&group.prefix).then_some(Role::Reflectance);
+    let role = specular.or_else(|| words::role_of_bands(&group.prefix));
+    let role = role.map(|role| Decided::guess(role, format!("The bands are named {}", group.prefix)));
     let parts = across.groups.iter().filter(|_| across.groups.len() > 1).map(|group| Part {
         line: across.first_row,
         name: group_name(dialect, &heads, group),

@@ -132,19 +132,86 @@ pub(super) fn says_percent(text: &str) -> bool {
     let text = lower(text);
     // `50% gray` is a name: only a sign that follows no figure is a unit.
     let sign = text.match_indices('%').any(|(at, _)| !text[..at].trim_end().ends_with(|c: char| c.is_ascii_digit()));
-    sign || words(&text).any(|word| matches!(word, "percent" | "pct" | "percentage"))
+    sign || upper_end(&text) == Some(100) || words(&text).any(|word| matches!(word, "percent" | "pct" | "percentage"))
 }
 
 /// Whether a header says that values are fractions of one.
 pub(super) fn says_fraction(text: &str) -> bool {
     let text = lower(text);
-    words(&text).any(|word| matches!(word, "fraction" | "0-1" | "1"))
+    upper_end(&text) == Some(1) || words(&text).any(|word| matches!(word, "fraction" | "0-1" | "1"))
+}
+
+/// The upper end of the range of values that a header gives from 0: `(0-100)`, `[0, 1]`, `(range 0 to 100)`. Only what stands in
+/// brackets is one: `soil 0-100 cm` is a name.
+fn upper_end(lower: &str) -> Option<u32> {
+    lower.match_indices(['(', '[']).find_map(|(at, _)| {
+        let inner = &lower[at + 1..];
+        let inner = inner[..inner.find([')', ']'])?].trim().trim_start_matches(|c: char| c.is_alphabetic() || c == ' ');
+        let inner = inner.trim_end_matches(['%', ' ']);
+        let (from, to) =
+            ["to", "..", "…", "–", "—", "−", "-", ",", ";"].iter().find_map(|sign| inner.split_once(sign))?;
+        let number = |text: &str| text.trim().parse::<f64>().ok();
+        match (number(from)?, number(to)?) {
+            (0.0, 1.0) => Some(1),
+            (0.0, 100.0) => Some(100),
+            _ => None,
+        }
+    })
+}
+
+/// What the argument of a decadic logarithm in a header is the inverse of: `log(1/R)`, `-log10 T`.
+fn inverse_log(lower: &str) -> Option<char> {
+    const STARTS: [&str; 10] =
+        ["log(1/", "log10(1/", "log1/", "log101/", "lg(1/", "lg1/", "-log(", "-log10(", "-log10", "-log"];
+    if !lower.contains("log") && !lower.contains("lg") {
+        return None;
+    }
+    let bare: String = lower.chars().filter(|c| !c.is_whitespace() && !matches!(c, '_' | '₁' | '₀')).collect();
+    STARTS.iter().find_map(|start| {
+        let rest = &bare[bare.find(start)? + start.len()..];
+        let mut letters = rest.chars();
+        let letter = letters.next().filter(|c| matches!(c, 'r' | 't'))?;
+        let alone = !letters.next().is_some_and(char::is_alphabetic);
+        let spelled = ["refl", "trans"].iter().any(|word| rest.starts_with(word));
+        (alone || spelled).then_some(letter)
+    })
+}
+
+/// The letter that a sign of percent goes with: `%R`, `%T leaf`, `R (%)`.
+fn percent_letter(lower: &str) -> Option<char> {
+    let bare: String = lower.chars().filter(|c| !matches!(c, ' ' | '(' | ')' | '[' | ']')).collect();
+    match &*bare {
+        "r%" => return Some('r'),
+        "t%" => return Some('t'),
+        _ => {}
+    }
+    lower.match_indices('%').find_map(|(at, _)| {
+        let mut after = lower[at + 1..].chars();
+        let letter = after.next().filter(|c| matches!(c, 'r' | 't'))?;
+        (!after.next().is_some_and(char::is_alphanumeric)).then_some(letter)
+    })
+}
+
+/// Whether a header says decadic absorbance. `Abs. irradiance` is absolute.
+fn says_absorbance(lower: &str) -> bool {
+    const OTHERS: [&str; 7] = ["radian", "power", "flux", "energ", "reflect", "transmi", "sensiti"];
+    let short = || {
+        let name = super::quantity::without_unit(lower);
+        matches!(name, "abs" | "abs." | "od" | "o.d." | "a.u. (abs)")
+            || lower.ends_with("(od)")
+            || lower.ends_with("[od]")
+    };
+    let abs = || words(lower).any(|word| word == "abs") && !OTHERS.iter().any(|other| lower.contains(other));
+    lower.contains("absorban")
+        || lower.contains("optical density")
+        || inverse_log(lower).is_some()
+        || ((short() || abs()) && !says_percent(lower))
 }
 
 /// What a header says that the values stand for.
 pub(super) fn values(text: &str) -> Option<Values> {
     let short = lower(text);
-    if short.contains("absorban") || short.contains("optical density") {
+    if says_absorbance(&short) {
         Some(Values::Absorbance)
     } else if words(&short).any(|word| matches!(word, "dbm" | "db")) {
         Some(Values::Decibels)
@@ -167,15 +234,21 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
     let text = lower(text);
     let any = |parts: &[&str]| parts.iter().any(|part| text.contains(part));
     let word = |wanted: &[&str]| words(&text).any(|word| wanted.contains(&word));
+    // Light that something reflects or transmits is light.
+    let passed = any(&["reflected", "transmitted"]) && any(&["radian", "spectral flux", "power"]);
+    let letter = percent_letter(&text).or_else(|| inverse_log(&text));
     let found = if any(&["quantum eff"]) || word(&["qe"]) {
         Quantity::QuantumEfficiency
     } else if any(&["sensitiv", "responsiv", "color match", "colour match", "color-match", "cone fund"]) {
         Quantity::Sensitivity
     } else if any(&["absorptan"]) {
         Quantity::Absorptance
-    } else if any(&["reflect", "r-factor", "反射率"]) {
+    } else if any(&["ln(1/", "ln 1/", "-ln("]) {
+        // A natural logarithm, which is not converted.
+        Quantity::Unknown
+    } else if !passed && (any(&["reflect", "r-factor", "反射率"]) || letter == Some('r')) {
         Quantity::Reflectance
-    } else if any(&["transmit", "transmiss", "t-factor", "透過率"]) {
+    } else if !passed && (any(&["transmit", "transmiss", "t-factor", "透過率"]) || letter == Some('t')) {
         Quantity::Transmittance
     } else if any(&["irradian", "exitance"]) {
         Quantity::Irradiance
@@ -199,25 +272,73 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
 
 /// What a header says the values are.
 pub(super) fn role(text: &str) -> Option<Role> {
-    let text = lower(text);
-    let any = |parts: &[&str]| parts.iter().any(|part| text.contains(part));
-    let word = |wanted: &str| words(&text).any(|word| word == wanted);
-    if any(&["absorptan"]) {
-        Some(Role::Unknown)
-    } else if word("qe")
-        || any(&["sensitiv", "responsiv", "quantum eff", "color match", "colour match", "color-match", "cone fund"])
-    {
-        Some(Role::Camera)
-    } else if any(&["reflect", "r-factor", "反射率"]) {
-        Some(Role::Reflectance)
-    } else if any(&["transmit", "transmiss", "t-factor", "透過率"]) {
-        Some(Role::Transmittance)
-    } else if any(&["radian", "illuminan", "spectral power", "emission", "light source"])
-        || words(&text).any(|word| matches!(word, "lux" | "cct" | "spd"))
-    {
-        Some(Role::Illuminant)
-    } else {
-        None
+    let light = || {
+        let text = lower(text);
+        let any = |parts: &[&str]| parts.iter().any(|part| text.contains(part));
+        let word = || words(&text).any(|word| matches!(word, "lux" | "cct"));
+        any(&["radian", "illuminan", "light source"]) || word()
+    };
+    match quantity(text) {
+        Some(Quantity::Counts | Quantity::Relative) | None => light().then_some(Role::Illuminant),
+        Some(Quantity::Unknown) => Some(Role::Unknown),
+        Some(quantity) => quantity.role(),
+    }
+}
+
+/// What a line of prose says the values are. `Illuminant: D65` is a condition of colors, as `Observer: 2°` is.
+pub(super) fn role_in_prose(text: &str) -> Option<Role> {
+    let key = text.split([':', ',', ';', '=', '\t']).next().unwrap_or_default();
+    let condition = key.len() < text.len() && matches!(lower(key.trim()).as_str(), "illuminant" | "illuminants");
+    role(text).filter(|_| !condition)
+}
+
+/// Whether a name is that of a standard illuminant: `D65`, `FL2`, `Illuminant A`. `A`, `E` and `F2` alone are fields of charts too.
+pub(super) fn names_illuminant(name: &str) -> bool {
+    let name = lower(name);
+    let mut told = false;
+    let mut rest = words(&name).filter(|word| {
+        let about =
+            matches!(*word, "cie" | "iso" | "standard" | "std" | "illuminant" | "ill" | "illum" | "light" | "series");
+        told |= about;
+        !about
+    });
+    let (Some(first), None) = (rest.next(), rest.next()) else { return false };
+    let number = |text: &str, most: u32| text.parse::<u32>().is_ok_and(|number| (1..=most).contains(&number));
+    matches!(first, "d50" | "d55" | "d60" | "d65" | "d75" | "d93" | "id50" | "id65" | "iso7589")
+        || first.strip_prefix("fl").is_some_and(|rest| number(rest, 12))
+        || ["led-b", "led-rgb", "led-v"]
+            .iter()
+            .any(|start| first.strip_prefix(start).is_some_and(|rest| number(rest, 5)))
+        || (told
+            && (matches!(first, "a" | "b" | "c" | "e") || first.strip_prefix('f').is_some_and(|rest| number(rest, 12))))
+}
+
+/// What a name calls a light by its kind; only good for a guess.
+pub(super) fn names_lamp(name: &str) -> bool {
+    const LAMPS: [&str; 12] = [
+        "lamp",
+        "lamps",
+        "led",
+        "leds",
+        "halogen",
+        "xenon",
+        "daylight",
+        "sunlight",
+        "skylight",
+        "tungsten",
+        "lightbulb",
+        "luminaire",
+    ];
+    words(&lower(name)).any(|word| LAMPS.contains(&word))
+}
+
+/// What bands named by a letter are: `R400`, `T_380`.
+pub(super) fn role_of_bands(prefix: &str) -> Option<Role> {
+    let prefix = lower(prefix);
+    match prefix.trim_matches(|c: char| !c.is_alphanumeric()) {
+        "r" | "refl" | "rfl" => Some(Role::Reflectance),
+        "t" | "trans" => Some(Role::Transmittance),
+        _ => role(&prefix),
     }
 }
 

@@ -63,7 +63,7 @@ fn rows_behind_a_number_sign_are_told() {
 fn marks_that_may_group_thousands_are_a_guess() {
     for mark in [',', '.'] {
         let table = ok(&"nm;a\n400;4_800\n410;5_100\n420;6_250\n430;7_000\n".replace('_', &mark.to_string()));
-        assert_eq!(table.curves[0].values[0], 0.048);
+        assert_eq!(table.curves[0].values[0], 4.8);
         assert_eq!(table.reading.decimal_mark.certainty, Certainty::Guess);
         assert!(table.warnings.contains(&Warning::MaybeThousands), "{:?}", table.warnings);
     }
@@ -110,7 +110,7 @@ fn fractions_of_three_digits_are_no_thousands() {
     assert_eq!((table.curves[0].values[0], table.warnings.as_slice()), (0.99125, &[][..]));
     let named = ok("nm;Reflectance\n400;9.125\n410;7.100\n420;8.750\n430;7.125\n440;6.500\n");
     assert_eq!((named.curves[0].values[0], named.warnings.as_slice()), (0.09125, &[][..]));
-    assert_eq!(ok("nm;c\n400;98,125\n410;100\n420;98,750\n").curves[0].values[0], 0.98125);
+    assert_eq!(ok("nm;c\n400;98,125\n410;100\n420;98,750\n").curves[0].values[0], 98.125);
 }
 
 #[test]

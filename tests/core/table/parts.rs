@@ -27,7 +27,7 @@ fn tables_below_one_another() {
     let said = first.decisions().into_iter().find(|decision| decision.what == "Part").unwrap().to_string();
     assert_eq!(said, "2 tables stand below one another: read as part 1 of 2, from line 2.");
     let second = part(text, 2).unwrap();
-    assert_eq!((names(&second), samples(&second.curves[0])), (vec!["b"], vec![(380.0, 0.04), (390.0, 0.05)]));
+    assert_eq!((names(&second), samples(&second.curves[0])), (vec!["b"], vec![(380.0, 4.0), (390.0, 5.0)]));
     assert_eq!((second.reading.first_data_line, second.warnings.len()), (6, 0));
     assert_eq!(second.reading.part.certainty, Certainty::Chosen);
     assert_eq!(second.reading.parts, first.reading.parts);
@@ -55,7 +55,7 @@ fn the_same_wavelengths_again_are_another_table() {
     let table = ok(&text);
     assert_eq!((table.curves[0].values.len(), table.reading.parts.len()), (8, 3));
     assert_eq!(table.warnings, [Warning::MoreTables { line: 10 }]);
-    assert_eq!(part(&text, 3).unwrap().curves[0].values[0], 0.09);
+    assert_eq!(part(&text, 3).unwrap().curves[0].values[0], 9.0);
     let other = text.replace(',', ";");
     assert_eq!(part(&other, 2).unwrap().curves, part(&text, 2).unwrap().curves);
 }

@@ -54,9 +54,8 @@ fn values_with_units_are_marked_in_the_text() {
 fn one_wavelength_with_several_values_has_their_mean() {
     let text = "nm,A,B\n400,1.5,1\n410,2,\n410,2.5,4\n420,3,3\n430,3,3\n";
     let table = ok(text);
-    let plain = |values: &[f64]| values.iter().map(|value| value / 100.0).collect::<Vec<_>>();
-    assert_eq!(table.curves[0].values, plain(&[1.5, 2.25, 3.0, 3.0]));
-    assert_eq!(table.curves[1].values, plain(&[1.0, 4.0, 3.0, 3.0]));
+    assert_eq!(table.curves[0].values, [1.5, 2.25, 3.0, 3.0]);
+    assert_eq!(table.curves[1].values, [1.0, 4.0, 3.0, 3.0]);
     let [Warning::AveragedRows { lines }] = table.warnings.as_slice() else { panic!("{:?}", table.warnings) };
     assert_eq!(lines.first(), [3, 4]);
     assert!(table.reading.dropped_rows.iter().all(|row| row.why == Dropped::Averaged));
@@ -65,7 +64,7 @@ fn one_wavelength_with_several_values_has_their_mean() {
     assert_eq!(marks[0].what, What::LeftOut { why: LeftOut::Averaged });
     assert_eq!(ok("nm,a\n400,2\n390,2\n390,3\n380,1\n").curves[0].values, [1.0, 2.5, 2.0]);
     let pairs = ok("nm,a\n400,1\n400,2\n410,2\n410,3\n420,3\n420,4\n");
-    assert_eq!(pairs.curves[0].values, [0.015, 0.025, 0.035]);
+    assert_eq!(pairs.curves[0].values, [1.5, 2.5, 3.5]);
     let huge = ok("nm,a\n400,1e308\n400,1e308\n400,9e307\n410,2\n");
     assert!(huge.curves[0].values[0].is_finite());
 }

@@ -28,7 +28,7 @@ fn quantities_and_units() {
         ),
         ("nm,Absorptance\n400,0.3\n500,0.4\n", None, Is::Absorptance, Sure::Certain),
         ("400,0.3\n500,0.4\n", None, Is::Reflectance, Sure::Guess),
-        ("400,300\n500,400\n", None, Is::Unknown, Sure::Guess),
+        ("400,300\n500,400\n", None, Is::Unknown, Sure::Open),
     ] {
         let table = ok(text);
         assert_eq!(table.curves[0].unit.as_deref(), unit, "{text:?}");

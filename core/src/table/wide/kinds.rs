@@ -42,8 +42,8 @@ impl Label {
 
 /// The column before the values that says what each row is, if its head says so.
 pub(super) fn column(leading: &[&str]) -> Option<usize> {
-    const HEADS: [&str; 7] =
-        ["mode", "quantity", "measurement", "measurement type", "measurement mode", "data type", "type"];
+    const HEADS: [&str; 8] =
+        ["mode", "technique", "quantity", "measurement", "measurement type", "measurement mode", "data type", "type"];
     leading.iter().position(|head| HEADS.iter().any(|wanted| head.trim().eq_ignore_ascii_case(wanted)))
 }
 

@@ -1,0 +1,197 @@
+//! What the curves are: what the file says, what its settings suggest, what its numbers look like.
+
+use super::super::grid::{Grid, RawCurve};
+use super::super::text::excerpt;
+use super::super::words;
+use super::super::{Certainty, Decided, ReadOptions, quantity};
+use super::camera::{MOST_CHANNELS, bells, channels};
+use super::evidence::{Evidence, Looks};
+use super::values::LARGEST_PERCENT;
+use super::{Role, Values};
+
+/// What words in the file say, for certain or as a mention.
+pub(super) fn said(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
+    stated(grid).or_else(|| hinted(grid, options))
+}
+
+/// What the format, the header, the names of columns or a setting state.
+fn stated(grid: &Grid) -> Option<Decided<Role>> {
+    if let Some(role) = grid.role.as_ref().filter(|role| role.certainty == Certainty::Certain) {
+        return Some(role.clone());
+    }
+    if let Some((line, role)) = grid.header.role {
+        return Some(Decided::certain(role, format!("Line {line} says so")));
+    }
+    let names: Vec<&str> = grid.curves.iter().take(MOST_CHANNELS + 1).map(|curve| curve.name.as_str()).collect();
+    let channels = channels(&names).map(|(_, letters)| {
+        let why = format!("The curves are named {}", names.join(", "));
+        if letters { Decided::certain(Role::Camera, why) } else { Decided::guess(Role::Camera, why) }
+    });
+    if let Some(letters) = channels.clone().filter(|channels| channels.certainty == Certainty::Certain) {
+        return Some(letters);
+    }
+    named(grid)
+        .or_else(|| of_settings(grid))
+        .or(channels)
+        .or_else(|| of_quantity(grid))
+        .or_else(|| of_illuminants(grid))
+}
+
+/// The role that the columns name.
+fn named(grid: &Grid) -> Option<Decided<Role>> {
+    let mut named = grid.curves.iter().filter_map(|curve| Some((words::role(&curve.label)?, &curve.label)));
+    let (role, name) = named.next()?;
+    let why = format!("A column is named “{}”", excerpt(name));
+    let agree = named.all(|(other, _)| other == role);
+    Some(if agree { Decided::certain(role, why) } else { Decided::guess(role, why) })
+}
+
+/// The role that settings and comments with a key of their own name.
+fn of_settings(grid: &Grid) -> Option<Decided<Role>> {
+    let header = &grid.header;
+    if let Some((line, role)) = header.clues.role {
+        return Some(Decided::certain(role, format!("Line {line} says so")));
+    }
+    let quantity = header.comment("quantity").or_else(|| header.comment("measurement"));
+    if let Some(role) = quantity.and_then(words::role) {
+        return Some(Decided::certain(role, "The comment on the quantity says so"));
+    }
+    let camera = ["camera", "camera_name", "camera model"].iter().find(|key| header.comment(key).is_some())?;
+    let why = format!("There is a comment “{camera}”");
+    let channels = (3..=MOST_CHANNELS).contains(&grid.curves.len());
+    channels.then(|| Decided::certain(Role::Camera, why))
+}
+
+/// The role that a quantity leaves, such as none for counts: the sensitivity of the detector is still in them.
+fn of_quantity(grid: &Grid) -> Option<Decided<Role>> {
+    if let Some((line, quantity)) = grid.header.quantity
+        && let Some(role) = quantity.role()
+    {
+        return Some(Decided::certain(role, format!("Line {line} says {quantity}")));
+    }
+    let unit = grid.curves.iter().find_map(|curve| curve.unit.as_deref());
+    if let Some((unit, role)) = unit.and_then(|unit| Some((unit, quantity::of_unit(unit)?.role()?)))
+        && role != Role::Unknown
+    {
+        return Some(Decided::certain(role, format!("The unit is {unit}")));
+    }
+    let says_counts = |curve: &RawCurve| {
+        words::says_counts(&curve.label) || curve.unit.as_ref().is_some_and(|unit| words::says_counts(unit))
+    };
+    let counts = !grid.curves.is_empty() && grid.curves.iter().all(says_counts);
+    counts.then(|| {
+        Decided::certain(Role::Unknown, "The columns are headed counts, which a detector's own sensitivity shapes")
+    })
+}
+
+/// Curves that are all named as standard illuminants, or a title that is such a name.
+fn of_illuminants(grid: &Grid) -> Option<Decided<Role>> {
+    let title = grid.header.comment("title").into_iter().chain(grid.header.comment("name"));
+    let curves = grid.curves.iter().all(|curve| words::names_illuminant(&curve.name));
+    let first = grid.curves.first().filter(|_| curves).map(|curve| curve.name.as_str());
+    let name = first.or_else(|| title.into_iter().find(|title| words::names_illuminant(title)))?;
+    Some(Decided::certain(Role::Illuminant, format!("“{}” is the name of a standard illuminant", excerpt(name))))
+}
+
+/// What is mentioned, what settings imply, and what goes with a scale that the file states.
+fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
+    let (values, why) = match (options.values, grid.header.values.or(grid.header.clues.values)) {
+        (Some(values), _) => (Some(values), "It was chosen what the values stand for".to_owned()),
+        (None, Some((line, values))) => (Some(values), format!("Line {line} says {values}")),
+        (None, None) => {
+            let headed = grid.curves.iter().find_map(|curve| words::values(&curve.label));
+            (headed.filter(|values| *values != Values::Plain), "The header says what the values stand for".to_owned())
+        }
+    };
+    // What else a file says of its content says more than its scale.
+    if let Some((line, role)) = grid.header.mentioned.filter(|(_, role)| suits(*role, values)) {
+        return Some(Decided::guess(role, format!("Line {line} mentions it")));
+    }
+    if let Some(role) = grid.role.as_ref().filter(|role| suits(role.value, values)) {
+        return Some(role.clone());
+    }
+    match values {
+        Some(Values::Percent) => Some(Decided::guess(Role::Reflectance, why)),
+        // Most spectrometers derive absorbances from what passes a sample.
+        Some(Values::Absorbance) => Some(Decided::guess(Role::Transmittance, why)),
+        Some(Values::Decibels) => Some(Decided::guess(Role::Illuminant, why)),
+        Some(Values::Plain) | None => lamp(grid),
+    }
+}
+
+/// Whether curves of a role may be written so. Lights in percent are not told from reflectances by a mere mention.
+fn suits(role: Role, values: Option<Values>) -> bool {
+    match values {
+        Some(Values::Percent | Values::Absorbance) => role.is_fraction(),
+        _ => true,
+    }
+}
+
+/// A light that the only curve or the title is named after.
+fn lamp(grid: &Grid) -> Option<Decided<Role>> {
+    let title = grid.header.comment("title");
+    let curves = grid.curves.iter().all(|curve| words::names_lamp(&curve.name));
+    let first = grid.curves.first().filter(|_| curves).map(|curve| curve.name.as_str());
+    let name = first.or(title.filter(|title| words::names_lamp(title)))?;
+    Some(Decided::guess(Role::Illuminant, format!("“{}” is the name of a light", excerpt(name))))
+}
+
+/// What settings and numbers suggest where no word says what the curves are. Where lights and reflectances in percent look the
+/// same, it stays open.
+pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
+    if bells(grid).is_some() {
+        return Decided::guess(Role::Camera, "Three bells, one in each third of the visible range");
+    }
+    if let Some(role) = by_reference(grid, evidence) {
+        return role;
+    }
+    // Lights scaled the usual way are exactly 100 at 560 nm.
+    const ANCHOR: (f64, f64) = (560.0, 100.0);
+    let at = grid.wavelengths.iter().position(|&w| w == ANCHOR.0);
+    if at.is_some_and(|i| grid.curves.iter().all(|curve| curve.values[i] == ANCHOR.1)) {
+        return Decided::guess(Role::Illuminant, "Values are 100 at 560 nm");
+    }
+    let (min, max) = evidence.range();
+    if min >= -0.2 && max <= 1.2 && max > 0.0 {
+        return Decided::guess(Role::Reflectance, evidence.words());
+    }
+    Decided::open(
+        Role::Unknown,
+        format!(
+            "{}, and nothing says whether they are reflectances in percent, a light or something else",
+            evidence.words()
+        ),
+    )
+}
+
+/// What follows from whether the values are ratios to a reference.
+fn by_reference(grid: &Grid, evidence: &Evidence) -> Option<Decided<Role>> {
+    /// Counts of detectors are larger, irradiances and radiances in the usual units smaller.
+    const COUNTS: f64 = 1000.0;
+    let clues = &grid.header.clues;
+    let (line, ratio) = clues.ratio.or(clues.cosine_receptor.map(|line| (line, false)))?;
+    if !ratio {
+        if evidence.high() > COUNTS {
+            let why =
+                format!("Line {line} says that there was no reference, and {} like counts", lower(&evidence.words()));
+            return Some(Decided::guess(Role::Unknown, why));
+        }
+        return Some(match clues.cosine_receptor {
+            Some(line) => {
+                Decided::certain(Role::Illuminant, format!("Line {line} says that a cosine receptor was attached"))
+            }
+            None => Decided::guess(Role::Illuminant, format!("Line {line} says that there was no reference")),
+        });
+    }
+    let looks = |wanted: Looks| evidence.curves.iter().flatten().any(|span| span.looks(LARGEST_PERCENT.1) == wanted);
+    // A program that writes percent writes values below two for dark samples, but for absorbances too.
+    let doubtful = clues.ratios_in_percent.is_some() && !looks(Looks::Percent);
+    let why = format!("Line {line} says that there was a reference");
+    (!doubtful).then(|| Decided::guess(Role::Reflectance, why))
+}
+
+/// The words within a sentence.
+fn lower(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}
