@@ -5,6 +5,7 @@
 
 mod arguments;
 mod bench;
+mod checks;
 mod inspect;
 mod outputs;
 mod radiance;

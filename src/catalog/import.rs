@@ -66,7 +66,8 @@ pub fn imported(origin: &Origin, table: &Table, wishes: &Wishes) -> Imported {
         message = format!("{message} {} of them are taken; choose in Import.", taken.len());
     }
     if let Some(guess) = guesses.iter().find(|guess| guess.what == "Values").or_else(|| guesses.first()) {
-        message = format!("{message} {guess}");
+        let choose = if guess.certainty == Certainty::Open { " Choose in Import." } else { "" };
+        message = format!("{message} {guess}{choose}");
     }
     if let Some(warning) = table.warnings.first() {
         message = format!("{message} {warning}");
@@ -74,12 +75,12 @@ pub fn imported(origin: &Origin, table: &Table, wishes: &Wishes) -> Imported {
     Imported { message, guessed: !guesses.is_empty(), set: own_set(origin, table, wishes, &taken) }
 }
 
-/// The guesses that change numbers or what a set is used as.
+/// The guesses, and what is not decided, that change numbers or what a set is used as.
 pub fn weighty_guesses(table: &Table) -> Vec<table::Decision> {
     let weighty =
         |what: &str| matches!(what, "Role" | "Wavelengths" | "Values" | "Separator" | "Part" | "Spectral unit");
     let decisions = table.decisions().into_iter();
-    decisions.filter(|decision| decision.certainty == Certainty::Guess && weighty(decision.what)).collect()
+    decisions.filter(|decision| decision.certainty.is_doubtful() && weighty(decision.what)).collect()
 }
 
 /// Which curves of a table are taken: those wished for, which may be none, else the first of them.

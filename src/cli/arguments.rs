@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
+use chromascope_core::table::Values;
 use clap::{Args, Parser, ValueEnum};
 
 use super::bench::BenchArguments;
@@ -64,7 +65,8 @@ delta_e_2000, delta_e_1976, delta_uv_prime, delta_xy, the differences from the r
 illuminant, white_balance, transform, preset. What is not defined is left empty: with the paper's matrix, Eq 13 takes RGB as sRGB
 whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*, and their L*a*b* is not that of the CIE.
 
-A file's reflectances are fractions or percent, its wavelengths nm or µm; guesses are said on standard error.";
+A file's reflectances are fractions or percent, its wavelengths nm or µm; guesses are said on standard error. Numbers above one of
+which the file does not say what they are need --values percent or --values plain; a file of radiances is refused as a chart.";
 
 /// What can be computed without a window.
 #[derive(Debug, clap::Subcommand)]
@@ -173,6 +175,9 @@ pub(super) struct PatchesArguments {
     /// A chart, a material, or a file with reflectances [default: the preset's]
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) chart: Option<OsString>,
+    /// What the values of a file of reflectances stand for, where the file does not say it
+    #[arg(long, value_name = "VALUES", value_parser = super::inspect::arguments::values(), requires = "chart")]
+    pub(super) values: Option<Values>,
     /// A file with spectra of radiance, which are integrated as they are: no chart and no illuminant is named then. Without
     /// --radiance-white they are balanced to equal energy, X, Y, Z are relative, and there is no L*a*b*
     #[arg(long, value_name = "FILE", conflicts_with_all = ["chart", "illuminant"])]

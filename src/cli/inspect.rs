@@ -131,6 +131,9 @@ fn answer(
         let text = format!("{gap}{}", report::of(&told, table, &notes));
         if out.is_standard_output() { say(&text) } else { show(&text)? }
     }
+    if let Some(question) = question(table) {
+        say(&format!("chromascope: {told}: {question}\n"));
+    }
     Ok(match (&mut prepared, out.place(index)) {
         (Some(prepared), Some(place)) => stream(Some(place), |out| samples::write(prepared, out)),
         _ => Ok(()),
@@ -145,6 +148,16 @@ fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<Tabl
         respond(&mut table, per_photon)?;
     }
     Ok(table)
+}
+
+/// What a table leaves open, with the options that decide it.
+fn question(table: &Table) -> Option<String> {
+    let (role, values) = (&table.role, &table.reading.values);
+    if role.certainty == Certainty::Open {
+        let remedy = "add --role reflectance --values percent, --role illuminant or --role unknown";
+        return Some(format!("{}; {remedy}", role.why));
+    }
+    (values.certainty == Certainty::Open).then(|| format!("{}; add --values percent or --values plain", values.why))
 }
 
 /// Takes sensitivities as responses per photon or per energy, whatever the file says.

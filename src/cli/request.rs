@@ -6,13 +6,13 @@ use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use chromascope_core::query::Shared;
-use chromascope_core::table::{self, MAX_BYTES};
+use chromascope_core::table::{self, Certainty, MAX_BYTES, Values};
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 
 use super::arguments::{CommonArguments, Per, SourceArguments, Transform};
 use super::outputs::is_descriptor;
-use super::{CliError, say};
+use super::{CliError, checks, say};
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry, Kind};
@@ -35,6 +35,8 @@ pub(super) struct Request {
     pub(super) sources: Vec<(Kind, String)>,
     /// The start that stands where nothing was named.
     pub(super) preset: Start,
+    /// What the values of files of reflectances stand for, if it was said.
+    pub(super) values: Option<Values>,
     per: Option<Per>,
     read: Vec<PathBuf>,
 }
@@ -58,7 +60,7 @@ impl Request {
         let document = Document { compared: Vec::new(), ..preset.document() };
         let catalog = Catalog::built_in();
         let (sources, read) = (Vec::new(), Vec::new());
-        let mut request = Self { document, catalog, sources, preset, per: arguments.per, read };
+        let mut request = Self { document, catalog, sources, preset, values: None, per: arguments.per, read };
         request.sources = request.named_sources(arguments, matches)?;
         if arguments.per.is_some() && request.document.own.is_empty() {
             let reason = "only sensitivities from a file can be taken otherwise; name one with --camera".to_owned();
@@ -263,7 +265,7 @@ impl Request {
             return Ok(known.clone());
         }
         let mut set = self.read(path, role)?;
-        check_curves(&set)?;
+        checks::curves(&set)?;
         let kind = Entry::from_own(&Shared::new(set.clone())).kind;
         if self.document.holder_of(kind, &set.name, None).is_some() {
             set.name = format!("{} ({})", set.name, told(path));
@@ -279,7 +281,10 @@ impl Request {
         let file = told(path);
         let bytes = read(path).map_err(|error| CliError::File(format!("{file}: {}", reason(&error))))?;
         let mut wishes = Wishes::for_role(Some(role));
+        wishes.options.values = self.values.filter(|_| role.is_fraction());
         let table = table::read(&bytes, &wishes.options).map_err(|error| CliError::File(format!("{file}: {error}")))?;
+        checks::reflectances(&file, role, &table)?;
+        checks::say_role(&file, role, &table, &bytes);
         wishes.taken = Some((0..table.curves.len()).collect());
         if role == Role::Camera {
             wishes.per_photon = self.per.map(|per| per == Per::Photon);
@@ -290,7 +295,7 @@ impl Request {
             say(&format!("chromascope: {}\n", imported.message));
         }
         let response = table.reading.per_photon.as_ref().filter(|_| role == Role::Camera && self.per.is_none());
-        if let Some(response) = response.filter(|response| response.certainty == table::Certainty::Guess) {
+        if let Some(response) = response.filter(|response| response.certainty == Certainty::Guess) {
             let what = if response.value { "photon" } else { "energy" };
             say(&format!(
                 "chromascope: {file}: taken as responses per {what}, a guess; --per energy or --per photon decides\n"
@@ -336,20 +341,6 @@ fn is_shells(path: &Path, known: &fs::Metadata) -> bool {
 #[cfg(not(unix))]
 fn is_shells(_: &Path, _: &fs::Metadata) -> bool {
     false
-}
-
-/// Whether a file holds as many curves as its use takes.
-fn check_curves(set: &OwnSet) -> Result<(), CliError> {
-    let wanted = match set.role {
-        Role::Camera if set.curves.len() < 3 => "expected three for a camera: red, green and blue",
-        Role::Illuminant if set.curves.len() > 1 => "expected exactly one curve for an illuminant",
-        _ => return Ok(()),
-    };
-    let count = match set.curves.len() {
-        1 => "1 curve".to_owned(),
-        n => format!("{n} curves"),
-    };
-    Err(CliError::File(format!("{}: {count}; {wanted}", set.file)))
 }
 
 /// A light that is a formula of temperature.

@@ -147,6 +147,7 @@ fn temperatures(arguments: &LocusArguments) -> Result<Temperatures, CliError> {
 /// Patches or radiances, a row for each source and spectrum.
 pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<String, CliError> {
     let mut request = Request::new(&arguments.common, matches)?;
+    request.values = arguments.values;
     request.set_chart(arguments.chart.as_deref())?;
     let radiances = match &arguments.radiance {
         Some(file) => Some(Radiances::open(&mut request, file, arguments.radiance_white.as_deref())?),

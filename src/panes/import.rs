@@ -3,6 +3,7 @@
 mod entries;
 mod files;
 mod line;
+mod question;
 mod text;
 
 use std::time::Duration;
@@ -49,7 +50,10 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         Rect::from_min_max(egui::pos2(cut + 2.0 * UNIT, body.top()), body.max)
     };
     match OnShow::refresh(&context.scene, context.view, context.opened) {
-        Some(shown) => text::show(ui, text, &shown, context),
+        Some(shown) => {
+            let text = question::show(ui, text, &shown, context);
+            text::show(ui, text, &shown, context);
+        }
         // What was selected is gone since the list was made; the next frame shows another.
         None => ui.ctx().request_repaint(),
     }

@@ -22,7 +22,7 @@ use crate::waiting;
 
 pub(crate) type Window = Harness<'static, ChromascopeApp>;
 
-const LEAF: &str = "nm;leaf\n400;5,5\n500;10,5\n600;20,5\n700;50,5\n";
+const LEAF: &str = "# quantity: reflectance\nnm;leaf\n400;5,5\n500;10,5\n600;20,5\n700;50,5\n";
 const ZOO: &str = "nm,red,green,blue,more\n400,0,1,5,2\n500,1,8,4,2\n600,9,5,1,2\n700,5,1,0,2\n";
 
 /// The window with a file that was dropped on it, in Import.
@@ -278,7 +278,7 @@ fn a_set_is_renamed_and_stays_in_sight() {
 #[test]
 fn a_set_without_its_file_is_changed_by_value() {
     let mut window = open([1280.0, 1300.0], egui::Theme::Dark);
-    let text = "nm,leaf a,leaf b\n400,4,5\n500,9,10\n600,22,30\n700,45,50\n";
+    let text = "# quantity: reflectance\nnm,leaf a,leaf b\n400,4,5\n500,9,10\n600,22,30\n700,45,50\n";
     let mut imported = import("leaves.csv", text.as_bytes(), Some(Kinds::Reflectance)).expect("a table of two curves");
     imported.set.name = "Leaves".to_owned();
     assert!(imported.set.percent, "values to 50 are percent");
@@ -296,6 +296,40 @@ fn a_set_without_its_file_is_changed_by_value() {
     window.get_by_role_and_label(Role::Button, "Remove").click();
     settle(&mut window);
     assert!(own(&window).is_empty());
+}
+
+/// Numbers that can be a light, or reflectances in percent.
+const NAMELESS: &str = "400,12.3\n450,23.4\n500,34.5\n550,45.6\n600,56.7\n650,67.8\n700,78.9\n";
+
+#[test]
+fn what_numbers_alone_do_not_say_is_asked() {
+    for (answer, role, first) in [
+        ("Reflectances in percent", Kinds::Reflectance, 0.123),
+        ("Light", Kinds::Illuminant, 12.3),
+        ("As written", Kinds::Unknown, 12.3),
+    ] {
+        let mut window = window("numbers.csv", NAMELESS);
+        let [set] = own(&window).try_into().expect("one set");
+        assert_eq!((set.role, set.percent), (Kinds::Unknown, false));
+        assert_eq!(set.curves[0].values[0], 12.3, "nothing is divided before somebody says so");
+        assert!(says(&window, "Values reach 78.9, and nothing says whether they are reflectances in percent"));
+        window.get_by_role_and_label(Role::Button, answer).click();
+        settle(&mut window);
+        assert_eq!((own(&window)[0].role, own(&window)[0].curves[0].values[0]), (role, first), "{answer}");
+        assert!(!says(&window, "nothing says whether they are"), "{answer}");
+        undo(&mut window);
+        assert_eq!(own(&window)[0].role, Kinds::Unknown);
+    }
+}
+
+#[test]
+fn reflectances_by_choice_are_asked_for_their_scale() {
+    let mut window = window("numbers.csv", NAMELESS);
+    choose(&mut window, "This is a", "Reflectance");
+    assert_eq!((own(&window)[0].role, own(&window)[0].curves[0].values[0]), (Kinds::Reflectance, 12.3));
+    window.get_by_role_and_label(Role::Button, "In percent").click();
+    settle(&mut window);
+    assert_eq!((own(&window)[0].percent, own(&window)[0].curves[0].values[0]), (true, 0.123));
 }
 
 #[test]

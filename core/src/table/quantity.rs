@@ -236,7 +236,7 @@ fn is_unit(text: &str) -> bool {
         || photons::is_unit(text)
         || whole.contains(&lower.as_str())
         || words::says_counts(&lower)
-        || words::says_percent(&lower)
+        || (words::says_percent(&lower) && !lower.contains(['(', '[']))
         || ["w/", "watt", "w m", "w·", "w.m", "mol/", "mol m", "photons/", "j/", "/nm"]
             .iter()
             .any(|part| lower.contains(part))

@@ -19,6 +19,13 @@ pub enum Certainty {
     Chosen,
 }
 
+impl Certainty {
+    /// Whether a person should look: a guess, or something that is not decided.
+    pub fn is_doubtful(self) -> bool {
+        matches!(self, Self::Guess | Self::Open)
+    }
+}
+
 impl fmt::Display for Certainty {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -61,7 +61,7 @@ pub(in crate::cli) struct InspectArguments {
     #[arg(long, value_name = "ROLE", value_parser = named::<Role>(&ROLES), help_heading = READING)]
     role: Option<Role>,
     /// What the values are as written
-    #[arg(long, value_name = "VALUES", value_parser = named::<Values>(&VALUES), help_heading = READING)]
+    #[arg(long, value_name = "VALUES", value_parser = values(), help_heading = READING)]
     values: Option<Values>,
     /// The unit of the wavelengths as written
     #[arg(long, value_name = "UNIT", value_parser = unit(), help_heading = READING)]
@@ -109,6 +109,11 @@ const MARKS: [&str; 2] = ["point", "comma"];
 const WAYS: [&str; 2] = ["down", "across"];
 const READERS: [&str; 11] =
     ["table", "cgats", "jcamp", "tm27", "cxf", "rawtoaces", "dcamprof", "enlighten", "labels", "alternate", "camspec"];
+
+/// Takes what values stand for as written.
+pub(in crate::cli) fn values() -> impl TypedValueParser<Value = Values> {
+    named::<Values>(&VALUES)
+}
 
 /// Takes the names that sessions use too.
 fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(

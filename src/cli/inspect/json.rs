@@ -77,6 +77,7 @@ const fn certainty(certainty: Certainty) -> &'static str {
     match certainty {
         Certainty::Certain => "certain",
         Certainty::Guess => "guess",
+        Certainty::Open => "open",
         Certainty::Chosen => "chosen",
     }
 }

@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use chromascope_core::render::visibility::MAX_SIDE;
+use chromascope_core::table::Values;
 use clap::{Args, ValueEnum};
 
 use crate::cli::arguments::SourceArguments;
@@ -38,6 +39,10 @@ pub(in crate::cli) struct RenderArguments {
     /// The reflectance: `skin`, `leaf`, a name, or a file [default: skin; leaf for the fern]
     #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
     pub(super) material: Option<OsString>,
+    /// What the values of a file of reflectances stand for, where the file does not say it
+    #[arg(long, value_name = "VALUES", value_parser = crate::cli::inspect::arguments::values(), requires = "material",
+          help_heading = SCENE)]
+    pub(super) values: Option<Values>,
     /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: Direct sun (ASTM G173)]
     #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
     pub(super) illuminant: Option<OsString>,

@@ -55,6 +55,7 @@ impl Setup {
             Some(white) => request.set_white(white)?,
             None => request.document.white = WhiteChoice::Light(BALANCE.to_owned()),
         }
+        request.values = arguments.values;
         if let Some(material) = &arguments.material {
             request.set_material(material)?;
         }

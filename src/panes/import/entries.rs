@@ -18,6 +18,8 @@ pub(super) enum State {
     Seen,
     /// Read with a guess that nobody has looked at.
     Unseen,
+    /// Read as written: what it is has to be chosen.
+    Open,
     /// Not used, though it could be read.
     Unused,
     /// Not read.
@@ -26,7 +28,7 @@ pub(super) enum State {
 
 impl State {
     /// All of them, in the order of a legend.
-    pub(super) const ALL: [Self; 5] = [Self::Certain, Self::Seen, Self::Unseen, Self::Unused, Self::Failed];
+    pub(super) const ALL: [Self; 6] = [Self::Certain, Self::Seen, Self::Unseen, Self::Open, Self::Unused, Self::Failed];
 
     /// In words, for the pointer and for screen readers.
     pub(super) const fn words(self) -> &'static str {
@@ -34,6 +36,7 @@ impl State {
             Self::Certain => "read",
             Self::Seen => "read, with guesses",
             Self::Unseen => "read, with guesses that nobody has looked at",
+            Self::Open => "not decided: choose what it is",
             Self::Unused => "not used",
             Self::Failed => "not read",
         }
@@ -73,8 +76,10 @@ pub(super) fn all(context: &PaneContext<'_>) -> Vec<Entry> {
 fn of_set(set: &OwnSet, files: &[OpenFile], context: &PaneContext<'_>) -> Entry {
     let item = ImportItem::Set(set.name.clone());
     // A decision is kept as a sentence that ends with how sure it is; the role's comes first.
-    let guessed = |decision: &String| decision.ends_with("(a guess)");
+    let open = |decision: &String| decision.ends_with("(open)");
+    let guessed = |decision: &String| decision.ends_with("(a guess)") || open(decision);
     let state = match (set.decisions.iter().any(guessed), context.view.import.unseen.contains(&item)) {
+        _ if set.decisions.iter().any(open) => State::Open,
         (_, true) => State::Unseen,
         (true, false) => State::Seen,
         (false, false) => State::Certain,
@@ -96,7 +101,7 @@ const fn role(role: Role, one: bool) -> &'static str {
         (Role::Transmittance, false) => "transmittances",
         (Role::Illuminant, true) => "a light",
         (Role::Illuminant, false) => "lights",
-        (Role::Unknown, _) => "of no known kind",
+        (Role::Unknown, _) => "of unknown kind",
     }
 }
 

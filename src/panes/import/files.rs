@@ -230,7 +230,7 @@ fn ground(ui: &Ui, rect: Rect, response: &Response, on: bool, theme: &Theme) {
     }
 }
 
-/// Each state has a form of its own: a dot, a ring, a diamond, a dash, a triangle.
+/// Each state has a form of its own: a dot, a ring, a diamond, an open diamond, a dash, a triangle.
 fn draw_mark(painter: &Painter, at: Pos2, state: State, on: bool, theme: &Theme) {
     let line = |color: Color32| Stroke::new(1.3, color);
     let gray = if on { theme.text } else { theme.weak };
@@ -241,10 +241,14 @@ fn draw_mark(painter: &Painter, at: Pos2, state: State, on: bool, theme: &Theme)
         State::Seen => {
             painter.circle_stroke(at, 3.2, line(gray));
         }
-        State::Unseen => {
+        State::Unseen | State::Open => {
             let corners = [(0.0, -5.0), (5.0, 0.0), (0.0, 5.0), (-5.0, 0.0)];
             let corners = corners.map(|(x, y)| at + Vec2::new(x, y)).to_vec();
-            painter.add(Shape::convex_polygon(corners, theme.warning, Stroke::NONE));
+            let (fill, edge) = match state {
+                State::Open => (Color32::TRANSPARENT, Stroke::new(1.5, if on { theme.text } else { theme.warning })),
+                _ => (theme.warning, Stroke::NONE),
+            };
+            painter.add(Shape::convex_polygon(corners, fill, edge));
         }
         State::Unused => {
             painter.line_segment([at - Vec2::new(4.0, 0.0), at + Vec2::new(4.0, 0.0)], line(gray));

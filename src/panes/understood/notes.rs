@@ -1,6 +1,6 @@
 //! What should be looked at, what was decided, and where the numbers are from.
 
-use chromascope_core::table::{Certainty, Table};
+use chromascope_core::table::Table;
 use egui::{Align, Id, RichText, Ui};
 
 use super::note;
@@ -71,7 +71,7 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
     ui.add_space(UNIT);
     ui.label("Decided on reading");
     for decision in table.decisions() {
-        let color = if decision.certainty == Certainty::Guess { theme.warning } else { theme.text };
+        let color = if decision.certainty.is_doubtful() { theme.warning } else { theme.text };
         let words = format!("{}: {} ({}).", decision.what, decision.value, decision.certainty);
         ui.label(RichText::new(words).small().color(color)).on_hover_text(format!("{}.", decision.why));
         note(ui, &theme, format!("{}.", decision.why));

@@ -106,12 +106,13 @@ fn closed<T: Copy>(
         let value = if wordy { CONTENT } else { CONTENT_SHORT };
         return Closed { value: value.to_owned(), how: String::new(), guess: false, why: String::new() };
     };
-    let guess = decided.certainty == Certainty::Guess;
-    let how = match (guess, wordy) {
-        (true, true) => format!("guess: {}", lower(&decided.why)),
-        (true, false) => "guess".to_owned(),
-        (false, _) => "certain".to_owned(),
+    let guess = decided.certainty.is_doubtful();
+    let sure = match decided.certainty {
+        Certainty::Guess => "guess",
+        Certainty::Open => "open",
+        Certainty::Certain | Certainty::Chosen => "certain",
     };
+    let how = if guess && wordy { format!("{sure}: {}", lower(&decided.why)) } else { sure.to_owned() };
     Closed { value: name(decided.value), how, guess, why: decided.why.clone() }
 }
 

@@ -78,13 +78,43 @@ fn a_light_and_a_chart_from_files_are_as_built_in() {
 
 #[test]
 fn what_was_guessed_is_said_beside_the_table() {
-    let leaf = file("bare leaf.txt", "400 5.5\n500 10\n600 99\n700 80\n");
+    let leaf = file("bare leaf.txt", "# quantity: reflectance\n400 5.5\n500 10\n600 99\n700 80\n");
     let output = run(&["patches", "--chart", text(&leaf), "--camera", "Nikon D70 (2007 figure)"]);
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.success() && said.contains("read as percent"), "{said}");
     let rows = String::from_utf8(output.stdout).unwrap();
     assert!(rows.lines().nth(1).unwrap().starts_with("Nikon D70 (2007 figure),bare leaf,0."), "{rows}");
     assert!(run(&["locus", "--camera", &asset("cameras/kodak_dcs200.csv")]).stderr.is_empty(), "nothing to guess");
+}
+
+#[test]
+fn numbers_without_a_word_are_what_an_option_says_and_nothing_is_scaled_unasked() {
+    let bare = file("bare.txt", "400 5.5\n500 10\n600 99\n700 80\n");
+    let said = |output: &std::process::Output| String::from_utf8(output.stderr.clone()).unwrap();
+    let refused = run(&["patches", "--chart", text(&bare)]);
+    assert!(!refused.status.success() && refused.stdout.is_empty(), "{}", said(&refused));
+    assert!(
+        said(&refused).contains("Values reach 99, and nothing says whether they are percent; add --values percent")
+    );
+    let percent = run(&["patches", "--chart", text(&bare), "--values", "percent"]);
+    assert!(percent.status.success(), "{}", said(&percent));
+    assert!(said(&percent).contains("nothing in the file says what its numbers are; taken as reflectances"));
+    let light = run(&["locus", "--illuminant", text(&bare), "--count", "1"]);
+    assert!(light.status.success() && said(&light).contains("taken as illuminants"), "{}", said(&light));
+    let inspected = run(&["inspect", text(&bare)]);
+    assert!(inspected.status.success(), "{}", said(&inspected));
+    assert!(said(&inspected).contains("add --role reflectance --values percent"), "{}", said(&inspected));
+}
+
+#[test]
+fn radiances_are_no_chart() {
+    let radiances = file("radiances.csv", "nm,Radiance a,Radiance b\n400,0.1,2\n500,0.2,3\n700,0.3,4\n");
+    let output = run(&["patches", "--chart", text(&radiances)]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        !output.status.success() && said.contains("the file says radiance") && said.contains("--radiance"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -34,7 +34,9 @@ fn relabel(curve: &mut RawCurve, values: Values, role: Role) {
         Values::Plain | Values::Percent => return,
         Values::Absorbance => {
             curve.unit = Some("1".to_owned());
-            replaced(&curve.name, |word| (word == "abs" || word.starts_with("absorban")).then_some(fraction))
+            let name =
+                replaced(&curve.name, |word| (word == "abs" || word.starts_with("absorban")).then_some(fraction));
+            name.trim_end_matches('.').to_owned()
         }
         Values::Decibels => {
             // Decibels are powers above a milliwatt, or ratios.

@@ -1,0 +1,57 @@
+//! Whether a file holds what the option asks for that names it.
+
+use chromascope_core::table::{self, Certainty, ReadOptions, Table, Warning};
+
+use super::{CliError, say};
+use crate::document::own::{OwnSet, Role};
+
+/// Refuses as reflectances what the file says is something else, and numbers whose scale nobody said.
+pub(super) fn reflectances(path: &str, role: Role, table: &Table) -> Result<(), CliError> {
+    if !role.is_fraction() {
+        return Ok(());
+    }
+    let other = table.warnings.iter().find_map(|warning| match warning {
+        Warning::OtherQuantity { quantity, .. } => {
+            quantity.role().filter(|role| matches!(role, Role::Illuminant | Role::Camera)).map(|_| quantity)
+        }
+        _ => None,
+    });
+    if let Some(quantity) = other {
+        let why =
+            format!("the file says {quantity}, which is no reflectance; measured radiances go with patches --radiance");
+        return Err(CliError::File(format!("{path}: {why}")));
+    }
+    let values = &table.reading.values;
+    if values.certainty == Certainty::Open {
+        let remedy = "add --values percent, or --values plain for fractions";
+        return Err(CliError::File(format!("{path}: {}; {remedy}", values.why)));
+    }
+    Ok(())
+}
+
+/// Says what a file is taken as that does not say what it holds.
+pub(super) fn say_role(path: &str, role: Role, table: &Table, bytes: &[u8]) {
+    // Only a file that names no quantity can be open.
+    let unnamed = table.reading.quantity.certainty == Certainty::Chosen;
+    let open =
+        || table::read(bytes, &ReadOptions::default()).is_ok_and(|table| table.role.certainty == Certainty::Open);
+    if unnamed && open() {
+        say(&format!(
+            "chromascope: {path}: nothing in the file says what its numbers are; taken as {role}, as its option asks\n"
+        ));
+    }
+}
+
+/// Whether a file holds as many curves as its use takes.
+pub(super) fn curves(set: &OwnSet) -> Result<(), CliError> {
+    let wanted = match set.role {
+        Role::Camera if set.curves.len() < 3 => "expected three for a camera: red, green and blue",
+        Role::Illuminant if set.curves.len() > 1 => "expected exactly one curve for an illuminant",
+        _ => return Ok(()),
+    };
+    let count = match set.curves.len() {
+        1 => "1 curve".to_owned(),
+        n => format!("{n} curves"),
+    };
+    Err(CliError::File(format!("{}: {count}; {wanted}", set.file)))
+}

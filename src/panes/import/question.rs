@@ -1,0 +1,73 @@
+//! The question that a file leaves open, with its answers: nothing is scaled before one is chosen.
+
+use chromascope_core::table::{Certainty, Role, Table, Values};
+use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
+
+use crate::command::Command;
+use crate::figures::curves::{OnShow, sentence};
+use crate::panes::PaneContext;
+use crate::theme::UNIT;
+use crate::widgets::lines;
+
+/// An answer: its words, a hint, and what it chooses.
+type Answer = (&'static str, &'static str, Option<Role>, Values);
+
+/// Answers where nothing says what the numbers are.
+const KINDS: [Answer; 3] = [
+    (
+        "Reflectances in percent",
+        "Divide the numbers by 100 and use them as reflectances",
+        Some(Role::Reflectance),
+        Values::Percent,
+    ),
+    ("Light", "Use the numbers as spectral power of a light", Some(Role::Illuminant), Values::Plain),
+    (
+        "As written",
+        "Keep the numbers as spectra of an unknown kind; “This is a” says otherwise at any time",
+        Some(Role::Unknown),
+        Values::Plain,
+    ),
+];
+
+/// Answers where only the scale is open.
+const SCALES: [Answer; 2] = [
+    ("In percent", "Divide the numbers by 100", None, Values::Percent),
+    ("As written", "Take the numbers as fractions of one", None, Values::Plain),
+];
+
+/// What the file on show leaves open, and the answers.
+fn question(table: &Table) -> Option<(&str, &'static [Answer])> {
+    let open = |certainty| certainty == Certainty::Open;
+    match (&table.role, &table.reading.values) {
+        (role, _) if open(role.certainty) => Some((&role.why, &KINDS)),
+        (_, values) if open(values.certainty) => Some((&values.why, &SCALES)),
+        _ => None,
+    }
+}
+
+/// Shows the question, if there is one, at the top of a rectangle. Returns what is left below.
+pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &OnShow, context: &mut PaneContext<'_>) -> Rect {
+    let Some((why, answers)) = shown.table().filter(|_| shown.is_fresh()).and_then(question) else { return rect };
+    let color = context.theme.warning;
+    let mut child = ui.new_child(UiBuilder::new().id_salt("question").max_rect(rect));
+    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    child.spacing_mut().item_spacing = Vec2::splat(UNIT);
+    child.horizontal_wrapped(|ui| {
+        let (mark, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
+        lines::warning_mark(ui.painter(), mark.center(), color);
+        ui.label(RichText::new(sentence(why)).color(color));
+    });
+    child.horizontal_wrapped(|ui| {
+        for (words, hint, role, values) in answers {
+            if ui.button(*words).on_hover_text(*hint).clicked() {
+                let mut wishes = shown.wishes.clone();
+                wishes.options.role = role.or(wishes.options.role);
+                wishes.options.values = Some(*values);
+                context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
+            }
+        }
+    });
+    let bottom = child.min_rect().bottom() + UNIT;
+    ui.painter().hline(rect.x_range(), bottom, egui::Stroke::new(1.0, context.theme.line));
+    Rect::from_min_max(egui::pos2(rect.left(), (bottom + UNIT).min(rect.bottom())), rect.max)
+}
