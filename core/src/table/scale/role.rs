@@ -139,14 +139,14 @@ fn lamp(grid: &Grid) -> Option<Decided<Role>> {
 /// What settings and numbers suggest where no word says what the curves are. Where lights and reflectances in percent look the
 /// same, it stays open.
 pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
+    // Lights scaled the usual way are exactly 100 at 560 nm.
+    const ANCHOR: (f64, f64) = (560.0, 100.0);
     if bells(grid).is_some() {
         return Decided::guess(Role::Camera, "Three bells, one in each third of the visible range");
     }
     if let Some(role) = by_reference(grid, evidence) {
         return role;
     }
-    // Lights scaled the usual way are exactly 100 at 560 nm.
-    const ANCHOR: (f64, f64) = (560.0, 100.0);
     let at = grid.wavelengths.iter().position(|&w| w == ANCHOR.0);
     if at.is_some_and(|i| grid.curves.iter().all(|curve| curve.values[i] == ANCHOR.1)) {
         return Decided::guess(Role::Illuminant, "Values are 100 at 560 nm");
