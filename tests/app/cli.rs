@@ -171,10 +171,13 @@ fn a_camera_file_is_a_camera() {
 fn decimal_commas_and_percent_are_read() {
     let points = file("leaf.csv", "nm;leaf\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n");
     let fractions = file("leaf2.csv", "nm,leaf\n400,0.05\n500,0.10\n600,0.20\n700,0.50\n");
-    let of = |path: &PathBuf| {
-        table(&["patches", "--chart", path.to_str().unwrap(), "--camera", "Nikon D70 (2007 figure)"])[1][2..].to_vec()
+    let of = |path: &PathBuf, values: &str| {
+        let chart = ["patches", "--chart", path.to_str().unwrap(), "--values", values];
+        table(&[&chart[..], &["--camera", "Nikon D70 (2007 figure)"]].concat())[1][2..].to_vec()
     };
-    assert_eq!(of(&points), of(&fractions));
+    assert_eq!(of(&points, "percent"), of(&fractions, "plain"));
+    // Nothing is divided by 100 until somebody says so.
+    refused(&["patches", "--chart", points.to_str().unwrap()], &["leaf.csv", "--values percent"]);
 }
 
 #[test]

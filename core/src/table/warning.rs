@@ -331,6 +331,25 @@ impl Warning {
 }
 
 impl Warning {
+    /// Words about columns and rows that hold something else; nothing for the others.
+    fn of_layout(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OtherAxes { named, wavelength_column: None } => {
+                write!(f, "{named}: another scale than the wavelengths, no spectrum: left out")
+            }
+            Self::OtherAxes { named, wavelength_column: Some(column) } => {
+                write!(f, "{named}: another scale than the wavelengths in column {column}, no spectrum: left out")
+            }
+            Self::MoreQuantities { taken, others } => {
+                write!(f, "Rows of other quantities than “{taken}”: left out ({others}): choose the part to read them")
+            }
+            Self::BadWavelengths { line, named } => {
+                write!(f, "line {line}: {named}: no wavelength there, so the column is left out")
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// What concerns single curves, in words; nothing for the others.
     fn of_curves(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -449,18 +468,6 @@ impl fmt::Display for Warning {
             Self::HeaderDiffers { line, label, announced, found } => {
                 write!(f, "line {line}: {label} announces {announced}, but the data give {found}")
             }
-            Self::OtherAxes { named, wavelength_column: None } => {
-                write!(f, "{named}: another scale than the wavelengths, no spectrum: left out")
-            }
-            Self::OtherAxes { named, wavelength_column: Some(column) } => {
-                write!(f, "{named}: another scale than the wavelengths in column {column}, no spectrum: left out")
-            }
-            Self::MoreQuantities { taken, others } => {
-                write!(f, "Rows of other quantities than “{taken}”: left out ({others}): choose the part to read them")
-            }
-            Self::BadWavelengths { line, named } => {
-                write!(f, "line {line}: {named}: no wavelength there, so the column is left out")
-            }
             Self::CountDiffers { line, expected, found } => {
                 write!(f, "line {line} announces {expected} values, but there are {found}")
             }
@@ -472,6 +479,7 @@ impl fmt::Display for Warning {
                     "The file says percent, but no value exceeds {max}: if they are fractions, choose plain numbers"
                 )
             }
+            Self::OtherAxes { .. } | Self::MoreQuantities { .. } | Self::BadWavelengths { .. } => self.of_layout(f),
             Self::EmptyCurves { .. }
             | Self::NotSpectra { .. }
             | Self::ScalesDiffer { .. }

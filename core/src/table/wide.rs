@@ -43,15 +43,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
             rows.take(number, line)?;
         }
     }
-    if let Some((line, error, is_row)) = rows.broken {
-        if is_row {
-            return Err(error);
-        }
-        log.push(Warning::TextBelow { line });
-    }
-    if rows.gaps > 0 {
-        log.push(Warning::Gaps { cells: rows.gaps, lines: rows.gap_lines, sentinel: None });
-    }
+    rows.warn(&heads, log)?;
     header.mentioned = rows.mentioned.or(header.mentioned);
     let count = rows.curves.len();
     for curve in &mut rows.curves {
@@ -69,9 +61,6 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     });
     let mut parts: Vec<Part> = parts.take(MAX_PARTS).collect();
     let mut part = None;
-    if !rows.scales.is_empty() {
-        log.push(Warning::OtherAxes { named: listed(&rows.scales), wavelength_column: None });
-    }
     // Where columns are parts, only the first quantity of the rows can be read.
     let wanted = if parts.is_empty() { across.part } else { 0 };
     let kinds = kinds::settle(&mut rows.curves, &rows.labels, wanted, &mut header);
@@ -82,11 +71,6 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
         (parts, part) = (kinds, Some(Decided::guess(wanted + 1, why)));
     }
     let count = rows.curves.len();
-    let told: Vec<String> =
-        rows.suspects.iter().filter(|(_, filled)| *filled).map(|(at, _)| told(&heads, *at)).collect();
-    if !told.is_empty() {
-        log.push(Warning::BadWavelengths { line: across.line, named: listed(&told) });
-    }
     let mut grid = Grid {
         wavelengths: group.wavelengths.clone(),
         lines: vec![across.line],
@@ -206,6 +190,29 @@ impl<'a> Rows<'a> {
             mentioned: None,
             broken: None,
         }
+    }
+
+    /// Says what was left out; a line among the rows that is none is an error.
+    fn warn(&mut self, heads: &[&str], log: &mut Log<'_>) -> Result<(), ReadError> {
+        if let Some((line, error, is_row)) = self.broken.take() {
+            if is_row {
+                return Err(error);
+            }
+            log.push(Warning::TextBelow { line });
+        }
+        if self.gaps > 0 {
+            let lines = std::mem::take(&mut self.gap_lines);
+            log.push(Warning::Gaps { cells: self.gaps, lines, sentinel: None });
+        }
+        if !self.scales.is_empty() {
+            log.push(Warning::OtherAxes { named: listed(&self.scales), wavelength_column: None });
+        }
+        let filled = self.suspects.iter().filter(|(_, filled)| *filled);
+        let named: Vec<String> = filled.map(|(at, _)| told(heads, *at)).collect();
+        if !named.is_empty() {
+            log.push(Warning::BadWavelengths { line: self.across.line, named: listed(&named) });
+        }
+        Ok(())
     }
 
     fn take(&mut self, number: usize, line: &str) -> Result<(), ReadError> {

@@ -28,7 +28,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     blocks.retain(|block| !block.samples.is_empty());
     let parts: Vec<Part> = blocks.iter().take(MAX_PARTS).map(Block::part).collect();
     let mut notes = Vec::new();
-    let ratio = counts::settle(&mut blocks, options);
+    let ratio = counts::settle(&mut blocks, options, log);
     let part = choose(&mut blocks, options, &mut notes)?;
     let part = leave_other_units(&mut blocks, part, &parts, log);
     let first_line = blocks.first().map(|block| block.data_line + 1).ok_or(ReadError::NoNumbers)?;

@@ -1,5 +1,7 @@
 //! Blocks of what a detector counted with a sample, with a reference, and in the dark.
 
+use super::super::super::warning::{LineList, Warning};
+use super::super::super::watch::Log;
 use super::super::super::words;
 use super::super::super::{Decided, Decision, Quantity, ReadOptions, Role, Values};
 use super::Block;
@@ -42,7 +44,7 @@ pub(super) struct Ratio {
 
 /// Finds out whether the only block beside raw ones holds counts too, whatever unit it announces, and forms
 /// (sample − dark) / (reference − dark) where nothing else was chosen. What is missing leaves counts.
-pub(super) fn settle(blocks: &mut [Block], options: &ReadOptions) -> Option<Ratio> {
+pub(super) fn settle(blocks: &mut [Block], options: &ReadOptions, log: &mut Log<'_>) -> Option<Ratio> {
     let one = |wanted: Source| {
         let mut found = blocks.iter().enumerate().filter(|(_, block)| Source::of(&block.title) == wanted);
         found.next().map(|(at, _)| at).filter(|_| found.next().is_none())
@@ -72,10 +74,15 @@ pub(super) fn settle(blocks: &mut [Block], options: &ReadOptions) -> Option<Rati
         })
         .collect();
     let block = &mut blocks[sample];
-    for (sample, value) in block.samples.iter_mut().zip(values) {
-        sample.value = if value.is_finite() { value } else { f64::NAN };
+    block.samples.iter_mut().zip(values).for_each(|(sample, value)| sample.value = value);
+    // Where reference and dark are equal, such as at a saturated pixel, there is no ratio.
+    let mut lines = LineList::default();
+    let undefined = block.samples.iter().filter(|sample| !sample.value.is_finite());
+    let cells = undefined.map(|sample| lines.add(sample.line)).count();
+    if cells > 0 {
+        log.push(Warning::Gaps { cells, lines, sentinel: None });
     }
-    block.samples.retain(|sample| !sample.value.is_nan());
+    block.samples.retain(|sample| sample.value.is_finite());
     block.y_units.1.clear();
     block.values = Some((block.y_units.0, Values::Plain));
     let why = format!("The blocks are counts of sample, reference and dark, whatever line {} says", block.y_units.0);
