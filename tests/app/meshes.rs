@@ -335,12 +335,3 @@ fn what_is_no_file_is_refused() {
     let refused = opened(&store(), &folder.path().join("empty.obj")).unwrap_err();
     assert!(refused.starts_with("empty.obj: the file is empty"), "{refused}");
 }
-
-#[cfg(unix)]
-#[test]
-fn a_path_that_a_session_could_not_keep_is_refused() {
-    use std::os::unix::ffi::OsStrExt as _;
-    let path = Path::new(std::ffi::OsStr::from_bytes(b"/tmp/h\xe9ad.obj"));
-    let refused = opened(&store(), path).unwrap_err();
-    assert!(refused.contains("rename the file"), "{refused}");
-}
