@@ -20,6 +20,7 @@ mod import_looks;
 mod import_switches;
 mod import_text;
 mod inspector;
+#[cfg(unix)]
 mod keeping;
 mod laboratory;
 mod library;
