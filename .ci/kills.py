@@ -138,7 +138,7 @@ class Worker:
         subprocess.run(["xdotool", "windowfocus", "--sync", window], env=self.environment, check=True)
 
     def once(self):
-        if SIGNAL == "X" or self.xvfb is None:
+        if self.xvfb.poll() is not None:
             self.screen()
         if os.path.exists(self.document):
             document = self.read()
