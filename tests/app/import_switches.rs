@@ -317,7 +317,7 @@ fn what_numbers_alone_do_not_say_is_asked() {
         settle(&mut window);
         assert_eq!(own(&window)[0].role, role, "{answer}");
         assert!((own(&window)[0].curves[0].values[0] - first).abs() < 1e-12, "{answer}");
-        assert!(!says(&window, "nothing says whether they are"), "{answer}");
+        assert!(!says(&window, "As written"), "{answer}: nothing is asked any more");
         undo(&mut window);
         assert_eq!(own(&window)[0].role, Kinds::Unknown);
     }
