@@ -169,7 +169,7 @@ fn a_camera_file_is_a_camera() {
 
 #[test]
 fn decimal_commas_and_percent_are_read() {
-    let points = file("leaf.csv", "# quantity: reflectance\nnm;leaf\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n");
+    let points = file("leaf.csv", "nm;leaf\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n");
     let fractions = file("leaf2.csv", "nm,leaf\n400,0.05\n500,0.10\n600,0.20\n700,0.50\n");
     let of = |path: &PathBuf, values: &str| {
         let chart = ["patches", "--chart", path.to_str().unwrap(), "--values", values];

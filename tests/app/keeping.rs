@@ -12,7 +12,7 @@ use chromascope::catalog::import::import;
 use chromascope::catalog::meshes::{MeshState, MeshStore};
 use chromascope::command::Command;
 use chromascope::document::history::History;
-use chromascope::document::own::OwnSet;
+use chromascope::document::own::{Fingerprint, OwnSet};
 use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, session};
 use chromascope::files::{Files, StandingKind};
@@ -46,7 +46,9 @@ fn of(kelvin: f64) -> Document {
 }
 
 fn set(name: &str) -> OwnSet {
-    OwnSet { name: name.to_owned(), ..import("leaf.csv", LEAF.as_bytes(), None).unwrap().set }
+    // From a file of its own, or it would be the same set as another.
+    let fingerprint = Some(Fingerprint::of(name.as_bytes()));
+    OwnSet { name: name.to_owned(), fingerprint, ..import("leaf.csv", LEAF.as_bytes(), None).unwrap().set }
 }
 
 fn with_sets(sets: Vec<OwnSet>) -> Document {
