@@ -99,6 +99,7 @@ fn take_mode(line: usize, mode: &str, grid: &mut Grid) {
         }
         "SCOPE" => (Quantity::Counts, None),
         "IRRAD" | "IRR" => (Quantity::Irradiance, None),
+        "RAD" | "RADIANCE" => (Quantity::Radiance, None),
         "WATTS" => (Quantity::RadiantFlux, None),
         "LUMENS" => (Quantity::SpectralPower, None),
         _ => return,

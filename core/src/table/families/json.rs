@@ -47,8 +47,11 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
         File { spectrum: Some(Shape::Curves(curves)), settings, metadata, .. } => {
             enlighten::read(text, curves, settings, &metadata.unwrap_or_default().0, options)
         }
-        File { bands: Some(bands), spectrum: Some(Shape::Values(values)), scale, comments, .. } => {
-            spectrum(text, &bands, values, scale, &comments.0)
+        File { bands: Some(bands), spectrum: Some(Shape::Values(values)), scale, comments, name, .. } => {
+            spectrum(text, &bands, values, scale, &comments.0).map(|mut content| {
+                content.header.note("title", name.0.first().map_or("", String::as_str));
+                content
+            })
         }
         _ => return Err(ReadError::Unsupported { family: Family::Json }),
     };

@@ -20,6 +20,8 @@ pub(super) struct File {
     pub(super) camera_name: Option<String>,
     #[serde(default)]
     pub(super) comments: Remarks,
+    #[serde(default)]
+    pub(super) name: Remarks,
     pub(super) ssf_bands: Option<Vec<f64>>,
     pub(super) red_ssf: Option<Vec<f64>>,
     pub(super) green_ssf: Option<Vec<f64>>,
