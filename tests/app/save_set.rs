@@ -106,7 +106,7 @@ fn own_sets_keep_all_curves_and_say_how_they_were_read() {
 
     // Percent on the way in, fractions ever after, whatever the comments say of percent.
     for role in [Role::Reflectance, Role::Transmittance] {
-        let leaf = own("leaf.txt", "400 5.5\n500 10\n600 99\n700 80\n", role);
+        let leaf = own("leaf.txt", "nm\tleaf (%)\n400\t5.5\n500\t10\n600\t99\n700\t80\n", role);
         assert!(leaf.percent);
         let entry = Entry::from_own(&Shared::new(leaf.clone()));
         for form in Form::ALL.into_iter().filter(|form| fits(&entry, *form).is_ok() && form.grid == Grid::Native) {
