@@ -121,7 +121,8 @@ pub struct ReadOptions {
     pub role: Option<Role>,
     /// Which reader takes the file; [`Reader::Table`] reads numbers in columns whatever stands around them.
     pub reader: Option<Reader>,
-    /// Whether raw curves (dark, reference and sample counts) are kept beside the processed one.
+    /// Whether raw curves (dark, reference and sample counts) and what is recorded beside spectra (temperatures, times) are
+    /// kept; together with a chosen wavelength column, every other column.
     pub raw: Option<bool>,
 }
 
@@ -213,7 +214,9 @@ fn finish(
     warnings.look(usize::MAX)?;
     gaps::take(&mut grid, &mut warnings);
     photons::suggest_role(&mut grid);
-    companions::leave_out(&mut grid, &mut warnings);
+    if options.raw != Some(true) {
+        companions::leave_out(&mut grid, &mut warnings);
+    }
     let scale = scale::decide(&grid, options, &mut warnings);
     let quantity = quantity::decide(&grid, &scale.role, &mut warnings);
     let per_photon = quantity::per_photon(&grid, scale.role.value, &quantity);

@@ -288,7 +288,8 @@ impl Columns {
         let (next, rows, label_unit) = (self.next, self.lines.len(), self.label_unit);
         let values = self.cells.split_off(at + 1);
         let wavelengths = self.cells.pop().unwrap_or_default();
-        let axes = axes::find(&header, at, &wavelengths, &self.cells, &values);
+        let find = || axes::find(&header, at, &wavelengths, &self.cells, &values);
+        let axes = if layout.every_column { axes::Axes::default() } else { find() };
         let texts: Vec<usize> = self.texts.left_out().filter(|&column| column < columns && column != at).collect();
         let is_left = |(column, values): &(usize, Vec<f64>)| {
             axes.more.is_empty() && !empty(values) && header.name(*column).is_some_and(|name| !words::is_count(name))

@@ -26,6 +26,8 @@ pub(super) struct Layout {
     pub(super) across: Option<Across>,
     /// The column of the wavelengths, from 1, if the caller chose one.
     pub(super) wavelength_column: Option<usize>,
+    /// Whether all other columns are curves, whatever they look like.
+    pub(super) every_column: bool,
     pub(super) warnings: Vec<Warning>,
 }
 
@@ -47,6 +49,7 @@ impl Layout {
             width: 0,
             across: None,
             wavelength_column: None,
+            every_column: false,
             warnings: Vec::new(),
         }
     }
@@ -265,6 +268,7 @@ fn lay_across(
         width: across.group().end(),
         across: Some(across),
         wavelength_column: None,
+        every_column: false,
         warnings: warning.into_iter().collect(),
     })
 }
@@ -338,6 +342,7 @@ fn lay_down(
         width: run.filled,
         across: None,
         wavelength_column: options.wavelength_column,
+        every_column: options.raw == Some(true) && options.wavelength_column.is_some(),
         warnings,
     })
 }

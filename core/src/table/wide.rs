@@ -227,7 +227,7 @@ impl<'a> Rows<'a> {
                     return Err(error);
                 }
                 let leading = || self.dialect.cells(line).take(self.across.group().start);
-                if is_scale(leading(), &curve) {
+                if is_scale(leading(), &curve) || axes::is_scale(&self.across.group().wavelengths, &curve.values) {
                     self.scales.push(format!("line {number} (“{}”)", excerpt(&curve.name)));
                     return Ok(());
                 }

@@ -87,7 +87,7 @@ pub(in crate::cli) struct InspectArguments {
     /// Which reader takes the file, whatever it looks like
     #[arg(long, value_name = "READER", value_parser = named::<Reader>(&READERS), help_heading = READING)]
     reader: Option<Reader>,
-    /// Whether raw counts are kept beside the curve made of them
+    /// Whether raw counts and what is recorded beside spectra are kept; with --wavelength-column, every other column
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true",
           help_heading = READING)]
     raw: Option<bool>,

@@ -173,7 +173,7 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, theme: &The
     if columns
         && ui
             .checkbox(&mut raw, "Keep raw columns")
-            .on_hover_text("Dark, reference and sample counts beside the result")
+            .on_hover_text("Dark, reference and sample counts, temperatures and times, beside the spectra")
             .changed()
     {
         options.raw = raw.then_some(true);

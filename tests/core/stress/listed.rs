@@ -144,7 +144,7 @@ const NOT_WALKED: &[(&str, &str)] = &[
         "part of a picture, and walked with it",
     ),
     (
-        "query/compare comparable_by_paper, query/compare patch_difference, query/compare locus_distance_xy, query/compare locus_distance_uv, query/loci Locus::length_xy, query/render MeasureOf::in_picture, query/render/picture Facing::factor, query/render/picture PicturesOf::exposure, query/render/picture PicturesOf::image, query/render/picture PicturesOf::picture, query/render/picture PicturesOf::difference",
+        "query/compare comparable_by_paper, query/compare patch_difference, query/compare locus_distance_xy, query/compare locus_distance_uv, query/loci Locus::length_xy, query/loci Temperatures::count, query/loci Temperatures::part, query/render MeasureOf::in_picture, query/render/picture Facing::factor, query/render/picture PicturesOf::exposure, query/render/picture PicturesOf::image, query/render/picture PicturesOf::picture, query/render/picture PicturesOf::difference",
         "asks what others compute; tests/core/query.rs",
     ),
     (

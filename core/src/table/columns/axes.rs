@@ -91,7 +91,7 @@ pub(in super::super) fn counts(column: &[f64]) -> bool {
 const FEWEST: usize = 3;
 
 /// Whether a column holds the wavelengths of another in a unit that is inverse to theirs, or the upper edges of their intervals.
-fn is_scale(wavelengths: &[f64], column: &[f64]) -> bool {
+pub(in super::super) fn is_scale(wavelengths: &[f64], column: &[f64]) -> bool {
     /// Wave numbers in 1/cm, energies in eV and frequencies in THz, times nanometers.
     const PRODUCTS: [f64; 3] = [1e7, 1_239.841_984, 299_792.458];
     const CLOSE: f64 = 1e-3;
