@@ -69,6 +69,9 @@ pub fn imported(origin: &Origin, table: &Table, wishes: &Wishes) -> Imported {
         let choose = if guess.certainty == Certainty::Open { " Choose in Import." } else { "" };
         message = format!("{message} {guess}{choose}");
     }
+    if table.role.value == Role::Camera && table.reading.camera_columns.is_none() && table.curves.len() > 3 {
+        message = format!("{message} Its first three curves are taken as red, green and blue; choose in Import.");
+    }
     if let Some(warning) = table.warnings.first() {
         message = format!("{message} {warning}");
     }

@@ -42,6 +42,16 @@ pub(super) fn say_role(path: &str, role: Role, table: &Table, bytes: &[u8]) {
     }
 }
 
+/// Refuses sensitivities of which nothing says which are red, green and blue.
+pub(super) fn channels(path: &str, role: Role, table: &Table) -> Result<(), CliError> {
+    let count = table.curves.len();
+    if role != Role::Camera || count <= 3 || table.reading.camera_columns.is_some() {
+        return Ok(());
+    }
+    let why = "nothing says which are red, green and blue; name the columns red, green and blue, or leave three";
+    Err(CliError::File(format!("{path}: {count} curves; {why}")))
+}
+
 /// Whether a file holds as many curves as its use takes.
 pub(super) fn curves(set: &OwnSet) -> Result<(), CliError> {
     let wanted = match set.role {

@@ -284,6 +284,7 @@ impl Request {
         wishes.options.values = self.values.filter(|_| role.is_fraction());
         let table = table::read(&bytes, &wishes.options).map_err(|error| CliError::File(format!("{file}: {error}")))?;
         checks::reflectances(&file, role, &table)?;
+        checks::channels(&file, role, &table)?;
         checks::say_role(&file, role, &table, &bytes);
         wishes.taken = Some((0..table.curves.len()).collect());
         if role == Role::Camera {

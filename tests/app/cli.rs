@@ -181,6 +181,23 @@ fn decimal_commas_and_percent_are_read() {
 }
 
 #[test]
+fn a_camera_of_four_channels_has_its_own_blue() {
+    let rows =
+        "400,0.01,0.01,0.01,0.3\n450,0.02,0.1,0.1,0.9\n500,0.1,0.6,0.6,0.4\n600,0.9,0.3,0.3,0.02\n700,0.1,0,0,0\n";
+    let four = file("four.csv", &format!("nm,R,G1,G2,B\n{rows}"));
+    let three: String = rows
+        .lines()
+        .map(|row| row.split(',').collect::<Vec<_>>())
+        .fold(String::new(), |text, cells| text + &[cells[0], cells[1], cells[2], cells[4]].join(",") + "\n");
+    let three = file("three.csv", &format!("nm,R,G,B\n{three}"));
+    let of =
+        |path: &PathBuf| table(&["patches", "--per", "energy", "--camera", path.to_str().unwrap()])[2][2..].to_vec();
+    assert_eq!(of(&four), of(&three));
+    let nameless = file("nameless.csv", &rows.replace(',', ";"));
+    refused(&["patches", "--camera", nameless.to_str().unwrap()], &["4 curves", "red, green and blue"]);
+}
+
+#[test]
 fn mistakes_are_named() {
     refused(&["locus", "--camera", "Nikn D70"], &["Nikn D70", "did you mean", "Nikon D70 (2007 figure)"]);
     refused(&["locus", "--camera", "Nikon"], &["could be", "Nikon D200"]);

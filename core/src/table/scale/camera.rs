@@ -9,14 +9,20 @@ use super::Role;
 pub(super) const MOST_CHANNELS: usize = 4;
 
 /// Which of three or four names are red, green and blue, and whether all are letters. A fourth curve may be beside
-/// them, such as an infrared or a clear channel.
+/// them, such as an infrared or a clear channel; of the two greens of a Bayer pattern the first is taken.
 pub(super) fn channels(names: &[&str]) -> Option<([usize; 3], bool)> {
     if !(3..=MOST_CHANNELS).contains(&names.len()) {
         return None;
     }
     let mut found: [Option<usize>; 3] = [None; 3];
     let mut letters = true;
+    let green = |wanted: [&str; 2]| names.iter().position(|name| wanted.iter().any(|w| name.eq_ignore_ascii_case(w)));
+    let greens = green(["g1", "gr"]).zip(green(["g2", "gb"]));
     for (index, name) in names.iter().enumerate() {
+        if let Some((first, second)) = greens.filter(|(first, second)| index == *first || index == *second) {
+            found[1] = Some(first.min(second));
+            continue;
+        }
         let channel = match words::channel(name) {
             Some(Channel::Letter(channel)) => channel,
             Some(Channel::Word(channel)) => {
