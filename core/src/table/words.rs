@@ -59,22 +59,50 @@ pub(super) fn x_unit_in_prose(text: &str) -> Option<XUnit> {
     x_unit(&text[start..])
 }
 
+/// A name in lower case without the argument of a function of wavelength: `S(λ)` and `V(lambda)` are values.
+fn without_argument(lower: &str) -> String {
+    const ARGUMENTS: [&str; 3] = ["(λ)", "(lambda)", "(wavelength)"];
+    let mut text = lower.to_owned();
+    for argument in ARGUMENTS {
+        if let Some(at) = text.find(argument)
+            && !text[..at].trim().is_empty()
+        {
+            text = text.replace(argument, "");
+        }
+    }
+    text
+}
+
+/// Whether a column's header is about wavelengths before all: it begins or ends with their name, units aside.
+pub(super) fn begins_with_wavelengths(text: &str) -> bool {
+    const NAMES: [&str; 6] = ["wavelength", "wavelengths", "wl", "λ", "lambda", "wavenumber"];
+    let text = without_argument(&lower(text));
+    let mut words = words(&text).filter(|word| WavelengthUnit::from_symbol(word).is_none());
+    let first = words.next();
+    let last = words.last().or(first);
+    first.is_some_and(|word| NAMES.contains(&word)) || last.is_some_and(|word| NAMES.contains(&word))
+}
+
 /// Whether a column's header names wavelengths, wave numbers or frequencies of light.
 pub(super) fn names_wavelengths(text: &str) -> bool {
     // As other languages call them, and as their unit alone does.
     const CALLED: [&str; 7] =
         ["wellenl", "longueur d", "longitud de onda", "lunghezza d", "comprimento de onda", "波長", "波长"];
     const UNITS: [&str; 10] = ["[nm]", "(nm)", "[µm]", "(µm)", "[μm]", "(μm)", "[um]", "(um)", "[cm-1]", "(cm-1)"];
-    let text = lower(text);
+    let text = without_argument(&lower(text));
     if CALLED.iter().chain(&UNITS).any(|part| text.contains(part)) {
         return true;
     }
+    // As an index, such as in `E_λ`, it names no wavelengths.
+    let symbol = |symbol| {
+        text.match_indices(symbol).any(|(at, _)| !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
+    };
     text.contains("wavelength")
         || text.contains("wavenumber")
         || text.contains("wave number")
         || (text.contains("frequency") && words(&text).any(|word| word == "thz"))
-        || text.contains("lambda")
-        || text.contains('λ')
+        || symbol("lambda")
+        || symbol("λ")
         || words(&text)
             .next()
             .is_some_and(|word| matches!(word, "wave" | "wl" | "nm" | "um" | "µm" | "μm" | "cm-1" | "1/cm" | "thz"))

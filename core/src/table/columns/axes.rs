@@ -2,7 +2,7 @@
 
 use super::super::header::Header;
 use super::super::wide::listed;
-use super::super::words;
+use super::super::words::{self, XUnit};
 
 /// What the columns beside the first wavelengths are.
 #[derive(Debug, Default)]
@@ -29,7 +29,8 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
     let mut axes = Axes::default();
     for (column, values) in before.iter().enumerate() {
         let name = header.name(column).unwrap_or_default();
-        let scale = words::names_axis(name) || words::names_time(name) || is_scale(wavelengths, values);
+        let named = words::names_axis(name) && runs_like_axis(header, [at, column], wavelengths, values);
+        let scale = named || words::names_time(name) || is_scale(wavelengths, values);
         axes.left.extend((scale && !is_empty(values)).then_some(column));
     }
     let kind = |(index, column): (usize, &Vec<f64>)| kind(header, at, index, wavelengths, column);
@@ -75,10 +76,57 @@ fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &
     match () {
         () if is_empty(column) => Kind::Empty,
         () if scale() => Kind::Scale,
-        () if name.is_some_and(words::names_axis) => Kind::Wavelengths,
+        () if name.is_some_and(words::names_axis)
+            && runs_like_axis(header, [at, at + 1 + index], wavelengths, column) =>
+        {
+            Kind::Wavelengths
+        }
         () if wavelengths.len() > 1 && column == wavelengths && alike => Kind::Wavelengths,
         () => Kind::Value,
     }
+}
+
+/// The unit that the header gives for a column of wavelengths.
+pub(super) fn unit(header: &Header, column: usize) -> Option<XUnit> {
+    let unit = header.units.get(column).and_then(|unit| words::x_unit(unit));
+    unit.or_else(|| words::x_unit(header.name(column)?))
+}
+
+/// The ends of numbers that rise or fall all the way, up to the last one.
+fn ends(values: &[f64]) -> Option<(f64, f64)> {
+    let end = values.iter().rposition(|value| !value.is_nan()).map_or(0, |at| at + 1);
+    let values = &values[..end];
+    let ordered = |sign: f64| values.windows(2).all(|pair| sign * (pair[1] - pair[0]) > 0.0);
+    let (a, b) = (*values.first()?, *values.last()?);
+    (a.is_finite() && b.is_finite() && (ordered(1.0) || ordered(-1.0))).then_some((a.min(b), a.max(b)))
+}
+
+/// Whether the numbers of a column whose name mentions wavelengths run as those in the first of two columns do: names such as
+/// `LED, wavelength shifted` do so too.
+fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f64], values: &[f64]) -> bool {
+    let name = header.name(column);
+    if name.is_some() && name == header.name(first) {
+        return true;
+    }
+    let Some((low, high)) = ends(values).filter(|(low, _)| *low > 0.0) else { return false };
+    let (shared, own) = (unit(header, first), unit(header, column));
+    let (from, to) = match (own.or(shared), shared) {
+        (Some(XUnit::Other), _) => return true,
+        (Some(XUnit::Wavelength(unit)), _) => (unit.nanometers(low), unit.nanometers(high)),
+        (None, _) => (low, high),
+    };
+    let (from, to) = (from.min(to), from.max(to));
+    let known = own.or(shared).is_some();
+    let plausible = super::super::wavelengths::plausible(from, to, !known);
+    let overlaps = || match (ends(wavelengths), shared) {
+        (Some((a, b)), Some(XUnit::Wavelength(unit))) => {
+            let (a, b) = (unit.nanometers(a), unit.nanometers(b));
+            from < a.max(b) && to > a.min(b)
+        }
+        (Some((a, b)), None) if own.is_none() => from < b && to > a,
+        _ => true,
+    };
+    plausible && (name.is_some_and(words::begins_with_wavelengths) || overlaps())
 }
 
 /// Whether numbers count their rows.

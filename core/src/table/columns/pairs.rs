@@ -4,18 +4,14 @@ use super::super::families::spectra::{self, Sample, Spectrum};
 use super::super::grid::Grid;
 use super::super::header::Header;
 use super::super::watch::Log;
-use super::super::words::{self, XUnit};
+use super::super::words::XUnit;
 use super::super::{Decided, Decision, ReadError, WavelengthUnit};
-use super::axes::Axes;
+use super::axes::{self, Axes};
 use super::raw_curve;
 
 /// The unit of a column of wavelengths and that of the first, where they differ.
 fn units(header: &Header, first: usize, column: usize) -> Option<(WavelengthUnit, WavelengthUnit)> {
-    let unit = |column: usize| match header.units.get(column).and_then(|unit| words::x_unit(unit)) {
-        Some(unit) => Some(unit),
-        None => words::x_unit(header.name(column)?),
-    };
-    match (unit(column), unit(first)) {
+    match (axes::unit(header, column), axes::unit(header, first)) {
         (Some(XUnit::Wavelength(own)), Some(XUnit::Wavelength(shared))) if own != shared => Some((own, shared)),
         _ => None,
     }
@@ -27,20 +23,20 @@ pub(super) fn read(
     at: usize,
     first: Vec<f64>,
     mut columns: Vec<Vec<f64>>,
-    axes: &Axes,
+    found: &Axes,
     lines: &[usize],
     log: &mut Log<'_>,
 ) -> Result<(Grid, Option<Decision>), ReadError> {
-    let more = &axes.more;
+    let more = &found.more;
     let empty = |values: &[f64]| values.iter().all(|value| value.is_nan());
     let is_curve = |index: usize, values: &[f64]| {
         let column = at + 1 + index;
-        !more.contains(&index) && !axes.left.contains(&column) && (header.name(column).is_some() || !empty(values))
+        !more.contains(&index) && !found.left.contains(&column) && (header.name(column).is_some() || !empty(values))
     };
     let count = columns.iter().enumerate().filter(|(index, values)| is_curve(*index, values)).count();
     let decided = |value: String| {
         let why = format!("Column {} holds wavelengths too", at + 2 + more[0]);
-        let decided = if axes.guessed { Decided::guess(value, why) } else { Decided::certain(value, why) };
+        let decided = if found.guessed { Decided::guess(value, why) } else { Decided::certain(value, why) };
         Some(Decision::new("Columns", &decided))
     };
     if more.iter().all(|&index| columns[index] == first) {
