@@ -8,7 +8,7 @@ use super::warning::{LineList, Sentinel, Warning};
 use super::watch::Log;
 
 /// Numbers that programs write for missing values, as sizes; each with either sign. (−9999 is one wherever it stands.)
-const SIZES: [f64; 16] = [
+const SIZES: [f64; 17] = [
     99.0,
     99.9,
     99.99,
@@ -16,6 +16,7 @@ const SIZES: [f64; 16] = [
     999.25,
     999.9,
     999.99,
+    8_888.0,
     9_999.0,
     9_999.9,
     9_999.99,
@@ -29,7 +30,8 @@ const SIZES: [f64; 16] = [
 
 /// Sizes far beyond what is measured: of USGS (1.23e34), netCDF (9.97e36), instruments with SCPI (9.91e37), and the largest number
 /// in single precision, each to the digits that are written.
-const HUGE: [f64; 10] = [1e30, 1e34, 1.23e34, 1e35, 1e36, 9.969_21e36, 1e37, 9.9e37, 9.91e37, 3.402_823e38];
+const HUGE: [f64; 13] =
+    [1e30, 1e31, 1e32, 1e33, 1e34, 1.23e34, 1e35, 1e36, 9.969_21e36, 1e37, 9.9e37, 9.91e37, 3.402_823e38];
 const WRITTEN: f64 = 1e-6;
 
 /// What is measured beside them is smaller.

@@ -1,4 +1,4 @@
-//! Lights counted in photons, or given per frequency or wave number: converted to energy per nanometer.
+//! Lights counted in photons, or given per frequency, wave number or electronvolt: converted to energy per nanometer.
 //!
 //! A photon of wavelength λ carries the energy h c/λ; a density over another variable changes by the derivative of that
 //! variable with respect to λ (CIE S 017, "spectral concentration").
@@ -8,6 +8,7 @@
 //! E_λ = n_λ · N_A h c / λ                      n_λ in moles of photons (1 µmol = 1 µE)
 //! E_λ = E_ν · |dν/dλ| = E_ν · c / λ²           per frequency ν = c/λ
 //! E_λ = E_σ · |dσ/dλ| = E_σ · 10⁷ nm cm⁻¹/λ²   per wave number σ = 10⁷ nm cm⁻¹/λ
+//! E_λ = E_eV · |dE/dλ| = E_eV · h c/(e λ²)    per energy of a photon E = h c/(e λ)
 //! E_λ = E_µm / 1000,  E_λ = 10 E_Å             per another length
 //! ```
 //!
@@ -23,6 +24,9 @@ use super::{Certainty, Decided, Decision, Quantity, ReadOptions, Role, Values, W
 /// The Planck constant times the speed of light, in J nm.
 const PLANCK_LIGHT_J_NM: f64 = 6.626_070_15e-34 * 299_792_458e9;
 
+/// The Planck constant times the speed of light, in eV nm.
+const PLANCK_LIGHT_EV_NM: f64 = PLANCK_LIGHT_J_NM / 1.602_176_634e-19;
+
 /// The speed of light in nm THz.
 const LIGHT_NM_THZ: f64 = 299_792.458;
 
@@ -37,6 +41,8 @@ struct Conversion {
     per: Per,
     /// The power of ten that the unit begins with.
     ten: f64,
+    /// The size of the energy in the unit of the result, as of an erg in joules.
+    size: f64,
     /// The unit of the result, if it has one.
     unit: Option<String>,
     /// What says so.
@@ -52,19 +58,19 @@ impl Conversion {
             Amount::Energy(_) => None,
         };
         let per = unit.per;
-        let needed = photons.is_some() || !matches!(per, Per::None | Per::Nanometer);
-        needed.then(|| Self { photons, per, ten: unit.ten, unit: Some(unit.in_energy_per_nm()), why })
+        let needed = photons.is_some() || unit.size != 1.0 || !matches!(per, Per::None | Per::Nanometer);
+        needed.then(|| Self { photons, per, ten: unit.ten, size: unit.size, unit: Some(unit.in_energy_per_nm()), why })
     }
 
     /// Of photons on a relative scale.
     fn relative(why: String) -> Self {
-        Self { photons: Some(f64::INFINITY), per: Per::None, ten: 1.0, unit: None, why }
+        Self { photons: Some(f64::INFINITY), per: Per::None, ten: 1.0, size: 1.0, unit: None, why }
     }
 
     /// A value at a wavelength in nanometers as energy per nanometer. Powers of ten keep its digits.
     fn apply(&self, value: f64, nm: f64) -> f64 {
         match (self.photons, self.per) {
-            (None, Per::Length(length_nm)) if self.ten == 1.0 => decimal::divided(value, length_nm),
+            (None, Per::Length(length_nm)) if self.ten == 1.0 && self.size == 1.0 => decimal::divided(value, length_nm),
             _ => value * self.factor(nm),
         }
     }
@@ -81,8 +87,9 @@ impl Conversion {
             Per::Length(length_nm) => 1.0 / length_nm,
             Per::Frequency(thz) => LIGHT_NM_THZ / thz / (nm * nm),
             Per::Wavenumber => 1e7 / (nm * nm),
+            Per::Electronvolt => PLANCK_LIGHT_EV_NM / (nm * nm),
         };
-        energy * density * self.ten
+        energy * density * self.ten * self.size
     }
 
     /// The conversion in words, with its factor.
@@ -91,6 +98,8 @@ impl Conversion {
             Some(count) if !count.is_finite() => Some(("photons on a relative scale", "550 nm/λ".to_owned())),
             Some(count) if count > 1e6 => Some(("moles of photons", "N_A h c/λ".to_owned())),
             Some(_) => Some(("photons", "h c/λ".to_owned())),
+            None if self.size > 1e-10 && self.size != 1.0 => Some(("ergs", "10⁻⁷ J".to_owned())),
+            None if self.size != 1.0 => Some(("janskys", format!("{:e} W/m²/Hz", self.size))),
             None => None,
         };
         let density = match self.per {
@@ -98,6 +107,7 @@ impl Conversion {
             Per::Length(length_nm) => Some(("per another length", format!("1/{length_nm}"))),
             Per::Frequency(_) => Some(("per frequency", "c/λ²".to_owned())),
             Per::Wavenumber => Some(("per wave number", "10⁷/λ²".to_owned())),
+            Per::Electronvolt => Some(("per electronvolt", "h c/(e λ²)".to_owned())),
         };
         let (what, by): (Vec<&str>, Vec<String>) = [amount, density].into_iter().flatten().unzip();
         format!("{}, converted to energy per nanometer by {}", what.join(" "), by.join(" and "))
@@ -161,15 +171,39 @@ pub(super) fn names_photons(text: &str) -> bool {
         return false;
     }
     let lower = text.to_lowercase().replace('_', " ");
-    let word = |word: &str| matches!(word, "ppfd" | "pfd" | "photons" | "quanta" | "qntm");
+    let word = |word: &str| matches!(word, "ppfd" | "pfd" | "spfd" | "photons" | "quanta" | "qntm");
     PHRASES.iter().any(|phrase| lower.contains(phrase))
         || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
 }
 
-/// Whether a line of free text, such as LI-COR's `(QNTM)`, says that all values are photons.
+/// Whether a line of free text says that all values are photons: LI-COR's `(QNTM)`, a quantity of photons alone, or a sentence on
+/// all values.
 pub(super) fn said_in_prose(line: &str) -> bool {
     const LONGEST: usize = 400;
-    line.len() <= LONGEST && line.contains("(QNTM)")
+    const QUANTITY: [&str; 12] = [
+        "spectral",
+        "photon",
+        "photosynthetic",
+        "quantum",
+        "flux",
+        "density",
+        "irradiance",
+        "radiance",
+        "fluence",
+        "rate",
+        "exitance",
+        "intensity",
+    ];
+    if line.len() > LONGEST {
+        return false;
+    }
+    let lower = line.to_lowercase();
+    let mut words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let alone = words.all(|word| QUANTITY.contains(&word)) && names_photons(&lower);
+    let values = ["values are in ", "values in ", "units are "].iter().any(|start| lower.contains(start));
+    let photons =
+        lower.contains("photons per ") || lower.contains("moles of photons") || lower.contains("mol of photons");
+    line.contains("(QNTM)") || alone || values && photons && !words::says_counts(&lower)
 }
 
 /// Whether a title or a line of free text says that sensitivities are quantum efficiencies or responses per photon.
@@ -180,7 +214,8 @@ pub(super) fn says_per_photon(text: &str) -> bool {
     }
     let lower = text.to_lowercase();
     let qe = lower.split(|c: char| !c.is_alphanumeric()).any(|word| word == "qe");
-    let said = qe || ["quantum eff", "per photon", "/photon", "per quantum"].iter().any(|part| lower.contains(part));
+    let said = qe
+        || ["quantum eff", "quantal", "per photon", "/photon", "per quantum"].iter().any(|part| lower.contains(part));
     said && !lower.contains("energ")
 }
 
@@ -298,7 +333,7 @@ fn renamed(name: &str) -> String {
         let lower = word.trim_matches(|c: char| !c.is_alphanumeric()).to_lowercase();
         match lower.as_str() {
             "photon" | "photons" | "quantum" | "quanta" | "qntm" | "photosynthetic" => None,
-            "ppfd" | "pfd" => Some("Irradiance"),
+            "ppfd" | "pfd" | "spfd" => Some("Irradiance"),
             "s.q.irrad" => Some("s.e.irrad"),
             _ => Some(word),
         }

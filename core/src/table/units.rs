@@ -19,6 +19,8 @@ pub(super) struct Unit {
     pub(super) per: Per,
     /// The power of ten before it.
     pub(super) ten: f64,
+    /// The size of its energy in units of the symbol, as of an erg in joules.
+    pub(super) size: f64,
     /// The byte of the text where it begins.
     pub(super) start: usize,
 }
@@ -43,6 +45,8 @@ pub(super) enum Per {
     Frequency(f64),
     /// 1/cm.
     Wavenumber,
+    /// The energy of a photon in electronvolts.
+    Electronvolt,
 }
 
 impl Unit {
@@ -51,6 +55,7 @@ impl Unit {
         let (symbol, time) = match (self.amount, self.time) {
             (Amount::Photons(_), Some("s")) => ("W", None),
             (Amount::Photons(_), time) => ("J", time),
+            (Amount::Energy("J"), Some("s")) if self.size != 1.0 => ("W", None),
             (Amount::Energy(symbol), time) => (symbol, time),
         };
         let spectral = (self.per != Per::None).then_some("nm");
@@ -112,9 +117,14 @@ fn exponent(text: &str) -> (u32, usize) {
 fn unit(text: &str, words: &[Word<'_>]) -> Option<Unit> {
     let (first, rest) = words.split_first()?;
     let lower = first.letters.to_lowercase();
-    let (amount, joined) = amount(&lower)?;
+    let ergs = ergs(first.letters);
+    let (amount, joined) = if let Some((symbol, _)) = ergs { (Amount::Energy(symbol), None) } else { amount(&lower)? };
     let (ten, start) = power_of_ten(text, first.start);
-    let mut unit = Unit { amount, area: None, steradian: false, time: None, per: Per::None, ten, start };
+    let size = ergs.map_or(1.0, |(_, size)| size);
+    let mut unit = Unit { amount, area: None, steradian: false, time: None, per: Per::None, ten, size, start };
+    if amount == Amount::Energy("W") && ergs.is_some() {
+        (unit.area, unit.per) = (Some("m²"), Per::Frequency(1e-12));
+    }
     if let Some(joined) = joined {
         unit.take(joined, first.exponent);
     }
@@ -137,6 +147,19 @@ fn amount(word: &str) -> Option<(Amount, Option<&'static str>)> {
     ["cm", "m"].into_iter().find_map(|length| {
         let short = word.strip_suffix(length).filter(|short| !short.is_empty() && !short.ends_with("photon"))?;
         Some((plain_amount(short)?, Some(length)))
+    })
+}
+
+/// The symbol and the size of ergs, and of janskys (10⁻²⁶ W/m²/Hz). Of janskys, `m` and `M` are different.
+fn ergs(letters: &str) -> Option<(&'static str, f64)> {
+    Some(match letters {
+        "erg" | "ergs" | "Erg" | "Ergs" => ("J", 1e-7),
+        "Jy" => ("W", 1e-26),
+        "mJy" => ("W", 1e-29),
+        "µJy" | "μJy" | "uJy" => ("W", 1e-32),
+        "kJy" => ("W", 1e-23),
+        "MJy" => ("W", 1e-20),
+        _ => return None,
     })
 }
 
@@ -188,6 +211,7 @@ impl Unit {
             "ghz" => return self.take_per(Per::Frequency(1e-3)),
             "mhz" => return self.take_per(Per::Frequency(1e-6)),
             "hz" => return self.take_per(Per::Frequency(1e-12)),
+            "ev" | "electronvolt" | "electronvolts" => return self.take_per(Per::Electronvolt),
             "sr" | "steradian" | "steradians" => return !std::mem::replace(&mut self.steradian, true),
             "s" | "sec" | "second" | "seconds" => return self.take_time("s"),
             "h" | "hr" | "hour" => return self.take_time("h"),

@@ -6,16 +6,17 @@ use super::super::watch::Log;
 use super::evidence::VISIBLE_NM;
 use super::{Role, Scale};
 
-/// Warns of reflectances that cannot be, and of values further below zero than noise.
+/// Warns of reflectances that cannot be, and of values further below zero than noise, also of lights.
 pub(in crate::table) fn warn(scale: &Scale, grid: &Grid, log: &mut Log<'_>) {
     const LARGEST: f64 = 2.0;
     const NOISE: f64 = 0.05;
     let role = scale.role.value;
-    if !role.is_fraction() && role != Role::Camera {
+    let light = role == Role::Illuminant;
+    if !role.is_fraction() && role != Role::Camera && !light {
         return;
     }
     // Outside, instruments are noisy.
-    let all = !grid.wavelengths.iter().any(|w| VISIBLE_NM.contains(w));
+    let all = !light && !grid.wavelengths.iter().any(|w| VISIBLE_NM.contains(w));
     let (mut bright, mut below) = (0, 0);
     let (mut first_bright, mut first_below) = (None, None);
     for curve in &grid.curves {
