@@ -176,34 +176,16 @@ pub(super) fn names_photons(text: &str) -> bool {
         || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
 }
 
-/// Whether a line of free text says that all values are photons: LI-COR's `(QNTM)`, a quantity of photons alone, or a sentence on
-/// all values.
+/// Whether a line of free text says that all values are photons: LI-COR's `(QNTM)`, or a sentence on all values.
 pub(super) fn said_in_prose(line: &str) -> bool {
     const LONGEST: usize = 400;
-    const QUANTITY: [&str; 12] = [
-        "spectral",
-        "photon",
-        "photosynthetic",
-        "quantum",
-        "flux",
-        "density",
-        "irradiance",
-        "radiance",
-        "fluence",
-        "rate",
-        "exitance",
-        "intensity",
-    ];
     if line.len() > LONGEST {
         return false;
     }
     let lower = line.to_lowercase();
-    let mut words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let alone = words.all(|word| QUANTITY.contains(&word)) && names_photons(&lower);
     let values = ["values are in ", "values in ", "units are "].iter().any(|start| lower.contains(start));
-    let photons =
-        lower.contains("photons per ") || lower.contains("moles of photons") || lower.contains("mol of photons");
-    line.contains("(QNTM)") || alone || values && photons && !words::says_counts(&lower)
+    let photons = ["photons per ", "moles of photons", "mol of photons"].iter().any(|part| lower.contains(part));
+    line.contains("(QNTM)") || values && photons && !words::says_counts(&lower)
 }
 
 /// Whether a title or a line of free text says that sensitivities are quantum efficiencies or responses per photon.
