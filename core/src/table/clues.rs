@@ -19,6 +19,8 @@ pub(super) struct Clues {
     pub(super) role: Option<(usize, Role)>,
     /// What a setting says that the values stand for.
     pub(super) values: Option<(usize, Values)>,
+    /// A title or a name of data mentions absorbances.
+    pub(super) absorbance: Option<usize>,
 }
 
 /// Keys of settings that name what is measured.
@@ -54,6 +56,13 @@ const IN_PERCENT: [(&str, &str); 8] = [
 ];
 
 impl Clues {
+    /// Takes what a title or a line of prose mentions.
+    pub(super) fn mention(&mut self, line: usize, text: &str) {
+        // The name of a file may join its words.
+        let spaced = text.replace('_', " ");
+        self.absorbance = self.absorbance.or_else(|| words::mentions_absorbance(&spaced).then_some(line));
+    }
+
     /// Takes what a line above the numbers says.
     pub(super) fn take(&mut self, line: usize, text: &str) {
         if text.len() > LONGEST && !text.starts_with("Date,Mode,") {
@@ -65,6 +74,7 @@ impl Clues {
         if text.len() > LONGEST {
             return;
         }
+        self.mention(line, text);
         let lower = text.trim().to_lowercase();
         if lower.contains("not compared to a white reference") {
             self.ratio = Some((line, false));

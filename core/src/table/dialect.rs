@@ -88,8 +88,8 @@ pub(super) fn may_be_thousands(cell: &str) -> bool {
 /// The value that many instruments write for "not measured".
 const NOT_MEASURED: f64 = -9999.0;
 
-const GAPS: [&str; 13] =
-    ["na", "n/a", "n.a.", "null", "none", "nan", "-", "*", "#n/a", "#div/0!", "#value!", "#num!", "#ref!"];
+const GAPS: [&str; 15] =
+    ["sat", ".", "na", "n/a", "n.a.", "null", "none", "nan", "-", "*", "#n/a", "#div/0!", "#value!", "#num!", "#ref!"];
 
 impl Dialect {
     pub(super) fn new(delimiter: Delimiter, mark: DecimalMark) -> Self {
@@ -135,7 +135,7 @@ impl Dialect {
         if is_gap(cell) {
             return Cell::Gap;
         }
-        if let Some(value) = self.grouped(cell) {
+        if let Some(value) = self.grouped(cell).or_else(|| self.fortran(cell)) {
             return Cell::Number(value);
         }
         // The typographic minus, as word processors write it.
@@ -143,6 +143,16 @@ impl Dialect {
             Some(value) if value.is_finite() && value.is_sign_positive() => Cell::Number(-value),
             _ => Cell::Text,
         }
+    }
+
+    /// A number in double precision as Fortran writes it: `1.5D-01`.
+    fn fortran(self, cell: &str) -> Option<f64> {
+        const LONGEST: usize = 32;
+        let (mantissa, exponent) = cell.split_once(['D', 'd']).filter(|_| cell.len() <= LONGEST)?;
+        let digits = exponent.strip_prefix(['+', '-'])?;
+        let plain = mantissa.contains('.') && (2..=3).contains(&digits.len());
+        let number = || self.number(&format!("{mantissa}E{exponent}")).filter(|number| number.is_finite());
+        if plain && digits.bytes().all(|b| b.is_ascii_digit()) { number() } else { None }
     }
 
     /// A number with thousands set apart, where that cannot mean anything else: `1.234,5`, `1,234.5`, `1 234,5`.
@@ -255,12 +265,16 @@ fn parse_decimal_comma(cell: &str) -> Option<f64> {
 
 fn is_gap(cell: &str) -> bool {
     const LONGEST: usize = 16;
-    if cell.is_empty() || cell.bytes().all(|b| b == b'-') {
+    if cell.is_empty() || cell.bytes().all(|b| b == b'-') || cell.bytes().all(|b| b == b'*') {
         return true;
     }
     // Few cells get here in a sound file, but a hostile one is nothing else.
-    if cell.len() > LONGEST || !cell.starts_with(['n', 'N', '#', '*', '1', '-', '+']) {
+    if cell.len() > LONGEST || !cell.starts_with(['n', 'N', '#', '*', '1', '-', '+', '.', 's', 'S', '<', '>']) {
         return false;
+    }
+    // Beyond a limit of detection, as of `<0.01`.
+    if let Some(limit) = cell.strip_prefix(['<', '>']) {
+        return limit.trim().parse::<f64>().is_ok();
     }
     let lower = cell.to_ascii_lowercase();
     // What C runtimes on Windows print for not-a-number and infinity.

@@ -46,7 +46,7 @@ pub enum ReadError {
     },
     /// A line of values begins at another abscissa than its place in the file and the header say.
     #[error(
-        "line {line}: begins at {found}, but FIRSTX, LASTX and NPOINTS put it at {expected}: correct the line or the \
+        "line {line}: begins at {found}, but the header and the lines before put it at {expected}: correct the line or the \
          header, or export the measurement again"
     )]
     Misplaced {

@@ -125,6 +125,7 @@ impl Header {
         if matches!(lower.as_str(), "response" | "title" | "description") {
             self.mentioned = self.mentioned.or_else(|| words::role(value).map(|role| (line, role)));
             self.take_photons(line, value);
+            self.clues.mention(line, value);
         }
         // `wavelength_unit`, `x unit` and the like; a plain `unit` is that of the values.
         let about_x = words::x_unit_in_prose(&format!("{} {value}", lower.replace('_', " ")));
@@ -165,8 +166,21 @@ impl Header {
         let start = text.trim_start().as_bytes();
         let begins =
             |word: &str| start.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word.as_bytes()));
-        let about_y =
-            ["y unit", "yunit", "yaxisunit", "unit:", "units:", "unit,", "units,"].iter().any(|word| begins(word));
+        let about_y = [
+            "y unit",
+            "yunit",
+            "yaxisunit",
+            "unit:",
+            "units:",
+            "unit,",
+            "units,",
+            "unit=",
+            "unit =",
+            "units=",
+            "units =",
+        ]
+        .iter()
+        .any(|word| begins(word));
         if about_y || is_title_with_unit(text) {
             self.take_value_unit(line, text);
             let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| quantity::unit(value));

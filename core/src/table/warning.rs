@@ -209,6 +209,11 @@ pub enum Warning {
         /// Where.
         lines: LineList,
     },
+    /// Lines with fewer values than there are places before the next line: left out.
+    ShortLines {
+        /// Where.
+        lines: LineList,
+    },
     /// A header announces another value than the data hold.
     HeaderDiffers {
         /// Where it is announced.
@@ -298,6 +303,7 @@ impl Warning {
             | Self::CommentedRows { lines }
             | Self::RepeatedHeader { lines }
             | Self::PlacedByAbscissa { lines }
+            | Self::ShortLines { lines }
             | Self::Averaged { lines, .. } => lines.first().first().copied(),
             Self::Sorted { line }
             | Self::NumbersAbove { line }
@@ -425,6 +431,12 @@ impl fmt::Display for Warning {
             Self::RepeatedRows { lines } => write!(f, "{lines}: the same as an earlier row: counted once"),
             Self::AveragedRows { lines } => {
                 write!(f, "{lines}: several rows with different values at one wavelength: their mean is taken")
+            }
+            Self::ShortLines { lines } => {
+                write!(
+                    f,
+                    "{lines}: fewer values than places before the next line: left out. Which is missing is not known"
+                )
             }
             Self::NoWavelength { lines } => write!(f, "{lines}: no wavelength: left out"),
             Self::NumbersAbove { line } => write!(f, "line {line}: numbers above the table: left out"),

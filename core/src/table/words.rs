@@ -28,6 +28,9 @@ fn words(lower: &str) -> impl Iterator<Item = &str> {
 /// The first unit of length, of wave number or of frequency in a piece of text.
 pub(super) fn x_unit(text: &str) -> Option<XUnit> {
     let text = lower(text).replace('⁻', "-").replace('¹', "1");
+    if let Some(unit) = bracketed_letter(&text) {
+        return Some(unit);
+    }
     let energies = text.contains("energ") || words(&text).count() == 1;
     let unit = words(&text).find_map(|word| match word {
         "ev" | "kev" | "mev" if energies => Some(XUnit::Other),
@@ -36,6 +39,24 @@ pub(super) fn x_unit(text: &str) -> Option<XUnit> {
     });
     let wave_numbers = text.contains("wavenumber") || text.contains("wave number");
     unit.or_else(|| wave_numbers.then_some(XUnit::Wavelength(WavelengthUnit::Wavenumber)))
+}
+
+/// A unit of one letter, or a multiple of one, in brackets right after the word for wavelengths: `Wavelength (A)`, `wave(m)`,
+/// `Wavenumber (10^3 cm-1)`.
+fn bracketed_letter(lower: &str) -> Option<XUnit> {
+    const NAMES: [&str; 7] = ["wavelength", "wavelengths", "wave", "wl", "lambda", "wavenumber", "wave number"];
+    let (name, rest) = lower.split_once(['(', '['])?;
+    let unit = rest[..rest.find([')', ']'])?].trim();
+    if !NAMES.contains(&name.trim_matches(|c: char| !c.is_alphanumeric())) {
+        return None;
+    }
+    let multiple = ["10^3", "10^4", "10³", "1000", "k"].iter().any(|start| unit.starts_with(start));
+    match unit {
+        "a" => Some(XUnit::Wavelength(WavelengthUnit::Angstrom)),
+        "m" | "meter" | "meters" | "metre" | "metres" => Some(XUnit::Other),
+        _ if multiple && unit.contains("cm") => Some(XUnit::Other),
+        _ => None,
+    }
 }
 
 /// Whether a text says that wavelengths are those in air or in vacuum.
@@ -230,16 +251,67 @@ fn says_absorbance(lower: &str) -> bool {
             || lower.ends_with("[od]")
     };
     let abs = || words(lower).any(|word| word == "abs") && !OTHERS.iter().any(|other| lower.contains(other));
+    let culture = |word: &str| {
+        word.strip_prefix("od").is_some_and(|nm| nm.len() == 3 && nm.bytes().all(|digit| digit.is_ascii_digit()))
+    };
     lower.contains("absorban")
+        || lower.trim() == "extinktion"
+        || matches!(lower.trim(), "a (au)" | "a [au]" | "a(au)")
+        || words(lower).any(culture)
         || lower.contains("optical density")
         || inverse_log(lower).is_some()
         || ((short() || abs()) && !says_percent(lower))
 }
 
+/// What a header says that is not converted, with its remedy.
+pub(super) fn not_converted(text: &str) -> Option<&'static str> {
+    let text = lower(text);
+    let word = |wanted: &[&str]| words(&text).any(|word| wanted.contains(&word));
+    if word(&["mau", "mabs", "milliabsorbance"]) || text.contains("(mod)") || text.contains("[mod]") {
+        Some("mAU, thousandths of absorbances, are not converted: divide them by 1000 first")
+    } else if word(&["db"]) && ["attenuation", "loss", "dämpfung"].iter().any(|part| text.contains(part)) {
+        Some("losses in dB are not converted: negate them first")
+    } else {
+        None
+    }
+}
+
+/// Whether a line of prose says that values are absorbances, and names no other quantity.
+pub(super) fn mentions_absorbance(text: &str) -> bool {
+    const MOST_WORDS: usize = 15;
+    let short = lower(text);
+    let about = |start: &str| short.match_indices(start).any(|(at, _)| !short[..at].ends_with(char::is_alphabetic));
+    ["absorban", "extinktion", "optical density"].iter().any(|start| about(start))
+        && words(&short).count() <= MOST_WORDS
+        && quantity(text).is_none()
+        && !says_percent(text)
+        && not_converted(text).is_none()
+}
+
+/// Whether a header names light on a scale of its own: `Relative power`, `Intensity (a.u.)`, `mW`.
+pub(super) fn names_light_scale(text: &str) -> bool {
+    const WORDS: [&str; 10] = ["power", "intensity", "emission", "energy", "luminance", "mw", "µw", "uw", "nw", "w"];
+    let text = lower(text);
+    text.trim() == "a.u." || words(&text).any(|word| WORDS.contains(&word) || word.starts_with("erg/"))
+}
+
+/// Whether a header names a response, which is neither a light nor a fraction of one.
+pub(super) fn names_response(text: &str) -> bool {
+    words(&lower(text)).any(|word| word == "response")
+}
+
+/// Whether the unit of a header is AU, which is of absorbance or arbitrary.
+pub(super) fn says_au(text: &str) -> bool {
+    let text = lower(text);
+    text.ends_with("(au)") || text.ends_with("[au]")
+}
+
 /// What a header says that the values stand for.
 pub(super) fn values(text: &str) -> Option<Values> {
     let short = lower(text);
-    if says_absorbance(&short) {
+    if not_converted(text).is_some() {
+        None
+    } else if says_absorbance(&short) {
         Some(Values::Absorbance)
     } else if words(&short).any(|word| matches!(word, "dbm" | "db")) {
         Some(Values::Decibels)
@@ -278,7 +350,7 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
         Quantity::Reflectance
     } else if !passed && (any(&["transmit", "transmiss", "t-factor", "透過率"]) || letter == Some('t')) {
         Quantity::Transmittance
-    } else if any(&["irradian", "exitance"]) {
+    } else if any(&["irradian", "exitance", "bestrahlungsst", "éclairement énerg"]) {
         Quantity::Irradiance
     } else if any(&["radiance"]) {
         Quantity::Radiance
@@ -317,7 +389,9 @@ pub(super) fn role(text: &str) -> Option<Role> {
 pub(super) fn role_in_prose(text: &str) -> Option<Role> {
     let key = text.split([':', ',', ';', '=', '\t']).next().unwrap_or_default();
     let condition = key.len() < text.len() && matches!(lower(key.trim()).as_str(), "illuminant" | "illuminants");
-    role(text).filter(|_| !condition)
+    // A luminance is measured of lights.
+    let light = key.len() < text.len() && lower(key.trim()) == "luminance";
+    if light { Some(Role::Illuminant) } else { role(text).filter(|_| !condition) }
 }
 
 /// Whether a name is that of a standard illuminant: `D65`, `FL2`, `Illuminant A`. `A`, `E` and `F2` alone are fields of charts too.
@@ -413,6 +487,7 @@ pub(super) fn channel(name: &str) -> Option<Channel> {
     parts().find_map(|part| {
         let letters = ["r", "g", "b", "x", "y", "z", "l", "m", "s", "xbar", "ybar", "zbar", "rbar", "gbar", "bbar"];
         let letter = position(part, &letters).map(|i| kind(i % 3));
-        letter.or_else(|| position(part, &["red", "green", "blue"]).map(Channel::Word))
+        let colors = ["red", "green", "blue", "rot", "grün", "blau", "rouge", "vert", "bleu"];
+        letter.or_else(|| position(part, &colors).map(|i| Channel::Word(i % 3)))
     })
 }

@@ -77,6 +77,8 @@ struct File {
     header: Header,
     declared: Declared,
     scale: Option<(usize, f64)>,
+    /// Keywords that the data are held against, with their lines and numbers.
+    announced: Vec<(&'static str, usize, f64)>,
     fields: Vec<String>,
     format_line: usize,
     bands: Option<Bands>,
@@ -115,6 +117,11 @@ impl File {
             return;
         }
         let number = value.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+        let held = ["NUMBER_OF_SETS", "SPECTRAL_START_NM", "SPECTRAL_END_NM"].into_iter().find(|held| key == *held);
+        if let Some((held, number)) = held.zip(number) {
+            self.announced.retain(|(other, ..)| *other != held);
+            self.announced.push((held, line, number));
+        }
         match &*key {
             "SPECTRAL_BANDS" => self.declared.bands = number,
             "SPECTRAL_START_NM" => self.declared.start = number,
@@ -154,6 +161,9 @@ impl File {
     fn begin_data(&mut self, line: usize) {
         self.end_data();
         let Some(bands) = Bands::of(&self.fields, self.declared).filter(|_| self.parts.len() < MAX_PARTS) else {
+            if !self.done {
+                self.announced.clear();
+            }
             return;
         };
         let name = std::mem::take(&mut self.title);
@@ -176,6 +186,7 @@ impl File {
             // What the keywords say of one table is not said of the next.
             if !self.done {
                 (self.declared, self.scale, self.header) = Default::default();
+                self.announced.clear();
             }
         }
     }
@@ -225,6 +236,7 @@ impl File {
             let (found, expected) = (self.at, self.width);
             return Err(ReadError::UnevenRow { line: self.last_line, found, expected });
         }
+        warn_announced(&self.announced, &bands.wavelengths, self.names.len(), log);
         let mut header = self.header;
         header.line = Some(self.format_line);
         if bands.percent {
@@ -287,6 +299,21 @@ fn measured(kind: &str) -> Option<Role> {
         Some("TRANSMISSIVE") => Some(Role::Transmittance),
         Some("SENSITIVITY") => Some(Role::Camera),
         _ => None,
+    }
+}
+
+/// Warns where keywords announce another number of sets, or other ends of the spectrum, than the data have.
+fn warn_announced(announced: &[(&'static str, usize, f64)], wavelengths: &[f64], sets: usize, log: &mut Log<'_>) {
+    const ROUNDING_NM: f64 = 1.0;
+    for &(label, line, announced) in announced {
+        let (found, slack) = match label {
+            "NUMBER_OF_SETS" => (Some(sets as f64), 0.0),
+            "SPECTRAL_START_NM" => (wavelengths.first().copied(), ROUNDING_NM),
+            _ => (wavelengths.last().copied(), ROUNDING_NM),
+        };
+        if let Some(found) = found.filter(|found| (found - announced).abs() > slack) {
+            log.push(Warning::HeaderDiffers { line, label, announced, found });
+        }
     }
 }
 

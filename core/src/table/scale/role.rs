@@ -27,6 +27,12 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
         let why = format!("The curves are named {}", names.join(", "));
         if letters { Decided::certain(Role::Camera, why) } else { Decided::guess(Role::Camera, why) }
     });
+    if let Some(mixed) = mixed(grid) {
+        return Some(mixed);
+    }
+    if let Some(other) = channels.as_ref().and_then(|_| other_than_camera(grid)) {
+        return Some(other);
+    }
     if let Some(letters) = channels.clone().filter(|channels| channels.certainty == Certainty::Certain) {
         return Some(letters);
     }
@@ -35,6 +41,33 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
         .or(channels)
         .or_else(|| of_quantity(grid))
         .or_else(|| of_illuminants(grid))
+}
+
+/// A quantity, unit or mode that outweighs the names of channels: of lights, or of fractions of light.
+fn other_than_camera(grid: &Grid) -> Option<Decided<Role>> {
+    let other = |role: Role| role == Role::Illuminant || role.is_fraction();
+    let found = named(grid).or_else(|| of_settings(grid)).or_else(|| of_quantity(grid));
+    if let Some(found) = found {
+        return Some(found).filter(|found| other(found.value));
+    }
+    let (line, role) = grid.header.mentioned.filter(|(_, role)| other(*role))?;
+    Some(Decided::guess(role, format!("Line {line} mentions it, whatever the names of the columns")))
+}
+
+/// Columns named A beside R or T: absorbances or absorptances beside reflectances and transmittances.
+fn mixed(grid: &Grid) -> Option<Decided<Role>> {
+    const MOST: usize = 4;
+    if grid.header.mentioned.is_some() || grid.curves.len() > MOST {
+        return None;
+    }
+    let named = |letter: &str| {
+        grid.curves.iter().any(|curve| {
+            let name = quantity::without_unit(&curve.label).trim_start_matches('%').trim().to_lowercase();
+            name == letter
+        })
+    };
+    let why = "Columns named A, T or R are different quantities: A is absorbance or absorptance";
+    (named("a") && (named("r") || named("t"))).then(|| Decided::open(Role::Unknown, why))
 }
 
 /// The role that the columns name.
@@ -110,6 +143,19 @@ fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
     if let Some(role) = grid.role.as_ref().filter(|role| suits(role.value, values)) {
         return Some(role.clone());
     }
+    let label = |is: fn(&str) -> bool| grid.curves.iter().map(|curve| &*curve.label).find(|label| is(label));
+    if options.values.is_none() && values == Some(Values::Percent) {
+        if let Some(label) = label(words::names_response) {
+            return Some(Decided::open(Role::Unknown, format!("“{}” is of a sensor or of a light", excerpt(label))));
+        }
+        if let Some(label) = label(words::names_light_scale).or_else(|| label(words::names_lamp)) {
+            return Some(Decided::guess(Role::Illuminant, format!("“{}” names light", excerpt(label))));
+        }
+    }
+    let absorbance = grid.header.clues.absorbance.filter(|_| values.is_none());
+    if let Some(line) = absorbance {
+        return Some(Decided::guess(Role::Transmittance, format!("Line {line} mentions absorbances")));
+    }
     match values {
         Some(Values::Percent) => Some(Decided::guess(Role::Reflectance, why)),
         // Most spectrometers derive absorbances from what passes a sample.
@@ -141,6 +187,10 @@ fn lamp(grid: &Grid) -> Option<Decided<Role>> {
 pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     // Lights scaled the usual way are exactly 100 at 560 nm.
     const ANCHOR: (f64, f64) = (560.0, 100.0);
+    let labels = || grid.curves.iter().map(|curve| &*curve.label);
+    if let Some(why) = labels().find_map(words::not_converted) {
+        return Decided::open(Role::Unknown, why);
+    }
     if bells(grid).is_some() {
         return Decided::guess(Role::Camera, "Three bells, one in each third of the visible range");
     }
@@ -153,6 +203,12 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     }
     let (min, max) = evidence.range();
     if min >= -0.2 && max <= 1.2 && max > 0.0 {
+        if let Some(label) = labels().find(|label| words::names_light_scale(label)) {
+            return Decided::guess(Role::Illuminant, format!("“{}” names light", excerpt(label)));
+        }
+        if labels().any(words::says_au) {
+            return Decided::open(Role::Unknown, "AU may be absorbance units or arbitrary units");
+        }
         return Decided::guess(Role::Reflectance, evidence.words());
     }
     Decided::open(

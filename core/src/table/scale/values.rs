@@ -45,6 +45,16 @@ pub(super) fn decide(
             _ => Decided::certain(Values::Plain, "Only reflectances and transmittances are scaled"),
         });
     }
+    if let Some(line) = grid.header.clues.absorbance.filter(|_| role.certainty != Certainty::Certain) {
+        // No instrument measures larger ones.
+        const LARGEST_ABSORBANCE: f64 = 10.0;
+        let why = format!("Line {line} mentions absorbances");
+        return all(if evidence.range().1 > LARGEST_ABSORBANCE {
+            Decided::open(Values::Plain, format!("{why}, but {}", evidence.words()))
+        } else {
+            Decided::guess(Values::Absorbance, why)
+        });
+    }
     by_numbers(grid, from_file || role.certainty != Certainty::Chosen, evidence, log)
 }
 

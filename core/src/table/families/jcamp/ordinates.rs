@@ -76,6 +76,8 @@ pub(super) struct Placed {
     pub(super) samples: Vec<Sample>,
     pub(super) warnings: Vec<Warning>,
     moved: LineList,
+    /// Lines that lack a value somewhere: left out.
+    short: LineList,
 }
 
 impl Data<'_> {
@@ -104,7 +106,7 @@ impl Data<'_> {
         for &step in &steps {
             for digits in [Digits::Rounded, Digits::Cut, Digits::Loose] {
                 match (Grid { axis, step, digits }).place(self) {
-                    Ok(mut placed) if placed.moved.is_empty() => {
+                    Ok(mut placed) if placed.moved.is_empty() && placed.short.is_empty() => {
                         if let Some((line, delta)) = contradicted {
                             if self.rows.len() < 2 {
                                 return Err(ReadError::StepContradicts { line, announced: delta, found: steps[0] });
@@ -120,12 +122,39 @@ impl Data<'_> {
                 }
             }
         }
+        if let Some(placed) = self.as_counted(axis) {
+            return Ok(placed);
+        }
         if let Some(mut placed) = moved {
-            placed.warnings.insert(0, Warning::PlacedByAbscissa { lines: std::mem::take(&mut placed.moved) });
+            let (lines, short) = (std::mem::take(&mut placed.moved), std::mem::take(&mut placed.short));
+            let moved = (!lines.is_empty()).then_some(Warning::PlacedByAbscissa { lines });
+            let short = (!short.is_empty()).then_some(Warning::ShortLines { lines: short });
+            placed.warnings.splice(0..0, short.into_iter().chain(moved));
             return Ok(placed);
         }
         let error = error.unwrap_or(ReadError::NoWavelengths { line });
         self.points(axis).ok_or(error)
+    }
+
+    /// The ordinates where all lines and both ends agree with their number, and only the announced number does not.
+    fn as_counted(&self, axis: &Axis) -> Option<Placed> {
+        let count = self.count();
+        axis.points.filter(|points| *points != count && self.rows.len() > 1)?;
+        axis.last?;
+        let axis = Axis { points: Some(count), ..*axis };
+        let (steps, contradicted) = axis.steps(count);
+        let step = *steps.first().filter(|_| contradicted.is_none())?;
+        let placed = [Digits::Rounded, Digits::Cut].into_iter().find_map(|digits| {
+            let placed = Grid { axis: &axis, step, digits }.place(self).ok()?;
+            (placed.moved.is_empty() && placed.short.is_empty()).then_some(placed)
+        });
+        placed
+    }
+
+    /// Whether a line lacks values by where the next line begins: less than would make it a full line.
+    fn is_short(&self, index: usize, lacking: usize, longest: usize) -> bool {
+        let sums = self.rows[index].repeats || self.rows.get(index + 1).is_some_and(|next| next.repeats);
+        !sums && lacking > 0 && self.values(index).len() + lacking <= longest
     }
 
     /// The ordinates at the abscissas beside them, where each line has one and the ends are those of the header: then the steps
@@ -229,7 +258,8 @@ impl Grid<'_> {
             return Err(self.misplaced(data, 0, 0));
         }
         let mut all: Vec<(usize, Sample)> = Vec::with_capacity(data.ordinates.len());
-        let mut moved = LineList::default();
+        let (mut moved, mut short) = (LineList::default(), LineList::default());
+        let longest = (0..data.rows.len()).map(|at| data.values(at).len()).max().unwrap_or(0);
         let (mut next, mut first_moved) = (0_usize, None);
         // Lines that begin at the abscissa of the value they repeat, as they should, and the first that does not.
         let (mut standard, mut other) = (false, None);
@@ -255,7 +285,14 @@ impl Grid<'_> {
             } else {
                 let named = self.index(row.head).ok_or_else(|| self.misplaced(data, at, next))?;
                 first_moved = first_moved.or(Some((at, next)));
-                moved.add(row.line);
+                if at > 0 && data.is_short(at - 1, named.saturating_sub(next), longest) {
+                    // Nothing says where in the line before a value is missing.
+                    let before = data.rows[at - 1].line;
+                    short.add(before);
+                    while all.pop_if(|(_, sample)| sample.line == before).is_some() {}
+                } else {
+                    moved.add(row.line);
+                }
                 named
             };
             let samples = values.iter().enumerate().map(|(offset, &value)| {
@@ -281,7 +318,7 @@ impl Grid<'_> {
             warnings.extend((!again.is_empty()).then_some(Warning::RepeatedRows { lines: again }));
         }
         let samples = all.into_iter().map(|(_, sample)| sample).filter(|sample| !sample.value.is_nan()).collect();
-        Ok(Placed { samples, warnings, moved })
+        Ok(Placed { samples, warnings, moved, short })
     }
 
     fn misplaced(&self, data: &Data<'_>, row: usize, index: usize) -> ReadError {
