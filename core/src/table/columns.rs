@@ -282,6 +282,8 @@ impl Columns {
             return Err(ReadError::NotWavelengthColumn { column, columns });
         }
         let at = self.named.filter(|&at| at < columns);
+        let bare = header.names.is_empty() && header.units.is_empty() && !layout.every_column;
+        let at = at.or_else(|| axes::after_count(&self.cells).filter(|_| bare));
         let at = at.or_else(|| self.cells.iter().position(|column| !empty(column))).unwrap_or(0);
         self.cut_second_pass(at);
         warn_of_names_without_columns(&header, columns, log);

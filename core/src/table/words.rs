@@ -463,6 +463,26 @@ pub(super) fn is_count(name: &str) -> bool {
         })
 }
 
+/// Whether a column's header names what tells rows apart and nothing else: samples, channels, scans, flags.
+pub(super) fn is_label(name: &str) -> bool {
+    const LABELS: [&str; 13] = [
+        "sample_id",
+        "sample id",
+        "sampleid",
+        "id",
+        "flag",
+        "quality",
+        "channel",
+        "scan",
+        "band",
+        "n",
+        "no",
+        "no.",
+        "#",
+    ];
+    LABELS.contains(&lower(name).trim())
+}
+
 /// Whether the name of bands says how specular reflection was treated: included (SCI) or excluded (SCE).
 pub(super) fn says_specular(text: &str) -> bool {
     words(&lower(text)).any(|word| matches!(word, "sci" | "sce" | "spin" | "spex"))

@@ -30,12 +30,12 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
     for (column, values) in before.iter().enumerate() {
         let name = header.name(column).unwrap_or_default();
         let named = words::names_axis(name) && runs_like_axis(header, [at, column], wavelengths, values);
-        let scale = named || words::names_time(name) || is_scale(wavelengths, values);
+        let scale = named || words::is_label(name) || words::names_time(name) || is_scale(wavelengths, values);
         axes.left.extend((scale && !is_empty(values)).then_some(column));
     }
     let kind = |(index, column): (usize, &Vec<f64>)| kind(header, at, index, wavelengths, column);
     let mut kinds: Vec<Kind> = columns.iter().enumerate().map(kind).collect();
-    axes.guessed = header.names.is_empty() && header.units.is_empty() && guess_pairs(wavelengths, columns, &mut kinds);
+    axes.guessed = guess_pairs(header, at, wavelengths, columns, &mut kinds);
     let mut values = 0;
     for (index, kind) in kinds.iter().enumerate() {
         let followed = || kinds[index + 1..].iter().find(|kind| matches!(kind, Kind::Value | Kind::Wavelengths));
@@ -70,7 +70,8 @@ fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &
     // A column with a name of its own is a curve, even if it happens to hold the same numbers.
     let alike = name.is_none_or(|name| header.name(at) == Some(name));
     let scale = || {
-        name.is_some_and(|name| words::names_time(name) || (words::is_count(name) && counts(column)))
+        let label = |name| words::is_label(name) && tells_rows_apart(column);
+        name.is_some_and(|name| words::names_time(name) || (words::is_count(name) && counts(column)) || label(name))
             || is_scale(wavelengths, column)
     };
     match () {
@@ -129,6 +130,13 @@ fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f
     plausible && (name.is_some_and(words::begins_with_wavelengths) || overlaps())
 }
 
+/// Whether numbers can tell rows apart or mark them: all the same, or flags, or a count of the rows.
+fn tells_rows_apart(column: &[f64]) -> bool {
+    let whole = column.iter().all(|value| value.fract() == 0.0);
+    let flags = || column.iter().all(|value| matches!(value, 0.0 | 1.0));
+    whole && (counts(column) || flags() || column.iter().all(|value| *value == column[0]))
+}
+
 /// Whether numbers count their rows.
 pub(in super::super) fn counts(column: &[f64]) -> bool {
     column.len() > 1
@@ -154,17 +162,23 @@ pub(in super::super) fn is_scale(wavelengths: &[f64], column: &[f64]) -> bool {
     inverse || wavelengths[1..] == column[..column.len() - 1]
 }
 
-/// Marks every second column as wavelengths where nothing names columns, all of those are in order over much the same range,
-/// and no other is.
-fn guess_pairs(first: &[f64], columns: &[Vec<f64>], kinds: &mut [Kind]) -> bool {
+/// Whether nothing names a column, or its name is that of the first wavelengths, or only says x.
+fn is_open(header: &Header, at: usize, column: usize) -> bool {
+    let unit = |column: usize| header.units.get(column).map(String::as_str).filter(|unit| !unit.is_empty());
+    let name = header.name(column);
+    let open = name.is_none_or(|name| header.name(at) == Some(name) || name.eq_ignore_ascii_case("x"));
+    open && unit(column).is_none_or(|own| unit(at) == Some(own))
+}
+
+/// Marks every second column as wavelengths where nothing names those columns, all of them are in order over much the same
+/// range, and no other is, unless it has a name of its own.
+fn guess_pairs(header: &Header, at: usize, first: &[f64], columns: &[Vec<f64>], kinds: &mut [Kind]) -> bool {
     let filled: Vec<usize> = (0..columns.len()).filter(|&index| kinds[index] != Kind::Empty).collect();
+    let named = !header.names.is_empty();
     let sound = |values: &[f64]| -> Option<(f64, f64)> {
-        let end = values.iter().rposition(|value| !value.is_nan()).map_or(0, |at| at + 1);
-        let values = &values[..end];
-        let ordered = |sign: f64| values.windows(2).all(|pair| sign * (pair[1] - pair[0]) > 0.0);
-        let (a, b) = (*values.first()?, *values.last()?);
-        let plausible = super::super::wavelengths::plausible(a.min(b), a.max(b), false);
-        (end > FEWEST && plausible && (ordered(1.0) || ordered(-1.0))).then_some((a.min(b), a.max(b)))
+        let (low, high) = ends(values)?;
+        let enough = values.iter().filter(|value| !value.is_nan()).nth(FEWEST).is_some();
+        (enough && super::super::wavelengths::plausible(low, high, named)).then_some((low, high))
     };
     let Some((low, high)) = sound(first).filter(|_| filled.len() >= FEWEST && filled.len() % 2 == 1) else {
         return false;
@@ -172,9 +186,24 @@ fn guess_pairs(first: &[f64], columns: &[Vec<f64>], kinds: &mut [Kind]) -> bool 
     let is_like = |index: usize| {
         sound(&columns[index]).is_some_and(|(a, b)| 2.0 * (b.min(high) - a.max(low)) > (b - a).max(high - low))
     };
-    let pairs = filled.iter().enumerate().all(|(place, &index)| is_like(index) == (place % 2 == 1));
-    if pairs {
-        filled.iter().skip(1).step_by(2).for_each(|&index| kinds[index] = Kind::Wavelengths);
+    let fits = |place: usize, index: usize| {
+        let open = is_open(header, at, at + 1 + index);
+        if place % 2 == 1 { open && is_like(index) } else { (named && !open) || !is_like(index) }
+    };
+    let pairs = filled.iter().enumerate().all(|(place, &index)| fits(place, index));
+    // What the names say of the columns is no guess.
+    let said = || filled.iter().skip(1).step_by(2).all(|&index| kinds[index] == Kind::Wavelengths);
+    if !pairs || said() {
+        return false;
     }
-    pairs
+    filled.iter().skip(1).step_by(2).for_each(|&index| kinds[index] = Kind::Wavelengths);
+    true
+}
+
+/// The column of wavelengths in a table without names whose first column counts its rows.
+pub(super) fn after_count(cells: &[Vec<f64>]) -> Option<usize> {
+    let [count, wavelengths, _, ..] = cells else { return None };
+    let from_start = count.len() > FEWEST && counts(count) && matches!(count[0], 0.0 | 1.0);
+    let (low, high) = ends(wavelengths).filter(|_| from_start)?;
+    super::super::wavelengths::plausible(low, high, false).then_some(1)
 }
