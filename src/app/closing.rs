@@ -1,9 +1,11 @@
 //! Closing the window: not before all is saved, or a person says that it need not be.
 
+use std::sync::Arc;
+
 use egui::{Align2, Context, RichText, Ui, Vec2, ViewportCommand, Window};
 
 use super::ChromascopeApp;
-use crate::document::session;
+use crate::document::{Document, session};
 use crate::files::{FileForm, SaveRequest};
 use crate::theme::Theme;
 
@@ -13,15 +15,15 @@ const DOCUMENT: &str = "the document";
 const WIDTH: f32 = 420.0;
 
 /// How far closing has come.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum Closing {
     /// Nobody wants to.
     #[default]
     No,
     /// It is asked what becomes of changes that could not be saved.
     Asked,
-    /// A path for them is being asked for.
-    Elsewhere,
+    /// A path is being asked for, for the document as it was then.
+    Elsewhere(Arc<Document>),
     /// Nothing holds it up.
     Agreed,
 }
@@ -43,8 +45,15 @@ impl ChromascopeApp {
 
     /// Takes in that something was saved: the document elsewhere, after which nothing holds the window open.
     pub(super) fn saved(&mut self, ctx: &Context, what: &str) {
-        if what == DOCUMENT && self.closing == Closing::Elsewhere {
-            self.close(ctx);
+        if let Closing::Elsewhere(document) = &self.closing
+            && what == DOCUMENT
+        {
+            // What was changed since is not in that file.
+            if **document == *self.history.document() {
+                self.close(ctx);
+            } else {
+                self.closing = Closing::Asked;
+            }
         }
     }
 
@@ -68,7 +77,8 @@ impl ChromascopeApp {
             ui.set_max_width(WIDTH);
             ui.label(RichText::new(why).color(theme.error));
             ui.horizontal(|ui| {
-                let elsewhere = ui.button("Save elsewhere…").clicked().then_some(Closing::Elsewhere);
+                let document = || Arc::new(self.history.document().clone());
+                let elsewhere = ui.button("Save elsewhere…").clicked().then(|| Closing::Elsewhere(document()));
                 let anyway = ui.button("Close without saving").clicked().then_some(Closing::Agreed);
                 let cancel = ui.button("Cancel").clicked().then_some(Closing::No);
                 elsewhere.or(anyway).or(cancel)
@@ -77,9 +87,9 @@ impl ChromascopeApp {
         };
         match window.show(ui.ctx(), content).and_then(|shown| shown.inner).flatten() {
             Some(Closing::Agreed) => self.close(ui.ctx()),
-            Some(Closing::Elsewhere) => {
-                self.closing = Closing::Elsewhere;
-                self.save_document_elsewhere();
+            Some(Closing::Elsewhere(document)) => {
+                self.closing = Closing::Elsewhere(Arc::clone(&document));
+                self.save_document_elsewhere(document);
             }
             Some(next) => self.closing = next,
             None => {}
@@ -87,8 +97,7 @@ impl ChromascopeApp {
     }
 
     /// Asks where to save the document, with all of its sets in one file.
-    fn save_document_elsewhere(&mut self) {
-        let document = self.history.document().clone();
+    fn save_document_elsewhere(&mut self, document: Arc<Document>) {
         let make = move || session::to_json(&document).map(String::into_bytes).map_err(|error| error.to_string());
         self.files.ask_to_save(SaveRequest {
             what: DOCUMENT.to_owned(),

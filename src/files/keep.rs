@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use super::last::{self, within_moments};
 use super::profile::{self, Copy, OtherWindow, Profile};
@@ -88,18 +88,18 @@ impl State {
     }
 
     /// Takes in what came of writing a document.
-    fn written(&mut self, document: Arc<Document>, result: Result<Written, String>, now: Duration) {
+    fn written(&mut self, document: Arc<Document>, result: Result<Written, String>, store: &Store, now: Duration) {
         self.ended = Some(now);
         let before = self.failure.take();
+        // What is in a file that is left is saved no more.
+        if self.moved.as_ref() != store.moved() {
+            self.saved = None;
+            self.moved = store.moved().cloned();
+        }
         match result {
-            Ok(Written { left_out, moved }) => {
-                self.moved = moved.or(self.moved.take());
-                if left_out.is_empty() {
-                    self.saved = Some(document);
-                } else {
-                    self.failure = Some(left_out);
-                }
-            }
+            Ok(Written { left_out }) if left_out.is_empty() => self.saved = Some(document),
+            // The file holds neither this document nor the one before.
+            Ok(Written { left_out }) => (self.saved, self.failure) = (None, Some(left_out)),
             Err(why) => self.failure = Some(why),
         }
         if before != self.failure {
@@ -126,6 +126,7 @@ impl Desk {
 
     /// Writes what is newest, and what comes after, until there is nothing new for a while.
     fn work(&self) {
+        let _told = Breakdown(self);
         loop {
             if !self.lock().closed {
                 self.write_newest();
@@ -156,7 +157,7 @@ impl Desk {
         };
         if let Some(document) = newest {
             let result = store.write(&document);
-            self.lock().written(document, result, self.clock.now());
+            self.lock().written(document, result, &store, self.clock.now());
         }
     }
 
@@ -174,10 +175,26 @@ impl Desk {
         if let Some(document) = newest {
             let result = store.write(&document);
             let file = result.is_ok().then(|| store.file().to_owned());
-            within_moments(&self.state)?.written(document, result, self.clock.now());
+            within_moments(&self.state)?.written(document, result, &store, self.clock.now());
             return file;
         }
         Some(store.file().to_owned())
+    }
+}
+
+/// Tells that the thread that writes broke off, where it did, so that another one is started.
+struct Breakdown<'a>(&'a Desk);
+
+impl Drop for Breakdown<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            let mut state = self.0.lock();
+            (state.running, state.ended) = (false, Some(self.0.clock.now()));
+            state.failure = Some("the program broke off while it was writing".to_owned());
+            if let Some(ctx) = &state.wake {
+                ctx.request_repaint();
+            }
+        }
     }
 }
 
@@ -202,9 +219,14 @@ impl Keeper {
         self.profile.other.zip(self.profile.file.as_deref())
     }
 
+    /// Whether a window keeps its document in a file: this one or another.
+    pub(super) fn is_in_use(&self, path: &Path) -> bool {
+        self.moved().as_deref() == Some(path) || self.profile.is_in_use(path)
+    }
+
     /// Documents that other windows kept and have no more.
     pub(super) fn copies(&self) -> Vec<Copy> {
-        self.profile.copies()
+        self.profile.copies(self.moved().as_deref())
     }
 
     /// Whether no document was kept before, by this window or another.
@@ -246,14 +268,14 @@ impl Keeper {
                 Loaded { document: Document::default(), complaint: Some(complaint) }
             }
         };
+        // Before there is anything to write that may name what is removed.
+        self.profile.tidy(SystemTime::now());
         // What is opened before the first frame is a change already.
         let document = Arc::new(loaded.document.clone());
         let mut state = self.desk.lock();
         state.newest = Some(Arc::clone(&document));
         // A large document of an earlier version is taken apart now, so that the first change need not wait for that.
         state.saved = (!is_by_value).then_some(document);
-        drop(state);
-        self.profile.tidy();
         loaded
     }
 
@@ -261,7 +283,11 @@ impl Keeper {
     /// window keeps its document in another file.
     fn set_aside(&mut self, file: &Path, what: &str, why: &str, copy: bool) -> (String, PathBuf) {
         let aside = profile::free_aside(file.parent().unwrap_or(Path::new(".")));
-        let result = if copy { std::fs::copy(file, &aside).map(drop) } else { std::fs::rename(file, &aside) };
+        let result = if copy {
+            std::fs::read(file).and_then(|bytes| super::write_atomically(&aside, &bytes))
+        } else {
+            std::fs::rename(file, &aside)
+        };
         match result {
             Ok(()) => (format!("{what} is now {} ({why}).", aside.display()), aside),
             Err(error) => {
@@ -374,5 +400,29 @@ impl Drop for Keeper {
         self.desk.closing.notify_all();
         // A window that went without closing, because its display did.
         self.desk.save_last();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_while_writing_is_told_and_writing_goes_on() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let executor = Executor::driven();
+        let mut keeper = Keeper::new(&executor, Some(folder.path().to_owned()));
+        let document = keeper.load().document;
+        keeper.desk.lock().running = true;
+        let broken = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+            let _told = Breakdown(&keeper.desk);
+            panic!("as an error in writing");
+        }));
+        assert!(broken.is_err() && keeper.failure().is_some());
+        let changed = Document { temperature_k: 4321.0, ..document };
+        executor.advance(RETRY);
+        keeper.watch(&changed, &egui::Context::default());
+        executor.run_all();
+        assert!(keeper.is_saved() && keeper.failure().is_none());
     }
 }

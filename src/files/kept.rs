@@ -98,9 +98,13 @@ impl Files {
 
     /// Removes a document that another window kept.
     pub fn remove_document(&self, path: &Path) {
-        let event = match std::fs::remove_file(path) {
-            Ok(()) => FileEvent::Said(format!("{} is deleted.", path.display())),
-            Err(error) => FileEvent::Failed(format!("{}: {}.", path.display(), reason(&error))),
+        let event = if self.keeper.is_in_use(path) {
+            FileEvent::Failed(format!("{} is the document of an open window; it is not deleted.", path.display()))
+        } else {
+            match std::fs::remove_file(path) {
+                Ok(()) => FileEvent::Said(format!("{} is deleted.", path.display())),
+                Err(error) => FileEvent::Failed(format!("{}: {}.", path.display(), reason(&error))),
+            }
         };
         self.note(Note::Event(event));
     }

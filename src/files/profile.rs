@@ -4,14 +4,16 @@
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
-use super::{reason, sweep};
+use super::{is_older, reason, sweep};
 
 /// The file that the first window's document is kept in.
 const DOCUMENT: &str = "document.json";
 /// The file that the first window holds locked, with the number of its process.
 const LOCK: &str = "window.lock";
+/// A file of curves that no document names is kept for so long, for a document that was taken out of the folder.
+const UNNAMED: Duration = Duration::from_hours(30 * 24);
 /// The folder of the curves of imported sets, which all documents of the profile share.
 pub(super) const CURVES: &str = "curves";
 
@@ -32,8 +34,9 @@ pub(super) struct Profile {
 
 /// A file that is locked, until this is dropped.
 #[derive(Debug)]
-struct Lock {
-    _file: File,
+pub(super) struct Lock {
+    /// Missing where the file could not be locked.
+    _file: Option<File>,
     /// The file of a copy's lock, which goes with the window.
     gone: Option<PathBuf>,
 }
@@ -65,9 +68,10 @@ impl Profile {
         }
         match lock(&folder.join(LOCK)) {
             Ok(file) => {
-                sweep(&folder);
-                sweep(&folder.join(CURVES));
-                Self { lock: Some(Lock { _file: file, gone: None }), ..of_first }
+                let now = SystemTime::now();
+                sweep(&folder, now);
+                sweep(&folder.join(CURVES), now);
+                Self { lock: Some(Lock { _file: Some(file), gone: None }), ..of_first }
             }
             Err(TryLockError::WouldBlock) => {
                 let process = fs::read_to_string(folder.join(LOCK)).ok().and_then(|text| text.trim().parse().ok());
@@ -84,11 +88,7 @@ impl Profile {
     /// Keeps the document in a file that no window has, nor had.
     fn with_copy(mut self, folder: &Path) -> Self {
         let file = free_copy(folder);
-        let own = file.with_extension("lock");
-        match lock(&own) {
-            Ok(file) => self.lock = Some(Lock { _file: file, gone: Some(own) }),
-            Err(error) => log::warn!("{} cannot be locked: {error}", own.display()),
-        }
+        self.lock = Some(Lock::of_copy(&file));
         self.file = Some(file);
         self
     }
@@ -101,9 +101,10 @@ impl Profile {
     }
 
     /// Documents that other windows kept and have no more, the newest first.
-    pub(super) fn copies(&self) -> Vec<Copy> {
+    /// Nor are they in the file that this one moved to.
+    pub(super) fn copies(&self, moved: Option<&Path>) -> Vec<Copy> {
         let Some(folder) = self.first.as_ref().and_then(|first| first.parent()) else { return Vec::new() };
-        let is_free = |path: &PathBuf| is_copy(path) && self.file.as_ref() != Some(path) && !is_held(path);
+        let is_free = |path: &PathBuf| is_copy(path) && moved != Some(path) && !self.is_in_use(path);
         let mut copies: Vec<Copy> = entries(folder)
             .filter(is_free)
             .map(|path| {
@@ -115,15 +116,21 @@ impl Profile {
         copies
     }
 
-    /// Removes locks that ended windows left, and files of curves that no document of the profile names. Only the first window
-    /// does, and only while it is alone.
-    pub(super) fn tidy(&self) {
+    /// Whether a document is this window's, the first one's, or locked by another.
+    pub(super) fn is_in_use(&self, path: &Path) -> bool {
+        [&self.file, &self.first].into_iter().flatten().any(|own| own == path) || is_held(path)
+    }
+
+    /// Removes locks that ended windows left, and old files of curves that no document of the profile names. Only the first
+    /// window does, and only while it is alone.
+    pub(super) fn tidy(&self, now: SystemTime) {
         let (Some(folder), None, Some(_)) = (self.first.as_ref().and_then(|f| f.parent()), self.other, &self.lock)
         else {
             return;
         };
         for path in entries(folder).filter(|path| path.extension().is_some_and(|ending| ending == "lock")) {
-            if path.file_name().is_some_and(|name| name == LOCK) {
+            let is_own = self.file.as_ref().is_some_and(|file| file.with_extension("lock") == path);
+            if is_own || path.file_name().is_some_and(|name| name == LOCK) {
                 continue;
             }
             if is_held(&path) {
@@ -132,7 +139,7 @@ impl Profile {
             let _gone = fs::remove_file(&path);
         }
         let mut texts = Vec::new();
-        for path in entries(folder).filter(|path| name_of(path).starts_with("document")) {
+        for path in entries(folder).filter(|path| path.extension().is_some_and(|ending| ending == "json")) {
             match fs::read(&path) {
                 Ok(bytes) => texts.push(String::from_utf8_lossy(&bytes).into_owned()),
                 // What it names is not known.
@@ -140,10 +147,20 @@ impl Profile {
             }
         }
         for path in entries(&folder.join(CURVES)) {
-            if !texts.iter().any(|text| text.contains(name_of(&path))) {
+            let is_named = || texts.iter().any(|text| text.contains(name_of(&path)));
+            if is_older(&path, UNNAMED, now) && !is_named() {
                 let _gone = fs::remove_file(&path);
             }
         }
+    }
+}
+
+impl Lock {
+    /// Locks a copy for as long as its window is open. Where there are no locks, its file alone tells that it is.
+    pub(super) fn of_copy(copy: &Path) -> Self {
+        let own = copy.with_extension("lock");
+        let file = lock(&own).inspect_err(|error| log::warn!("{} cannot be locked: {error}", own.display())).ok();
+        Self { _file: file, gone: Some(own) }
     }
 }
 
@@ -195,8 +212,11 @@ fn lock(path: &Path) -> Result<File, TryLockError> {
 
 /// Whether a window holds the lock of a copy.
 fn is_held(copy: &Path) -> bool {
-    let held = |file: File| matches!(file.try_lock(), Err(TryLockError::WouldBlock));
-    File::open(copy.with_extension("lock")).is_ok_and(held)
+    // Network folders lock only what is open for writing.
+    match OpenOptions::new().read(true).write(true).open(copy.with_extension("lock")) {
+        Ok(file) => file.try_lock().is_err(),
+        Err(error) => error.kind() != io::ErrorKind::NotFound,
+    }
 }
 
 fn is_copy(path: &Path) -> bool {
@@ -241,9 +261,9 @@ mod tests {
         let second = claim();
         let copy = second.file.clone().expect("it has a copy");
         fs::write(&copy, "{}").expect("written");
-        assert_eq!(first.copies(), [], "its window is open");
+        assert_eq!(first.copies(None), [], "its window is open");
         drop(second);
-        assert_eq!(first.copies().into_iter().map(|copy| copy.path).collect::<Vec<_>>(), [copy]);
+        assert_eq!(first.copies(None).into_iter().map(|copy| copy.path).collect::<Vec<_>>(), [copy]);
     }
 
     #[test]
@@ -254,17 +274,25 @@ mod tests {
         for name in ["a.json", "b.json", "c.json"] {
             fs::write(curves.join(name), "[]").expect("written");
         }
-        for (document, names) in [("document.json", "a.json"), ("document-unreadable-1.json", "{ b.json")] {
+        for (document, names) in [("document.json", "a.json"), ("of-a-backup.json", "{ b.json")] {
             fs::write(folder.path().join(document), names).expect("written");
         }
         let left = || entries(&curves).map(|path| name_of(&path).to_owned()).collect::<std::collections::BTreeSet<_>>();
         let claim = || Profile::claim(Some(folder.path().to_owned()));
         let (first, second) = (claim(), claim());
-        first.tidy();
-        second.tidy();
+        let written = SystemTime::UNIX_EPOCH + Duration::from_hours(1_000_000);
+        for name in ["a.json", "b.json", "c.json"] {
+            let file = OpenOptions::new().write(true).open(curves.join(name)).expect("opened");
+            file.set_modified(written).expect("set");
+        }
+        let late = written + UNNAMED + Duration::from_secs(1);
+        first.tidy(late);
+        second.tidy(late);
         assert_eq!(left().len(), 3, "the second window may be about to name one");
         drop(second);
-        first.tidy();
+        first.tidy(written + UNNAMED);
+        assert_eq!(left().len(), 3, "a document that is put back may name one");
+        first.tidy(late);
         assert_eq!(left().into_iter().collect::<Vec<_>>(), ["a.json", "b.json"]);
     }
 }

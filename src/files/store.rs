@@ -13,20 +13,18 @@ use std::ptr::from_ref;
 
 use chromascope_core::query::Shared;
 
-use super::profile::{CURVES, free_copy};
+use super::profile::{CURVES, Lock, free_copy};
 use super::{reason, write_atomically};
-use crate::document::Document;
 use crate::document::kept::{self, Kept, Place};
 use crate::document::own::{Fingerprint, OwnCurve, OwnSet};
 use crate::document::session::SessionError;
+use crate::document::{Document, VERSION};
 
 /// What came of writing a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Written {
     /// Sets that were left out, in one sentence; may be empty.
     pub(super) left_out: String,
-    /// The file that the document is kept in from now on, because another program wrote the one before.
-    pub(super) moved: Option<PathBuf>,
 }
 
 /// Why a kept document could not be read.
@@ -53,6 +51,12 @@ pub(super) struct Store {
     written: HashMap<u128, Place>,
     /// Whether the file on disk holds curves itself, which are lost with it.
     by_value: bool,
+    /// Whether the file on disk is known to be in the present form, or kept beside it.
+    is_present: bool,
+    /// The file that the document is kept in because another program wrote to the one before.
+    moved: Option<PathBuf>,
+    /// The lock of that file, or of another one that this window went on in.
+    lock: Option<Lock>,
 }
 
 impl Store {
@@ -66,9 +70,15 @@ impl Store {
         &self.file
     }
 
-    /// Goes on in another file.
+    /// Goes on in another file, which is this window's.
     pub(super) fn move_to(&mut self, file: PathBuf) {
+        self.lock = Some(Lock::of_copy(&file));
         (self.file, self.seen, self.tried) = (file, None, None);
+    }
+
+    /// The file that the document is kept in because another program wrote to the one before.
+    pub(super) fn moved(&self) -> Option<&PathBuf> {
+        self.moved.as_ref()
     }
 
     /// Whether the file holds curves itself, as earlier versions wrote it.
@@ -95,10 +105,12 @@ impl Store {
     pub(super) fn write(&mut self, document: &Document) -> Result<Written, String> {
         let folder = self.file.parent().map(Path::to_owned).unwrap_or_default();
         fs::create_dir_all(&folder).map_err(|error| format!("{}: {}", folder.display(), reason(&error)))?;
-        let moved = self.is_foreign().then(|| free_copy(&folder));
-        if let Some(copy) = &moved {
-            self.move_to(copy.clone());
+        if self.is_foreign()? {
+            let copy = free_copy(&folder);
+            self.moved = Some(copy.clone());
+            self.move_to(copy);
         }
+        self.forget_missing(&folder.join(CURVES));
         let unwritten = self.write_new(&folder, &document.own).err();
         if let Some(why) = unwritten.as_ref().filter(|_| self.by_value) {
             return Err(why.clone());
@@ -126,17 +138,42 @@ impl Store {
         if left_out.is_empty() && self.known.len() > present.len() {
             self.known.retain(|address, _| present.contains(address));
         }
-        Ok(Written { left_out, moved })
+        Ok(Written { left_out })
     }
 
-    /// Whether the file holds what this window neither read nor wrote.
-    fn is_foreign(&mut self) -> bool {
-        let Ok(bytes) = fs::read(&self.file) else { return false };
+    /// Whether the file holds what this window neither read nor wrote. What it read in an earlier form is kept beside it before
+    /// that is written over.
+    fn is_foreign(&mut self) -> Result<bool, String> {
+        let bytes = match fs::read(&self.file) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
+            Err(error) => return Err(format!("{}: {}", self.file.display(), reason(&error))),
+        };
         let there = Some(Fingerprint::of(&bytes));
         if there == self.tried {
             self.seen = there;
         }
-        there != self.seen
+        let is_foreign = there != self.seen;
+        if !is_foreign && !self.is_present {
+            keep_earlier(&self.file, &bytes)?;
+            self.is_present = true;
+        }
+        Ok(is_foreign)
+    }
+
+    /// Forgets places in files that are no more, so that their curves are written again from memory.
+    fn forget_missing(&mut self, folder: &Path) {
+        let places = self.known.values().map(|(_, place)| place).chain(self.written.values());
+        let names: HashSet<&String> = places.map(|Place(name, _)| name).collect();
+        let is_missing = |name: &&String| {
+            use io::ErrorKind::{NotADirectory, NotFound};
+            fs::metadata(folder.join(name)).is_err_and(|error| matches!(error.kind(), NotFound | NotADirectory))
+        };
+        let missing: HashSet<String> = names.into_iter().filter(is_missing).cloned().collect();
+        if !missing.is_empty() {
+            self.known.retain(|_, (_, Place(name, _))| !missing.contains(name));
+            self.written.retain(|_, Place(name, _)| !missing.contains(name));
+        }
     }
 
     /// Writes the curves that are in no file yet, all into one: a folder of files that is opened costs one flush.
@@ -175,10 +212,27 @@ impl Store {
     }
 }
 
+/// Keeps a document of an earlier form once, for the version of the program that wrote it.
+fn keep_earlier(file: &Path, bytes: &[u8]) -> Result<(), String> {
+    #[derive(serde::Deserialize)]
+    struct Form {
+        version: u32,
+    }
+    let Ok(Form { version: version @ ..VERSION }) = serde_json::from_slice(bytes) else { return Ok(()) };
+    let beside = file.with_file_name(format!("document-version-{version}.json"));
+    if fs::symlink_metadata(&beside).is_ok() {
+        return Ok(());
+    }
+    write_atomically(&beside, bytes).map_err(|error| format!("{}: {}", beside.display(), reason(&error)))
+}
+
 /// Reads a document with the curves it names.
 pub(super) fn read(file: &Path) -> Result<(Kept, Fingerprint), Unread> {
     let because = |words: String| Unread::Because(words);
     let bytes = fs::read(file).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound if fs::symlink_metadata(file).is_ok() => {
+            because("it is a link to a file that is not there".to_owned())
+        }
         io::ErrorKind::NotFound => Unread::Missing,
         _ => because(reason(&error)),
     })?;

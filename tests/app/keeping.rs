@@ -15,7 +15,7 @@ use chromascope::document::history::History;
 use chromascope::document::own::{Fingerprint, OwnSet};
 use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, session};
-use chromascope::files::{Files, StandingKind};
+use chromascope::files::{Files, StandingKind, write_atomically};
 use chromascope::jobs::Executor;
 use chromascope::view::SavedView;
 use egui::ViewportCommand;
@@ -26,6 +26,8 @@ use egui_kittest::kittest::Queryable as _;
 use crate::cpu_renderer::Cpu;
 use crate::import_switches::{Window, says};
 use crate::waiting::until;
+
+mod disk;
 
 const LEAF: &str = "nm,leaf\n400,0.05\n500,0.1\n600,0.2\n700,0.5\n";
 
@@ -202,6 +204,8 @@ fn a_document_that_holds_its_curves_is_taken_apart() {
     assert_eq!(files.kept_document(), document);
     files.save_document(&document).unwrap();
     assert_eq!(names(&folder.join("curves")).len(), 1);
+    // The version before opens what it wrote.
+    assert_eq!(fs::read_to_string(folder.join("document-version-2.json")).unwrap(), json.to_string());
     drop(files);
     assert_eq!(kept(&folder), document);
 }
@@ -283,20 +287,6 @@ fn each_document_that_cannot_be_read_is_set_aside_under_a_name_of_its_own() {
 }
 
 #[test]
-fn a_document_that_the_system_does_not_give_is_set_aside_too() {
-    let (_around, folder) = profile();
-    // As without the permission, reading fails.
-    fs::create_dir(folder.join("document.json")).unwrap();
-    let mut files = open(&folder);
-    assert_eq!(files.kept_document(), Document::default());
-    assert!(words(&files, StandingKind::SetAside).is_some());
-    assert!(folder.join("document-unreadable-1.json").is_dir());
-    files.save_document(&of(3000.0)).unwrap();
-    drop(files);
-    assert_eq!(kept(&folder), of(3000.0));
-}
-
-#[test]
 fn a_sentence_about_the_document_stays_until_it_is_dismissed() {
     let (_around, folder) = profile();
     fs::write(folder.join("document.json"), b"\xff").unwrap();
@@ -329,16 +319,6 @@ fn changes_without_pause_are_on_disk_within_a_second() {
         assert!(age * 50.0 < 1000.0, "{age} changes of 50 ms are not on disk");
     }
     assert!((10..=40).contains(&writes), "{writes} writes in 5 s");
-}
-
-#[test]
-fn a_window_that_goes_without_closing_saves() {
-    let (_around, folder) = profile();
-    let (executor, mut window) = window(&folder);
-    change(&mut window, 3456.0);
-    assert!(executor.queued().contains(&"keep".to_owned()), "nothing is written yet");
-    drop(window);
-    assert_eq!(kept(&folder).temperature_k, 3456.0);
 }
 
 /// Takes a folder away, and puts a file in its place.
@@ -540,12 +520,18 @@ fn a_document_that_another_program_writes_is_not_overwritten() {
     files.save_document(&of(5000.0)).unwrap();
     files.save_document(&of(6000.0)).unwrap();
     assert_eq!(fs::read_to_string(folder.join("document.json")).unwrap(), theirs);
-    assert!(words(&files, StandingKind::Moved).is_some());
+    let moved = files.standing().into_iter().find(|standing| standing.kind == StandingKind::Moved).unwrap();
+    assert_eq!(files.kept_documents(), [], "it is this window's own");
+    files.remove_document(&moved.file.clone().unwrap());
+    assert!(moved.file.clone().unwrap().exists() && moved.file.unwrap().with_extension("lock").exists());
     drop(files);
     let mut next = open(&folder);
     assert_eq!(next.kept_document(), of(4000.0));
     let copies = next.kept_documents();
     assert_eq!(copies.len(), 1);
+    // And what it moved to is no copy while it is open.
+    next.remove_document(&folder.join("document.json"));
+    assert_eq!(fs::read_to_string(folder.join("document.json")).unwrap(), theirs);
     assert_eq!(session::from_json(&fs::read_to_string(&copies[0].0).unwrap()).unwrap(), of(6000.0));
 }
 
@@ -555,13 +541,22 @@ fn a_document_that_another_program_writes_is_not_overwritten() {
 fn what_a_killed_process_was_writing_is_removed() {
     let (_around, folder) = profile();
     fs::create_dir(folder.join("curves")).unwrap();
-    for name in [".chromascope-a1B2c3", "curves/.chromascope-d4E5f6", "unlike.chromascope-x"] {
-        fs::write(folder.join(name), "half").unwrap();
+    let others = [".chromascope-notes.txt", "unlike.chromascope-x"];
+    for name in [".chromascope-a1B2c3", "curves/.chromascope-d4E5f6", others[0], others[1]] {
+        disk::written_at(&folder.join(name), Duration::ZERO);
     }
-    let held = fs::File::create(folder.join(".chromascope-held")).unwrap();
+    // One that another program has just made, and not locked yet.
+    disk::written_at(&folder.join(".chromascope-n3w000"), Duration::from_hours(1_000_000));
+    let held = disk::written_at(&folder.join(".chromascope-held00"), Duration::ZERO);
     held.try_lock().unwrap();
     let files = open(&folder);
-    assert_eq!(names(&folder), [".chromascope-held", "curves", "unlike.chromascope-x", "window.lock"]);
+    let left = [".chromascope-held00", ".chromascope-n3w000", others[0], "curves", others[1], "window.lock"];
+    assert_eq!(names(&folder), left);
+    // Where something is exported, nothing is removed.
+    let (_elsewhere, exports) = profile();
+    disk::written_at(&exports.join(".chromascope-a1B2c3"), Duration::ZERO);
+    write_atomically(&exports.join("export.csv"), b"nm").unwrap();
+    assert_eq!(names(&exports), [".chromascope-a1B2c3", "export.csv"]);
     assert!(names(&folder.join("curves")).is_empty());
     drop((files, held));
 }
