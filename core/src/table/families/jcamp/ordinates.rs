@@ -144,11 +144,10 @@ impl Data<'_> {
         let axis = Axis { points: Some(count), ..*axis };
         let (steps, contradicted) = axis.steps(count);
         let step = *steps.first().filter(|_| contradicted.is_none())?;
-        let placed = [Digits::Rounded, Digits::Cut].into_iter().find_map(|digits| {
+        [Digits::Rounded, Digits::Cut].into_iter().find_map(|digits| {
             let placed = Grid { axis: &axis, step, digits }.place(self).ok()?;
             (placed.moved.is_empty() && placed.short.is_empty()).then_some(placed)
-        });
-        placed
+        })
     }
 
     /// Whether a line lacks values by where the next line begins: less than would make it a full line.
