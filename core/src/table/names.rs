@@ -24,7 +24,7 @@ pub fn turns_text(c: char) -> bool {
 }
 
 /// A text for a cell of a table, on one line, that no spreadsheet takes for a formula: one that begins as a formula and is no
-/// number comes after an apostrophe, which marks text there. [`unguarded`] takes it off.
+/// number comes after an apostrophe, which marks text there. `unguarded` takes it off.
 pub fn guarded(text: &str) -> Cow<'_, str> {
     let text = on_one_line(text);
     if begins_formula(text.trim_start_matches('\'')) { Cow::Owned(format!("'{text}")) } else { text }
