@@ -300,7 +300,7 @@ fn again(error: tempfile::PersistError, folder: &Path, target: &Path) -> io::Res
 
 /// Removes what a process that was killed was writing in a folder of the program's. What is being written is locked, or about
 /// to be.
-fn sweep(folder: &Path, now: SystemTime) {
+fn sweep(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries.filter(|entry| is_temporary(&entry.file_name())) {
         let path = entry.path();
@@ -309,10 +309,8 @@ fn sweep(folder: &Path, now: SystemTime) {
             let file = fs::OpenOptions::new().read(true).write(true).open(&path);
             file.is_ok_and(|file| file.try_lock().is_ok())
         };
-        if entry.file_type().is_ok_and(|kind| kind.is_file())
-            && is_older(&path, Duration::from_mins(1), now)
-            && is_free()
-        {
+        // One that another window has made but not locked yet is made again by that window.
+        if entry.file_type().is_ok_and(|kind| kind.is_file()) && is_free() {
             let _gone = fs::remove_file(&path);
         }
     }

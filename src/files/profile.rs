@@ -68,9 +68,8 @@ impl Profile {
         }
         match lock(&folder.join(LOCK)) {
             Ok(file) => {
-                let now = SystemTime::now();
-                sweep(&folder, now);
-                sweep(&folder.join(CURVES), now);
+                sweep(&folder);
+                sweep(&folder.join(CURVES));
                 Self { lock: Some(Lock { _file: Some(file), gone: None }), ..of_first }
             }
             Err(TryLockError::WouldBlock) => {
