@@ -1,6 +1,6 @@
 //! The rows of a file that are in no curve, in words: those that were merged into others apart from those left out.
 
-use chromascope_core::table::{Dropped, DroppedRow};
+use spectral_file::{Dropped, DroppedRow};
 
 /// A sentence for those merged and one for those left out, at most `told` rows of each with their lines.
 pub fn sentences(rows: &[DroppedRow], told: usize) -> Vec<String> {

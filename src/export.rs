@@ -6,7 +6,7 @@ pub mod spectra;
 use std::sync::{Arc, LazyLock};
 
 use base64::{Engine as _, prelude::BASE64_STANDARD};
-use chromascope_core::figure::{Figure, Image, svg};
+use chromascope_figure::{Figure, Image, svg};
 use image::{
     ExtendedColorType, ImageEncoder as _, RgbaImage,
     codecs::png::{CompressionType, FilterType, PngEncoder},

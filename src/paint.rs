@@ -11,7 +11,7 @@ mod pictures;
 mod texture;
 mod triangles;
 
-use chromascope_core::figure::{Axis, LegendEntry, Panel, Projection, Tag, Ticks, fit_equal};
+use chromascope_figure::{Axis, LegendEntry, Panel, Projection, Tag, Ticks, fit_equal};
 use egui::{Id, Painter, Pos2, Rect, Response, Sense, Ui, Vec2};
 use egui_plot::{Plot, PlotUi};
 

@@ -19,10 +19,10 @@ pub mod tolerance;
 pub mod understood;
 
 use chromascope_core::accuracy::Accuracy;
-use chromascope_core::figure::Figure;
 use chromascope_core::query::NearestBlackBodyOf;
 use chromascope_core::query::render::PicturesOf;
 use chromascope_core::render::Quality;
+use chromascope_figure::Figure;
 use egui::{Rect, Ui};
 
 use crate::catalog::meshes::MeshStore;

@@ -10,7 +10,6 @@ use std::sync::Arc;
 
 use chromascope_core::camera::{NoRendering, White};
 use chromascope_core::colorimetry::diagram::SpectralPoint;
-use chromascope_core::figure::{InkRole, Marker};
 use chromascope_core::light::{DaylightError, RadiationConstants, daylight};
 use chromascope_core::object::{PAPER_FIVE, PatchSet};
 use chromascope_core::query::{
@@ -21,6 +20,7 @@ use chromascope_core::reflectance::SurfaceError;
 use chromascope_core::scene::lighting::LightingError;
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::{Kelvin, NotPositive};
+use chromascope_figure::{InkRole, Marker};
 
 use crate::catalog::load::{LightOf, LoadError, LoadedLight, PatchesOf, SensorOf};
 use crate::catalog::names::caseless;

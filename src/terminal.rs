@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use chromascope_core::table::turns_text;
+use spectral_file::turns_text;
 
 /// A text as it may go to a terminal. Names come from files, and control characters in them could change what the terminal does or
 /// shows: all but line feeds and tabs become escapes such as `\u{1b}`, and so do characters that turn the direction of text.

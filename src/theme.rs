@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use chromascope_core::figure::{Ink, InkRole, Palette, TextSize};
+use chromascope_figure::{Ink, InkRole, Palette, TextSize};
 use egui::{
     Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle,
     Vec2, Visuals, style::WidgetVisuals,

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use chromascope_core::figure::Tag;
+use chromascope_figure::Tag;
 
 use crate::catalog::Kind;
 

@@ -15,7 +15,7 @@ use crate::theme::Surround;
 use crate::thing::{SourceId, Standing, Thing, Things};
 use crate::workspaces::{Layout, PaneKind, Workspace};
 use accuracy::AccuracyView;
-use chromascope_core::figure::Tag;
+use chromascope_figure::Tag;
 use import::{ImportItem, ImportMemory, ImportView};
 use render::{RenderLook, RenderView};
 

@@ -6,7 +6,7 @@ pub mod lines;
 pub mod number_field;
 pub mod tolerance;
 
-use chromascope_core::figure::{Cell, Ink, LegendEntry, Stroke, Table};
+use chromascope_figure::{Cell, Ink, LegendEntry, Stroke, Table};
 use egui::{Align, Button, Label, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
 use egui_extras::{Column, TableBuilder};
 

@@ -5,7 +5,7 @@
 //! same output. It opens no file, reads no clock, environment or locale, and knows nothing of windows.
 //!
 //! ```text
-//! table, spectral::dataset   bytes → curves with units
+//! spectral::dataset          bytes → curves with units
 //! spectral                   curves → the 1 nm grid, with what was assumed
 //! light · object · camera    L, S, C
 //! camera::rendering          ∫ C S L dλ → balanced RGB → XYZ           Eq 11, 13, 16
@@ -14,8 +14,9 @@
 //! light::temperature         XYZ → nearest black body, Duv
 //! camera::locus_table        black bodies → xy, for very many temperatures
 //! camera::batch              ∫ C S L dλ for very many S and C
-//! query                      each of these as a question with all it depends on
-//! figure                     answers as axes, curves and points; SVG
+//! reflectance                Fresnel, geometric attenuation, mean scattered power      Eq 1-4
+//! scene · render             mesh × viewpoint × light → pictures through each camera
+//! query                      each of these as a value that holds all it depends on
 //! ```
 //!
 //! # Conventions
@@ -32,17 +33,21 @@
 //!
 #![doc = include_str!("sources.md")]
 
+pub use chromascope_math as math;
+pub use chromascope_mesh as mesh;
+pub use glam;
+
 pub mod accuracy;
 pub mod camera;
 pub mod colorimetry;
-pub mod figure;
+
 pub mod light;
-pub mod math;
+
 pub mod object;
 pub mod query;
 pub mod reflectance;
 pub mod render;
 pub mod scene;
 pub mod spectral;
-pub mod table;
+
 pub mod units;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use chromascope_core::figure::{Figure, Table};
+use chromascope_figure::{Figure, Table};
 use egui::ViewportCommand;
 
 use super::ChromascopeApp;

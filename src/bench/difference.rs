@@ -2,7 +2,7 @@
 
 use chromascope_core::colorimetry::Lab;
 use chromascope_core::colorimetry::difference::{delta_e_1976, delta_e_2000, delta_e_2000_into};
-use chromascope_core::math::double::Double;
+use chromascope_math::double::Double;
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};

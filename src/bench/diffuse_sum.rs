@@ -1,7 +1,7 @@
 //! The diffuse sum S(g, b): term by term, by the paper's three cases, by the program's uniform method.
 
-use chromascope_core::math::double::Double;
 use chromascope_core::reflectance::{Precision, diffuse_sum, diffuse_sum_by_regimes};
+use chromascope_math::double::Double;
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};

@@ -4,9 +4,9 @@
 use chromascope_core::colorimetry::Lab;
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::light::RadiationConstants;
-use chromascope_core::math::double::Double;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{Primaries, Sensor};
+use chromascope_math::double::Double;
 
 /// The three integrals of a black body through a sensor (Eq 14, 15), up to a common factor.
 ///

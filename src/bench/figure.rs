@@ -1,6 +1,6 @@
 //! Run time against error, a panel for each case: down and to the left is better.
 
-use chromascope_core::figure::{Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Tag};
+use chromascope_figure::{Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Tag};
 
 use super::report::table;
 use super::{Measurement, Report, Workload};

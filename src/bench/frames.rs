@@ -8,12 +8,13 @@ use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Reading, Surface, wavelength_power};
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{
-    Against, CameraImage, DiffuseTable, GeometryImage, Measure, Plan, Quality, RasterSize, ShadingImage, ShadowTree,
-    Shadows, Stop, Visibility,
+    Against, CameraImage, DiffuseTable, GeometryImage, Measure, Plan, Quality, RasterSize, ShadingImage, Shadows, Stop,
+    Visibility,
 };
 use chromascope_core::scene::lighting::SUN_RADIUS;
-use chromascope_core::scene::{Lighting, Mesh, Viewpoint, head};
+use chromascope_core::scene::{Lighting, Viewpoint};
 use chromascope_core::spectral::Quantity;
+use chromascope_mesh::{Mesh, ShadowTree, head};
 
 use super::case::{ErrorOf, ErrorScale, Errors};
 use super::inputs::{LIGHT, REFLECTANCE, curve, sensor};

@@ -4,14 +4,14 @@ use std::hint::black_box;
 
 use chromascope_core::accuracy::Accuracy;
 use chromascope_core::camera::rendering::white_divisors;
-use chromascope_core::math::double::Double;
-use chromascope_core::math::gauss::gauss_rule;
 use chromascope_core::reflectance::{Precision, diffuse_sum};
 use chromascope_core::render::diffuse::{ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::measure::Node;
 use chromascope_core::render::plan::Method;
 use chromascope_core::render::{Against, Demand, DiffuseTable, Measure, Plan};
 use chromascope_core::spectral::Quantity;
+use chromascope_math::double::Double;
+use chromascope_math::gauss::gauss_rule;
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};

@@ -7,12 +7,12 @@ use chromascope_core::camera::locus_table::{LocusTable, NotInTable};
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::light::PlanckianLocus;
-use chromascope_core::math::double::Double;
-use chromascope_core::math::exp::exp;
-use chromascope_core::math::gauss::gauss_rule;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{Primaries, Sensor};
 use chromascope_core::units::Kelvin;
+use chromascope_math::double::Double;
+use chromascope_math::exp::exp;
+use chromascope_math::gauss::gauss_rule;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 

@@ -4,7 +4,7 @@ mod files;
 
 use std::hint::black_box;
 
-use chromascope_core::table::{ReadOptions, Table, read};
+use spectral_file::{ReadOptions, Table, read};
 
 use self::files::{File, files};
 use super::Workload;

@@ -1,6 +1,6 @@
 //! All that was measured, and what becomes of it.
 
-use chromascope_core::figure::{Cell, Figure, Panel, Table};
+use chromascope_figure::{Cell, Figure, Panel, Table};
 use serde::{Deserialize, Serialize};
 
 use super::{Effort, Machine, Measurement, Workload};

@@ -4,10 +4,10 @@ use std::hint::black_box;
 use std::ops::{AddAssign, Mul};
 
 use chromascope_core::camera::batch::{Batch, Sample};
-use chromascope_core::math::dot::dot;
-use chromascope_core::math::double::Double;
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::Sensor;
+use chromascope_math::dot::dot;
+use chromascope_math::double::Double;
 use ndarray::linalg::general_mat_mul;
 use ndarray::{ArrayView2, ArrayViewMut2, LinalgScalar};
 use rayon::prelude::*;

@@ -3,9 +3,9 @@
 use chromascope_core::colorimetry::{Uv60, UvPrime, Xy};
 use chromascope_core::light::PlanckianLocus;
 use chromascope_core::light::temperature::{Cct, NoCct, published, tabulated};
-use chromascope_core::math::double::Double;
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
+use chromascope_math::double::Double;
 use rayon::prelude::*;
 
 use super::case::{ErrorOf, ErrorScale, Errors};

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use chromascope_core::table::{self, Certainty, ReadError, Role, Table, Values, Warning, Watch};
+use spectral_file::{Certainty, ReadError, Role, Table, Values, Warning, Watch};
 
 use crate::document::own::{Fingerprint, OwnCurve, OwnSet, ReadAs, Wishes};
 
@@ -46,14 +46,14 @@ pub fn import(file: &str, bytes: &[u8], role: Option<Role>) -> Result<Imported, 
 /// The same, with what should be looked at before the curves are trusted; the message tells the first of it.
 pub fn import_warned(file: &str, bytes: &[u8], role: Option<Role>) -> Result<(Imported, Vec<Warning>), ReadError> {
     let wishes = Wishes::for_role(role);
-    let table = table::read(bytes, &wishes.options)?;
+    let table = spectral_file::read(bytes, &wishes.options)?;
     let warnings = table.warnings.clone();
     Ok((imported(&Origin::named(file, bytes), &table, &wishes), warnings))
 }
 
 /// Reads bytes as a person wishes, in sight of whoever may stop it.
 pub fn import_as(origin: &Origin, bytes: &[u8], wishes: &Wishes, watch: Watch<'_>) -> Result<Imported, ReadError> {
-    Ok(imported(origin, &table::read_watched(bytes, &wishes.options, watch)?, wishes))
+    Ok(imported(origin, &spectral_file::read_watched(bytes, &wishes.options, watch)?, wishes))
 }
 
 /// What is made of a table that was read with the options of these wishes.
@@ -79,7 +79,7 @@ pub fn imported(origin: &Origin, table: &Table, wishes: &Wishes) -> Imported {
 }
 
 /// The guesses, and what is not decided, that change numbers or what a set is used as.
-pub fn weighty_guesses(table: &Table) -> Vec<table::Decision> {
+pub fn weighty_guesses(table: &Table) -> Vec<spectral_file::Decision> {
     let weighty =
         |what: &str| matches!(what, "Role" | "Wavelengths" | "Values" | "Separator" | "Part" | "Spectral unit");
     let decisions = table.decisions().into_iter();
@@ -110,7 +110,7 @@ fn summary(table: &Table) -> String {
 fn own_set(origin: &Origin, table: &Table, wishes: &Wishes, taken: &[usize]) -> OwnSet {
     let title = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty());
     let stem = || Path::new(&origin.name).file_stem().map_or(origin.name.clone(), |s| s.to_string_lossy().into_owned());
-    let mut name = table::on_one_line(&title.map_or_else(stem, str::to_owned)).into_owned();
+    let mut name = spectral_file::on_one_line(&title.map_or_else(stem, str::to_owned)).into_owned();
     if let Some(part) = part_name(table, wishes) {
         name = format!("{name}, {part}");
     }

@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use chromascope_core::query::Shared;
-use chromascope_core::scene::Mesh;
+use chromascope_mesh::Mesh;
 
 use crate::document::render::MeshChoice;
 use crate::jobs::Executor;

@@ -276,7 +276,7 @@ impl Opened {
     }
 
     /// What is understood of a file when it is read with these switches; the last answer while it is being read.
-    pub fn look(&self, file: &OpenFile, options: &chromascope_core::table::ReadOptions) -> Option<Arc<Look>> {
+    pub fn look(&self, file: &OpenFile, options: &spectral_file::ReadOptions) -> Option<Arc<Look>> {
         self.look.ask(LookOf::stages(file, options));
         let shown = self.look.shown()?;
         (shown.answer.fingerprint == file.origin.fingerprint).then_some(shown.answer)

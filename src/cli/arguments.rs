@@ -3,8 +3,8 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use chromascope_core::table::Values;
 use clap::{Args, Parser, ValueEnum};
+use spectral_file::Values;
 
 use super::bench::BenchArguments;
 use super::inspect::arguments::InspectArguments;

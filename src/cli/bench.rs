@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use chromascope_core::figure::Figure;
 use chromascope_core::render::Stop;
+use chromascope_figure::Figure;
 use clap::Args;
 
 use super::outputs::{show, write_to};

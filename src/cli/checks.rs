@@ -1,6 +1,6 @@
 //! Whether a file holds what the option asks for that names it.
 
-use chromascope_core::table::{self, Certainty, ReadOptions, Table, Warning};
+use spectral_file::{Certainty, ReadOptions, Table, Warning};
 
 use super::{CliError, say};
 use crate::document::own::{OwnSet, Role};
@@ -33,8 +33,9 @@ pub(super) fn reflectances(path: &str, role: Role, table: &Table) -> Result<(), 
 pub(super) fn say_role(path: &str, role: Role, table: &Table, bytes: &[u8]) {
     // Only a file that names no quantity can be open.
     let unnamed = table.reading.quantity.certainty == Certainty::Chosen;
-    let open =
-        || table::read(bytes, &ReadOptions::default()).is_ok_and(|table| table.role.certainty == Certainty::Open);
+    let open = || {
+        spectral_file::read(bytes, &ReadOptions::default()).is_ok_and(|table| table.role.certainty == Certainty::Open)
+    };
     if unnamed && open() {
         say(&format!(
             "chromascope: {path}: nothing in the file says what its numbers are; taken as {role}, as its option asks\n"

@@ -14,8 +14,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use chromascope_core::table::write::{Prepared, Sheet, Trace};
-use chromascope_core::table::{self, Certainty, Decided, ReadError, Role, Table};
+use spectral_file::write::{Prepared, Sheet, Trace};
+use spectral_file::{Certainty, Decided, ReadError, Role, Table};
 
 use self::arguments::InspectArguments;
 use self::out::Out;
@@ -34,7 +34,7 @@ enum Failure {
     /// Only sensitivities are responses to something.
     NoCamera(Role),
     /// The curves cannot be written as asked.
-    Write(table::write::WriteError),
+    Write(spectral_file::write::WriteError),
 }
 
 impl Failure {
@@ -102,7 +102,7 @@ fn answer(
     arguments: &InspectArguments,
 ) -> Result<Result<(), CliError>, CliError> {
     let name = if is_standard_input(file) { "standard input".to_owned() } else { file.display().to_string() };
-    let told = table::on_one_line(&name);
+    let told = spectral_file::on_one_line(&name);
     let table = inspect(file, &name, arguments);
     let curves: Vec<Trace<'_>> = table.iter().flat_map(|table| &table.curves).map(Trace::from).collect();
     let wanted = arguments.csv.is_some() || arguments.step.is_some();
@@ -142,7 +142,7 @@ fn answer(
 
 fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<Table, Failure> {
     let bytes = contents(file).map_err(|error| Failure::Disk(reason(&error)))?;
-    let mut table = table::read(&bytes, &arguments.options()).map_err(Failure::Read)?;
+    let mut table = spectral_file::read(&bytes, &arguments.options()).map_err(Failure::Read)?;
     name_the_only_curve(&mut table, name);
     if let Some(per_photon) = arguments.per_photon() {
         respond(&mut table, per_photon)?;
@@ -189,7 +189,7 @@ fn contents(file: &Path) -> io::Result<Vec<u8>> {
             .spawn(move || say_if_waiting(patience, || done.load(Ordering::Relaxed), say));
     }
     let mut bytes = Vec::new();
-    let read = io::stdin().lock().take(table::MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
+    let read = io::stdin().lock().take(spectral_file::MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
     done.store(true, Ordering::Relaxed);
     read?;
     Ok(bytes)
@@ -217,7 +217,7 @@ fn name_the_only_curve(table: &mut Table, file: &str) {
         && !curve.named
     {
         let stem = || Path::new(file).file_stem().map_or_else(|| file.to_owned(), |s| s.to_string_lossy().into_owned());
-        curve.name = table::on_one_line(&title.unwrap_or_else(stem)).into_owned();
+        curve.name = spectral_file::on_one_line(&title.unwrap_or_else(stem)).into_owned();
     }
 }
 

@@ -6,9 +6,9 @@ use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use chromascope_core::query::Shared;
-use chromascope_core::table::{self, Certainty, MAX_BYTES, Values};
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
+use spectral_file::{Certainty, MAX_BYTES, Values};
 
 use super::arguments::{CommonArguments, Per, SourceArguments, Transform};
 use super::outputs::is_descriptor;
@@ -282,7 +282,8 @@ impl Request {
         let bytes = read(path).map_err(|error| CliError::File(format!("{file}: {}", reason(&error))))?;
         let mut wishes = Wishes::for_role(Some(role));
         wishes.options.values = self.values.filter(|_| role.is_fraction());
-        let table = table::read(&bytes, &wishes.options).map_err(|error| CliError::File(format!("{file}: {error}")))?;
+        let table =
+            spectral_file::read(&bytes, &wishes.options).map_err(|error| CliError::File(format!("{file}: {error}")))?;
         checks::reflectances(&file, role, &table)?;
         checks::channels(&file, role, &table)?;
         checks::say_role(&file, role, &table, &bytes);
@@ -308,7 +309,7 @@ impl Request {
 
 /// A path for people, on one line.
 pub(super) fn told(path: &Path) -> String {
-    table::on_one_line(&path.to_string_lossy()).into_owned()
+    spectral_file::on_one_line(&path.to_string_lossy()).into_owned()
 }
 
 /// Says what was taken for a name that is not exact.

@@ -7,9 +7,9 @@ use std::io::Write;
 use chromascope_core::query::compare::{locus_distance_uv, locus_distance_xy, patch_difference};
 use chromascope_core::query::{LocusPoint, Metric, NoDifference, PatchColor, Temperatures};
 use chromascope_core::spectral::Primaries;
-use chromascope_core::table::guarded;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
+use spectral_file::guarded;
 
 use cct::ReferenceLocus;
 

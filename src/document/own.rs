@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::{DistributionError, Response, SpectralDistribution};
-pub use chromascope_core::table::{ReadOptions, Role, WavelengthUnit};
 use serde::{Deserialize, Serialize};
+pub use spectral_file::{ReadOptions, Role, WavelengthUnit};
 
 /// One curve, as it was read: in the units that [`OwnSet::read_as`] says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use chromascope_core::query::Ask;
 use chromascope_core::spectral::{Header, Response, SpectralDistribution};
-use chromascope_core::table::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
+use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
 
 use crate::catalog::load::{FileOf, LoadError};
 use crate::catalog::{Entry, Kind, Place};

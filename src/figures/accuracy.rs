@@ -1,8 +1,6 @@
 //! Run time against error of the scene on show, as measured.
 
-use chromascope_core::figure::{
-    Cell, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag,
-};
+use chromascope_figure::{Cell, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag};
 
 use super::pareto::{self, Place, duration};
 use crate::bench::{Measurement, Report, Workload};

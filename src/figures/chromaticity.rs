@@ -6,7 +6,7 @@ mod pixel;
 mod points;
 
 use chromascope_core::colorimetry::{UvPrime, Xy};
-use chromascope_core::figure::{
+use chromascope_figure::{
     Axis, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Ticks,
 };
 

@@ -4,11 +4,11 @@ mod drawn;
 mod kept;
 mod on_show;
 
-use chromascope_core::figure::{
+use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
+use chromascope_figure::{
     Anchor, Axis, Cell, Figure, Ink, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Tag,
     TextSize, finite_runs,
 };
-use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 
 pub(crate) use drawn::sentence;
 pub use drawn::{Curve, Curves};
@@ -94,7 +94,7 @@ fn marks(curve: &Curve, points: Vec<[f64; 2]>, on: bool, count: usize) -> Vec<Ma
     let mut marks = vec![if on { line.with_halo(Ink::new(InkRole::Plot)) } else { line }];
     if !alone.is_empty() {
         // A sample between two gaps has no line.
-        let marker = chromascope_core::figure::Marker::Dot;
+        let marker = chromascope_figure::Marker::Dot;
         marks.push(Mark::new(tag, &curve.name, Shape::Points { points: alone, marker, radius: 3.0 }).with_fill(ink));
     }
     if let Some((letter, at)) = letter.zip(peak) {

@@ -1,8 +1,6 @@
 //! What was not computed, and the time that this saved: as a run measured it, and by memory since the start.
 
-use chromascope_core::figure::{
-    Anchor, Axis, Cell, Figure, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks,
-};
+use chromascope_figure::{Anchor, Axis, Cell, Figure, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks};
 
 use super::pareto::duration;
 use crate::laboratory::{LOCI, LeftOut, PATCHES};

@@ -2,7 +2,7 @@
 
 mod names;
 
-use chromascope_core::figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Rect, Shape, Tag, Ticks};
+use chromascope_figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Rect, Shape, Tag, Ticks};
 
 /// Errors below this are drawn there: a double tells them from nothing only by chance.
 pub const LEAST_ERROR: f64 = 1e-18;

@@ -4,7 +4,7 @@ pub mod difference;
 pub mod headline;
 pub mod returned;
 
-use chromascope_core::figure::{Anchor, Cell, Figure, Image, Ink, Mark, Panel, Rect, Shape, Table, TextSize};
+use chromascope_figure::{Anchor, Cell, Figure, Image, Ink, Mark, Panel, Rect, Shape, Table, TextSize};
 
 use self::headline::Detail;
 use super::chromaticity::viewing_conditions;

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use chromascope_core::colorimetry::diagram::wavelength_color;
-use chromascope_core::figure::{
+use chromascope_core::spectral::SpectralDistribution;
+use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
+use chromascope_figure::{
     Axis, Cell, Dash, Figure, Image, Ink, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table,
     Tag, TextSize, Ticks, text_width,
 };
-use chromascope_core::spectral::SpectralDistribution;
-use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
 
 use super::chromaticity::{caption, id};
 use crate::catalog::Kind;

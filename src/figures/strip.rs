@@ -1,6 +1,6 @@
 //! Distance to the reference over temperature.
 
-use chromascope_core::figure::{
+use chromascope_figure::{
     Anchor, Axis, Dash, Ink, InkRole, MIN_LABEL_SPACING, Mark, Marker, Panel, Rect, Shape, TextSize, Ticks,
 };
 

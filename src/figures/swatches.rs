@@ -1,9 +1,7 @@
 //! Patches as colors: rows or charts, each swatch beside the truth's, with a bar for the difference.
 
-use chromascope_core::figure::{
-    Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, TextSize, text_width,
-};
 use chromascope_core::query::PatchColor;
+use chromascope_figure::{Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, TextSize, text_width};
 
 use super::chromaticity::{caption, id};
 use crate::catalog::Kind;
@@ -227,12 +225,12 @@ impl Board<'_> {
         }
     }
 
-    fn area(&mut self, tag: chromascope_core::figure::Tag, name: &str, [min, max]: [[f64; 2]; 2], color: &PatchColor) {
+    fn area(&mut self, tag: chromascope_figure::Tag, name: &str, [min, max]: [[f64; 2]; 2], color: &PatchColor) {
         let mark = Mark::new(tag, name, Shape::Rect { min, max });
         self.marks.push(mark.with_fill(Ink::rgb(color.srgb.bytes)));
     }
 
-    fn text(&mut self, tag: chromascope_core::figure::Tag, text: &str, at: [f64; 2], anchor: Anchor) {
+    fn text(&mut self, tag: chromascope_figure::Tag, text: &str, at: [f64; 2], anchor: Anchor) {
         let ink = Ink::new(InkRole::OnSurround);
         let shape = Shape::Text { at, text: text.to_owned(), anchor, offset: [0.0, 0.0], size: TextSize::Body, ink };
         self.marks.push(Mark::new(tag, text, shape));

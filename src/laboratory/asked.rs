@@ -4,7 +4,7 @@ use chromascope_core::light::RadiationConstants;
 use chromascope_core::query::render::{PicturesOf, SourceOf};
 use chromascope_core::query::{LocusOf, PatchColorsOf, Shared};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
-use chromascope_core::scene::Mesh;
+use chromascope_mesh::Mesh;
 
 use super::SceneRunOf;
 use crate::scene::render::Finish;

@@ -3,11 +3,11 @@
 use chromascope_core::accuracy::Accuracy;
 use chromascope_core::camera::{LocusEvaluator, LocusMethod};
 use chromascope_core::light::RadiationConstants;
-use chromascope_core::math::exp::exp;
 use chromascope_core::query::{Ask, Shared};
 use chromascope_core::spectral::Sensor;
 use chromascope_core::spectral::grid::{COUNT, LAST_NM, wavelength_nm};
 use chromascope_core::units::Kelvin;
+use chromascope_math::exp::exp;
 
 use super::method::{Method, largest, measured, together};
 use super::stopwatch::once;

@@ -1,6 +1,6 @@
 //! What surrounds the marks: ground, grid, frame, tick labels, notes.
 
-use chromascope_core::figure::{Anchor, Annotation, Ink, InkRole, Panel, Rect as Area, TextSize, Tick, annotations};
+use chromascope_figure::{Anchor, Annotation, Ink, InkRole, Panel, Rect as Area, TextSize, Tick, annotations};
 use egui::{Painter, Pos2, Rect, Stroke, StrokeKind};
 
 use super::{EmphasisOf, View, marks};

@@ -1,6 +1,6 @@
 //! What is under the pointer.
 
-use chromascope_core::figure::{Mark, Panel, Shape, Tag};
+use chromascope_figure::{Mark, Panel, Shape, Tag};
 use egui::Pos2;
 
 use super::View;

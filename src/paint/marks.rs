@@ -1,6 +1,6 @@
 //! Marks as egui shapes.
 
-use chromascope_core::figure::{
+use chromascope_figure::{
     Anchor, Ink, InkRole, LegendEntry, Mark, Marker, MarkerOutline, Rgb, Shape as Form, Stroke as Pen, TextSize,
     finite_runs,
 };

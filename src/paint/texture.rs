@@ -2,7 +2,7 @@
 
 use std::{collections::HashMap, sync::Arc};
 
-use chromascope_core::figure::Image;
+use chromascope_figure::Image;
 use egui::{Color32, ColorImage, Context, Id, Painter, Pos2, Rect, TextureHandle, TextureOptions};
 
 /// Frames after which an unused texture is let go.

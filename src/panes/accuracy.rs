@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use chromascope_core::figure::LegendEntry;
+use chromascope_figure::LegendEntry;
 use egui::{Align2, ComboBox, FontId, Id, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;

@@ -160,7 +160,7 @@ fn thing_at(context: &PaneContext<'_>, built: &Built, hit: &paint::Hit) -> Optio
     let Thing::Source(source) = &thing else { return Some(thing) };
     let locus = context.scene.locus(source.kind, &source.name).ok()?;
     let is_locus = built.panel.marks.get(hit.mark).is_some_and(|mark| match &mark.shape {
-        chromascope_core::figure::Shape::Line { points, .. } => points.len() == locus.points.len(),
+        chromascope_figure::Shape::Line { points, .. } => points.len() == locus.points.len(),
         _ => false,
     });
     match locus.points.get(hit.index).filter(|_| is_locus) {

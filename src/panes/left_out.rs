@@ -1,6 +1,6 @@
 //! What the scene on show did not compute, and the time that this saved.
 
-use chromascope_core::figure::{TextSize, text_width};
+use chromascope_figure::{TextSize, text_width};
 use egui::{Align, Label, Layout, Rect, RichText, ScrollArea, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;

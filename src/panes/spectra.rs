@@ -85,7 +85,7 @@ fn panels_in(ui: &mut Ui, area: Rect, context: &mut PaneContext<'_>) {
 
 fn one_panel(
     ui: &mut Ui,
-    panel: &chromascope_core::figure::Panel,
+    panel: &chromascope_figure::Panel,
     place: Rect,
     built: &Built,
     context: &mut PaneContext<'_>,

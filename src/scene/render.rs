@@ -3,8 +3,9 @@
 use chromascope_core::query::render::{GeometryOf, MeshOf, PicturesOf, ShadingOf, SourceOf, VisibilityOf};
 use chromascope_core::query::{RenderingOf, Shared};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
-use chromascope_core::scene::{Mesh, Viewpoint};
+use chromascope_core::scene::Viewpoint;
 use chromascope_core::spectral::GridSpectrum;
+use chromascope_mesh::Mesh;
 
 use super::{Scene, SceneError, Source};
 use crate::catalog::Kind;

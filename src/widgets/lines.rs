@@ -1,6 +1,6 @@
 //! One line of text that never runs over its place, keys of sources, small marks, numbers.
 
-use chromascope_core::figure::{Ink, LegendEntry, Stroke};
+use chromascope_figure::{Ink, LegendEntry, Stroke};
 use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, TextStyle, TextWrapMode, Ui, Vec2, WidgetText};
 
 use super::focus_rim;

@@ -14,55 +14,23 @@ use std::{
 
 use rust_text::{code, functions, paths};
 
-/// What a module of the core may use beside itself.
-const CORE_LAYERS: &[(&str, &[&str])] = &[
-    ("accuracy", &[]),
-    ("units", &["math"]),
-    ("math", &["units"]),
-    ("table", &["units", "math", "spectral"]),
-    ("spectral", &["units", "math", "table"]),
-    ("colorimetry", &["units", "math", "spectral"]),
-    ("light", &["accuracy", "units", "math", "table", "spectral", "colorimetry"]),
-    ("object", &["units", "math", "table", "spectral", "colorimetry", "light"]),
-    ("camera", &["accuracy", "units", "math", "table", "spectral", "colorimetry", "light", "object"]),
-    ("reflectance", &["accuracy", "units", "math", "table", "spectral", "colorimetry", "light", "object"]),
-    ("scene", &["units", "math", "table", "spectral", "colorimetry", "light", "object", "camera", "reflectance"]),
-    (
-        "render",
-        &[
-            "accuracy",
-            "units",
-            "math",
-            "table",
-            "spectral",
-            "colorimetry",
-            "light",
-            "object",
-            "camera",
-            "reflectance",
-            "scene",
-        ],
-    ),
-    ("figure", &["units", "math", "table", "colorimetry"]),
-    (
-        "query",
-        &[
-            "accuracy",
-            "units",
-            "math",
-            "table",
-            "spectral",
-            "colorimetry",
-            "light",
-            "object",
-            "camera",
-            "reflectance",
-            "scene",
-            "render",
-            "figure",
-        ],
-    ),
+/// Modules of `chromascope-core` in their order: each uses only those before it.
+const CORE_LAYERS: &[&str] = &[
+    "accuracy",
+    "units",
+    "spectral",
+    "colorimetry",
+    "light",
+    "object",
+    "camera",
+    "reflectance",
+    "scene",
+    "render",
+    "query",
 ];
+
+/// Other crates under the names that `chromascope-core` gives them.
+const REEXPORTED: &[&str] = &["math", "mesh"];
 
 /// What the core never names: the same input is to give the same output.
 const NOT_IN_THE_CORE: &[&str] =
@@ -87,6 +55,13 @@ fn core_modules_use_only_what_is_above_them() {
 }
 
 #[test]
+fn crates_of_the_core_are_functions_of_their_arguments() {
+    for krate in ["core/figure", "core/math", "core/mesh", "core/spectral-file", "core/text"] {
+        hold(sources(&format!("{krate}/src")).iter().flat_map(|(path, text)| pure(path, text)));
+    }
+}
+
+#[test]
 fn app_modules_keep_to_their_part() {
     let sources = sources("src");
     let panes: BTreeSet<String> = sources
@@ -100,7 +75,7 @@ fn app_modules_keep_to_their_part() {
 
 #[test]
 fn files_and_functions_stay_short() {
-    for folder in ["core/src", "core/benches", "src", "tests"] {
+    for folder in ["core", "src", "tests"] {
         hold(sources(folder).iter().flat_map(|(path, text)| budgets(path, text)));
     }
 }
@@ -141,27 +116,37 @@ fn hold(violations: impl IntoIterator<Item = Violation>) {
 fn core_layers(file: &str, text: &str) -> Vec<Violation> {
     let own = module(file);
     let mut found = Report::new(file);
-    let layer = |name: &String| CORE_LAYERS.iter().find(|(layer, _)| layer == name);
-    let above = own.first().map(|own| (own, layer(own)));
-    if let Some((own, None)) = above {
+    let layer = |name: &String| CORE_LAYERS.iter().position(|layer| layer == name);
+    let place = own.first().map(|own| (own, layer(own)));
+    if let Some((own, None)) = place {
         found.push(1, format!("`{own}` has no layer: give it one in tests/app/architecture.rs"));
     }
     for path in paths(&own, &code(text)) {
         if let Some(name) = NOT_IN_THE_CORE.iter().find(|name| path.starts_with(name)) {
             found.push(path.line, format!("the core never uses `{name}`"));
         }
-        let (Some((own, Some((_, above)))), Some(used)) = (above, path.names.get(1)) else {
+        let (Some((own, Some(place))), Some(used)) = (place, path.names.get(1)) else {
             continue;
         };
-        if path.names[0] != "crate" || used == own || above.contains(&used.as_str()) {
+        if path.names[0] != "crate" || used == own || REEXPORTED.contains(&used.as_str()) {
             continue;
         }
-        let rule = if layer(used).is_some() {
-            format!("`{own}` may not use `{used}`, only {}", above.join(", "))
-        } else {
-            format!("`crate::{used}` names no module of the core: write the path through its module")
+        let rule = match layer(used) {
+            Some(other) if other < place => continue,
+            Some(_) => format!("`{own}` may not use `{used}`, only {}", CORE_LAYERS[..place].join(", ")),
+            None => format!("`crate::{used}` names no module of the core: write the path through its module"),
         };
         found.push(path.line, rule);
+    }
+    found.violations
+}
+
+fn pure(file: &str, text: &str) -> Vec<Violation> {
+    let mut found = Report::new(file);
+    for path in paths(&module(file), &code(text)) {
+        if let Some(name) = NOT_IN_THE_CORE.iter().find(|name| path.starts_with(name)) {
+            found.push(path.line, format!("the core never uses `{name}`"));
+        }
     }
     found.violations
 }
@@ -337,7 +322,7 @@ mod tests { use crate::query::Ask; }
 mod inner { use super::super::super::scene::Mesh; }
 ";
     let rule = "may not use";
-    let only = "only units, math, spectral";
+    let only = "only accuracy, units, spectral";
     let expected = [
         format!("core/src/colorimetry/lab.rs:4: `colorimetry` {rule} `light`, {only}"),
         format!("core/src/colorimetry/lab.rs:8: `colorimetry` {rule} `object`, {only}"),
@@ -348,7 +333,7 @@ mod inner { use super::super::super::scene::Mesh; }
         format!("core/src/colorimetry/lab.rs:13: `colorimetry` {rule} `scene`, {only}"),
     ];
     assert_eq!(found(&core_layers("core/src/colorimetry/lab.rs", text)), expected);
-    let expected = ["core/src/colorimetry.rs:1: `colorimetry` may not use `camera`, only units, math, spectral"];
+    let expected = ["core/src/colorimetry.rs:1: `colorimetry` may not use `camera`, only accuracy, units, spectral"];
     assert_eq!(found(&core_layers("core/src/colorimetry.rs", "use super::camera::Response;")), expected);
     assert_eq!(found(&core_layers("core/src/lib.rs", "pub mod camera; pub use crate::camera::Way;")), [""; 0]);
     let unknown = core_layers("core/src/shiny.rs", "");
@@ -370,7 +355,7 @@ use egui;
         "core/src/math.rs:5: the core never uses `std::thread`",
         "core/src/math.rs:6: the core never uses `egui`",
     ];
-    assert_eq!(found(&core_layers("core/src/math.rs", text)), expected);
+    assert_eq!(found(&pure("core/src/math.rs", text)), expected);
 }
 
 #[test]

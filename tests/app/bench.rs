@@ -12,10 +12,10 @@ use chromascope::export::{Paper, png, svg};
 use chromascope::theme::Theme;
 use chromascope_core::colorimetry::Lab;
 use chromascope_core::light::RadiationConstants;
-use chromascope_core::math::double::Double;
 use chromascope_core::query::{Ask as _, Direct, Shared};
 use chromascope_core::render::Stop;
 use chromascope_core::spectral::Sensor;
+use chromascope_math::double::Double;
 
 /// A decimal number with all its digits.
 fn decimal(text: &str) -> Double {

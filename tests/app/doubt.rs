@@ -7,7 +7,7 @@ use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::thing::{SourceId, Thing};
 use chromascope::view::View;
-use chromascope_core::figure::{Cell, Dash, Mark, Marker, Shape};
+use chromascope_figure::{Cell, Dash, Mark, Marker, Shape};
 
 const D70: &str = "Nikon D70 (2007 figure)";
 

@@ -7,7 +7,7 @@ use chromascope::{
     paint::{self, Emphasis, PlotOptions, PlotOutput, View},
     theme::{self, Theme},
 };
-use chromascope_core::figure::{
+use chromascope_figure::{
     Anchor, Axis, Dash, Figure, Image, Ink, InkRole, LegendEntry, Mark, Marker, Panel, Rect, Shape, Stroke, Tag,
     TextSize, Ticks,
 };

@@ -111,7 +111,7 @@ fn what_cannot_be_read_says_the_line() {
 fn percent_that_was_chosen_holds_for_every_role() {
     use chromascope::catalog::import::{Origin, import_as};
     use chromascope::document::own::{ReadOptions, Wishes};
-    use chromascope_core::table::{Values, Watch};
+    use spectral_file::{Values, Watch};
     let text = b"nm,r,g,b\n400,5,6,7\n500,50,60,70\n600,10,11,12\n";
     for role in [Role::Camera, Role::Illuminant, Role::Unknown, Role::Transmittance] {
         let options = ReadOptions { role: Some(role), values: Some(Values::Percent), ..ReadOptions::default() };

@@ -13,9 +13,9 @@ use chromascope::files::Files;
 use chromascope::view::import::ImportItem;
 use chromascope::view::{SavedView, Weight};
 use chromascope::workspaces::Workspace;
-use chromascope_core::table::{Delimiter, ReadOptions, Role as Kinds};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use spectral_file::{Delimiter, ReadOptions, Role as Kinds};
 
 use crate::cpu_renderer::Cpu;
 use crate::import_switches::{Window, choose, closed, drop_file, own, says, settle, undo, until};

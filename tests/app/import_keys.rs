@@ -2,10 +2,10 @@
 
 use chromascope::view::import::{ImportItem, Stop};
 use chromascope::workspaces::{PaneKind, Workspace};
-use chromascope_core::table::{Delimiter, Role as Kinds};
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use spectral_file::{Delimiter, Role as Kinds};
 
 use crate::import_switches::{Window, closed, drop_file, own, settle, until};
 use crate::screenshots::open;

@@ -9,8 +9,8 @@ use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::view::View;
 use chromascope::view::import::ImportItem;
-use chromascope_core::figure::{Panel, Shape, TextSize, text_width};
 use chromascope_core::query::Shared;
+use chromascope_figure::{Panel, Shape, TextSize, text_width};
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 
@@ -108,8 +108,7 @@ fn names_above_swatches_keep_to_their_columns() {
         for mark in &panel.marks {
             if let Shape::Text { at, text, anchor, .. } = &mark.shape {
                 let width = text_width(text, TextSize::Body);
-                let left =
-                    if *anchor == chromascope_core::figure::Anchor::CENTER { at[0] - width / 2.0 } else { at[0] };
+                let left = if *anchor == chromascope_figure::Anchor::CENTER { at[0] - width / 2.0 } else { at[0] };
                 words.push([left, left + width, at[1]]);
             }
         }

@@ -11,10 +11,10 @@ use chromascope::document::own::{OwnSet, WavelengthUnit};
 use chromascope::view::Weight;
 use chromascope::view::import::ImportItem;
 use chromascope::workspaces::{PaneKind, Workspace};
-use chromascope_core::table::{Role as Kinds, Values};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use spectral_file::{Role as Kinds, Values};
 
 use crate::own_data::Dropped;
 use crate::screenshots::open;

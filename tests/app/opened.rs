@@ -13,8 +13,8 @@ use chromascope::document::own::{Fingerprint, OwnSet, Wishes};
 use chromascope::document::{Document, session};
 use chromascope::view::Weight;
 use chromascope::view::import::{ImportItem, ImportMemory};
-use chromascope_core::table::{ReadOptions, Role, Values};
 use egui_kittest::Harness;
+use spectral_file::{ReadOptions, Role, Values};
 
 use crate::screenshots::open;
 use crate::waiting;
@@ -127,7 +127,7 @@ fn a_wish_that_cannot_be_met_changes_nothing() {
     window.state_mut().push(Command::Paste(LEAF.to_owned()));
     until(&mut window, "a file", |app| !app.history().document().own.is_empty());
     let before = own(&window);
-    let delimiter = Some(chromascope_core::table::Delimiter::Tab);
+    let delimiter = Some(spectral_file::Delimiter::Tab);
     wish(&mut window, "clipboard", ReadOptions { delimiter, ..ReadOptions::default() });
     window.state().opened().wait();
     window.run_steps(3);
@@ -267,7 +267,7 @@ fn what_was_remembered_is_told_and_given_up_where_it_does_not_fit() {
     let mut window = window();
     open_path(&mut window, &folder.path().join("one.csv"));
     until(&mut window, "a file", |app| !app.history().document().own.is_empty());
-    let delimiter = Some(chromascope_core::table::Delimiter::Semicolon);
+    let delimiter = Some(spectral_file::Delimiter::Semicolon);
     let options = ReadOptions { role: Some(Role::Illuminant), delimiter, ..ReadOptions::default() };
     wish(&mut window, "one", options);
     until(&mut window, "a wish", |app| app.history().document().own[0].role == Role::Illuminant);

@@ -8,8 +8,8 @@ use chromascope::document::uses::PLACES;
 use chromascope::document::{CHART, Document, Light, Subset, TRUTH, WhiteChoice, session};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope_core::figure::{InkRole, Marker};
 use chromascope_core::query::Shared;
+use chromascope_figure::{InkRole, Marker};
 
 /// The document after an action on the first screen, checked.
 fn check(action: &Action, expect: impl Fn(&Document)) {

@@ -10,9 +10,9 @@ use chromascope::document::{Compared, Document, Light, MOST_COMPARED};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::thing::{SourceId, Thing, Things};
-use chromascope_core::figure::Tag;
 use chromascope_core::query::Shared;
-use chromascope_core::table::{ReadOptions, read};
+use chromascope_figure::Tag;
+use spectral_file::{ReadOptions, read};
 
 const LEAF: &str = "nm;leaf (%)\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n";
 

@@ -7,9 +7,9 @@ use chromascope::document::own::{OwnSet, Role};
 use chromascope::export::spectra::{Form, file, fits, notes_in_words};
 use chromascope::results::Results;
 use chromascope_core::query::Shared;
-use chromascope_core::table::write::{Format, Grid};
 use egui::accesskit;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use spectral_file::write::{Format, Grid};
 
 use crate::screenshots::open;
 

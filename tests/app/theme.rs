@@ -1,14 +1,12 @@
 //! The palette: seen against its ground, and told apart, by people with any kind of color vision.
 
 use chromascope::theme::{self, Surround, Theme};
-use chromascope_core::{
-    colorimetry::{
-        Lab, Xyz, delta_e_2000,
-        lab::lab_from_xyz,
-        rgb::{XYZ_FROM_SRGB, srgb_inverse_transfer, srgb_white},
-    },
-    figure::{Ink, InkRole, Palette as _},
+use chromascope_core::colorimetry::{
+    Lab, Xyz, delta_e_2000,
+    lab::lab_from_xyz,
+    rgb::{XYZ_FROM_SRGB, srgb_inverse_transfer, srgb_white},
 };
+use chromascope_figure::{Ink, InkRole, Palette as _};
 use egui::Color32;
 
 /// Machado, Oliveira and Fernandes 2009, severity 1.0: normal, protan, deutan and tritan sight, in linear RGB.

@@ -1,6 +1,6 @@
 //! Numbers of two doubles, against 80 digits and themselves. All pairs here: mpmath 1.3.0, the nearest double and what it lacks.
 
-use chromascope_core::math::double::Double;
+use chromascope_math::double::Double;
 
 fn d(value: f64) -> Double {
     Double::new(value)

@@ -1,11 +1,11 @@
 //! Numerical tools: against the standard library, published nodes, 50-digit solutions, and what they promise to be exact for.
 
-use chromascope_core::math::dot::{dot, dot_each};
-use chromascope_core::math::exp::exp;
-use chromascope_core::math::gauss::{Rule, gauss_rule, interpolatory_rule};
-use chromascope_core::math::interpolation::{Sprague, linear};
-use chromascope_core::math::least_squares::{FitError, matrix_keeping};
-use chromascope_core::math::ln::{ln, ln_1p};
+use chromascope_math::dot::{dot, dot_each};
+use chromascope_math::exp::exp;
+use chromascope_math::gauss::{Rule, gauss_rule, interpolatory_rule};
+use chromascope_math::interpolation::{Sprague, linear};
+use chromascope_math::least_squares::{FitError, matrix_keeping};
+use chromascope_math::ln::{ln, ln_1p};
 use glam::{DMat3, DVec3};
 use proptest::collection::vec;
 use proptest::prelude::*;

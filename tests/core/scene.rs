@@ -1,7 +1,8 @@
 //! Meshes, eyes and lights.
 
 use chromascope_core::scene::roughness::{VertexRoughness, vertex_roughness};
-use chromascope_core::scene::{Lighting, Mesh, MeshError, PlacedLight, Viewpoint, head, shapes};
+use chromascope_core::scene::{Lighting, PlacedLight, Viewpoint};
+use chromascope_mesh::{Mesh, MeshError, head, shapes};
 use glam::{DVec3, Vec3};
 
 /// The middle value.

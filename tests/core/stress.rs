@@ -13,7 +13,6 @@
 mod color;
 mod draw;
 mod light;
-mod listed;
 mod many;
 mod math;
 mod plan;

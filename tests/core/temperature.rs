@@ -5,8 +5,8 @@ mod published;
 use chromascope_core::camera::LocusEvaluator;
 use chromascope_core::colorimetry::{Uv60, Xy, Xyz};
 use chromascope_core::light::{Cct, NoCct, NoLocus, PlanckianLocus, RadiationConstants};
-use chromascope_core::math::chebyshev;
 use chromascope_core::units::Kelvin;
+use chromascope_math::chebyshev;
 use proptest::prelude::*;
 use std::sync::LazyLock;
 

@@ -5,11 +5,11 @@ use chromascope_core::camera::{Rendering, Way};
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::colorimetry::{Xy, Xyz};
 use chromascope_core::light::planckian::relative_exitance;
-use chromascope_core::math::least_squares::matrix_keeping;
 use chromascope_core::object::PatchSet;
 use chromascope_core::spectral::grid::COUNT;
 use chromascope_core::spectral::{GridSpectrum, Primaries, Sensor};
 use chromascope_core::units::Kelvin;
+use chromascope_math::least_squares::matrix_keeping;
 use glam::{DMat3, DVec3};
 
 /// `Σ terms` with the rounding of every addition kept and added at the end (Neumaier 1974).

@@ -4,7 +4,7 @@
 use std::cell::Cell;
 use std::time::Instant;
 
-use chromascope_core::table::{ReadError, ReadOptions, Table, Watch, read, read_watched};
+use spectral_file::{ReadError, ReadOptions, Table, Watch, read, read_watched};
 
 use crate::files::{File, digits, files};
 use crate::memory::peak;

@@ -10,18 +10,19 @@ use chromascope_core::camera::rendering::{raw, under_light};
 use chromascope_core::camera::{Batch, LocusEvaluator, LocusTable, NotInTable, Rendering, Way, White};
 use chromascope_core::colorimetry::{Lab, Uv60, delta_e_2000, delta_e_2000_into};
 use chromascope_core::light::PlanckianLocus;
-use chromascope_core::math::dot::dot;
 use chromascope_core::reflectance::{Precision, Reading, Surface, diffuse_sum, wavelength_power};
 use chromascope_core::render::diffuse::{by_moments, by_nodes, rough_basis};
 use chromascope_core::render::{
     Against, CameraImage, Demand, Development, DiffuseTable, GeometryImage, Measure, Plan, Quality, RasterSize,
-    ShadingImage, ShadowTree, Shadows, Stop, Visibility, develop,
+    ShadingImage, Shadows, Stop, Visibility, develop,
 };
-use chromascope_core::scene::{Lighting, SUN_RADIUS, Viewpoint, shapes};
+use chromascope_core::scene::{Lighting, SUN_RADIUS, Viewpoint};
 use chromascope_core::spectral::{GridSpectrum, Quantity, Sensor, SpectralDistribution};
-use chromascope_core::table::{ReadOptions, read};
 use chromascope_core::units::Kelvin;
+use chromascope_math::dot::dot;
+use chromascope_mesh::{ShadowTree, shapes};
 use glam::DVec3;
+use spectral_file::{ReadOptions, read};
 
 use crate::Work;
 use crate::library::{CHART, CONSTANTS, equal_energy, patches, sensor, text};

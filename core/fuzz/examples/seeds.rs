@@ -26,7 +26,7 @@ fn main() -> std::io::Result<()> {
 
 /// The files that the tests read, each with its name.
 fn miniatures() -> std::io::Result<Vec<(String, Vec<u8>)>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/core/corpus");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/spectral-file/corpus");
     let mut all = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();

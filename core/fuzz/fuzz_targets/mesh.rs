@@ -1,7 +1,7 @@
 //! Any bytes as a mesh, under each extension: a sound mesh or an error, never a panic.
 #![no_main]
 
-use chromascope_core::scene::reading::read_mesh;
+use chromascope_mesh::reading::read_mesh;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -1,7 +1,7 @@
 //! Any bytes as a spectral file, read by what they hold: a sound table or an error.
 #![no_main]
 
-use chromascope_core::table::{ReadOptions, read};
+use spectral_file::{ReadOptions, read};
 use chromascope_core_fuzz::check;
 use libfuzzer_sys::fuzz_target;
 

@@ -1,7 +1,7 @@
 //! What the preview marks in any bytes under any choices: parts of lines, in order, that it can name.
 #![no_main]
 
-use chromascope_core::table::{Preview, read};
+use spectral_file::{Preview, read};
 use chromascope_core_fuzz::options;
 use libfuzzer_sys::fuzz_target;
 

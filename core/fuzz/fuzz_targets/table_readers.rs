@@ -1,7 +1,7 @@
 //! Any bytes as a spectral file under any choices, which the first bytes make: a sound table or an error.
 #![no_main]
 
-use chromascope_core::table::read;
+use spectral_file::read;
 use chromascope_core_fuzz::{check, options};
 use libfuzzer_sys::fuzz_target;
 

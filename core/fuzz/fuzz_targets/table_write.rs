@@ -1,8 +1,8 @@
 //! What is read is written in each format and read again: no panic, and a CSV gives back every sample to the last bit.
 #![no_main]
 
-use chromascope_core::table::write::{Content, Format, Grid, Sheet, Trace, write};
-use chromascope_core::table::{
+use spectral_file::write::{Content, Format, Grid, Sheet, Trace, write};
+use spectral_file::{
     DecimalMark, Delimiter, Orientation, ReadError, ReadOptions, Reader, Role, Table, Values, WavelengthUnit, read,
 };
 use chromascope_core_fuzz::check;

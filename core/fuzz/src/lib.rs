@@ -3,7 +3,7 @@
 pub mod files;
 pub mod options;
 
-use chromascope_core::table::Table;
+use spectral_file::Table;
 
 /// What must hold of whatever is read.
 pub fn check(table: &Table) {

@@ -1,6 +1,6 @@
 //! Choices made of the first bytes of an input.
 
-use chromascope_core::table::{DecimalMark, Delimiter, Orientation, ReadOptions, Reader, Role, Values, WavelengthUnit};
+use spectral_file::{DecimalMark, Delimiter, Orientation, ReadOptions, Reader, Role, Values, WavelengthUnit};
 
 /// How many bytes make the choices.
 pub const LENGTH: usize = 6;

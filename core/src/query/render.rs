@@ -18,12 +18,13 @@ use crate::camera::{NoRendering, rendering::white_divisors};
 use crate::reflectance::{Reading, Specular, Surface, wavelength_power};
 use crate::render::mirror::Reach;
 use crate::render::{
-    Against, CameraImage, DiffuseTable, GeometryImage, Measure, Quality, RasterSize, ShadingImage, ShadowTree, Shadows,
+    Against, CameraImage, DiffuseTable, GeometryImage, Measure, Quality, RasterSize, ShadingImage, Shadows,
     VertexImage, Visibility,
 };
 use crate::scene::roughness::{VertexRoughness, vertex_roughness};
-use crate::scene::{Lighting, Mesh, Viewpoint, fern, head, shapes};
+use crate::scene::{Lighting, Viewpoint};
 use crate::spectral::{GridSpectrum, Sensor};
+use chromascope_mesh::{Mesh, ShadowTree, fern, head, shapes};
 use std::sync::Arc;
 
 /// Which mesh?

@@ -4,10 +4,11 @@ mod lanes;
 
 use self::lanes::{EDGE, Found, Given, LANES};
 use super::Stop;
-use super::shadow::ShadowTree;
 use super::visibility::{Hit, RasterSize, Rays, Visibility};
 use crate::reflectance::Geometry;
-use crate::scene::{Lighting, Mesh, PlacedLight};
+use crate::scene::{Lighting, PlacedLight};
+use chromascope_mesh::Mesh;
+use chromascope_mesh::ShadowTree;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::sync::Arc;

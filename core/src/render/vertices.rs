@@ -4,7 +4,8 @@ use super::Stop;
 use super::geometry::{Angles, GeometryImage};
 use super::visibility::Visibility;
 use crate::reflectance::Geometry;
-use crate::scene::{Lighting, Mesh};
+use crate::scene::Lighting;
+use chromascope_mesh::Mesh;
 use rayon::prelude::*;
 use std::sync::Arc;
 

@@ -6,7 +6,8 @@
 //! sign to the last bit: no cracks, no sample twice.
 
 use super::Stop;
-use crate::scene::{Eye, Mesh};
+use crate::scene::Eye;
+use chromascope_mesh::Mesh;
 use glam::DVec3;
 use multiversion::multiversion;
 use rayon::prelude::*;

@@ -1,7 +1,7 @@
 //! The paper's own roughness: heights and spacing of the mesh's vertices.
 
-use super::mesh::Mesh;
 use crate::reflectance::Surface;
+use chromascope_mesh::Mesh;
 
 /// Roughness of the mesh about one vertex, in meters.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,6 +1,6 @@
 //! Where a mesh is seen from: an orbit around its center, through a lens.
 
-use super::mesh::Bounds;
+use chromascope_mesh::Bounds;
 use glam::{DMat3, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::hash::{Hash, Hasher};

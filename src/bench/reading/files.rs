@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use chromascope_core::table::MAX_CURVES;
+use spectral_file::MAX_CURVES;
 
 /// A file and what is in it.
 pub(crate) struct File {

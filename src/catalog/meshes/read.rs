@@ -7,8 +7,8 @@ use std::path::Path;
 use std::time::SystemTime;
 
 use chromascope_core::query::Shared;
-use chromascope_core::scene::Mesh;
-use chromascope_core::scene::reading::{MeshReadError, Note, ReadMesh, read_mesh};
+use chromascope_mesh::Mesh;
+use chromascope_mesh::reading::{MeshReadError, Note, ReadMesh, read_mesh};
 
 use crate::files::reason;
 

@@ -4,7 +4,7 @@ use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use chromascope_core::query::{Ask, Query};
-use chromascope_core::table::{self, Marker, Preview, ReadError, ReadOptions, Table, Watch};
+use spectral_file::{Marker, Preview, ReadError, ReadOptions, Table, Watch};
 
 use super::OpenFile;
 use crate::catalog::import::Origin;
@@ -94,7 +94,7 @@ impl Query for TableOf {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let stop = ask.stop();
         let go_on = |_: f32| !stop.is_set();
-        table::read_watched(&self.contents.bytes, &self.options, Watch::new(&go_on)).map(Arc::new)
+        spectral_file::read_watched(&self.contents.bytes, &self.options, Watch::new(&go_on)).map(Arc::new)
     }
 
     fn bytes(table: &Self::Answer) -> usize {

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use chromascope_core::table::{MAX_BYTES, ReadError, Watch};
+use spectral_file::{MAX_BYTES, ReadError, Watch};
 
 use super::{Desk, Failing, Job, OpenFile, OpenedEvent, Why};
 use crate::catalog::import::{Imported, Origin, import_as};

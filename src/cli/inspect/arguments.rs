@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use chromascope_core::table::write::Grid;
-use chromascope_core::table::{DecimalMark, Delimiter, Orientation, ReadOptions, Reader, Role, Values, WavelengthUnit};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use serde::Deserialize as _;
 use serde::de::DeserializeOwned;
 use serde::de::IntoDeserializer as _;
 use serde::de::value::{Error, StrDeserializer};
+use spectral_file::write::Grid;
+use spectral_file::{DecimalMark, Delimiter, Orientation, ReadOptions, Reader, Role, Values, WavelengthUnit};
 
 pub(in crate::cli) const EXAMPLES: &str = "\
 Examples:

@@ -2,9 +2,9 @@
 
 use std::io::{self, Write};
 
-use chromascope_core::table::write::Prepared;
-use chromascope_core::table::{Certainty, Curve, ReadError, Reading, Table};
 use serde_json::{Value, json};
+use spectral_file::write::Prepared;
+use spectral_file::{Certainty, Curve, ReadError, Reading, Table};
 
 use super::Failure;
 

@@ -2,8 +2,8 @@
 
 use std::fmt::{Display, Write as _};
 
-use chromascope_core::table::write::Note;
-use chromascope_core::table::{Curve, Reading, Table};
+use spectral_file::write::Note;
+use spectral_file::{Curve, Reading, Table};
 
 use crate::dropped;
 

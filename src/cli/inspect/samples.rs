@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use chromascope_core::table::write::{Content, Note, Prepared};
-use chromascope_core::table::{Role, Table};
+use spectral_file::write::{Content, Note, Prepared};
+use spectral_file::{Role, Table};
 
 use super::Stop;
 

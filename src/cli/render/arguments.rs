@@ -4,8 +4,8 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use chromascope_core::render::visibility::MAX_SIDE;
-use chromascope_core::table::Values;
 use clap::{Args, ValueEnum};
+use spectral_file::Values;
 
 use crate::cli::arguments::SourceArguments;
 use crate::document::render::model::{AreaChoice, SpecularChoice};

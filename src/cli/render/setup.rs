@@ -7,8 +7,9 @@ use std::time::{Duration, Instant};
 use chromascope_core::query::Shared;
 use chromascope_core::reflectance::SurfaceError;
 use chromascope_core::render::{Quality, RasterSize, Shadows};
+use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::viewpoint::ViewpointError;
-use chromascope_core::scene::{Mesh, Viewpoint};
+use chromascope_mesh::Mesh;
 use clap::ArgMatches;
 
 use super::arguments::{RenderArguments, SpecularName};

@@ -5,9 +5,9 @@ use std::sync::{Arc, OnceLock};
 use chromascope_core::colorimetry::diagram::{SpectralPoint, area_color, wavelength_color};
 use chromascope_core::colorimetry::rgb::GAMUTS;
 use chromascope_core::colorimetry::{UvPrime, Xy};
-use chromascope_core::figure::{Anchor, Dash, Image, Ink, InkRole, Mark, Shape, TextSize};
 use chromascope_core::light::daylight;
 use chromascope_core::units::Kelvin;
+use chromascope_figure::{Anchor, Dash, Image, Ink, InkRole, Mark, Shape, TextSize};
 
 use super::Drawing;
 use crate::catalog::Kind;
@@ -78,7 +78,7 @@ fn add_labels(drawing: &mut Drawing<'_>) {
         let offset = [14.0 * away[0] / length, -12.0 * away[1] / length];
         let anchor = Anchor(if away[0] < 0.0 { 1.0 } else { 0.0 }, 0.5);
         drawing.marks.push(text(&format!("{nm:.0}"), at, anchor, [offset[0] * 0.6, offset[1]], InkRole::Weak));
-        let dot = Shape::Points { points: vec![at], marker: chromascope_core::figure::Marker::Circle, radius: 1.8 };
+        let dot = Shape::Points { points: vec![at], marker: chromascope_figure::Marker::Circle, radius: 1.8 };
         drawing.marks.push(Mark::new(Things::NONE, "wavelength", dot).with_fill(InkRole::Weak));
     }
 }

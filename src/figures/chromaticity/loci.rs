@@ -1,8 +1,8 @@
 //! Planckian loci with temperature ticks, and cameras' spectral loci.
 
-use chromascope_core::figure::{Anchor, Dash, InkRole, Mark, Marker, Shape};
 use chromascope_core::query::{LocusPoint, Temperatures};
 use chromascope_core::units::Kelvin;
+use chromascope_figure::{Anchor, Dash, InkRole, Mark, Marker, Shape};
 
 use super::ground::text;
 use super::{Drawing, id};

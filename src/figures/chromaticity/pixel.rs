@@ -1,6 +1,6 @@
 //! The pixel that is kept of the rendered pictures, through each source.
 
-use chromascope_core::figure::{InkRole, Mark, Marker, Shape};
+use chromascope_figure::{InkRole, Mark, Marker, Shape};
 
 use super::{Drawing, id};
 use crate::figures::render::pixel_of;

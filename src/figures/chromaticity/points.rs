@@ -1,9 +1,9 @@
 //! Patches as points, with tails from each camera's to the truth's; and what the pointer reads.
 
 use chromascope_core::colorimetry::{UvPrime, Xy};
-use chromascope_core::figure::{Anchor, Ink, InkRole, Mark, Shape, TextSize};
 use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::units::Kelvin;
+use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, TextSize};
 
 use super::{Drawing, id};
 use crate::catalog::Kind;

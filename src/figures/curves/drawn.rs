@@ -1,6 +1,6 @@
 //! From what was read to the lines that are drawn.
 
-use chromascope_core::table::{Quantity, Role, Table};
+use spectral_file::{Quantity, Role, Table};
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 

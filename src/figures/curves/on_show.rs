@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use chromascope_core::query::Shared;
-use chromascope_core::table::{ReadError, Table};
+use spectral_file::{ReadError, Table};
 
 use crate::catalog::import::taken;
 use crate::catalog::opened::{Look, OpenFile, Opened};

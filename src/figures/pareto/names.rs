@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use chromascope_core::figure::{
+use chromascope_figure::{
     Anchor, Annotation, Ink, InkRole, Mark, Panel, Projection, Shape, TextSize, annotations, text_width,
 };
 
@@ -291,7 +291,7 @@ fn cross([a, b]: Line, [c, d]: Line) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use chromascope_core::figure::{Marker, Rect, Tag};
+    use chromascope_figure::{Marker, Rect, Tag};
 
     use super::*;
 

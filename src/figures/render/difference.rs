@@ -1,6 +1,6 @@
 //! Maps of differences from the reference.
 
-use chromascope_core::figure::{Anchor, Image, Ink, Mark, Shape};
+use chromascope_figure::{Anchor, Image, Ink, Mark, Shape};
 
 use super::text;
 use crate::number::number;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use chromascope_core::figure::{Cell, Table};
+use chromascope_figure::{Cell, Table};
 
 use crate::catalog::opened::OpenFile;
 use crate::document::own::{OwnSet, Role};

@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use chromascope_core::table::{Mark, Shown, What};
 use egui::text::{CCursor, LayoutJob};
 use egui::{FontId, Galley, Pos2, Rect, Stroke, StrokeKind, TextFormat, Ui, Vec2};
+use spectral_file::{Mark, Shown, What};
 
 use crate::theme::{MONO, Theme};
 
@@ -156,7 +156,7 @@ pub(super) fn legend(theme: &Theme, gap: f32) -> LayoutJob {
     let mut job = LayoutJob::default();
     let mut first = true;
     let value = What::Value { curve: 0, nm: 0.0, value: 0.0, written: 0.0 };
-    let left_out = What::LeftOut { why: chromascope_core::table::LeftOut::Column };
+    let left_out = What::LeftOut { why: spectral_file::LeftOut::Column };
     for (words, what) in [
         ("wavelength", Some(What::Wavelength { nm: 0.0 })),
         ("value", Some(value)),

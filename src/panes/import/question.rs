@@ -1,7 +1,7 @@
 //! The question that a file leaves open, with its answers: nothing is scaled before one is chosen.
 
-use chromascope_core::table::{Certainty, Role, Table, Values};
 use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
+use spectral_file::{Certainty, Role, Table, Values};
 
 use crate::command::Command;
 use crate::figures::curves::{OnShow, sentence};

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use chromascope_core::table::{LONGEST_LINE, Preview};
 use egui::{FontId, Id, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, UiBuilder, Vec2};
+use spectral_file::{LONGEST_LINE, Preview};
 
 use super::line::{Line, Pen, legend};
 use crate::catalog::opened::Look;

@@ -1,7 +1,7 @@
 //! A patch through one source beside the truth, or through all.
 
-use chromascope_core::figure::InkRole;
 use chromascope_core::query::{NoDifference, PatchColor};
+use chromascope_figure::InkRole;
 use egui::text::LayoutJob;
 use egui::{FontId, Rect, Sense, TextFormat, TextStyle, Ui, Vec2};
 

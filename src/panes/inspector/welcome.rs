@@ -1,7 +1,7 @@
 //! What a newcomer needs: what the window is about, and the key.
 
-use chromascope_core::figure::{InkRole, LegendEntry, Marker, Stroke};
 use chromascope_core::spectral::Primaries;
+use chromascope_figure::{InkRole, LegendEntry, Marker, Stroke};
 use egui::{Rect, RichText, Ui, Vec2};
 
 use crate::action::Action;

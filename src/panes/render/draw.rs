@@ -1,6 +1,6 @@
 //! Pictures with their captions, the pixel that is kept, the divider.
 
-use chromascope_core::figure::{Ink, InkRole, Mark, Panel, Rect as Area, Shape};
+use chromascope_figure::{Ink, InkRole, Mark, Panel, Rect as Area, Shape};
 use egui::{
     Align2, ComboBox, CursorIcon, FontId, Key, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, UiBuilder, Vec2,
 };

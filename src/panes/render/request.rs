@@ -4,7 +4,7 @@ use chromascope_core::colorimetry::rgb::srgb_inverse_transfer;
 use chromascope_core::query::Shared;
 use chromascope_core::query::render::{MeshOf, PicturesOf};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
-use chromascope_core::scene::Mesh;
+use chromascope_mesh::Mesh;
 use egui::Ui;
 
 use super::cells::Stand;

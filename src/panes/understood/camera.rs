@@ -1,7 +1,7 @@
 //! For a camera: which curves are red, green and blue, and what they count.
 
-use chromascope_core::table::{Certainty, Role};
 use egui::Ui;
+use spectral_file::{Certainty, Role};
 
 use super::{Closed, caption, list};
 use crate::document::own::Wishes;

@@ -1,7 +1,7 @@
 //! A set whose file is not at hand: what can be changed by its values alone.
 
-use chromascope_core::table::Values;
 use egui::{RichText, Ui};
+use spectral_file::Values;
 
 use super::{Closed, caption, list, name, note, switches};
 use crate::action::{Action, OwnAction};

@@ -1,7 +1,7 @@
 //! What should be looked at, what was decided, and where the numbers are from.
 
-use chromascope_core::table::Table;
 use egui::{Align, Id, RichText, Ui};
+use spectral_file::Table;
 
 use super::note;
 use crate::dropped;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use chromascope_core::table::Part;
 use egui::{Checkbox, ScrollArea, Ui};
+use spectral_file::Part;
 
 use super::note;
 use crate::command::Command;

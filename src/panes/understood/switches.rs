@@ -1,9 +1,9 @@
 //! The switches of the reader: each says what was decided and how sure that is, and takes another choice.
 
-use chromascope_core::table::{
+use egui::Ui;
+use spectral_file::{
     Certainty, Decided, DecimalMark, Delimiter, Orientation, Reader, Role, Table, Values, WavelengthUnit,
 };
-use egui::Ui;
 
 use super::{CONTENT, CONTENT_SHORT, Closed, list, parts};
 use crate::document::own::Wishes;

@@ -11,7 +11,7 @@ const TIME: &[&str] = &["Instant", "elapsed", "park_timeout", "recv_timeout", "s
 
 #[test]
 fn tests_do_not_depend_on_a_clock() {
-    for folder in ["core/src", "src", "tests/app", "tests/core"] {
+    for folder in ["core", "src", "tests/app", "tests/core", "tests/figure", "tests/mesh", "tests/spectral-file"] {
         hold(sources(folder).iter().flat_map(|(path, text)| clocks(path, text)));
     }
 }

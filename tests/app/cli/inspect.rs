@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use chromascope_core::table::{ReadOptions, Role, read};
 use serde_json::Value;
+use spectral_file::{ReadOptions, Role, read};
 
 use super::{refused, run};
 

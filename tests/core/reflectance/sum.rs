@@ -1,9 +1,9 @@
 //! The diffuse sum, against 60-digit sums, an integral without a series in it, and its limits.
 
-use chromascope_core::math::double::Double;
 use chromascope_core::reflectance::{
     Precision, SeriesTerms, diffuse_sum, diffuse_sums_into, ln_diffuse_sum, ln_diffuse_sums_into, series_terms,
 };
+use chromascope_math::double::Double;
 use proptest::prelude::*;
 
 use crate::support::{assert_near, cases, reference_numbers};

@@ -11,7 +11,8 @@ use chromascope_core::render::{
     Against, CameraImage, GeometryImage, Measure, Plan, Quality, RasterSize, ShadingImage, Stop, Visibility,
 };
 use chromascope_core::scene::lighting::SUN_RADIUS;
-use chromascope_core::scene::{Lighting, Mesh, Viewpoint, shapes};
+use chromascope_core::scene::{Lighting, Viewpoint};
+use chromascope_mesh::{Mesh, shapes};
 use proptest::prelude::*;
 use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
 

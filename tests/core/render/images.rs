@@ -10,9 +10,10 @@ use chromascope_core::query::render::{BrightSamples, MeshOf, MeshRoughnessOf, Pi
 use chromascope_core::query::{Ask, Direct, PatchColorsOf, RenderingOf, Shared};
 use chromascope_core::reflectance::{Reading, Specular};
 use chromascope_core::render::{CameraImage, Quality, RasterSize, Shadows, Stop, Visibility};
+use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::roughness::VertexRoughness;
-use chromascope_core::scene::{Mesh, Viewpoint, shapes};
 use chromascope_core::spectral::GridSpectrum;
+use chromascope_mesh::{Mesh, shapes};
 use glam::Vec3;
 
 use super::studio::{Counting, Studio};

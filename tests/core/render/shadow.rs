@@ -1,7 +1,7 @@
 //! Rays along the axes, and from and to nowhere.
 
-use chromascope_core::render::{RasterSize, ShadowTree};
-use chromascope_core::scene::{Mesh, shapes};
+use chromascope_core::render::RasterSize;
+use chromascope_mesh::{Mesh, ShadowTree, shapes};
 use glam::{DVec3, Vec3};
 
 /// A direction with a component of −0 is the same as with 0.

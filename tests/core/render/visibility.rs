@@ -1,7 +1,8 @@
 //! What is seen: the rasterizer beside a plain ray caster.
 
 use chromascope_core::render::{RasterSize, Stop, Visibility};
-use chromascope_core::scene::{Mesh, Viewpoint, shapes};
+use chromascope_core::scene::Viewpoint;
+use chromascope_mesh::{Mesh, shapes};
 use glam::{DVec3, Vec3};
 
 /// The nearest triangle along a ray, by Cramer's rule, with its distance: every triangle is tried.

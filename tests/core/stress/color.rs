@@ -8,7 +8,7 @@ use chromascope_core::colorimetry::rgb::{
     XYZ_FROM_SRGB, encode_srgb, srgb_from_xyz, srgb_inverse_transfer, srgb_transfer, srgb_white,
 };
 use chromascope_core::colorimetry::{Lab, UvPrime, Xy, Xyz, delta_e_1976, delta_e_2000};
-use chromascope_core::math::double::Double;
+use chromascope_math::double::Double;
 use glam::{DMat3, DVec3};
 
 use super::draw::{Case, Draw, case};

@@ -9,10 +9,10 @@ use chromascope_core::light::planckian::{black_body, exitance, relative_exitance
 use chromascope_core::light::temperature::published::{hernandez_andres_1999, kang_2002, mccamy_1992};
 use chromascope_core::light::temperature::tabulated::{Ohno, Robertson};
 use chromascope_core::light::{Cct, NoCct, PlanckianLocus, RadiationConstants};
-use chromascope_core::math::double::Double;
 use chromascope_core::query::Temperatures;
 use chromascope_core::spectral::{Primaries, Sensor};
 use chromascope_core::units::{Kelvin, Nanometers};
+use chromascope_math::double::Double;
 
 use super::draw::{Case, Draw, case};
 use super::spectral::drawn_sensor;

@@ -7,9 +7,9 @@ use chromascope_core::camera::batch::Sample;
 use chromascope_core::camera::{Batch, LocusEvaluator, LocusTable, NoBatch, NotInTable, Rendering, Way, White};
 use chromascope_core::colorimetry::{Lab, Xy, delta_e_2000, delta_e_2000_into};
 use chromascope_core::light::RadiationConstants;
-use chromascope_core::math::double::Double;
 use chromascope_core::spectral::{Primaries, Sensor};
 use chromascope_core::units::Kelvin;
+use chromascope_math::double::Double;
 use glam::DVec3;
 
 use super::draw::{Case, Draw, case};

@@ -1,13 +1,13 @@
 //! Interpolation, polynomials, Gauss rules, fits, products.
 
-use chromascope_core::math::chebyshev::{coefficients, evaluate, nodes};
-use chromascope_core::math::dot::{dot, dot_each};
-use chromascope_core::math::double::Double;
-use chromascope_core::math::exp::exp;
-use chromascope_core::math::gauss::{gauss_rule, interpolatory_rule};
-use chromascope_core::math::interpolation::{Sprague, linear};
-use chromascope_core::math::least_squares::matrix_keeping;
-use chromascope_core::math::ln::{ln, ln_1p};
+use chromascope_math::chebyshev::{coefficients, evaluate, nodes};
+use chromascope_math::dot::{dot, dot_each};
+use chromascope_math::double::Double;
+use chromascope_math::exp::exp;
+use chromascope_math::gauss::{gauss_rule, interpolatory_rule};
+use chromascope_math::interpolation::{Sprague, linear};
+use chromascope_math::least_squares::matrix_keeping;
+use chromascope_math::ln::{ln, ln_1p};
 use glam::DVec3;
 
 use super::draw::{Case, Draw, case};

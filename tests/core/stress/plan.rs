@@ -13,9 +13,10 @@ use chromascope_core::render::shading::{Mirror, Way};
 use chromascope_core::render::{
     Against, CameraImage, Demand, GeometryImage, Measure, Plan, Quality, RasterSize, ShadingImage, Stop, Visibility,
 };
-use chromascope_core::scene::{Lighting, Viewpoint, shapes};
+use chromascope_core::scene::{Lighting, Viewpoint};
 use chromascope_core::spectral::Primaries;
 use chromascope_core::units::Kelvin;
+use chromascope_mesh::shapes;
 use glam::DVec3;
 
 use super::draw::{Case, Draw, case};

@@ -1,6 +1,5 @@
 //! Fresnel's formulas, the mirror lobe, angles, and the scattered power.
 
-use chromascope_core::math::double::Double;
 use chromascope_core::reflectance::coherent::{
     is_negligible, mean_sinc_squared, rho0_squared, rho0_squared_bound, sinc, sine_integral,
 };
@@ -10,6 +9,7 @@ use chromascope_core::reflectance::{
     diffuse_prefactor, diffuse_sum, directional_hemispherical, factor, factor_by, factors_by, kappa, wavelength_power,
 };
 use chromascope_core::render::lobe::mean_sinc_squared_quick;
+use chromascope_math::double::Double;
 use glam::DVec3;
 
 use super::draw::{Case, Draw, case};

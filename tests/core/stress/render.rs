@@ -12,10 +12,11 @@ use chromascope_core::render::mirror::{Nodes, mirror_sum};
 use chromascope_core::render::shading::Mirror;
 use chromascope_core::render::{
     CameraImage, Development, DiffuseTable, GeometryImage, Measure, Measurement, Quality, RasterSize, ShadingImage,
-    ShadowTree, Shadows, Stop, VertexImage, Visibility, develop,
+    Shadows, Stop, VertexImage, Visibility, develop,
 };
-use chromascope_core::scene::{Lighting, Mesh, Viewpoint, roughness, shapes};
+use chromascope_core::scene::{Lighting, Viewpoint, roughness};
 use chromascope_core::spectral::{GridSpectrum, Primaries};
+use chromascope_mesh::{Mesh, ShadowTree, shapes};
 use glam::{DVec3, Vec3};
 
 use super::draw::{Case, Draw, case};

@@ -1,8 +1,9 @@
 //! Places of lights and eyes, meshes of any size.
 
-use chromascope_core::scene::mesh::smooth_normals;
 use chromascope_core::scene::roughness::vertex_roughness;
-use chromascope_core::scene::{Lighting, Mesh, PlacedLight, Viewpoint, shapes};
+use chromascope_core::scene::{Lighting, PlacedLight, Viewpoint};
+use chromascope_mesh::mesh::smooth_normals;
+use chromascope_mesh::{Mesh, shapes};
 use glam::{DVec3, Vec3};
 
 use super::draw::{Case, Draw, case};

@@ -5,11 +5,11 @@ use std::sync::LazyLock;
 use chromascope_core::camera::rendering::{raw, under_light, white_divisors};
 use chromascope_core::camera::{FitTargets, Rendering, Way, White};
 use chromascope_core::colorimetry::diagram::{spectral_locus, wavelength_color};
-use chromascope_core::math::dot::dot;
-use chromascope_core::math::double::Double;
 use chromascope_core::object::PatchSet;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{GridSpectrum, Primaries, Quantity, Response, Sensor, SpectralDistribution};
+use chromascope_math::dot::dot;
+use chromascope_math::double::Double;
 
 use super::draw::{Case, Draw, case};
 use super::walk::{Verdict, Walk};

@@ -2,11 +2,11 @@
 
 use std::sync::LazyLock;
 
-use chromascope_core::math::double::Double;
 use chromascope_core::reflectance::regimes::{Regime, diffuse_sum_by_regimes};
 use chromascope_core::reflectance::{
     Precision, diffuse_sum, diffuse_sums_into, ln_diffuse_sum, ln_diffuse_sums_into, series_terms,
 };
+use chromascope_math::double::Double;
 
 use super::draw::{Case, Draw, case};
 use super::walk::{Verdict, Walk};

@@ -1,0 +1,15 @@
+//! Triangle meshes with a normal at each vertex: a head and a fern, meshes from OBJ, PLY and STL files, and a tree that says
+//! which points a light does not reach.
+//!
+//! Lengths in meters. A mesh names no spectrum, roughness or camera.
+
+pub mod fern;
+pub mod head;
+pub mod implicit;
+pub mod mesh;
+pub mod reading;
+pub mod shadow;
+pub mod shapes;
+
+pub use mesh::{Bounds, Mesh, MeshError};
+pub use shadow::ShadowTree;

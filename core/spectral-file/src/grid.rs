@@ -1,0 +1,216 @@
+//! What every reader fills: wavelengths as written, and the values of each curve beside them.
+
+use super::header::Header;
+use super::warning::{LineList, Sentinel, Warning};
+use super::watch::Log;
+use super::{Curve, Decided, Dropped, DroppedRow, Part, Quantity, ReadError, Role, WavelengthUnit};
+use chromascope_text::on_one_line;
+
+/// How many dropped rows are listed; nobody reads more.
+const MAX_DROPPED: usize = 1000;
+
+/// Numbers as they stand in the file, before units, order and scale are settled.
+#[derive(Debug, Default)]
+pub(super) struct Grid {
+    /// Wavelengths, finite.
+    pub(super) wavelengths: Vec<f64>,
+    /// The line of each wavelength; a single one if all stand in the same line.
+    pub(super) lines: Vec<usize>,
+    /// The curves; each has one value (NaN for a gap) for each wavelength.
+    pub(super) curves: Vec<RawCurve>,
+    /// What stands above the numbers.
+    pub(super) header: Header,
+    /// The unit, if it stands beside each wavelength.
+    pub(super) label_unit: Option<WavelengthUnit>,
+    /// The unit, if the format prescribes it.
+    pub(super) unit: Option<Decided<WavelengthUnit>>,
+    /// What the curves are, if the format says or suggests it.
+    pub(super) role: Option<Decided<Role>>,
+    /// What the values are, if the format says so.
+    pub(super) quantity: Option<Decided<Quantity>>,
+    /// The parts of the file, if it can have several, and which one this is.
+    pub(super) parts: Vec<Part>,
+    pub(super) part: Option<Decided<usize>>,
+    /// Rows of numbers in the file.
+    pub(super) rows: usize,
+    /// The column of the wavelengths, from 1, where they run down one.
+    pub(super) wavelength_column: Option<usize>,
+    /// Whether each curve has wavelengths of its own, so that one it lacks is no gap.
+    pub(super) own_wavelengths: bool,
+    /// A number that stands for missing values, to be told with the gaps.
+    pub(super) sentinel: Option<Sentinel>,
+    /// Rows left out.
+    pub(super) dropped: Vec<DroppedRow>,
+}
+
+/// A curve as it stands in the file.
+#[derive(Debug, Default)]
+pub(super) struct RawCurve {
+    pub(super) name: String,
+    /// Whether the name is from the file.
+    pub(super) named: bool,
+    /// The column it stands in, from 1, where wavelengths run down one.
+    pub(super) column: Option<usize>,
+    /// All that the header says about this curve: its name and its unit.
+    pub(super) label: String,
+    /// The unit of the values as the file names it.
+    pub(super) unit: Option<String>,
+    pub(super) values: Vec<f64>,
+}
+
+impl RawCurve {
+    /// The name between quotes, and the column if the name does not say it.
+    pub(super) fn told(&self) -> String {
+        match self.column.filter(|_| self.named) {
+            Some(column) => format!("“{}” (column {column})", self.name),
+            None => format!("“{}”", self.name),
+        }
+    }
+}
+
+impl Grid {
+    /// The line of a wavelength.
+    pub(super) fn line(&self, index: usize) -> usize {
+        self.lines.get(index).or(self.lines.last()).copied().unwrap_or(1)
+    }
+
+    /// Puts the samples in the given order, a permutation of their indices.
+    pub(super) fn reorder(&mut self, order: &[usize]) {
+        if self.lines.len() == order.len() {
+            self.lines = order.iter().map(|&i| self.lines[i]).collect();
+        }
+        self.wavelengths = order.iter().map(|&i| self.wavelengths[i]).collect();
+        for curve in &mut self.curves {
+            curve.values = order.iter().map(|&i| curve.values[i]).collect();
+        }
+    }
+
+    /// Whether two samples hold the same values in every curve, gaps counting as equal.
+    pub(super) fn same_values(&self, a: usize, b: usize) -> bool {
+        self.curves.iter().all(|curve| {
+            let (a, b) = (curve.values[a], curve.values[b]);
+            a == b || (a.is_nan() && b.is_nan())
+        })
+    }
+
+    /// Settles which part of a file this is; a file without a list of parts is a single one.
+    pub(super) fn settle_parts(
+        &mut self,
+        chosen: Option<usize>,
+        first_line: usize,
+    ) -> Result<(Vec<Part>, Decided<usize>), ReadError> {
+        let mut parts = std::mem::take(&mut self.parts);
+        if parts.is_empty() {
+            let name = self.header.comment("title").unwrap_or_default().to_owned();
+            parts.push(Part { line: first_line, name, curves: self.curves.len(), rows: self.rows });
+        }
+        if let Some(part) = chosen.filter(|part| !(1..=parts.len()).contains(part)) {
+            return Err(ReadError::NoSuchPart { part, parts: parts.len() });
+        }
+        let only = || Decided::certain(1, "The file has one part");
+        let part = chosen.map_or_else(|| self.part.take().unwrap_or_else(only), Decided::chosen);
+        Ok((parts, part))
+    }
+
+    /// Puts the means of some rows into the first of them; gaps are in no mean.
+    pub(super) fn average(&mut self, start: usize, count: usize) {
+        for curve in &mut self.curves {
+            let rows = &mut curve.values[start..start + count];
+            let (mut mean, mut seen) = (f64::NAN, 0.0);
+            for &value in rows.iter().filter(|value| !value.is_nan()) {
+                seen += 1.0;
+                mean = if seen == 1.0 { value } else { mean + (value / seen - mean / seen) };
+            }
+            rows[0] = mean;
+        }
+    }
+
+    /// Notes a row as left out.
+    pub(super) fn drop_row(&mut self, line: usize, why: Dropped) {
+        if self.dropped.len() < MAX_DROPPED {
+            self.dropped.push(DroppedRow { line, why });
+        }
+    }
+
+    /// Removes the marked samples.
+    pub(super) fn remove(&mut self, marked: &[bool]) {
+        if self.lines.len() == marked.len() {
+            retain(&mut self.lines, marked);
+        }
+        retain(&mut self.wavelengths, marked);
+        for curve in &mut self.curves {
+            retain(&mut curve.values, marked);
+        }
+    }
+
+    /// The curves without their gaps. A curve of fewer than two values is left
+    /// out; it is worth a warning only if it has a name or a value.
+    pub(super) fn into_curves(mut self, log: &mut Log<'_>) -> Vec<Curve> {
+        let mut gaps = vec![0_u32; self.wavelengths.len()];
+        let mut curves = Vec::new();
+        let (mut empty, mut first_empty) = (0, None);
+        for raw in std::mem::take(&mut self.curves) {
+            let missing = raw.values.iter().filter(|value| value.is_nan()).count();
+            let left = raw.values.len() - missing;
+            if left < 2 {
+                if left > 0 || !raw.label.is_empty() {
+                    empty += 1;
+                    first_empty.get_or_insert(raw.told());
+                }
+                continue;
+            }
+            for (count, value) in gaps.iter_mut().zip(&raw.values) {
+                *count += u32::from(value.is_nan());
+            }
+            curves.push(curve(raw, &self.wavelengths, missing));
+        }
+        if self.own_wavelengths {
+            for curve in &mut curves {
+                curve.missing = 0;
+            }
+        } else {
+            warn_gaps(&gaps, &self.lines, self.sentinel.take(), log);
+        }
+        if let Some(first) = first_empty {
+            log.push(Warning::EmptyCurves { count: empty, first });
+        }
+        curves
+    }
+}
+
+fn curve(raw: RawCurve, wavelengths: &[f64], missing: usize) -> Curve {
+    let RawCurve { name, named, unit, mut values, .. } = raw;
+    let name = on_one_line(&name).into_owned();
+    if missing == 0 {
+        values.shrink_to_fit();
+        return Curve { name, named, wavelengths_nm: wavelengths.to_vec(), values, missing, unit };
+    }
+    let present = wavelengths.iter().zip(&values).filter(|(_, value)| !value.is_nan());
+    let wavelengths_nm = present.map(|(wavelength, _)| *wavelength).collect();
+    values.retain(|value| !value.is_nan());
+    Curve { name, named, wavelengths_nm, values, missing, unit }
+}
+
+fn warn_gaps(gaps: &[u32], lines: &[usize], sentinel: Option<Sentinel>, log: &mut Log<'_>) {
+    let cells: usize = gaps.iter().map(|&count| count as usize).sum();
+    if cells == 0 {
+        return;
+    }
+    // Curves in rows: their reader alone knows the lines of the gaps, and has told them.
+    if lines.len() != gaps.len() {
+        return;
+    }
+    let with_gaps = gaps.iter().zip(lines).filter(|(count, _)| **count > 0);
+    let mut gap_lines: Vec<usize> = with_gaps.map(|(_, line)| *line).collect();
+    gap_lines.sort_unstable();
+    let mut list = LineList::default();
+    for line in gap_lines {
+        list.add(line);
+    }
+    log.push(Warning::Gaps { cells, lines: list, sentinel });
+}
+
+fn retain<T>(items: &mut Vec<T>, marked: &[bool]) {
+    let mut marks = marked.iter();
+    items.retain(|_| !marks.next().copied().unwrap_or(false));
+}

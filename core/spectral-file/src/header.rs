@@ -1,0 +1,381 @@
+//! What stands above the numbers: comments, names of columns, units.
+
+use super::clues::Clues;
+use super::dialect::{Cell, Delimiter, Dialect};
+use super::quantity::{self, Quantity};
+use super::reading::{Medium, Orientation};
+use super::scale::{Role, Values};
+use super::sniff::Layout;
+use super::text::{Lines, Section, comment};
+use super::words::{self, XUnit};
+use super::{MAX_CURVES, WavelengthUnit, photons};
+use chromascope_text::unguarded;
+
+/// How many comments are kept; more is not a header.
+const MAX_COMMENTS: usize = 1000;
+
+/// How far above the numbers the names and the units may stand, in lines with text.
+const NEAR: usize = 6;
+
+/// What was found above the numbers.
+#[derive(Debug, Default)]
+pub(super) struct Header {
+    pub(super) comments: Vec<(String, String)>,
+    /// The line that names the columns.
+    pub(super) line: Option<usize>,
+    /// The cells of that line.
+    pub(super) names: Vec<String>,
+    /// The cells of a line of units below the names.
+    pub(super) units: Vec<String>,
+    /// The unit of the wavelengths and the line that gives it.
+    pub(super) x_unit: Option<(usize, XUnit)>,
+    /// What all values stand for, as a line says, and that line.
+    pub(super) values: Option<(usize, Values)>,
+    /// The physical quantity of all values, as a line says, and that line.
+    pub(super) quantity: Option<(usize, Quantity)>,
+    /// The unit of all values.
+    pub(super) unit: Option<String>,
+    /// The line that says that all values are photons.
+    pub(super) photons: Option<usize>,
+    /// The line that says that sensitivities are responses per photon.
+    pub(super) per_photon: Option<usize>,
+    /// In what the wavelengths are measured, and the line that says so.
+    pub(super) medium: Option<(usize, Medium)>,
+    /// What a comment or a unit line says the values are.
+    pub(super) role: Option<(usize, Role)>,
+    /// What free text mentions; only good for a guess.
+    pub(super) mentioned: Option<(usize, Role)>,
+    /// What the settings of the instrument tell.
+    pub(super) clues: Clues,
+}
+
+impl Header {
+    /// The name of a column, if the header gives one.
+    pub(super) fn name(&self, column: usize) -> Option<&str> {
+        // A line of units such as `nm,R%` may be all there is.
+        let unit = || self.units.get(column).filter(|unit| quantity::percent_name(unit).is_some());
+        let name = self.names.get(column).or_else(|| unit().filter(|_| self.names.is_empty()));
+        name.map(String::as_str).filter(|name| !name.is_empty())
+    }
+
+    /// All that the header says about a column.
+    pub(super) fn label(&self, column: usize) -> String {
+        let unit = self.units.get(column).map_or("", String::as_str);
+        format!("{} {unit}", self.name(column).unwrap_or_default()).trim().to_owned()
+    }
+
+    /// The unit that the header gives for a column of values.
+    pub(super) fn unit(&self, column: usize) -> Option<String> {
+        let whole = |cell: &&String| cell.starts_with(['[', '(']);
+        let cell = self.units.get(column);
+        let cell = cell.and_then(|cell| {
+            quantity::unit(cell).or_else(|| Some(cell).filter(whole).and_then(|cell| quantity::unit_cell(cell)))
+        });
+        cell.or_else(|| self.name(column).and_then(quantity::unit)).or_else(|| self.unit.clone())
+    }
+
+    /// Keeps a comment.
+    pub(super) fn note(&mut self, key: &str, value: &str) {
+        if self.comments.len() < MAX_COMMENTS && !value.is_empty() {
+            self.comments.push((key.to_owned(), value.to_owned()));
+        }
+    }
+
+    /// The value of a comment.
+    pub(super) fn comment(&self, key: &str) -> Option<&str> {
+        self.comments.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, value)| value.as_str())
+    }
+}
+
+/// Reads what stands above the numbers of a layout.
+pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
+    let mut header = Header::default();
+    let mut near: Vec<(usize, &str)> = Vec::with_capacity(NEAR + 1);
+    for (number, line) in Lines::of(section).take_while(|(number, _)| *number < layout.header_end()) {
+        if line.trim().is_empty() {
+            continue;
+        }
+        let body = comment(line);
+        if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
+            header.take_comment(number, key.trim(), value.trim());
+            continue;
+        }
+        header.take_prose(number, body.unwrap_or(line));
+        near.push((number, line));
+        if near.len() > NEAR {
+            near.remove(0);
+        }
+    }
+    if layout.orientation.value == Orientation::Down {
+        header.take_names(&near, layout);
+    }
+    header
+}
+
+impl Header {
+    /// Takes what a comment `# key: value` says.
+    pub(super) fn take_comment(&mut self, line: usize, key: &str, value: &str) {
+        let lower = key.to_ascii_lowercase();
+        if matches!(lower.as_str(), "unit" | "units" | "quantity" | "y unit" | "y units" | "yunit" | "yunits") {
+            self.take_value_unit(line, value);
+            if lower != "quantity" {
+                self.unit = quantity::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
+            }
+        }
+        if matches!(lower.as_str(), "response" | "title" | "description") {
+            self.mentioned = self.mentioned.or_else(|| words::role(value).map(|role| (line, role)));
+            self.take_photons(line, value);
+            self.clues.mention(line, value);
+        }
+        // `wavelength_unit`, `x unit` and the like; a plain `unit` is that of the values.
+        let about_x = words::x_unit_in_prose(&format!("{} {value}", lower.replace('_', " ")));
+        if let Some(unit) = about_x.filter(|_| lower.starts_with(['w', 'x'])) {
+            self.x_unit = Some((line, unit));
+        }
+        if self.comments.len() < MAX_COMMENTS {
+            self.comments.push((key.to_owned(), value.to_owned()));
+        }
+    }
+
+    /// Takes what a title or free text says of responses per photon.
+    fn take_photons(&mut self, line: usize, text: &str) {
+        self.per_photon = self.per_photon.or_else(|| photons::says_per_photon(text).then_some(line));
+        self.photons = self.photons.or_else(|| photons::said_in_prose(text).then_some(line));
+    }
+
+    fn take_value_unit(&mut self, line: usize, text: &str) {
+        self.take_photons(line, text);
+        self.photons = self.photons.or_else(|| photons::names_photons(text).then_some(line));
+        let plain_after_other = |values: &Values| *values == Values::Plain && self.values.is_some();
+        if let Some(values) = words::values(text).filter(|values| !plain_after_other(values)) {
+            self.values = Some((line, values));
+        }
+        self.role = words::role(text).map(|role| (line, role)).or(self.role);
+        self.quantity = match (words::quantity(text), self.quantity) {
+            (Some(Quantity::Relative), Some(known)) => Some(known),
+            (found, known) => found.map(|quantity| (line, quantity)).or(known),
+        };
+    }
+
+    fn take_prose(&mut self, line: usize, text: &str) {
+        if let Some(unit) = words::x_unit_in_prose(text) {
+            self.x_unit = Some((line, unit));
+        }
+        self.medium = words::medium(text).map(|medium| (line, medium)).or(self.medium);
+        self.take_photons(line, text);
+        let start = text.trim_start().as_bytes();
+        let begins =
+            |word: &str| start.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word.as_bytes()));
+        let about_y = [
+            "y unit",
+            "yunit",
+            "yaxisunit",
+            "unit:",
+            "units:",
+            "unit,",
+            "units,",
+            "unit=",
+            "unit =",
+            "units=",
+            "units =",
+        ]
+        .iter()
+        .any(|word| begins(word));
+        if about_y || is_title_with_unit(text) {
+            self.take_value_unit(line, text);
+            let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| quantity::unit(value));
+            self.unit = unit.or_else(|| quantity::unit(bare_title(text))).or(self.unit.take());
+        }
+        self.take_mode(line, text);
+        self.mentioned = words::role_in_prose(text).map(|role| (line, role)).or(self.mentioned);
+        self.clues.take(line, text);
+    }
+
+    /// A line such as `Mode/Unit-->,Irradiance[µWatt/cm²]`.
+    fn take_mode(&mut self, line: usize, text: &str) {
+        if let Some((_, value)) = text.split_once("Unit-->") {
+            let value = value.trim_start_matches([',', ';', '\t', ' ']);
+            self.take_value_unit(line, value);
+            self.unit = quantity::unit(value).or(self.unit.take());
+        }
+    }
+
+    /// The names, and units below them, from the lines just above the numbers.
+    fn take_names(&mut self, near: &[(usize, &str)], layout: &Layout) {
+        let mut rows = near.iter().rev();
+        while let Some(&(number, line)) = rows.next() {
+            let is_comment = comment(line).is_some();
+            let mut cells = split(layout.dialect(), comment(line).unwrap_or(line));
+            let exact = is_comment || layout.delimiter.value == Delimiter::Spaces;
+            if cells.len() < 2 || (exact && cells.len() != layout.width) {
+                let unit_alone = cells.len() == 1 && self.units.is_empty() && is_unit(&cells[0]);
+                if unit_alone {
+                    self.x_unit = words::x_unit(&cells[0]).map(|unit| (number, unit));
+                }
+                // Rows that are named themselves go on above one of units, or one left empty.
+                if unit_alone && is_keyed(layout, rows.clone()) || cells.len() == 1 && row_key(&cells[0]).is_some() {
+                    continue;
+                }
+                self.take_joined(number, line);
+                return;
+            }
+            let mut number = number;
+            if row_key(&cells[0]).is_some_and(|key| key != RowKey::Name)
+                && let Some(named) = name_row(layout, rows.clone())
+            {
+                (number, cells) = named;
+            }
+            if is_key_and_value(layout, &cells) {
+                return;
+            }
+            if self.units.is_empty() && is_unit_row(&cells) {
+                self.take_unit_cell(number, &cells, layout);
+                self.units = cells;
+                continue;
+            }
+            if is_measured(layout, &cells) {
+                continue;
+            }
+            if self.units.is_empty() || self.x_unit.is_none() {
+                self.take_unit_cell(number, &cells, layout);
+            }
+            self.names = cells;
+            self.line = Some(number);
+            // Some programs name only the curves.
+            let headed =
+                row_key(&self.names[0]).is_some() || self.names.iter().any(|name| words::names_wavelengths(name));
+            if self.names.len() + 1 == layout.width && !headed {
+                self.names.insert(0, String::new());
+            }
+            return;
+        }
+    }
+
+    /// Names that do not split into the columns of the table still say something about it as a whole.
+    fn take_joined(&mut self, number: usize, line: &str) {
+        if words::names_wavelengths(line) && self.values.is_none() {
+            self.line = self.line.or(Some(number));
+            if let Some(values) = words::values(line).filter(|values| *values != Values::Plain) {
+                self.values = Some((number, values));
+            }
+            self.role = words::role(line).map(|role| (number, role)).or(self.role);
+            self.quantity = words::quantity(line).map(|quantity| (number, quantity)).or(self.quantity);
+        }
+    }
+
+    fn take_unit_cell(&mut self, number: usize, cells: &[String], layout: &Layout) {
+        let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
+        let column = chosen.or_else(|| words::axis(cells)).unwrap_or(0);
+        if let Some(unit) = cells.get(column).and_then(|cell| words::x_unit(cell)) {
+            self.x_unit = Some((number, unit));
+        }
+    }
+}
+
+/// What a row above several curves gives of each, as its first cell says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum RowKey {
+    Name,
+    Number,
+    Time,
+}
+
+fn row_key(cell: &str) -> Option<RowKey> {
+    match cell.trim().trim_end_matches(':').to_ascii_lowercase().as_str() {
+        "name" | "names" | "sample" | "sample name" | "label" => Some(RowKey::Name),
+        "index" | "no" | "no." | "nr" | "number" | "id" => Some(RowKey::Number),
+        "time" | "date" | "date/time" | "timestamp" => Some(RowKey::Time),
+        _ => None,
+    }
+}
+
+/// Whether the next row above is one of names, numbers or times.
+fn is_keyed<'a>(layout: &Layout, mut rows: impl Iterator<Item = &'a (usize, &'a str)>) -> bool {
+    let cells = rows.next().map(|(_, line)| split(layout.dialect(), line));
+    cells.is_some_and(|cells| cells.first().is_some_and(|cell| row_key(cell).is_some()))
+}
+
+/// The row of names among rows of numbers and times.
+fn name_row<'a>(layout: &Layout, rows: impl Iterator<Item = &'a (usize, &'a str)>) -> Option<(usize, Vec<String>)> {
+    let rows = rows.map(|(number, line)| (*number, split(layout.dialect(), line)));
+    let mut keyed = rows.take_while(|(_, cells)| cells.first().is_some_and(|cell| row_key(cell).is_some()));
+    keyed.find(|(_, cells)| cells.len() > 1 && row_key(&cells[0]) == Some(RowKey::Name))
+}
+
+/// A line that is a title, without separators that fill it up.
+fn bare_title(text: &str) -> &str {
+    text.trim_matches([' ', '\t', ',', ';', '"'])
+}
+
+/// Whether a line stands alone and names a quantity with its unit in brackets: `Irradiance [µW/cm2/nm],`.
+fn is_title_with_unit(text: &str) -> bool {
+    const LONGEST: usize = 80;
+    let title = bare_title(text);
+    title.len() <= LONGEST
+        && !title.contains([',', ';'])
+        && title.ends_with([']', ')'])
+        && quantity::without_unit(title) != title
+        && words::quantity(title).is_some()
+}
+
+/// Whether a line above two columns is a setting of the instrument, such as `LUX 695`, and no pair of names.
+fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
+    if layout.width != 2 || cells.len() != 2 {
+        return false;
+    }
+    let key = cells[0].to_ascii_lowercase();
+    let numeric = matches!(layout.dialect().parse(&cells[1]), Cell::Number(_));
+    ["xaxis", "yaxis", "x unit", "y unit"].iter().any(|start| key.starts_with(start))
+        || (numeric && !words::names_wavelengths(&cells[0]))
+}
+
+/// Whether a line above several curves gives a number of each, such as a chromaticity, and no names: names have no fractions.
+fn is_measured(layout: &Layout, cells: &[String]) -> bool {
+    let Some((key, values)) = cells.split_first().filter(|(key, _)| !key.is_empty()) else { return false };
+    let number = |cell: &String| match layout.dialect().parse(cell) {
+        Cell::Number(value) => Some(value),
+        _ => None,
+    };
+    let mut numbers = values.iter().map(number);
+    layout.width > 2
+        && !words::names_wavelengths(key)
+        && number(key).is_none()
+        && numbers.all(|value| value.is_some())
+        && values.iter().filter_map(number).any(|value| value.fract() != 0.0)
+}
+
+/// The cells of a header line, unescaped, without empty ones at the end.
+pub(super) fn split(dialect: Dialect, line: &str) -> Vec<String> {
+    let mut cells: Vec<String> =
+        dialect.cells(line).take(MAX_CURVES + 1).map(|cell| unguarded(cell).replace("\"\"", "\"")).collect();
+    while cells.last().is_some_and(String::is_empty) {
+        cells.pop();
+    }
+    cells
+}
+
+fn is_unit(cell: &str) -> bool {
+    let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+    WavelengthUnit::from_symbol(bare).is_some() || words::x_unit(bare) == Some(XUnit::Other)
+}
+
+fn is_unit_row(cells: &[String]) -> bool {
+    let bracketed = cells.iter().filter(|cell| cell.starts_with(['[', '('])).count();
+    bracketed * 2 >= cells.len() || (is_unit(&cells[0]) && cells[1..].iter().all(|cell| looks_like_unit(cell)))
+}
+
+/// Whether a cell begins with a number that no unit begins with, as names do: `10% gray`, `5R 4/14`.
+fn begins_with_figure(cell: &str) -> bool {
+    let inverse = cell.strip_prefix('1').is_some_and(|rest| rest.trim_start().starts_with('/'));
+    cell.starts_with(|c: char| c.is_ascii_digit()) && !inverse && !cell.contains("10^")
+}
+
+fn looks_like_unit(cell: &str) -> bool {
+    // `leaf (%)` is a name with its unit, `(%)` a unit.
+    let named = !cell.starts_with(['[', '(']) && cell.contains(['[', '(']);
+    !named
+        && (cell.is_empty()
+            || cell.starts_with(['[', '('])
+            || (cell.contains(['%', '/']) && !begins_with_figure(cell))
+            || matches!(cell.to_ascii_lowercase().as_str(), "a.u." | "counts" | "1" | "-"))
+}

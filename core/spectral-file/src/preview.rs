@@ -1,0 +1,147 @@
+//! The text of a file as a person reads it, line by line, with what was understood of each line.
+//!
+//! [`Preview`] holds the decoded text and where its lines begin, for files up to the limit of the readers. Lines are numbered as
+//! in every message of the readers. A [`Marker`] knows how one [`Table`] was read from the text; with both,
+//! [`Preview::marks`] says for a single line which wavelength, value, name or gap stands where.
+//!
+//! A number is marked only if it is the number of the table: what stands in the file, converted as the reading says, must
+//! equal the value of the curve at that wavelength exactly. So a date or an integration time is never marked because it
+//! stands near the data, and what the marks leave plain is plain because no curve has it.
+//!
+//! ```
+//! use spectral_file::{Preview, ReadOptions, What, read};
+//!
+//! let bytes = "nm;Leaf (%)\n400;5,5\n410;6,0\n".as_bytes();
+//! let table = read(bytes, &ReadOptions::default())?;
+//! let preview = Preview::new(bytes)?;
+//! let marker = preview.marker(&table);
+//! let marks = preview.marks(2, &table, &marker);
+//! assert_eq!(&preview.line(2).unwrap()[marks[1].range.clone()], "5,5");
+//! assert_eq!(marks[0].what.describe(&table), "400 nm");
+//! assert_eq!(marks[1].what.describe(&table), "Leaf: 0.055 at 400 nm (written 5.5, percent)");
+//! # Ok::<(), spectral_file::ReadError>(())
+//! ```
+
+mod across;
+mod cells;
+mod down;
+mod fault;
+mod lists;
+mod mark;
+mod marker;
+mod pairs;
+mod settings;
+mod shown;
+mod squeezed;
+mod stream;
+
+use std::ops::Range;
+
+use super::text::{self, Lines};
+use super::{Encoding, ReadError, Table};
+
+pub use mark::{LeftOut, Mark, What};
+pub use marker::Marker;
+pub use shown::Shown;
+
+/// The most characters that [`Preview::longest`] counts of a line.
+pub const LONGEST_LINE: usize = 1_000_000;
+
+/// The text of a file and where its lines begin.
+///
+/// Needs the memory of the text and 4 bytes for each line.
+#[derive(Debug, Clone)]
+pub struct Preview {
+    text: String,
+    /// The byte at which each line begins.
+    starts: Vec<u32>,
+    longest: usize,
+    encoding: Encoding,
+}
+
+impl Preview {
+    /// Decodes the bytes of a file as the readers do, in a time proportional to their number.
+    ///
+    /// Fails as they do on binary, empty and too large files, and on no other.
+    pub fn new(bytes: &[u8]) -> Result<Self, ReadError> {
+        let (text, encoding) = text::decode(bytes)?;
+        let mut starts = Vec::new();
+        let mut longest = 0;
+        for (_, line) in Lines::new(&text) {
+            starts.push(cells::offset(&text, line) as u32);
+            // A line has at most as many characters as bytes, so that most lines need no count.
+            if line.len() > longest {
+                longest = longest.max(line.chars().take(LONGEST_LINE).count());
+            }
+        }
+        starts.shrink_to_fit();
+        Ok(Self { text: text.into_owned(), starts, longest, encoding })
+    }
+
+    /// The encoding the bytes were in.
+    pub fn encoding(&self) -> Encoding {
+        self.encoding
+    }
+
+    /// How many lines there are; at least one.
+    pub fn line_count(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// The characters of the longest line, at most [`LONGEST_LINE`].
+    pub fn longest(&self) -> usize {
+        self.longest
+    }
+
+    /// A line without its end, by its number from 1.
+    pub fn line(&self, number: usize) -> Option<&str> {
+        let index = number.checked_sub(1)?;
+        let start = *self.starts.get(index)? as usize;
+        let end = self.starts.get(number).map_or(self.text.len(), |next| *next as usize);
+        Some(self.text.get(start..end)?.trim_end_matches(['\r', '\n']))
+    }
+
+    /// At most `count` characters of a line, from character `from` (from 0) on, ready for one row of fixed-width letters.
+    pub fn shown(&self, number: usize, from: usize, count: usize) -> Option<Shown> {
+        self.line(number).map(|line| Shown::new(line, from, count))
+    }
+
+    /// How a table was read from this text: made once for a table, then good for every line.
+    ///
+    /// Takes a part of the time of reading: next to none for numbers in columns, one pass over the text for most others.
+    pub fn marker(&self, table: &Table) -> Marker {
+        Marker::new(self, table)
+    }
+
+    /// What was understood of a line: in the order of the line, without overlaps, in bytes of [`line`](Self::line).
+    ///
+    /// Empty for a line that does not exist. A marker of another text or table gives fewer marks, never wrong numbers.
+    pub fn marks(&self, number: usize, table: &Table, marker: &Marker) -> Vec<Mark> {
+        self.marks_within(number, 0..usize::MAX, table, marker)
+    }
+
+    /// [`marks`](Self::marks), but only those that touch a range of bytes: quick also in lines of many megabytes.
+    pub fn marks_within(&self, number: usize, window: Range<usize>, table: &Table, marker: &Marker) -> Vec<Mark> {
+        self.line(number).map(|line| marker.marks(number, line, window, table, self)).unwrap_or_default()
+    }
+
+    /// Where a reading failed: the line, and the bytes in it, which are the whole line where nothing closer is known.
+    ///
+    /// `None` where the error is about the file as a whole.
+    pub fn error_range(&self, error: &ReadError) -> Option<(usize, Range<usize>)> {
+        let number = error.line()?;
+        Some((number, fault::range(self.line(number)?, error)))
+    }
+
+    /// The byte of the text at which a line begins.
+    fn start(&self, number: usize) -> Option<usize> {
+        self.starts.get(number.checked_sub(1)?).map(|start| *start as usize)
+    }
+
+    /// The lines from one on, with their numbers.
+    fn lines_from(&self, number: usize) -> impl Iterator<Item = (usize, &str)> {
+        let first = number.max(1);
+        let rest = self.start(first).and_then(|start| self.text.get(start..)).unwrap_or("");
+        Lines::new(rest).map(move |(index, line)| (first + index - 1, line))
+    }
+}

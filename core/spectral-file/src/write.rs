@@ -1,0 +1,201 @@
+//! The way out: spectral curves as text in the formats that other programs open.
+//!
+//! [`write()`] takes borrowed curves with what is known about them ([`Sheet`]) and gives the text of a file, together with
+//! [`Note`]s on all that differs from the curves as they were given: another grid, a shorter range, another scale.
+//! [`canonical_csv`] gives the plain table of the command line.
+//!
+//! Numbers are the shortest decimals that read back as the same double. Reflectances and transmittances are fractions.
+//!
+//! Resampling follows the convention that the program computes with (CIE 167:2005; see [`crate::spectral::Quantity`]):
+//! Sprague's interpolation in even tables with steps of 5 nm or more of anything but a light, linear in all others. The
+//! new wavelengths are whole multiples of the step; where one falls on a sample (to 1e-6 nm), the sample is kept to the last
+//! bit, and nothing is ever written beyond a curve's own range. A step coarser than that of the curve picks samples without
+//! averaging, which loses narrow lines; a [`Note`] says so, and [`Grid::Average`] keeps them:
+//!
+//! ```text
+//! V_k = 1/Δ ∫ v(λ) dλ    over |λ − kΔ| ≤ Δ/2
+//! ```
+//!
+//! with v the linear interpolant of the samples, whose integral is taken exactly (to rounding): the average of a curve that is
+//! linear between its samples. Bands that a curve does not cover as a whole are not written. Largest errors of points on the way to 1 nm of a bell with σ = 30 nm and
+//! height 1 that a table cuts off at 0.2:
+//!
+//! | from | Sprague | in the two cells at each end | linear |
+//! |---|---|---|---|
+//! | 5 nm | 4e-6 | 6e-4 | 3.5e-3 |
+//! | 10 nm | 1.2e-4 | 2.5e-3 | 1.4e-2 |
+//!
+//! ```
+//! use spectral_file::write::{Content, Format, Grid, Sheet, Trace, write};
+//!
+//! let leaf = Trace { name: "leaf", wavelengths_nm: &[400.0, 410.0], values: &[0.055, 0.06] };
+//! let sheet = Sheet { title: "Leaf", content: Content::Reflectance, curves: &[leaf], ..Sheet::default() };
+//! let written = write(&sheet, Format::Csv, Grid::Native)?;
+//! assert!(written.text.ends_with("wavelength_nm,leaf\n400,0.055\n410,0.06\n"));
+//! assert!(written.notes.is_empty());
+//! # Ok::<(), spectral_file::write::WriteError>(())
+//! ```
+
+mod cgats;
+mod common;
+mod csv;
+mod json;
+mod note;
+mod resample;
+mod sheet;
+mod text;
+
+use std::fmt;
+
+pub use csv::Prepared;
+pub use note::{Note, WriteError};
+pub use sheet::{Content, Sheet, Trace};
+
+/// At which wavelengths curves are written.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Grid {
+    /// Those of the curves. Formats with one even grid for all get it where the curves have one; else multiples of the
+    /// largest of 1, 5 and 10 nm that is not above the curves' own step, over the range that all share.
+    #[default]
+    Native,
+    /// Whole multiples of a step in nanometers, at least 0.001 nm: the values there.
+    Step(f64),
+    /// Whole multiples of a step in nanometers, at least 0.001 nm: the means over the band of one step around each.
+    Average(f64),
+}
+
+impl Grid {
+    /// The step in nanometers, if one was asked for.
+    pub fn step_nm(self) -> Option<f64> {
+        match self {
+            Self::Native => None,
+            Self::Step(step) | Self::Average(step) => Some(step),
+        }
+    }
+}
+
+/// A format that curves can be written in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Format {
+    /// Wavelengths down the first column, curves beside it, comments `# key: value` above. Curves keep their own
+    /// wavelengths; a cell is blank where a curve has no sample. Names are quoted as in RFC 4180.
+    Csv,
+    /// JSON of rawtoaces (schema 1.0.0 of rawtoaces-data): wavelengths as keys, a value for each curve.
+    ///
+    /// rawtoaces takes the keys in the order of their text and compares their distances in single precision, so that they
+    /// must stay below 1000 nm, and be even to the last bit.
+    RawtoacesJson,
+    /// JSON of dcamprof: the sensitivities of a camera, or one spectrum of any other kind. The grid may be uneven.
+    DcamprofJson,
+    /// `.sp` of Argyll: one or several spectra. At most 601 bands, evenly spaced, at least 1 nm apart.
+    ArgyllSp,
+    /// `.cmf` of Argyll: three curves for the place of an observer, on a grid like that of `.sp`. Has no names.
+    ArgyllCmf,
+    /// CGATS.17, one row for each curve, evenly spaced, at least 1 nm apart.
+    Cgats,
+}
+
+impl Format {
+    /// Every format, in the order of a menu.
+    pub const ALL: [Self; 6] =
+        [Self::Csv, Self::RawtoacesJson, Self::DcamprofJson, Self::ArgyllSp, Self::ArgyllCmf, Self::Cgats];
+
+    /// The name for a menu.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Csv => "CSV",
+            Self::RawtoacesJson => "rawtoaces JSON",
+            Self::DcamprofJson => "dcamprof JSON",
+            Self::ArgyllSp => "Argyll spectrum",
+            Self::ArgyllCmf => "Argyll color matching functions",
+            Self::Cgats => "CGATS",
+        }
+    }
+
+    /// The usual ending of the file's name, without the point.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Csv => "csv",
+            Self::RawtoacesJson | Self::DcamprofJson => "json",
+            Self::ArgyllSp => "sp",
+            Self::ArgyllCmf => "cmf",
+            Self::Cgats => "txt",
+        }
+    }
+
+    /// Whether curves of this kind and number can be written in this format, whatever their wavelengths.
+    pub fn fits(self, sheet: &Sheet<'_>) -> Result<(), WriteError> {
+        sheet.check()?;
+        let found = sheet.curves.len();
+        let wanted = match (self, sheet.content) {
+            (Self::ArgyllCmf, Content::Reflectance | Content::Transmittance | Content::Illuminant) => {
+                return Err(WriteError::OtherContent { format: self });
+            }
+            // The three channels of a camera are among its curves, or the check of the sheet would have failed.
+            (_, Content::Camera { .. }) => None,
+            (Self::ArgyllCmf, _) | (Self::RawtoacesJson, Content::Observer) => Some(3),
+            (Self::DcamprofJson, _) | (Self::RawtoacesJson, Content::Illuminant) => Some(1),
+            _ => None,
+        };
+        match wanted.filter(|&wanted| wanted != found) {
+            Some(wanted) => Err(WriteError::Count { format: self, found, wanted }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} (.{})", self.name(), self.ending())
+    }
+}
+
+/// The text of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Written {
+    /// The text, with a line feed after each line.
+    pub text: String,
+    /// What is not as it was in the curves.
+    pub notes: Vec<Note>,
+}
+
+/// Writes curves in a format, at their own wavelengths or resampled.
+///
+/// The same curves always give the same text. Limits are those of reading: [`super::MAX_CURVES`] and
+/// [`super::MAX_SAMPLES`].
+pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, WriteError> {
+    format.fits(sheet)?;
+    resample::check(grid)?;
+    let mut notes = Vec::new();
+    let text = match format {
+        Format::Csv => {
+            let mut prepared = Prepared::new(sheet, grid)?;
+            let text = collected(|put| prepared.with_comments(put));
+            notes = prepared.notes();
+            text
+        }
+        Format::RawtoacesJson => json::rawtoaces(sheet, grid, &mut notes)?,
+        Format::DcamprofJson => json::dcamprof(sheet, grid, &mut notes)?,
+        Format::ArgyllSp | Format::ArgyllCmf | Format::Cgats => cgats::write(sheet, format, grid, &mut notes)?,
+    };
+    Ok(Written { text, notes })
+}
+
+/// The table of the command line: `wavelength_nm,<curve>…` and nothing above it.
+///
+/// Has a row for every wavelength of any curve; a cell is blank where its curve has no sample.
+pub fn canonical_csv(sheet: &Sheet<'_>, grid: Grid) -> Result<Written, WriteError> {
+    let mut prepared = Prepared::new(sheet, grid)?;
+    let text = collected(|put| prepared.table(put));
+    Ok(Written { text, notes: prepared.notes() })
+}
+
+/// A text that is passed on in parts.
+fn collected(write: impl FnOnce(&mut dyn FnMut(&str) -> bool)) -> String {
+    let mut text = String::new();
+    write(&mut |part| {
+        text.push_str(part);
+        true
+    });
+    text
+}

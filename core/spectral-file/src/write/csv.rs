@@ -1,0 +1,231 @@
+//! Comma-separated values, with or without comments above them, and samples at the wavelengths they are written at: a part at a
+//! time, so that memory does not grow with what is written.
+
+use std::borrow::Cow;
+
+use super::super::MAX_SAMPLES;
+use super::resample::{self, Changes, SAME_NM, Sampling, multiples};
+use super::sheet::Piece;
+use super::text::{push_number, push_quoted};
+use super::{Content, Format, Grid, Note, Sheet, WriteError};
+use chromascope_text::guarded;
+
+/// Bytes of text that are passed on at once; a longer row is passed on alone.
+const CHUNK: usize = 1 << 16;
+/// Cells that are resampled at once.
+const CELLS: usize = 1 << 20;
+
+/// Curves on their way out, at their own wavelengths or at multiples of a step. What can be refused was refused.
+#[derive(Debug)]
+pub struct Prepared<'a> {
+    sheet: Sheet<'a>,
+    pieces: Vec<Piece<'a>>,
+    step: Option<f64>,
+    sampling: Sampling,
+    /// Every wavelength of any curve, ascending.
+    rows: Vec<f64>,
+    changes: Changes,
+    renamed: Vec<Note>,
+    /// Curves without a value at any multiple of the step.
+    blank: usize,
+}
+
+impl<'a> Prepared<'a> {
+    /// Checks the curves and finds the wavelengths they are written at.
+    pub fn new(sheet: &Sheet<'a>, grid: Grid) -> Result<Self, WriteError> {
+        Format::Csv.fits(sheet)?;
+        resample::check(grid)?;
+        let mut renamed = Vec::new();
+        let pieces = sheet.pieces(&mut renamed);
+        let (step, sampling) = (grid.step_nm(), Sampling::of(grid));
+        let rows = rows(&pieces, step, sampling)?;
+        if rows.len().saturating_mul(pieces.len()) > MAX_SAMPLES {
+            return Err(WriteError::TooLarge);
+        }
+        let is_blank = |piece: &&Piece<'_>| step.is_some() && within(&rows, sampling.within(piece.range())).is_empty();
+        let blank = pieces.iter().filter(is_blank).count();
+        if blank == pieces.len() {
+            return Err(WriteError::NoOverlap);
+        }
+        let changes = Changes::new(sampling);
+        Ok(Self { sheet: *sheet, pieces, step, sampling, rows, changes, renamed, blank })
+    }
+
+    /// Passes on wavelengths and values of one curve after the other, as long as `put` says to go on.
+    pub fn each(&mut self, mut put: impl FnMut(&[f64], &[f64]) -> bool) {
+        for piece in &self.pieces {
+            let piece =
+                part(piece, &self.rows, self.step.map(|_| self.sampling), self.sheet.content, &mut self.changes);
+            if !put(&piece.wavelengths, &piece.values) {
+                return;
+            }
+        }
+    }
+
+    /// Passes on the table with its head, some lines at a time, as long as `put` says to go on.
+    pub fn table(&mut self, put: &mut dyn FnMut(&str) -> bool) {
+        self.write(String::new(), put);
+    }
+
+    /// Passes on the table with what is known about the curves above it.
+    pub(super) fn with_comments(&mut self, put: &mut dyn FnMut(&str) -> bool) {
+        let mut out = String::new();
+        if self.step.is_some() {
+            // The head says how values were found, which is known of all curves once they were.
+            self.each(|_, _| true);
+        }
+        push_comments(&mut out, &self.sheet, self.changes.told(self.step).as_deref());
+        self.write(out, put);
+    }
+
+    fn write(&mut self, mut out: String, put: &mut dyn FnMut(&str) -> bool) {
+        out.push_str("wavelength_nm");
+        for piece in &self.pieces {
+            out.push(',');
+            push_name(&mut out, &piece.name);
+        }
+        out.push('\n');
+        for rows in self.rows.chunks((CELLS / self.pieces.len()).max(1)) {
+            let (sampling, content) = (self.step.map(|_| self.sampling), self.sheet.content);
+            let parts: Vec<Piece<'_>> =
+                self.pieces.iter().map(|piece| part(piece, rows, sampling, content, &mut self.changes)).collect();
+            if !push_rows(&mut out, rows, &parts, put) {
+                return;
+            }
+        }
+        put(&out);
+    }
+
+    /// All that is not as it was in the curves, known once they were passed on.
+    pub fn notes(&self) -> Vec<Note> {
+        let mut notes = self.renamed.clone();
+        if let (Some(step), Some(first), Some(last)) = (self.step, self.rows.first(), self.rows.last()) {
+            self.changes.note(Some(step), [*first, *last], &mut notes);
+        }
+        notes.extend((self.blank > 0).then_some(Note::Blank { count: self.blank }));
+        notes
+    }
+}
+
+/// The wavelengths of all curves, or the multiples of a step in their ranges, ascending.
+fn rows(pieces: &[Piece<'_>], step: Option<f64>, sampling: Sampling) -> Result<Vec<f64>, WriteError> {
+    let mut rows = Vec::new();
+    let mut before: Option<&Piece<'_>> = None;
+    for piece in pieces {
+        // Most tables have one grid for many curves in a row.
+        match step {
+            Some(step) if before.is_none_or(|before| before.range() != piece.range()) => {
+                rows.extend(multiples(step, sampling.within(piece.range()))?);
+            }
+            None if before.is_none_or(|before| before.wavelengths != piece.wavelengths) => {
+                rows.extend_from_slice(&piece.wavelengths);
+            }
+            _ => {}
+        }
+        if step.is_some() && rows.len() > MAX_SAMPLES {
+            return Err(WriteError::TooLarge);
+        }
+        before = Some(piece);
+    }
+    rows.sort_unstable_by(f64::total_cmp);
+    rows.dedup();
+    Ok(rows)
+}
+
+/// The wavelengths that a curve of this range has a value at.
+fn within(rows: &[f64], [first, last]: [f64; 2]) -> &[f64] {
+    let from = rows.partition_point(|&row| row < first - SAME_NM);
+    let to = rows.partition_point(|&row| row <= last + SAME_NM);
+    rows.get(from..to).unwrap_or_default()
+}
+
+/// What a curve has at some of the wavelengths that are written.
+fn part<'p>(
+    piece: &'p Piece<'_>,
+    rows: &[f64],
+    sampling: Option<Sampling>,
+    content: Content<'_>,
+    changes: &mut Changes,
+) -> Piece<'p> {
+    let name = Cow::Borrowed("");
+    if let Some(sampling) = sampling {
+        let wavelengths = within(rows, sampling.within(piece.range()));
+        let values = changes.take(piece, content, wavelengths).into();
+        return Piece { name, wavelengths: wavelengths.to_vec().into(), values };
+    }
+    let [Some(first), Some(last)] = [rows.first(), rows.last()] else {
+        return Piece { name, wavelengths: Cow::default(), values: Cow::default() };
+    };
+    let from = piece.wavelengths.partition_point(|own| own < first);
+    let own = from..piece.wavelengths.partition_point(|own| own <= last);
+    let (wavelengths, values) = (&piece.wavelengths[own.clone()], &piece.values[own]);
+    Piece { name, wavelengths: wavelengths.into(), values: values.into() }
+}
+
+fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) {
+    let mut push = |key: &str, value: &str| {
+        for part in ["# ", key, ": ", value, "\n"] {
+            out.push_str(part);
+        }
+    };
+    let title = sheet.title();
+    if !title.is_empty() {
+        push("title", &title);
+    }
+    if let Some(quantity) = sheet.quantity() {
+        push("quantity", quantity);
+    }
+    if let Some(unit) = sheet.unit() {
+        push("unit", &super::text::one_line(unit));
+    }
+    if let Content::Camera { per_photon: Some(per_photon), .. } = sheet.content {
+        push("response", if per_photon { "per photon" } else { "per energy" });
+    }
+    if let Content::Camera { manufacturer, model, .. } = sheet.content {
+        for (key, value) in [("manufacturer", manufacturer), ("model", model)] {
+            if let Some(value) = value.map(super::text::one_line).filter(|value| !value.is_empty()) {
+                push(key, &value);
+            }
+        }
+    }
+    if let Some(resampling) = resampling {
+        push("resampling", resampling);
+    }
+    for (key, value) in sheet.comments() {
+        // The first colon ends the key.
+        push(&key.replace(':', " "), &value);
+    }
+}
+
+/// A name, quoted only where it has to be.
+fn push_name(out: &mut String, name: &str) {
+    let name = guarded(name);
+    if name.contains([',', '"', ';', '\t']) {
+        push_quoted(out, &name);
+    } else {
+        out.push_str(&name);
+    }
+}
+
+/// Appends rows and passes on what has become long; says whether to go on.
+fn push_rows(out: &mut String, rows: &[f64], parts: &[Piece<'_>], put: &mut dyn FnMut(&str) -> bool) -> bool {
+    let mut next = vec![0_usize; parts.len()];
+    for &wavelength in rows {
+        push_number(out, wavelength);
+        for (piece, next) in parts.iter().zip(&mut next) {
+            out.push(',');
+            if piece.wavelengths.get(*next) == Some(&wavelength) {
+                push_number(out, piece.values[*next]);
+                *next += 1;
+            }
+        }
+        out.push('\n');
+        if out.len() >= CHUNK {
+            if !put(out) {
+                return false;
+            }
+            out.clear();
+        }
+    }
+    true
+}

@@ -1,0 +1,44 @@
+//! Names as they can stand on a screen, on a line and in a cell.
+
+use std::borrow::Cow;
+
+/// A text on one line: without control characters (which become spaces), without characters that turn the direction of what
+/// follows, and without blanks around it.
+pub fn on_one_line(text: &str) -> Cow<'_, str> {
+    let text = text.trim();
+    if !text.contains(|c| breaks_line(c) || turns_text(c)) {
+        return Cow::Borrowed(text);
+    }
+    let shown = text.chars().filter(|c| !turns_text(*c)).map(|c| if breaks_line(c) { ' ' } else { c });
+    Cow::Owned(shown.collect::<String>().trim().to_owned())
+}
+
+fn breaks_line(c: char) -> bool {
+    c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')
+}
+
+/// Whether a character turns the direction of the text after it, so that what is shown is not what is there (bidirectional
+/// embeddings, overrides and isolates, UAX #9).
+pub fn turns_text(c: char) -> bool {
+    matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
+}
+
+/// A text for a cell of a table, on one line, that no spreadsheet takes for a formula: one that begins as a formula and is no
+/// number comes after an apostrophe, which marks text there. `unguarded` takes it off.
+pub fn guarded(text: &str) -> Cow<'_, str> {
+    let text = on_one_line(text);
+    if begins_formula(text.trim_start_matches('\'')) { Cow::Owned(format!("'{text}")) } else { text }
+}
+
+/// The text of a cell without the apostrophe of [`guarded`].
+pub fn unguarded(cell: &str) -> &str {
+    match cell.strip_prefix('\'') {
+        Some(rest) if begins_formula(rest.trim_start_matches('\'')) => rest,
+        _ => cell,
+    }
+}
+
+/// Whether a spreadsheet evaluates a cell. The wide forms count too where East Asian text is typed.
+fn begins_formula(text: &str) -> bool {
+    text.starts_with(['=', '+', '-', '@', '＝', '＋', '－', '＠']) && text.parse::<f64>().is_err()
+}
