@@ -4,18 +4,18 @@ use std::path::PathBuf;
 
 use chromascope_core::query::Shared;
 
-use crate::catalog::{Entry, Kind};
+use crate::catalog::{Entry, SetKind};
 use crate::document::own::OwnSet;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
 use crate::document::{
-    Diagram, DifferenceChoice, Document, LOCUS_RANGE_K, Light, Overlays, Subset, WayChoice, WhiteChoice,
+    Diagram, DifferenceChoice, Document, LOCUS_RANGE_K, Light, Overlays, Subset, TransformChoice, WhiteBalanceChoice,
 };
 
 /// A change of the document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// To the list of compared sources.
+    /// To the list of compared sensors.
     Compare(CompareAction),
     /// To the conditions of the scene.
     Scene(SceneAction),
@@ -29,17 +29,17 @@ pub enum Action {
     Reset,
 }
 
-/// Changes to the list of compared sources.
+/// Changes to the list of compared sensors.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CompareAction {
-    /// Puts a source on show.
-    Add(Kind, String),
-    /// Takes a source off; the truth stays.
-    Remove(Kind, String),
-    /// Shows or hides a source's curves.
-    SetVisible(Kind, String, bool),
-    /// Gives a source another label; an empty one takes it back.
-    Rename(Kind, String, String),
+    /// Puts a sensor on show.
+    Add(SetKind, String),
+    /// Takes a sensor off; the reference stays.
+    Remove(SetKind, String),
+    /// Shows or hides a sensor's curves.
+    SetVisible(SetKind, String, bool),
+    /// Gives a sensor another label; an empty one takes it back.
+    Rename(SetKind, String, String),
     /// Compares with another observer, adding it where it is not compared. A fitted color transform follows to an observer that
     /// has XYZ color matching functions.
     SetReference {
@@ -62,9 +62,9 @@ pub enum SceneAction {
     /// Five patches or all.
     SetSubset(Subset),
     /// Another white.
-    SetWhite(WhiteChoice),
+    SetWhite(WhiteBalanceChoice),
     /// Another way to the diagram.
-    SetWay(WayChoice),
+    SetWay(TransformChoice),
     /// Another measure of difference.
     SetDifference(DifferenceChoice),
     /// Other coordinates.
@@ -193,7 +193,7 @@ impl CompareAction {
         match self {
             Self::Add(kind, name) => document.compare(name, *kind),
             Self::Remove(kind, name) => {
-                if *kind != Kind::Observer || *name != document.truth {
+                if *kind != SetKind::Observer || *name != document.reference {
                     document.compared.retain(|c| c.kind != *kind || c.name != *name);
                 }
             }
@@ -209,12 +209,13 @@ impl CompareAction {
                 }
             }
             Self::SetReference { name, counts_in_xyz } => {
-                document.compare(name, Kind::Observer);
-                document.truth.clone_from(name);
-                if *counts_in_xyz && matches!(document.way, WayChoice::Observer(_)) {
-                    document.set_transform(WayChoice::Observer(name.clone()));
+                document.compare(name, SetKind::Observer);
+                document.reference.clone_from(name);
+                if *counts_in_xyz && matches!(document.transform, TransformChoice::Observer(_)) {
+                    document.set_transform(TransformChoice::Observer(name.clone()));
                 }
-                for compared in document.compared.iter_mut().filter(|c| c.kind == Kind::Observer && c.name == *name) {
+                for compared in document.compared.iter_mut().filter(|c| c.kind == SetKind::Observer && c.name == *name)
+                {
                     compared.visible = true;
                 }
             }
@@ -254,7 +255,7 @@ impl SceneAction {
             Self::SetChart(chart) => document.chart.clone_from(chart),
             Self::SetSubset(subset) => document.subset = *subset,
             Self::SetWhite(white) => document.white = white.clone(),
-            Self::SetWay(way) => document.set_transform(way.clone()),
+            Self::SetWay(transform) => document.set_transform(transform.clone()),
             Self::SetDifference(difference) => document.difference = *difference,
             Self::SetDiagram(diagram) => document.set_diagram(*diagram),
             Self::SetOverlays(overlays) => document.overlays = *overlays,
@@ -291,7 +292,7 @@ impl RenderAction {
         };
         document.render = figure;
         document.light = Light::Set(SUN.to_owned());
-        document.white = WhiteChoice::Light(BALANCE.to_owned());
+        document.white = WhiteBalanceChoice::Light(BALANCE.to_owned());
     }
 }
 

@@ -12,7 +12,7 @@ mod pictures;
 mod saving;
 mod startup;
 
-use chromascope_core::query::NearestBlackBodyOf;
+use chromascope_core::query::NearestBlackBodyQuery;
 use egui::{Align2, CentralPanel, CursorIcon, Event, Frame, Panel, Rect, Sense, Ui};
 
 use crate::catalog::Catalog;
@@ -22,11 +22,11 @@ use crate::command::{Command, key_bindings};
 use crate::document::history::History;
 use crate::files::{Files, Standing};
 use crate::jobs::{Background, Executor};
-use crate::laboratory::Laboratory;
 use crate::panes::{self, PaneContext};
+use crate::profiler::Profiler;
+use crate::render_service::RenderService;
 use crate::results::Results;
 use crate::scene::Scene;
-use crate::studio::Studio;
 use crate::theme::{self, Theme};
 use crate::view::import::{ImportItem, ImportView};
 use crate::view::{SavedView, View};
@@ -46,9 +46,9 @@ pub struct ChromascopeApp {
     files: Files,
     meshes: MeshStore,
     opened: Opened,
-    radiators: Background<NearestBlackBodyOf>,
-    studio: Studio,
-    laboratory: Laboratory,
+    radiators: Background<NearestBlackBodyQuery>,
+    studio: RenderService,
+    laboratory: Profiler,
     commands: Vec<Command>,
     /// The latest reading of each set that was read again.
     last_read: std::collections::HashMap<String, u64>,
@@ -84,8 +84,8 @@ impl ChromascopeApp {
             meshes: MeshStore::on(executor, move || window.request_repaint()),
             opened,
             radiators: Background::on(executor, "black bodies", move || third.request_repaint()),
-            studio: Studio::on(executor, ctx),
-            laboratory: Laboratory::on(executor, move || fourth.request_repaint()),
+            studio: RenderService::on(executor, ctx),
+            laboratory: Profiler::on(executor, move || fourth.request_repaint()),
             commands: Vec::new(),
             last_read: std::collections::HashMap::new(),
             arrangement: Arrangement::default(),
@@ -151,12 +151,12 @@ impl ChromascopeApp {
     }
 
     /// Where pictures are made.
-    pub fn studio(&self) -> &Studio {
+    pub fn studio(&self) -> &RenderService {
         &self.studio
     }
 
     /// Where the scene's cost is measured.
-    pub fn laboratory(&self) -> &Laboratory {
+    pub fn laboratory(&self) -> &Profiler {
         &self.laboratory
     }
 

@@ -25,7 +25,7 @@ static ASSETS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets");
 /// What a data set is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum SetKind {
     /// A camera's spectral sensitivities.
     Camera,
     /// An observer's color matching functions or cone fundamentals.
@@ -40,7 +40,7 @@ pub enum Kind {
     Unsorted,
 }
 
-impl Kind {
+impl SetKind {
     /// All kinds in the order they are listed.
     pub const ALL: [Self; 6] =
         [Self::Camera, Self::Observer, Self::Chart, Self::Illuminant, Self::Material, Self::Unsorted];
@@ -98,7 +98,7 @@ pub enum Place {
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// What it is of.
-    pub kind: Kind,
+    pub kind: SetKind,
     /// Its name, unique within its kind.
     pub name: String,
     /// A shorter name for narrow places; the name itself if there is none.
@@ -131,7 +131,7 @@ impl Entry {
     pub fn from_own(set: &Shared<OwnSet>) -> Self {
         let name = set.name.clone();
         Self {
-            kind: Kind::of_own(set),
+            kind: SetKind::of_own(set),
             short: name.clone(),
             name,
             also: Some("yours".to_owned()),
@@ -151,7 +151,7 @@ impl Catalog {
     /// Reads the headers of all built-in files; their figures are not looked at.
     pub fn built_in() -> Self {
         let mut entries = Vec::new();
-        for kind in Kind::ALL {
+        for kind in SetKind::ALL {
             for file in ASSETS.get_dir(kind.plural()).into_iter().flat_map(Dir::files) {
                 let Some((path, header)) = file.path().to_str().zip(file.contents_utf8().and_then(header_of)) else {
                     continue;
@@ -173,12 +173,12 @@ impl Catalog {
     }
 
     /// The sets of one kind, by name.
-    pub fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Entry> {
+    pub fn of_kind(&self, kind: SetKind) -> impl Iterator<Item = &Entry> {
         self.entries.iter().filter(move |entry| entry.kind == kind)
     }
 
     /// The set of this name, else the one whose name differs by case alone.
-    pub fn get(&self, kind: Kind, name: &str) -> Option<&Entry> {
+    pub fn get(&self, kind: SetKind, name: &str) -> Option<&Entry> {
         let exact = self.of_kind(kind).find(|entry| entry.name == name);
         exact.or_else(|| {
             let wanted = names::caseless(name);
@@ -189,14 +189,14 @@ impl Catalog {
 
 /// Whether a built-in set has this name, among those of a kind: a user's set of that kind must have another. Patches are chosen
 /// from charts and materials alike.
-pub fn is_built_in(kind: Kind, name: &str) -> bool {
-    static NAMES: LazyLock<HashSet<(Kind, String)>> = LazyLock::new(|| {
+pub fn is_built_in(kind: SetKind, name: &str) -> bool {
+    static NAMES: LazyLock<HashSet<(SetKind, String)>> = LazyLock::new(|| {
         Catalog::built_in().entries.iter().map(|entry| (entry.kind, names::caseless(&entry.name))).collect()
     });
     let name = names::caseless(name);
     let has = |kind| NAMES.contains(&(kind, name.clone()));
     match kind {
-        Kind::Chart | Kind::Material => has(Kind::Chart) || has(Kind::Material),
+        SetKind::Chart | SetKind::Material => has(SetKind::Chart) || has(SetKind::Material),
         _ => has(kind),
     }
 }
@@ -217,12 +217,12 @@ fn header_of(text: &'static str) -> Option<Header> {
 }
 
 /// A file is one set, or, with several value columns of lights or materials, as many.
-fn add_entries(entries: &mut Vec<Entry>, kind: Kind, path: &'static str, header: &Header) {
+fn add_entries(entries: &mut Vec<Entry>, kind: SetKind, path: &'static str, header: &Header) {
     // Coefficients from which daylight of any temperature is made; no light themselves.
     if path == load::DAYLIGHT_BASIS {
         return;
     }
-    let many = matches!(kind, Kind::Illuminant | Kind::Material) && header.columns.len() > 1;
+    let many = matches!(kind, SetKind::Illuminant | SetKind::Material) && header.columns.len() > 1;
     let names: Vec<(String, Option<usize>)> = if many {
         header.columns.iter().enumerate().map(|(column, name)| (name.clone(), Some(column))).collect()
     } else {

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use clap::{CommandFactory as _, FromArgMatches as _};
 
 use arguments::{Arguments, Subcommand};
-use chromascope_core::camera::NoRendering;
+use chromascope_core::camera::RenderingError;
 use outputs::{put, show};
 
 use crate::scene::SceneError;
@@ -112,7 +112,7 @@ impl From<SceneError> for CliError {
     /// The scene's remedies are the window's; the one that is called otherwise here is put in this one's words.
     fn from(error: SceneError) -> Self {
         match error {
-            SceneError::Rendering { name, error: NoRendering::ConesNeedObserver } => Self::Cones(name),
+            SceneError::Rendering { name, error: RenderingError::ConesNeedObserver } => Self::Cones(name),
             other => Self::Scene(other),
         }
     }

@@ -4,11 +4,11 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::action::Action;
 use crate::bench::Workload;
-use crate::catalog::Kind;
-use crate::document::own::{Fingerprint, Wishes};
+use crate::catalog::SetKind;
+use crate::document::own::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
+use crate::plot_item::SensorId;
 use crate::theme::Surround;
-use crate::thing::SourceId;
 use crate::view::HelpPage;
 use crate::view::import::ImportItem;
 use crate::workspaces::{PaneKind, Workspace};
@@ -35,15 +35,15 @@ pub enum Command {
     /// Show a file in Import, at a line.
     ShowImport(ImportItem, Option<usize>),
     /// Have a file read otherwise.
-    Wish(ImportItem, Box<Wishes>),
+    Wish(ImportItem, Box<ImportOverrides>),
     /// Give up what was tried on the file on show.
     TakeWishBack,
     /// Leave all to the content again, for a file and those like it.
     ForgetChoices(ImportItem),
     /// Make a set of a file that is none yet.
-    UseFile(Fingerprint, Box<Wishes>),
+    UseFile(Fingerprint, Box<ImportOverrides>),
     /// Make a set of each of these parts of a file, from 1.
-    UseParts(Fingerprint, Vec<usize>, Box<Wishes>),
+    UseParts(Fingerprint, Vec<usize>, Box<ImportOverrides>),
     /// Read all files of this one's kind as this one.
     UseForAlike(ImportItem),
     /// Take a file off the list.
@@ -53,7 +53,7 @@ pub enum Command {
     /// Stop reading files.
     StopReading,
     /// Measure what the scene costs.
-    Measure,
+    SpectralWeights,
     /// Measure a workload of the bench.
     MeasureWorkload(Workload),
     /// Stop measuring.
@@ -63,9 +63,9 @@ pub enum Command {
     /// Save a pane's figure or numbers.
     Export(PaneKind, Format),
     /// Save a source's rendered picture with its numbers.
-    ExportExr(SourceId),
+    ExportExr(SensorId),
     /// Save the curves of a set of the library.
-    SaveSet(Kind, String, Form),
+    SaveSet(SetKind, String, Form),
     /// Put a pane's picture on the clipboard.
     CopyPicture(PaneKind),
     /// Put a pane's numbers on the clipboard.

@@ -12,7 +12,7 @@ pub mod session;
 pub mod start;
 pub mod uses;
 
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use chromascope_core::query::{Metric, Shared};
 use own::OwnSet;
 use render::RenderSettings;
@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use start::Start;
 
 /// The version of the saved form that this program writes.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// What is compared, under which light, with what settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,10 +32,10 @@ pub struct Document {
     pub version: u32,
     /// The start that it was made from, and that a reset goes back to.
     pub start: Start,
-    /// The cameras and observers on show, in the order of the list. The truth is among them.
+    /// The cameras and observers on show, in the order of the list. The reference is among them.
     pub compared: Vec<Compared>,
     /// The observer that the others are compared to.
-    pub truth: String,
+    pub reference: String,
     /// The light on the scene.
     pub light: Light,
     /// Marks the loci; the light's own temperature where that has one. In kelvins.
@@ -45,9 +45,9 @@ pub struct Document {
     /// How many of them.
     pub subset: Subset,
     /// The color a perfect white is to take.
-    pub white: WhiteChoice,
+    pub white: WhiteBalanceChoice,
     /// The way from signals to the diagram.
-    pub way: WayChoice,
+    pub transform: TransformChoice,
     /// The measure of difference.
     pub difference: DifferenceChoice,
     /// The diagram's coordinates.
@@ -70,7 +70,7 @@ pub struct Compared {
     /// Its name in the catalog.
     pub name: String,
     /// Camera or observer.
-    pub kind: Kind,
+    pub kind: SetKind,
     /// Its place in the palette, kept while it is compared.
     pub slot: u8,
     /// Whether its curves are drawn.
@@ -111,7 +111,7 @@ pub enum Subset {
 /// The color a perfect white is to take (Eq 11).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum WhiteChoice {
+pub enum WhiteBalanceChoice {
     /// 1 : 1 : 1, the paper's experiments 1 and 2.
     #[default]
     Unity,
@@ -126,7 +126,7 @@ pub enum WhiteChoice {
 /// The way from signals to the diagram.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum WayChoice {
+pub enum TransformChoice {
     /// Eq 13.
     #[default]
     Paper,
@@ -166,27 +166,27 @@ impl DifferenceChoice {
     /// The measures that have a meaning under a color transform, the preferred ones first.
     ///
     /// Eq 13 takes an observer's RGB as sRGB: L*a*b* of its XYZ is no CIE L*a*b*, so distances in the diagram come first there.
-    pub const fn offered(transform: &WayChoice) -> &'static [Self] {
+    pub const fn offered(transform: &TransformChoice) -> &'static [Self] {
         match transform {
-            WayChoice::Paper => &[Self::Xy, Self::UvPrime, Self::DeltaE2000],
-            WayChoice::Observer(_) => &Self::ALL,
+            TransformChoice::Paper => &[Self::Xy, Self::UvPrime, Self::DeltaE2000],
+            TransformChoice::Observer(_) => &Self::ALL,
         }
     }
 
     /// The measure that a color transform starts with.
-    pub const fn preferred(transform: &WayChoice, diagram: Diagram) -> Self {
+    pub const fn preferred(transform: &TransformChoice, diagram: Diagram) -> Self {
         match (transform, diagram) {
-            (WayChoice::Observer(_), _) => Self::DeltaE2000,
-            (WayChoice::Paper, Diagram::Xy) => Self::Xy,
-            (WayChoice::Paper, Diagram::UvPrime) => Self::UvPrime,
+            (TransformChoice::Observer(_), _) => Self::DeltaE2000,
+            (TransformChoice::Paper, Diagram::Xy) => Self::Xy,
+            (TransformChoice::Paper, Diagram::UvPrime) => Self::UvPrime,
         }
     }
 
     /// The name under a color transform: the formulas of ΔE*00 and ΔE*ab give one only where XYZ is the reference's own.
-    pub const fn name_under(self, transform: &WayChoice) -> &'static str {
+    pub const fn name_under(self, transform: &TransformChoice) -> &'static str {
         match (self, transform) {
-            (Self::DeltaE2000, WayChoice::Paper) => "Δ of Eq 13 colors",
-            (Self::DeltaE1976, WayChoice::Paper) => "Δ of Eq 13 colors (1976 formula)",
+            (Self::DeltaE2000, TransformChoice::Paper) => "Δ of Eq 13 colors",
+            (Self::DeltaE1976, TransformChoice::Paper) => "Δ of Eq 13 colors (1976 formula)",
             _ => self.symbol(),
         }
     }
@@ -262,10 +262,10 @@ impl Default for Overlays {
     }
 }
 
-/// The name of the paper's ground truth.
-pub const TRUTH: &str = "Stiles & Burch 1955 2°";
+/// The name of the paper's reference observer.
+pub const PAPER_REFERENCE: &str = "Stiles & Burch 1955 2°";
 /// The observer that matrices are fitted to unless the user says otherwise.
-pub const REFERENCE: &str = CIE_1931;
+pub const FIT_TARGET: &str = CIE_1931;
 /// The CIE 1931 2° standard observer.
 pub const CIE_1931: &str = "CIE 1931 2°";
 /// The chart on show unless the user says otherwise.
@@ -293,14 +293,14 @@ impl Document {
             version: VERSION,
             start,
             compared: Vec::new(),
-            truth: TRUTH.to_owned(),
+            reference: PAPER_REFERENCE.to_owned(),
             light: Light::Set(LIGHT.to_owned()),
             temperature_k: 5500.0,
             chart: CHART.to_owned(),
             subset: Subset::Five,
-            white: WhiteChoice::Unity,
-            way: WayChoice::Paper,
-            difference: DifferenceChoice::preferred(&WayChoice::Paper, Diagram::Xy),
+            white: WhiteBalanceChoice::Unity,
+            transform: TransformChoice::Paper,
+            difference: DifferenceChoice::preferred(&TransformChoice::Paper, Diagram::Xy),
             diagram: Diagram::Xy,
             overlays: Overlays::default(),
             render: RenderSettings::default(),
@@ -319,8 +319,8 @@ impl Document {
         Start::Paper.document()
     }
 
-    /// Puts a source on show, in the first free place of the palette.
-    pub fn compare(&mut self, name: &str, kind: Kind) {
+    /// Puts a sensor on show, in the first free place of the palette.
+    pub fn compare(&mut self, name: &str, kind: SetKind) {
         if self.compared.len() >= MOST_COMPARED || self.compared.iter().any(|c| c.kind == kind && c.name == name) {
             return;
         }
@@ -329,37 +329,38 @@ impl Document {
         self.compared.push(Compared { name: name.to_owned(), kind, slot, visible: true, label: None });
     }
 
-    /// The source of this name on show.
-    pub fn compared(&self, kind: Kind, name: &str) -> Option<&Compared> {
+    /// The sensor of this name on show.
+    pub fn compared(&self, kind: SetKind, name: &str) -> Option<&Compared> {
         self.compared.iter().find(|c| c.kind == kind && c.name == name)
     }
 
     /// Takes another color transform. The measure of difference changes with it where it was the one that the former starts with,
     /// and where the new one does not offer it.
-    pub fn set_transform(&mut self, transform: WayChoice) {
-        let preferred = |way: &WayChoice| DifferenceChoice::preferred(way, self.diagram);
-        let fitted = |way: &WayChoice| matches!(way, WayChoice::Observer(_));
-        let was_preferred = fitted(&self.way) != fitted(&transform) && self.difference == preferred(&self.way);
+    pub fn set_transform(&mut self, transform: TransformChoice) {
+        let preferred = |transform: &TransformChoice| DifferenceChoice::preferred(transform, self.diagram);
+        let fitted = |transform: &TransformChoice| matches!(transform, TransformChoice::Observer(_));
+        let was_preferred =
+            fitted(&self.transform) != fitted(&transform) && self.difference == preferred(&self.transform);
         // The formula has no meaning under Eq 13 unless it is chosen there.
-        let loses_meaning = fitted(&self.way) && !fitted(&transform) && self.difference.is_of_lab();
+        let loses_meaning = fitted(&self.transform) && !fitted(&transform) && self.difference.is_of_lab();
         if was_preferred || loses_meaning || !DifferenceChoice::offered(&transform).contains(&self.difference) {
             self.difference = preferred(&transform);
         }
-        self.way = transform;
+        self.transform = transform;
     }
 
     /// Shows other coordinates; a distance in the former diagram becomes that in the new one under Eq 13.
     pub fn set_diagram(&mut self, diagram: Diagram) {
-        let follows =
-            self.way == WayChoice::Paper && self.difference == DifferenceChoice::preferred(&self.way, self.diagram);
+        let follows = self.transform == TransformChoice::Paper
+            && self.difference == DifferenceChoice::preferred(&self.transform, self.diagram);
         self.diagram = diagram;
         if follows {
-            self.difference = DifferenceChoice::preferred(&self.way, diagram);
+            self.difference = DifferenceChoice::preferred(&self.transform, diagram);
         }
     }
 
-    /// Whether a source is the truth.
-    pub fn is_truth(&self, compared: &Compared) -> bool {
-        compared.kind == Kind::Observer && compared.name == self.truth
+    /// Whether a sensor is the reference.
+    pub fn is_reference(&self, compared: &Compared) -> bool {
+        compared.kind == SetKind::Observer && compared.name == self.reference
     }
 }

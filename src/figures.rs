@@ -3,9 +3,9 @@
 pub mod accuracy;
 pub mod chromaticity;
 pub mod curves;
-pub mod left_out;
 pub mod pareto;
 pub mod render;
+pub mod skipped_work;
 pub mod spectra;
 pub mod strip;
 pub mod swatches;

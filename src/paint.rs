@@ -17,7 +17,7 @@ use egui_plot::{Plot, PlotUi};
 
 use crate::theme::Theme;
 pub use hit::{Hit, nearest};
-pub use pictures::{PictureOf, PictureTextures};
+pub use pictures::{PictureQuery, PictureTextures};
 
 /// How a mark stands out, or does not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

@@ -6,12 +6,12 @@ pub mod curves;
 pub mod help;
 pub mod import;
 pub mod inspector;
-pub mod left_out;
 pub mod library;
 pub mod menu;
 pub mod render;
 pub mod render_setup;
 pub mod scene_bar;
+pub mod skipped_work;
 pub mod spectra;
 pub mod status_bar;
 pub mod swatches;
@@ -19,8 +19,8 @@ pub mod tolerance;
 pub mod understood;
 
 use chromascope_core::accuracy::Accuracy;
-use chromascope_core::query::NearestBlackBodyOf;
-use chromascope_core::query::render::PicturesOf;
+use chromascope_core::query::NearestBlackBodyQuery;
+use chromascope_core::query::render::PicturesQuery;
 use chromascope_core::render::Quality;
 use chromascope_figure::Figure;
 use egui::{Rect, Ui};
@@ -29,10 +29,10 @@ use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
 use crate::command::Command;
 use crate::jobs::Background;
-use crate::laboratory::{Laboratory, SceneRunOf};
+use crate::profiler::{Profiler, SceneRunQuery};
+use crate::render_service::RenderService;
 use crate::results::Count;
 use crate::scene::Scene;
-use crate::studio::Studio;
 use crate::theme::Theme;
 use crate::view::View;
 use crate::workspaces::PaneKind;
@@ -53,11 +53,11 @@ pub struct PaneContext<'a> {
     /// The spectral files that were opened.
     pub opened: &'a Opened,
     /// Tells the nearest black body of a color, once it is asked.
-    pub radiators: &'a Background<NearestBlackBodyOf>,
+    pub radiators: &'a Background<NearestBlackBodyQuery>,
     /// Where pictures are made.
-    pub studio: &'a mut Studio,
+    pub studio: &'a mut RenderService,
     /// Where the scene's cost is measured.
-    pub laboratory: &'a mut Laboratory,
+    pub laboratory: &'a mut Profiler,
     /// What is to be done when the frame is over.
     pub commands: &'a mut Vec<Command>,
 }
@@ -71,7 +71,7 @@ impl PaneContext<'_> {
     /// Takes in what was measured since the last frame.
     pub fn refresh_run(&mut self) {
         let own = self.meshes.chosen(&self.scene.document.render.mesh);
-        let scene = SceneRunOf::of(&self.scene, own.as_ref(), self.view.saved.render.orbit);
+        let scene = SceneRunQuery::of(&self.scene, own.as_ref(), self.view.saved.render.orbit);
         if let Some((run, is_current)) = self.laboratory.shown(&scene) {
             (self.view.accuracy.run, self.view.accuracy.is_current) = (Some(run), is_current);
         }
@@ -81,10 +81,10 @@ impl PaneContext<'_> {
     }
 
     /// The pictures as they would be made within the document's tolerance.
-    pub fn planned_pictures(&self) -> Option<PicturesOf> {
+    pub fn planned_pictures(&self) -> Option<PicturesQuery> {
         let own = self.meshes.chosen(&self.scene.document.render.mesh);
         let quality = Accuracy::new(self.scene.document.render.tolerance).ok().map(Quality::Within)?;
-        SceneRunOf::pictures_of(&self.scene, own.as_ref(), self.view.saved.render.orbit, quality)
+        SceneRunQuery::pictures_of(&self.scene, own.as_ref(), self.view.saved.render.orbit, quality)
     }
 
     /// Hits, misses and times of each kind of question, the window's and the pictures'.
@@ -109,7 +109,7 @@ pub fn show(ui: &mut Ui, pane: PaneKind, rect: Rect, context: &mut PaneContext<'
         PaneKind::Curves => curves::show(ui, rect, context),
         PaneKind::Understood => understood::show(ui, rect, context),
         PaneKind::Accuracy => accuracy::show(ui, rect, context),
-        PaneKind::LeftOut => left_out::show(ui, rect, context),
+        PaneKind::SkippedWork => skipped_work::show(ui, rect, context),
         PaneKind::Tolerance => tolerance::show(ui, rect, context),
     }
 }
@@ -123,7 +123,7 @@ pub fn figure(pane: PaneKind, scene: &Scene<'_>, view: &View) -> Option<Figure> 
         PaneKind::Render => crate::figures::render::figure(scene, view),
         PaneKind::Curves => crate::figures::curves::figure(scene, view),
         PaneKind::Accuracy => crate::figures::accuracy::figure(view),
-        PaneKind::LeftOut => crate::figures::left_out::figure(view),
+        PaneKind::SkippedWork => crate::figures::skipped_work::figure(view),
         PaneKind::Tolerance
         | PaneKind::Library
         | PaneKind::Inspector

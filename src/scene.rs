@@ -8,13 +8,13 @@ pub mod render;
 
 use std::sync::Arc;
 
-use chromascope_core::camera::{NoRendering, White};
+use chromascope_core::camera::{RenderingError, WhiteBalanceTarget};
 use chromascope_core::colorimetry::diagram::SpectralPoint;
 use chromascope_core::light::{DaylightError, RadiationConstants, daylight};
-use chromascope_core::object::{PAPER_FIVE, PatchSet};
+use chromascope_core::patch_set::{PAPER_FIVE, PatchSet};
 use chromascope_core::query::{
-    Ask, Locus, LocusOf, MonochromaticOf, NoDifference, PatchColor, PatchColorsOf, RenderingOf, Shared,
-    SpectralLocusOf, Temperatures, WayOf, compare,
+    Ask, ColorTransformSpec, DifferenceError, Locus, LocusQuery, MonochromaticQuery, PatchColor, PatchColorsQuery,
+    RenderingQuery, Shared, SpectralLocusQuery, Temperatures, compare,
 };
 use chromascope_core::reflectance::SurfaceError;
 use chromascope_core::scene::lighting::LightingError;
@@ -22,10 +22,12 @@ use chromascope_core::spectral::Sensor;
 use chromascope_core::units::{Kelvin, NotPositive};
 use chromascope_figure::{InkRole, Marker};
 
-use crate::catalog::load::{LightOf, LoadError, LoadedLight, PatchesOf, SensorOf};
+use crate::catalog::load::{LightQuery, LoadError, LoadedLight, PatchesQuery, SensorQuery};
 use crate::catalog::names::caseless;
-use crate::catalog::{Catalog, Entry, Kind, Place};
-use crate::document::{Compared, Document, LOCUS_RANGE_K, Light, REFERENCE, Subset, TRAINING, WayChoice, WhiteChoice};
+use crate::catalog::{Catalog, Entry, Place, SetKind};
+use crate::document::{
+    Compared, Document, FIT_TARGET, LOCUS_RANGE_K, Light, Subset, TRAINING, TransformChoice, WhiteBalanceChoice,
+};
 use crate::results::Results;
 
 /// How many points a locus on screen has.
@@ -38,7 +40,7 @@ pub enum SceneError {
     #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.singular())]
     NoSet {
         /// What was looked for.
-        kind: Kind,
+        kind: SetKind,
         /// Its name.
         name: String,
     },
@@ -56,11 +58,11 @@ pub enum SceneError {
         /// Its name.
         name: String,
         /// Why.
-        error: NoRendering,
+        error: RenderingError,
     },
     /// A white that has no color.
     #[error("the white \"{0}\" has no color; choose another")]
-    White(String),
+    WhiteBalanceTarget(String),
     /// A daylight that is not defined.
     #[error(transparent)]
     Daylight(#[from] DaylightError),
@@ -75,11 +77,11 @@ pub enum SceneError {
     Lighting(#[from] LightingError),
 }
 
-/// How a source is drawn and called, everywhere.
+/// How a sensor is drawn and called, everywhere.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Source {
+pub struct ComparedSensor {
     /// Camera or observer.
-    pub kind: Kind,
+    pub kind: SetKind,
     /// Its name in the catalog.
     pub name: String,
     /// What it is called on screen.
@@ -90,8 +92,8 @@ pub struct Source {
     pub marker: Marker,
     /// The width of its lines in points.
     pub width: f64,
-    /// Whether it is the truth.
-    pub is_truth: bool,
+    /// Whether it is the reference.
+    pub is_reference: bool,
     /// Whether the user brought it.
     pub is_own: bool,
     /// Whether its curves are drawn.
@@ -152,15 +154,15 @@ pub struct Scene<'a> {
 
 impl<'a> Scene<'a> {
     /// The sets of a kind, the user's own first.
-    pub fn entries(&self, kind: Kind) -> impl Iterator<Item = Entry> + 'a {
+    pub fn entries(&self, kind: SetKind) -> impl Iterator<Item = Entry> + 'a {
         let own = self.document.own.iter().map(Entry::from_own).filter(move |entry| entry.kind == kind);
         own.chain(self.catalog.of_kind(kind).cloned())
     }
 
     /// The set of this name; the user's own win.
-    pub fn entry(&self, kind: Kind, name: &str) -> Result<Entry, SceneError> {
+    pub fn entry(&self, kind: SetKind, name: &str) -> Result<Entry, SceneError> {
         let own = |is_it: &dyn Fn(&str) -> bool| {
-            let mut sets = self.document.own.iter().filter(|set| Kind::of_own(set) == kind);
+            let mut sets = self.document.own.iter().filter(|set| SetKind::of_own(set) == kind);
             sets.find(|set| is_it(&set.name)).map(Entry::from_own)
         };
         own(&|known| known == name)
@@ -174,13 +176,13 @@ impl<'a> Scene<'a> {
 
     /// The chart or, failing that, the material set of this name.
     pub fn chart_entry(&self, name: &str) -> Result<Entry, SceneError> {
-        self.entry(Kind::Chart, name).or_else(|e| self.entry(Kind::Material, name).map_err(|_| e))
+        self.entry(SetKind::Chart, name).or_else(|e| self.entry(SetKind::Material, name).map_err(|_| e))
     }
 
     /// A camera's or observer's sensitivities.
-    pub fn sensor(&self, kind: Kind, name: &str) -> Result<Shared<Sensor>, SceneError> {
+    pub fn sensor(&self, kind: SetKind, name: &str) -> Result<Shared<Sensor>, SceneError> {
         let entry = self.entry(kind, name)?;
-        let answer = self.results.ask(&SensorOf(entry.place));
+        let answer = self.results.ask(&SensorQuery(entry.place));
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
 
@@ -192,14 +194,14 @@ impl<'a> Scene<'a> {
     /// The light on the scene.
     pub fn light(&self) -> Result<LoadedLight, SceneError> {
         let (of, name) = match &self.document.light {
-            Light::Set(name) => (LightOf::Set(self.entry(Kind::Illuminant, name)?.place), name.as_str()),
-            Light::BlackBody => (LightOf::BlackBody(self.temperature()?), "blackbody"),
-            Light::Daylight => (LightOf::Daylight(self.temperature()?), "daylight"),
+            Light::Set(name) => (LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place), name.as_str()),
+            Light::BlackBody => (LightQuery::BlackBody(self.temperature()?), "blackbody"),
+            Light::Daylight => (LightQuery::Daylight(self.temperature()?), "daylight"),
         };
         self.loaded(&of, name)
     }
 
-    fn loaded(&self, of: &LightOf, name: &str) -> Result<LoadedLight, SceneError> {
+    fn loaded(&self, of: &LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
         let answer = self.results.ask(of);
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
@@ -238,52 +240,54 @@ impl<'a> Scene<'a> {
         name: &str,
         names: Option<&'static [&'static str]>,
     ) -> Result<Shared<PatchSet>, SceneError> {
-        let answer = self.results.ask(&PatchesOf { place, names });
+        let answer = self.results.ask(&PatchesQuery { place, names });
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
 
     /// The color that a perfect white is to take.
-    pub fn white(&self) -> Result<White, SceneError> {
+    pub fn white(&self) -> Result<WhiteBalanceTarget, SceneError> {
         match &self.document.white {
-            WhiteChoice::Unity => Ok(White::UNITY),
-            WhiteChoice::Light(name) => {
-                let light = self.loaded(&LightOf::Set(self.entry(Kind::Illuminant, name)?.place), name)?;
+            WhiteBalanceChoice::Unity => Ok(WhiteBalanceTarget::UNITY),
+            WhiteBalanceChoice::Light(name) => {
+                let light = self.loaded(&LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place), name)?;
                 self.white_of(&light, name)
             }
-            WhiteChoice::Daylight(kelvin) => {
+            WhiteBalanceChoice::Daylight(kelvin) => {
                 let xy = daylight::chromaticity(Kelvin::new(*kelvin)?)?;
-                White::from_chromaticity(xy).ok_or_else(|| SceneError::White(format!("daylight {kelvin} K")))
+                WhiteBalanceTarget::from_chromaticity(xy)
+                    .ok_or_else(|| SceneError::WhiteBalanceTarget(format!("daylight {kelvin} K")))
             }
-            WhiteChoice::BlackBody(kelvin) => {
-                let light = self.loaded(&LightOf::BlackBody(Kelvin::new(*kelvin)?), "blackbody")?;
+            WhiteBalanceChoice::BlackBody(kelvin) => {
+                let light = self.loaded(&LightQuery::BlackBody(Kelvin::new(*kelvin)?), "blackbody")?;
                 self.white_of(&light, &format!("blackbody {kelvin} K"))
             }
         }
     }
 
-    fn white_of(&self, light: &LoadedLight, name: &str) -> Result<White, SceneError> {
-        let observer = self.sensor(Kind::Observer, REFERENCE)?;
-        White::from_light(&light.measured, &observer).ok_or_else(|| SceneError::White(name.to_owned()))
+    fn white_of(&self, light: &LoadedLight, name: &str) -> Result<WhiteBalanceTarget, SceneError> {
+        let observer = self.sensor(SetKind::Observer, FIT_TARGET)?;
+        WhiteBalanceTarget::from_light(&light.measured, &observer)
+            .ok_or_else(|| SceneError::WhiteBalanceTarget(name.to_owned()))
     }
 
     /// The way to the diagram with what it needs.
-    pub fn way(&self) -> Result<WayOf, SceneError> {
-        match &self.document.way {
-            WayChoice::Paper => Ok(WayOf::Paper),
-            WayChoice::Observer(reference) => Ok(WayOf::Observer {
-                reference: self.sensor(Kind::Observer, reference)?,
+    pub fn transform(&self) -> Result<ColorTransformSpec, SceneError> {
+        match &self.document.transform {
+            TransformChoice::Paper => Ok(ColorTransformSpec::Paper),
+            TransformChoice::Observer(reference) => Ok(ColorTransformSpec::Observer {
+                reference: self.sensor(SetKind::Observer, reference)?,
                 training: self.patch_set(TRAINING, None)?,
             }),
         }
     }
 
-    /// The question of how a source's signals come to the diagram.
-    pub fn rendering_of(&self, kind: Kind, name: &str) -> Result<RenderingOf, SceneError> {
-        Ok(RenderingOf {
+    /// The question of how a sensor's signals come to the diagram.
+    pub fn rendering_of(&self, kind: SetKind, name: &str) -> Result<RenderingQuery, SceneError> {
+        Ok(RenderingQuery {
             sensor: self.sensor(kind, name)?,
             light: self.light()?.grid,
             white: self.white()?,
-            way: self.way()?,
+            transform: self.transform()?,
         })
     }
 
@@ -293,10 +297,10 @@ impl<'a> Scene<'a> {
         Ok(Temperatures::Range { from: Kelvin::new(from)?, to: Kelvin::new(to)?, count: LOCUS_POINTS })
     }
 
-    /// A source's Planckian locus at the given temperatures.
-    pub fn locus_at(&self, kind: Kind, name: &str, temperatures: Temperatures) -> Result<Arc<Locus>, SceneError> {
+    /// A sensor's Planckian locus at the given temperatures.
+    pub fn locus_at(&self, kind: SetKind, name: &str, temperatures: Temperatures) -> Result<Arc<Locus>, SceneError> {
         let rendering = self.rendering_of(kind, name)?;
-        let query = LocusOf { rendering, temperatures, constants: RadiationConstants::Paper };
+        let query = LocusQuery { rendering, temperatures, constants: RadiationConstants::Paper };
         let answer = self.results.ask(&query);
         match &*answer {
             // One copy of 200 points against a second layer of shared ownership in every caller.
@@ -305,52 +309,52 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// A source's Planckian locus over the range on show.
-    pub fn locus(&self, kind: Kind, name: &str) -> Result<Arc<Locus>, SceneError> {
+    /// A sensor's Planckian locus over the range on show.
+    pub fn locus(&self, kind: SetKind, name: &str) -> Result<Arc<Locus>, SceneError> {
         self.locus_at(kind, name, Self::locus_temperatures()?)
     }
 
-    /// A source's locus at the marked temperature alone.
-    pub fn locus_mark(&self, kind: Kind, name: &str) -> Result<Arc<Locus>, SceneError> {
+    /// A sensor's locus at the marked temperature alone.
+    pub fn locus_mark(&self, kind: SetKind, name: &str) -> Result<Arc<Locus>, SceneError> {
         self.locus_at(kind, name, Temperatures::List(vec![self.temperature()?]))
     }
 
-    /// The patches on show through a source.
-    pub fn patch_colors(&self, kind: Kind, name: &str) -> Result<Vec<PatchColor>, SceneError> {
-        let query = PatchColorsOf { rendering: self.rendering_of(kind, name)?, patches: self.patches()? };
+    /// The patches on show through a sensor.
+    pub fn patch_colors(&self, kind: SetKind, name: &str) -> Result<Vec<PatchColor>, SceneError> {
+        let query = PatchColorsQuery { rendering: self.rendering_of(kind, name)?, patches: self.patches()? };
         let answer = self.results.ask(&query);
         (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
     }
 
-    /// A source's response to monochromatic light.
-    pub fn monochromatic(&self, kind: Kind, name: &str) -> Result<Vec<SpectralPoint>, SceneError> {
-        let answer = self.results.ask(&MonochromaticOf { rendering: self.rendering_of(kind, name)? });
+    /// A sensor's response to monochromatic light.
+    pub fn monochromatic(&self, kind: SetKind, name: &str) -> Result<Vec<SpectralPoint>, SceneError> {
+        let answer = self.results.ask(&MonochromaticQuery { rendering: self.rendering_of(kind, name)? });
         (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
     }
 
     /// The outline of the diagram: monochromatic light for CIE 1931.
     pub fn outline(&self) -> Result<Arc<Vec<SpectralPoint>>, SceneError> {
-        Ok(self.results.ask(&SpectralLocusOf { observer: self.sensor(Kind::Observer, REFERENCE)? }))
+        Ok(self.results.ask(&SpectralLocusQuery { observer: self.sensor(SetKind::Observer, FIT_TARGET)? }))
     }
 
-    /// Whether a source may be compared with the truth on this way to the diagram.
-    pub fn comparable(&self, kind: Kind, name: &str) -> Result<Result<(), NoDifference>, SceneError> {
-        if self.document.way != WayChoice::Paper {
+    /// Whether a sensor may be compared with the reference on this way to the diagram.
+    pub fn comparable(&self, kind: SetKind, name: &str) -> Result<Result<(), DifferenceError>, SceneError> {
+        if self.document.transform != TransformChoice::Paper {
             return Ok(Ok(()));
         }
-        let truth = self.sensor(Kind::Observer, &self.document.truth)?;
+        let reference = self.sensor(SetKind::Observer, &self.document.reference)?;
         let sensor = self.sensor(kind, name)?;
-        Ok(compare::comparable_by_paper(truth.primaries(), sensor.primaries()))
+        Ok(compare::comparable_by_paper(reference.primaries(), sensor.primaries()))
     }
 
     /// The condition to warn of, if there is one.
     pub fn caution(&self) -> Option<Caution> {
-        let reference = self.document.truth.clone();
-        let counts_in_xyz = self.entry(Kind::Observer, &reference).is_ok_and(|entry| entry.counts_in_xyz());
-        match &self.document.way {
-            WayChoice::Paper => counts_in_xyz.then_some(Caution::NotComparable { reference }),
-            WayChoice::Observer(target) if *target == reference => None,
-            WayChoice::Observer(target) => {
+        let reference = self.document.reference.clone();
+        let counts_in_xyz = self.entry(SetKind::Observer, &reference).is_ok_and(|entry| entry.counts_in_xyz());
+        match &self.document.transform {
+            TransformChoice::Paper => counts_in_xyz.then_some(Caution::NotComparable { reference }),
+            TransformChoice::Observer(target) if *target == reference => None,
+            TransformChoice::Observer(target) => {
                 Some(Caution::FitDiffers { target: target.clone(), reference, can_fit: counts_in_xyz })
             }
         }
@@ -358,48 +362,49 @@ impl<'a> Scene<'a> {
 
     /// The name of the measure of difference under the color transform.
     pub fn difference_name(&self) -> &'static str {
-        self.document.difference.name_under(&self.document.way)
+        self.document.difference.name_under(&self.document.transform)
     }
 
-    /// The difference of each patch from the truth, by the measure chosen; or why there is none.
-    pub fn differences(&self, kind: Kind, name: &str) -> Result<Vec<Result<f64, NoDifference>>, SceneError> {
+    /// The difference of each patch from the reference, by the measure chosen; or why there is none.
+    pub fn differences(&self, kind: SetKind, name: &str) -> Result<Vec<Result<f64, DifferenceError>>, SceneError> {
         let comparable = self.comparable(kind, name)?;
-        let truth = self.patch_colors(Kind::Observer, &self.document.truth)?;
+        let reference = self.patch_colors(SetKind::Observer, &self.document.reference)?;
         let own = self.patch_colors(kind, name)?;
         let metric = self.document.difference.metric();
-        let pairs = truth.iter().zip(&own);
+        let pairs = reference.iter().zip(&own);
         Ok(pairs.map(|(a, b)| comparable.and_then(|()| compare::patch_difference(metric, a, b))).collect())
     }
 
-    /// The compared sources with how they are drawn, the truth first, hidden ones included.
-    pub fn sources(&self) -> Vec<Source> {
+    /// The compared sensors with how they are drawn, the reference first, hidden ones included.
+    pub fn sources(&self) -> Vec<ComparedSensor> {
         let mut observers = 0_u8;
-        let mut sources: Vec<Source> = self.document.compared.iter().map(|c| self.source(c, &mut observers)).collect();
-        sources.sort_by_key(|source| !source.is_truth);
+        let mut sources: Vec<ComparedSensor> =
+            self.document.compared.iter().map(|c| self.source(c, &mut observers)).collect();
+        sources.sort_by_key(|source| !source.is_reference);
         sources
     }
 
-    /// How one source is drawn. Observers beside the truth are told apart by markers alone.
-    fn source(&self, compared: &Compared, observers: &mut u8) -> Source {
+    /// How one sensor is drawn. Observers beside the reference are told apart by markers alone.
+    fn source(&self, compared: &Compared, observers: &mut u8) -> ComparedSensor {
         let entry = self.entry(compared.kind, &compared.name).ok();
         let short = entry.as_ref().map_or_else(|| compared.name.clone(), |entry| entry.short.clone());
-        let is_truth = self.document.is_truth(compared);
+        let is_reference = self.document.is_reference(compared);
         let (role, marker, width) = match compared.kind {
-            _ if is_truth => (InkRole::Truth, Marker::Plus, 4.0),
-            Kind::Observer => {
+            _ if is_reference => (InkRole::Reference, Marker::Plus, 4.0),
+            SetKind::Observer => {
                 *observers += 1;
                 (InkRole::Observer, if *observers % 2 == 1 { Marker::Cross } else { Marker::Asterisk }, 1.5)
             }
-            _ => (InkRole::Source(compared.slot % 8), slot_marker(compared.slot), 2.0),
+            _ => (InkRole::Sensor(compared.slot % 8), slot_marker(compared.slot), 2.0),
         };
-        Source {
+        ComparedSensor {
             kind: compared.kind,
             name: compared.name.clone(),
             label: compared.label.clone().unwrap_or(short),
             role,
             marker,
             width,
-            is_truth,
+            is_reference,
             is_own: entry.is_some_and(|entry| entry.is_own()),
             visible: compared.visible,
         }

@@ -21,13 +21,13 @@ pub const SMALL: f32 = TextSize::Small.points();
 /// Font size of numbers.
 pub const MONO: f32 = TextSize::Mono.points();
 
-/// Width of the truth's line.
+/// Width of the reference's line.
 pub const LINE_TRUTH: f64 = 4.0;
 /// Width of a camera's line.
 pub const LINE_CAMERA: f64 = 2.0;
 /// Width of an observer's line.
 pub const LINE_OBSERVER: f64 = 1.5;
-/// Width of the tail from a point to the truth.
+/// Width of the tail from a point to the reference.
 pub const LINE_TAIL: f64 = 1.2;
 /// Width of grid lines.
 pub const LINE_GRID: f64 = 1.0;
@@ -117,9 +117,9 @@ pub struct Theme {
     pub error: Color32,
     /// The gray around swatches and renders.
     pub surround: Surround,
-    /// The truth.
-    pub truth: Color32,
-    /// Observers beside the truth.
+    /// The reference.
+    pub reference: Color32,
+    /// Observers beside the reference.
     pub observer: Color32,
     /// Compared sources by slot.
     pub sources: [Color32; 8],
@@ -146,7 +146,7 @@ impl Theme {
         warning: hex(0x00F2_B84B),
         error: hex(0x00FF_7B72),
         surround: Surround::Middle,
-        truth: hex(0x00F2_F2F2),
+        reference: hex(0x00F2_F2F2),
         observer: hex(0x009A_9A9A),
         sources: [
             hex(0x00D4_8924),
@@ -176,7 +176,7 @@ impl Theme {
         warning: hex(0x008A_5A00),
         error: hex(0x00B3_261E),
         surround: Surround::Middle,
-        truth: hex(0x0014_1414),
+        reference: hex(0x0014_1414),
         observer: hex(0x0070_7070),
         sources: [
             hex(0x009B_5402),
@@ -204,9 +204,9 @@ impl Theme {
     /// The color of a role.
     pub fn role(&self, role: InkRole) -> Color32 {
         match role {
-            InkRole::Truth => self.truth,
+            InkRole::Reference => self.reference,
             InkRole::Observer => self.observer,
-            InkRole::Source(slot) => self.sources[usize::from(slot) % self.sources.len()],
+            InkRole::Sensor(slot) => self.sources[usize::from(slot) % self.sources.len()],
             InkRole::Text => self.text,
             InkRole::Weak => self.weak,
             InkRole::Grid => self.grid,

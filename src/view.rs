@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::document::Compared;
 use crate::paint::Emphasis;
+use crate::plot_item::{PickIndex, PlotItem, Relation, SensorId};
 use crate::theme::Surround;
-use crate::thing::{SourceId, Standing, Thing, Things};
 use crate::workspaces::{Layout, PaneKind, Workspace};
 use accuracy::AccuracyView;
 use chromascope_figure::Tag;
@@ -26,15 +26,15 @@ pub struct View {
     /// What is kept between runs.
     pub saved: SavedView,
     /// Under the pointer now, in any pane.
-    pub hovered: Option<Thing>,
+    pub hovered: Option<PlotItem>,
     /// Under the pointer in the frame that is being made; becomes `hovered` at its end.
-    pub next_hovered: Option<Thing>,
+    pub next_hovered: Option<PlotItem>,
     /// What the coordinates under the pointer are, where it is on no thing.
     pub point: Option<String>,
     /// Chosen by a click.
-    pub selected: Option<Thing>,
+    pub selected: Option<PlotItem>,
     /// Kept beside each other, A, B, …
-    pub pinned: Vec<Thing>,
+    pub pinned: Vec<PlotItem>,
     /// What is typed into the library's search.
     pub search: String,
     /// The pane that fills the window.
@@ -51,7 +51,7 @@ pub struct View {
     pub accuracy: AccuracyView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
-    /// The truth stands in for every camera while B is held.
+    /// The reference stands in for every camera while B is held.
     pub blink: bool,
     /// The search field takes the keyboard in this frame.
     pub focus_search: bool,
@@ -87,9 +87,9 @@ pub struct SavedView {
     pub diagram_fit: DiagramFit,
     /// Whether swatches stand in rows or as charts.
     pub swatch_layout: SwatchLayout,
-    /// How the truth stands within a swatch.
+    /// How the reference stands within a swatch.
     pub swatch_style: SwatchStyle,
-    /// Whether curves lie over each other or each source has its own plot.
+    /// Whether curves lie over each other or each sensor has its own plot.
     pub spectra_layout: SpectraLayout,
     /// Whether the bars of differences are shown.
     pub difference_bars: bool,
@@ -140,31 +140,31 @@ pub enum SwatchLayout {
     /// Five patches in rows, more as charts.
     #[default]
     Auto,
-    /// A row for each source.
+    /// A row for each sensor.
     Rows,
-    /// A chart for each source.
+    /// A chart for each sensor.
     Charts,
 }
 
-/// How the truth stands within a swatch.
+/// How the reference stands within a swatch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SwatchStyle {
-    /// Left half truth, right half source.
+    /// Left half truth, right half sensor.
     #[default]
     Split,
-    /// The truth inside the source's swatch.
+    /// The reference inside the sensor's swatch.
     Inset,
-    /// The source alone.
+    /// The sensor alone.
     Whole,
 }
 
 /// How spectra are arranged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SpectraLayout {
-    /// All sources in one plot.
+    /// All sensors in one plot.
     #[default]
     Overlay,
-    /// A plot for each source.
+    /// A plot for each sensor.
     Each,
 }
 
@@ -226,22 +226,22 @@ impl View {
     }
 
     /// The pointer is on a thing.
-    pub fn hover(&mut self, thing: Option<&Thing>) {
+    pub fn hover(&mut self, thing: Option<&PlotItem>) {
         if let Some(thing) = thing {
             self.next_hovered = Some(thing.clone());
         }
     }
 
     /// A thing was clicked: it is chosen, or let go if it was.
-    pub fn click(&mut self, thing: Option<&Thing>) {
+    pub fn click(&mut self, thing: Option<&PlotItem>) {
         self.selected = if self.selected.as_ref() == thing { None } else { thing.cloned() };
     }
 
     /// Lets go of sensors that a step removed from the comparison: they are no longer selected, pinned or under the pointer.
     pub fn let_go_of_removed(&mut self, before: &[Compared], after: &[Compared]) {
-        let has = |list: &[Compared], id: &SourceId| list.iter().any(|c| c.kind == id.kind && c.name == id.name);
-        let gone = |id: &SourceId| has(before, id) && !has(after, id);
-        let is_gone = |thing: &mut Thing| thing.source().is_some_and(gone);
+        let has = |list: &[Compared], id: &SensorId| list.iter().any(|c| c.kind == id.kind && c.name == id.name);
+        let gone = |id: &SensorId| has(before, id) && !has(after, id);
+        let is_gone = |thing: &mut PlotItem| thing.source().is_some_and(gone);
         for thing in [&mut self.selected, &mut self.hovered, &mut self.next_hovered] {
             thing.take_if(is_gone);
         }
@@ -253,20 +253,20 @@ impl View {
     }
 
     /// How a drawn thing stands out.
-    pub fn emphasis(&self, drawn: &Thing, truth: &str) -> Emphasis {
-        let standing = |of: &Option<Thing>| of.as_ref().map(|thing| thing.standing_of(drawn, truth));
+    pub fn emphasis(&self, drawn: &PlotItem, reference: &str) -> Emphasis {
+        let standing = |of: &Option<PlotItem>| of.as_ref().map(|thing| thing.relation_to(drawn, reference));
         let pinned = self.pinned.iter().any(|thing| thing == drawn);
         match (standing(&self.hovered), standing(&self.selected)) {
-            (_, Some(Standing::Same)) => Emphasis::Selected,
-            (Some(Standing::Same), _) => Emphasis::Hovered,
+            (_, Some(Relation::Same)) => Emphasis::Selected,
+            (Some(Relation::Same), _) => Emphasis::Hovered,
             _ if pinned => Emphasis::Selected,
-            (_, Some(Standing::Apart)) => Emphasis::Faded,
+            (_, Some(Relation::Other)) => Emphasis::Faded,
             _ => Emphasis::Normal,
         }
     }
 
     /// How a figure's tagged mark stands out.
-    pub fn emphasis_of(&self, things: &Things, tag: Tag, truth: &str) -> Emphasis {
-        things.get(tag).map_or(Emphasis::Normal, |thing| self.emphasis(thing, truth))
+    pub fn emphasis_of(&self, things: &PickIndex, tag: Tag, reference: &str) -> Emphasis {
+        things.get(tag).map_or(Emphasis::Normal, |thing| self.emphasis(thing, reference))
     }
 }

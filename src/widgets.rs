@@ -14,9 +14,9 @@ use crate::command::{Command, Format};
 use crate::number::number;
 use crate::paint;
 use crate::panes::PaneContext;
-use crate::scene::Source;
+use crate::plot_item::SensorId;
+use crate::scene::ComparedSensor;
 use crate::theme::{ROW, Theme, UNIT};
-use crate::thing::SourceId;
 use crate::workspaces::PaneKind;
 
 /// The sentence that says what the window is about.
@@ -117,7 +117,7 @@ fn export_menu(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
             ui.separator();
             for source in &shot.sources {
                 if ui.button(format!("{} as OpenEXR…", source.label)).clicked() {
-                    let id = SourceId { kind: source.kind, name: source.name.clone() };
+                    let id = SensorId { kind: source.kind, name: source.name.clone() };
                     context.push(Command::ExportExr(id));
                     ui.close();
                 }
@@ -210,7 +210,7 @@ pub fn segmented<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], 
 }
 
 /// A source's key: its line and marker.
-pub fn legend_entry(source: &Source) -> LegendEntry {
+pub fn legend_entry(source: &ComparedSensor) -> LegendEntry {
     LegendEntry {
         name: source.label.clone(),
         stroke: Some(Stroke::solid(source.role, source.width)),
@@ -220,7 +220,7 @@ pub fn legend_entry(source: &Source) -> LegendEntry {
 }
 
 /// Draws a source's key in a small rectangle.
-pub fn source_key(ui: &mut Ui, source: &Source, theme: &Theme) -> Response {
+pub fn source_key(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(26.0, ROW), Sense::hover());
     paint::key(ui.painter(), rect, &legend_entry(source), theme);
     response

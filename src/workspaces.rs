@@ -29,7 +29,7 @@ pub enum PaneKind {
     /// Run time against error of the scene.
     Accuracy,
     /// What the scene did not compute.
-    LeftOut,
+    SkippedWork,
     /// How large errors may be.
     Tolerance,
 }
@@ -48,7 +48,7 @@ impl PaneKind {
         Self::Curves,
         Self::Understood,
         Self::Accuracy,
-        Self::LeftOut,
+        Self::SkippedWork,
         Self::Tolerance,
     ];
     /// The panes that stand in the workspaces' changeable places: all but the library, which comes first.
@@ -68,7 +68,7 @@ impl PaneKind {
             Self::Curves => "Result",
             Self::Understood => "Understood as",
             Self::Accuracy => "Methods",
-            Self::LeftOut => "Left out",
+            Self::SkippedWork => "Left out",
             Self::Tolerance => "Tolerance",
         }
     }
@@ -167,7 +167,7 @@ impl Default for Layout {
             spectra: [Some(PaneKind::Spectra), None, Some(PaneKind::Inspector), None],
             render: [Some(PaneKind::Render), None, Some(PaneKind::RenderSetup), None],
             import: [Some(PaneKind::Import), Some(PaneKind::Curves), Some(PaneKind::Understood), None],
-            accuracy: [Some(PaneKind::Accuracy), Some(PaneKind::LeftOut), Some(PaneKind::Tolerance), None],
+            accuracy: [Some(PaneKind::Accuracy), Some(PaneKind::SkippedWork), Some(PaneKind::Tolerance), None],
         }
     }
 }

@@ -6,8 +6,8 @@ pub mod locus_table;
 pub mod rendering;
 pub mod white_balance;
 
-pub use batch::{Batch, NoBatch};
+pub use batch::{Batch, BatchError};
 pub use locus::{LocusEvaluator, LocusMethod};
-pub use locus_table::{LocusTable, NotInTable};
-pub use rendering::{FitTargets, NoRendering, Rendering, Way};
-pub use white_balance::White;
+pub use locus_table::{LocusTable, LocusTableError};
+pub use rendering::{ColorTransform, FitTargets, Rendering, RenderingError};
+pub use white_balance::WhiteBalanceTarget;

@@ -7,7 +7,7 @@
 //! ```text
 //! spectral::dataset          bytes → curves with units
 //! spectral                   curves → the 1 nm grid, with what was assumed
-//! light · object · camera    L, S, C
+//! light · patch_set · camera    L, S, C
 //! camera::rendering          ∫ C S L dλ → balanced RGB → XYZ           Eq 11, 13, 16
 //! camera::locus              ∫ C E(T) dλ                                Eq 14, 15
 //! colorimetry                XYZ → xy, u′v′, L*a*b*, ΔE, sRGB
@@ -43,7 +43,7 @@ pub mod colorimetry;
 
 pub mod light;
 
-pub mod object;
+pub mod patch_set;
 pub mod query;
 pub mod reflectance;
 pub mod render;

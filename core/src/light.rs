@@ -6,4 +6,4 @@ pub mod temperature;
 
 pub use daylight::{DaylightBasis, DaylightError};
 pub use planckian::RadiationConstants;
-pub use temperature::{Cct, NoCct, NoLocus, PlanckianLocus};
+pub use temperature::{Cct, CctError, LocusError, PlanckianLocus};

@@ -10,13 +10,13 @@ pub mod radiances;
 pub mod render;
 pub mod shared;
 
-pub use compare::{Metric, NoDifference};
+pub use compare::{DifferenceError, Metric};
 pub use loci::{
-    Locus, LocusOf, LocusPoint, LocusRulesOf, MonochromaticOf, NearestBlackBodyOf, RadiatorSignals, SpectralLocusOf,
-    Temperatures,
+    Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery, RadiatorSignalsQuery,
+    SpectralLocusQuery, Temperatures,
 };
-pub use patches::{FitTargetsOf, PatchColor, PatchColorsOf, RenderingOf, WayOf};
-pub use radiances::RadianceColorsOf;
+pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
+pub use radiances::RadianceColorsQuery;
 pub use shared::Shared;
 
 use crate::render::Stop;

@@ -21,10 +21,10 @@ pub mod signals;
 pub mod vertices;
 pub mod visibility;
 
-pub use develop::{Development, Measurement, Picture, develop};
+pub use develop::{ColorimetricScale, Development, Picture, develop};
 pub use diffuse::DiffuseTable;
-pub use geometry::{Angles, GeometryCounts, GeometryImage, Placed, Shadows};
-pub use measure::{LAMBDA_0_NM, Measure};
+pub use geometry::{Angles, GeometryCounts, GeometryImage, LitSamples, Shadows};
+pub use measure::{LAMBDA_0_NM, SpectralWeights};
 pub use plan::{Against, Demand, Plan};
 pub use shading::{Quality, ShadingCounts, ShadingImage};
 pub use signals::CameraImage;

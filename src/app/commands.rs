@@ -7,14 +7,14 @@ use egui::ViewportCommand;
 
 use super::ChromascopeApp;
 use crate::action::{Action, CompareAction};
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use crate::catalog::opened::Request;
 use crate::command::{Command, Format};
 use crate::document::history::History;
 use crate::export;
 use crate::files::{FileEvent, FileForm, SaveRequest};
-use crate::laboratory::SceneRunOf;
 use crate::panes;
+use crate::profiler::SceneRunQuery;
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
 use crate::theme::Theme;
@@ -92,7 +92,7 @@ impl ChromascopeApp {
             Command::StopReading => {
                 self.stop_reading();
             }
-            Command::Measure => self.measure(),
+            Command::SpectralWeights => self.measure(),
             Command::MeasureWorkload(workload) => self.laboratory.run_bench(workload),
             Command::StopMeasuring => self.laboratory.stop(),
             Command::Export(pane, format) => self.export(pane, format),
@@ -246,7 +246,7 @@ impl ChromascopeApp {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
-        self.laboratory.run(SceneRunOf::of(&scene, own.as_ref(), self.view.saved.render.orbit));
+        self.laboratory.run(SceneRunQuery::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Accuracy;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();
@@ -368,7 +368,7 @@ impl ChromascopeApp {
     }
 
     /// Whether a set of this kind and name is on the list.
-    pub fn compares(&self, kind: Kind, name: &str) -> bool {
+    pub fn compares(&self, kind: SetKind, name: &str) -> bool {
         self.history.document().compared(kind, name).is_some()
     }
 }

@@ -13,7 +13,7 @@ use crate::catalog::opened::{OpenFile, OpenedEvent, Request, Why};
 use crate::command::Command;
 use crate::document::Document;
 use crate::document::history::History;
-use crate::document::own::{Fingerprint, OwnSet, Role, Wishes};
+use crate::document::own::{Fingerprint, ImportOverrides, OwnSet, Role};
 use crate::view::import::{ImportItem, of_a_kind};
 use crate::view::{Status, Weight};
 use crate::workspaces::Workspace;
@@ -23,7 +23,7 @@ impl ChromascopeApp {
     pub(super) fn open(&mut self, requests: Vec<Request>) {
         let memory = self.view.saved.import.clone();
         self.opened.open(requests, move |bytes| {
-            if memory.remembered.is_empty() { Wishes::default() } else { memory.wishes(&Likeness::of(bytes)) }
+            if memory.remembered.is_empty() { ImportOverrides::default() } else { memory.wishes(&Likeness::of(bytes)) }
         });
     }
 
@@ -296,9 +296,9 @@ impl ChromascopeApp {
     }
 
     /// Makes a set of each of these parts of a file; which curves are taken was said of another part.
-    pub(super) fn use_parts(&mut self, file: Fingerprint, parts: &[usize], wishes: &Wishes) {
+    pub(super) fn use_parts(&mut self, file: Fingerprint, parts: &[usize], wishes: &ImportOverrides) {
         let wishes = |part: usize| {
-            let mut wishes = Wishes { taken: None, channels: None, ..wishes.clone() };
+            let mut wishes = ImportOverrides { taken: None, channels: None, ..wishes.clone() };
             wishes.options.part = Some(part);
             wishes
         };
@@ -318,7 +318,7 @@ impl ChromascopeApp {
             let known = set.fingerprint.and_then(|fingerprint| self.opened.file(fingerprint));
             let is_item = *item == ImportItem::Set(set.name.clone());
             if !is_item && known.is_some_and(|file| alike(&file)) && of_a_kind(&set.wishes) != wishes {
-                let wishes = Wishes { taken: set.wishes.taken.clone(), ..wishes.clone() };
+                let wishes = ImportOverrides { taken: set.wishes.taken.clone(), ..wishes.clone() };
                 sets.push(OwnSet { wishes, ..(**set).clone() });
             }
         }
@@ -340,7 +340,7 @@ impl ChromascopeApp {
             self.opened.reread(sets, Why::Alike);
         }
         if !unused.is_empty() {
-            self.opened.open(unused, |_| Wishes::default());
+            self.opened.open(unused, |_| ImportOverrides::default());
         }
     }
 
@@ -351,14 +351,14 @@ impl ChromascopeApp {
         }
         self.view.import.tried.remove(item);
         let own = &self.history.document().own;
-        let read = |name: &String| own.iter().any(|set| set.name == *name && set.wishes != Wishes::default());
+        let read = |name: &String| own.iter().any(|set| set.name == *name && set.wishes != ImportOverrides::default());
         if matches!(item, ImportItem::Set(name) if read(name)) {
-            self.view.import.tried.insert(item.clone(), Wishes::default());
+            self.view.import.tried.insert(item.clone(), ImportOverrides::default());
         }
     }
 
     /// An item's file and how it is to be read.
-    fn file_and_wishes(&self, item: &ImportItem) -> Option<(OpenFile, Wishes)> {
+    fn file_and_wishes(&self, item: &ImportItem) -> Option<(OpenFile, ImportOverrides)> {
         let pending = self.view.import.pending(item).cloned();
         match item {
             ImportItem::File(fingerprint) => Some((self.opened.file(*fingerprint)?, pending.unwrap_or_default())),

@@ -6,12 +6,12 @@ use super::ChromascopeApp;
 use crate::export::render::{Provenance, exr_bytes};
 use crate::figures::render::{index_of, mesh_name};
 use crate::files::{FileForm, SaveRequest};
+use crate::plot_item::SensorId;
 use crate::scene::Scene;
-use crate::thing::SourceId;
 
 impl ChromascopeApp {
     /// Saves a source's picture with its numbers.
-    pub(super) fn export_exr(&mut self, source: &SourceId) {
+    pub(super) fn export_exr(&mut self, source: &SensorId) {
         match self.exr(source) {
             Some(Ok(bytes)) => {
                 let name: String = source.name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
@@ -25,7 +25,7 @@ impl ChromascopeApp {
         }
     }
 
-    fn exr(&self, source: &SourceId) -> Option<Result<Vec<u8>, String>> {
+    fn exr(&self, source: &SensorId) -> Option<Result<Vec<u8>, String>> {
         let shot = self.view.render.shot.clone()?;
         if !self.studio.is_settled() {
             return Some(Err(

@@ -1,7 +1,7 @@
 //! Sets of the library as files.
 
 use super::ChromascopeApp;
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use crate::export::spectra::{self, Form};
 use crate::files::{FileForm, SaveRequest};
 use crate::results::Results;
@@ -9,7 +9,7 @@ use crate::scene::Scene;
 
 impl ChromascopeApp {
     /// Writes a set beside the window and asks where to save it; what differs in the file is said once it is there.
-    pub(super) fn save_set(&mut self, kind: Kind, name: &str, form: Form) {
+    pub(super) fn save_set(&mut self, kind: SetKind, name: &str, form: Form) {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let entry = match scene.entry(kind, name) {
             Ok(entry) => entry,

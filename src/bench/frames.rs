@@ -8,8 +8,8 @@ use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Reading, Surface, wavelength_power};
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{
-    Against, CameraImage, DiffuseTable, GeometryImage, Measure, Plan, Quality, RasterSize, ShadingImage, Shadows, Stop,
-    Visibility,
+    Against, CameraImage, DiffuseTable, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows,
+    SpectralWeights, Stop, Visibility,
 };
 use chromascope_core::scene::lighting::SUN_RADIUS;
 use chromascope_core::scene::{Lighting, Viewpoint};
@@ -21,7 +21,7 @@ use super::inputs::{LIGHT, REFLECTANCE, curve, sensor};
 use super::timing::{Bench, Candidate, Case, timed};
 use super::{BenchError, Workload};
 
-/// The truth and the cameras of the paper's third experiment.
+/// The reference and the cameras of the paper's third experiment.
 const SOURCES: [&str; 4] = [
     "observers/stiles_burch_1955_2deg.csv",
     "cameras/canon_eos_10d_2007_figure.csv",
@@ -42,23 +42,24 @@ enum Way<'a> {
 }
 
 /// What no frame makes anew.
-struct Studio {
+struct RenderService {
     mesh: Mesh,
     tree: ShadowTree,
     eye: Viewpoint,
     lighting: Lighting,
     surface: Surface,
-    sources: Vec<(Measure, DiffuseTable)>,
+    sources: Vec<(SpectralWeights, DiffuseTable)>,
 }
 
-impl Studio {
+impl RenderService {
     fn new(triangles: usize, sigma_m: f64) -> Result<Option<Self>, BenchError> {
         let (light, skin) = (curve(LIGHT, Quantity::Light)?, curve(REFLECTANCE, Quantity::Reflectance)?);
         let mut sources = Vec::new();
         for path in SOURCES {
             let sensor = sensor(path)?;
             let Ok(divisors) = white_divisors(&sensor, &light) else { return Ok(None) };
-            let measure = Measure::new(&sensor, &light, &skin, divisors, wavelength_power(Reading::Radiometric));
+            let measure =
+                SpectralWeights::new(&sensor, &light, &skin, divisors, wavelength_power(Reading::Radiometric));
             let table = DiffuseTable::new(&measure);
             sources.push((measure, table));
         }
@@ -138,7 +139,7 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     );
     for ((name, sigma_m), sides) in [("\u{3c3} 5 µm", 5e-6), ("\u{3c3} 0.3 µm", 0.3e-6)].into_iter().zip(sides) {
         let most = bench.pools.most();
-        let Some(studio) = bench.pools.on(most, || Studio::new(triangles, sigma_m))? else { continue };
+        let Some(studio) = bench.pools.on(most, || RenderService::new(triangles, sigma_m))? else { continue };
         let tables = || studio.sources.iter().map(|(measure, _)| DiffuseTable::new(measure)).collect::<Vec<_>>();
         let (_, table_seconds) = timed(|| bench.pools.on(most, tables));
         let studio = &studio;
@@ -187,7 +188,7 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
 /// A tolerance by name, with what it takes for each source and how long that took to make.
 type Tolerance = (String, Accuracy, Vec<(Plan, Reach)>, f64);
 
-fn tolerance(bench: &Bench<'_>, studio: &Studio, side: u32, exponent: i32) -> Option<Tolerance> {
+fn tolerance(bench: &Bench<'_>, studio: &RenderService, side: u32, exponent: i32) -> Option<Tolerance> {
     let accuracy = Accuracy::new(10_f64.powi(exponent)).ok()?;
     let (plans, seconds) = timed(|| bench.pools.on(bench.pools.most(), || studio.plans(side, accuracy, bench.stop)));
     Some((format!("within 1e{exponent}"), accuracy, plans?, seconds))

@@ -5,7 +5,7 @@ use chromascope_core::query::{Ask as _, Direct, Shared};
 use chromascope_core::spectral::{GridSpectrum, Quantity, Sensor};
 
 use crate::catalog::Place;
-use crate::catalog::load::{FileOf, LoadError, SensorOf};
+use crate::catalog::load::{FileQuery, LoadError, SensorQuery};
 
 /// The constants everything is computed with.
 pub(super) const CONSTANTS: RadiationConstants = RadiationConstants::Paper;
@@ -20,12 +20,12 @@ pub(super) const REFLECTANCE: &str = "materials/skin_vrhel.csv";
 
 /// A built-in sensor.
 pub(super) fn sensor(path: &'static str) -> Result<Shared<Sensor>, LoadError> {
-    (*Direct.ask(&SensorOf(Place::BuiltIn { path, column: None }))).clone()
+    (*Direct.ask(&SensorQuery(Place::BuiltIn { path, column: None }))).clone()
 }
 
 /// The first curve of a built-in file.
 pub(super) fn curve(path: &'static str, quantity: Quantity) -> Result<GridSpectrum, LoadError> {
-    let file = Direct.ask(&FileOf(path));
+    let file = Direct.ask(&FileQuery(path));
     let file = (*file).as_ref().map_err(Clone::clone)?;
     Ok(GridSpectrum::resample(file.curves.first().ok_or(LoadError::NoCurve)?, quantity))
 }

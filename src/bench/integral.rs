@@ -8,7 +8,7 @@ use chromascope_core::reflectance::{Precision, diffuse_sum};
 use chromascope_core::render::diffuse::{ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::measure::Node;
 use chromascope_core::render::plan::Method;
-use chromascope_core::render::{Against, Demand, DiffuseTable, Measure, Plan};
+use chromascope_core::render::{Against, Demand, DiffuseTable, Plan, SpectralWeights};
 use chromascope_core::spectral::Quantity;
 use chromascope_math::double::Double;
 use chromascope_math::gauss::gauss_rule;
@@ -32,7 +32,7 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     let light = curve(LIGHT, Quantity::Light)?;
     let reflectance = curve(REFLECTANCE, Quantity::Reflectance)?;
     let Ok(divisors) = white_divisors(&sensor, &light) else { return Ok(()) };
-    let (measure, seconds) = timed(|| Measure::new(&sensor, &light, &reflectance, divisors, 2));
+    let (measure, seconds) = timed(|| SpectralWeights::new(&sensor, &light, &reflectance, divisors, 2));
     let cases = [("smooth: κ from 0.001 to 1", 1e-3, 1.0), ("between: κ from 1 to 128", 1.0, ROUGH)];
     for (name, low, high) in cases.into_iter().chain([("rough: κ from 128 to 330", ROUGH, 330.0)]) {
         one(bench, name, [low, high], &measure, seconds);
@@ -41,7 +41,7 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
 }
 
 /// The Gauss rule of each channel's own weights: the scale of g, and the weight.
-fn own_rules(measure: &Measure, count: usize) -> [Vec<(f64, f64)>; 3] {
+fn own_rules(measure: &SpectralWeights, count: usize) -> [Vec<(f64, f64)>; 3] {
     let points: Vec<f64> = measure.dense().iter().map(|node| node.wavelength_nm).collect();
     [0, 1, 2].map(|c: usize| {
         let masses: Vec<f64> = measure.dense().iter().map(|node| node.weights[c]).collect();
@@ -83,7 +83,7 @@ fn exactly(nodes: &[Node], (kappa, beta): Pixel) -> [Double; 3] {
     sums
 }
 
-fn one(bench: &mut Bench<'_>, name: &str, [low, high]: [f64; 2], measure: &Measure, made: f64) {
+fn one(bench: &mut Bench<'_>, name: &str, [low, high]: [f64; 2], measure: &SpectralWeights, made: f64) {
     let items = bench.pick(20, 20_000, 200_000);
     let checked = bench.pick(2, 24, 200);
     let mut numbers = Numbers::new(4);
@@ -142,7 +142,7 @@ fn plans<'a>(
     bench: &Bench<'_>,
     tolerance: f64,
     kappa: [f64; 2],
-    measure: &Measure,
+    measure: &SpectralWeights,
     (points, some, room): (&'a [[f64; 2]], &[Pixel], &'a Room<Signals>),
     error: impl Fn(&[Signals]) -> ErrorOf,
 ) -> Vec<Candidate<'a>> {

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use chromascope_core::camera::LocusEvaluator;
-use chromascope_core::camera::locus_table::{LocusTable, NotInTable};
+use chromascope_core::camera::locus_table::{LocusTable, LocusTableError};
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::light::PlanckianLocus;
@@ -127,7 +127,7 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
     let room = Room::new(items, &[0.0; 2]);
     let diagram = Diagram::new(sensor);
     let temperatures: Vec<Kelvin> = kelvins.iter().filter_map(|&t| Kelvin::new(t).ok()).collect();
-    let answers = Room::new(items, &Err(NotInTable::Outside));
+    let answers = Room::new(items, &Err(LocusTableError::Outside));
     let sums = LocusEvaluator::by_sum(sensor, CONSTANTS);
     let summed = |t: Kelvin| {
         let [x, y] = diagram.xy(sums.raw(t));

@@ -16,7 +16,7 @@ use super::case::{ErrorOf, ErrorScale, Errors};
 use super::inputs::{Numbers, sensor};
 use super::timing::{Bench, Candidate, Case, Cost, Room, timed};
 use super::{BenchError, Workload};
-use crate::catalog::{Catalog, Kind, Place};
+use crate::catalog::{Catalog, Place, SetKind};
 
 /// So many samples of reflectances differ; more are these again. They are far beyond any cache.
 const DIFFERENT: usize = 16_000_000;
@@ -43,7 +43,7 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
 
 fn cameras() -> Result<Vec<Shared<Sensor>>, BenchError> {
     let catalog = Catalog::built_in();
-    let cameras = catalog.of_kind(Kind::Camera).filter_map(|entry| match &entry.place {
+    let cameras = catalog.of_kind(SetKind::Camera).filter_map(|entry| match &entry.place {
         Place::BuiltIn { path, .. } => Some(*path),
         Place::Own(_) => None,
     });

@@ -2,7 +2,7 @@
 
 use chromascope_core::colorimetry::{Uv60, UvPrime, Xy};
 use chromascope_core::light::PlanckianLocus;
-use chromascope_core::light::temperature::{Cct, NoCct, published, tabulated};
+use chromascope_core::light::temperature::{Cct, CctError, published, tabulated};
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
 use chromascope_math::double::Double;
@@ -50,10 +50,10 @@ fn one(bench: &mut Bench<'_>, observer: &Sensor, judged: Judged) {
     });
     let error = |found: &[Answer]| error(judged, found, &exact);
     let room = Room::new(items, &NOTHING);
-    let answers = Room::new(items, &Err(NoCct::NoChromaticity));
+    let answers = Room::new(items, &Err(CctError::NoChromaticity));
     let one = [1, checked];
-    let kelvins = |found: Result<Kelvin, NoCct>| [found.map_or(f64::NAN, Kelvin::get), f64::NAN];
-    let whole = |found: Result<Cct, NoCct>| found.map_or(NOTHING, |cct| [cct.temperature.get(), cct.duv]);
+    let kelvins = |found: Result<Kelvin, CctError>| [found.map_or(f64::NAN, Kelvin::get), f64::NAN];
+    let whole = |found: Result<Cct, CctError>| found.map_or(NOTHING, |cct| [cct.temperature.get(), cct.duv]);
     let mccamy = move |color: &Uv60| xy(*color).map_or(NOTHING, |xy| kelvins(published::mccamy_1992(xy)));
     let hernandez = move |color: &Uv60| xy(*color).map_or(NOTHING, |xy| kelvins(published::hernandez_andres_1999(xy)));
     let mut candidates: Vec<Candidate<'_>> = Vec::new();

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use spectral_file::{Certainty, ReadError, Role, Table, Values, Warning, Watch};
 
-use crate::document::own::{Fingerprint, OwnCurve, OwnSet, ReadAs, Wishes};
+use crate::document::own::{Fingerprint, ImportOverrides, OwnCurve, OwnSet, ReadAs};
 
 /// Of a file with more curves, so many are taken until a person chooses others.
 pub const TAKEN_AT_FIRST: usize = 200;
@@ -45,19 +45,24 @@ pub fn import(file: &str, bytes: &[u8], role: Option<Role>) -> Result<Imported, 
 
 /// The same, with what should be looked at before the curves are trusted; the message tells the first of it.
 pub fn import_warned(file: &str, bytes: &[u8], role: Option<Role>) -> Result<(Imported, Vec<Warning>), ReadError> {
-    let wishes = Wishes::for_role(role);
+    let wishes = ImportOverrides::for_role(role);
     let table = spectral_file::read(bytes, &wishes.options)?;
     let warnings = table.warnings.clone();
     Ok((imported(&Origin::named(file, bytes), &table, &wishes), warnings))
 }
 
 /// Reads bytes as a person wishes, in sight of whoever may stop it.
-pub fn import_as(origin: &Origin, bytes: &[u8], wishes: &Wishes, watch: Watch<'_>) -> Result<Imported, ReadError> {
+pub fn import_as(
+    origin: &Origin,
+    bytes: &[u8],
+    wishes: &ImportOverrides,
+    watch: Watch<'_>,
+) -> Result<Imported, ReadError> {
     Ok(imported(origin, &spectral_file::read_watched(bytes, &wishes.options, watch)?, wishes))
 }
 
 /// What is made of a table that was read with the options of these wishes.
-pub fn imported(origin: &Origin, table: &Table, wishes: &Wishes) -> Imported {
+pub fn imported(origin: &Origin, table: &Table, wishes: &ImportOverrides) -> Imported {
     let guesses: Vec<_> = weighty_guesses(table);
     let file = &origin.name;
     let mut message = format!("{file}: {}", summary(table));
@@ -87,7 +92,7 @@ pub fn weighty_guesses(table: &Table) -> Vec<spectral_file::Decision> {
 }
 
 /// Which curves of a table are taken: those wished for, which may be none, else the first of them.
-pub fn taken(table: &Table, wishes: &Wishes) -> Vec<usize> {
+pub fn taken(table: &Table, wishes: &ImportOverrides) -> Vec<usize> {
     let count = table.curves.len();
     if let Some(wished) = &wishes.taken {
         let taken: Vec<usize> = wished.iter().copied().filter(|index| *index < count).collect();
@@ -107,7 +112,7 @@ fn summary(table: &Table) -> String {
     format!("{curves}, {}, {first}–{last} nm.", table.role.value)
 }
 
-fn own_set(origin: &Origin, table: &Table, wishes: &Wishes, taken: &[usize]) -> OwnSet {
+fn own_set(origin: &Origin, table: &Table, wishes: &ImportOverrides, taken: &[usize]) -> OwnSet {
     let title = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty());
     let stem = || Path::new(&origin.name).file_stem().map_or(origin.name.clone(), |s| s.to_string_lossy().into_owned());
     let mut name = spectral_file::on_one_line(&title.map_or_else(stem, str::to_owned)).into_owned();
@@ -146,14 +151,14 @@ fn own_set(origin: &Origin, table: &Table, wishes: &Wishes, taken: &[usize]) -> 
 }
 
 /// What the part of a file is called that a person chose of several.
-fn part_name(table: &Table, wishes: &Wishes) -> Option<String> {
+fn part_name(table: &Table, wishes: &ImportOverrides) -> Option<String> {
     let part = wishes.options.part.filter(|_| table.reading.parts.len() > 1)?;
     let known = table.reading.parts.get(part.checked_sub(1)?)?;
     Some(if known.name.is_empty() { format!("part {part}") } else { known.name.clone() })
 }
 
 /// Which of the curves taken are red, green and blue.
-fn channels(table: &Table, wishes: &Wishes, taken: &[usize]) -> [usize; 3] {
+fn channels(table: &Table, wishes: &ImportOverrides, taken: &[usize]) -> [usize; 3] {
     let wanted = wishes.channels.or(table.reading.camera_columns).unwrap_or([0, 1, 2]);
     let place = |index: usize| taken.iter().position(|taken| *taken == index);
     match wanted.map(place) {

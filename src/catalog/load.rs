@@ -1,7 +1,7 @@
 //! Questions that bring a set's figures into the form the core computes with.
 
 use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants, planckian::black_body};
-use chromascope_core::object::PatchSet;
+use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::{Ask, Query, Shared};
 use chromascope_core::spectral::{
     Dataset, DatasetError, DistributionError, GridSpectrum, Primaries, Quantity, Sensor, SensorError,
@@ -50,9 +50,9 @@ pub enum LoadError {
 
 /// A built-in file, parsed.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct FileOf(pub &'static str);
+pub struct FileQuery(pub &'static str);
 
-impl Query for FileOf {
+impl Query for FileQuery {
     type Answer = Result<Dataset, LoadError>;
     const NAME: &'static str = "data file";
 
@@ -66,7 +66,7 @@ impl Query for FileOf {
 fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
     match place {
         Place::BuiltIn { path, column } => {
-            let file = ask.ask(&FileOf(path));
+            let file = ask.ask(&FileQuery(path));
             let file = (*file).as_ref().map_err(Clone::clone)?;
             let named = file.header.columns.iter().cloned().zip(file.curves.iter().cloned());
             Ok(named
@@ -81,9 +81,9 @@ fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribu
 
 /// A camera or an observer.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct SensorOf(pub Place);
+pub struct SensorQuery(pub Place);
 
-impl Query for SensorOf {
+impl Query for SensorQuery {
     type Answer = Result<Shared<Sensor>, LoadError>;
     const NAME: &'static str = "sensor";
 
@@ -91,7 +91,7 @@ impl Query for SensorOf {
         let named = curves(&self.0, ask)?;
         let (primaries, response) = match &self.0 {
             Place::BuiltIn { path, .. } => {
-                let file = ask.ask(&FileOf(path));
+                let file = ask.ask(&FileQuery(path));
                 let header = &(*file).as_ref().map_err(Clone::clone)?.header;
                 (primaries_of(&header.columns), header.response())
             }
@@ -136,7 +136,7 @@ impl LoadedLight {
 
 /// Which light.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum LightOf {
+pub enum LightQuery {
     /// A data set.
     Set(Place),
     /// A black body.
@@ -145,7 +145,7 @@ pub enum LightOf {
     Daylight(Kelvin),
 }
 
-impl Query for LightOf {
+impl Query for LightQuery {
     type Answer = Result<LoadedLight, LoadError>;
     const NAME: &'static str = "light";
 
@@ -161,7 +161,7 @@ impl Query for LightOf {
                 Ok(LoadedLight::new(SpectralDistribution::new(nm, grid.values().to_vec())?))
             }
             Self::Daylight(temperature) => {
-                let file = ask.ask(&FileOf(DAYLIGHT_BASIS));
+                let file = ask.ask(&FileQuery(DAYLIGHT_BASIS));
                 let basis = DaylightBasis::new((*file).as_ref().map_err(Clone::clone)?)?;
                 Ok(LoadedLight::new(basis.light(*temperature)?))
             }
@@ -171,14 +171,14 @@ impl Query for LightOf {
 
 /// A chart, or single reflectances; with names, only those patches in that order.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct PatchesOf {
+pub struct PatchesQuery {
     /// The set.
     pub place: Place,
     /// The patches wanted; none for all.
     pub names: Option<&'static [&'static str]>,
 }
 
-impl Query for PatchesOf {
+impl Query for PatchesQuery {
     type Answer = Result<Shared<PatchSet>, LoadError>;
     const NAME: &'static str = "patches";
 

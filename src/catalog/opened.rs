@@ -7,7 +7,7 @@
 mod look;
 mod reading;
 
-pub use look::{Look, LookOf};
+pub use look::{FilePreview, FilePreviewQuery};
 pub use reading::{Request, read_file};
 
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::import::{Imported, Origin};
-use crate::document::own::{Fingerprint, OwnSet, Wishes};
+use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::jobs::{Background, Clock, Executor};
 use crate::results::Count;
 
@@ -115,7 +115,7 @@ pub struct Progress {
 /// The files that were opened.
 pub struct Opened {
     desk: Arc<Desk>,
-    look: Background<LookOf>,
+    look: Background<FilePreviewQuery>,
     executor: Executor,
 }
 
@@ -164,7 +164,7 @@ impl Opened {
     }
 
     /// Reads files, folders or bytes; `remembered` says what a person wished for files like one whose text is given.
-    pub fn open(&self, requests: Vec<Request>, remembered: impl Fn(&[u8]) -> Wishes + Send + 'static) {
+    pub fn open(&self, requests: Vec<Request>, remembered: impl Fn(&[u8]) -> ImportOverrides + Send + 'static) {
         self.begin(move |desk, job| {
             let events = reading::open(requests, &remembered, desk, job);
             desk.lock().events.extend(events);
@@ -276,8 +276,8 @@ impl Opened {
     }
 
     /// What is understood of a file when it is read with these switches; the last answer while it is being read.
-    pub fn look(&self, file: &OpenFile, options: &spectral_file::ReadOptions) -> Option<Arc<Look>> {
-        self.look.ask(LookOf::stages(file, options));
+    pub fn look(&self, file: &OpenFile, options: &spectral_file::ReadOptions) -> Option<Arc<FilePreview>> {
+        self.look.ask(FilePreviewQuery::stages(file, options));
         let shown = self.look.shown()?;
         (shown.answer.fingerprint == file.origin.fingerprint).then_some(shown.answer)
     }

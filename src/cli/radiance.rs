@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use chromascope_core::query::{Ask as _, PatchColor, RadianceColorsOf, RenderingOf, Shared};
+use chromascope_core::query::{Ask as _, PatchColor, RadianceColorsQuery, RenderingQuery, Shared};
 use chromascope_core::spectral::{GridSpectrum, Quantity};
 
 use super::CliError;
 use super::request::{Request, told};
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use crate::catalog::names::{NameError, folded};
 use crate::document::own::Role;
 use crate::scene::{Scene, SceneError};
@@ -41,12 +41,12 @@ impl Radiances {
     }
 
     /// The colors through a sensor. Without a white among the radiances there is no L*a*b*.
-    pub(super) fn colors(&self, scene: &Scene<'_>, kind: Kind, name: &str) -> Result<Vec<PatchColor>, SceneError> {
+    pub(super) fn colors(&self, scene: &Scene<'_>, kind: SetKind, name: &str) -> Result<Vec<PatchColor>, SceneError> {
         let adopted = self.white.and_then(|index| self.spectra.get(index)).cloned();
         let light = adopted.clone().unwrap_or_else(|| Shared::new(GridSpectrum::constant(1.0)));
         let sensor = scene.sensor(kind, name)?;
-        let rendering = RenderingOf { sensor, light, white: scene.white()?, way: scene.way()? };
-        let answer = scene.results.ask(&RadianceColorsOf { rendering, radiances: self.spectra.clone() });
+        let rendering = RenderingQuery { sensor, light, white: scene.white()?, transform: scene.transform()? };
+        let answer = scene.results.ask(&RadianceColorsQuery { rendering, radiances: self.spectra.clone() });
         let colors = Arc::unwrap_or_clone(answer);
         let mut colors = colors.map_err(|error| SceneError::Rendering { name: name.to_owned(), error })?;
         if adopted.is_none() {

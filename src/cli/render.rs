@@ -14,8 +14,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use chromascope_core::camera::Rendering;
-use chromascope_core::query::render::{Pictures, PicturesOf};
-use chromascope_core::query::{Ask as _, NoDifference, RenderingOf};
+use chromascope_core::query::render::{Pictures, PicturesQuery};
+use chromascope_core::query::{Ask as _, DifferenceError, RenderingQuery};
 use chromascope_core::render::{CameraImage, Picture};
 use clap::ArgMatches;
 use rayon::prelude::*;
@@ -28,9 +28,9 @@ use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
 use crate::figures::render::headline::{self, Detail};
 use crate::figures::render::returned;
 use crate::files::fitting;
-use crate::laboratory::plans;
+use crate::profiler::plans;
 use crate::results::{Count, Results};
-use crate::scene::{Scene, SceneError, Source};
+use crate::scene::{ComparedSensor, Scene, SceneError};
 
 /// Makes the pictures, writes them, and says what came of it.
 pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {
@@ -86,11 +86,11 @@ struct Times {
 struct Made<'a> {
     setup: &'a Setup,
     scene: Scene<'a>,
-    sources: Vec<Source>,
-    /// Why a source cannot be compared with the truth.
-    not_comparable: Vec<Option<NoDifference>>,
+    sources: Vec<ComparedSensor>,
+    /// Why a sensor cannot be compared with the reference.
+    not_comparable: Vec<Option<DifferenceError>>,
     files: Vec<PathBuf>,
-    query: PicturesOf,
+    query: PicturesQuery,
     pictures: Pictures,
 }
 
@@ -102,12 +102,12 @@ impl<'a> Made<'a> {
         let mesh = scene.mesh_of(setup.own_mesh.as_ref());
         let mesh = mesh.ok_or_else(|| CliError::File(format!("{}: there is no mesh", arguments.mesh.display())))?;
         let query = scene.pictures_of(&sources, mesh, setup.viewpoint, setup.finish, None)?;
-        // Exposure goes by the truth, on show or not. What cannot be shown is said before anything large is computed.
-        rendering(&scene, &document.truth, &query.truth)?;
+        // Exposure goes by the reference, on show or not. What cannot be shown is said before anything large is computed.
+        rendering(&scene, &document.reference, &query.reference)?;
         for (source, of) in sources.iter().zip(&query.sources) {
             rendering(&scene, &source.name, &of.rendering)?;
         }
-        let comparable = |source: &Source| Ok(scene.comparable(source.kind, &source.name)?.err());
+        let comparable = |source: &ComparedSensor| Ok(scene.comparable(source.kind, &source.name)?.err());
         let not_comparable = sources.iter().map(comparable).collect::<Result<_, SceneError>>()?;
         let files = file_names(arguments, &setup.mesh_name, &sources);
         let outputs = files.iter().map(PathBuf::as_path).chain(arguments.stats.as_deref());
@@ -116,7 +116,7 @@ impl<'a> Made<'a> {
         let pictures = match &*results.ask(&query) {
             Ok(Some(pictures)) => pictures.clone(),
             Ok(None) => return Err(CliError::File("the pictures were not finished".to_owned())),
-            Err(error) => return Err(SceneError::Rendering { name: document.truth.clone(), error: *error }.into()),
+            Err(error) => return Err(SceneError::Rendering { name: document.reference.clone(), error: *error }.into()),
         };
         Ok(Self { setup, scene, sources, not_comparable, files, query, pictures })
     }
@@ -204,11 +204,11 @@ impl<'a> Made<'a> {
         )
     }
 
-    /// How far a picture is from the truth, in words.
+    /// How far a picture is from the reference, in words.
     fn difference(&self, index: usize) -> String {
         match (&self.pictures.differences[index], self.not_comparable[index]) {
-            _ if self.sources[index].is_truth => "the reference".to_owned(),
-            (_, Some(NoDifference::Ways)) => "no \u{394}E*00 by Eq 13; add --transform fitted to compare".to_owned(),
+            _ if self.sources[index].is_reference => "the reference".to_owned(),
+            (_, Some(DifferenceError::Ways)) => "no \u{394}E*00 by Eq 13; add --transform fitted to compare".to_owned(),
             (_, Some(other)) => format!("no \u{394}E*00: {other}"),
             (Some(difference), None) => {
                 headline::words(difference, headline::measure(self.scene.document), Detail::Largest)
@@ -233,8 +233,8 @@ impl Content<'_> {
     }
 }
 
-/// A source's way to the diagram, or why it has none.
-fn rendering(scene: &Scene<'_>, name: &str, of: &RenderingOf) -> Result<Rendering, SceneError> {
+/// A sensor's way to the diagram, or why it has none.
+fn rendering(scene: &Scene<'_>, name: &str, of: &RenderingQuery) -> Result<Rendering, SceneError> {
     let answer = scene.results.ask(of);
     (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
 }
@@ -250,8 +250,8 @@ fn make_folder(folder: &Path) -> Result<(), CliError> {
     fs::create_dir_all(folder).map_err(|error| CliError::Output { path: folder.to_owned(), error })
 }
 
-/// A file for each source, no two alike.
-fn file_names(arguments: &RenderArguments, mesh: &str, sources: &[Source]) -> Vec<PathBuf> {
+/// A file for each sensor, no two alike.
+fn file_names(arguments: &RenderArguments, mesh: &str, sources: &[ComparedSensor]) -> Vec<PathBuf> {
     let here = arguments.out == Path::new(".");
     let mut taken: Vec<String> = Vec::new();
     for source in sources {

@@ -15,24 +15,24 @@ use super::outputs::is_descriptor;
 use super::{CliError, checks, say};
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
-use crate::catalog::{Catalog, Entry, Kind};
-use crate::document::own::{OwnSet, Role, Wishes};
+use crate::catalog::{Catalog, Entry, SetKind};
+use crate::document::own::{ImportOverrides, OwnSet, Role};
 use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
-use crate::document::{CHART, CIE_1931, Document, Light, Subset, WayChoice, WhiteChoice};
+use crate::document::{CHART, CIE_1931, Document, Light, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::files::reason;
 
 /// The name of the paper's five patches as a chart of their own.
 pub(super) const FIVE: &str = "ColorChecker five";
 
-/// A document made of arguments, and the sources in the order they were named.
+/// A document made of arguments, and the sensors in the order they were named.
 pub(super) struct Request {
     /// What is compared, under what.
     pub(super) document: Document,
     /// The built-in sets.
     pub(super) catalog: Catalog,
-    /// The sources asked for.
-    pub(super) sources: Vec<(Kind, String)>,
+    /// The sensors asked for.
+    pub(super) sources: Vec<(SetKind, String)>,
     /// The start that stands where nothing was named.
     pub(super) preset: Start,
     /// What the values of files of reflectances stand for, if it was said.
@@ -42,7 +42,7 @@ pub(super) struct Request {
 }
 
 impl Request {
-    /// Reads the arguments that both tables take. `matches` knows in which order sources were named.
+    /// Reads the arguments that both tables take. `matches` knows in which order sensors were named.
     pub(super) fn new(arguments: &CommonArguments, matches: &ArgMatches) -> Result<Self, CliError> {
         let mut request = Self::of_sources(&arguments.sources, matches)?;
         if let Some(illuminant) = &arguments.illuminant {
@@ -54,7 +54,7 @@ impl Request {
         Ok(request)
     }
 
-    /// Reads sources, reference and color transform; the rest is the preset's.
+    /// Reads sensors, reference and color transform; the rest is the preset's.
     pub(super) fn of_sources(arguments: &SourceArguments, matches: &ArgMatches) -> Result<Self, CliError> {
         let preset = arguments.preset;
         let document = Document { compared: Vec::new(), ..preset.document() };
@@ -74,8 +74,8 @@ impl Request {
     }
 
     /// The preset's sensors, with the reference that was named in the place of the preset's.
-    fn presets_sources(&self) -> Vec<(Kind, String)> {
-        let mut sources = vec![(Kind::Observer, self.document.truth.clone())];
+    fn presets_sources(&self) -> Vec<(SetKind, String)> {
+        let mut sources = vec![(SetKind::Observer, self.document.reference.clone())];
         for (name, kind) in self.preset.sensors().iter().skip(1) {
             let sensor = (*kind, (*name).to_owned());
             if !sources.contains(&sensor) {
@@ -98,21 +98,21 @@ impl Request {
         &mut self,
         arguments: &SourceArguments,
         matches: &ArgMatches,
-    ) -> Result<Vec<(Kind, String)>, CliError> {
+    ) -> Result<Vec<(SetKind, String)>, CliError> {
         let places = |id: &str| matches.indices_of(id).into_iter().flatten().collect::<Vec<usize>>();
         let observers = arguments.observer.iter().map(OsStr::new);
-        let observers = places("observer").into_iter().zip(observers).map(|(at, name)| (at, Kind::Observer, name));
+        let observers = places("observer").into_iter().zip(observers).map(|(at, name)| (at, SetKind::Observer, name));
         let cameras = arguments.camera.iter().map(OsString::as_os_str);
-        let cameras = places("camera").into_iter().zip(cameras).map(|(at, name)| (at, Kind::Camera, name));
+        let cameras = places("camera").into_iter().zip(cameras).map(|(at, name)| (at, SetKind::Camera, name));
         let mut named: Vec<_> = observers.chain(cameras).collect();
         named.sort_by_key(|(at, ..)| *at);
         named
             .into_iter()
             .map(|(_, kind, name)| {
-                let found = if kind == Kind::Camera && self.means_file("--camera", &[kind], name) {
+                let found = if kind == SetKind::Camera && self.means_file("--camera", &[kind], name) {
                     self.open(Path::new(name), Role::Camera)?.name.clone()
                 } else {
-                    let argument = if kind == Kind::Camera { "--camera" } else { "--observer" };
+                    let argument = if kind == SetKind::Camera { "--camera" } else { "--observer" };
                     self.name(argument, kind, &name.to_string_lossy())?
                 };
                 Ok((kind, found))
@@ -122,7 +122,7 @@ impl Request {
 
     fn set_transform(&mut self, arguments: &SourceArguments) -> Result<(), CliError> {
         if let Some(reference) = &arguments.reference {
-            self.document.truth = self.name("--reference", Kind::Observer, reference)?;
+            self.document.reference = self.name("--reference", SetKind::Observer, reference)?;
         }
         let fitted = match (arguments.transform, &arguments.fit_to) {
             (Some(Transform::Paper), Some(_)) => {
@@ -131,21 +131,23 @@ impl Request {
             }
             (Some(transform), _) => transform == Transform::Fitted,
             (None, Some(_)) => true,
-            (None, None) => self.document.way != WayChoice::Paper,
+            (None, None) => self.document.transform != TransformChoice::Paper,
         };
-        let reference = self.catalog.get(Kind::Observer, &self.document.truth);
+        let reference = self.catalog.get(SetKind::Observer, &self.document.reference);
         let transform = match &arguments.fit_to {
-            _ if !fitted => WayChoice::Paper,
-            Some(target) => WayChoice::Observer(self.name("--fit-to", Kind::Observer, target)?),
-            None if reference.is_some_and(Entry::counts_in_xyz) => WayChoice::Observer(self.document.truth.clone()),
-            None => WayChoice::Observer(CIE_1931.to_owned()),
+            _ if !fitted => TransformChoice::Paper,
+            Some(target) => TransformChoice::Observer(self.name("--fit-to", SetKind::Observer, target)?),
+            None if reference.is_some_and(Entry::counts_in_xyz) => {
+                TransformChoice::Observer(self.document.reference.clone())
+            }
+            None => TransformChoice::Observer(CIE_1931.to_owned()),
         };
         self.document.set_transform(transform);
         Ok(())
     }
 
     /// Whether an argument means a file. A built-in set's own name means that set, even beside a file that is called so.
-    fn means_file(&self, argument: &str, kinds: &[Kind], given: &OsStr) -> bool {
+    fn means_file(&self, argument: &str, kinds: &[SetKind], given: &OsStr) -> bool {
         let typed = given.to_string_lossy();
         let built_in = kinds.iter().any(|kind| self.catalog.get(*kind, &typed).is_some());
         if built_in && Path::new(given).is_file() {
@@ -164,7 +166,7 @@ impl Request {
             self.document.temperature_k = kelvin;
             return Ok(());
         }
-        let name = if self.means_file("--illuminant", &[Kind::Illuminant], given) {
+        let name = if self.means_file("--illuminant", &[SetKind::Illuminant], given) {
             self.open(Path::new(given), Role::Illuminant)?.name.clone()
         } else {
             self.illuminant("--illuminant", illuminant)?
@@ -176,7 +178,7 @@ impl Request {
     /// Chooses the patches.
     pub(super) fn set_chart(&mut self, chart: Option<&OsStr>) -> Result<(), CliError> {
         let Some(chart) = chart else { return Ok(()) };
-        if self.means_file("--chart", &[Kind::Chart, Kind::Material], chart) {
+        if self.means_file("--chart", &[SetKind::Chart, SetKind::Material], chart) {
             self.document.subset = Subset::All;
             let set = self.open(Path::new(chart), Role::Reflectance)?;
             self.document.chart.clone_from(&set.name);
@@ -199,7 +201,7 @@ impl Request {
         self.document.render.material = match material.to_ascii_lowercase().as_str() {
             "skin" => SKIN.to_owned(),
             "leaf" => LEAF.to_owned(),
-            _ if self.means_file("--material", &[Kind::Material, Kind::Chart], given) => {
+            _ if self.means_file("--material", &[SetKind::Material, SetKind::Chart], given) => {
                 let set = self.open(Path::new(given), Role::Reflectance)?;
                 if let [first, _, ..] = set.curves.as_slice() {
                     let count = set.curves.len();
@@ -207,19 +209,19 @@ impl Request {
                 }
                 set.name.clone()
             }
-            _ => self.name("--material", Kind::Material, material)?,
+            _ => self.name("--material", SetKind::Material, material)?,
         };
         Ok(())
     }
 
     /// The name of a chart or a material, or [`FIVE`].
     fn chart_name(&self, typed: &str) -> Result<String, CliError> {
-        let five = self.catalog.get(Kind::Chart, CHART).map(|chart| Entry {
+        let five = self.catalog.get(SetKind::Chart, CHART).map(|chart| Entry {
             name: FIVE.to_owned(),
             short: FIVE.to_owned(),
             ..chart.clone()
         });
-        let sets = [Kind::Chart, Kind::Material].into_iter().flat_map(|kind| self.catalog.of_kind(kind));
+        let sets = [SetKind::Chart, SetKind::Material].into_iter().flat_map(|kind| self.catalog.of_kind(kind));
         let found = find(sets.chain(&five), "chart", typed)?;
         tell("--chart", typed, &found);
         Ok(found.entry.name.clone())
@@ -228,10 +230,10 @@ impl Request {
     /// Chooses the white-balance target.
     pub(super) fn set_white(&mut self, white: &str) -> Result<(), CliError> {
         self.document.white = match radiator("--white", white)? {
-            Some((Radiator::Daylight, kelvin)) => WhiteChoice::Daylight(kelvin),
-            Some((Radiator::BlackBody, kelvin)) => WhiteChoice::BlackBody(kelvin),
-            None if white.trim().eq_ignore_ascii_case("unity") => WhiteChoice::Unity,
-            None => WhiteChoice::Light(self.illuminant("--white", white)?),
+            Some((Radiator::Daylight, kelvin)) => WhiteBalanceChoice::Daylight(kelvin),
+            Some((Radiator::BlackBody, kelvin)) => WhiteBalanceChoice::BlackBody(kelvin),
+            None if white.trim().eq_ignore_ascii_case("unity") => WhiteBalanceChoice::Unity,
+            None => WhiteBalanceChoice::Light(self.illuminant("--white", white)?),
         };
         Ok(())
     }
@@ -241,9 +243,9 @@ impl Request {
         let formula = match telling_words(typed).concat().as_str() {
             "daylight" => "daylight",
             "blackbody" | "planckian" | "planckianradiator" => "blackbody",
-            _ => return self.name(argument, Kind::Illuminant, typed),
+            _ => return self.name(argument, SetKind::Illuminant, typed),
         };
-        let sets = self.catalog.of_kind(Kind::Illuminant).map(|entry| entry.name.as_str());
+        let sets = self.catalog.of_kind(SetKind::Illuminant).map(|entry| entry.name.as_str());
         let sets: Vec<&str> = sets.filter(|name| name.to_lowercase().starts_with(formula)).collect();
         let or =
             if sets.is_empty() { String::new() } else { format!(", or the full name of a set: {}", sets.join(", ")) };
@@ -252,7 +254,7 @@ impl Request {
     }
 
     /// The catalog's name for what was typed; another one than that is said.
-    fn name(&self, argument: &str, kind: Kind, typed: &str) -> Result<String, CliError> {
+    fn name(&self, argument: &str, kind: SetKind, typed: &str) -> Result<String, CliError> {
         let found = find(self.catalog.of_kind(kind), kind.singular(), typed)?;
         tell(argument, typed, &found);
         Ok(found.entry.name.clone())
@@ -280,7 +282,7 @@ impl Request {
         self.read.push(path.to_owned());
         let file = told(path);
         let bytes = read(path).map_err(|error| CliError::File(format!("{file}: {}", reason(&error))))?;
-        let mut wishes = Wishes::for_role(Some(role));
+        let mut wishes = ImportOverrides::for_role(Some(role));
         wishes.options.values = self.values.filter(|_| role.is_fraction());
         let table =
             spectral_file::read(&bytes, &wishes.options).map_err(|error| CliError::File(format!("{file}: {error}")))?;

@@ -5,7 +5,7 @@ mod cct;
 use std::io::Write;
 
 use chromascope_core::query::compare::{locus_distance_uv, locus_distance_xy, patch_difference};
-use chromascope_core::query::{LocusPoint, Metric, NoDifference, PatchColor, Temperatures};
+use chromascope_core::query::{DifferenceError, LocusPoint, Metric, PatchColor, Temperatures};
 use chromascope_core::spectral::Primaries;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
@@ -18,8 +18,8 @@ use super::outputs::Stop;
 use super::radiance::Radiances;
 use super::request::{FIVE, Request};
 use super::{CliError, outputs, say};
-use crate::catalog::{Catalog, Kind};
-use crate::document::{LOCUS_RANGE_K, WayChoice};
+use crate::catalog::{Catalog, SetKind};
+use crate::document::{LOCUS_RANGE_K, TransformChoice};
 use crate::results::Results;
 use crate::scene::conditions::CONDITIONS;
 use crate::scene::{Caution, LOCUS_POINTS, Scene, SceneError};
@@ -54,11 +54,11 @@ pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<
     Ok(say_caution(&scene, &request)?)
 }
 
-/// Writes the locus of a source.
+/// Writes the locus of a sensor.
 fn locus_rows(
     out: &mut dyn Write,
     scene: &Scene<'_>,
-    (kind, name): (Kind, &str),
+    (kind, name): (SetKind, &str),
     temperatures: &Temperatures,
     own: &ReferenceLocus,
 ) -> Result<(), Stop> {
@@ -68,7 +68,7 @@ fn locus_rows(
     let mut length = 0.0;
     for start in (0..temperatures.count()).step_by(PART) {
         let part = Temperatures::List(temperatures.part(start..temperatures.count().min(start + PART)));
-        let reference = scene.locus_at(Kind::Observer, &scene.document.truth, part.clone())?;
+        let reference = scene.locus_at(SetKind::Observer, &scene.document.reference, part.clone())?;
         let locus = scene.locus_at(kind, name, part)?;
         for (point, reference) in locus.points.iter().zip(&reference.points) {
             let step = before.and_then(|before| Some(before.xy?.distance(point.xy?)));
@@ -76,7 +76,7 @@ fn locus_rows(
             // A point without chromaticity is a gap that the length bridges.
             before = if point.xy.is_some() { Some(*point) } else { before };
             let places = [point.xy.map(|p| p.x), point.xy.map(|p| p.y), point.uv.map(|p| p.u), point.uv.map(|p| p.v)];
-            let distance = |measure: fn(&LocusPoint, &LocusPoint) -> Result<f64, NoDifference>| {
+            let distance = |measure: fn(&LocusPoint, &LocusPoint) -> Result<f64, DifferenceError>| {
                 comparable.and_then(|()| measure(reference, point)).ok()
             };
             let rest = [
@@ -160,18 +160,18 @@ pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Res
         Some(radiances) => (radiances.illuminant(), radiances.names.clone()),
         None => (scene.light_name(), scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect()),
     };
-    let colors = |kind: Kind, name: &str| match &radiances {
+    let colors = |kind: SetKind, name: &str| match &radiances {
         Some(radiances) => radiances.colors(&scene, kind, name),
         None => scene.patch_colors(kind, name),
     };
     let conditions = conditions(&scene, &illuminant);
-    let reference = colors(Kind::Observer, &request.document.truth)?;
+    let reference = colors(SetKind::Observer, &request.document.reference)?;
     let mut text = head(PATCHES_HEAD);
     for (kind, name) in &request.sources {
         let comparable = scene.comparable(*kind, name)?;
         // Eq 13 takes RGB as sRGB whatever the sensor: distances between its colors are not ΔE*.
-        let by_eq_13 =
-            request.document.way == WayChoice::Paper && scene.sensor(*kind, name)?.primaries() != Primaries::Xyz;
+        let by_eq_13 = request.document.transform == TransformChoice::Paper
+            && scene.sensor(*kind, name)?.primaries() != Primaries::Xyz;
         for ((patch, color), reference) in names.iter().zip(colors(*kind, name)?).zip(&reference) {
             let difference = |metric: Metric| {
                 let defined = !by_eq_13 || matches!(metric, Metric::UvPrime | Metric::Xy);
@@ -199,21 +199,21 @@ fn color_cells(color: &PatchColor) -> Vec<Option<f64>> {
 /// The names of the built-in sets.
 pub(super) fn list(kind: Option<ListKind>) -> String {
     let catalog = Catalog::built_in();
-    let names = |kind: Kind| -> String {
+    let names = |kind: SetKind| -> String {
         let mut names: Vec<&str> = catalog.of_kind(kind).map(|entry| entry.name.as_str()).collect();
-        if kind == Kind::Chart {
+        if kind == SetKind::Chart {
             names.push(FIVE);
         }
         names.push("");
         names.join("\n")
     };
     match kind {
-        Some(ListKind::Cameras) => names(Kind::Camera),
-        Some(ListKind::Observers) => names(Kind::Observer),
-        Some(ListKind::Charts) => names(Kind::Chart),
-        Some(ListKind::Illuminants) => names(Kind::Illuminant),
-        Some(ListKind::Materials) => names(Kind::Material),
-        None => Kind::ALL.map(names).concat(),
+        Some(ListKind::Cameras) => names(SetKind::Camera),
+        Some(ListKind::Observers) => names(SetKind::Observer),
+        Some(ListKind::Charts) => names(SetKind::Chart),
+        Some(ListKind::Illuminants) => names(SetKind::Illuminant),
+        Some(ListKind::Materials) => names(SetKind::Material),
+        None => SetKind::ALL.map(names).concat(),
     }
 }
 

@@ -33,7 +33,7 @@ fn numbers<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Err
 /// How a person wants a file to be read. What is open is decided by its content.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Wishes {
+pub struct ImportOverrides {
     /// The switches of the reader.
     pub options: ReadOptions,
     /// Which of the file's curves are taken, by their place in it, from 0.
@@ -44,7 +44,7 @@ pub struct Wishes {
     pub per_photon: Option<bool>,
 }
 
-impl Wishes {
+impl ImportOverrides {
     /// Leaves all but the role to the content.
     pub fn for_role(role: Option<Role>) -> Self {
         Self { options: ReadOptions { role, ..ReadOptions::default() }, ..Self::default() }
@@ -75,7 +75,7 @@ pub struct OwnSet {
     pub fingerprint: Option<Fingerprint>,
     /// How a person wanted it read.
     #[serde(default)]
-    pub wishes: Wishes,
+    pub wishes: ImportOverrides,
     /// What it is used as.
     pub role: Role,
     /// The units that the curves were converted from on reading.

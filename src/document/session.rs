@@ -5,7 +5,7 @@ use chromascope_core::query::Shared;
 use super::own::{OwnSet, Role};
 use super::start::Start;
 use super::{DifferenceChoice, Document, MOST_COMPARED, VERSION, kept};
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 
 /// Why a saved document cannot be opened.
 #[derive(Debug, thiserror::Error)]
@@ -51,6 +51,7 @@ pub fn from_json(json: &str) -> Result<Document, SessionError> {
 
 /// A document from JSON without its sets, and these.
 pub(super) fn from_value(mut value: serde_json::Value, own: Vec<OwnSet>) -> Result<Document, SessionError> {
+    rename_fields(&mut value);
     if value.get("version").and_then(serde_json::Value::as_u64) == Some(1) {
         renew(&mut value, &own)?;
     }
@@ -68,6 +69,21 @@ pub(super) fn from_value(mut value: serde_json::Value, own: Vec<OwnSet>) -> Resu
         return Err(SessionError::Compared(document.compared.len()));
     }
     Ok(document)
+}
+
+/// Fields of versions 1 to 3, with their present names.
+const RENAMED_FIELDS: [(&str, &str); 2] = [("truth", "reference"), ("way", "transform")];
+
+/// Gives the fields of earlier versions their present names.
+fn rename_fields(value: &mut serde_json::Value) {
+    let Some(fields) = value.as_object_mut() else { return };
+    for (before, now) in RENAMED_FIELDS {
+        if !fields.contains_key(now)
+            && let Some(field) = fields.remove(before)
+        {
+            fields.insert(now.to_owned(), field);
+        }
+    }
 }
 
 /// Names of built-in sets that version 1 used, with what they are called now.
@@ -90,7 +106,7 @@ fn renew(value: &mut serde_json::Value, own: &[OwnSet]) -> Result<(), SessionErr
     }
     old.insert("version".to_owned(), VERSION.into());
     // ΔE*00 was all that the first version began with; under Eq 13, where it is none, the distance in the diagram takes its place.
-    let was_fitted = old.get("way").is_some_and(|way| way.as_str() != Some("paper"));
+    let was_fitted = old.get("transform").is_some_and(|transform| transform.as_str() != Some("paper"));
     if !was_fitted && old.get("difference").and_then(|d| d.as_str()).is_some_and(|d| d.starts_with("delta-e")) {
         old.remove("difference");
         let diagram = old.get("diagram").and_then(|diagram| diagram.as_str());
@@ -114,9 +130,9 @@ impl Document {
     fn mend(&mut self) {
         let [low, high] = super::LOCUS_RANGE_K;
         self.temperature_k = if self.temperature_k.is_finite() { self.temperature_k.clamp(low, high) } else { 5500.0 };
-        let truth = self.truth.clone();
-        if !self.compared.iter().any(|c| c.kind == Kind::Observer && c.name == truth) {
-            self.compare(&truth, Kind::Observer);
+        let reference = self.reference.clone();
+        if !self.compared.iter().any(|c| c.kind == SetKind::Observer && c.name == reference) {
+            self.compare(&reference, SetKind::Observer);
         }
         self.part_names();
         let mut seen = std::collections::HashSet::new();

@@ -1,8 +1,8 @@
 //! The named starts: what is compared, and under which conditions, on the first screen and after a reset.
 
 use super::render::model::SpecularChoice;
-use super::{CHART, CIE_1931, Document, Light, Subset, TRUTH, WayChoice};
-use crate::catalog::Kind;
+use super::{CHART, CIE_1931, Document, Light, PAPER_REFERENCE, Subset, TransformChoice};
+use crate::catalog::SetKind;
 use serde::{Deserialize, Serialize};
 
 /// A named start.
@@ -45,20 +45,20 @@ impl Start {
     }
 
     /// The sensors that are compared, the reference first.
-    pub const fn sensors(self) -> &'static [(&'static str, Kind)] {
+    pub const fn sensors(self) -> &'static [(&'static str, SetKind)] {
         match self {
             Self::Colorimetry => &[
-                (CIE_1931, Kind::Observer),
-                ("Canon EOS 5D Mark II", Kind::Camera),
-                ("Nikon D70 (A.M.P.A.S.)", Kind::Camera),
-                ("Kodak DCS200", Kind::Camera),
+                (CIE_1931, SetKind::Observer),
+                ("Canon EOS 5D Mark II", SetKind::Camera),
+                ("Nikon D70 (A.M.P.A.S.)", SetKind::Camera),
+                ("Kodak DCS200", SetKind::Camera),
             ],
             Self::Paper => &[
-                (TRUTH, Kind::Observer),
-                ("Canon EOS 10D (2007 figure)", Kind::Camera),
-                ("Nikon D70 (2007 figure)", Kind::Camera),
-                ("Kodak DCS200", Kind::Camera),
-                (CIE_1931, Kind::Observer),
+                (PAPER_REFERENCE, SetKind::Observer),
+                ("Canon EOS 10D (2007 figure)", SetKind::Camera),
+                ("Nikon D70 (2007 figure)", SetKind::Camera),
+                ("Kodak DCS200", SetKind::Camera),
+                (CIE_1931, SetKind::Observer),
             ],
         }
     }
@@ -75,11 +75,11 @@ impl Start {
     pub fn document(self) -> Document {
         let mut document = Document::blank(self);
         if self == Self::Colorimetry {
-            CIE_1931.clone_into(&mut document.truth);
+            CIE_1931.clone_into(&mut document.reference);
             document.light = Light::Set("D65".to_owned());
             CHART.clone_into(&mut document.chart);
             document.subset = Subset::All;
-            document.set_transform(WayChoice::Observer(CIE_1931.to_owned()));
+            document.set_transform(TransformChoice::Observer(CIE_1931.to_owned()));
         }
         document.render.specular = self.specular();
         for (name, kind) in self.sensors() {

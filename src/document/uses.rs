@@ -2,9 +2,9 @@
 
 use super::own::OwnSet;
 use super::render::RenderSettings;
-use super::{CHART, Document, LIGHT, Light, Subset, WhiteChoice};
+use super::{CHART, Document, LIGHT, Light, Subset, WhiteBalanceChoice};
 use crate::catalog::names::caseless;
-use crate::catalog::{Entry, Kind, is_built_in};
+use crate::catalog::{Entry, SetKind, is_built_in};
 use chromascope_core::query::Shared;
 use std::collections::{HashMap, HashSet};
 
@@ -22,7 +22,7 @@ pub enum Holder {
 
 impl Document {
     /// What has a name that an own set of a kind is to have; none if it is free. `except` is the place of the set itself.
-    pub fn holder_of(&self, kind: Kind, name: &str, except: Option<usize>) -> Option<Holder> {
+    pub fn holder_of(&self, kind: SetKind, name: &str, except: Option<usize>) -> Option<Holder> {
         let wanted = caseless(name);
         let is_taken = |(index, set): (usize, &Shared<OwnSet>)| Some(index) != except && caseless(&set.name) == wanted;
         let own = self.own.iter().enumerate().any(is_taken);
@@ -35,7 +35,7 @@ impl Document {
 
     /// A name that no other set of the kind has and no other own set: `Nikon D70 (own)` beside a built-in one, else
     /// `leaf (2)`.
-    pub fn free_name(&self, kind: Kind, wanted: &str, except: Option<usize>) -> String {
+    pub fn free_name(&self, kind: SetKind, wanted: &str, except: Option<usize>) -> String {
         let others = self.own.iter().enumerate().filter(|(index, _)| Some(*index) != except);
         let taken: HashSet<String> = others.map(|(_, set)| caseless(&set.name)).collect();
         free_name(kind, wanted, &taken, &mut HashMap::new())
@@ -44,54 +44,56 @@ impl Document {
     /// Shows what was just opened: a camera in the list, a chart as the patches, a light as the light.
     pub fn put_to_use(&mut self, set: &Shared<OwnSet>) {
         match Entry::from_own(set).kind {
-            Kind::Camera | Kind::Observer => self.compare(&set.name, Kind::Camera),
-            Kind::Chart | Kind::Material => {
+            SetKind::Camera | SetKind::Observer => self.compare(&set.name, SetKind::Camera),
+            SetKind::Chart | SetKind::Material => {
                 self.chart.clone_from(&set.name);
                 self.subset = Subset::All;
             }
-            Kind::Illuminant => self.light = Light::Set(set.name.clone()),
-            Kind::Unsorted => {}
+            SetKind::Illuminant => self.light = Light::Set(set.name.clone()),
+            SetKind::Unsorted => {}
         }
     }
 
     /// Shows what was opened among others: a camera, while there are places for more.
     pub fn put_beside(&mut self, set: &Shared<OwnSet>) {
-        let shown = self.compared.iter().filter(|compared| compared.kind == Kind::Camera).count();
-        if Entry::from_own(set).kind == Kind::Camera && shown < PLACES {
-            self.compare(&set.name, Kind::Camera);
+        let shown = self.compared.iter().filter(|compared| compared.kind == SetKind::Camera).count();
+        if Entry::from_own(set).kind == SetKind::Camera && shown < PLACES {
+            self.compare(&set.name, SetKind::Camera);
         }
     }
 
     /// Keeps an own set that has another name now in the uses it had; it gets no others.
-    pub fn follow_name(&mut self, kind: Kind, old: &str, new: &str) {
+    pub fn follow_name(&mut self, kind: SetKind, old: &str, new: &str) {
         match kind {
-            Kind::Camera | Kind::Observer => {
-                for compared in self.compared.iter_mut().filter(|c| c.kind == Kind::Camera && c.name == old) {
+            SetKind::Camera | SetKind::Observer => {
+                for compared in self.compared.iter_mut().filter(|c| c.kind == SetKind::Camera && c.name == old) {
                     new.clone_into(&mut compared.name);
                 }
             }
-            Kind::Chart | Kind::Material => {
+            SetKind::Chart | SetKind::Material => {
                 for used in [&mut self.chart, &mut self.render.material].into_iter().filter(|used| *used == old) {
                     new.clone_into(used);
                 }
             }
-            Kind::Illuminant => {
+            SetKind::Illuminant => {
                 if self.light == Light::Set(old.to_owned()) {
                     self.light = Light::Set(new.to_owned());
                 }
-                if self.white == WhiteChoice::Light(old.to_owned()) {
-                    self.white = WhiteChoice::Light(new.to_owned());
+                if self.white == WhiteBalanceChoice::Light(old.to_owned()) {
+                    self.white = WhiteBalanceChoice::Light(new.to_owned());
                 }
             }
-            Kind::Unsorted => {}
+            SetKind::Unsorted => {}
         }
     }
 
     /// Takes an own set that is no more out of use.
-    pub fn forget_name(&mut self, kind: Kind, name: &str) {
+    pub fn forget_name(&mut self, kind: SetKind, name: &str) {
         match kind {
-            Kind::Camera | Kind::Observer => self.compared.retain(|c| c.kind != Kind::Camera || c.name != name),
-            Kind::Chart | Kind::Material => {
+            SetKind::Camera | SetKind::Observer => {
+                self.compared.retain(|c| c.kind != SetKind::Camera || c.name != name)
+            }
+            SetKind::Chart | SetKind::Material => {
                 if self.chart == name {
                     CHART.clone_into(&mut self.chart);
                     self.subset = Subset::Five;
@@ -100,15 +102,15 @@ impl Document {
                     self.render.material = RenderSettings::default().material;
                 }
             }
-            Kind::Illuminant => {
+            SetKind::Illuminant => {
                 if self.light == Light::Set(name.to_owned()) {
                     self.light = Light::Set(LIGHT.to_owned());
                 }
-                if self.white == WhiteChoice::Light(name.to_owned()) {
-                    self.white = WhiteChoice::Unity;
+                if self.white == WhiteBalanceChoice::Light(name.to_owned()) {
+                    self.white = WhiteBalanceChoice::Unity;
                 }
             }
-            Kind::Unsorted => {}
+            SetKind::Unsorted => {}
         }
     }
 
@@ -117,7 +119,7 @@ impl Document {
         let mut taken: HashSet<String> = self.own.iter().map(|set| caseless(&set.name)).collect();
         let (mut seen, mut numbers) = (HashSet::new(), HashMap::new());
         for index in 0..self.own.len() {
-            let (kind, old) = (Kind::of_own(&self.own[index]), self.own[index].name.clone());
+            let (kind, old) = (SetKind::of_own(&self.own[index]), self.own[index].name.clone());
             // Of two own sets with one name the second was never reached by it.
             let earlier = !seen.insert(caseless(&old));
             if !earlier && !is_built_in(kind, &old) {
@@ -150,7 +152,7 @@ impl Document {
 
 /// A name that is not among those taken (without case) and not built in. `numbers` remembers up to which number the names of a
 /// stem are taken.
-fn free_name(kind: Kind, wanted: &str, taken: &HashSet<String>, numbers: &mut HashMap<String, usize>) -> String {
+fn free_name(kind: SetKind, wanted: &str, taken: &HashSet<String>, numbers: &mut HashMap<String, usize>) -> String {
     let is_free = |name: &str| !taken.contains(&caseless(name)) && !is_built_in(kind, name);
     let marked = format!("{wanted} (own)");
     if is_free(wanted) {

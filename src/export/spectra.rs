@@ -4,8 +4,8 @@ use chromascope_core::query::Ask;
 use chromascope_core::spectral::{Header, Response, SpectralDistribution};
 use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
 
-use crate::catalog::load::{FileOf, LoadError};
-use crate::catalog::{Entry, Kind, Place};
+use crate::catalog::load::{FileQuery, LoadError};
+use crate::catalog::{Entry, Place, SetKind};
 use crate::document::own::{OwnSet, Role};
 use crate::files::fitting;
 
@@ -110,7 +110,7 @@ pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, Sp
 fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
     match place {
         Place::BuiltIn { path, column } => {
-            let file = ask.ask(&FileOf(path));
+            let file = ask.ask(&FileQuery(path));
             let file = (*file).as_ref().map_err(Clone::clone)?;
             let named = file.header.columns.iter().cloned().zip(file.curves.iter().cloned()).enumerate();
             let wanted = named.filter(|(index, _)| column.is_none_or(|column| column == *index));
@@ -131,7 +131,7 @@ fn content(entry: &Entry) -> Content<'_> {
         (None, Place::BuiltIn { .. }) => Response::Unknown,
     };
     match entry.kind {
-        Kind::Camera => {
+        SetKind::Camera => {
             let (manufacturer, model) = maker_and_model(&entry.name);
             Content::Camera {
                 channels: if let Place::Own(set) = &entry.place { set.channels } else { [0, 1, 2] },
@@ -144,13 +144,13 @@ fn content(entry: &Entry) -> Content<'_> {
                 model,
             }
         }
-        Kind::Observer => Content::Observer,
-        Kind::Chart | Kind::Material => match &entry.place {
+        SetKind::Observer => Content::Observer,
+        SetKind::Chart | SetKind::Material => match &entry.place {
             Place::Own(set) if set.role == Role::Transmittance => Content::Transmittance,
             _ => Content::Reflectance,
         },
-        Kind::Illuminant => Content::Illuminant,
-        Kind::Unsorted => Content::Other,
+        SetKind::Illuminant => Content::Illuminant,
+        SetKind::Unsorted => Content::Other,
     }
 }
 
@@ -163,7 +163,7 @@ fn facts(entry: &Entry) -> Facts<'_> {
     Facts { title: &entry.name, content: content(entry), unit, comments }
 }
 
-fn header_comments(kind: Kind, header: &Header) -> Vec<(String, String)> {
+fn header_comments(kind: SetKind, header: &Header) -> Vec<(String, String)> {
     let mut comments =
         vec![("source".to_owned(), header.source.clone()), ("license".to_owned(), header.license.clone())];
     if let Some(origin) = &header.origin {
@@ -171,7 +171,7 @@ fn header_comments(kind: Kind, header: &Header) -> Vec<(String, String)> {
     }
     comments.extend(header.notes.iter().map(|note| ("note".to_owned(), note.clone())));
     // Formats have a place for what a camera responds to, but not for the evidence; for observers all is said in words.
-    if let Some(response) = header.response.as_ref().filter(|_| matches!(kind, Kind::Camera | Kind::Observer)) {
+    if let Some(response) = header.response.as_ref().filter(|_| matches!(kind, SetKind::Camera | SetKind::Observer)) {
         comments.push(("note".to_owned(), format!("Response: {response}.")));
     }
     comments

@@ -4,8 +4,8 @@ use chromascope_figure::{Cell, Figure, InkRole, LegendEntry, LegendPlace, Marker
 
 use super::pareto::{self, Place, duration};
 use crate::bench::{Measurement, Report, Workload};
-use crate::laboratory::{Conditions, Family, Point, SceneRun, Subject, Trial};
 use crate::number::number;
+use crate::profiler::{Conditions, Family, Point, SceneRun, Subject, Trial};
 use crate::view::View;
 use crate::view::accuracy::Shows;
 

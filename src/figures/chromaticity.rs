@@ -1,4 +1,4 @@
-//! The diagram: loci with temperature ticks, patches with tails to the truth's points, and what surrounds them.
+//! The diagram: loci with temperature ticks, patches with tails to the reference's points, and what surrounds them.
 
 mod ground;
 mod loci;
@@ -12,9 +12,9 @@ use chromascope_figure::{
 
 use chromascope_core::spectral::sensor::TAIL_BELOW_K;
 
-use crate::document::{Diagram, WayChoice};
-use crate::scene::{Scene, Source};
-use crate::thing::{SourceId, Things};
+use crate::document::{Diagram, TransformChoice};
+use crate::plot_item::{PickIndex, SensorId};
+use crate::scene::{ComparedSensor, Scene};
 use crate::view::{DiagramFit, View};
 
 pub use points::{blackbody_distance, describe, distance_symbol, patch_xy};
@@ -25,8 +25,8 @@ pub struct Built {
     /// The panel.
     pub panel: Panel,
     /// What its marks stand for.
-    pub things: Things,
-    /// Sources that could not be drawn, with why.
+    pub things: PickIndex,
+    /// Sensors that could not be drawn, with why.
     pub refused: Vec<String>,
 }
 
@@ -36,7 +36,7 @@ struct Drawing<'a> {
     view: &'a View,
     diagram: Diagram,
     marks: Vec<Mark>,
-    things: Things,
+    things: PickIndex,
     refused: Vec<String>,
     /// All that the ranges have to hold.
     data: Vec<[f64; 2]>,
@@ -63,9 +63,9 @@ impl Drawing<'_> {
 /// Coordinates that the data's fit takes in; real colors lie between 0 and 0.85.
 const NEAR: std::ops::RangeInclusive<f64> = -0.25..=1.1;
 
-/// A source's identity.
-pub(crate) fn id(source: &Source) -> SourceId {
-    SourceId { kind: source.kind, name: source.name.clone() }
+/// A sensor's identity.
+pub(crate) fn id(source: &ComparedSensor) -> SensorId {
+    SensorId { kind: source.kind, name: source.name.clone() }
 }
 
 /// The names of the coordinates.
@@ -84,12 +84,12 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
         view,
         diagram,
         marks: Vec::new(),
-        things: Things::default(),
+        things: PickIndex::default(),
         refused: Vec::new(),
         data: Vec::new(),
     };
     ground::add(&mut drawing);
-    let sources: Vec<Source> = scene.sources().into_iter().filter(|source| source.visible).collect();
+    let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
     if scene.document.overlays.camera_spectral_loci {
         loci::add_monochromatic(&mut drawing, &sources);
     }
@@ -139,14 +139,14 @@ pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Pane
         view: &view,
         diagram,
         marks: Vec::new(),
-        things: Things::default(),
+        things: PickIndex::default(),
         refused: Vec::new(),
         data: Vec::new(),
     };
     ground::add_area(&mut drawing, 1.0);
     let [x, y] = shown;
     let frame = Shape::Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
-    drawing.marks.push(Mark::new(Things::NONE, "shown", frame).with_stroke(InkRole::Text, 1.5));
+    drawing.marks.push(Mark::new(PickIndex::NONE, "shown", frame).with_stroke(InkRole::Text, 1.5));
     let [x, y] = ranges(&drawing, DiagramFit::Whole);
     let mut panel = Panel::new("Overview", Rect::from_min_size([0.0, 0.0], size), Axis::hidden(x), Axis::hidden(y));
     panel.equal_aspect = true;
@@ -177,9 +177,9 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
     figure
 }
 
-fn legend_entry(source: &Source) -> LegendEntry {
+fn legend_entry(source: &ComparedSensor) -> LegendEntry {
     LegendEntry {
-        name: if source.is_truth { format!("{} (reference)", source.label) } else { source.label.clone() },
+        name: if source.is_reference { format!("{} (reference)", source.label) } else { source.label.clone() },
         stroke: Some(Stroke::solid(source.role, source.width)),
         marker: Some(source.marker),
         fill: source.marker.has_inside().then(|| source.role.into()),
@@ -188,7 +188,8 @@ fn legend_entry(source: &Source) -> LegendEntry {
 
 /// The conditions of a diagram in sentences.
 pub fn caption(scene: &Scene<'_>) -> String {
-    let cut = |source: &&Source| source.visible && scene.extrapolated_below(source.kind, &source.name).is_some();
+    let cut =
+        |source: &&ComparedSensor| source.visible && scene.extrapolated_below(source.kind, &source.name).is_some();
     let cut: Vec<String> = scene.sources().iter().filter(cut).map(|source| source.label.clone()).collect();
     let dotted = if cut.is_empty() {
         String::new()
@@ -200,17 +201,17 @@ pub fn caption(scene: &Scene<'_>) -> String {
 
 /// The conditions in sentences.
 pub fn conditions(scene: &Scene<'_>) -> String {
-    let way = match &scene.document.way {
-        WayChoice::Paper => "Paper matrix (Eq 13), CIE observers drawn directly".to_owned(),
-        WayChoice::Observer(name) => format!("3×3 matrices fitted to {name} over 190 training reflectances"),
+    let transform = match &scene.document.transform {
+        TransformChoice::Paper => "Paper matrix (Eq 13), CIE observers drawn directly".to_owned(),
+        TransformChoice::Observer(name) => format!("3×3 matrices fitted to {name} over 190 training reflectances"),
     };
-    format!("{} Patches: {}. Color transform: {way}.", viewing_conditions(scene), scene.document.chart)
+    format!("{} Patches: {}. Color transform: {transform}.", viewing_conditions(scene), scene.document.chart)
 }
 
 /// The conditions that have nothing to do with patches and diagram, in sentences.
 pub fn viewing_conditions(scene: &Scene<'_>) -> String {
     let white = scene.document.white.name();
-    format!("Reference: {}. Light: {}. White balance: {white}.", scene.document.truth, scene.light_name())
+    format!("Reference: {}. Light: {}. White balance: {white}.", scene.document.reference, scene.light_name())
 }
 
 /// All points as numbers.
@@ -228,7 +229,7 @@ fn table(scene: &Scene<'_>) -> Table {
         "distance_uv",
         "extrapolated",
     ]);
-    let truth_locus = scene.locus(crate::catalog::Kind::Observer, &scene.document.truth).ok();
+    let reference_locus = scene.locus(crate::catalog::SetKind::Observer, &scene.document.reference).ok();
     for source in scene.sources().iter().filter(|source| source.visible) {
         let comparable = matches!(scene.comparable(source.kind, &source.name), Ok(Ok(())));
         let near = |xy: Option<Xy>, uv: Option<UvPrime>, txy: Option<Xy>, tuv: Option<UvPrime>| {
@@ -239,21 +240,22 @@ fn table(scene: &Scene<'_>) -> Table {
         let below = scene.extrapolated_below(source.kind, &source.name).map_or(0.0, |(below, _)| below);
         if let Ok(locus) = scene.locus(source.kind, &source.name) {
             for (index, point) in locus.points.iter().enumerate() {
-                let truth = truth_locus.as_ref().and_then(|truth| truth.points.get(index));
-                let [dxy, duv] = near(point.xy, point.uv, truth.and_then(|t| t.xy), truth.and_then(|t| t.uv));
+                let reference = reference_locus.as_ref().and_then(|reference| reference.points.get(index));
+                let [dxy, duv] = near(point.xy, point.uv, reference.and_then(|t| t.xy), reference.and_then(|t| t.uv));
                 let temperature = Cell::from(point.temperature.get());
                 let extrapolated = if point.temperature.get() < below { "true" } else { "false" };
                 let places = row(&source.label, "locus", temperature, Cell::Empty, point.xy, point.uv, dxy, duv);
                 table.push(places.into_iter().chain([Cell::from(extrapolated)]));
             }
         }
-        let truth = scene.patch_colors(crate::catalog::Kind::Observer, &scene.document.truth).unwrap_or_default();
+        let reference =
+            scene.patch_colors(crate::catalog::SetKind::Observer, &scene.document.reference).unwrap_or_default();
         let (Ok(colors), Ok(patches)) = (scene.patch_colors(source.kind, &source.name), scene.patches()) else {
             continue;
         };
         for (index, (color, patch)) in colors.iter().zip(patches.patches()).enumerate() {
-            let truth = truth.get(index);
-            let [dxy, duv] = near(color.xy, color.uv, truth.and_then(|t| t.xy), truth.and_then(|t| t.uv));
+            let reference = reference.get(index);
+            let [dxy, duv] = near(color.xy, color.uv, reference.and_then(|t| t.xy), reference.and_then(|t| t.uv));
             let places =
                 row(&source.label, "patch", Cell::Empty, Cell::from(patch.name.as_str()), color.xy, color.uv, dxy, duv);
             table.push(places.into_iter().chain([Cell::Empty]));

@@ -12,12 +12,12 @@ use chromascope_figure::{
 
 pub(crate) use drawn::sentence;
 pub use drawn::{Curve, Curves};
-pub use kept::Kept;
-pub use on_show::{OnShow, places};
+pub use kept::CurveCache;
+pub use on_show::{ImportSelection, places};
 
 use crate::number::number;
+use crate::plot_item::PickIndex;
 use crate::scene::Scene;
-use crate::thing::Things;
 use crate::view::View;
 
 /// At most so many curves are drawn.
@@ -112,7 +112,7 @@ fn ink(curve: &Curve, count: usize, on: bool) -> Ink {
         Some(channel) => [6, 2, 1][channel.min(2)],
         None => (5 + curve.order) % 8,
     };
-    let ink = Ink::new(InkRole::Source(u8::try_from(slot).unwrap_or(0)));
+    let ink = Ink::new(InkRole::Sensor(u8::try_from(slot).unwrap_or(0)));
     if count > 20 && !on { ink.faded(0.6) } else { ink }
 }
 
@@ -120,12 +120,12 @@ fn ink(curve: &Curve, count: usize, on: bool) -> Ink {
 fn visible(range: [f64; 2]) -> Mark {
     let shape = Shape::Rect { min: [FIRST_NM, range[0]], max: [LAST_NM, range[1]] };
     let name = format!("visible range, {FIRST_NM:.0} to {LAST_NM:.0} nm");
-    Mark::new(Things::NONE, name, shape).with_fill(Ink::new(InkRole::Text).faded(0.06))
+    Mark::new(PickIndex::NONE, name, shape).with_fill(Ink::new(InkRole::Text).faded(0.06))
 }
 
 fn zero(range: [f64; 2]) -> Mark {
     let points = vec![[range[0], 0.0], [range[1], 0.0]];
-    Mark::new(Things::NONE, "zero", Shape::Line { points, closed: false }).with_stroke(InkRole::Weak, 1.0)
+    Mark::new(PickIndex::NONE, "zero", Shape::Line { points, closed: false }).with_stroke(InkRole::Weak, 1.0)
 }
 
 /// What a curve reads near a wavelength: lines of text.
@@ -141,7 +141,7 @@ pub fn describe(curves: &Curves, place: usize, nm: f64) -> Vec<String> {
 
 /// The figure as it is saved, with the values of all curves that are taken.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
-    let shown = OnShow::of(scene, view)?;
+    let shown = ImportSelection::of(scene, view)?;
     let curves = Curves::of(&shown, usize::MAX).ok()?;
     let mut drawn = curves.clone();
     drawn.cut(DRAWN);

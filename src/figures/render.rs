@@ -9,10 +9,10 @@ use chromascope_figure::{Anchor, Cell, Figure, Image, Ink, Mark, Panel, Rect, Sh
 use self::headline::Detail;
 use super::chromaticity::viewing_conditions;
 use crate::document::render::{MeshChoice, RoughnessChoice};
+use crate::plot_item::{PickIndex, SensorId};
+use crate::render_service::RenderedFrame;
+use crate::render_service::pixel::{self, LitPixel, PixelReading, PixelShows};
 use crate::scene::Scene;
-use crate::studio::Shot;
-use crate::studio::pixel::{self, LitPixel, PixelReading, PixelShows};
-use crate::thing::{SourceId, Things};
 use crate::view::View;
 use crate::view::render::{PixelPlace, RenderMode, RenderView};
 use crate::widgets::lines::fixed;
@@ -24,8 +24,8 @@ const CAPTION: f64 = 20.0;
 /// The gap between pictures.
 const GAP: f64 = 8.0;
 
-/// A source's index among the pictures.
-pub fn index_of(shot: &Shot, id: &SourceId) -> Option<usize> {
+/// A sensor's index among the pictures.
+pub fn index_of(shot: &RenderedFrame, id: &SensorId) -> Option<usize> {
     shot.sources.iter().position(|source| source.kind == id.kind && source.name == id.name)
 }
 
@@ -56,14 +56,14 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
         let x = GAP + (place % columns) as f64 * (WIDTH + GAP);
         let y = GAP + (place / columns) as f64 * (height + CAPTION + GAP);
         let source = &shot.sources[at];
-        let label = if source.is_truth { format!("Reference, {}", source.label) } else { source.label.clone() };
+        let label = if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() };
         let difference = made.differences.get(at).and_then(Option::as_ref);
         let measure = headline::measure(scene.document);
-        let detail = if maps.is_some() { Detail::Measure } else { Detail::Quantiles };
+        let detail = if maps.is_some() { Detail::SpectralWeights } else { Detail::Quantiles };
         let note = difference.map(|difference| headline::words(difference, measure, detail));
         let middle = y + CAPTION / 2.0;
         let marker = Shape::Points { points: vec![[x + 7.0, middle]], marker: source.marker, radius: 5.0 };
-        let mark = Mark::new(Things::NONE, label.clone(), marker).with_stroke(ink, 1.5);
+        let mark = Mark::new(PickIndex::NONE, label.clone(), marker).with_stroke(ink, 1.5);
         panel.marks.push(if source.marker.has_inside() { mark.with_fill(ink) } else { mark });
         panel.marks.push(text(&label, [x + 18.0, middle], Anchor::LEFT, ink));
         if let Some(note) = note {
@@ -77,7 +77,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
             let image = Image { width, height: height_in_pixels, rgba: rgba.into() };
             let top = y + CAPTION;
             let shape = Shape::Image { min: [x, top + height], max: [x + WIDTH, top], image };
-            panel.marks.push(Mark::new(Things::NONE, format!("{label}, picture"), shape));
+            panel.marks.push(Mark::new(PickIndex::NONE, format!("{label}, picture"), shape));
         }
     }
     if let Some(end) = maps {
@@ -92,7 +92,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
         }
         None => caption(scene),
     };
-    if shown.len() > 1 || !shot.sources.iter().all(|source| source.is_truth) {
+    if shown.len() > 1 || !shot.sources.iter().all(|source| source.is_reference) {
         figure.caption = format!("{} {}", figure.caption, headline::MEANING);
     }
     figure.table = table(shot, headline::measure(scene.document));
@@ -101,7 +101,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
 
 fn text(words: &str, at: [f64; 2], anchor: Anchor, ink: Ink) -> Mark {
     let shape = Shape::Text { at, text: words.to_owned(), anchor, offset: [0.0, 0.0], size: TextSize::Body, ink };
-    Mark::new(Things::NONE, words, shape)
+    Mark::new(PickIndex::NONE, words, shape)
 }
 
 /// What a mesh is called.
@@ -134,7 +134,7 @@ fn caption(scene: &Scene<'_>) -> String {
     )
 }
 
-fn table(shot: &Shot, measure: &str) -> Table {
+fn table(shot: &RenderedFrame, measure: &str) -> Table {
     let mut table = Table::new([
         "sensor",
         "mean_of_lit",
@@ -162,7 +162,7 @@ fn table(shot: &Shot, measure: &str) -> Table {
             Cell::from(picture.map(|picture| picture.width as f64)),
             Cell::from(picture.map(|picture| picture.height as f64)),
             Cell::from(shot.time.as_secs_f64() * 1e3),
-            Cell::from(if source.is_truth { "" } else { measure }),
+            Cell::from(if source.is_reference { "" } else { measure }),
             Cell::from(difference.and_then(|difference| difference.facing)),
             Cell::from(bright.map(|bright| bright.median)),
             Cell::from(bright.map(|bright| bright.p95)),
@@ -172,7 +172,7 @@ fn table(shot: &Shot, measure: &str) -> Table {
     table
 }
 
-/// The pixel at a place of a source's picture.
+/// The pixel at a place of a sensor's picture.
 pub fn pixel_of(scene: &Scene<'_>, render: &RenderView, place: &PixelPlace) -> Option<PixelReading> {
     let shot = render.shot.as_deref()?;
     pixel::read(shot, scene.results, index_of(shot, &place.source)?, place.at)

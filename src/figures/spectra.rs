@@ -11,10 +11,10 @@ use chromascope_figure::{
 };
 
 use super::chromaticity::{caption, id};
-use crate::catalog::Kind;
-use crate::document::{REFERENCE, Subset};
-use crate::scene::{Scene, Source};
-use crate::thing::{Thing, Things};
+use crate::catalog::SetKind;
+use crate::document::{FIT_TARGET, Subset};
+use crate::plot_item::{PickIndex, PlotItem};
+use crate::scene::{ComparedSensor, Scene};
 use crate::view::{SpectraLayout, View};
 
 /// The panels with what their curves stand for.
@@ -23,7 +23,7 @@ pub struct Built {
     /// The panels, from the light down, the wavelengths written under the last.
     pub panels: Vec<Panel>,
     /// What the curves stand for.
-    pub things: Things,
+    pub things: PickIndex,
     /// What could not be drawn, with why.
     pub refused: Vec<String>,
 }
@@ -33,8 +33,8 @@ const FOOT: f64 = 28.0;
 
 /// Builds the panels for an area of the given size.
 pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
-    let mut built = Built { panels: Vec::new(), things: Things::default(), refused: Vec::new() };
-    let sources: Vec<Source> = scene.sources().into_iter().filter(|source| source.visible).collect();
+    let mut built = Built { panels: Vec::new(), things: PickIndex::default(), refused: Vec::new() };
+    let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
     let each = view.saved.spectra_layout == SpectraLayout::Each;
     let mut contents: Vec<(String, Vec<Mark>, [f64; 2], f64)> = Vec::new();
     if let Some((note, marks)) = light(scene, &mut built) {
@@ -93,7 +93,7 @@ fn with_room(note: &str, marks: &[Mark], [low, high]: [f64; 2], [width, height]:
 /// Faint lines at the hundreds of nanometers, since the axis is written only once, and at zero.
 fn hundreds(range: [f64; 2]) -> Vec<Mark> {
     let line = |a: [f64; 2], b: [f64; 2]| {
-        Mark::new(Things::NONE, "grid", Shape::Line { points: vec![a, b], closed: false })
+        Mark::new(PickIndex::NONE, "grid", Shape::Line { points: vec![a, b], closed: false })
             .with_stroke(InkRole::Grid, 1.0)
     };
     let mut marks: Vec<Mark> = [400.0, 500.0, 600.0, 700.0].map(|nm| line([nm, range[0]], [nm, range[1]])).into();
@@ -112,12 +112,12 @@ fn foot(scene: &Scene<'_>, area: Rect, large: bool) -> Panel {
     let y = Axis::new("", [0.0, 1.0]).with_ticks(if large { Ticks::At(Vec::new()) } else { Ticks::None });
     let mut panel = Panel::new("wavelength", area, x, y);
     panel.framed = false;
-    if let Ok(observer) = scene.sensor(Kind::Observer, REFERENCE) {
+    if let Ok(observer) = scene.sensor(SetKind::Observer, FIT_TARGET) {
         let colors = (0..COUNT).map(wavelength_nm).map(|nm| wavelength_color(&observer, nm));
         let rgba: Vec<u8> = colors.flat_map(|[r, g, b]| [r, g, b, 255]).collect();
         let image = Image { width: COUNT, height: 1, rgba: Arc::from(rgba) };
         let shape = Shape::Image { min: [FIRST_NM, 0.0], max: [LAST_NM, 1.0], image };
-        panel.marks.push(Mark::new(Things::NONE, "colors of the wavelengths", shape));
+        panel.marks.push(Mark::new(PickIndex::NONE, "colors of the wavelengths", shape));
     }
     panel
 }
@@ -131,7 +131,7 @@ fn light(scene: &Scene<'_>, built: &mut Built) -> Option<(String, Vec<Mark>)> {
             return None;
         }
     };
-    let tag = built.things.tag(Thing::Light);
+    let tag = built.things.tag(PlotItem::Light);
     let within = |nm: f64| (FIRST_NM..=LAST_NM).contains(&nm);
     let samples = light.measured.wavelengths_nm().iter().zip(light.measured.values());
     let peak = samples.filter(|(nm, _)| within(**nm)).map(|(_, v)| v.abs()).fold(0.0, f64::max);
@@ -140,7 +140,7 @@ fn light(scene: &Scene<'_>, built: &mut Built) -> Option<(String, Vec<Mark>)> {
     Some((format!("light: {name}"), marks))
 }
 
-/// The patches, each in the color that the truth sees.
+/// The patches, each in the color that the reference sees.
 fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<(String, Vec<Mark>, f64)> {
     let patches = match scene.patches() {
         Ok(patches) => patches,
@@ -149,11 +149,11 @@ fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<(String, Vec<Mark>, f
             return None;
         }
     };
-    let colors = scene.patch_colors(Kind::Observer, &scene.document.truth).unwrap_or_default();
+    let colors = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
     let mut top = 1.0_f64;
     let mut marks = Vec::new();
     for (index, patch) in patches.patches().iter().enumerate() {
-        let tag = built.things.tag(Thing::Patch { source: None, patch: patch.name.clone() });
+        let tag = built.things.tag(PlotItem::Patch { source: None, patch: patch.name.clone() });
         let ink = colors.get(index).map_or(Ink::new(InkRole::Text), |color| Ink::rgb(color.srgb.bytes));
         top = patch.grid.values().iter().copied().fold(top, f64::max);
         // A casing keeps a black patch apart from a black ground, and a white one from a white one.
@@ -169,8 +169,8 @@ fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<(String, Vec<Mark>, f
     Some((note, marks, top * 1.08))
 }
 
-/// Sensitivities of sources, each curve to its own peak; and how far below zero they go.
-fn sensitivities(scene: &Scene<'_>, sources: &[Source], built: &mut Built) -> (Vec<Mark>, f64) {
+/// Sensitivities of sensors, each curve to its own peak; and how far below zero they go.
+fn sensitivities(scene: &Scene<'_>, sources: &[ComparedSensor], built: &mut Built) -> (Vec<Mark>, f64) {
     let mut marks = Vec::new();
     let mut low = -0.04_f64;
     for source in sources.iter().rev() {
@@ -181,13 +181,13 @@ fn sensitivities(scene: &Scene<'_>, sources: &[Source], built: &mut Built) -> (V
                 continue;
             }
         };
-        let tag = built.things.tag(Thing::Source(id(source)));
+        let tag = built.things.tag(PlotItem::Sensor(id(source)));
         for (channel, spectrum) in sensor.primaries().channels().iter().zip(sensor.curves()) {
             let peak = spectrum.values().iter().copied().fold(0.0, f64::max);
             let least = spectrum.values().iter().copied().fold(0.0, f64::min);
             low = low.min(1.1 * least / peak.max(f64::MIN_POSITIVE));
             let name = format!("{} {channel}", source.label);
-            let width = if source.is_truth { 3.0 } else { source.width };
+            let width = if source.is_reference { 3.0 } else { source.width };
             marks.extend(curve(tag, &name, spectrum, peak, source.role.into(), width, false));
         }
     }
@@ -280,7 +280,7 @@ fn table(scene: &Scene<'_>) -> Table {
 }
 
 /// What a thing's curves read at a wavelength: lines of text.
-pub fn describe(scene: &Scene<'_>, thing: &Thing, nm: f64) -> Vec<String> {
+pub fn describe(scene: &Scene<'_>, thing: &PlotItem, nm: f64) -> Vec<String> {
     let index = ((nm - FIRST_NM).round().max(0.0) as usize).min(COUNT - 1);
     let at = format!("{:.0} nm", wavelength_nm(index));
     let measured = |curve: &SpectralDistribution| {
@@ -288,7 +288,7 @@ pub fn describe(scene: &Scene<'_>, thing: &Thing, nm: f64) -> Vec<String> {
         format!("measured {first}–{last} nm")
     };
     match thing {
-        Thing::Light => match scene.light() {
+        PlotItem::Light => match scene.light() {
             Ok(light) => vec![
                 format!("light {}", scene.light_name()),
                 format!("{at}: {:.4} (relative)", light.grid.values()[index]),
@@ -296,7 +296,7 @@ pub fn describe(scene: &Scene<'_>, thing: &Thing, nm: f64) -> Vec<String> {
             ],
             Err(error) => vec![error.to_string()],
         },
-        Thing::Patch { patch, .. } => {
+        PlotItem::Patch { patch, .. } => {
             let set = scene.patches().ok();
             let found = set.as_ref().and_then(|set| set.patches().iter().find(|p| p.name == *patch));
             found.map_or_else(Vec::new, |found| {
@@ -305,7 +305,7 @@ pub fn describe(scene: &Scene<'_>, thing: &Thing, nm: f64) -> Vec<String> {
                 vec![patch.clone(), format!("{at}: {value:.4}"), format!("{}{held}", measured(&found.measured))]
             })
         }
-        Thing::Source(source) | Thing::Radiator { source, .. } => match scene.sensor(source.kind, &source.name) {
+        PlotItem::Sensor(source) | PlotItem::Radiator { source, .. } => match scene.sensor(source.kind, &source.name) {
             Ok(sensor) => {
                 let values = sensor.at_index(index);
                 let mut lines = vec![source.name.clone()];

@@ -5,11 +5,11 @@ use chromascope_figure::{
 };
 
 use super::chromaticity::id;
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use crate::document::LOCUS_RANGE_K;
+use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::locus::{distance, split};
-use crate::scene::{Scene, Source};
-use crate::thing::{Thing, Things};
+use crate::scene::{ComparedSensor, Scene};
 
 /// The strip with what its lines stand for.
 #[derive(Clone, Debug)]
@@ -17,30 +17,30 @@ pub struct Strip {
     /// The panel; its horizontal axis is in mired.
     pub panel: Panel,
     /// What its lines stand for.
-    pub things: Things,
+    pub things: PickIndex,
 }
 
 /// Temperatures that are written below, in kelvins.
 const TICKS: [f64; 7] = [1000.0, 1200.0, 1500.0, 2000.0, 3000.0, 5000.0, 20_000.0];
 
-/// Builds the strip; none where no source can be compared with the reference.
+/// Builds the strip; none where no sensor can be compared with the reference.
 pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
-    let truth = scene.locus(Kind::Observer, &scene.document.truth).ok()?;
+    let reference = scene.locus(SetKind::Observer, &scene.document.reference).ok()?;
     let diagram = scene.document.diagram;
-    let mut things = Things::default();
+    let mut things = PickIndex::default();
     let (mut marks, mut minima) = (Vec::new(), Vec::new());
     let mut top = 0.0_f64;
     let sources = scene.sources();
-    for source in sources.iter().filter(|source| source.visible && !source.is_truth) {
+    for source in sources.iter().filter(|source| source.visible && !source.is_reference) {
         if !matches!(scene.comparable(source.kind, &source.name), Ok(Ok(()))) {
             continue;
         }
         let Ok(locus) = scene.locus(source.kind, &source.name) else { continue };
-        let pairs = locus.points.iter().zip(&truth.points);
+        let pairs = locus.points.iter().zip(&reference.points);
         let points: Vec<[f64; 2]> =
             pairs.map(|(a, b)| [a.temperature.mired(), distance(a, b, diagram).unwrap_or(f64::NAN)]).collect();
         top = points.iter().map(|p| p[1]).filter(|d| d.is_finite()).fold(top, f64::max);
-        let tag = things.tag(Thing::Source(id(source)));
+        let tag = things.tag(PlotItem::Sensor(id(source)));
         let below = scene.extrapolated_below(source.kind, &source.name).map(|(below, _)| below);
         let [measured, beyond] = split(&points, |index| 1e6 / points[index][0], below);
         let line = |points| {
@@ -77,12 +77,12 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
 }
 
 /// The ring at a distance's minimum: it follows the balance, not the camera.
-fn minimum(scene: &Scene<'_>, source: &Source, things: &mut Things) -> Option<Mark> {
+fn minimum(scene: &Scene<'_>, source: &ComparedSensor, things: &mut PickIndex) -> Option<Mark> {
     let nearest = scene.nearest_to_reference(source.kind, &source.name, scene.document.diagram)?;
     if nearest.at_end {
         return None;
     }
-    let tag = things.tag(Thing::Radiator { source: id(source), kelvin: nearest.kelvin.round() });
+    let tag = things.tag(PlotItem::Radiator { source: id(source), kelvin: nearest.kelvin.round() });
     let ring =
         Shape::Points { points: vec![[1e6 / nearest.kelvin, nearest.distance]], marker: Marker::Circle, radius: 3.5 };
     let mark = Mark::new(tag, format!("{}: minimum at {:.0} K", source.label, nearest.kelvin), ring);
@@ -103,7 +103,7 @@ fn height_ticks(top: f64, height: f64) -> Vec<(f64, String)> {
 fn add_cursor(marks: &mut Vec<Mark>, kelvin: f64, top: f64) {
     let mired = 1e6 / kelvin;
     let line = Shape::Line { points: vec![[mired, 0.0], [mired, top]], closed: false };
-    marks.push(Mark::new(Things::NONE, "temperature", line).with_stroke(InkRole::Text, 1.5));
+    marks.push(Mark::new(PickIndex::NONE, "temperature", line).with_stroke(InkRole::Text, 1.5));
     let left = mired < 200.0;
     let (anchor, offset) = if left { (Anchor::RIGHT, -5.0) } else { (Anchor::LEFT, 5.0) };
     let shape = Shape::Text {
@@ -114,5 +114,5 @@ fn add_cursor(marks: &mut Vec<Mark>, kelvin: f64, top: f64) {
         size: TextSize::Body,
         ink: Ink::new(InkRole::Text),
     };
-    marks.push(Mark::new(Things::NONE, "temperature", shape).with_halo(InkRole::Plot));
+    marks.push(Mark::new(PickIndex::NONE, "temperature", shape).with_halo(InkRole::Plot));
 }

@@ -1,13 +1,13 @@
-//! Patches as colors: rows or charts, each swatch beside the truth's, with a bar for the difference.
+//! Patches as colors: rows or charts, each swatch beside the reference's, with a bar for the difference.
 
 use chromascope_core::query::PatchColor;
 use chromascope_figure::{Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, TextSize, text_width};
 
 use super::chromaticity::{caption, id};
-use crate::catalog::Kind;
-use crate::document::WayChoice;
-use crate::scene::{Scene, Source};
-use crate::thing::{Thing, Things};
+use crate::catalog::SetKind;
+use crate::document::TransformChoice;
+use crate::plot_item::{PickIndex, PlotItem};
+use crate::scene::{ComparedSensor, Scene};
 use crate::view::{SwatchLayout, SwatchStyle, View};
 
 /// The board with what its marks stand for.
@@ -16,16 +16,16 @@ pub struct Built {
     /// The panel, in points.
     pub panel: Panel,
     /// What its marks stand for.
-    pub things: Things,
+    pub things: PickIndex,
     /// How high it wants to be.
     pub height: f64,
-    /// The largest difference: source label and patch, with what it is.
-    pub worst: Option<(String, Thing)>,
+    /// The largest difference: sensor label and patch, with what it is.
+    pub worst: Option<(String, PlotItem)>,
 }
 
-/// One source's colors.
+/// One sensor's colors.
 struct Row {
-    source: Source,
+    source: ComparedSensor,
     /// Colors with their differences, or why there are none.
     colors: Result<Vec<(PatchColor, Option<f64>)>, String>,
 }
@@ -35,9 +35,9 @@ struct Board<'a> {
     scene: &'a Scene<'a>,
     view: &'a View,
     names: Vec<String>,
-    truth: Vec<PatchColor>,
+    reference: Vec<PatchColor>,
     marks: Vec<Mark>,
-    things: Things,
+    things: PickIndex,
 }
 
 /// The gap between swatches.
@@ -62,10 +62,10 @@ pub fn in_rows(layout: SwatchLayout, count: usize) -> bool {
 pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
     let names: Vec<String> =
         scene.patches().map(|set| set.patches().iter().map(|p| p.name.clone()).collect()).unwrap_or_default();
-    let truth = scene.patch_colors(Kind::Observer, &scene.document.truth).unwrap_or_default();
+    let reference = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
     let rows = rows(scene);
     let worst = worst(&rows, &names);
-    let mut board = Board { scene, view, names, truth, marks: Vec::new(), things: Things::default() };
+    let mut board = Board { scene, view, names, reference, marks: Vec::new(), things: PickIndex::default() };
     let height = if in_rows(view.saved.swatch_layout, board.names.len()) {
         board.rows(&rows, size)
     } else {
@@ -77,10 +77,10 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
     Built { panel, things: board.things, height, worst }
 }
 
-/// The visible sources that can stand beside the truth.
+/// The visible sensors that can stand beside the reference.
 fn rows(scene: &Scene<'_>) -> Vec<Row> {
-    let compares = |source: &Source| {
-        source.is_truth || scene.document.way != WayChoice::Paper || {
+    let compares = |source: &ComparedSensor| {
+        source.is_reference || scene.document.transform != TransformChoice::Paper || {
             // By Paper a CIE observer is drawn directly; as a swatch it would be a difference that is none.
             !matches!(scene.comparable(source.kind, &source.name), Ok(Err(_)))
         }
@@ -91,7 +91,7 @@ fn rows(scene: &Scene<'_>) -> Vec<Row> {
             let colors =
                 scene.patch_colors(source.kind, &source.name).map_err(|error| error.to_string()).map(|colors| {
                     let differences = scene.differences(source.kind, &source.name).unwrap_or_default();
-                    let of = |i: usize| differences.get(i).and_then(|d| d.ok()).filter(|_| !source.is_truth);
+                    let of = |i: usize| differences.get(i).and_then(|d| d.ok()).filter(|_| !source.is_reference);
                     colors.into_iter().enumerate().map(|(i, color)| (color, of(i))).collect()
                 });
             Row { source, colors }
@@ -100,12 +100,12 @@ fn rows(scene: &Scene<'_>) -> Vec<Row> {
 }
 
 /// The largest difference of all.
-fn worst(rows: &[Row], names: &[String]) -> Option<(String, Thing)> {
-    let mut worst: Option<(f64, String, Thing)> = None;
+fn worst(rows: &[Row], names: &[String]) -> Option<(String, PlotItem)> {
+    let mut worst: Option<(f64, String, PlotItem)> = None;
     for row in rows {
         for ((_, difference), name) in row.colors.iter().flatten().zip(names) {
             if let Some(d) = difference.filter(|d| worst.as_ref().is_none_or(|w| *d > w.0)) {
-                let thing = Thing::Patch { source: Some(id(&row.source)), patch: name.clone() };
+                let thing = PlotItem::Patch { source: Some(id(&row.source)), patch: name.clone() };
                 worst = Some((d, format!("Worst: {}, {name}", row.source.label), thing));
             }
         }
@@ -114,7 +114,7 @@ fn worst(rows: &[Row], names: &[String]) -> Option<(String, Thing)> {
 }
 
 impl Board<'_> {
-    /// A row for each source, a column for each patch. Returns the height.
+    /// A row for each sensor, a column for each patch. Returns the height.
     fn rows(&mut self, rows: &[Row], size: [f64; 2]) -> f64 {
         let widest = rows.iter().map(|row| text_width(&row.source.label, TextSize::Body)).fold(40.0, f64::max);
         let head = (widest + 30.0).min(0.3 * size[0]);
@@ -126,7 +126,7 @@ impl Board<'_> {
         if width > 40.0 {
             for (column, name) in self.names.clone().into_iter().enumerate() {
                 let x = MARGIN + head + column as f64 * (width + GAP) + width / 2.0;
-                let tag = self.things.tag(Thing::Patch { source: None, patch: name.clone() });
+                let tag = self.things.tag(PlotItem::Patch { source: None, patch: name.clone() });
                 self.text(tag, &elided(&name, width), [x, MARGIN + 8.0], Anchor::CENTER);
             }
         }
@@ -134,7 +134,7 @@ impl Board<'_> {
             let y = top + index as f64 * pitch;
             self.row_head(&row.source, [MARGIN, y + (pitch - GAP) / 2.0], head);
             match &row.colors {
-                Err(why) => self.text(Things::NONE, why, [MARGIN + head, y + pitch / 2.0], Anchor::LEFT),
+                Err(why) => self.text(PickIndex::NONE, why, [MARGIN + head, y + pitch / 2.0], Anchor::LEFT),
                 Ok(colors) => {
                     for (column, (color, difference)) in colors.iter().enumerate() {
                         let x = MARGIN + head + column as f64 * (width + GAP);
@@ -147,7 +147,7 @@ impl Board<'_> {
         top + rows.len() as f64 * pitch + MARGIN
     }
 
-    /// A chart for each source, wrapping to the width. Returns the height.
+    /// A chart for each sensor, wrapping to the width. Returns the height.
     fn charts(&mut self, rows: &[Row], size: [f64; 2]) -> f64 {
         let columns = chart_columns(self.names.len());
         let lines = self.names.len().div_ceil(columns).max(1);
@@ -158,7 +158,7 @@ impl Board<'_> {
             let y = MARGIN + (index / across) as f64 * (chart[1] + MARGIN);
             self.row_head(&row.source, [x, y + 8.0], chart[0] + MARGIN);
             match &row.colors {
-                Err(why) => self.text(Things::NONE, why, [x, y + 32.0], Anchor::LEFT),
+                Err(why) => self.text(PickIndex::NONE, why, [x, y + 32.0], Anchor::LEFT),
                 Ok(colors) => {
                     for (i, (color, difference)) in colors.iter().enumerate() {
                         let left = x + (i % columns) as f64 * (cell[0] + GAP / 2.0);
@@ -172,21 +172,21 @@ impl Board<'_> {
         MARGIN + rows.len().div_ceil(across) as f64 * (chart[1] + MARGIN)
     }
 
-    /// A source's marker and label, no wider than there is room.
-    fn row_head(&mut self, source: &Source, at: [f64; 2], width: f64) {
-        let tag = self.things.tag(Thing::Source(id(source)));
+    /// A sensor's marker and label, no wider than there is room.
+    fn row_head(&mut self, source: &ComparedSensor, at: [f64; 2], width: f64) {
+        let tag = self.things.tag(PlotItem::Sensor(id(source)));
         let shape = Shape::Points { points: vec![[at[0] + 7.0, at[1]]], marker: source.marker, radius: 5.0 };
         let mark = Mark::new(tag, source.label.clone(), shape).with_stroke(InkRole::OnSurround, 1.5);
         let filled = source.marker.has_inside();
         self.marks.push(if filled { mark.with_fill(InkRole::OnSurround) } else { mark });
-        let label = if source.is_truth { "Reference" } else { &source.label };
+        let label = if source.is_reference { "Reference" } else { &source.label };
         self.text(tag, &elided(label, width - 18.0), [at[0] + 18.0, at[1]], Anchor::LEFT);
     }
 
-    /// One swatch: the truth's part, the source's, the bar, the notch.
+    /// One swatch: the reference's part, the sensor's, the bar, the notch.
     fn swatch(
         &mut self,
-        source: &Source,
+        source: &ComparedSensor,
         index: usize,
         color: &PatchColor,
         difference: Option<f64>,
@@ -194,20 +194,20 @@ impl Board<'_> {
     ) {
         let [[x0, y0], [x1, y1]] = area;
         let name = self.names.get(index).cloned().unwrap_or_default();
-        let tag = self.things.tag(Thing::Patch { source: Some(id(source)), patch: name.clone() });
+        let tag = self.things.tag(PlotItem::Patch { source: Some(id(source)), patch: name.clone() });
         let bars = self.view.saved.difference_bars && y1 - y0 > 3.0 * BAR;
         let bottom = if bars { y1 - BAR - 1.0 } else { y1 };
-        let truth = self.truth.get(index).copied();
-        let shown = if self.view.blink { truth.unwrap_or(*color) } else { *color };
+        let reference = self.reference.get(index).copied();
+        let shown = if self.view.blink { reference.unwrap_or(*color) } else { *color };
         let title = format!("{} {name}", source.label);
         self.area(tag, &title, [[x0, y0], [x1, bottom]], &shown);
-        if let Some(truth) = truth.filter(|_| !source.is_truth && !self.view.blink) {
+        if let Some(reference) = reference.filter(|_| !source.is_reference && !self.view.blink) {
             let (w, h) = (x1 - x0, bottom - y0);
             match self.view.saved.swatch_style {
-                SwatchStyle::Split => self.area(tag, "truth", [[x0, y0], [x0 + w / 2.0, bottom]], &truth),
+                SwatchStyle::Split => self.area(tag, "truth", [[x0, y0], [x0 + w / 2.0, bottom]], &reference),
                 SwatchStyle::Inset => {
                     let inner = [[x0 + w * 0.3, y0 + h * 0.25], [x1 - w * 0.3, bottom - h * 0.25]];
-                    self.area(tag, "truth", inner, &truth);
+                    self.area(tag, "truth", inner, &reference);
                 }
                 SwatchStyle::Whole => {}
             }

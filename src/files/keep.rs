@@ -97,9 +97,9 @@ impl State {
             self.moved = store.moved().cloned();
         }
         match result {
-            Ok(Written { left_out }) if left_out.is_empty() => self.saved = Some(document),
+            Ok(Written { skipped_work }) if skipped_work.is_empty() => self.saved = Some(document),
             // The file holds neither this document nor the one before.
-            Ok(Written { left_out }) => (self.saved, self.failure) = (None, Some(left_out)),
+            Ok(Written { skipped_work }) => (self.saved, self.failure) = (None, Some(skipped_work)),
             Err(why) => self.failure = Some(why),
         }
         if before != self.failure {
@@ -387,7 +387,7 @@ impl Aside {
     /// Writes a document to a file of its own.
     pub(super) fn put_aside(&self, document: &Document) -> Result<(), String> {
         let Some(folder) = &self.0 else { return Ok(()) };
-        Store::new(profile::free_copy(folder)).write(document).and_then(|written| match written.left_out {
+        Store::new(profile::free_copy(folder)).write(document).and_then(|written| match written.skipped_work {
             why if why.is_empty() => Ok(()),
             why => Err(why),
         })

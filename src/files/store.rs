@@ -24,7 +24,7 @@ use crate::document::{Document, VERSION};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Written {
     /// Sets that were left out, in one sentence; may be empty.
-    pub(super) left_out: String,
+    pub(super) skipped_work: String,
 }
 
 /// Why a kept document could not be read.
@@ -125,7 +125,7 @@ impl Store {
         let sets: Vec<(&OwnSet, &Place)> =
             document.own.iter().filter_map(place).map(|(set, place)| (&**set, place)).collect();
         let json = kept::to_json(document, &sets).map_err(|error| error.to_string())?;
-        let left_out = match (unwritten, missing.as_slice()) {
+        let skipped_work = match (unwritten, missing.as_slice()) {
             (Some(why), [one]) => format!("{one} could not be saved ({why}); the rest is"),
             (Some(why), many) => format!("{} imported sets could not be saved ({why}); the rest is", many.len()),
             (None, _) => String::new(),
@@ -135,10 +135,10 @@ impl Store {
             .map_err(|error| format!("{}: {}", self.file.display(), reason(&error)))?;
         (self.seen, self.by_value) = (self.tried, false);
         let present: HashSet<usize> = document.own.iter().map(address).collect();
-        if left_out.is_empty() && self.known.len() > present.len() {
+        if skipped_work.is_empty() && self.known.len() > present.len() {
             self.known.retain(|address, _| present.contains(address));
         }
-        Ok(Written { left_out })
+        Ok(Written { skipped_work })
     }
 
     /// Whether the file holds what this window neither read nor wrote. What it read in an earlier form is kept beside it before

@@ -67,17 +67,17 @@ pub(super) fn shortened(points: Vec<Pos2>, rect: Rect, pixel: f32) -> Drawn {
     let left = (rect.left() / pixel).floor() * pixel - pixel;
     let place = |at: Pos2| ((at.x - left) / pixel).clamp(0.0, (columns + 2) as f32) as usize;
     let mut parts: Vec<Column> = Vec::with_capacity(columns + 2);
-    let mut way = 0.0;
+    let mut transform = 0.0;
     for at in seen.iter().map(held) {
         match parts.last_mut().filter(|column| column.index == place(at)) {
             Some(column) => {
-                way += (at.y - column.last.y).abs();
+                transform += (at.y - column.last.y).abs();
                 column.take(at);
             }
             None => parts.push(Column::new(place(at), at)),
         }
     }
-    if way > RESTLESS * pixel * parts.len() as f32 { Drawn::Filled(parts) } else { Drawn::Line(joined(&parts)) }
+    if transform > RESTLESS * pixel * parts.len() as f32 { Drawn::Filled(parts) } else { Drawn::Line(joined(&parts)) }
 }
 
 /// At most four points of each column, in their order.

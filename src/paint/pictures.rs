@@ -21,7 +21,7 @@ struct Entry {
 
 /// Which picture is drawn, and where.
 #[derive(Clone, Copy, Debug)]
-pub struct PictureOf<'a> {
+pub struct PictureQuery<'a> {
     /// The picture's name: the same texture serves all its versions.
     pub name: &'a str,
     /// Its version: it is made and uploaded when this changed.
@@ -36,7 +36,7 @@ pub struct PictureOf<'a> {
 
 impl PictureTextures {
     /// Draws a picture; `make` gives width, height and straight RGBA where it is not known yet.
-    pub fn draw(&mut self, painter: &Painter, of: PictureOf<'_>, make: impl FnOnce() -> ([usize; 2], Vec<u8>)) {
+    pub fn draw(&mut self, painter: &Painter, of: PictureQuery<'_>, make: impl FnOnce() -> ([usize; 2], Vec<u8>)) {
         let now = painter.ctx().cumulative_pass_nr();
         let known = self.0.get(of.name).is_some_and(|e| e.version == of.version && e.sharp == of.sharp);
         if !known {

@@ -9,8 +9,8 @@ use super::PaneContext;
 use crate::bench::Workload;
 use crate::command::Command;
 use crate::figures::accuracy;
-use crate::laboratory::Subject;
 use crate::paint::{self, PlotOptions};
+use crate::profiler::Subject;
 use crate::theme::UNIT;
 use crate::view::accuracy::Shows;
 use crate::widgets;
@@ -208,7 +208,7 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
 
 fn measure(shows: Shows) -> Command {
     match shows {
-        Shows::Scene(_) => Command::Measure,
+        Shows::Scene(_) => Command::SpectralWeights,
         Shows::Bench(workload) => Command::MeasureWorkload(workload),
     }
 }

@@ -1,19 +1,19 @@
 //! The diagram and the strip below it.
 
 use chromascope_core::colorimetry::{UvPrime, Xy};
-use chromascope_core::light::{NoCct, RadiationConstants};
-use chromascope_core::query::NearestBlackBodyOf;
+use chromascope_core::light::{CctError, RadiationConstants};
+use chromascope_core::query::NearestBlackBodyQuery;
 use egui::{Align2, Id, Pos2, Rect, Ui, Vec2};
 
 use super::PaneContext;
 use crate::action::{Action, SceneAction};
-use crate::catalog::Kind;
-use crate::document::{Diagram, REFERENCE};
+use crate::catalog::SetKind;
+use crate::document::{Diagram, FIT_TARGET};
 use crate::figures::chromaticity::{self, Built};
 use crate::figures::strip;
 use crate::paint::{self, Emphasis, PlotOptions};
+use crate::plot_item::{PickIndex, PlotItem};
 use crate::theme::UNIT;
-use crate::thing::{Thing, Things};
 use crate::view::DiagramFit;
 use crate::widgets;
 use crate::workspaces::PaneKind;
@@ -89,10 +89,10 @@ fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let built = chromaticity::build(&context.scene, context.view, size);
-    let truth = context.scene.document.truth.clone();
+    let reference = context.scene.document.reference.clone();
     let shown = {
         let view = &*context.view;
-        let emphasis = |tag| view.emphasis_of(&built.things, tag, &truth);
+        let emphasis = |tag| view.emphasis_of(&built.things, tag, &reference);
         let options = PlotOptions { reset: view.reset_plots, emphasis: &emphasis, ..PlotOptions::default() };
         let id = Id::unique(("chromaticity", context.scene.document.diagram));
         paint::plot(ui, id, &built.panel, &context.theme, rect, options)
@@ -118,7 +118,7 @@ fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<
     }
     if let Some(thing) = thing {
         let mut lines = chromaticity::describe(&context.scene, &thing);
-        if let Thing::Patch { source: Some(source), patch } = &thing {
+        if let PlotItem::Patch { source: Some(source), patch } = &thing {
             let xy = chromaticity::patch_xy(&context.scene, source, patch);
             lines.extend(xy.and_then(Xy::uv_prime).and_then(|uv| nearest_black_body(uv, context)));
         }
@@ -139,32 +139,32 @@ fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<
 /// The correlated color temperature of a color and how far it is from that black body, for the observer of the diagram; none while
 /// that is being found out, and for colors that are like no black body.
 fn nearest_black_body(color: UvPrime, context: &PaneContext<'_>) -> Option<String> {
-    let observer = context.scene.sensor(Kind::Observer, REFERENCE).ok()?;
-    context.radiators.ask(vec![NearestBlackBodyOf { observer, constants: RadiationConstants::Paper }]);
+    let observer = context.scene.sensor(SetKind::Observer, FIT_TARGET).ok()?;
+    context.radiators.ask(vec![NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper }]);
     let shown = context.radiators.shown()?;
     let cct = (*shown.answer).as_ref().ok()?.cct(color.uv60());
     Some(match cct {
         Ok(cct) => {
             let sign = if cct.duv < 0.0 { "−" } else { "+" };
-            format!("CCT {:.0} K, Duv {sign}{:.4} ({REFERENCE})", cct.temperature.get(), cct.duv.abs())
+            format!("CCT {:.0} K, Duv {sign}{:.4} ({FIT_TARGET})", cct.temperature.get(), cct.duv.abs())
         }
-        Err(NoCct::TooHot) => "CCT above 20000 K".to_owned(),
-        Err(NoCct::TooCold) => "CCT below 1000 K".to_owned(),
-        Err(NoCct::TooFar | NoCct::NoChromaticity) => return None,
+        Err(CctError::TooHot) => "CCT above 20000 K".to_owned(),
+        Err(CctError::TooCold) => "CCT below 1000 K".to_owned(),
+        Err(CctError::TooFar | CctError::NoChromaticity) => return None,
     })
 }
 
 /// A line's thing becomes the black body nearest to the pointer.
-fn thing_at(context: &PaneContext<'_>, built: &Built, hit: &paint::Hit) -> Option<Thing> {
+fn thing_at(context: &PaneContext<'_>, built: &Built, hit: &paint::Hit) -> Option<PlotItem> {
     let thing = built.things.get(hit.tag)?.clone();
-    let Thing::Source(source) = &thing else { return Some(thing) };
+    let PlotItem::Sensor(source) = &thing else { return Some(thing) };
     let locus = context.scene.locus(source.kind, &source.name).ok()?;
     let is_locus = built.panel.marks.get(hit.mark).is_some_and(|mark| match &mark.shape {
         chromascope_figure::Shape::Line { points, .. } => points.len() == locus.points.len(),
         _ => false,
     });
     match locus.points.get(hit.index).filter(|_| is_locus) {
-        Some(point) => Some(Thing::Radiator { source: source.clone(), kelvin: point.temperature.get().round() }),
+        Some(point) => Some(PlotItem::Radiator { source: source.clone(), kelvin: point.temperature.get().round() }),
         None => Some(thing),
     }
 }
@@ -192,12 +192,12 @@ fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         ui.painter().text(rect.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
         return;
     };
-    let truth = context.scene.document.truth.clone();
+    let reference = context.scene.document.reference.clone();
     let shown = {
         let view = &*context.view;
-        let emphasis = |tag| match view.emphasis_of(&built.things, tag, &truth) {
+        let emphasis = |tag| match view.emphasis_of(&built.things, tag, &reference) {
             // A line of one color needs no ring to be found again.
-            Emphasis::Hovered if tag == Things::NONE => Emphasis::Normal,
+            Emphasis::Hovered if tag == PickIndex::NONE => Emphasis::Normal,
             emphasis => emphasis,
         };
         let options = PlotOptions { zoomable: false, emphasis: &emphasis, ..PlotOptions::default() };
@@ -225,8 +225,8 @@ fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let [mired, _] = shown.view.value(at);
         let kelvin = (1e6 / mired / 10.0).round() * 10.0;
         let mut lines = vec![format!("{kelvin:.0} K")];
-        for source in context.scene.sources().iter().filter(|source| source.visible && !source.is_truth) {
-            let id = crate::thing::SourceId { kind: source.kind, name: source.name.clone() };
+        for source in context.scene.sources().iter().filter(|source| source.visible && !source.is_reference) {
+            let id = crate::plot_item::SensorId { kind: source.kind, name: source.name.clone() };
             if let Some(distance) = chromaticity::blackbody_distance(&context.scene, &id, kelvin) {
                 let below = context.scene.extrapolated_below(id.kind, &id.name);
                 let mark = if below.is_some_and(|(below, _)| kelvin < below) { " (extrapolated)" } else { "" };

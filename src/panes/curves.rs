@@ -5,7 +5,7 @@ use std::time::Duration;
 use egui::{Align2, Id, Rect, Ui, Vec2};
 
 use super::PaneContext;
-use crate::figures::curves::{self, Curves, Kept, OnShow};
+use crate::figures::curves::{self, CurveCache, Curves, ImportSelection};
 use crate::paint::{self, PlotOptions};
 use crate::theme::UNIT;
 use crate::view::import::ImportItem;
@@ -21,14 +21,14 @@ const PATIENCE: Duration = Duration::from_millis(100);
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, PaneKind::Curves, rect, context, |_, _| {});
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    let Some(shown) = OnShow::refresh(&context.scene, context.view, context.opened) else {
+    let Some(shown) = ImportSelection::refresh(&context.scene, context.view, context.opened) else {
         sentence(ui, body, "Drop files here.", context.theme.weak);
         return;
     };
     if shown.file.is_some() && !shown.is_fresh() {
         busy_line(ui, body, context);
     }
-    let kept = Kept::of(&shown, context.view.import.kept.take());
+    let kept = CurveCache::of(&shown, context.view.import.kept.take());
     match kept.all() {
         Err(words) => {
             let color = if shown.error().is_some() { context.theme.error } else { context.theme.weak };

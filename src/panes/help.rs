@@ -4,7 +4,7 @@ use egui::{Align2, Grid, Key, RichText, ScrollArea, TextEdit, Ui, Vec2, Window};
 
 use super::PaneContext;
 use crate::action::{Action, CompareAction, RenderAction, SceneAction};
-use crate::catalog::{Entry, Kind, licenses, names};
+use crate::catalog::{Entry, SetKind, licenses, names};
 use crate::command::{Command, key_bindings};
 use crate::document::Light;
 use crate::document::history::History;
@@ -171,13 +171,13 @@ fn data(ui: &mut Ui, context: &PaneContext<'_>) {
         ui.add_space(UNIT);
     }
     let mut shown = std::collections::BTreeSet::new();
-    for kind in Kind::ALL {
+    for kind in SetKind::ALL {
         ui.add_space(2.0 * UNIT);
         ui.heading(kind.plural());
         for header in context.scene.catalog.of_kind(kind).filter_map(|entry| entry.header.as_ref()) {
             if shown.insert((kind, header.title.clone())) {
                 ui.label(RichText::new(&header.title).strong());
-                if matches!(kind, Kind::Camera | Kind::Observer) {
+                if matches!(kind, SetKind::Camera | SetKind::Observer) {
                     ui.label(RichText::new(format!("Response: {}", facts::response_of(header))).small());
                 }
                 if header.is_digitized() {
@@ -357,7 +357,7 @@ fn find(typed: &str, history: &History, context: &PaneContext<'_>) -> Vec<Found>
             found.push(Found { words: words.to_owned(), note: "render".to_owned(), command });
         }
     }
-    for kind in Kind::ALL {
+    for kind in SetKind::ALL {
         let entries = context.scene.entries(kind).filter(|entry| names::matches_search(entry, typed));
         found.extend(entries.map(|entry| entry_found(kind, &entry)));
     }
@@ -369,21 +369,21 @@ fn key_name(shortcut: egui::KeyboardShortcut) -> String {
 }
 
 /// What choosing a data set does.
-fn entry_found(kind: Kind, entry: &Entry) -> Found {
+fn entry_found(kind: SetKind, entry: &Entry) -> Found {
     let name = entry.name.clone();
     let action = match kind {
-        Kind::Camera | Kind::Observer => Action::Compare(CompareAction::Add(kind, name)),
-        Kind::Chart | Kind::Material => Action::Scene(SceneAction::SetChart(name)),
-        Kind::Illuminant => Action::Scene(SceneAction::SetLight(Light::Set(name))),
-        Kind::Unsorted => {
+        SetKind::Camera | SetKind::Observer => Action::Compare(CompareAction::Add(kind, name)),
+        SetKind::Chart | SetKind::Material => Action::Scene(SceneAction::SetChart(name)),
+        SetKind::Illuminant => Action::Scene(SceneAction::SetLight(Light::Set(name))),
+        SetKind::Unsorted => {
             let command = Command::ShowImport(ImportItem::Set(name), None);
             return Found { words: entry.name.clone(), note: "not sorted yet: say what it is".to_owned(), command };
         }
     };
     let verb = match kind {
-        Kind::Camera | Kind::Observer => "compare",
-        Kind::Chart | Kind::Material => "as patches",
-        Kind::Illuminant | Kind::Unsorted => "as light",
+        SetKind::Camera | SetKind::Observer => "compare",
+        SetKind::Chart | SetKind::Material => "as patches",
+        SetKind::Illuminant | SetKind::Unsorted => "as light",
     };
     Found { words: entry.name.clone(), note: format!("{}, {verb}", kind.singular()), command: Command::Do(action) }
 }

@@ -12,7 +12,7 @@ use egui::{ProgressBar, Rect, RichText, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::command::Command;
-use crate::figures::curves::OnShow;
+use crate::figures::curves::ImportSelection;
 use crate::theme::UNIT;
 use crate::widgets;
 use crate::workspaces::PaneKind;
@@ -49,7 +49,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         files::column(ui, column, &entries, context);
         Rect::from_min_max(egui::pos2(cut + 2.0 * UNIT, body.top()), body.max)
     };
-    match OnShow::refresh(&context.scene, context.view, context.opened) {
+    match ImportSelection::refresh(&context.scene, context.view, context.opened) {
         Some(shown) => {
             let text = question::show(ui, text, &shown, context);
             text::show(ui, text, &shown, context);

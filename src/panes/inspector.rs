@@ -8,18 +8,18 @@ mod radiator;
 mod source;
 mod welcome;
 
-use chromascope_core::query::NoDifference;
+use chromascope_core::query::DifferenceError;
 use chromascope_core::spectral::{Assumed, Evidence, Sensor};
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use crate::command::Command;
 use crate::document::DifferenceChoice;
 use crate::number::number;
-use crate::scene::{Scene, Source};
+use crate::plot_item::{PlotItem, SensorId};
+use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{Theme, UNIT};
-use crate::thing::{SourceId, Thing};
 use crate::widgets;
 use crate::widgets::facts::range_words;
 use crate::widgets::lines::fixed;
@@ -43,28 +43,28 @@ fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
     match context.view.selected.clone().or_else(|| context.view.hovered.clone()) {
         None if pixel::kept(context).is_some() => {}
         None => welcome::show(ui, context),
-        Some(Thing::Patch { source: Some(id), patch }) => patch::one(ui, &id, &patch, context),
-        Some(Thing::Patch { source: None, patch }) => patch::across(ui, &patch, context),
-        Some(Thing::Radiator { source, kelvin }) => radiator::show(ui, &source, kelvin, context),
-        Some(Thing::Source(id)) => source::show(ui, &id, context),
-        Some(Thing::Light) => source::light(ui, context),
+        Some(PlotItem::Patch { source: Some(id), patch }) => patch::one(ui, &id, &patch, context),
+        Some(PlotItem::Patch { source: None, patch }) => patch::across(ui, &patch, context),
+        Some(PlotItem::Radiator { source, kelvin }) => radiator::show(ui, &source, kelvin, context),
+        Some(PlotItem::Sensor(id)) => source::show(ui, &id, context),
+        Some(PlotItem::Light) => source::light(ui, context),
     }
     pixel::show(ui, context);
     pinned::show(ui, context);
 }
 
-/// A source on show, by kind and name.
-fn source_of(scene: &Scene<'_>, id: &SourceId) -> Option<Source> {
+/// A sensor on show, by kind and name.
+fn source_of(scene: &Scene<'_>, id: &SensorId) -> Option<ComparedSensor> {
     scene.sources().into_iter().find(|source| source.kind == id.kind && source.name == id.name)
 }
 
-/// The source that the others are compared to.
-fn truth_id(scene: &Scene<'_>) -> SourceId {
-    SourceId { kind: Kind::Observer, name: scene.document.truth.clone() }
+/// The sensor that the others are compared to.
+fn reference_id(scene: &Scene<'_>) -> SensorId {
+    SensorId { kind: SetKind::Observer, name: scene.document.reference.clone() }
 }
 
-/// The key and label of a source, or its name alone if it is no longer on show.
-fn head(ui: &mut Ui, id: &SourceId, context: &PaneContext<'_>) {
+/// The key and label of a sensor, or its name alone if it is no longer on show.
+fn head(ui: &mut Ui, id: &SensorId, context: &PaneContext<'_>) {
     match source_of(&context.scene, id) {
         Some(source) => {
             widgets::lines::key_and_label(ui, &source, &context.theme);
@@ -91,7 +91,7 @@ fn difference_words(measure: DifferenceChoice, value: f64) -> String {
 }
 
 /// Why there is no difference, as a sentence.
-fn no_difference(reason: NoDifference) -> String {
+fn no_difference(reason: DifferenceError) -> String {
     format!("No difference: {reason}.")
 }
 
@@ -146,7 +146,7 @@ fn measured_words(sensor: &Sensor) -> String {
 }
 
 /// What was assumed about a sensor and the light.
-fn assumptions(scene: &Scene<'_>, id: &SourceId, label: &str) -> Vec<String> {
+fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
     let mut words = Vec::new();
     if let Ok(sensor) = scene.sensor(id.kind, &id.name) {
         words.push(format!("{label}: measured {}; counts as zero outside.", measured_words(&sensor)));

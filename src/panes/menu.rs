@@ -195,7 +195,7 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.separator();
     ui.menu_button("Difference", |ui| {
         let now = context.scene.document.difference;
-        let transform = &context.scene.document.way;
+        let transform = &context.scene.document.transform;
         for &difference in DifferenceChoice::offered(transform) {
             if ui.radio(now == difference, difference.name_under(transform)).clicked() {
                 context.push(Action::Scene(SceneAction::SetDifference(difference)));

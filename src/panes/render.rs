@@ -14,7 +14,7 @@ use crate::theme::{HEADING, UNIT};
 use crate::view::render::{PixelPlace, RenderMode, RenderView};
 use crate::widgets;
 use crate::workspaces::PaneKind;
-use cells::Stand;
+use cells::PictureLayout;
 
 /// Shows the pane in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
@@ -25,7 +25,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         context.view.saved.render.orbit = None;
     }
     let sources = context.scene.rendered_sources();
-    let stand = Stand::new(&sources, body, ui.ctx().pixels_per_point(), context);
+    let stand = PictureLayout::new(&sources, body, ui.ctx().pixels_per_point(), context);
     let asked = request::ask(ui, &stand, context);
     let busy = context.studio.busy();
     context.view.render.busy = busy;
@@ -72,7 +72,7 @@ fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'
 }
 
 /// The pixel under the pointer is read; a click keeps it, a double click shows its source alone or all again.
-fn point_at(ui: &Ui, response: &egui::Response, stand: &Stand, context: &mut PaneContext<'_>) {
+fn point_at(ui: &Ui, response: &egui::Response, stand: &PictureLayout, context: &mut PaneContext<'_>) {
     let Some(pointer) = response.hover_pos() else { return };
     let Some((cell, at)) = stand.place_at(pointer) else { return };
     let Some(source) = stand.sources.get(cell).map(crate::figures::chromaticity::id) else { return };
@@ -92,7 +92,7 @@ fn point_at(ui: &Ui, response: &egui::Response, stand: &Stand, context: &mut Pan
     if !response.dragged() {
         let words = crate::figures::render::pixel_line(&context.scene, &context.view.render, &place);
         context.view.point = words;
-        context.view.hover(Some(&crate::thing::Thing::Source(source)));
+        context.view.hover(Some(&crate::plot_item::PlotItem::Sensor(source)));
         context.view.render.hovered = Some(place);
     }
 }

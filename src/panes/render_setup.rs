@@ -16,7 +16,7 @@ use crate::theme::UNIT;
 use crate::widgets;
 use crate::workspaces::PaneKind;
 
-/// Height of the numbers of a pixel, at the foot of the pane, beside a line for each of some sources.
+/// Height of the numbers of a pixel, at the foot of the pane, beside a line for each of some sensors.
 const PIXEL: f32 = 128.0;
 const PIXEL_LINE: f32 = 17.0;
 const PIXEL_LINES: usize = 6;

@@ -4,8 +4,8 @@ use egui::{Align, ComboBox, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder
 
 use super::PaneContext;
 use crate::action::{Action, CompareAction, SceneAction};
-use crate::catalog::Kind;
-use crate::document::{DifferenceChoice, Light, Subset, WayChoice, WhiteChoice};
+use crate::catalog::SetKind;
+use crate::document::{DifferenceChoice, Light, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::theme::{ROW, UNIT};
 use crate::widgets::number_field::NumberField;
 
@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
     field(&mut bar, "Patches", 196.0 * compact, context, patches);
     field(&mut bar, "White balance", 108.0 * compact, context, white);
-    field(&mut bar, "Color transform", 146.0 * compact, context, way);
+    field(&mut bar, "Color transform", 146.0 * compact, context, transform);
     if wide {
         field(&mut bar, "Difference", 90.0, context, difference);
     }
@@ -66,12 +66,12 @@ fn choice(ui: &mut Ui, name: &str, hint: &str, shown: &str, list: impl FnOnce(&m
 }
 
 fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let now = context.scene.document.truth.clone();
+    let now = context.scene.document.reference.clone();
     // A name that is cut tells two observers apart less well than a short one.
-    let entry = context.scene.entry(Kind::Observer, &now).ok().filter(|_| ui.available_width() < 180.0);
+    let entry = context.scene.entry(SetKind::Observer, &now).ok().filter(|_| ui.available_width() < 180.0);
     let shown = entry.map_or_else(|| now.clone(), |entry| entry.short);
     choice(ui, "Reference", "The observer that cameras are compared with.", &shown, |ui| {
-        for entry in context.scene.entries(Kind::Observer) {
+        for entry in context.scene.entries(SetKind::Observer) {
             if ui.selectable_label(entry.name == now, &entry.name).clicked() {
                 let counts_in_xyz = entry.counts_in_xyz();
                 context.push(Action::Compare(CompareAction::SetReference { name: entry.name, counts_in_xyz }));
@@ -97,7 +97,7 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
         offer(ui, Light::BlackBody, "Blackbody of the temperature");
         offer(ui, Light::Daylight, "Daylight of the temperature, 4000–20000 K");
         ui.separator();
-        for entry in context.scene.entries(Kind::Illuminant) {
+        for entry in context.scene.entries(SetKind::Illuminant) {
             let words =
                 entry.also.as_ref().map_or_else(|| entry.name.clone(), |also| format!("{}, {also}", entry.name));
             offer(ui, Light::Set(entry.name), &words);
@@ -156,7 +156,7 @@ fn patches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let short = context.scene.chart_entry(&now).map_or_else(|_| now.clone(), |entry| entry.short);
     let shown = if five { format!("Five of {short}") } else { short };
     choice(ui, "Patches", "The reflectances shown: charts, skin, leaves, yours.", &shown, |ui| {
-        for kind in [Kind::Chart, Kind::Material] {
+        for kind in [SetKind::Chart, SetKind::Material] {
             for entry in context.scene.entries(kind) {
                 if ui.selectable_label(entry.name == now, &entry.name).clicked() {
                     context.push(Action::Scene(SceneAction::SetChart(entry.name)));
@@ -177,49 +177,49 @@ fn patches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.white.clone();
     let shown = match &now {
-        WhiteChoice::Unity => "Unity".to_owned(),
-        WhiteChoice::Light(name) => name.clone(),
-        WhiteChoice::Daylight(kelvin) => format!("Daylight {kelvin:.0} K"),
-        WhiteChoice::BlackBody(kelvin) => format!("Blackbody {kelvin:.0} K"),
+        WhiteBalanceChoice::Unity => "Unity".to_owned(),
+        WhiteBalanceChoice::Light(name) => name.clone(),
+        WhiteBalanceChoice::Daylight(kelvin) => format!("Daylight {kelvin:.0} K"),
+        WhiteBalanceChoice::BlackBody(kelvin) => format!("Blackbody {kelvin:.0} K"),
     };
     let hint = "White-balance target: the RGB that a perfect diffuser under the light is mapped to (Eq 11). With a fitted color \
                 transform it changes camera RGB only; the matrix compensates for it.";
     choice(ui, "White balance", hint, &shown, |ui| {
-        let mut offer = |ui: &mut Ui, white: WhiteChoice, words: &str| {
+        let mut offer = |ui: &mut Ui, white: WhiteBalanceChoice, words: &str| {
             if ui.selectable_label(now == white, words).clicked() {
                 context.commands.push(Action::Scene(SceneAction::SetWhite(white)).into());
             }
         };
         let kelvin = context.scene.document.temperature_k;
-        offer(ui, WhiteChoice::Unity, "Unity, 1 : 1 : 1 (the paper's experiments 1 and 2)");
-        offer(ui, WhiteChoice::Daylight(kelvin.max(4000.0)), &format!("Daylight {:.0} K", kelvin.max(4000.0)));
-        offer(ui, WhiteChoice::BlackBody(kelvin), &format!("Blackbody {kelvin:.0} K"));
+        offer(ui, WhiteBalanceChoice::Unity, "Unity, 1 : 1 : 1 (the paper's experiments 1 and 2)");
+        offer(ui, WhiteBalanceChoice::Daylight(kelvin.max(4000.0)), &format!("Daylight {:.0} K", kelvin.max(4000.0)));
+        offer(ui, WhiteBalanceChoice::BlackBody(kelvin), &format!("Blackbody {kelvin:.0} K"));
         ui.separator();
-        for entry in context.scene.entries(Kind::Illuminant) {
-            offer(ui, WhiteChoice::Light(entry.name.clone()), &entry.name);
+        for entry in context.scene.entries(SetKind::Illuminant) {
+            offer(ui, WhiteBalanceChoice::Light(entry.name.clone()), &entry.name);
         }
     });
 }
 
-fn way(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let now = context.scene.document.way.clone();
+fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let now = context.scene.document.transform.clone();
     let shown = match &now {
-        WayChoice::Paper if ui.available_width() < 130.0 => "Eq 13".to_owned(),
-        WayChoice::Paper => "Paper (Eq 13)".to_owned(),
-        WayChoice::Observer(name) => format!("Fit {name}"),
+        TransformChoice::Paper if ui.available_width() < 130.0 => "Eq 13".to_owned(),
+        TransformChoice::Paper => "Paper (Eq 13)".to_owned(),
+        TransformChoice::Observer(name) => format!("Fit {name}"),
     };
     let hint = "Color transform from camera RGB to XYZ. Paper matrix: camera and RGB observer signals through the matrix of \
                 Eq 13, CIE observers directly. Fitted: a 3×3 matrix for each sensor, fitted to a CIE observer over 190 \
                 training reflectances under the light.";
     choice(ui, "Color transform", hint, &shown, |ui| {
-        if ui.selectable_label(now == WayChoice::Paper, "Paper matrix (Eq 13)").clicked() {
-            context.push(Action::Scene(SceneAction::SetWay(WayChoice::Paper)));
+        if ui.selectable_label(now == TransformChoice::Paper, "Paper matrix (Eq 13)").clicked() {
+            context.push(Action::Scene(SceneAction::SetWay(TransformChoice::Paper)));
         }
         ui.separator();
-        for entry in context.scene.entries(Kind::Observer).filter(crate::catalog::Entry::counts_in_xyz) {
-            let way = WayChoice::Observer(entry.name.clone());
-            if ui.selectable_label(now == way, format!("Fitted to {}", entry.name)).clicked() {
-                context.push(Action::Scene(SceneAction::SetWay(way)));
+        for entry in context.scene.entries(SetKind::Observer).filter(crate::catalog::Entry::counts_in_xyz) {
+            let transform = TransformChoice::Observer(entry.name.clone());
+            if ui.selectable_label(now == transform, format!("Fitted to {}", entry.name)).clicked() {
+                context.push(Action::Scene(SceneAction::SetWay(transform)));
             }
         }
     });
@@ -227,13 +227,13 @@ fn way(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 fn difference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.difference;
-    let transform = context.scene.document.way.clone();
+    let transform = context.scene.document.transform.clone();
     let hint = match transform {
-        WayChoice::Paper => {
+        TransformChoice::Paper => {
             "The measure of difference from the reference. Eq 13 takes RGB of an observer as sRGB, so its L*a*b* is not that of \
              the CIE: distances in the diagram mean what they say; the ΔE*00 formula gives only a number."
         }
-        WayChoice::Observer(_) => "The measure of difference from the reference.",
+        TransformChoice::Observer(_) => "The measure of difference from the reference.",
     };
     choice(ui, "Difference", hint, now.name_under(&transform), |ui| {
         for &difference in DifferenceChoice::offered(&transform) {

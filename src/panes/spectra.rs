@@ -90,10 +90,10 @@ fn one_panel(
     built: &Built,
     context: &mut PaneContext<'_>,
 ) -> paint::PlotOutput {
-    let truth = context.scene.document.truth.clone();
+    let reference = context.scene.document.reference.clone();
     let shown = {
         let view = &*context.view;
-        let emphasis = |tag| view.emphasis_of(&built.things, tag, &truth);
+        let emphasis = |tag| view.emphasis_of(&built.things, tag, &reference);
         let options = PlotOptions { zoomable: false, reset: view.reset_plots, link_x: None, emphasis: &emphasis };
         paint::plot(ui, Id::unique(("spectra", &panel.name)), panel, &context.theme, place, options)
     };

@@ -7,11 +7,11 @@ use chromascope_core::render::Quality;
 use egui::{Align, Button, Color32, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use crate::catalog::opened::Progress;
 use crate::command::Command;
+use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::UNIT;
-use crate::thing::{SourceId, Thing};
 use crate::view::Weight;
 use crate::widgets::lines::{self, fixed};
 use crate::workspaces::{Arrangement, PaneKind};
@@ -140,9 +140,9 @@ fn reading_words(progress: &Progress) -> String {
 }
 
 /// A thing in one line.
-fn describe(thing: &Thing, context: &PaneContext<'_>) -> String {
+fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
     let scene = &context.scene;
-    let label = |id: &SourceId| {
+    let label = |id: &SensorId| {
         let sources = scene.sources();
         let found = sources.into_iter().find(|source| source.kind == id.kind && source.name == id.name);
         found.map_or_else(|| id.name.clone(), |source| source.label)
@@ -151,20 +151,20 @@ fn describe(thing: &Thing, context: &PaneContext<'_>) -> String {
         xy.map_or_else(|| "no chromaticity".to_owned(), |xy| format!("x {} y {}", fixed(xy.x, 4), fixed(xy.y, 4)))
     };
     match thing {
-        Thing::Light => format!("The light: {}", scene.light_name()),
-        Thing::Source(id) => {
+        PlotItem::Light => format!("The light: {}", scene.light_name()),
+        PlotItem::Sensor(id) => {
             let also = scene.entry(id.kind, &id.name).ok().and_then(|entry| entry.also);
             let also = also.map_or_else(String::new, |also| format!(", {also}"));
             format!("{} {}{also}", id.kind.singular(), id.name)
         }
-        Thing::Patch { source: None, patch } => format!("Patch {patch}"),
-        Thing::Patch { source: Some(id), patch } => {
+        PlotItem::Patch { source: None, patch } => format!("Patch {patch}"),
+        PlotItem::Patch { source: Some(id), patch } => {
             let index = scene.patches().ok().and_then(|set| set.patches().iter().position(|p| p.name == *patch));
             let color = index.and_then(|index| scene.patch_colors(id.kind, &id.name).ok()?.get(index).copied());
             let place = color.map_or_else(String::new, |color| format!(": {}", at(color.xy)));
-            let is_truth = id.kind == Kind::Observer && id.name == scene.document.truth;
+            let is_reference = id.kind == SetKind::Observer && id.name == scene.document.reference;
             let difference = index
-                .filter(|_| !is_truth)
+                .filter(|_| !is_reference)
                 .and_then(|index| scene.differences(id.kind, &id.name).ok()?.get(index).copied().and_then(Result::ok));
             let difference = difference.map_or_else(String::new, |value| {
                 let decimals = if scene.document.difference.is_of_lab() { 2 } else { 4 };
@@ -172,7 +172,7 @@ fn describe(thing: &Thing, context: &PaneContext<'_>) -> String {
             });
             format!("{}, {patch}{place}{difference}", label(id))
         }
-        Thing::Radiator { source, kelvin } => {
+        PlotItem::Radiator { source, kelvin } => {
             use chromascope_core::query::Temperatures;
             let list = chromascope_core::units::Kelvin::new(*kelvin).map(|kelvin| Temperatures::List(vec![kelvin]));
             let locus = list.ok().and_then(|list| scene.locus_at(source.kind, &source.name, list).ok());
@@ -201,9 +201,10 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
         let methods: Vec<LocusMethod> = loci.map(|locus| locus.method).collect();
         facts.extend(error_words(&methods));
     }
-    let computed = shown().filter(|s| s.kind == Kind::Camera && scene.rendering_of(s.kind, &s.name).is_ok()).count();
+    let computed = shown().filter(|s| s.kind == SetKind::Camera && scene.rendering_of(s.kind, &s.name).is_ok()).count();
     let own = scene.document.own.iter().map(crate::catalog::Entry::from_own);
-    let all = scene.catalog.of_kind(Kind::Camera).count() + own.filter(|entry| entry.kind == Kind::Camera).count();
+    let all =
+        scene.catalog.of_kind(SetKind::Camera).count() + own.filter(|entry| entry.kind == SetKind::Camera).count();
     facts.push(format!("{computed} of {all} cameras computed"));
     facts
 }
@@ -228,7 +229,7 @@ fn render_facts(context: &PaneContext<'_>) -> Vec<String> {
         Quality::Within(accuracy) => format!("error < {accuracy}").replace('-', "−"),
     };
     facts.push(error);
-    let cameras = shot.sources.iter().filter(|source| source.kind == Kind::Camera).count();
+    let cameras = shot.sources.iter().filter(|source| source.kind == SetKind::Camera).count();
     facts.push(format!("{cameras} {}", if cameras == 1 { "camera" } else { "cameras" }));
     facts
 }

@@ -35,10 +35,10 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 }
 
 fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneContext<'_>) {
-    let truth = context.scene.document.truth.clone();
+    let reference = context.scene.document.reference.clone();
     let shown = {
         let view = &*context.view;
-        let emphasis = |tag| match view.emphasis_of(&built.things, tag, &truth) {
+        let emphasis = |tag| match view.emphasis_of(&built.things, tag, &reference) {
             // Colors are judged by eye: none is ever dimmed.
             paint::Emphasis::Faded => paint::Emphasis::Normal,
             emphasis => emphasis,

@@ -7,8 +7,8 @@ use super::PaneContext;
 use crate::action::{Action, RenderAction};
 use crate::document::render::{QualityChoice, RenderSettings};
 use crate::figures::pareto::duration;
-use crate::laboratory::plans::{self, Planned};
-use crate::scene::Source;
+use crate::profiler::plans::{self, Planned};
+use crate::scene::ComparedSensor;
 use crate::theme::UNIT;
 use crate::widgets;
 use crate::workspaces::PaneKind;
@@ -60,7 +60,7 @@ fn set(context: &mut PaneContext<'_>, what: &'static str, change: impl FnOnce(&m
     context.push(Action::Render(RenderAction::Set { what, to: Box::new(to) }));
 }
 
-/// Each source with its plan.
+/// Each sensor with its plan.
 fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let weak = context.theme.weak;
     let Some(pictures) = context.planned_pictures() else {
@@ -89,10 +89,11 @@ fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
     not_rendered(ui, context);
 }
 
-/// Sources that are on show but have no picture beside this truth, and why.
+/// Sensors that are on show but have no picture beside this truth, and why.
 fn not_rendered(ui: &mut Ui, context: &PaneContext<'_>) {
     let rendered = context.scene.rendered_sources();
-    let is_rendered = |source: &Source| rendered.iter().any(|r| (r.kind, &r.name) == (source.kind, &source.name));
+    let is_rendered =
+        |source: &ComparedSensor| rendered.iter().any(|r| (r.kind, &r.name) == (source.kind, &source.name));
     for source in context.scene.sources().iter().filter(|source| source.visible && !is_rendered(source)) {
         let why = match context.scene.comparable(source.kind, &source.name) {
             Ok(Err(reason)) => format!("No picture beside this reference: {reason}."),
@@ -163,8 +164,8 @@ fn rejected(candidate: &Candidate) -> String {
         Verdict::TooInexact => "not exact enough",
         Verdict::TooSlow => "slower in all",
     };
-    let way = plans::words(&candidate.method);
-    format!("{way}: {}, {}, {why}", error.replace('-', "−"), cost(candidate))
+    let transform = plans::words(&candidate.method);
+    format!("{transform}: {}, {}, {why}", error.replace('-', "−"), cost(candidate))
 }
 
 fn capital(words: &str) -> String {

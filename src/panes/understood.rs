@@ -15,8 +15,8 @@ use egui::{ComboBox, FontId, Rect, Response, RichText, ScrollArea, TextFormat, U
 
 use super::PaneContext;
 use crate::command::Command;
-use crate::document::own::Wishes;
-use crate::figures::curves::{OnShow, sentence};
+use crate::document::own::ImportOverrides;
+use crate::figures::curves::{ImportSelection, sentence};
 use crate::theme::{ROW, SMALL, TEXT, Theme, UNIT};
 use crate::view::import::Stop;
 use crate::widgets;
@@ -31,7 +31,7 @@ const CONTENT_SHORT: &str = "By content";
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, PaneKind::Understood, rect, context, notes::button);
     let inner = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
-    let Some(shown) = OnShow::refresh(&context.scene, context.view, context.opened) else {
+    let Some(shown) = ImportSelection::refresh(&context.scene, context.view, context.opened) else {
         let mut child = ui.new_child(UiBuilder::new().id_salt("nothing understood").max_rect(inner));
         note(&mut child, &context.theme, "Drop files here.");
         return;
@@ -57,7 +57,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     buttons::show(&mut child, &shown, context);
 }
 
-fn content(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
+fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     if let (Some(set), None) = (&shown.set, &shown.file) {
         kept::show(ui, set, context);
         return;
@@ -81,12 +81,12 @@ fn content(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
 }
 
 /// Has the file read otherwise.
-fn wish(shown: &OnShow, wishes: Wishes, context: &mut PaneContext<'_>) {
+fn wish(shown: &ImportSelection, wishes: ImportOverrides, context: &mut PaneContext<'_>) {
     context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
 }
 
 /// Why the file cannot be read as wished, with a way back.
-fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &OnShow, context: &mut PaneContext<'_>) {
+fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let color = context.theme.error;
     ui.horizontal_wrapped(|ui| {
         let (rect, _) = ui.allocate_exact_size(Vec2::new(16.0, 16.0), egui::Sense::hover());

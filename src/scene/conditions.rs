@@ -1,12 +1,12 @@
 //! The conditions that numbers were made under, in words, for tables and pictures.
 
 use super::Scene;
-use crate::document::{WayChoice, WhiteChoice};
+use crate::document::{TransformChoice, WhiteBalanceChoice};
 
 /// Heads of the columns in which a table says under what it was made.
 pub const CONDITIONS: [&str; 5] = ["reference", "illuminant", "white_balance", "transform", "preset"];
 
-impl WhiteChoice {
+impl WhiteBalanceChoice {
     /// The white-balance target in words.
     pub fn name(&self) -> String {
         match self {
@@ -21,12 +21,12 @@ impl WhiteChoice {
 impl Scene<'_> {
     /// The cells under [`CONDITIONS`], with the light named as it is to be called.
     pub fn conditions_under(&self, illuminant: &str) -> [String; 5] {
-        let transform = match &self.document.way {
-            WayChoice::Paper => "paper matrix (Eq 13)".to_owned(),
-            WayChoice::Observer(target) => format!("3x3 fitted to {target}"),
+        let transform = match &self.document.transform {
+            TransformChoice::Paper => "paper matrix (Eq 13)".to_owned(),
+            TransformChoice::Observer(target) => format!("3x3 fitted to {target}"),
         };
         let preset = self.document.start.key().to_owned();
-        [self.document.truth.clone(), illuminant.to_owned(), self.document.white.name(), transform, preset]
+        [self.document.reference.clone(), illuminant.to_owned(), self.document.white.name(), transform, preset]
     }
 
     /// The cells under [`CONDITIONS`].

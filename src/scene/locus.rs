@@ -4,8 +4,8 @@ use chromascope_core::query::{LocusPoint, Temperatures};
 use chromascope_core::units::Kelvin;
 
 use super::Scene;
-use crate::catalog::Kind;
-use crate::document::{Diagram, WayChoice};
+use crate::catalog::SetKind;
+use crate::document::{Diagram, TransformChoice};
 
 /// The smallest distance between a locus and the reference's at equal temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,8 +30,8 @@ fn vertex([[x0, y0], [x1, y1], [x2, y2]]: [[f64; 2]; 3]) -> Option<f64> {
 }
 
 impl Scene<'_> {
-    /// The smallest distance of a source's locus from the reference's in a diagram, its temperature within 1 K near 6000 K.
-    pub fn nearest_to_reference(&self, kind: Kind, name: &str, diagram: Diagram) -> Option<Nearest> {
+    /// The smallest distance of a sensor's locus from the reference's in a diagram, its temperature within 1 K near 6000 K.
+    pub fn nearest_to_reference(&self, kind: SetKind, name: &str, diagram: Diagram) -> Option<Nearest> {
         let coarse = self.locus_distances(kind, name, Self::locus_temperatures().ok()?, diagram)?;
         let at = smallest(&coarse)?;
         let (first, last) = (at.saturating_sub(1), (at + 1).min(coarse.len() - 1));
@@ -45,15 +45,15 @@ impl Scene<'_> {
         Some(Nearest { kelvin: mired.map_or(kelvin.get(), |mired| 1e6 / mired), distance, at_end })
     }
 
-    /// Temperatures with the distances of a source's locus from the reference's; NaN where there is no chromaticity.
+    /// Temperatures with the distances of a sensor's locus from the reference's; NaN where there is no chromaticity.
     fn locus_distances(
         &self,
-        kind: Kind,
+        kind: SetKind,
         name: &str,
         temperatures: Temperatures,
         diagram: Diagram,
     ) -> Option<Vec<(Kelvin, f64)>> {
-        let reference = self.locus_at(Kind::Observer, &self.document.truth, temperatures.clone()).ok()?;
+        let reference = self.locus_at(SetKind::Observer, &self.document.reference, temperatures.clone()).ok()?;
         let own = self.locus_at(kind, name, temperatures).ok()?;
         let pairs = own.points.iter().zip(&reference.points);
         Some(pairs.map(|(a, b)| (a.temperature, distance(a, b, diagram).unwrap_or(f64::NAN))).collect())
@@ -63,14 +63,14 @@ impl Scene<'_> {
     ///
     /// Eq 15 balances loci to equal energy, a fitted transform to the light on the scene. The white-balance target moves neither.
     pub fn locus_balance(&self) -> String {
-        match self.document.way {
-            WayChoice::Paper => "equal energy".to_owned(),
-            WayChoice::Observer(_) => self.light_name(),
+        match self.document.transform {
+            TransformChoice::Paper => "equal energy".to_owned(),
+            TransformChoice::Observer(_) => self.light_name(),
         }
     }
 
-    /// Temperature in kelvins below which a source's locus is extrapolated, with the wavelength in nanometers where its table ends.
-    pub fn extrapolated_below(&self, kind: Kind, name: &str) -> Option<(f64, f64)> {
+    /// Temperature in kelvins below which a sensor's locus is extrapolated, with the wavelength in nanometers where its table ends.
+    pub fn extrapolated_below(&self, kind: SetKind, name: &str) -> Option<(f64, f64)> {
         let sensor = self.sensor(kind, name).ok()?;
         Some((sensor.extrapolated_below_k()?, sensor.support_nm()[1]))
     }

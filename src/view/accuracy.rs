@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::bench::{Report, Workload};
-use crate::laboratory::{LeftOut, SceneRun, Subject};
+use crate::profiler::{SceneRun, SkippedWork, Subject};
 
 /// What is looked at in Accuracy.
 #[derive(Clone, Debug, Default)]
@@ -16,7 +16,7 @@ pub struct AccuracyView {
     /// Whether it is of the scene as it is now.
     pub is_current: bool,
     /// What was remembered since the start.
-    pub remembered: Vec<LeftOut>,
+    pub remembered: Vec<SkippedWork>,
     /// The last reports of the bench.
     pub reports: BTreeMap<Workload, Arc<Result<Report, String>>>,
 }

@@ -7,9 +7,9 @@ use chromascope_core::query::Shared;
 use serde::{Deserialize, Serialize};
 
 use crate::catalog::likeness::Likeness;
-use crate::catalog::opened::{Failing, Look};
-use crate::document::own::{Fingerprint, OwnSet, Wishes};
-use crate::figures::curves::Kept;
+use crate::catalog::opened::{Failing, FilePreview};
+use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
+use crate::figures::curves::CurveCache;
 
 /// So many kinds of files are remembered.
 const REMEMBERED: usize = 100;
@@ -29,7 +29,7 @@ pub struct ImportView {
     /// The file on show.
     pub selected: Option<ImportItem>,
     /// How files are to be read, while that is not yet so in the document: what was tried on each is kept.
-    pub tried: BTreeMap<ImportItem, Wishes>,
+    pub tried: BTreeMap<ImportItem, ImportOverrides>,
     /// Files with something guessed or broken that nobody has looked at.
     pub unseen: BTreeSet<ImportItem>,
     /// The parts of the file on show that are to be taken, each as a set of its own; from 1.
@@ -45,9 +45,9 @@ pub struct ImportView {
     /// Curves under the pointer, by place in the file.
     pub hovered_curve: Option<usize>,
     /// What the file on show was last understood as.
-    pub look: Option<Arc<Look>>,
+    pub look: Option<Arc<FilePreview>>,
     /// Its curves, kept from frame to frame.
-    pub kept: Option<Kept>,
+    pub kept: Option<CurveCache>,
 }
 
 /// A place in Import where the keyboard stops on its way from pane to pane.
@@ -82,7 +82,7 @@ impl ImportView {
     }
 
     /// What is tried on an item.
-    pub fn pending(&self, item: &ImportItem) -> Option<&Wishes> {
+    pub fn pending(&self, item: &ImportItem) -> Option<&ImportOverrides> {
         self.tried.get(item)
     }
 
@@ -123,7 +123,7 @@ pub struct Remembered {
     /// The kind.
     pub likeness: Likeness,
     /// The wishes.
-    pub wishes: Wishes,
+    pub wishes: ImportOverrides,
 }
 
 /// What is kept of Import between runs.
@@ -148,13 +148,13 @@ impl Default for ImportMemory {
 
 impl ImportMemory {
     /// Remembers what was wished for a file, for others like it; no wishes forget.
-    pub fn remember(&mut self, likeness: Likeness, wishes: &Wishes) {
+    pub fn remember(&mut self, likeness: Likeness, wishes: &ImportOverrides) {
         if !likeness.is_telling() {
             return;
         }
         self.remembered.retain(|known| !known.likeness.is_like(&likeness));
         let wishes = of_a_kind(wishes);
-        if wishes != Wishes::default() {
+        if wishes != ImportOverrides::default() {
             self.remembered.push(Remembered { likeness, wishes });
         }
         let spare = self.remembered.len().saturating_sub(REMEMBERED);
@@ -167,15 +167,15 @@ impl ImportMemory {
     }
 
     /// What is wished for a file.
-    pub fn wishes(&self, likeness: &Likeness) -> Wishes {
+    pub fn wishes(&self, likeness: &Likeness) -> ImportOverrides {
         let known = self.remembered.iter().rev().find(|known| known.likeness.is_like(likeness));
         known.map(|known| known.wishes.clone()).unwrap_or_default()
     }
 }
 
 /// The wishes that hold for other files of a kind too: which curves are taken, and which part and column, do not.
-pub fn of_a_kind(wishes: &Wishes) -> Wishes {
-    let mut kind = Wishes { taken: None, ..wishes.clone() };
+pub fn of_a_kind(wishes: &ImportOverrides) -> ImportOverrides {
+    let mut kind = ImportOverrides { taken: None, ..wishes.clone() };
     (kind.options.part, kind.options.wavelength_column) = (None, None);
     kind
 }

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::document::render::MeshChoice;
 use crate::paint::PictureTextures;
-use crate::studio::Shot;
-use crate::thing::SourceId;
+use crate::plot_item::SensorId;
+use crate::render_service::RenderedFrame;
 
 /// The part that is kept between runs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,14 +42,14 @@ impl RenderLook {
 /// How pictures stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum RenderMode {
-    /// One for each source.
+    /// One for each sensor.
     #[default]
     Grid,
-    /// The truth and a source in one.
+    /// The reference and a sensor in one.
     Split,
-    /// One source, large.
+    /// One sensor, large.
     One,
-    /// How far each source is from the truth.
+    /// How far each sensor is from the reference.
     Difference,
 }
 
@@ -111,26 +111,26 @@ impl Orbit {
     }
 }
 
-/// A place in every picture, with the source that was pointed at.
+/// A place in every picture, with the sensor that was pointed at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelPlace {
     /// Right and down, from 0 to 1.
     pub at: [f64; 2],
-    /// The source whose picture it was.
-    pub source: SourceId,
+    /// The sensor whose picture it was.
+    pub source: SensorId,
 }
 
 /// What the pane shows now.
 #[derive(Debug, Default)]
 pub struct RenderView {
     /// The pictures on show.
-    pub shot: Option<Arc<Shot>>,
+    pub shot: Option<Arc<RenderedFrame>>,
     /// The pixel that is kept.
     pub pinned: Option<PixelPlace>,
     /// The pixel under the pointer.
     pub hovered: Option<PixelPlace>,
-    /// The source that stands alone or beside the truth; none for the first camera.
-    pub chosen: Option<SourceId>,
+    /// The sensor that stands alone or beside the reference; none for the first camera.
+    pub chosen: Option<SensorId>,
     /// For how long pictures have been in the making.
     pub busy: Option<Duration>,
     /// What is being made, in a word.

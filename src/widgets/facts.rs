@@ -7,8 +7,8 @@ use egui::text::LayoutJob;
 use egui::{TextFormat, Ui};
 
 use super::number;
-use crate::catalog::load::FileOf;
-use crate::catalog::{Entry, Kind, Place};
+use crate::catalog::load::FileQuery;
+use crate::catalog::{Entry, Place, SetKind};
 use crate::document::own::Role;
 use crate::scene::Scene;
 use crate::theme::{SMALL, Theme, UNIT};
@@ -66,7 +66,7 @@ fn range(scene: &Scene<'_>, entry: &Entry) -> Option<([f64; 2], SpectralDistribu
     let union = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
     match &entry.place {
         Place::BuiltIn { path, column } => {
-            let file = scene.results.ask(&FileOf(path));
+            let file = scene.results.ask(&FileQuery(path));
             let curves = &(*file).as_ref().ok()?.curves;
             let curves = column.map_or(&curves[..], |column| curves.get(column).map_or(&[], std::slice::from_ref));
             let range = curves.iter().map(SpectralDistribution::range_nm).reduce(union)?;
@@ -81,20 +81,20 @@ fn range(scene: &Scene<'_>, entry: &Entry) -> Option<([f64; 2], SpectralDistribu
 }
 
 /// What a kind's tables hold, where that is known.
-const fn quantity(kind: Kind) -> Option<Quantity> {
+const fn quantity(kind: SetKind) -> Option<Quantity> {
     match kind {
-        Kind::Camera => Some(Quantity::CameraSensitivity),
-        Kind::Observer => Some(Quantity::MatchingFunction),
-        Kind::Chart | Kind::Material => Some(Quantity::Reflectance),
-        Kind::Illuminant => Some(Quantity::Light),
-        Kind::Unsorted => None,
+        SetKind::Camera => Some(Quantity::CameraSensitivity),
+        SetKind::Observer => Some(Quantity::MatchingFunction),
+        SetKind::Chart | SetKind::Material => Some(Quantity::Reflectance),
+        SetKind::Illuminant => Some(Quantity::Light),
+        SetKind::Unsorted => None,
     }
 }
 
 /// All that is known about a set. `with_range` parses it.
 pub fn of(scene: &Scene<'_>, entry: &Entry, with_range: bool) -> Vec<Fact> {
     let mut facts: Vec<Fact> = Vec::new();
-    let is_sensor = matches!(entry.kind, Kind::Camera | Kind::Observer);
+    let is_sensor = matches!(entry.kind, SetKind::Camera | SetKind::Observer);
     if let Some(header) = &entry.header {
         let unit = if header.unit == "1" { String::new() } else { format!(", in {}", header.unit) };
         facts.push(("Quantity", format!("{}{unit}", header.quantity)));

@@ -5,7 +5,7 @@ use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, TextStyle, Text
 
 use super::focus_rim;
 use crate::paint;
-use crate::scene::Source;
+use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, Theme};
 
 /// Width of a source's key.
@@ -36,7 +36,7 @@ pub fn right_aligned(ui: &Ui, rect: Rect, words: &str, style: TextStyle, color: 
 }
 
 /// Draws a source's key: filled where it is shown, hollow and pale where it is hidden, with a dot where it is the user's.
-pub fn key(painter: &Painter, rect: Rect, source: &Source, theme: &Theme) {
+pub fn key(painter: &Painter, rect: Rect, source: &ComparedSensor, theme: &Theme) {
     let ink = if source.visible { Ink::new(source.role) } else { Ink::new(source.role).faded(FADED) };
     let entry = LegendEntry {
         name: source.label.clone(),
@@ -51,7 +51,7 @@ pub fn key(painter: &Painter, rect: Rect, source: &Source, theme: &Theme) {
 }
 
 /// A source's key, and its label, in one line.
-pub fn key_and_label(ui: &mut Ui, source: &Source, theme: &Theme) -> Response {
+pub fn key_and_label(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     key(ui.painter(), Rect::from_min_size(rect.min, Vec2::new(KEY, ROW)), source, theme);
     let words = Rect::from_min_max(rect.min + Vec2::new(KEY + 8.0, 0.0), rect.max);

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use chromascope::action::{Action, CompareAction, RenderAction, SceneAction};
 use chromascope::bench::{self, Effort, Workload};
-use chromascope::catalog::Kind;
+use chromascope::catalog::SetKind;
 use chromascope::command::Command;
 use chromascope::document::Light;
 use chromascope::document::render::{QualityChoice, ReadingChoice, RenderSettings};
-use chromascope::laboratory::{SceneRun, Subject};
 use chromascope::panes;
+use chromascope::profiler::{SceneRun, Subject};
 use chromascope::scene::Scene;
 use chromascope::view::accuracy::Shows;
 use chromascope::workspaces::{PaneKind, Workspace};
@@ -69,8 +69,8 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
         }
     }
     let of = |what: &str| {
-        let row = measured.left_out.iter().find(|row| row.what == what);
-        row.unwrap_or_else(|| panic!("{what}: {:?}", measured.left_out))
+        let row = measured.skipped_work.iter().find(|row| row.what == what);
+        row.unwrap_or_else(|| panic!("{what}: {:?}", measured.skipped_work))
     };
     let beside = of("samples beside the mesh");
     let rest: u64 = ["samples turned from the light", "samples in shadow"].map(|what| of(what).count).iter().sum();
@@ -79,15 +79,15 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     let terms = of("terms of S at a lit sample");
     assert!(terms.count > lit * 4 * 9, "several terms at each wavelength, {} of them", terms.count);
     assert_eq!(Some(terms.count), terms.of, "tables and moments add none");
-    assert!(measured.left_out.iter().all(|row| row.saved.is_finite() && row.saved >= 0.0 && !row.how.is_empty()));
+    assert!(measured.skipped_work.iter().all(|row| row.saved.is_finite() && row.saved >= 0.0 && !row.how.is_empty()));
     assert!(window.query_by_label("Run again").is_some());
     assert!(window.state().view().accuracy.is_current);
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
     let remembered = window.state().view().accuracy.remembered.len();
-    let figure = panes::figure(PaneKind::LeftOut, &scene, window.state().view()).expect("measured");
-    assert!(remembered > 0 && figure.table.rows.len() == measured.left_out.len() + remembered, "as on screen");
-    for pane in [PaneKind::Accuracy, PaneKind::LeftOut] {
+    let figure = panes::figure(PaneKind::SkippedWork, &scene, window.state().view()).expect("measured");
+    assert!(remembered > 0 && figure.table.rows.len() == measured.skipped_work.len() + remembered, "as on screen");
+    for pane in [PaneKind::Accuracy, PaneKind::SkippedWork] {
         let figure = panes::figure(pane, &scene, window.state().view()).expect("measured");
         assert!(figure.table.rows.len() >= 6);
         let paper = chromascope::export::Paper::default();
@@ -117,7 +117,7 @@ fn how_it_was_measured_is_in_sight_in_a_small_window() {
     for size in [[900.0, 600.0], [1280.0, 800.0], [1920.0, 1200.0]] {
         let window = accuracy(size, egui::Theme::Light);
         let run = run(&window);
-        let text = window.query_all_by_label(&run.left_out[0].how).next().expect("the first row is measured");
+        let text = window.query_all_by_label(&run.skipped_work[0].how).next().expect("the first row is measured");
         let rect = text.rect();
         assert!(rect.left() >= 0.0 && rect.right() <= size[0] && rect.bottom() < size[1] - 24.0, "{size:?}: {rect:?}");
     }
@@ -137,7 +137,7 @@ fn methods_say_what_was_measured_and_what_marks_stand_for() {
         assert_eq!(trial.set.map(|set| trial.name(set)).as_deref(), Some("Full: moments, table (set)"));
         let panel = chromascope::figures::accuracy::panel(&trial, true, [600.0, 400.0]);
         assert!(panel.marks.iter().any(|mark| mark.name.ends_with(" (set)")));
-        let of_a_camera = |ink: Ink| matches!(ink.role, InkRole::Source(_) | InkRole::Truth | InkRole::Observer);
+        let of_a_camera = |ink: Ink| matches!(ink.role, InkRole::Sensor(_) | InkRole::Reference | InkRole::Observer);
         let inks =
             panel.marks.iter().flat_map(|mark| mark.stroke.map(|stroke| stroke.ink).into_iter().chain(mark.fill));
         assert!(inks.into_iter().all(|ink| !of_a_camera(ink)), "no method looks like a camera");
@@ -150,15 +150,15 @@ fn a_hidden_camera_is_told_of() {
     let mut settings = window.state().history().document().render.clone();
     (settings.quality, settings.tolerance) = (QualityChoice::Tolerance, 5e-10);
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Quality", to: Box::new(settings) }));
-    let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
+    let hide = CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
     window.state_mut().push(Action::Compare(hide));
     window.run_steps(2);
-    window.state_mut().push(Command::Measure);
+    window.state_mut().push(Command::SpectralWeights);
     window.run_steps(2);
     assert_eq!(window.state().view().saved.workspace, Workspace::Accuracy, "what is measured is shown");
     take_in(&mut window);
     let run = run(&window);
-    let row = run.left_out.iter().find(|row| row.what == "sources that are not on show").expect("one is hidden");
+    let row = run.skipped_work.iter().find(|row| row.what == "sources that are not on show").expect("one is hidden");
     assert_eq!(row.count, 1);
     let trial = &run.trials[0];
     let set = trial.name(trial.set.expect("the tolerance that is set is tried too"));
@@ -268,7 +268,7 @@ fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
 #[test]
 fn escape_stops_measuring() {
     let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().push(Command::Measure);
+    window.state_mut().push(Command::SpectralWeights);
     window.run_steps(1);
     assert!(window.state().laboratory().busy().is_some());
     window.key_press(egui::Key::Escape);

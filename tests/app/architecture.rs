@@ -21,7 +21,7 @@ const CORE_LAYERS: &[&str] = &[
     "spectral",
     "colorimetry",
     "light",
-    "object",
+    "patch_set",
     "camera",
     "reflectance",
     "scene",
@@ -313,8 +313,8 @@ use crate::{
     spectral::Sensor as S, light::{planckian as p, Daylight},
 };
 use super::camera::Response;
-const TEXT: &str = \"crate::object::X\"; // crate::object::X
-fn f<'a>(c: char) -> super::super::object::Object { if c == '\"' { crate::units::Kelvin::new() } else { self::g() } }
+const TEXT: &str = \"crate::patch_set::X\"; // crate::patch_set::X
+fn f<'a>(c: char) -> super::super::patch_set::Object { if c == '\"' { crate::units::Kelvin::new() } else { self::g() } }
 pub use crate::*;
 use crate::Xyz;
 #[cfg(test)]
@@ -325,7 +325,7 @@ mod inner { use super::super::super::scene::Mesh; }
     let only = "only accuracy, units, spectral";
     let expected = [
         format!("core/src/colorimetry/lab.rs:4: `colorimetry` {rule} `light`, {only}"),
-        format!("core/src/colorimetry/lab.rs:8: `colorimetry` {rule} `object`, {only}"),
+        format!("core/src/colorimetry/lab.rs:8: `colorimetry` {rule} `patch_set`, {only}"),
         "core/src/colorimetry/lab.rs:9: `crate::*` names no module of the core: write the path through its module"
             .to_owned(),
         "core/src/colorimetry/lab.rs:10: `crate::Xyz` names no module of the core: write the path through its module"

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use chromascope::catalog::{Catalog, Kind};
+use chromascope::catalog::{Catalog, SetKind};
 use chromascope_core::spectral::Dataset;
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets");
@@ -282,7 +282,7 @@ fn digitized_tables_say_so_and_come_after_measured_ones() {
     }
     let catalog = Catalog::built_in();
     let d70s: Vec<&str> = catalog
-        .of_kind(Kind::Camera)
+        .of_kind(SetKind::Camera)
         .map(|entry| entry.name.as_str())
         .filter(|name| name.starts_with("Nikon D70 "))
         .collect();

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use chromascope::bench::{Effort, Progress, Report, Workload, exact, run};
 use chromascope::catalog::Place;
-use chromascope::catalog::load::SensorOf;
+use chromascope::catalog::load::SensorQuery;
 use chromascope::export::{Paper, png, svg};
 use chromascope::theme::Theme;
 use chromascope_core::colorimetry::Lab;
@@ -38,7 +38,7 @@ fn close(found: Double, expected: &str, within: f64) {
 
 fn observer() -> Shared<Sensor> {
     let place = Place::BuiltIn { path: "observers/cie_1931_2deg.csv", column: None };
-    (*Direct.ask(&SensorOf(place))).clone().unwrap()
+    (*Direct.ask(&SensorQuery(place))).clone().unwrap()
 }
 
 // All literals here: mpmath 1.3.0 with 60 digits.

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use chromascope::catalog::{Catalog, Kind};
+use chromascope::catalog::{Catalog, SetKind};
 use chromascope::document::render::{MeshChoice, RenderSettings, SUN};
-use chromascope::document::{Compared, Document, Light, WhiteChoice};
+use chromascope::document::{Compared, Document, Light, WhiteBalanceChoice};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::scene::render::Finish;
@@ -68,9 +68,9 @@ fn pictures_in(folder: &Path) -> Vec<String> {
 fn as_in_the_window(samples: u32, quality: Quality) -> (Pictures, [f64; 3]) {
     let compared = |name: &str, kind| Compared { name: name.to_owned(), kind, slot: 0, visible: true, label: None };
     let document = Document {
-        compared: vec![compared("Nikon D70 (2007 figure)", Kind::Camera)],
+        compared: vec![compared("Nikon D70 (2007 figure)", SetKind::Camera)],
         light: Light::Set(SUN.to_owned()),
-        white: WhiteChoice::Light("D55".to_owned()),
+        white: WhiteBalanceChoice::Light("D55".to_owned()),
         render: RenderSettings { mesh: MeshChoice::Sphere, triangles: 800, ..RenderSettings::default() },
         ..Document::paper()
     };
@@ -277,15 +277,15 @@ fn statistics_are_json() {
     let wavelengths = &source["wavelengths"];
     assert_eq!((&wavelengths["of"], &wavelengths["in_a_table_place"]), (&Value::from(401), &Value::from(9)));
     let accuracy = &json["accuracy"];
-    let error = |way: &str| accuracy[way]["error_to_peak"]["max"].as_f64().unwrap();
+    let error = |transform: &str| accuracy[transform]["error_to_peak"]["max"].as_f64().unwrap();
     assert!(error("chosen") <= 1e-5 && error("exact") == 0.0 && error("regimes") > 1e-4, "{accuracy}");
     assert_eq!(source["error_to_peak"]["max"].as_f64().unwrap(), error("chosen"));
-    for way in ["chosen", "exact", "regimes"] {
-        let time = accuracy[way]["ns_per_sample"].as_f64().unwrap();
-        assert!(time.is_finite() && time >= 0.0 && accuracy[way].get("time_ratio").is_some(), "{accuracy}");
+    for transform in ["chosen", "exact", "regimes"] {
+        let time = accuracy[transform]["ns_per_sample"].as_f64().unwrap();
+        assert!(time.is_finite() && time >= 0.0 && accuracy[transform].get("time_ratio").is_some(), "{accuracy}");
     }
     // What the quality spares is counted: a table takes the place of sums over wavelengths.
-    let sums = |way: &str| accuracy[way]["samples_by_sums"].as_u64().unwrap();
+    let sums = |transform: &str| accuracy[transform]["samples_by_sums"].as_u64().unwrap();
     assert!(sums("chosen") == 0 && sums("exact") > 0 && sums("regimes") == sums("exact"), "{accuracy}");
     assert!(accuracy["samples"].as_u64().is_some_and(|samples| samples > 0 && samples <= 2000));
 }
@@ -433,7 +433,7 @@ fn the_meshs_own_roughness_is_a_narrow_gloss_and_has_no_one_error() {
     assert!(said.contains("surface: Returns 0.49") && !unsaid.contains("surface: "), "no one surface: {unsaid}");
 }
 
-/// Small pictures kept beside the tests: what head and fern look like through the truth and a camera, in all readings that
+/// Small pictures kept beside the tests: what head and fern look like through the reference and a camera, in all readings that
 /// differ to the eye. `UPDATE_SCREENSHOTS=1 cargo test` writes them.
 #[test]
 fn head_and_fern_look_as_they_did() {

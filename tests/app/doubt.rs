@@ -1,11 +1,11 @@
 //! Data with its doubt: what a table does not hold is marked wherever its numbers are shown.
 
-use chromascope::catalog::{Catalog, Kind};
+use chromascope::catalog::{Catalog, SetKind};
 use chromascope::document::{Diagram, Document, Light};
 use chromascope::figures::{chromaticity, strip};
+use chromascope::plot_item::{PlotItem, SensorId};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope::thing::{SourceId, Thing};
 use chromascope::view::View;
 use chromascope_figure::{Cell, Dash, Mark, Marker, Shape};
 
@@ -19,7 +19,7 @@ fn with<R>(document: &Document, look: impl FnOnce(&Scene<'_>) -> R) -> R {
 /// Document of the paper with the measured D70 beside the digitized one.
 fn both() -> Document {
     let mut document = Document::paper();
-    document.compare("Nikon D70 (A.M.P.A.S.)", Kind::Camera);
+    document.compare("Nikon D70 (A.M.P.A.S.)", SetKind::Camera);
     document
 }
 
@@ -63,8 +63,8 @@ fn a_locus_is_dotted_where_its_table_ends_too_early() {
 fn tooltip_caption_and_table_say_what_is_extrapolated() {
     with(&both(), |scene| {
         let told = |name: &str, kelvin| {
-            let source = SourceId { kind: Kind::Camera, name: name.to_owned() };
-            chromaticity::describe(scene, &Thing::Radiator { source, kelvin }).join("\n")
+            let source = SensorId { kind: SetKind::Camera, name: name.to_owned() };
+            chromaticity::describe(scene, &PlotItem::Radiator { source, kelvin }).join("\n")
         };
         let words = "extrapolated: below 2500 K the table's missing tail beyond 700 nm matters";
         assert!(told(D70, 1000.0).contains(words) && told(D70, 2499.0).contains(words));

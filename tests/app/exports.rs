@@ -1,7 +1,7 @@
 //! What leaves the program: each pane's figure as SVG and PNG, and its numbers.
 
 use chromascope::catalog::Catalog;
-use chromascope::document::{Document, Subset, WayChoice};
+use chromascope::document::{Document, Subset, TransformChoice};
 use chromascope::export::{Paper, png, png_file, svg};
 use chromascope::panes;
 use chromascope::results::Results;
@@ -13,11 +13,11 @@ use chromascope::workspaces::PaneKind;
 const PICTURED: [PaneKind; 3] = [PaneKind::Chromaticity, PaneKind::Swatches, PaneKind::Spectra];
 
 fn documents() -> [Document; 3] {
-    let observer = WayChoice::Observer("CIE 1931 2°".to_owned());
+    let observer = TransformChoice::Observer("CIE 1931 2°".to_owned());
     [
         Document::paper(),
         Document { subset: Subset::All, ..Document::paper() },
-        Document { subset: Subset::All, way: observer, ..Document::paper() },
+        Document { subset: Subset::All, transform: observer, ..Document::paper() },
     ]
 }
 

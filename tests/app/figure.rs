@@ -47,23 +47,23 @@ fn chromaticity(area: Rect) -> Panel {
     let rim = Mark::new(Tag(91), "spectral locus", Shape::Gradient { points: rim.collect() });
     marks.push(rim.with_stroke(InkRole::Text, 2.0));
     for (tag, role, width, shift) in
-        [(1, InkRole::Source(0), 2.0, -0.02), (2, InkRole::Source(1), 2.0, -0.04), (0, InkRole::Truth, 4.0, 0.0)]
+        [(1, InkRole::Sensor(0), 2.0, -0.02), (2, InkRole::Sensor(1), 2.0, -0.04), (0, InkRole::Reference, 4.0, 0.0)]
     {
         let line = Shape::Line { points: locus(shift), closed: false };
         marks.push(Mark::new(Tag(tag), "locus", line).with_stroke(role, width).with_halo(InkRole::Plot));
     }
     let estimated = Shape::Line { points: locus(0.03), closed: false };
-    marks.push(Mark::new(Tag(3), "estimated", estimated).with_stroke(InkRole::Source(2), 2.0).with_dash(Dash::Dashed));
+    marks.push(Mark::new(Tag(3), "estimated", estimated).with_stroke(InkRole::Sensor(2), 2.0).with_dash(Dash::Dashed));
     for (at, rgb, name) in PATCHES {
         let camera = [at[0] - 0.02, at[1] - 0.05];
         let tail = Shape::Segments { segments: vec![[at, camera]] };
         marks
-            .push(Mark::new(Tag(1), name, tail).with_stroke(Ink::new(InkRole::Source(0)).faded(0.7), theme::LINE_TAIL));
+            .push(Mark::new(Tag(1), name, tail).with_stroke(Ink::new(InkRole::Sensor(0)).faded(0.7), theme::LINE_TAIL));
         let point = |at, marker| Shape::Points { points: vec![at], marker, radius: theme::MARKER };
         let camera = Mark::new(Tag(10), name, point(camera, Marker::Circle));
-        marks.push(camera.with_stroke(InkRole::Source(0), 2.0).with_fill(Ink::rgb(rgb)).with_halo(InkRole::Plot));
-        let truth = Mark::new(Tag(11), name, point(at, Marker::Plus));
-        marks.push(truth.with_stroke(InkRole::Truth, 2.0).with_halo(InkRole::Plot));
+        marks.push(camera.with_stroke(InkRole::Sensor(0), 2.0).with_fill(Ink::rgb(rgb)).with_halo(InkRole::Plot));
+        let reference = Mark::new(Tag(11), name, point(at, Marker::Plus));
+        marks.push(reference.with_stroke(InkRole::Reference, 2.0).with_halo(InkRole::Plot));
         let label = Shape::Text {
             at,
             text: name.to_owned(),
@@ -85,7 +85,7 @@ fn strip(area: Rect) -> Panel {
     panel.note = "distance to truth (Δu′v′) over temperature".into();
     let points = (0..100).map(|i| 50.0 + 9.5 * f64::from(i)).map(|m| [m, 0.00009 * (m - 200.0).abs()]);
     let line = Shape::Line { points: points.collect(), closed: false };
-    panel.marks.push(Mark::new(Tag(3), "Kodak", line).with_stroke(InkRole::Source(2), 2.0));
+    panel.marks.push(Mark::new(Tag(3), "Kodak", line).with_stroke(InkRole::Sensor(2), 2.0));
     panel
 }
 
@@ -98,12 +98,12 @@ fn spectra(area: Rect) -> Panel {
             let curve = (0..101).map(|i| 380.0 + 4.0 * f64::from(i));
             let points = curve.map(|nm| [nm, (-((nm - peak - shift) / 40.0).powi(2)).exp()]).collect();
             let line = Mark::new(Tag(u32::from(slot)), "curve", Shape::Line { points, closed: false });
-            panel.marks.push(line.with_stroke(InkRole::Source(slot), 2.0));
+            panel.marks.push(line.with_stroke(InkRole::Sensor(slot), 2.0));
         }
     }
     let arrow = [[700.0, 0.5], [760.0, 0.5], [730.0, 0.6], [760.0, 0.9], [700.0, 0.9]];
     let concave = Mark::new(Tag(50), "band", Shape::Polygon { points: arrow.to_vec() });
-    panel.marks.push(concave.with_fill(Ink::new(InkRole::Source(3)).faded(0.4)).with_stroke(InkRole::Source(3), 1.0));
+    panel.marks.push(concave.with_fill(Ink::new(InkRole::Sensor(3)).faded(0.4)).with_stroke(InkRole::Sensor(3), 1.0));
     panel
 }
 
@@ -174,10 +174,10 @@ fn legend() -> Vec<LegendEntry> {
         fill: Some(Ink::new(role)),
     };
     vec![
-        key("S&B 1955", InkRole::Truth, 4.0, Marker::Plus),
-        key("Canon EOS 10D (2007 figure)", InkRole::Source(0), 2.0, Marker::Circle),
-        key("Nikon D70 (2007 figure)", InkRole::Source(1), 2.0, Marker::Square),
-        LegendEntry { fill: None, ..key("Kodak DCS200", InkRole::Source(2), 2.0, Marker::TriangleUp) },
+        key("S&B 1955", InkRole::Reference, 4.0, Marker::Plus),
+        key("Canon EOS 10D (2007 figure)", InkRole::Sensor(0), 2.0, Marker::Circle),
+        key("Nikon D70 (2007 figure)", InkRole::Sensor(1), 2.0, Marker::Square),
+        LegendEntry { fill: None, ..key("Kodak DCS200", InkRole::Sensor(2), 2.0, Marker::TriangleUp) },
     ]
 }
 
@@ -435,7 +435,7 @@ fn noise(curves: usize, samples: usize, whole: bool, amplitude: f64) -> Panel {
             let run = points[start..samples.min(start + length + 1)].to_vec();
             let shape = Shape::Line { points: run, closed: false };
             panel.marks.push(
-                Mark::new(Tag(curve as u32 + 1), "noise", shape).with_stroke(InkRole::Source(curve as u8 % 8), 1.0),
+                Mark::new(Tag(curve as u32 + 1), "noise", shape).with_stroke(InkRole::Sensor(curve as u8 % 8), 1.0),
             );
         }
     }

@@ -110,12 +110,12 @@ fn what_cannot_be_read_says_the_line() {
 #[test]
 fn percent_that_was_chosen_holds_for_every_role() {
     use chromascope::catalog::import::{Origin, import_as};
-    use chromascope::document::own::{ReadOptions, Wishes};
+    use chromascope::document::own::{ImportOverrides, ReadOptions};
     use spectral_file::{Values, Watch};
     let text = b"nm,r,g,b\n400,5,6,7\n500,50,60,70\n600,10,11,12\n";
     for role in [Role::Camera, Role::Illuminant, Role::Unknown, Role::Transmittance] {
         let options = ReadOptions { role: Some(role), values: Some(Values::Percent), ..ReadOptions::default() };
-        let wishes = Wishes { options, ..Wishes::default() };
+        let wishes = ImportOverrides { options, ..ImportOverrides::default() };
         let origin = Origin::named("x.csv", text);
         let mut set = import_as(&origin, text, &wishes, Watch::none()).unwrap().set;
         assert_eq!(first(&set).1, [0.05, 0.5, 0.1], "{role:?}");

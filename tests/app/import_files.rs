@@ -4,10 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::Kind;
+use chromascope::catalog::SetKind;
 use chromascope::command::Command;
 use chromascope::document::history::History;
-use chromascope::document::own::Wishes;
+use chromascope::document::own::ImportOverrides;
 use chromascope::document::{Document, Light};
 use chromascope::files::Files;
 use chromascope::view::import::ImportItem;
@@ -81,8 +81,8 @@ fn a_camera_called_as_a_built_in_one_is_another() {
         said.contains("Nikon D70 (A.M.P.A.S.) is the name of another set, so this one is Nikon D70 (A.M.P.A.S.) (own)"),
         "{said}"
     );
-    assert!(window.state().compares(Kind::Camera, "Nikon D70 (2007 figure)"));
-    assert!(window.state().compares(Kind::Camera, "Nikon D70 (A.M.P.A.S.) (own)"));
+    assert!(window.state().compares(SetKind::Camera, "Nikon D70 (2007 figure)"));
+    assert!(window.state().compares(SetKind::Camera, "Nikon D70 (A.M.P.A.S.) (own)"));
     // A name that is taken is refused, and said why, while it is typed and after.
     for (name, why) in [("Canon EOS 10D (2007 figure)", "A built-in set has this name"), ("mine", "")] {
         type_name(&mut window, name);
@@ -149,7 +149,7 @@ fn several_files_at_once_leave_light_and_patches() {
     let document = window.state().history().document().clone();
     assert_eq!(document.own.len(), 3);
     assert_eq!((&document.light, &document.chart), (&Document::paper().light, &Document::paper().chart));
-    assert!(window.state().compares(Kind::Camera, "a"));
+    assert!(window.state().compares(SetKind::Camera, "a"));
     let (said, weight) = status(&window);
     assert!(said.starts_with("3 files read. 1 put on show; light and patches stay."), "{said}");
     assert!(said.contains("2 of 5 files could not be read: d.csv, line 4") && weight == Weight::Warning, "{said}");
@@ -168,9 +168,9 @@ fn what_is_tried_on_a_file_stays_with_it() {
     drop_file(&mut window, "leaf.csv", LEAF);
     let broken = window.state().opened().files()[0].origin.fingerprint;
     let broken = ImportItem::File(broken);
-    let tried = Wishes {
+    let tried = ImportOverrides {
         options: ReadOptions { delimiter: Some(Delimiter::Tab), ..ReadOptions::default() },
-        ..Wishes::default()
+        ..ImportOverrides::default()
     };
     for item in [broken.clone(), set("leaf")] {
         window.state_mut().push(Command::ShowImport(item.clone(), None));
@@ -197,7 +197,7 @@ fn what_is_tried_on_a_file_stays_with_it() {
     until(&mut window, "a role", |app| app.history().document().own[0].role == Kinds::Illuminant);
     window.get_by_role_and_label(Role::Button, "Forget choices").click();
     settle(&mut window);
-    assert_eq!(own(&window)[0].wishes, Wishes::default());
+    assert_eq!(own(&window)[0].wishes, ImportOverrides::default());
     assert!(window.state().view().saved.import.remembered.is_empty());
     undo(&mut window);
     assert_eq!(own(&window)[0].role, Kinds::Illuminant);

@@ -1,9 +1,9 @@
 //! What Import and the plots beside it look like: nothing is written over curves or over other words.
 
-use chromascope::catalog::Kind;
+use chromascope::catalog::SetKind;
 use chromascope::catalog::import::import;
 use chromascope::document::Document;
-use chromascope::figures::curves::{self, OnShow};
+use chromascope::figures::curves::{self, ImportSelection};
 use chromascope::figures::{spectra, swatches};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
@@ -51,7 +51,7 @@ fn spikes_beyond_the_plot_are_said_and_not_drawn() {
     let (document, view) = of("lamp.csv", &noisy());
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let shown = OnShow::of(&scene, &view).unwrap();
+    let shown = ImportSelection::of(&scene, &view).unwrap();
     let curves = curves::Curves::of(&shown, 10).unwrap();
     for height in [90.0, 160.0, 600.0] {
         let panel = curves::panel(&curves, [600.0, height], None);
@@ -93,8 +93,8 @@ fn names_above_swatches_keep_to_their_columns() {
     let names = (0..5).map(|i| format!(",a leaf with a very long name {i}")).collect::<Vec<_>>().concat();
     let row = |nm: u32| format!("{nm},0.1,0.2,0.3,0.4,0.5\n");
     let (mut document, view) = of("leaves.csv", &format!("nm{names}\n{}", [400, 500, 600, 700].map(row).concat()));
-    for entry in chromascope::catalog::Catalog::built_in().of_kind(Kind::Camera).take(6) {
-        document.compare(&entry.name, Kind::Camera);
+    for entry in chromascope::catalog::Catalog::built_in().of_kind(SetKind::Camera).take(6) {
+        document.compare(&entry.name, SetKind::Camera);
     }
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };

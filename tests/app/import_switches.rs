@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use chromascope::action::{Action, OwnAction};
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::Kind;
+use chromascope::catalog::SetKind;
 use chromascope::catalog::import::import;
 use chromascope::command::Command;
 use chromascope::document::own::{OwnSet, WavelengthUnit};
@@ -272,7 +272,7 @@ fn a_set_is_renamed_and_stays_in_sight() {
     window.key_press(egui::Key::Enter);
     settle(&mut window);
     assert_eq!(window.state().view().import.selected, Some(ImportItem::Set("Park".to_owned())));
-    assert!(window.state().compares(Kind::Camera, "Park"));
+    assert!(window.state().compares(SetKind::Camera, "Park"));
 }
 
 #[test]

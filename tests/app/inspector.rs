@@ -1,10 +1,10 @@
 //! The inspector and the foot of the window.
 
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::{Catalog, Kind};
+use chromascope::catalog::{Catalog, SetKind};
+use chromascope::plot_item::{PlotItem, SensorId};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope::thing::{SourceId, Thing};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -17,15 +17,15 @@ fn window() -> Window {
     open([1280.0, 1000.0], egui::Theme::Dark)
 }
 
-fn camera(name: &str) -> SourceId {
-    SourceId { kind: Kind::Camera, name: name.to_owned() }
+fn camera(name: &str) -> SensorId {
+    SensorId { kind: SetKind::Camera, name: name.to_owned() }
 }
 
-fn patch(source: &str, name: &str) -> Thing {
-    Thing::Patch { source: Some(camera(source)), patch: name.to_owned() }
+fn patch(source: &str, name: &str) -> PlotItem {
+    PlotItem::Patch { source: Some(camera(source)), patch: name.to_owned() }
 }
 
-fn select(window: &mut Window, thing: Thing) {
+fn select(window: &mut Window, thing: PlotItem) {
     window.state_mut().view_mut().selected = Some(thing);
     window.run();
 }
@@ -58,7 +58,7 @@ fn a_patch_shows_the_difference_that_the_scene_computes() {
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let document = window.state().history().document().clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let differences = scene.differences(Kind::Camera, "Kodak DCS200").expect("the camera is there");
+    let differences = scene.differences(SetKind::Camera, "Kodak DCS200").expect("the camera is there");
     let blue = differences[2].expect("comparable");
     assert!(says(&window, &format!("Δxy {blue:.4}")));
     assert!(says(&window, "b*: reference −40.8"), "a true minus sign");
@@ -68,10 +68,10 @@ fn a_patch_shows_the_difference_that_the_scene_computes() {
 #[test]
 fn where_there_is_no_difference_the_reason_stands() {
     let mut window = window();
-    let source = SourceId { kind: Kind::Observer, name: "CIE 1931 2°".to_owned() };
-    select(&mut window, Thing::Patch { source: Some(source.clone()), patch: "red".to_owned() });
+    let source = SensorId { kind: SetKind::Observer, name: "CIE 1931 2°".to_owned() };
+    select(&mut window, PlotItem::Patch { source: Some(source.clone()), patch: "red".to_owned() });
     assert!(says(&window, "No difference: a CIE observer is drawn directly"));
-    select(&mut window, Thing::Radiator { source, kelvin: 5500.0 });
+    select(&mut window, PlotItem::Radiator { source, kelvin: 5500.0 });
     assert!(says(&window, "No difference: a CIE observer is drawn directly"));
 }
 
@@ -80,14 +80,14 @@ fn every_kind_of_thing_has_its_page() {
     let mut window = window();
     let assumed = "Canon 10D (2007): measured 400–700 nm; counts as zero outside.";
     for (thing, words) in [
-        (Thing::Source(camera("Canon EOS 10D (2007 figure)")), "0.348 in xy"),
-        (Thing::Source(camera("Canon EOS 10D (2007 figure)")), assumed),
+        (PlotItem::Sensor(camera("Canon EOS 10D (2007 figure)")), "0.348 in xy"),
+        (PlotItem::Sensor(camera("Canon EOS 10D (2007 figure)")), assumed),
         (
-            Thing::Radiator { source: camera("Nikon D70 (2007 figure)"), kelvin: 5500.0 },
+            PlotItem::Radiator { source: camera("Nikon D70 (2007 figure)"), kelvin: 5500.0 },
             "blackbody, 5500 K = 181.8 mired",
         ),
-        (Thing::Patch { source: None, patch: "red".to_owned() }, "Kodak DCS200, red"),
-        (Thing::Light, "for CIE 1931 2°"),
+        (PlotItem::Patch { source: None, patch: "red".to_owned() }, "Kodak DCS200, red"),
+        (PlotItem::Light, "for CIE 1931 2°"),
     ] {
         select(&mut window, thing);
         assert!(says(&window, words), "{words}");
@@ -108,10 +108,10 @@ fn a_sensor_says_what_its_table_leaves_in_doubt() {
         ("Kodak DCS200", "per energy, stated: Per energy, as Psychtoolbox states"),
         ("Kodak DCS200", "Zenodo 4297288"),
     ] {
-        select(&mut window, Thing::Source(camera(name)));
+        select(&mut window, PlotItem::Sensor(camera(name)));
         assert!(says(&window, words), "{name}: {words}");
     }
-    select(&mut window, Thing::Light);
+    select(&mut window, PlotItem::Light);
     assert!(says(&window, "Resampled"), "how the light is resampled");
 }
 
@@ -136,19 +136,19 @@ fn a_sensor_that_is_removed_leaves_the_inspector() {
     use chromascope::command::Command;
     let mut window = window();
     let name = "Canon EOS 5D";
-    let add = Action::Compare(CompareAction::Add(Kind::Camera, name.to_owned()));
-    let remove = Action::Compare(CompareAction::Remove(Kind::Camera, name.to_owned()));
+    let add = Action::Compare(CompareAction::Add(SetKind::Camera, name.to_owned()));
+    let remove = Action::Compare(CompareAction::Remove(SetKind::Camera, name.to_owned()));
     let other = patch("Kodak DCS200", "blue");
     for by_undo in [false, true] {
         window.state_mut().push(add.clone());
         window.run();
         let view = window.state_mut().view_mut();
-        view.selected = Some(Thing::Source(camera(name)));
+        view.selected = Some(PlotItem::Sensor(camera(name)));
         view.pinned = vec![patch(name, "blue"), other.clone(), patch(name, "red")];
-        view.hovered = Some(Thing::Radiator { source: camera(name), kelvin: 5500.0 });
+        view.hovered = Some(PlotItem::Radiator { source: camera(name), kelvin: 5500.0 });
         window.state_mut().push(if by_undo { Command::Undo } else { remove.clone().into() });
         window.run();
-        assert!(!window.state().compares(Kind::Camera, name));
+        assert!(!window.state().compares(SetKind::Camera, name));
         let view = window.state().view();
         assert_eq!((&view.selected, &view.hovered), (&None, &None), "by undo: {by_undo}");
         assert_eq!(view.pinned, std::slice::from_ref(&other));

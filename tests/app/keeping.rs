@@ -268,7 +268,7 @@ fn each_document_that_cannot_be_read_is_set_aside_under_a_name_of_its_own() {
     let mut invalid = whole.clone().into_bytes();
     invalid[20] = 0xFF;
     let truncated = whole.as_bytes()[..whole.len() / 2].to_vec();
-    let newer = whole.replace("\"version\": 3", "\"version\": 99").into_bytes();
+    let newer = whole.replace("\"version\": 4", "\"version\": 99").into_bytes();
     for (index, (broken, why)) in
         [(invalid, "it is no text"), (truncated, "EOF"), (newer, "newer Chromascope")].into_iter().enumerate()
     {

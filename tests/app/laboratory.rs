@@ -6,8 +6,8 @@ use chromascope::command::Command;
 use chromascope::document::render::{MeshChoice, QualityChoice, ReadingChoice, RenderSettings};
 use chromascope::document::{Document, Light};
 use chromascope::jobs::Executor;
-use chromascope::laboratory::{Laboratory, SceneRunOf};
 use chromascope::panes;
+use chromascope::profiler::{Profiler, SceneRunQuery};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::workspaces::{PaneKind, Workspace};
@@ -20,12 +20,12 @@ use crate::screenshots::{accuracy, driven, open};
 const KEPT: &str = "Measured results are not kept when the program ends: export them.";
 
 /// What the default cameras cost on a small picture of a sphere.
-fn small(change: impl FnOnce(&mut Document)) -> SceneRunOf {
+fn small(change: impl FnOnce(&mut Document)) -> SceneRunQuery {
     let mut document = Document::paper();
     (document.render.mesh, document.render.triangles) = (MeshChoice::Sphere, 2000);
     change(&mut document);
     let (catalog, results) = (Catalog::built_in(), Results::default());
-    let mut run = SceneRunOf::of(&Scene { document: &document, catalog: &catalog, results: &results }, None, None);
+    let mut run = SceneRunQuery::of(&Scene { document: &document, catalog: &catalog, results: &results }, None, None);
     let pictures = run.pictures.as_mut().expect("there is a mesh");
     pictures.shading.geometry.visibility.size = RasterSize { width: 64, height: 48, samples: 1 };
     run
@@ -36,9 +36,9 @@ fn a_second_run_measures_computing_and_not_remembering() {
     let scene = small(|document| document.render.reading = ReadingChoice::Lambertian);
     // As a worker that lives on asks for one run after the other.
     let results = Results::bounded();
-    let runs = [1, 2].map(|run| results.ask(&SceneRunOf { run, ..scene.clone() }));
+    let runs = [1, 2].map(|run| results.ask(&SceneRunQuery { run, ..scene.clone() }));
     for run in &runs {
-        assert!(run.left_out.iter().any(|row| row.what == "pictures, while Render is not on show"));
+        assert!(run.skipped_work.iter().any(|row| row.what == "pictures, while Render is not on show"));
     }
     assert_eq!(results.counts().len(), 1, "nothing is remembered but the runs: {:?}", results.counts());
 }
@@ -53,7 +53,7 @@ fn plans_are_of_the_sources_that_are_asked_for() {
         pictures
     };
     let (all, fewer, more) = (with(&[0, 1, 2]), with(&[2, 1]), with(&[2, 3]));
-    let laboratory = Laboratory::on(&Executor::driven(), || ());
+    let laboratory = Profiler::on(&Executor::driven(), || ());
     assert!(laboratory.plans(&all).is_none());
     laboratory.wait();
     let plans = laboratory.plans(&all).expect("made");
@@ -73,7 +73,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     let flat = |settings: &RenderSettings| RenderSettings { reading: ReadingChoice::Lambertian, ..settings.clone() };
     let to = Box::new(flat(&window.state().history().document().render));
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to }));
-    window.state_mut().push(Command::Measure);
+    window.state_mut().push(Command::SpectralWeights);
     window.run_steps(2);
     window.state().laboratory().wait();
     window.run_steps(3);
@@ -85,7 +85,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     assert!(is_current(&window) && window.query_by_label(now).is_some());
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::BlackBody)));
     window.run_steps(2);
-    window.state_mut().push(Command::Measure);
+    window.state_mut().push(Command::SpectralWeights);
     window.run_steps(1);
     assert!(window.state().laboratory().busy().is_some());
     window.state_mut().push(Command::StopMeasuring);
@@ -96,7 +96,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     assert!(window.query_by_label(then).is_some() && window.query_by_label(now).is_none());
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::LeftOut, &scene, window.state().view()).expect("measured");
+    let figure = panes::figure(PaneKind::SkippedWork, &scene, window.state().view()).expect("measured");
     assert!(figure.table.to_csv().contains("of the scene as it was"));
     let svg =
         chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, chromascope::export::Paper::default());

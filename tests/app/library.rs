@@ -1,11 +1,11 @@
-//! The library: ticking, searching, hiding, the truth.
+//! The library: ticking, searching, hiding, the reference.
 
 use chromascope::action::{Action, OwnAction};
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::{Kind, import};
+use chromascope::catalog::{SetKind, import};
 use chromascope::command::Command;
 use chromascope::document::Light;
-use chromascope::thing::{SourceId, Thing};
+use chromascope::plot_item::{PlotItem, SensorId};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -35,10 +35,10 @@ fn ticking_a_camera_puts_it_on_show_and_off_again() {
     let mut window = window();
     assert!(window.query_by_role_and_label(Role::Button, "Hide Canon EOS 5D").is_none());
     press(&mut window, Role::CheckBox, "Canon EOS 5D");
-    assert!(window.state().compares(Kind::Camera, "Canon EOS 5D"));
+    assert!(window.state().compares(SetKind::Camera, "Canon EOS 5D"));
     window.get_by_role_and_label(Role::Button, "Hide Canon EOS 5D");
     press(&mut window, Role::CheckBox, "Canon EOS 5D");
-    assert!(!window.state().compares(Kind::Camera, "Canon EOS 5D"));
+    assert!(!window.state().compares(SetKind::Camera, "Canon EOS 5D"));
 }
 
 #[test]
@@ -48,7 +48,7 @@ fn search_shows_matches_and_enter_ticks_the_first() {
     assert!(window.query_by_role_and_label(Role::CheckBox, "Canon EOS 5D").is_none());
     window.key_press(egui::Key::Enter);
     window.run();
-    assert!(window.state().compares(Kind::Camera, "Nikon D3300"));
+    assert!(window.state().compares(SetKind::Camera, "Nikon D3300"));
     // The next search takes the place of this one.
     search(&mut window, "nothing like it");
     window.get_by_label("No match.");
@@ -59,7 +59,7 @@ fn search_shows_matches_and_enter_ticks_the_first() {
 #[test]
 fn escape_clears_the_search_and_keeps_the_selection() {
     let mut window = window();
-    let thing = Thing::Source(SourceId { kind: Kind::Camera, name: "Nikon D70 (2007 figure)".to_owned() });
+    let thing = PlotItem::Sensor(SensorId { kind: SetKind::Camera, name: "Nikon D70 (2007 figure)".to_owned() });
     window.state_mut().view_mut().selected = Some(thing.clone());
     search(&mut window, "canon");
     window.key_press(egui::Key::Escape);
@@ -75,11 +75,11 @@ fn escape_clears_the_search_and_keeps_the_selection() {
 fn the_key_hides_and_the_name_selects() {
     let mut window = window();
     press(&mut window, Role::Button, "Hide Nikon D70 (2007)");
-    let compared = window.state().history().document().compared(Kind::Camera, "Nikon D70 (2007 figure)").cloned();
+    let compared = window.state().history().document().compared(SetKind::Camera, "Nikon D70 (2007 figure)").cloned();
     assert!(compared.is_some_and(|compared| !compared.visible));
     press(&mut window, Role::Button, "Show Nikon D70 (2007)");
     press(&mut window, Role::Button, "Nikon D70 (2007)");
-    let wanted = Thing::Source(SourceId { kind: Kind::Camera, name: "Nikon D70 (2007 figure)".to_owned() });
+    let wanted = PlotItem::Sensor(SensorId { kind: SetKind::Camera, name: "Nikon D70 (2007 figure)".to_owned() });
     assert_eq!(window.state().view().selected, Some(wanted));
 }
 
@@ -88,11 +88,11 @@ fn another_observer_becomes_the_truth() {
     let mut window = window();
     press(&mut window, Role::Button, "Menu of CIE 1931 2°");
     press(&mut window, Role::Button, "Make reference");
-    assert_eq!(window.state().history().document().truth, "CIE 1931 2°");
+    assert_eq!(window.state().history().document().reference, "CIE 1931 2°");
     window.state_mut().view_mut().search = "1931".to_owned();
     window.run();
-    let truth = window.get_by_role_and_label(Role::CheckBox, "CIE 1931 2°");
-    assert!(truth.accesskit_node().is_disabled(), "the truth stays");
+    let reference = window.get_by_role_and_label(Role::CheckBox, "CIE 1931 2°");
+    assert!(reference.accesskit_node().is_disabled(), "the truth stays");
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn a_source_that_cannot_be_computed_says_why() {
 fn cameras(window: &Window) -> Vec<String> {
     let compared = &window.state().history().document().compared;
     let mut names: Vec<String> =
-        compared.iter().filter(|source| source.kind == Kind::Camera).map(|source| source.name.clone()).collect();
+        compared.iter().filter(|source| source.kind == SetKind::Camera).map(|source| source.name.clone()).collect();
     names.sort();
     names
 }

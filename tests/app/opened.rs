@@ -9,7 +9,7 @@ use chromascope::catalog::import::{TAKEN_AT_FIRST, import};
 use chromascope::catalog::likeness::Likeness;
 use chromascope::catalog::opened::{Opened, OpenedEvent, Request};
 use chromascope::command::Command;
-use chromascope::document::own::{Fingerprint, OwnSet, Wishes};
+use chromascope::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use chromascope::document::{Document, session};
 use chromascope::view::Weight;
 use chromascope::view::import::{ImportItem, ImportMemory};
@@ -45,7 +45,7 @@ fn own(window: &Window) -> Vec<OwnSet> {
 }
 
 fn wish(window: &mut Window, name: &str, options: ReadOptions) {
-    let wishes = Wishes { options, ..Wishes::default() };
+    let wishes = ImportOverrides { options, ..ImportOverrides::default() };
     let item = ImportItem::Set(name.to_owned());
     window.state_mut().push(Command::Wish(item, Box::new(wishes)));
     window.run_steps(2);
@@ -219,7 +219,7 @@ fn reading_a_large_file_can_be_stopped() {
     opened.open(vec![Request::Bytes { name: "large.csv".to_owned(), bytes: text.into_bytes().into() }], move |_| {
         at_it.send(()).unwrap();
         told.recv().unwrap();
-        Wishes::default()
+        ImportOverrides::default()
     });
     begun.recv().unwrap();
     assert_eq!(opened.stop(), Some("large.csv".to_owned()));
@@ -246,12 +246,12 @@ fn kinds_of_files_are_told_apart() {
     assert!(numbers("400 0.1\n500 0.2\n").is_like(&numbers("380.5 -1.5\n381 20\n")));
     assert!(!numbers("400 0.1\n500 0.2\n").is_like(&numbers("400,0.1\n500,0.2\n")));
     let mut memory = ImportMemory::default();
-    let wishes = Wishes { taken: Some(vec![1]), ..Wishes::for_role(Some(Role::Camera)) };
+    let wishes = ImportOverrides { taken: Some(vec![1]), ..ImportOverrides::for_role(Some(Role::Camera)) };
     memory.remember(one.clone(), &wishes);
-    assert_eq!(memory.wishes(&one), Wishes::for_role(Some(Role::Camera)));
-    memory.remember(one.clone(), &Wishes::default());
+    assert_eq!(memory.wishes(&one), ImportOverrides::for_role(Some(Role::Camera)));
+    memory.remember(one.clone(), &ImportOverrides::default());
     assert_eq!(memory.remembered, []);
-    memory.remember(numbers("400 0.1\n500 0.2\n"), &Wishes::for_role(Some(Role::Illuminant)));
+    memory.remember(numbers("400 0.1\n500 0.2\n"), &ImportOverrides::for_role(Some(Role::Illuminant)));
     assert_eq!(memory.remembered, [], "numbers alone are no kind of file");
 }
 
@@ -278,7 +278,7 @@ fn what_was_remembered_is_told_and_given_up_where_it_does_not_fit() {
     assert!(status.text.contains("as you chose") && status.change.is_some(), "{}", status.text);
     open_path(&mut window, &folder.path().join("three.csv"));
     until(&mut window, "a third", |app| app.history().document().own.len() == 3);
-    assert_eq!(own(&window)[2].wishes, Wishes::default());
+    assert_eq!(own(&window)[2].wishes, ImportOverrides::default());
 }
 
 #[test]

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use chromascope::action::{Action, CompareAction, SceneAction};
-use chromascope::catalog::{Catalog, Kind};
+use chromascope::catalog::{Catalog, SetKind};
 use chromascope::document::render::MeshChoice;
-use chromascope::document::{DifferenceChoice, Document, Light, WhiteChoice};
+use chromascope::document::{DifferenceChoice, Document, Light, WhiteBalanceChoice};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::scene::render::Finish;
@@ -56,25 +56,25 @@ fn compare(action: CompareAction) -> Action {
 #[test]
 fn a_name_computes_nothing() {
     let mut desk = Desk::new();
-    let action = CompareAction::Rename(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), "my camera".to_owned());
+    let action = CompareAction::Rename(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), "my camera".to_owned());
     assert!(desk.computed(&compare(action)).is_empty());
 }
 
 #[test]
 fn hiding_and_taking_off_compute_nothing() {
     let mut desk = Desk::new();
-    let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
+    let hide = CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
     assert!(desk.computed(&compare(hide)).is_empty());
-    let show = CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), true);
+    let show = CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), true);
     assert!(desk.computed(&compare(show)).is_empty(), "it was remembered");
-    let remove = CompareAction::Remove(Kind::Camera, "Kodak DCS200".to_owned());
+    let remove = CompareAction::Remove(SetKind::Camera, "Kodak DCS200".to_owned());
     assert!(desk.computed(&compare(remove)).is_empty());
 }
 
 #[test]
 fn a_new_camera_computes_only_itself() {
     let mut desk = Desk::new();
-    let runs = desk.computed(&compare(CompareAction::Add(Kind::Camera, "Nikon D850".to_owned())));
+    let runs = desk.computed(&compare(CompareAction::Add(SetKind::Camera, "Nikon D850".to_owned())));
     assert_eq!(runs.get("sensor"), Some(&1));
     assert_eq!(runs.get("data file"), Some(&1));
     assert_eq!(runs.get("patch colors"), Some(&1));
@@ -178,11 +178,11 @@ type Case = (&'static str, Action, &'static [(&'static str, u64)]);
 
 #[test]
 fn a_picture_computes_only_what_an_action_changes() {
-    // The truth and three cameras; CIE 1931 has no picture beside a truth of other primaries.
+    // The reference and three cameras; CIE 1931 has no picture beside a truth of other primaries.
     let cases: [Case; 7] = [
         (
             "a name",
-            compare(CompareAction::Rename(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), "mine".to_owned())),
+            compare(CompareAction::Rename(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), "mine".to_owned())),
             // Nothing: the question is the same.
             &[],
         ),
@@ -190,18 +190,18 @@ fn a_picture_computes_only_what_an_action_changes() {
         ("a temperature that only marks", Action::Scene(SceneAction::SetTemperature(4000.0)), &[]),
         (
             "a camera ticked off",
-            compare(CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), false)),
+            compare(CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), false)),
             // The others are put side by side, no more.
             &[("pictures", 1)],
         ),
         (
             "ticked on again",
-            compare(CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), true)),
+            compare(CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), true)),
             &[],
         ),
         (
             "another camera",
-            compare(CompareAction::Add(Kind::Camera, "Nikon D850".to_owned())),
+            compare(CompareAction::Add(SetKind::Camera, "Nikon D850".to_owned())),
             &[
                 ("camera image", 1),
                 ("difference", 1),
@@ -215,7 +215,7 @@ fn a_picture_computes_only_what_an_action_changes() {
         ),
         (
             "a white",
-            Action::Scene(SceneAction::SetWhite(WhiteChoice::Light("D55".to_owned()))),
+            Action::Scene(SceneAction::SetWhite(WhiteBalanceChoice::Light("D55".to_owned()))),
             // Signals are before the balance.
             &[("difference", 4), ("exposure", 1), ("picture", 5), ("pictures", 1), ("rendering", 5)],
         ),

@@ -1,11 +1,11 @@
 //! What actions do to the document, and what undo takes back.
 
 use chromascope::action::{Action, CompareAction, OwnAction, SceneAction};
-use chromascope::catalog::{Catalog, Kind};
+use chromascope::catalog::{Catalog, SetKind};
 use chromascope::document::history::History;
-use chromascope::document::own::{OwnCurve, OwnSet, ReadAs, Role, WavelengthUnit, Wishes};
+use chromascope::document::own::{ImportOverrides, OwnCurve, OwnSet, ReadAs, Role, WavelengthUnit};
 use chromascope::document::uses::PLACES;
-use chromascope::document::{CHART, Document, Light, Subset, TRUTH, WhiteChoice, session};
+use chromascope::document::{CHART, Document, Light, PAPER_REFERENCE, Subset, WhiteBalanceChoice, session};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope_core::query::Shared;
@@ -30,7 +30,7 @@ fn own(name: &str, role: Role) -> OwnSet {
         file: "file.csv".to_owned(),
         path: None,
         fingerprint: None,
-        wishes: Wishes::default(),
+        wishes: ImportOverrides::default(),
         role,
         read_as: ReadAs { unit: WavelengthUnit::Nanometer, percent: false },
         unit: WavelengthUnit::Nanometer,
@@ -49,12 +49,12 @@ fn import(names: &[&str], role: Role) -> Action {
 #[test]
 fn the_truth_stays_and_others_go() {
     let remove = |kind, name: &str| Action::Compare(CompareAction::Remove(kind, name.to_owned()));
-    check(&remove(Kind::Observer, TRUTH), |document| assert_eq!(document.compared.len(), 5));
-    check(&remove(Kind::Camera, "Nikon D70 (2007 figure)"), |document| assert_eq!(document.compared.len(), 4));
-    let truth = CompareAction::SetReference { name: "CIE 1964 10°".to_owned(), counts_in_xyz: true };
-    check(&Action::Compare(truth), |document| {
-        assert_eq!(document.truth, "CIE 1964 10°");
-        assert!(document.compared(Kind::Observer, "CIE 1964 10°").is_some());
+    check(&remove(SetKind::Observer, PAPER_REFERENCE), |document| assert_eq!(document.compared.len(), 5));
+    check(&remove(SetKind::Camera, "Nikon D70 (2007 figure)"), |document| assert_eq!(document.compared.len(), 4));
+    let reference = CompareAction::SetReference { name: "CIE 1964 10°".to_owned(), counts_in_xyz: true };
+    check(&Action::Compare(reference), |document| {
+        assert_eq!(document.reference, "CIE 1964 10°");
+        assert!(document.compared(SetKind::Observer, "CIE 1964 10°").is_some());
     });
 }
 
@@ -72,22 +72,23 @@ fn temperatures_stay_where_the_light_is_defined() {
 #[test]
 fn a_slot_is_kept_and_the_ninth_takes_color_1_with_marker_5() {
     let mut document = Document::paper();
-    let names: Vec<String> = Catalog::built_in().of_kind(Kind::Camera).map(|entry| entry.name.clone()).collect();
-    Action::Compare(CompareAction::Remove(Kind::Camera, "Canon EOS 10D (2007 figure)".to_owned())).apply(&mut document);
-    assert_eq!(document.compared(Kind::Camera, "Nikon D70 (2007 figure)").map(|c| c.slot), Some(1));
+    let names: Vec<String> = Catalog::built_in().of_kind(SetKind::Camera).map(|entry| entry.name.clone()).collect();
+    Action::Compare(CompareAction::Remove(SetKind::Camera, "Canon EOS 10D (2007 figure)".to_owned()))
+        .apply(&mut document);
+    assert_eq!(document.compared(SetKind::Camera, "Nikon D70 (2007 figure)").map(|c| c.slot), Some(1));
     for name in names.iter().take(9) {
-        Action::Compare(CompareAction::Add(Kind::Camera, name.clone())).apply(&mut document);
+        Action::Compare(CompareAction::Add(SetKind::Camera, name.clone())).apply(&mut document);
     }
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let ninth = document.compared.iter().find(|c| c.kind == Kind::Camera && c.slot == 8).unwrap();
+    let ninth = document.compared.iter().find(|c| c.kind == SetKind::Camera && c.slot == 8).unwrap();
     let source = scene.sources().into_iter().find(|source| source.name == ninth.name).unwrap();
-    assert_eq!((source.role, source.marker), (InkRole::Source(0), Marker::TriangleDown));
+    assert_eq!((source.role, source.marker), (InkRole::Sensor(0), Marker::TriangleDown));
 }
 
 #[test]
 fn what_is_opened_is_put_to_use() {
-    check(&import(&["mine"], Role::Camera), |document| assert!(document.compared(Kind::Camera, "mine").is_some()));
+    check(&import(&["mine"], Role::Camera), |document| assert!(document.compared(SetKind::Camera, "mine").is_some()));
     check(&import(&["mine"], Role::Illuminant), |document| {
         assert_eq!(document.light, Light::Set("mine".to_owned()));
     });
@@ -108,7 +109,7 @@ fn of_several_only_cameras_are_put_on_show_while_there_are_places() {
     let many: Vec<String> = (0..12).map(|i| format!("camera {i}")).collect();
     let many: Vec<&str> = many.iter().map(String::as_str).collect();
     check(&import(&many, Role::Camera), |document| {
-        let shown = document.compared.iter().filter(|compared| compared.kind == Kind::Camera);
+        let shown = document.compared.iter().filter(|compared| compared.kind == SetKind::Camera);
         assert_eq!((shown.count(), document.own.len()), (PLACES, 12));
     });
 }
@@ -120,7 +121,7 @@ fn an_own_set_has_a_name_of_its_own_among_all_of_its_kind() {
         import(&["Nikon D70 (2007 figure)"], Role::Camera).apply(&mut document);
     }
     // A chart may be called as a camera is, not as a material is: patches are chosen from both.
-    let material = Catalog::built_in().of_kind(Kind::Material).next().unwrap().name.clone();
+    let material = Catalog::built_in().of_kind(SetKind::Material).next().unwrap().name.clone();
     import(&["Sony ILCE-7M3", &material], Role::Reflectance).apply(&mut document);
     let names: Vec<&str> = document.own.iter().map(|set| set.name.as_str()).collect();
     let marked = format!("{material} (own)");
@@ -136,13 +137,13 @@ fn an_own_set_has_a_name_of_its_own_among_all_of_its_kind() {
     );
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    assert!(!scene.entry(Kind::Camera, "Nikon D70 (2007 figure)").unwrap().is_own());
-    assert!(scene.entry(Kind::Camera, "Nikon D70 (2007 figure) (own)").unwrap().is_own());
+    assert!(!scene.entry(SetKind::Camera, "Nikon D70 (2007 figure)").unwrap().is_own());
+    assert!(scene.entry(SetKind::Camera, "Nikon D70 (2007 figure) (own)").unwrap().is_own());
     // A role that makes a name a double gives it up too.
     let with = Box::new(OwnSet { role: Role::Camera, ..(*document.own[3]).clone() });
     Action::Own(OwnAction::Replace { name: "Sony ILCE-7M3".to_owned(), with }).apply(&mut document);
     assert_eq!(document.own[3].name, "Sony ILCE-7M3 (own)");
-    assert!(document.compared(Kind::Camera, "Sony ILCE-7M3 (own)").is_some());
+    assert!(document.compared(SetKind::Camera, "Sony ILCE-7M3 (own)").is_some());
 }
 
 #[test]
@@ -152,7 +153,7 @@ fn what_has_one_name_is_used_by_its_kind() {
     let with = Box::new(own("F", Role::Camera));
     Action::Own(OwnAction::Replace { name: "E".to_owned(), with }).apply(&mut document);
     assert_eq!(document.light, Light::Set("E".to_owned()), "the light is another set");
-    assert!(document.compared(Kind::Camera, "F").is_some());
+    assert!(document.compared(SetKind::Camera, "F").is_some());
 }
 
 #[test]
@@ -162,7 +163,7 @@ fn own_sets_of_an_older_session_are_told_from_the_built_in_ones() {
     let again = session::from_json(&session::to_json(&document).unwrap()).unwrap();
     assert_eq!(again.own[0].name, "Nikon D70 (2007 figure) (own)");
     assert!(
-        again.compared(Kind::Camera, "Nikon D70 (2007 figure) (own)").is_some(),
+        again.compared(SetKind::Camera, "Nikon D70 (2007 figure) (own)").is_some(),
         "what stood in its place stays on show"
     );
     assert_eq!(session::from_json(&session::to_json(&again).unwrap()).unwrap(), again);
@@ -173,7 +174,7 @@ fn what_is_removed_is_no_longer_used() {
     let mut document = Document::paper();
     import(&["leaf"], Role::Reflectance).apply(&mut document);
     import(&["lamp"], Role::Illuminant).apply(&mut document);
-    document.white = WhiteChoice::Light("lamp".to_owned());
+    document.white = WhiteBalanceChoice::Light("lamp".to_owned());
     for name in ["leaf", "lamp"] {
         Action::Own(OwnAction::Remove(name.to_owned())).apply(&mut document);
     }
@@ -187,7 +188,7 @@ fn another_role_moves_a_set() {
     let with = Box::new(own("x", Role::Camera));
     Action::Own(OwnAction::Replace { name: "x".to_owned(), with }).apply(&mut document);
     assert_eq!(document.chart, CHART);
-    assert!(document.compared(Kind::Camera, "x").is_some());
+    assert!(document.compared(SetKind::Camera, "x").is_some());
 }
 
 #[test]
@@ -253,7 +254,7 @@ fn other_sessions_are_refused() {
     assert!(refused("{\n  oops").contains("line 2"));
     let spoiled = session::from_json(r#"{"temperature_k": 1e300, "truth": "CIE 1964 10°"}"#).unwrap();
     assert_eq!(spoiled.temperature_k, 20_000.0);
-    assert!(spoiled.compared(Kind::Observer, "CIE 1964 10°").is_some());
+    assert!(spoiled.compared(SetKind::Observer, "CIE 1964 10°").is_some());
 }
 
 #[test]
@@ -280,5 +281,5 @@ fn an_imported_set_of_another_kind_does_not_keep_a_camera_from_its_present_name(
     json["version"] = 1.into();
     json["compared"] = serde_json::json!([{"name": "Nikon D70", "kind": "camera", "slot": 0}]);
     let document = session::from_json(&json.to_string()).unwrap();
-    assert!(document.compared(Kind::Camera, "Nikon D70 (2007 figure)").is_some(), "{:?}", document.compared);
+    assert!(document.compared(SetKind::Camera, "Nikon D70 (2007 figure)").is_some(), "{:?}", document.compared);
 }

@@ -5,15 +5,15 @@ use std::time::Duration;
 
 use chromascope::action::{Action, CompareAction, RenderAction};
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::Kind;
+use chromascope::catalog::SetKind;
 use chromascope::catalog::meshes::MeshState;
 use chromascope::command::Command;
 use chromascope::document::render::model::{AreaChoice, SpecularChoice};
 use chromascope::document::render::{BALANCE, MeshChoice, QualityChoice, ReadingChoice, RenderSettings, SUN};
-use chromascope::document::{Document, Light, WhiteChoice, session};
+use chromascope::document::{Document, Light, WhiteBalanceChoice, session};
 use chromascope::panes;
+use chromascope::plot_item::SensorId;
 use chromascope::scene::Scene;
-use chromascope::thing::SourceId;
 use chromascope::view::View;
 use chromascope::view::render::{PixelPlace, RenderMode};
 use chromascope::workspaces::{PaneKind, Workspace};
@@ -99,7 +99,7 @@ fn a_figure_sets_light_and_white_in_one_step() {
     window.get_by_role_and_label(Role::Button, "Figure 9").click();
     window.run_steps(2);
     assert_eq!(document(&window).light, Light::Set(SUN.to_owned()));
-    assert_eq!(document(&window).white, WhiteChoice::Light(BALANCE.to_owned()));
+    assert_eq!(document(&window).white, WhiteBalanceChoice::Light(BALANCE.to_owned()));
     assert_eq!(window.state().history().undo_name(), Some("Figure 9"));
     window.state_mut().push(Command::Undo);
     window.run_steps(2);
@@ -113,7 +113,7 @@ fn a_figure_is_radiometric() {
     window.get_by_role_and_label(Role::Button, "Figure 8").click();
     window.run_steps(2);
     assert_eq!(document(&window).render.reading, ReadingChoice::Radiometric);
-    assert_eq!(document(&window).white, WhiteChoice::Light(BALANCE.to_owned()));
+    assert_eq!(document(&window).white, WhiteBalanceChoice::Light(BALANCE.to_owned()));
 }
 
 #[test]
@@ -233,7 +233,7 @@ fn the_lights_place_leaves_what_is_seen_alone() {
 #[test]
 fn a_hidden_camera_is_not_computed() {
     let mut window = small();
-    let hide = CompareAction::SetVisible(Kind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
+    let hide = CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
     window.state_mut().push(Action::Compare(hide));
     settle(&mut window);
     assert_eq!(captions(&window).len(), 3);
@@ -302,7 +302,7 @@ fn a_double_click_shows_one_picture_and_all_again() {
     window.run_steps(3);
     assert_eq!(window.state().view().saved.render.mode, RenderMode::One);
     let chosen = window.state().view().render.chosen.clone().expect("the picture's source");
-    assert_eq!(chosen.kind, Kind::Camera);
+    assert_eq!(chosen.kind, SetKind::Camera);
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
     assert_eq!(window.state().view().saved.render.mode, RenderMode::Grid);
@@ -376,7 +376,7 @@ fn a_click_keeps_a_pixel_and_escape_lets_go() {
     window.drop_at(at);
     settle(&mut window);
     let pinned = window.state().view().render.pinned.clone().expect("it is kept");
-    assert_eq!(pinned.source.kind, Kind::Camera);
+    assert_eq!(pinned.source.kind, SetKind::Camera);
     assert!(window.query_by(|node| node.value().is_some_and(|text| text.starts_with("Pixel "))).is_some());
     assert!(window.query_by(|node| node.value().is_some_and(|text| text.contains("closed form"))).is_some());
     window.key_press(egui::Key::Escape);
@@ -457,7 +457,7 @@ fn a_pixel_is_marked_in_the_diagram_beside_the_pictures() {
         built.panel.marks.iter().filter(|mark| mark.name.ends_with(", pixel")).count()
     };
     assert_eq!(diamonds(window.state().view()), 0);
-    let source = SourceId { kind: Kind::Camera, name: "Nikon D70 (2007 figure)".to_owned() };
+    let source = SensorId { kind: SetKind::Camera, name: "Nikon D70 (2007 figure)".to_owned() };
     window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [0.45, 0.3], source });
     assert_eq!(diamonds(window.state().view()), 4, "one for each source");
 }

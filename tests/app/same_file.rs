@@ -3,13 +3,13 @@
 use chromascope::action::{Action, OwnAction};
 use chromascope::catalog::import::{Origin, imported};
 use chromascope::catalog::names::is_same_name;
-use chromascope::catalog::{Catalog, Kind};
-use chromascope::document::own::{OwnSet, Role, Wishes};
+use chromascope::catalog::{Catalog, SetKind};
+use chromascope::document::own::{ImportOverrides, OwnSet, Role};
 use chromascope::document::session;
 use chromascope::document::{Compared, Document, Light, MOST_COMPARED};
+use chromascope::plot_item::{PickIndex, PlotItem, SensorId};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope::thing::{SourceId, Thing, Things};
 use chromascope_core::query::Shared;
 use chromascope_figure::Tag;
 use spectral_file::{ReadOptions, read};
@@ -20,7 +20,7 @@ const LEAF: &str = "nm;leaf (%)\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n";
 fn set(name: &str, path: Option<&str>, text: &str) -> OwnSet {
     let table = read(text.as_bytes(), &ReadOptions::default()).unwrap();
     let origin = Origin { path: path.map(Into::into), ..Origin::named(name, text.as_bytes()) };
-    imported(&origin, &table, &Wishes::default()).set
+    imported(&origin, &table, &ImportOverrides::default()).set
 }
 
 fn open(document: &mut Document, sets: &[OwnSet]) {
@@ -85,9 +85,9 @@ fn names_that_differ_by_case_are_one() {
     assert_eq!(names(&document), ["Straße", "STRASSE (2)", "strasse (2) (2)", "colorchecker 24 (ohta 1997) (own)"]);
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    assert_eq!(scene.entry(Kind::Chart, "strasse").unwrap().name, "Straße");
-    assert_eq!(scene.entry(Kind::Illuminant, "d65").unwrap().name, "D65");
-    assert!(scene.entry(Kind::Chart, "strass").is_err());
+    assert_eq!(scene.entry(SetKind::Chart, "strasse").unwrap().name, "Straße");
+    assert_eq!(scene.entry(SetKind::Illuminant, "d65").unwrap().name, "D65");
+    assert!(scene.entry(SetKind::Chart, "strass").is_err());
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn a_session_of_many_sets_of_one_name_opens() {
         (again.own.len(), again.own[0].name.as_str(), again.own[19_999].name.as_str()),
         (20_000, "leaf", "leaf (20000)")
     );
-    let free = again.free_name(Kind::Chart, "LEAF", None);
+    let free = again.free_name(SetKind::Chart, "LEAF", None);
     assert_eq!(free, "LEAF (20001)");
 }
 
@@ -110,14 +110,14 @@ fn more_sensors_than_the_palette_has_places_are_refused_with_a_reason() {
     let mut document = Document::paper();
     let compared = |i: usize| {
         let name = format!("camera {i}");
-        Compared { name, kind: Kind::Camera, slot: 0, visible: true, label: None }
+        Compared { name, kind: SetKind::Camera, slot: 0, visible: true, label: None }
     };
     document.compared = (0..100_000).map(compared).collect();
     let refused = session::from_json(&session::to_json(&document).unwrap()).unwrap_err().to_string();
     assert!(refused.contains("100000 sensors") && refused.contains("256"), "{refused}");
     // No way through the window leads there.
     let mut document = Document::paper();
-    (0..1000).for_each(|i| document.compare(&format!("camera {i}"), Kind::Camera));
+    (0..1000).for_each(|i| document.compare(&format!("camera {i}"), SetKind::Camera));
     assert_eq!(document.compared.len(), MOST_COMPARED);
     session::from_json(&session::to_json(&document).unwrap()).unwrap();
 }
@@ -125,13 +125,13 @@ fn more_sensors_than_the_palette_has_places_are_refused_with_a_reason() {
 /// By a look at all others for each, twenty thousand things would take minutes in each frame.
 #[test]
 fn equal_things_share_a_tag_however_many_there_are() {
-    let patch = |i: u32| Thing::Patch { source: None, patch: format!("patch {i}") };
-    let mut things = Things::default();
+    let patch = |i: u32| PlotItem::Patch { source: None, patch: format!("patch {i}") };
+    let mut things = PickIndex::default();
     let tags: Vec<Tag> = (0..100_000).map(|i| things.tag(patch(i))).collect();
     assert_eq!((tags[0], tags[99_999]), (Tag(1), Tag(100_000)));
     assert_eq!((things.tag(patch(77_777)), things.get(tags[5])), (tags[77_777], Some(&patch(5))));
-    let source = SourceId { kind: Kind::Camera, name: "patch 1".to_owned() };
-    let radiator = |kelvin| Thing::Radiator { source: source.clone(), kelvin };
+    let source = SensorId { kind: SetKind::Camera, name: "patch 1".to_owned() };
+    let radiator = |kelvin| PlotItem::Radiator { source: source.clone(), kelvin };
     assert_eq!(things.tag(radiator(0.0)), things.tag(radiator(-0.0)));
-    assert_ne!(things.tag(radiator(0.0)), things.tag(Thing::Source(source.clone())));
+    assert_ne!(things.tag(radiator(0.0)), things.tag(PlotItem::Sensor(source.clone())));
 }

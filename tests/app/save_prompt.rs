@@ -4,7 +4,7 @@ use std::fs;
 
 use chromascope::app::ChromascopeApp;
 use chromascope::bench::{self, Effort, Workload};
-use chromascope::catalog::Kind;
+use chromascope::catalog::SetKind;
 use chromascope::command::{Command, Format};
 use chromascope::document::Document;
 use chromascope::document::history::History;
@@ -36,7 +36,7 @@ fn window() -> Window {
 }
 
 fn save_as(window: &mut Window, name: &str, form: Form) {
-    window.state_mut().push(Command::SaveSet(Kind::Camera, name.to_owned(), form));
+    window.state_mut().push(Command::SaveSet(SetKind::Camera, name.to_owned(), form));
     window.run_steps(2);
     until_asked(window, &format!("Save {name} as {}", form.name()));
 }

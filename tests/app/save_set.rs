@@ -2,7 +2,7 @@
 
 use chromascope::action::{Action, OwnAction};
 use chromascope::catalog::import::import;
-use chromascope::catalog::{Catalog, Entry, Kind};
+use chromascope::catalog::{Catalog, Entry, SetKind};
 use chromascope::document::own::{OwnSet, Role};
 use chromascope::export::spectra::{Form, file, fits, notes_in_words};
 use chromascope::results::Results;
@@ -13,7 +13,7 @@ use spectral_file::write::{Format, Grid};
 
 use crate::screenshots::open;
 
-fn built_in(kind: Kind, name: &str) -> Entry {
+fn built_in(kind: SetKind, name: &str) -> Entry {
     Catalog::built_in().get(kind, name).unwrap_or_else(|| panic!("no {name}")).clone()
 }
 
@@ -42,10 +42,10 @@ fn agree(read: &OwnSet, name: &str, index: usize, values: &[(f64, f64)]) {
 fn every_format_reads_back_as_the_same_set() {
     let results = Results::default();
     let sets = [
-        (built_in(Kind::Camera, "Nikon D70 (2007 figure)"), Role::Camera, "red"),
-        (built_in(Kind::Observer, "CIE 1931 2°"), Role::Camera, "x_bar"),
-        (built_in(Kind::Illuminant, "D65"), Role::Illuminant, "power"),
-        (built_in(Kind::Chart, "ColorChecker 24 (Ohta 1997)"), Role::Reflectance, "white"),
+        (built_in(SetKind::Camera, "Nikon D70 (2007 figure)"), Role::Camera, "red"),
+        (built_in(SetKind::Observer, "CIE 1931 2°"), Role::Camera, "x_bar"),
+        (built_in(SetKind::Illuminant, "D65"), Role::Illuminant, "power"),
+        (built_in(SetKind::Chart, "ColorChecker 24 (Ohta 1997)"), Role::Reflectance, "white"),
     ];
     let mut count = 0;
     for (entry, role, curve) in sets {
@@ -81,7 +81,7 @@ fn every_format_reads_back_as_the_same_set() {
 #[test]
 fn what_happened_on_the_way_is_said() {
     let results = Results::default();
-    let camera = built_in(Kind::Camera, "Nikon D70 (2007 figure)");
+    let camera = built_in(SetKind::Camera, "Nikon D70 (2007 figure)");
     let written = file(&camera, form(Format::Csv, Some(5.0)), &results).unwrap();
     assert!(notes_in_words(&written.notes).contains("resampled to 5 nm"), "{:?}", written.notes);
     assert_eq!(written.name, "Nikon D70 (2007 figure).csv");
@@ -122,15 +122,15 @@ fn own_sets_keep_all_curves_and_say_how_they_were_read() {
 #[test]
 fn what_does_not_fit_says_why() {
     let results = Results::default();
-    let light = built_in(Kind::Illuminant, "D65");
+    let light = built_in(SetKind::Illuminant, "D65");
     let cmf = form(Format::ArgyllCmf, None);
     let why = fits(&light, cmf).unwrap_err().to_string();
     assert!(why.contains("not for curves of this kind"), "{why}");
     assert!(file(&light, cmf, &results).is_err());
-    let chart = built_in(Kind::Chart, "ColorChecker 24 (Ohta 1997)");
+    let chart = built_in(SetKind::Chart, "ColorChecker 24 (Ohta 1997)");
     assert!(fits(&chart, form(Format::DcamprofJson, None)).unwrap_err().to_string().contains("24"));
     assert!(fits(&chart, form(Format::Cgats, None)).is_ok());
-    for kind in Kind::ALL {
+    for kind in SetKind::ALL {
         for entry in Catalog::built_in().of_kind(kind) {
             assert!(fits(entry, form(Format::Csv, None)).is_ok(), "{}", entry.name);
         }

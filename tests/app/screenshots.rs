@@ -6,14 +6,14 @@ use std::path::Path;
 
 use chromascope::action::{Action, CompareAction, RenderAction, SceneAction};
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::Kind;
+use chromascope::catalog::SetKind;
 use chromascope::command::Command;
 use chromascope::document::history::History;
-use chromascope::document::{Diagram, Document, Overlays, Subset, WayChoice};
+use chromascope::document::{Diagram, Document, Overlays, Subset, TransformChoice};
 use chromascope::files::Files;
 use chromascope::jobs::Executor;
-use chromascope::laboratory::{LeftOut, SceneRun};
-use chromascope::thing::{SourceId, Thing};
+use chromascope::plot_item::{PlotItem, SensorId};
+use chromascope::profiler::{SceneRun, SkippedWork};
 use chromascope::view::import::ImportItem;
 use chromascope::view::render::RenderMode;
 use chromascope::view::{DiagramFit, SavedView};
@@ -68,8 +68,8 @@ fn check(mut harness: Harness<'static, ChromascopeApp>, name: &str) {
 }
 
 fn select(harness: &mut Harness<'static, ChromascopeApp>, source: &str, patch: &str) {
-    let source = Some(SourceId { kind: Kind::Camera, name: source.to_owned() });
-    harness.state_mut().view_mut().selected = Some(Thing::Patch { source, patch: patch.to_owned() });
+    let source = Some(SensorId { kind: SetKind::Camera, name: source.to_owned() });
+    harness.state_mut().view_mut().selected = Some(PlotItem::Patch { source, patch: patch.to_owned() });
     harness.run();
 }
 
@@ -98,12 +98,12 @@ fn selected_patch() {
 #[test]
 fn all_patches_by_observer() {
     let mut harness = open([1600.0, 1000.0], egui::Theme::Dark);
-    let observer = WayChoice::Observer("CIE 1931 2°".to_owned());
+    let observer = TransformChoice::Observer("CIE 1931 2°".to_owned());
     for action in [SceneAction::SetSubset(Subset::All), SceneAction::SetWay(observer)] {
         harness.state_mut().push(Action::Scene(action));
     }
     harness.run();
-    let camera = CompareAction::Add(Kind::Camera, "Sony ILCE-7M3".to_owned());
+    let camera = CompareAction::Add(SetKind::Camera, "Sony ILCE-7M3".to_owned());
     harness.state_mut().push(Action::Compare(camera));
     harness.run();
     check(harness, "observer_24.png");
@@ -213,7 +213,7 @@ fn import() {
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Measured {
     pub(crate) run: SceneRun,
-    remembered: Vec<LeftOut>,
+    remembered: Vec<SkippedWork>,
 }
 
 impl Measured {
@@ -222,7 +222,7 @@ impl Measured {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/app/measured.json");
         if std::env::var_os("RECORD_MEASUREMENTS").is_some() {
             let mut harness = open([1280.0, 800.0], egui::Theme::Dark);
-            harness.state_mut().push(Command::Measure);
+            harness.state_mut().push(Command::SpectralWeights);
             harness.run_steps(2);
             harness.state().laboratory().wait();
             harness.run_steps(3);

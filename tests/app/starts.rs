@@ -2,11 +2,12 @@
 
 use chromascope::action::{Action, CompareAction, RenderAction, SceneAction};
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::{Catalog, Kind};
+use chromascope::catalog::{Catalog, SetKind};
 use chromascope::command::Command;
 use chromascope::document::start::Start;
 use chromascope::document::{
-    CIE_1931, Diagram, DifferenceChoice, Document, Light, Subset, TRUTH, WayChoice, WhiteChoice, session,
+    CIE_1931, Diagram, DifferenceChoice, Document, Light, PAPER_REFERENCE, Subset, TransformChoice, WhiteBalanceChoice,
+    session,
 };
 use chromascope::results::Results;
 use chromascope::scene::{Caution, Scene};
@@ -31,19 +32,22 @@ fn refer_to(name: &str, counts_in_xyz: bool) -> Action {
 }
 
 fn fit_to(name: &str) -> Action {
-    Action::Scene(SceneAction::SetWay(WayChoice::Observer(name.to_owned())))
+    Action::Scene(SceneAction::SetWay(TransformChoice::Observer(name.to_owned())))
 }
 
 #[test]
 fn colorimetry_is_the_default_and_says_what_it_is() {
     let document = Document::default();
     assert_eq!(document, Start::Colorimetry.document());
-    assert_eq!((document.truth.as_str(), &document.light), (CIE_1931, &Light::Set("D65".to_owned())));
-    assert_eq!(document.way, WayChoice::Observer(CIE_1931.to_owned()));
+    assert_eq!((document.reference.as_str(), &document.light), (CIE_1931, &Light::Set("D65".to_owned())));
+    assert_eq!(document.transform, TransformChoice::Observer(CIE_1931.to_owned()));
     assert_eq!((document.subset, document.difference), (Subset::All, DifferenceChoice::DeltaE2000));
     let paper = Document::paper();
-    assert_eq!((paper.truth.as_str(), &paper.light), (TRUTH, &Light::Set("E".to_owned())));
-    assert_eq!((&paper.way, paper.subset, paper.difference), (&WayChoice::Paper, Subset::Five, DifferenceChoice::Xy));
+    assert_eq!((paper.reference.as_str(), &paper.light), (PAPER_REFERENCE, &Light::Set("E".to_owned())));
+    assert_eq!(
+        (&paper.transform, paper.subset, paper.difference),
+        (&TransformChoice::Paper, Subset::Five, DifferenceChoice::Xy)
+    );
 }
 
 #[test]
@@ -57,7 +61,7 @@ fn every_sensor_of_both_starts_is_built_in_and_compares() {
             let colors = scene.patch_colors(*kind, name).unwrap();
             assert_eq!(colors.len(), if start == Start::Paper { 5 } else { 24 });
         }
-        for source in scene.sources().iter().filter(|source| source.kind == Kind::Camera) {
+        for source in scene.sources().iter().filter(|source| source.kind == SetKind::Camera) {
             let differences = scene.differences(source.kind, &source.name).unwrap();
             assert!(differences.iter().all(|d| d.is_ok_and(|d| d > 0.0)), "{}: {differences:?}", source.name);
         }
@@ -94,10 +98,10 @@ fn a_document_of_version_1_is_the_papers_with_its_cameras_under_their_present_na
         {"name": "Canon EOS 10D", "kind": "camera", "slot": 0, "label": "mine"}],
         "way": "paper", "difference": "delta-e2000", "kept": 7}"#;
     let document = session::from_json(json).unwrap();
-    assert_eq!((document.start, &document.way), (Start::Paper, &WayChoice::Paper));
-    assert_eq!((document.truth.as_str(), &document.light), (TRUTH, &Light::Set("E".to_owned())));
-    assert!(document.compared(Kind::Camera, "Nikon D70 (2007 figure)").is_some());
-    let canon = document.compared(Kind::Camera, "Canon EOS 10D (2007 figure)").unwrap();
+    assert_eq!((document.start, &document.transform), (Start::Paper, &TransformChoice::Paper));
+    assert_eq!((document.reference.as_str(), &document.light), (PAPER_REFERENCE, &Light::Set("E".to_owned())));
+    assert!(document.compared(SetKind::Camera, "Nikon D70 (2007 figure)").is_some());
+    let canon = document.compared(SetKind::Camera, "Canon EOS 10D (2007 figure)").unwrap();
     assert_eq!((canon.slot, canon.label.as_deref()), (0, Some("mine")));
     assert_eq!(document.difference, DifferenceChoice::Xy, "what was called ΔE*00 under Eq 13 was none");
     assert_eq!(document.unknown.get("kept").and_then(serde_json::Value::as_u64), Some(7));
@@ -108,9 +112,9 @@ fn a_document_of_version_1_is_the_papers_with_its_cameras_under_their_present_na
 #[test]
 fn eq_13_has_no_delta_e() {
     let paper = Document::paper();
-    assert_eq!(DifferenceChoice::DeltaE2000.name_under(&paper.way), "Δ of Eq 13 colors");
-    assert!(!DifferenceChoice::offered(&paper.way)[0].is_of_lab());
-    let fitted = WayChoice::Observer(CIE_1931.to_owned());
+    assert_eq!(DifferenceChoice::DeltaE2000.name_under(&paper.transform), "Δ of Eq 13 colors");
+    assert!(!DifferenceChoice::offered(&paper.transform)[0].is_of_lab());
+    let fitted = TransformChoice::Observer(CIE_1931.to_owned());
     assert_eq!(DifferenceChoice::DeltaE2000.name_under(&fitted), "ΔE*00");
     assert_eq!(DifferenceChoice::offered(&fitted)[0], DifferenceChoice::DeltaE2000);
 
@@ -122,7 +126,7 @@ fn eq_13_has_no_delta_e() {
     assert_eq!(document.difference, DifferenceChoice::UvPrime, "a choice under one fit holds under the next");
     document.diagram = Diagram::UvPrime;
     document.difference = DifferenceChoice::DeltaE1976;
-    Action::Scene(SceneAction::SetWay(WayChoice::Paper)).apply(&mut document);
+    Action::Scene(SceneAction::SetWay(TransformChoice::Paper)).apply(&mut document);
     assert_eq!(document.difference, DifferenceChoice::UvPrime, "the distance in the diagram that is shown");
 }
 
@@ -130,7 +134,7 @@ fn eq_13_has_no_delta_e() {
 fn a_measure_that_was_chosen_stays_and_a_distance_follows_the_diagram() {
     let mut document = Document::colorimetry();
     Action::Scene(SceneAction::SetDifference(DifferenceChoice::UvPrime)).apply(&mut document);
-    Action::Scene(SceneAction::SetWay(WayChoice::Paper)).apply(&mut document);
+    Action::Scene(SceneAction::SetWay(TransformChoice::Paper)).apply(&mut document);
     assert_eq!(document.difference, DifferenceChoice::UvPrime);
     fit_to(CIE_1931).apply(&mut document);
     assert_eq!(document.difference, DifferenceChoice::UvPrime);
@@ -177,13 +181,13 @@ fn a_cie_reference_under_eq_13_offers_the_fit() {
     window.state_mut().push(refer_to(CIE_1931, true));
     window.run();
     assert!(says(&window, "cameras cannot be compared with it"));
-    assert!(matches!(document(&window).way, WayChoice::Paper), "nothing changes by itself");
+    assert!(matches!(document(&window).transform, TransformChoice::Paper), "nothing changes by itself");
     let buttons: Vec<_> = window.query_all_by_role_and_label(Role::Button, "Fit 3×3 to CIE 1931 2°").collect();
     assert_eq!(buttons.len(), 2, "in Chromaticity and in Swatches");
     buttons[0].click();
     drop(buttons);
     window.run();
-    assert_eq!(document(&window).way, WayChoice::Observer(CIE_1931.to_owned()));
+    assert_eq!(document(&window).transform, TransformChoice::Observer(CIE_1931.to_owned()));
     assert_eq!(document(&window).difference, DifferenceChoice::DeltaE2000);
     assert!(!says(&window, "cannot be compared with"));
 }
@@ -193,18 +197,18 @@ fn the_fit_follows_the_reference_and_a_difference_of_the_two_is_said() {
     let mut window = open_with(Document::colorimetry(), SIZE, egui::Theme::Dark);
     window.state_mut().push(refer_to("CIE 1964 10°", true));
     window.run();
-    assert_eq!(document(&window).way, WayChoice::Observer("CIE 1964 10°".to_owned()));
-    assert_eq!(document(&window).compared(Kind::Observer, CIE_1931).map(|c| c.visible), Some(true));
+    assert_eq!(document(&window).transform, TransformChoice::Observer("CIE 1964 10°".to_owned()));
+    assert_eq!(document(&window).compared(SetKind::Observer, CIE_1931).map(|c| c.visible), Some(true));
     window.state_mut().push(fit_to(CIE_1931));
     window.run();
     assert!(says(&window, "Compared with CIE 1964 10°, but the color transform is fitted to CIE 1931 2°."));
     window.query_all_by_role_and_label(Role::Button, "Fit 3×3 to CIE 1964 10°").next().unwrap().click();
     window.run();
-    assert_eq!(document(&window).way, WayChoice::Observer("CIE 1964 10°".to_owned()));
+    assert_eq!(document(&window).transform, TransformChoice::Observer("CIE 1964 10°".to_owned()));
     // Stiles & Burch is RGB: nothing can be fitted to it, so the fit stays and its target is named.
-    window.state_mut().push(refer_to(TRUTH, false));
+    window.state_mut().push(refer_to(PAPER_REFERENCE, false));
     window.run();
-    assert_eq!(document(&window).way, WayChoice::Observer("CIE 1964 10°".to_owned()));
+    assert_eq!(document(&window).transform, TransformChoice::Observer("CIE 1964 10°".to_owned()));
     assert!(says(&window, "Compared with Stiles & Burch 1955 2°, but"));
     assert!(window.query_by_role_and_label(Role::Button, "Fit 3×3 to Stiles & Burch 1955 2°").is_none());
 }
@@ -214,18 +218,18 @@ fn a_caution_names_its_remedy() {
     let caution = Caution::NotComparable { reference: CIE_1931.to_owned() };
     assert_eq!(caution.fit_to(), Some(CIE_1931));
     let target = || "CIE 1964 10°".to_owned();
-    let differs = |can_fit| Caution::FitDiffers { target: target(), reference: TRUTH.to_owned(), can_fit };
-    assert_eq!((differs(false).fit_to(), differs(true).fit_to()), (None, Some(TRUTH)));
+    let differs = |can_fit| Caution::FitDiffers { target: target(), reference: PAPER_REFERENCE.to_owned(), can_fit };
+    assert_eq!((differs(false).fit_to(), differs(true).fit_to()), (None, Some(PAPER_REFERENCE)));
 }
 
 /// All patches of the chart through the reference and the D70 under D55.
-fn balanced(white: WhiteChoice, way: WayChoice) -> [Vec<PatchColor>; 2] {
+fn balanced(white: WhiteBalanceChoice, transform: TransformChoice) -> [Vec<PatchColor>; 2] {
     let light = Light::Set("D55".to_owned());
-    let document = Document { subset: Subset::All, light, white, way, ..Document::paper() };
+    let document = Document { subset: Subset::All, light, white, transform, ..Document::paper() };
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let camera = scene.patch_colors(Kind::Camera, "Nikon D70 (2007 figure)").unwrap();
-    [scene.patch_colors(Kind::Observer, TRUTH).unwrap(), camera]
+    let camera = scene.patch_colors(SetKind::Camera, "Nikon D70 (2007 figure)").unwrap();
+    [scene.patch_colors(SetKind::Observer, PAPER_REFERENCE).unwrap(), camera]
 }
 
 fn mean_difference([reference, camera]: &[Vec<PatchColor>; 2], lab: impl Fn(&PatchColor) -> Lab) -> f64 {
@@ -239,21 +243,22 @@ fn the_adopted_white_follows_the_white_balance_target() {
     let fixed = |color: &PatchColor| lab_from_xyz(color.xyz, d65).unwrap();
     let followed = |color: &PatchColor| color.lab.unwrap();
     // (target, mean relative to a fixed D65, mean relative to the target)
-    let expected = [(WhiteChoice::Unity, 2.976, 2.976), (light("D55"), 2.874, 2.892), (light("A"), 2.197, 2.443)];
+    let expected =
+        [(WhiteBalanceChoice::Unity, 2.976, 2.976), (light("D55"), 2.874, 2.892), (light("A"), 2.197, 2.443)];
     for (white, before, now) in expected {
-        let colors = balanced(white.clone(), WayChoice::Paper);
+        let colors = balanced(white.clone(), TransformChoice::Paper);
         assert!((mean_difference(&colors, fixed) - before).abs() < 2e-3, "{white:?}");
         assert!((mean_difference(&colors, followed) - now).abs() < 2e-3, "{white:?}");
         // A gray is gray under every target: the chart's neutral 5 has a chroma below 2 in the reference's own L*a*b*.
         let gray = colors[0][21].lab.unwrap();
         assert!(gray.a.hypot(gray.b) < 2.0, "{white:?}: {gray:?}");
     }
-    let fitted = |white| mean_difference(&balanced(white, WayChoice::Observer(CIE_1931.to_owned())), followed);
-    assert!((fitted(WhiteChoice::Unity) - fitted(light("A"))).abs() < 1e-9, "the matrix compensates");
+    let fitted = |white| mean_difference(&balanced(white, TransformChoice::Observer(CIE_1931.to_owned())), followed);
+    assert!((fitted(WhiteBalanceChoice::Unity) - fitted(light("A"))).abs() < 1e-9, "the matrix compensates");
 }
 
-fn light(name: &str) -> WhiteChoice {
-    WhiteChoice::Light(name.to_owned())
+fn light(name: &str) -> WhiteBalanceChoice {
+    WhiteBalanceChoice::Light(name.to_owned())
 }
 
 #[test]

@@ -54,7 +54,7 @@ fn closest(colors: &[Color32]) -> f64 {
 }
 
 fn keys(theme: &Theme, sources: usize) -> Vec<Color32> {
-    [theme.truth, theme.observer].into_iter().chain(theme.sources.into_iter().take(sources)).collect()
+    [theme.reference, theme.observer].into_iter().chain(theme.sources.into_iter().take(sources)).collect()
 }
 
 #[test]
@@ -126,8 +126,8 @@ fn the_frame_is_gray() {
 fn roles_have_colors_and_data_keep_theirs() {
     let theme = Theme::LIGHT;
     assert_eq!(theme.rgb(InkRole::Rgb([1, 2, 3])), [1, 2, 3]);
-    assert_eq!(theme.rgb(InkRole::Source(8)), theme.rgb(InkRole::Source(0)));
-    assert_eq!(theme.ink(Ink::new(InkRole::Truth).faded(0.0)), Color32::TRANSPARENT);
+    assert_eq!(theme.rgb(InkRole::Sensor(8)), theme.rgb(InkRole::Sensor(0)));
+    assert_eq!(theme.ink(Ink::new(InkRole::Reference).faded(0.0)), Color32::TRANSPARENT);
     let dark = theme.with_surround(Surround::Dark);
     assert_eq!(dark.rgb(InkRole::OnSurround), [255; 3]);
 }

@@ -7,7 +7,7 @@ use chromascope_core::light::RadiationConstants;
 use chromascope_core::reflectance::{Precision, diffuse_sum};
 use chromascope_core::render::diffuse::{DARK, by_nodes};
 use chromascope_core::render::plan::{Method, Verdict, position};
-use chromascope_core::render::{Against, Demand, Measure, Plan};
+use chromascope_core::render::{Against, Demand, Plan, SpectralWeights};
 use chromascope_core::spectral::{GridSpectrum, Sensor};
 
 use crate::support;
@@ -49,7 +49,7 @@ struct Library {
 
 impl Library {
     fn new() -> Self {
-        let sensors = [support::TRUTH, support::CIE_1931, support::CANON_10D, support::NIKON_D70, support::DCS200];
+        let sensors = [support::REFERENCE, support::CIE_1931, support::CANON_10D, support::NIKON_D70, support::DCS200];
         let lights = ["direct_sun_astm_g173", "a", "d65", "cie_fluorescent_lamps"];
         Self {
             sensors: sensors.map(support::sensor).into(),
@@ -57,12 +57,12 @@ impl Library {
         }
     }
 
-    fn measure(&self, chance: &mut Chance) -> Measure {
+    fn measure(&self, chance: &mut Chance) -> SpectralWeights {
         let (sensor, light) = (chance.of(&self.sensors), chance.of(&self.lights));
         let (edge, width, floor) = (chance.between(420.0, 720.0), chance.power(1.0, 60.0), chance.unit());
         let reflectance = GridSpectrum::from_fn(|nm| floor + (1.0 - floor) / (1.0 + (-(nm - edge) / width).exp()));
         let divisors = white_divisors(sensor, light).unwrap();
-        Measure::new(sensor, light, &reflectance, divisors, *chance.of(&[0, 2]))
+        SpectralWeights::new(sensor, light, &reflectance, divisors, *chance.of(&[0, 2]))
     }
 }
 
@@ -71,7 +71,7 @@ fn largest(sums: [f64; 3]) -> f64 {
 }
 
 /// The error of a plan at a place, by the definition of [`Against`]; none where nothing is promised.
-fn error(plan: &Plan, measure: &Measure, against: Against, kappa: f64, beta: f64) -> Option<f64> {
+fn error(plan: &Plan, measure: &SpectralWeights, against: Against, kappa: f64, beta: f64) -> Option<f64> {
     let exact = by_nodes(measure.dense(), kappa, beta, Precision::Full);
     let peak = largest(by_nodes(measure.dense(), kappa, 0.0, Precision::Full));
     let scale = match against {
@@ -202,7 +202,7 @@ fn black_is_black() {
     let sensor = support::sensor(support::NIKON_D70);
     let light = support::light("illuminants/e.csv");
     let divisors = white_divisors(&sensor, &light).unwrap();
-    let black = Measure::new(&sensor, &light, &GridSpectrum::constant(0.0), divisors, 2);
+    let black = SpectralWeights::new(&sensor, &light, &GridSpectrum::constant(0.0), divisors, 2);
     let plan = Plan::new(&black, accuracy(1e-9), Against::Value, Demand::new([0.1, 10.0], 1000)).unwrap();
     assert_eq!(plan.at(1.0, 1.0), [0.0; 3]);
 }

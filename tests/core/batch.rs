@@ -1,10 +1,10 @@
 //! Responses of many spectra at once against compensated sums, one by one, and what is refused.
 
 use chromascope_core::camera::rendering::{raw, under_light};
-use chromascope_core::camera::{Batch, NoBatch};
+use chromascope_core::camera::{Batch, BatchError};
 use proptest::prelude::*;
 
-use crate::support::{CANON_10D, CIE_1931, DCS200, TRUTH, cases, chart, light, sensor};
+use crate::support::{CANON_10D, CIE_1931, DCS200, REFERENCE, cases, chart, light, sensor};
 
 /// Numbers between −0.2 and 1 without any order.
 fn numbers(count: usize, seed: u64) -> Vec<f64> {
@@ -109,7 +109,7 @@ fn spectra_that_no_cache_holds_have_the_same_responses() {
 fn a_chart_through_four_sensors_is_what_the_renderer_sees() {
     let (chart, light) = (chart(), light("illuminants/d55.csv"));
     let spectra: Vec<f64> = chart.patches().iter().flat_map(|patch| *patch.grid.values()).collect();
-    let products = [TRUTH, CANON_10D, DCS200, CIE_1931].map(|path| under_light(&sensor(path), &light));
+    let products = [REFERENCE, CANON_10D, DCS200, CIE_1931].map(|path| under_light(&sensor(path), &light));
     let curves: Vec<f64> = products.iter().flatten().flat_map(|curve| **curve).collect();
     let batch = Batch::new(&curves, 401).unwrap();
     assert_eq!(batch.channels(), 12);
@@ -125,13 +125,13 @@ fn a_chart_through_four_sensors_is_what_the_renderer_sees() {
 
 #[test]
 fn what_is_no_whole_number_of_curves_is_refused() {
-    assert_eq!(Batch::new(&[1.0; 7], 3), Err(NoBatch::Ragged { samples: 7, length: 3 }));
-    assert_eq!(Batch::new(&[1.0; 7], 0), Err(NoBatch::Ragged { samples: 7, length: 0 }));
-    assert_eq!(Batch::new(&[1.0, f64::NAN], 2), Err(NoBatch::NotFinite));
-    assert_eq!(Batch::new(&[1.0, f32::INFINITY], 2), Err(NoBatch::NotFinite));
+    assert_eq!(Batch::new(&[1.0; 7], 3), Err(BatchError::Ragged { samples: 7, length: 3 }));
+    assert_eq!(Batch::new(&[1.0; 7], 0), Err(BatchError::Ragged { samples: 7, length: 0 }));
+    assert_eq!(Batch::new(&[1.0, f64::NAN], 2), Err(BatchError::NotFinite));
+    assert_eq!(Batch::new(&[1.0, f32::INFINITY], 2), Err(BatchError::NotFinite));
     let batch = Batch::new(&[1.0; 6], 3).unwrap();
-    assert_eq!(batch.responses(&[1.0; 4]), Err(NoBatch::Ragged { samples: 4, length: 3 }));
-    assert_eq!(batch.responses_into(&[1.0; 3], &mut [0.0; 3]), Err(NoBatch::Answers { answers: 3, wanted: 2 }));
+    assert_eq!(batch.responses(&[1.0; 4]), Err(BatchError::Ragged { samples: 4, length: 3 }));
+    assert_eq!(batch.responses_into(&[1.0; 3], &mut [0.0; 3]), Err(BatchError::Answers { answers: 3, wanted: 2 }));
 }
 
 #[test]

@@ -1,12 +1,14 @@
 //! Loci by a few nodes against the sum and against 50 digits; white balance, Eq 13 and fitted matrices.
 
 use chromascope_core::camera::rendering::{raw, under_light};
-use chromascope_core::camera::{LocusEvaluator, LocusMethod, NoRendering, Rendering, Way, White};
+use chromascope_core::camera::{
+    ColorTransform, LocusEvaluator, LocusMethod, Rendering, RenderingError, WhiteBalanceTarget,
+};
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::colorimetry::{Xy, Xyz};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::light::planckian::black_body;
-use chromascope_core::object::PatchSet;
+use chromascope_core::patch_set::PatchSet;
 use chromascope_core::spectral::{GridSpectrum, Primaries, Response, Sensor, SpectralDistribution};
 use chromascope_math::least_squares::FitError;
 use glam::{DMat3, DVec3};
@@ -14,7 +16,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 
 use crate::support::{
-    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, assert_xy, cases, chart, dataset, kelvin, light,
+    CANON_10D, CIE_1931, DCS200, NIKON_D70, REFERENCE, assert_near, assert_xy, cases, chart, dataset, kelvin, light,
     measured, reference, sensor, sensors, training,
 };
 
@@ -41,7 +43,7 @@ fn between_checks() -> impl Iterator<Item = f64> {
 #[test]
 fn nodes_miss_the_sum_by_less_than_1e_12_in_xy() {
     let (equal_energy, reference, training) = (GridSpectrum::constant(1.0), sensor(CIE_1931), training());
-    let observer = Way::Observer { reference: &reference, training: &training };
+    let observer = ColorTransform::Observer { reference: &reference, training: &training };
     let (mut worst, mut most) = (0.0_f64, 0);
     for (name, sensor) in everyone() {
         let (quick, sum) = (LocusEvaluator::new(&sensor, PAPER), LocusEvaluator::by_sum(&sensor, PAPER));
@@ -51,9 +53,9 @@ fn nodes_miss_the_sum_by_less_than_1e_12_in_xy() {
             error <= LocusEvaluator::<&chromascope_core::spectral::Sensor>::TARGET,
             "{name}: {error} with {count} nodes"
         );
-        let ways: Vec<Rendering> = [Way::Paper, observer]
+        let ways: Vec<Rendering> = [ColorTransform::Paper, observer]
             .into_iter()
-            .filter_map(|way| Rendering::new(&sensor, &equal_energy, White::UNITY, way).ok())
+            .filter_map(|transform| Rendering::new(&sensor, &equal_energy, WhiteBalanceTarget::UNITY, transform).ok())
             .collect();
         assert!(!ways.is_empty());
         let mut own = 0.0_f64;
@@ -75,7 +77,9 @@ fn loci_match_fifty_digits() {
     for row in reference("loci.csv") {
         let (t, x, y): (f64, f64, f64) = (row[1].parse().unwrap(), row[2].parse().unwrap(), row[3].parse().unwrap());
         let sensor = sensor(&row[0]);
-        let rendering = Rendering::new(&sensor, &GridSpectrum::constant(1.0), White::UNITY, Way::Paper).unwrap();
+        let rendering =
+            Rendering::new(&sensor, &GridSpectrum::constant(1.0), WhiteBalanceTarget::UNITY, ColorTransform::Paper)
+                .unwrap();
         for evaluator in [LocusEvaluator::new(&sensor, PAPER), LocusEvaluator::by_sum(&sensor, PAPER)] {
             let xy = chromaticity(&rendering, evaluator.raw(kelvin(t))).unwrap();
             assert_xy(&format!("{} at {t} K, {:?}", row[0], evaluator.method()), xy, [x, y], 1e-12);
@@ -88,7 +92,7 @@ proptest! {
 
     #[test]
     fn loci_are_total_over_all_temperatures(exponent in -300.0..300.0, which in 0_usize..4) {
-        let sensor = sensor([TRUTH, CANON_10D, DCS200, CIE_1931][which]);
+        let sensor = sensor([REFERENCE, CANON_10D, DCS200, CIE_1931][which]);
         let signals = LocusEvaluator::new(&sensor, PAPER).raw(kelvin(10.0_f64.powf(exponent)));
         prop_assert!(signals.iter().all(|v| v.is_finite()), "{signals:?}");
         prop_assert!(signals.iter().any(|v| *v != 0.0));
@@ -124,12 +128,16 @@ fn a_comb_of_a_sensor_is_evaluated_by_the_sum_or_right() {
 #[test]
 fn a_perfect_white_takes_the_reference_on_either_way() {
     let (reference, training) = (sensor(CIE_1931), training());
-    let observer = Way::Observer { reference: &reference, training: &training };
+    let observer = ColorTransform::Observer { reference: &reference, training: &training };
     let ones = [1.0; 401];
     for path in ["illuminants/e.csv", "illuminants/a.csv", "illuminants/d65.csv"] {
         let light = light(path);
         let seen = DVec3::from_array(reference.integrate(light.values()));
-        for white in [White::UNITY, White([1.1040, 0.9870, 0.8233]), White([2.3, 0.6, -0.05])] {
+        for white in [
+            WhiteBalanceTarget::UNITY,
+            WhiteBalanceTarget([1.1040, 0.9870, 0.8233]),
+            WhiteBalanceTarget([2.3, 0.6, -0.05]),
+        ] {
             for (name, sensor) in everyone() {
                 let signals = |rendering: &Rendering| {
                     rendering.patch_signals(raw(&under_light(&sensor, &light), &ones).to_array())
@@ -143,7 +151,7 @@ fn a_perfect_white_takes_the_reference_on_either_way() {
                 let screen = DVec3::from_array(fitted.linear_srgb(Xyz::from_vector(xyz)));
                 assert!((screen - DVec3::ONE).abs().max_element() < 1e-12, "{name} {path}: {screen}");
                 assert_near(&name, fitted.lab(Xyz::from_vector(xyz)).unwrap().l, 100.0, 1e-10);
-                let Ok(paper) = Rendering::new(&sensor, &light, white, Way::Paper) else { continue };
+                let Ok(paper) = Rendering::new(&sensor, &light, white, ColorTransform::Paper) else { continue };
                 if paper.is_rgb {
                     assert_eq!(signals(&paper).to_array(), white.0, "{name} {path}");
                     let xyz = paper.xyz(signals(&paper)).to_vector();
@@ -158,15 +166,17 @@ fn a_perfect_white_takes_the_reference_on_either_way() {
 fn the_balance_moves_rgb_but_not_what_a_fitted_matrix_makes_of_it() {
     let (reference, training, camera) = (sensor(CIE_1931), training(), sensor(NIKON_D70));
     let (light, chart) = (light("illuminants/d55.csv"), chart());
-    let way = Way::Observer { reference: &reference, training: &training };
-    let at = |white: White| {
-        let rendering = Rendering::new(&camera, &light, white, way).unwrap();
+    let transform = ColorTransform::Observer { reference: &reference, training: &training };
+    let at = |white: WhiteBalanceTarget| {
+        let rendering = Rendering::new(&camera, &light, white, transform).unwrap();
         let under = under_light(&camera, &light);
         let signals =
             chart.patches().iter().map(|patch| rendering.patch_signals(raw(&under, patch.grid.values()).to_array()));
         signals.map(|rgb| (rgb, rendering.xyz(rgb).to_vector())).collect::<Vec<_>>()
     };
-    for ((rgb, xyz), (other_rgb, other_xyz)) in at(White::UNITY).iter().zip(at(White([1.5, 1.0, 0.4]))) {
+    for ((rgb, xyz), (other_rgb, other_xyz)) in
+        at(WhiteBalanceTarget::UNITY).iter().zip(at(WhiteBalanceTarget([1.5, 1.0, 0.4])))
+    {
         assert!((*xyz - other_xyz).abs().max_element() < 1e-14);
         assert!((*rgb - other_rgb).abs().max_element() > 0.01);
     }
@@ -175,9 +185,10 @@ fn the_balance_moves_rgb_but_not_what_a_fitted_matrix_makes_of_it() {
 #[test]
 fn fits_match_fifty_digits() {
     let (reference_observer, training) = (sensor(CIE_1931), training());
-    let way = Way::Observer { reference: &reference_observer, training: &training };
+    let transform = ColorTransform::Observer { reference: &reference_observer, training: &training };
     for row in reference("observer_fits.csv") {
-        let rendering = Rendering::new(&sensor(&row[0]), &light(&row[1]), White::UNITY, way).unwrap();
+        let rendering =
+            Rendering::new(&sensor(&row[0]), &light(&row[1]), WhiteBalanceTarget::UNITY, transform).unwrap();
         let expected: Vec<f64> = row[2..].iter().map(|field| field.parse().unwrap()).collect();
         let rows = DMat3::from_cols_slice(&expected).transpose();
         let off = (rendering.xyz_from_signals - rows).to_cols_array().into_iter().fold(0.0_f64, |m, v| m.max(v.abs()));
@@ -190,10 +201,14 @@ fn a_sensor_that_is_a_matrix_of_the_observer_is_the_observer() {
     // The Luther condition, which cone fundamentals of the same observer meet: CIE 2006 cones and CIE 2015 XYZ.
     let (reference, training) = (sensor("observers/cie_2015_2deg.csv"), training());
     let (cones, light, chart) = (sensor(CONES), light("illuminants/d65.csv"), chart());
-    let fitted =
-        Rendering::new(&cones, &light, White::UNITY, Way::Observer { reference: &reference, training: &training })
-            .unwrap();
-    let direct = Rendering::new(&reference, &light, White::UNITY, Way::Paper).unwrap();
+    let fitted = Rendering::new(
+        &cones,
+        &light,
+        WhiteBalanceTarget::UNITY,
+        ColorTransform::Observer { reference: &reference, training: &training },
+    )
+    .unwrap();
+    let direct = Rendering::new(&reference, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper).unwrap();
     for patch in chart.patches() {
         let signals = |sensor: &Sensor| raw(&under_light(sensor, &light), patch.grid.values()).to_array();
         let a = fitted.xyz(fitted.patch_signals(signals(&cones))).to_vector();
@@ -210,8 +225,9 @@ fn diode(center: f64, width: f64) -> GridSpectrum {
 
 #[test]
 fn a_balance_made_of_cancellation_is_refused_or_flagged() {
-    let truth = sensor(TRUTH);
-    let made = |center: f64| Rendering::new(&truth, &diode(center, 20.0), White::UNITY, Way::Paper);
+    let truth = sensor(REFERENCE);
+    let made =
+        |center: f64| Rendering::new(&truth, &diode(center, 20.0), WhiteBalanceTarget::UNITY, ColorTransform::Paper);
     let at_525 = made(525.0);
     assert!(at_525.as_ref().map_or(true, |r| r.conditioning < 0.05), "{at_525:?}");
     // The integral of r̄ changes its sign close by: somewhere there it is next to nothing.
@@ -223,11 +239,11 @@ fn a_balance_made_of_cancellation_is_refused_or_flagged() {
         if red(middle) < 0.0 { low = middle } else { high = middle }
     }
     assert!((523.0..527.0).contains(&low), "{low}");
-    assert_eq!(made(low), Err(NoRendering::BlindToLight { channel: 0 }));
+    assert_eq!(made(low), Err(RenderingError::BlindToLight { channel: 0 }));
     assert!(made(low + 0.05).unwrap().conditioning < 0.01);
     // Ordinary light keeps most of it.
     for path in ["illuminants/e.csv", "illuminants/a.csv", "illuminants/d55.csv"] {
-        let rendering = Rendering::new(&truth, &light(path), White::UNITY, Way::Paper).unwrap();
+        let rendering = Rendering::new(&truth, &light(path), WhiteBalanceTarget::UNITY, ColorTransform::Paper).unwrap();
         assert!(rendering.conditioning > 0.85, "{path}: {}", rendering.conditioning);
     }
 }
@@ -236,15 +252,23 @@ fn a_balance_made_of_cancellation_is_refused_or_flagged() {
 fn a_channel_that_sees_nothing_of_the_light_is_named() {
     let camera = sensor(CANON_10D);
     let dark = GridSpectrum::constant(0.0);
-    for way in [Way::Paper, Way::Observer { reference: &sensor(CIE_1931), training: &training() }] {
-        assert_eq!(Rendering::new(&camera, &dark, White::UNITY, way), Err(NoRendering::BlindToLight { channel: 0 }));
+    for transform in
+        [ColorTransform::Paper, ColorTransform::Observer { reference: &sensor(CIE_1931), training: &training() }]
+    {
+        assert_eq!(
+            Rendering::new(&camera, &dark, WhiteBalanceTarget::UNITY, transform),
+            Err(RenderingError::BlindToLight { channel: 0 })
+        );
     }
     // Beyond 700 nm the 2007 figure has nothing in any channel; at 699 nm green and blue are zero already.
     let red = GridSpectrum::from_fn(|nm| f64::from(nm == 700.0));
-    assert_eq!(Rendering::new(&camera, &red, White::UNITY, Way::Paper), Err(NoRendering::BlindToLight { channel: 1 }));
     assert_eq!(
-        Rendering::new(&sensor(CIE_1931), &dark, White::UNITY, Way::Paper),
-        Err(NoRendering::BlindToLight { channel: 1 }),
+        Rendering::new(&camera, &red, WhiteBalanceTarget::UNITY, ColorTransform::Paper),
+        Err(RenderingError::BlindToLight { channel: 1 })
+    );
+    assert_eq!(
+        Rendering::new(&sensor(CIE_1931), &dark, WhiteBalanceTarget::UNITY, ColorTransform::Paper),
+        Err(RenderingError::BlindToLight { channel: 1 }),
         "an observer needs Y alone"
     );
 }
@@ -254,7 +278,7 @@ fn a_channel_that_sees_nothing_of_the_light_is_named() {
 fn a_cie_observer_sees_deep_red_light() {
     let observer = sensor(CIE_1931);
     let red = GridSpectrum::from_fn(|nm| f64::from((660.0..=670.0).contains(&nm)));
-    let rendering = Rendering::new(&observer, &red, White::UNITY, Way::Paper).unwrap();
+    let rendering = Rendering::new(&observer, &red, WhiteBalanceTarget::UNITY, ColorTransform::Paper).unwrap();
     let white = rendering.xyz(rendering.patch_signals(observer.integrate(red.values())));
     assert_near("Y", white.y, 1.0, 1e-15);
     // CIE 15: 660 to 670 nm lies at 0.7300 to 0.7320, 0.2700 to 0.2680.
@@ -266,53 +290,75 @@ fn a_cie_observer_sees_deep_red_light() {
 #[test]
 fn what_eq_13_does_not_cover_is_refused() {
     let (cones, e, training) = (sensor(CONES), GridSpectrum::constant(1.0), training());
-    assert_eq!(Rendering::new(&cones, &e, White::UNITY, Way::Paper), Err(NoRendering::ConesNeedObserver));
-    let (xyz, rgb, camera) = (sensor(CIE_1931), sensor(TRUTH), sensor(CANON_10D));
-    let fit = |reference| Rendering::new(&cones, &e, White::UNITY, Way::Observer { reference, training: &training });
+    assert_eq!(
+        Rendering::new(&cones, &e, WhiteBalanceTarget::UNITY, ColorTransform::Paper),
+        Err(RenderingError::ConesNeedObserver)
+    );
+    let (xyz, rgb, camera) = (sensor(CIE_1931), sensor(REFERENCE), sensor(CANON_10D));
+    let fit = |reference| {
+        Rendering::new(
+            &cones,
+            &e,
+            WhiteBalanceTarget::UNITY,
+            ColorTransform::Observer { reference, training: &training },
+        )
+    };
     assert!(!fit(&xyz).unwrap().is_rgb);
-    assert_eq!(fit(&rgb), Err(NoRendering::Reference));
-    assert_eq!(fit(&camera), Err(NoRendering::Reference));
+    assert_eq!(fit(&rgb), Err(RenderingError::Reference));
+    assert_eq!(fit(&camera), Err(RenderingError::Reference));
     let nothing = PatchSet::new([]);
-    let way = Way::Observer { reference: &xyz, training: &nothing };
-    assert_eq!(Rendering::new(&camera, &e, White::UNITY, way), Err(NoRendering::Fit(FitError::Dependent)));
+    let transform = ColorTransform::Observer { reference: &xyz, training: &nothing };
+    assert_eq!(
+        Rendering::new(&camera, &e, WhiteBalanceTarget::UNITY, transform),
+        Err(RenderingError::Fit(FitError::Dependent))
+    );
     let one_channel = camera.curves()[1].clone();
     let gray =
         Sensor::new(Primaries::Camera, [one_channel.clone(), one_channel.clone(), one_channel], Response::PerEnergy);
-    let way = Way::Observer { reference: &xyz, training: &training };
-    assert_eq!(Rendering::new(&gray.unwrap(), &e, White::UNITY, way), Err(NoRendering::Fit(FitError::Dependent)));
+    let transform = ColorTransform::Observer { reference: &xyz, training: &training };
+    assert_eq!(
+        Rendering::new(&gray.unwrap(), &e, WhiteBalanceTarget::UNITY, transform),
+        Err(RenderingError::Fit(FitError::Dependent))
+    );
 }
 
 #[test]
 fn a_white_that_no_matrix_can_undo_is_refused() {
     let (reference, training) = (sensor(CIE_1931), training());
-    let way = Way::Observer { reference: &reference, training: &training };
-    let made = Rendering::new(&sensor(CANON_10D), &GridSpectrum::constant(1.0), White([1.0, 0.0, 1.0]), way);
-    assert_eq!(made, Err(NoRendering::NoWhite));
+    let transform = ColorTransform::Observer { reference: &reference, training: &training };
+    let made = Rendering::new(
+        &sensor(CANON_10D),
+        &GridSpectrum::constant(1.0),
+        WhiteBalanceTarget([1.0, 0.0, 1.0]),
+        transform,
+    );
+    assert_eq!(made, Err(RenderingError::NoWhite));
 }
 
 #[test]
 fn cie_observers_are_drawn_directly_on_either_way() {
     let (observer, training, light) = (sensor(CIE_1931), training(), light("illuminants/d65.csv"));
     let other = sensor("observers/cie_1964_10deg.csv");
-    let way = Way::Observer { reference: &other, training: &training };
-    let a = Rendering::new(&observer, &light, White::UNITY, Way::Paper).unwrap();
-    let b = Rendering::new(&observer, &light, White([9.0, 1.0, 1.0]), way).unwrap();
+    let transform = ColorTransform::Observer { reference: &other, training: &training };
+    let a = Rendering::new(&observer, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper).unwrap();
+    let b = Rendering::new(&observer, &light, WhiteBalanceTarget([9.0, 1.0, 1.0]), transform).unwrap();
     assert_eq!(a, b);
     assert_eq!(a.xyz_from_signals, DMat3::IDENTITY);
-    let e = Rendering::new(&observer, &GridSpectrum::constant(1.0), White::UNITY, Way::Paper).unwrap();
+    let e = Rendering::new(&observer, &GridSpectrum::constant(1.0), WhiteBalanceTarget::UNITY, ColorTransform::Paper)
+        .unwrap();
     assert_xy("equal energy", e.lab_white.chromaticity().unwrap(), [1.0 / 3.0, 1.0 / 3.0], 2e-5);
 }
 
 #[test]
 fn whites_of_lights_are_their_colors() {
     let observer = sensor(CIE_1931);
-    let white = White::from_light(&dataset("illuminants/d65.csv").curves[0], &observer).unwrap();
+    let white = WhiteBalanceTarget::from_light(&dataset("illuminants/d65.csv").curves[0], &observer).unwrap();
     for v in white.0 {
         assert_near("D65", v, 1.0, 1.5e-3);
     }
-    assert!(White::from_light(&measured(&GridSpectrum::constant(0.0)), &observer).is_none());
-    assert!(White::from_chromaticity(Xy { x: 0.3, y: 0.0 }).is_none());
-    let glow = White::from_light(&measured(&black_body(kelvin(1000.0), PAPER)), &observer).unwrap();
+    assert!(WhiteBalanceTarget::from_light(&measured(&GridSpectrum::constant(0.0)), &observer).is_none());
+    assert!(WhiteBalanceTarget::from_chromaticity(Xy { x: 0.3, y: 0.0 }).is_none());
+    let glow = WhiteBalanceTarget::from_light(&measured(&black_body(kelvin(1000.0), PAPER)), &observer).unwrap();
     assert!(glow.0[2] < 0.0, "a black body of 1000 K is outside sRGB");
 }
 
@@ -334,8 +380,8 @@ proptest! {
         let light = GridSpectrum::from_fn(|nm| l[((nm - 380.0) / 10.0) as usize]);
         let training = PatchSet::new([("a", &s), ("b", &a), ("c", &l), ("d", &c)].map(|(n, v)| (n.to_owned(), table(v))));
         let reference = sensor(CIE_1931);
-        for way in [Way::Paper, Way::Observer { reference: &reference, training: &training }] {
-            let Ok(rendering) = Rendering::new(&camera, &light, White::UNITY, way) else { continue };
+        for transform in [ColorTransform::Paper, ColorTransform::Observer { reference: &reference, training: &training }] {
+            let Ok(rendering) = Rendering::new(&camera, &light, WhiteBalanceTarget::UNITY, transform) else { continue };
             prop_assert!(rendering.xyz_from_signals.is_finite() && rendering.srgb_from_xyz.is_finite());
             prop_assert!(rendering.white_integrals.is_finite() && rendering.locus_gain.is_finite());
         }
@@ -347,6 +393,7 @@ fn an_observer_whose_luminance_is_nothing_beside_the_rest_is_refused() {
     let curve = |value: f64| SpectralDistribution::new(vec![380.0, 780.0], vec![value; 2]).unwrap();
     let curves = [curve(1e100), curve(1e-250), curve(1.0)];
     let observer = Sensor::new(Primaries::Xyz, curves, Response::PerEnergy).unwrap();
-    let answer = Rendering::new(&observer, &GridSpectrum::constant(1.0), White::UNITY, Way::Paper);
-    assert_eq!(answer, Err(NoRendering::BlindToLight { channel: 1 }));
+    let answer =
+        Rendering::new(&observer, &GridSpectrum::constant(1.0), WhiteBalanceTarget::UNITY, ColorTransform::Paper);
+    assert_eq!(answer, Err(RenderingError::BlindToLight { channel: 1 }));
 }

@@ -2,8 +2,8 @@
 
 use chromascope_core::accuracy::Accuracy;
 use chromascope_core::camera::locus_table::{COLDEST_K, HOTTEST_K};
-use chromascope_core::camera::{LocusEvaluator, Rendering, Way, White};
-use chromascope_core::camera::{LocusTable, NotInTable};
+use chromascope_core::camera::{ColorTransform, LocusEvaluator, Rendering, WhiteBalanceTarget};
+use chromascope_core::camera::{LocusTable, LocusTableError};
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::spectral::{GridSpectrum, Sensor};
@@ -12,18 +12,19 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::support::{
-    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, kelvin, reference_numbers, sensor, sensors, training,
+    CANON_10D, CIE_1931, DCS200, NIKON_D70, REFERENCE, assert_near, kelvin, reference_numbers, sensor, sensors,
+    training,
 };
 
 const PAPER: RadiationConstants = RadiationConstants::Paper;
 
-fn rendering(sensor: &Sensor, way: Way<'_>) -> Option<Rendering> {
-    Rendering::new(sensor, &GridSpectrum::constant(1.0), White::UNITY, way).ok()
+fn rendering(sensor: &Sensor, transform: ColorTransform<'_>) -> Option<Rendering> {
+    Rendering::new(sensor, &GridSpectrum::constant(1.0), WhiteBalanceTarget::UNITY, transform).ok()
 }
 
 fn cie_table() -> LocusTable {
     let observer = sensor(CIE_1931);
-    LocusTable::new(&observer, &rendering(&observer, Way::Paper).unwrap(), PAPER)
+    LocusTable::new(&observer, &rendering(&observer, ColorTransform::Paper).unwrap(), PAPER)
 }
 
 /// Temperatures over the whole table, even in the logarithm by the golden ratio: half of them up to 10⁶ K.
@@ -51,13 +52,16 @@ fn measure(sensor: &Sensor, rendering: &Rendering, count: u32) -> (f64, LocusTab
 #[test]
 fn every_sensor_has_a_table_that_keeps_its_own_error() {
     let (reference, training) = (sensor(CIE_1931), training());
-    let observer = Way::Observer { reference: &reference, training: &training };
+    let observer = ColorTransform::Observer { reference: &reference, training: &training };
     let (cameras, observers) = (sensors("cameras"), sensors("observers"));
     let all: Vec<_> = cameras.iter().chain(&observers).collect();
     let made: Vec<usize> = all
         .par_iter()
         .map(|(name, sensor)| {
-            let ways: Vec<_> = [Way::Paper, observer].into_iter().filter_map(|way| rendering(sensor, way)).collect();
+            let ways: Vec<_> = [ColorTransform::Paper, observer]
+                .into_iter()
+                .filter_map(|transform| rendering(sensor, transform))
+                .collect();
             for rendering in &ways {
                 let (seen, table) = measure(sensor, rendering, 400);
                 let said = table.max_error();
@@ -76,7 +80,7 @@ fn every_sensor_has_a_table_that_keeps_its_own_error() {
 fn a_larger_error_takes_a_smaller_table_that_keeps_it() {
     for path in [CIE_1931, CANON_10D, DCS200] {
         let sensor = sensor(path);
-        let rendering = rendering(&sensor, Way::Paper).unwrap();
+        let rendering = rendering(&sensor, ColorTransform::Paper).unwrap();
         let exact = LocusTable::new(&sensor, &rendering, PAPER);
         let within = |target| LocusTable::within(&sensor, &rendering, PAPER, Accuracy::new(target).unwrap());
         assert_eq!(within(f64::MIN_POSITIVE), exact);
@@ -108,7 +112,7 @@ fn the_table_matches_fifty_digits() {
 fn beyond_the_ends_is_refused() {
     let table = cie_table();
     for t in [5e-324, 1e-300, 1e-3, COLDEST_K * (1.0 - 1e-15), HOTTEST_K * (1.0 + 1e-15), 1e300, f64::MAX] {
-        assert_eq!(table.xy(kelvin(t)), Err(NotInTable::Outside), "{t} K");
+        assert_eq!(table.xy(kelvin(t)), Err(LocusTableError::Outside), "{t} K");
     }
     for t in [COLDEST_K, HOTTEST_K] {
         assert!(table.xy(kelvin(t)).is_ok(), "{t} K");
@@ -119,17 +123,18 @@ fn beyond_the_ends_is_refused() {
 
 #[test]
 fn many_are_each_to_the_last_bit_on_any_number_of_threads() {
-    for path in [CIE_1931, CANON_10D, NIKON_D70, TRUTH] {
+    for path in [CIE_1931, CANON_10D, NIKON_D70, REFERENCE] {
         let sensor = sensor(path);
-        let table = LocusTable::new(&sensor, &rendering(&sensor, Way::Paper).unwrap(), PAPER);
+        let table = LocusTable::new(&sensor, &rendering(&sensor, ColorTransform::Paper).unwrap(), PAPER);
         let mut temperatures: Vec<Kelvin> = anywhere(40_007).collect();
         (temperatures[17], temperatures[30_000]) = (kelvin(0.5), kelvin(1e16));
         let each: Vec<_> = temperatures.iter().map(|&t| table.xy(t)).collect();
-        assert_eq!(each.iter().filter(|a| **a == Err(NotInTable::Outside)).count(), 2);
+        assert_eq!(each.iter().filter(|a| **a == Err(LocusTableError::Outside)).count(), 2);
         for threads in [1, 3] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             assert!(pool.install(|| table.xys(&temperatures)) == each, "{path} on {threads}");
-            let again = pool.install(|| LocusTable::new(&sensor, &rendering(&sensor, Way::Paper).unwrap(), PAPER));
+            let again =
+                pool.install(|| LocusTable::new(&sensor, &rendering(&sensor, ColorTransform::Paper).unwrap(), PAPER));
             assert!(again == table, "{path} made on {threads}");
         }
     }
@@ -138,10 +143,10 @@ fn many_are_each_to_the_last_bit_on_any_number_of_threads() {
 
 #[test]
 fn what_of_one_slice_is_beyond_the_other_stays() {
-    let (table, mut answers) = (cie_table(), [Err(NotInTable::Rough); 5]);
+    let (table, mut answers) = (cie_table(), [Err(LocusTableError::Rough); 5]);
     table.xys_into(&[kelvin(5000.0); 3], &mut answers);
     assert!(answers[..3].iter().all(Result::is_ok));
-    assert_eq!(answers[3..], [Err(NotInTable::Rough); 2]);
+    assert_eq!(answers[3..], [Err(LocusTableError::Rough); 2]);
     table.xys_into(&[kelvin(5000.0); 9], &mut answers);
     assert!(answers.iter().all(Result::is_ok));
 }
@@ -150,7 +155,7 @@ fn what_of_one_slice_is_beyond_the_other_stays() {
 fn a_curve_that_leaps_is_refused_around_the_leap_only() {
     let leap = |t: Kelvin| Some(Xy { x: if t.mired() < 333.3 { 0.3 } else { 0.4 }, y: 0.3 });
     let table = LocusTable::of(leap);
-    assert_eq!(table.xy(kelvin(1e6 / 333.3)), Err(NotInTable::Rough));
+    assert_eq!(table.xy(kelvin(1e6 / 333.3)), Err(LocusTableError::Rough));
     for t in [5.0, 2900.0, 3100.0, 1e9] {
         assert!(off(table.xy(kelvin(t)).unwrap(), leap(kelvin(t)).unwrap()) <= LocusTable::LIMIT, "{t} K");
     }
@@ -168,7 +173,7 @@ fn a_curve_without_chromaticity_is_refused_everywhere() {
     ];
     for table in tables {
         for t in anywhere(50) {
-            assert_eq!(table.xy(t), Err(NotInTable::Rough), "{t}");
+            assert_eq!(table.xy(t), Err(LocusTableError::Rough), "{t}");
         }
     }
 }

@@ -3,21 +3,21 @@
 //! C. P. Huynh and A. Robles-Kelly 2007. Unity balance, Eq 13, truth Stiles & Burch 1955 2°. Numbers of ours, within 3 %, come
 //! from an independent computation.
 
-use chromascope_core::camera::White;
+use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::colorimetry::lab::lab_from_xyz;
 use chromascope_core::colorimetry::rgb::srgb_white;
 use chromascope_core::colorimetry::rgb::{SRGB_FROM_XYZ_PUBLISHED, srgb_from_xyz};
 use chromascope_core::colorimetry::{Xy, Xyz, delta_e_2000};
 use chromascope_core::light::RadiationConstants;
-use chromascope_core::object::{PAPER_FIVE, PatchSet};
+use chromascope_core::patch_set::{PAPER_FIVE, PatchSet};
 use chromascope_core::query::{
-    Ask, Direct, LocusOf, PatchColor, PatchColorsOf, RenderingOf, Shared, Temperatures, WayOf,
+    Ask, ColorTransformSpec, Direct, LocusQuery, PatchColor, PatchColorsQuery, RenderingQuery, Shared, Temperatures,
 };
 use chromascope_core::spectral::{Primaries, Response, Sensor, SpectralDistribution};
 use glam::DVec3;
 
 use crate::support::{
-    CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, assert_near, assert_xy, by_paper, chart, dataset, kelvin, light,
+    CANON_10D, CIE_1931, DCS200, NIKON_D70, REFERENCE, assert_near, assert_xy, by_paper, chart, dataset, kelvin, light,
     measured, patches, reference, sensor, sensors, training,
 };
 
@@ -30,7 +30,7 @@ fn temperatures() -> Vec<f64> {
 
 fn locus_at(sensor: Sensor, temperatures: Temperatures) -> Vec<Xy> {
     let rendering = by_paper(&Shared::new(sensor));
-    let query = LocusOf { rendering, temperatures, constants: RadiationConstants::Paper };
+    let query = LocusQuery { rendering, temperatures, constants: RadiationConstants::Paper };
     let locus = (*Direct.ask(&query)).clone().unwrap();
     locus.points.iter().map(|point| point.xy.unwrap()).collect()
 }
@@ -53,7 +53,7 @@ impl Distances {
     }
 
     fn named(camera: &str) -> Self {
-        Self::of(sensor(camera), &locus(sensor(TRUTH), &temperatures()))
+        Self::of(sensor(camera), &locus(sensor(REFERENCE), &temperatures()))
     }
 
     fn minimum_at(&self) -> f64 {
@@ -102,7 +102,7 @@ fn the_papers_cameras_agree_best_around_daylight() {
 /// balance, and holds for every camera alike.
 #[test]
 fn every_camera_of_the_library_agrees_best_around_daylight() {
-    let truth = locus(sensor(TRUTH), &temperatures());
+    let truth = locus(sensor(REFERENCE), &temperatures());
     let cameras = sensors("cameras");
     assert_eq!(cameras.len(), 58);
     let (mut lowest, mut highest) = (f64::INFINITY, 0.0_f64);
@@ -148,7 +148,7 @@ fn the_kodak_is_nearer_than_the_canon_only_in_a_narrow_band() {
 #[test]
 fn the_kodaks_locus_is_the_shortest() {
     let expected =
-        [(TRUTH, "0.387"), (CANON_10D, "0.348"), (NIKON_D70, "0.332"), (D70_AMPAS, "0.342"), (DCS200, "0.124")];
+        [(REFERENCE, "0.387"), (CANON_10D, "0.348"), (NIKON_D70, "0.332"), (D70_AMPAS, "0.342"), (DCS200, "0.124")];
     let default = Temperatures::Range { from: kelvin(1000.0), to: kelvin(20000.0), count: 200 };
     let length = |points: Vec<Xy>| -> f64 { points.windows(2).map(|pair| pair[0].distance(pair[1])).sum() };
     for (name, expected) in expected {
@@ -165,7 +165,7 @@ fn the_kodaks_locus_is_the_shortest() {
 
 fn patch_colors(path: &str, patches: PatchSet) -> Vec<([f64; 3], Xy)> {
     let rendering = by_paper(&Shared::new(sensor(path)));
-    let colors = Direct.ask(&PatchColorsOf { rendering, patches: Shared::new(patches) });
+    let colors = Direct.ask(&PatchColorsQuery { rendering, patches: Shared::new(patches) });
     (*colors).clone().unwrap().iter().map(|color| (color.rgb.unwrap(), color.xy.unwrap())).collect()
 }
 
@@ -182,7 +182,7 @@ fn a_perfect_white_is_exactly_white_through_every_camera() {
 #[test]
 fn patches_differ_from_the_truth_as_computed_independently() {
     let five = chart().subset(&PAPER_FIVE);
-    let truth = patch_colors(TRUTH, five.clone());
+    let truth = patch_colors(REFERENCE, five.clone());
     // Red, green, blue, white, orange yellow.
     let expected = [
         (CANON_10D, ["0.009", "0.049", "0.050", "", "0.027"]),
@@ -219,7 +219,7 @@ fn patches_match_fifty_digits() {
 
 #[test]
 fn eq_13_and_the_cie_observer_differ_by_construction() {
-    let truth = locus(sensor(TRUTH), &[5500.0, 1000.0]);
+    let truth = locus(sensor(REFERENCE), &[5500.0, 1000.0]);
     let cie = locus(sensor(CIE_1931), &[5500.0, 1000.0]);
     assert_near("5500 K", truth[0].distance(cie[0]), 0.019, 0.0005);
     assert_near("1000 K", truth[1].distance(cie[1]), 0.099, 0.0005);
@@ -230,17 +230,17 @@ fn white_of_d55_has_the_papers_twelve_digits() {
     // ASTM E308 and CIE 15: D55, 2°.
     let published = Xyz::new(0.95682, 1.0, 0.92149);
     let round = |v: [f64; 3]| v.map(|v| (v * 1e4).round() / 1e4);
-    assert_eq!(round(White::from_xyz(published).0), [1.1040, 0.9870, 0.8233]);
+    assert_eq!(round(WhiteBalanceTarget::from_xyz(published).0), [1.1040, 0.9870, 0.8233]);
     let exact = srgb_from_xyz() * published.to_vector();
     assert_eq!(round(exact.to_array()), [1.1040, 0.9869, 0.8233]);
     assert!((SRGB_FROM_XYZ_PUBLISHED * published.to_vector() - exact).abs().max_element() < 7.9e-5);
     // The published white is a 5 nm sum that begins below 380 nm; with our tables it gives the same digits.
-    assert_eq!(round(White::from_xyz(five_nm_white()).0), [1.1040, 0.9870, 0.8233]);
-    let own = White::from_light(&dataset("illuminants/d55.csv").curves[0], &sensor(CIE_1931)).unwrap();
+    assert_eq!(round(WhiteBalanceTarget::from_xyz(five_nm_white()).0), [1.1040, 0.9870, 0.8233]);
+    let own = WhiteBalanceTarget::from_light(&dataset("illuminants/d55.csv").curves[0], &sensor(CIE_1931)).unwrap();
     assert_eq!(round(own.0), [1.1040, 0.9870, 0.8233]);
     // A black body of 5500 K is no D55.
     let radiator = chromascope_core::light::planckian::black_body(kelvin(5500.0), RadiationConstants::Paper);
-    let glow = White::from_light(&measured(&radiator), &sensor(CIE_1931)).unwrap();
+    let glow = WhiteBalanceTarget::from_light(&measured(&radiator), &sensor(CIE_1931)).unwrap();
     assert!((DVec3::from_array(glow.0) - DVec3::from_array(own.0)).abs().max_element() > 0.03);
 }
 
@@ -259,24 +259,27 @@ fn five_nm_white() -> Xyz {
 }
 
 /// Cameras through 3×3 matrices fitted to CIE 1931 2° under a light.
-fn fitted(path: &str, illuminant: &str) -> RenderingOf {
-    RenderingOf {
+fn fitted(path: &str, illuminant: &str) -> RenderingQuery {
+    RenderingQuery {
         sensor: Shared::new(sensor(path)),
         light: Shared::new(light(illuminant)),
-        white: White::UNITY,
-        way: WayOf::Observer { reference: Shared::new(sensor(CIE_1931)), training: Shared::new(training()) },
+        white: WhiteBalanceTarget::UNITY,
+        transform: ColorTransformSpec::Observer {
+            reference: Shared::new(sensor(CIE_1931)),
+            training: Shared::new(training()),
+        },
     }
 }
 
-fn colors(rendering: RenderingOf, patches: &PatchSet) -> Vec<PatchColor> {
-    (*Direct.ask(&PatchColorsOf { rendering, patches: Shared::new(patches.clone()) })).clone().unwrap()
+fn colors(rendering: RenderingQuery, patches: &PatchSet) -> Vec<PatchColor> {
+    (*Direct.ask(&PatchColorsQuery { rendering, patches: Shared::new(patches.clone()) })).clone().unwrap()
 }
 
 /// The README says "in xy": by a color difference that is one, red is the worst of the five.
 #[test]
 fn red_and_orange_yellow_are_nearer_only_in_chromaticity_by_eq_13() {
     let five = chart().subset(&PAPER_FIVE);
-    let truth = colors(by_paper(&Shared::new(sensor(TRUTH))), &five);
+    let truth = colors(by_paper(&Shared::new(sensor(REFERENCE))), &five);
     let reference = colors(fitted(CIE_1931, "illuminants/d65.csv"), &five);
     for (camera, red, green, blue, orange_yellow) in
         [(CANON_10D, 3.04, 1.11, 0.92, 0.90), (NIKON_D70, 2.16, 1.11, 1.27, 0.73)]
@@ -295,7 +298,7 @@ fn red_and_orange_yellow_are_nearer_only_in_chromaticity_by_eq_13() {
 }
 
 /// L* 50 for the reference, by scaling the reflectance.
-fn at_lightness_50(rendering: &RenderingOf, material: &PatchSet) -> PatchSet {
+fn at_lightness_50(rendering: &RenderingQuery, material: &PatchSet) -> PatchSet {
     let scaled = |factor: f64| {
         let patch = &material.patches()[0];
         PatchSet::new([(patch.name.clone(), patch.measured.map(|_, v| v * factor).unwrap())])
@@ -319,10 +322,13 @@ fn skin_against_leaf_compares_lightness() {
     let skin = patches("materials/skin_vrhel.csv").subset(&["Skin Caucasian mean (Vrhel)"]);
     let leaf = patches("materials/leaves_vrhel.csv").subset(&["Fern-like bush leaf 024 (Vrhel)"]);
     let sun = "illuminants/direct_sun_astm_g173.csv";
-    let d55 = White::from_light(&dataset("illuminants/d55.csv").curves[0], &sensor(CIE_1931)).unwrap();
-    let eq_13 =
-        |path: &str| RenderingOf { light: Shared::new(light(sun)), white: d55, ..by_paper(&Shared::new(sensor(path))) };
-    let difference = |a: RenderingOf, b: RenderingOf, material: &PatchSet| {
+    let d55 = WhiteBalanceTarget::from_light(&dataset("illuminants/d55.csv").curves[0], &sensor(CIE_1931)).unwrap();
+    let eq_13 = |path: &str| RenderingQuery {
+        light: Shared::new(light(sun)),
+        white: d55,
+        ..by_paper(&Shared::new(sensor(path)))
+    };
+    let difference = |a: RenderingQuery, b: RenderingQuery, material: &PatchSet| {
         let (a, b) = (colors(a, material)[0], colors(b, material)[0]);
         // As before Lab's adopted white followed the balance: the white of sRGB.
         let d65 = |xyz: Xyz| lab_from_xyz(xyz, srgb_white()).unwrap();
@@ -335,8 +341,8 @@ fn skin_against_leaf_compares_lightness() {
         (D70_AMPAS, [3.91, 3.17], [f64::NAN; 2], [1.00, 1.55]),
     ] {
         for (index, material) in [&skin, &leaf].into_iter().enumerate() {
-            let equal = at_lightness_50(&eq_13(TRUTH), material);
-            let [now, before] = difference(eq_13(TRUTH), eq_13(camera), &equal);
+            let equal = at_lightness_50(&eq_13(REFERENCE), material);
+            let [now, before] = difference(eq_13(REFERENCE), eq_13(camera), &equal);
             let what = format!("{camera} {}", material.patches()[0].name);
             assert_near(&what, now, own[index], 0.006);
             if in_d65[index].is_finite() {
@@ -352,9 +358,9 @@ fn skin_against_leaf_compares_lightness() {
 /// The minimum near daylight is the balance speaking: balanced to A, every camera agrees best at A.
 #[test]
 fn the_minimum_follows_the_balance() {
-    let along = |rendering: RenderingOf| -> Vec<Xy> {
+    let along = |rendering: RenderingQuery| -> Vec<Xy> {
         let temperatures = Temperatures::List(temperatures().iter().map(|&t| kelvin(t)).collect());
-        let locus = Direct.ask(&LocusOf { rendering, temperatures, constants: RadiationConstants::Paper });
+        let locus = Direct.ask(&LocusQuery { rendering, temperatures, constants: RadiationConstants::Paper });
         (*locus).clone().unwrap().points.iter().map(|point| point.xy.unwrap()).collect()
     };
     let a = "illuminants/a.csv";
@@ -365,19 +371,19 @@ fn the_minimum_follows_the_balance() {
         assert_near(camera, Distances { t: temperatures(), d }.minimum_at(), 2858.0, 6.0);
     }
     // The white-balance target is no balance of loci: it multiplies the camera's signals and the reference's alike.
-    let target = White::from_light(&dataset(a).curves[0], &sensor(CIE_1931)).unwrap();
-    let with_target = |path: &str| along(RenderingOf { white: target, ..by_paper(&Shared::new(sensor(path))) });
-    let d = with_target(NIKON_D70).iter().zip(with_target(TRUTH)).map(|(a, b)| a.distance(b)).collect();
+    let target = WhiteBalanceTarget::from_light(&dataset(a).curves[0], &sensor(CIE_1931)).unwrap();
+    let with_target = |path: &str| along(RenderingQuery { white: target, ..by_paper(&Shared::new(sensor(path))) });
+    let d = with_target(NIKON_D70).iter().zip(with_target(REFERENCE)).map(|(a, b)| a.distance(b)).collect();
     assert_near("target A, Eq 13", Distances { t: temperatures(), d }.minimum_at(), 5944.0, 20.0);
 }
 
 #[test]
 fn the_kodaks_skin_is_less_saturated() {
     let skin = patches("materials/skin_vrhel.csv").subset(&["Skin Caucasian mean (Vrhel)"]);
-    let d55 = White::from_light(&dataset("illuminants/d55.csv").curves[0], &sensor(CIE_1931)).unwrap();
+    let d55 = WhiteBalanceTarget::from_light(&dataset("illuminants/d55.csv").curves[0], &sensor(CIE_1931)).unwrap();
     let sun = Shared::new(light("illuminants/direct_sun_astm_g173.csv"));
-    for (path, expected) in [(TRUTH, 0.66), (CANON_10D, 0.61), (NIKON_D70, 0.61), (DCS200, 0.44)] {
-        let rendering = RenderingOf { light: sun.clone(), white: d55, ..by_paper(&Shared::new(sensor(path))) };
+    for (path, expected) in [(REFERENCE, 0.66), (CANON_10D, 0.61), (NIKON_D70, 0.61), (DCS200, 0.44)] {
+        let rendering = RenderingQuery { light: sun.clone(), white: d55, ..by_paper(&Shared::new(sensor(path))) };
         let [r, g, b] = colors(rendering, &skin)[0].linear;
         let (high, low) = (r.max(g).max(b), r.min(g).min(b));
         assert_near(path, (high - low) / high, expected, 0.006);
@@ -403,7 +409,7 @@ fn cut(path: &str, last: f64) -> Sensor {
 fn below_2500_k_a_table_that_ends_at_700_nm_misses_its_tail() {
     let t = [1000.0, 1500.0, 2000.0, 2500.0, 3000.0, 6500.0];
     let (truth, whole, short) =
-        (locus(sensor(TRUTH), &t), locus(sensor(D70_AMPAS), &t), locus(cut(D70_AMPAS, 700.0), &t));
+        (locus(sensor(REFERENCE), &t), locus(sensor(D70_AMPAS), &t), locus(cut(D70_AMPAS, 700.0), &t));
     let moved: Vec<f64> = whole.iter().zip(&short).map(|(a, b)| a.distance(*b)).collect();
     let (measured, figure) = (truth[0].distance(whole[0]), truth[0].distance(locus(sensor(NIKON_D70), &t)[0]));
     assert_near("moved at 1000 K", moved[0], 0.0213, 1e-4);
@@ -417,7 +423,7 @@ fn below_2500_k_a_table_that_ends_at_700_nm_misses_its_tail() {
     for (table, below) in [(cut(D70_AMPAS, 700.0), Some(2500.0)), (cut(D70_AMPAS, 715.0), Some(2500.0))] {
         assert_eq!(table.extrapolated_below_k(), below);
     }
-    for whole in [cut(D70_AMPAS, 720.0), sensor(D70_AMPAS), sensor(TRUTH), sensor(CIE_1931)] {
+    for whole in [cut(D70_AMPAS, 720.0), sensor(D70_AMPAS), sensor(REFERENCE), sensor(CIE_1931)] {
         assert_eq!(whole.extrapolated_below_k(), None);
     }
     let short = sensors("cameras").into_iter().filter(|(_, camera)| camera.extrapolated_below_k().is_some());

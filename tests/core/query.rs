@@ -2,16 +2,16 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use chromascope_core::camera::{NoRendering, Rendering, Way, White};
+use chromascope_core::camera::{ColorTransform, Rendering, RenderingError, WhiteBalanceTarget};
 use chromascope_core::colorimetry::Xyz;
 use chromascope_core::colorimetry::rgb::{XYZ_FROM_SRGB, encode_srgb};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::light::planckian::exitance;
-use chromascope_core::object::PAPER_FIVE;
+use chromascope_core::patch_set::PAPER_FIVE;
 use chromascope_core::query::compare::{comparable_by_paper, locus_distance_uv, locus_distance_xy, patch_difference};
 use chromascope_core::query::{
-    Ask, Direct, LocusOf, Metric, MonochromaticOf, NoDifference, PatchColorsOf, RadiatorSignals, RenderingOf, Shared,
-    SpectralLocusOf, Temperatures, WayOf,
+    Ask, ColorTransformSpec, DifferenceError, Direct, LocusQuery, Metric, MonochromaticQuery, PatchColorsQuery,
+    RadiatorSignalsQuery, RenderingQuery, Shared, SpectralLocusQuery, Temperatures,
 };
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{GridSpectrum, Primaries};
@@ -20,7 +20,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use crate::support::{
-    CANON_10D, CIE_1931, DCS200, TRUTH, assert_near, by_paper, cases, chart, kelvin, light, sensor, training,
+    CANON_10D, CIE_1931, DCS200, REFERENCE, assert_near, by_paper, cases, chart, kelvin, light, sensor, training,
 };
 
 fn hash(value: &impl Hash) -> u64 {
@@ -60,16 +60,16 @@ fn equal_hashes_alone_are_not_trusted() {
 fn questions_differ_when_anything_they_depend_on_does() {
     let base = by_paper(&Shared::new(sensor(CANON_10D)));
     assert_eq!(base, by_paper(&Shared::new(sensor(CANON_10D))));
-    let lit = RenderingOf { light: Shared::new(light("illuminants/a.csv")), ..base.clone() };
-    let white = RenderingOf { white: White([1.1040, 0.9870, 0.8233]), ..base.clone() };
+    let lit = RenderingQuery { light: Shared::new(light("illuminants/a.csv")), ..base.clone() };
+    let white = RenderingQuery { white: WhiteBalanceTarget([1.1040, 0.9870, 0.8233]), ..base.clone() };
     let reference = Shared::new(sensor(CIE_1931));
-    let fitted = WayOf::Observer { reference, training: Shared::new(training()) };
-    let way = RenderingOf { way: fitted, ..base.clone() };
-    for other in [lit, white, way, by_paper(&Shared::new(sensor(DCS200)))] {
+    let fitted = ColorTransformSpec::Observer { reference, training: Shared::new(training()) };
+    let transform = RenderingQuery { transform: fitted, ..base.clone() };
+    for other in [lit, white, transform, by_paper(&Shared::new(sensor(DCS200)))] {
         assert!(base != other);
         assert_ne!(hash(&base), hash(&other));
     }
-    let (plus, minus) = (White([0.0, 1.0, 1.0]), White([-0.0, 1.0, 1.0]));
+    let (plus, minus) = (WhiteBalanceTarget([0.0, 1.0, 1.0]), WhiteBalanceTarget([-0.0, 1.0, 1.0]));
     assert_eq!((plus, hash(&plus)), (minus, hash(&minus)));
 }
 
@@ -129,14 +129,15 @@ fn patch_colors_are_eq_16_and_13_written_out() {
     let (lit, white) = (light("illuminants/a.csv"), [1.1040, 0.9870, 0.8233]);
     let five = chart().subset(&PAPER_FIVE);
     assert_eq!(five.patches().len(), 5);
-    for path in [CANON_10D, TRUTH] {
-        let rendering = RenderingOf {
+    for path in [CANON_10D, REFERENCE] {
+        let rendering = RenderingQuery {
             sensor: Shared::new(sensor(path)),
             light: Shared::new(lit.clone()),
-            white: White(white),
-            way: WayOf::Paper,
+            white: WhiteBalanceTarget(white),
+            transform: ColorTransformSpec::Paper,
         };
-        let colors = (*Direct.ask(&PatchColorsOf { rendering, patches: Shared::new(five.clone()) })).clone().unwrap();
+        let colors =
+            (*Direct.ask(&PatchColorsQuery { rendering, patches: Shared::new(five.clone()) })).clone().unwrap();
         for (patch, color) in five.patches().iter().zip(&colors) {
             let (rgb, xyz) = patch_by_hand(path, &patch.grid, &lit, white);
             let found = color.rgb.unwrap();
@@ -161,27 +162,43 @@ fn patch_colors_are_eq_16_and_13_written_out() {
 fn fitted_renderings_share_their_targets_and_nothing_else_changes() {
     let (reference, training) = (Shared::new(sensor(CIE_1931)), Shared::new(training()));
     let light = Shared::new(light("illuminants/a.csv"));
-    let by_hand = Way::Observer { reference: &reference, training: &training };
-    for path in [CANON_10D, TRUTH, CIE_1931] {
-        let way = WayOf::Observer { reference: reference.clone(), training: training.clone() };
-        let query = RenderingOf { sensor: Shared::new(sensor(path)), light: light.clone(), white: White::UNITY, way };
-        assert_eq!(*Direct.ask(&query), Rendering::new(&query.sensor, &light, White::UNITY, by_hand), "{path}");
+    let by_hand = ColorTransform::Observer { reference: &reference, training: &training };
+    for path in [CANON_10D, REFERENCE, CIE_1931] {
+        let transform = ColorTransformSpec::Observer { reference: reference.clone(), training: training.clone() };
+        let query = RenderingQuery {
+            sensor: Shared::new(sensor(path)),
+            light: light.clone(),
+            white: WhiteBalanceTarget::UNITY,
+            transform,
+        };
+        assert_eq!(
+            *Direct.ask(&query),
+            Rendering::new(&query.sensor, &light, WhiteBalanceTarget::UNITY, by_hand),
+            "{path}"
+        );
     }
     let dark = Shared::new(GridSpectrum::constant(0.0));
-    let way = WayOf::Observer { reference: reference.clone(), training: training.clone() };
-    let query = RenderingOf { sensor: Shared::new(sensor(CANON_10D)), light: dark, white: White::UNITY, way };
-    assert_eq!(*Direct.ask(&query), Err(NoRendering::BlindToLight { channel: 0 }));
+    let transform = ColorTransformSpec::Observer { reference: reference.clone(), training: training.clone() };
+    let query = RenderingQuery {
+        sensor: Shared::new(sensor(CANON_10D)),
+        light: dark,
+        white: WhiteBalanceTarget::UNITY,
+        transform,
+    };
+    assert_eq!(*Direct.ask(&query), Err(RenderingError::BlindToLight { channel: 0 }));
 }
 
 #[test]
 fn loci_are_eq_15_and_13_written_out() {
     let constants = RadiationConstants::Si2019;
     let list: Vec<Kelvin> = [20_000.0, 1500.0, 5500.0].map(kelvin).to_vec();
-    for path in [CANON_10D, TRUTH, CIE_1931] {
+    for path in [CANON_10D, REFERENCE, CIE_1931] {
         let source = Shared::new(sensor(path));
-        let query = LocusOf { rendering: by_paper(&source), temperatures: Temperatures::List(list.clone()), constants };
+        let query =
+            LocusQuery { rendering: by_paper(&source), temperatures: Temperatures::List(list.clone()), constants };
         let locus = (*Direct.ask(&query)).clone().unwrap();
-        let raw = Direct.ask(&RadiatorSignals { sensor: source.clone(), temperatures: query.temperatures, constants });
+        let raw =
+            Direct.ask(&RadiatorSignalsQuery { sensor: source.clone(), temperatures: query.temperatures, constants });
         assert_eq!(locus.method, raw.method);
         for (point, t) in locus.points.iter().zip(&list) {
             assert_eq!(point.temperature, *t);
@@ -203,7 +220,7 @@ fn loci_are_eq_15_and_13_written_out() {
 #[test]
 fn monochromatic_light_is_the_sensitivities_balanced() {
     let source = Shared::new(sensor(CANON_10D));
-    let points = (*Direct.ask(&MonochromaticOf { rendering: by_paper(&source) })).clone().unwrap();
+    let points = (*Direct.ask(&MonochromaticQuery { rendering: by_paper(&source) })).clone().unwrap();
     let point = points.iter().find(|point| point.wavelength_nm == 550.0).unwrap();
     let signals = DVec3::from_array(source.at_index(170)) / DVec3::from_array(source.integrals());
     let xy = Xyz::from_vector(XYZ_FROM_SRGB * signals).chromaticity().unwrap();
@@ -211,8 +228,8 @@ fn monochromatic_light_is_the_sensitivities_balanced() {
     assert!(points.iter().all(|point| (400.0..=700.0).contains(&point.wavelength_nm)));
     // A CIE observer's is the outline of the diagram, where its response is not next to nothing.
     let observer = Shared::new(sensor(CIE_1931));
-    let outline = Direct.ask(&SpectralLocusOf { observer: observer.clone() });
-    let own = (*Direct.ask(&MonochromaticOf { rendering: by_paper(&observer) })).clone().unwrap();
+    let outline = Direct.ask(&SpectralLocusQuery { observer: observer.clone() });
+    let own = (*Direct.ask(&MonochromaticQuery { rendering: by_paper(&observer) })).clone().unwrap();
     assert!(own.len() > 250 && own.len() < outline.len());
     for point in own {
         let index = outline.iter().position(|o| o.wavelength_nm == point.wavelength_nm).unwrap();
@@ -226,11 +243,14 @@ fn a_question_without_an_answer_says_why_everywhere() {
     let cones = Shared::new(sensor("observers/cie_2006_2deg_cone_fundamentals.csv"));
     let rendering = by_paper(&cones);
     let constants = RadiationConstants::Paper;
-    let locus = LocusOf { rendering: rendering.clone(), temperatures: Temperatures::List(vec![]), constants };
-    assert_eq!(*Direct.ask(&locus), Err(NoRendering::ConesNeedObserver));
-    assert_eq!(*Direct.ask(&MonochromaticOf { rendering: rendering.clone() }), Err(NoRendering::ConesNeedObserver));
+    let locus = LocusQuery { rendering: rendering.clone(), temperatures: Temperatures::List(vec![]), constants };
+    assert_eq!(*Direct.ask(&locus), Err(RenderingError::ConesNeedObserver));
+    assert_eq!(
+        *Direct.ask(&MonochromaticQuery { rendering: rendering.clone() }),
+        Err(RenderingError::ConesNeedObserver)
+    );
     let patches = Shared::new(chart());
-    assert_eq!(*Direct.ask(&PatchColorsOf { rendering, patches }), Err(NoRendering::ConesNeedObserver));
+    assert_eq!(*Direct.ask(&PatchColorsQuery { rendering, patches }), Err(RenderingError::ConesNeedObserver));
 }
 
 #[test]
@@ -245,7 +265,7 @@ fn cie_observers_are_not_compared_with_what_eq_13_draws() {
         (Xyz, Rgb, false),
         (Cones, Camera, true),
     ] {
-        let expected = if allowed { Ok(()) } else { Err(NoDifference::Ways) };
+        let expected = if allowed { Ok(()) } else { Err(DifferenceError::Ways) };
         assert_eq!(comparable_by_paper(a, b), expected, "{a:?} {b:?}");
         assert_eq!(comparable_by_paper(b, a), expected, "{b:?} {a:?}");
     }
@@ -255,9 +275,9 @@ fn cie_observers_are_not_compared_with_what_eq_13_draws() {
 fn differences_are_between_what_is_there() {
     let ask = |path: &str| {
         let rendering = by_paper(&Shared::new(sensor(path)));
-        (*Direct.ask(&PatchColorsOf { rendering, patches: Shared::new(chart()) })).clone().unwrap()
+        (*Direct.ask(&PatchColorsQuery { rendering, patches: Shared::new(chart()) })).clone().unwrap()
     };
-    let (a, b) = (ask(CANON_10D)[14], ask(TRUTH)[14]);
+    let (a, b) = (ask(CANON_10D)[14], ask(REFERENCE)[14]);
     let distance = a.xy.unwrap().distance(b.xy.unwrap());
     assert_eq!(patch_difference(Metric::Xy, &a, &b), Ok(distance));
     assert_eq!(patch_difference(Metric::UvPrime, &a, &b), Ok(a.uv.unwrap().distance(b.uv.unwrap())));
@@ -267,10 +287,10 @@ fn differences_are_between_what_is_there() {
     }
     let mut dark = b;
     (dark.xy, dark.uv, dark.lab) = (None, None, None);
-    assert_eq!(patch_difference(Metric::Xy, &a, &dark), Err(NoDifference::NoChromaticity));
-    assert_eq!(patch_difference(Metric::DeltaE2000, &a, &dark), Err(NoDifference::NoLab));
-    let query = LocusOf {
-        rendering: by_paper(&Shared::new(sensor(TRUTH))),
+    assert_eq!(patch_difference(Metric::Xy, &a, &dark), Err(DifferenceError::NoChromaticity));
+    assert_eq!(patch_difference(Metric::DeltaE2000, &a, &dark), Err(DifferenceError::NoLab));
+    let query = LocusQuery {
+        rendering: by_paper(&Shared::new(sensor(REFERENCE))),
         temperatures: Temperatures::List(vec![kelvin(2000.0), kelvin(3000.0)]),
         constants: RadiationConstants::Paper,
     };
@@ -279,5 +299,5 @@ fn differences_are_between_what_is_there() {
     assert!(locus_distance_uv(&points[0], &points[1]).unwrap() > 0.0);
     let mut gap = points[1];
     gap.xy = None;
-    assert_eq!(locus_distance_xy(&points[0], &gap), Err(NoDifference::NoChromaticity));
+    assert_eq!(locus_distance_xy(&points[0], &gap), Err(DifferenceError::NoChromaticity));
 }

@@ -118,6 +118,6 @@ fn a_direction_of_any_size_has_a_length_of_1() {
         assert!((light.place().length() - 1.0).abs() < 1e-14, "{size}");
     }
     assert!(Lighting::far(DVec3::ZERO, 0.0).is_err());
-    let (way, distance) = PlacedLight::Point(DVec3::new(0.0, 0.0, 1e-300)).seen_from(DVec3::ZERO).unwrap();
-    assert_eq!((way, distance), (DVec3::Z, 1e-300));
+    let (transform, distance) = PlacedLight::Point(DVec3::new(0.0, 0.0, 1e-300)).seen_from(DVec3::ZERO).unwrap();
+    assert_eq!((transform, distance), (DVec3::Z, 1e-300));
 }

@@ -10,7 +10,7 @@ use chromascope_core::spectral::{
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use crate::support::{CANON_10D, DCS200, TRUTH, assert_near, cases, sensor, sensors};
+use crate::support::{CANON_10D, DCS200, REFERENCE, assert_near, cases, sensor, sensors};
 
 const ALL: [Quantity; 4] =
     [Quantity::Light, Quantity::Reflectance, Quantity::CameraSensitivity, Quantity::MatchingFunction];
@@ -140,7 +140,7 @@ fn integrals_are_trapezoids_over_the_support() {
             assert_near("curve", sensor.at_index(index)[1], 1.0, 1e-12);
         }
     }
-    let truth = sensor(TRUTH);
+    let truth = sensor(REFERENCE);
     assert_eq!(truth.support_nm(), [390.0, 730.0]);
     assert!(truth.absolute_integrals()[0] > truth.integrals()[0], "the negative lobe counts");
     let ones = [1.0; COUNT];

@@ -3,16 +3,16 @@
 use std::fs;
 use std::path::PathBuf;
 
-use chromascope_core::camera::White;
+use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::colorimetry::Xy;
-use chromascope_core::object::PatchSet;
-use chromascope_core::query::{RenderingOf, Shared, WayOf};
+use chromascope_core::patch_set::PatchSet;
+use chromascope_core::query::{ColorTransformSpec, RenderingQuery, Shared};
 use chromascope_core::spectral::{Dataset, GridSpectrum, Primaries, Quantity, Sensor};
 use chromascope_core::units::Kelvin;
 use proptest::prelude::ProptestConfig;
 
 /// The five sources of the first screen.
-pub(crate) const TRUTH: &str = "observers/stiles_burch_1955_2deg.csv";
+pub(crate) const REFERENCE: &str = "observers/stiles_burch_1955_2deg.csv";
 pub(crate) const CIE_1931: &str = "observers/cie_1931_2deg.csv";
 pub(crate) const CANON_10D: &str = "cameras/canon_eos_10d_2007_figure.csv";
 pub(crate) const NIKON_D70: &str = "cameras/nikon_d70_2007_figure.csv";
@@ -90,12 +90,12 @@ pub(crate) fn reference_numbers(name: &str) -> Vec<Vec<f64>> {
 }
 
 /// A sensor under equal energy, unity balance, by Eq 13.
-pub(crate) fn by_paper(sensor: &Shared<Sensor>) -> RenderingOf {
-    RenderingOf {
+pub(crate) fn by_paper(sensor: &Shared<Sensor>) -> RenderingQuery {
+    RenderingQuery {
         sensor: sensor.clone(),
         light: Shared::new(light("illuminants/e.csv")),
-        white: White::UNITY,
-        way: WayOf::Paper,
+        white: WhiteBalanceTarget::UNITY,
+        transform: ColorTransformSpec::Paper,
     }
 }
 

@@ -4,13 +4,13 @@ mod published;
 
 use chromascope_core::camera::LocusEvaluator;
 use chromascope_core::colorimetry::{Uv60, Xy, Xyz};
-use chromascope_core::light::{Cct, NoCct, NoLocus, PlanckianLocus, RadiationConstants};
+use chromascope_core::light::{Cct, CctError, LocusError, PlanckianLocus, RadiationConstants};
 use chromascope_core::units::Kelvin;
 use chromascope_math::chebyshev;
 use proptest::prelude::*;
 use std::sync::LazyLock;
 
-use crate::support::{CIE_1931, TRUTH, assert_near, cases, kelvin, light, reference_numbers, sensor, sensors};
+use crate::support::{CIE_1931, REFERENCE, assert_near, cases, kelvin, light, reference_numbers, sensor, sensors};
 
 static LOCUS: LazyLock<PlanckianLocus> =
     LazyLock::new(|| PlanckianLocus::new(&sensor(CIE_1931), RadiationConstants::Paper).unwrap());
@@ -42,7 +42,7 @@ fn temperatures_match_fifty_digits_up_to_the_ends() {
 fn the_locus_is_the_sum_of_the_law() {
     for constants in [RadiationConstants::Paper, RadiationConstants::Si2019] {
         for (path, observer) in sensors("observers") {
-            if PlanckianLocus::new(&observer, constants) == Err(NoLocus::NotXyz) {
+            if PlanckianLocus::new(&observer, constants) == Err(LocusError::NotXyz) {
                 continue;
             }
             let locus = PlanckianLocus::new(&observer, constants).unwrap();
@@ -108,10 +108,10 @@ fn outside_the_domain_there_is_a_reason_and_no_number() {
         LOCUS.cct_of_xyz(Xyz::new(x, y, z))
     };
     for t in [20_000.001, 20_010.0, 25_000.0, 1e5, 1e6, 1e12] {
-        assert_eq!(body(t), Err(NoCct::TooHot), "{t} K");
+        assert_eq!(body(t), Err(CctError::TooHot), "{t} K");
     }
     for t in [999.999_9, 990.0, 900.0, 500.0, 100.0, 10.0] {
-        assert_eq!(body(t), Err(NoCct::TooCold), "{t} K");
+        assert_eq!(body(t), Err(CctError::TooCold), "{t} K");
     }
     assert!(body(20_000.0).is_ok() && body(1000.0).is_ok());
     for t in [1000.0, 2000.0, 5182.0, 20_000.0] {
@@ -121,7 +121,7 @@ fn outside_the_domain_there_is_a_reason_and_no_number() {
             let further = |by: f64| Uv60 { u: on.u + by * (edge.u - on.u), v: on.v + by * (edge.v - on.v) };
             assert!(LOCUS.cct(further(1.0)).is_ok());
             for by in [1.000_001, 1.01, 1.5, 3.0, 100.0, 1e6] {
-                assert_eq!(LOCUS.cct(further(by)), Err(NoCct::TooFar), "{t} K, {by}");
+                assert_eq!(LOCUS.cct(further(by)), Err(CctError::TooFar), "{t} K, {by}");
             }
         }
     }
@@ -132,7 +132,7 @@ fn outside_the_domain_there_is_a_reason_and_no_number() {
 
 #[test]
 fn what_is_no_color_has_no_temperature() {
-    let none = Err(NoCct::NoChromaticity);
+    let none = Err(CctError::NoChromaticity);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         assert_eq!(LOCUS.cct(Uv60 { u: bad, v: 0.3 }), none);
         assert_eq!(LOCUS.cct(Uv60 { u: 0.2, v: bad }), none);
@@ -140,14 +140,14 @@ fn what_is_no_color_has_no_temperature() {
         assert_eq!(LOCUS.cct_of_xyz(Xyz::new(bad, 1.0, 1.0)), none);
     }
     assert_eq!(LOCUS.cct_of_xyz(Xyz::new(0.0, 0.0, 0.0)), none);
-    assert_eq!(LOCUS.cct(Uv60 { u: 1e300, v: -1e300 }), Err(NoCct::TooFar));
-    assert_eq!(LOCUS.cct(Uv60 { u: 0.0, v: 0.0 }), Err(NoCct::TooFar));
-    assert_eq!(LOCUS.cct_of_xy(Xy { x: 0.15, y: 0.06 }), Err(NoCct::TooFar));
+    assert_eq!(LOCUS.cct(Uv60 { u: 1e300, v: -1e300 }), Err(CctError::TooFar));
+    assert_eq!(LOCUS.cct(Uv60 { u: 0.0, v: 0.0 }), Err(CctError::TooFar));
+    assert_eq!(LOCUS.cct_of_xy(Xy { x: 0.15, y: 0.06 }), Err(CctError::TooFar));
 }
 
 #[test]
 fn only_observers_that_count_in_xyz_have_one() {
-    assert_eq!(PlanckianLocus::new(&sensor(TRUTH), RadiationConstants::Paper), Err(NoLocus::NotXyz));
+    assert_eq!(PlanckianLocus::new(&sensor(REFERENCE), RadiationConstants::Paper), Err(LocusError::NotXyz));
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn many_are_the_same_as_one_by_one_on_any_number_of_threads() {
     }
     assert_eq!(LOCUS.ccts(&[]), []);
     assert!(LOCUS.ccts(&colors[..33]) == one_by_one[..33]);
-    let mut few = vec![Err(NoCct::NoChromaticity); 2];
+    let mut few = vec![Err(CctError::NoChromaticity); 2];
     LOCUS.ccts_into(&colors, &mut few);
     assert!(few == one_by_one[..2]);
 }

@@ -16,7 +16,7 @@ impl Palette for Gray {
         match role {
             InkRole::Rgb(rgb) => rgb,
             InkRole::Plot => [255; 3],
-            InkRole::Source(slot) => [slot; 3],
+            InkRole::Sensor(slot) => [slot; 3],
             _ => [20; 3],
         }
     }
@@ -179,8 +179,8 @@ proptest! {
             Shape::Segments { segments: points.windows(2).map(|w| [w[0], w[1]]).collect() },
         ];
         for shape in shapes {
-            let mark = Mark::new(Tag(1), "m", shape).with_stroke(InkRole::Truth, 2.0)
-                .with_fill(InkRole::Source(3)).with_halo(InkRole::Plot);
+            let mark = Mark::new(Tag(1), "m", shape).with_stroke(InkRole::Reference, 2.0)
+                .with_fill(InkRole::Sensor(3)).with_halo(InkRole::Plot);
             let svg = written(&with_mark(mark));
             prop_assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}", svg);
             assert_balanced(&svg);
@@ -194,7 +194,7 @@ fn a_gap_breaks_a_line_in_two() {
     let runs: Vec<usize> = finite_runs(&points).map(<[_]>::len).collect();
     assert_eq!(runs, [2, 2]);
     let mark = Mark::new(Tag(0), "locus", Shape::Line { points: points.to_vec(), closed: true })
-        .with_stroke(InkRole::Truth, 7.0);
+        .with_stroke(InkRole::Reference, 7.0);
     let svg = written(&with_mark(mark));
     assert!(svg.contains("<g><title>locus</title>"));
     assert_eq!(svg.matches("stroke-width=\"7\"").count(), 2);
@@ -223,13 +223,13 @@ fn a_document_has_title_axes_legend_and_caption() {
     let points = Shape::Points { points: vec![[0.5, 0.5]], marker: Marker::Circle, radius: 5.0 };
     let mut figure = with_mark(
         Mark::new(Tag(0), "red & <orange>", points)
-            .with_stroke(InkRole::Source(5), 2.0)
+            .with_stroke(InkRole::Sensor(5), 2.0)
             .with_dash(Dash::Dashed)
             .with_fill(Ink::rgb([10, 200, 30]).faded(0.5)),
     );
     figure.legend.push(LegendEntry {
         name: "Canon".to_owned(),
-        stroke: Some(Stroke::solid(InkRole::Source(0), 2.0)),
+        stroke: Some(Stroke::solid(InkRole::Sensor(0), 2.0)),
         marker: Some(Marker::source(0)),
         fill: None,
     });

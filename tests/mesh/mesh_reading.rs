@@ -108,8 +108,8 @@ fn the_same_mesh_in_every_way_of_writing() {
         "v 0 0 0 1\nv 1.5 0 0 0.5 0.5 0.5\nv 0 0.25 -100 1 1 0 0\nf 1/1 2/ 3//\n",
         "v 0 0 0\nv 1.50000000000000000000000 0 0\nv 0 2500e-4 -0.000001e8\nf 1 2 3\n",
     ];
-    for way in ways {
-        assert_eq!(read(way).mesh, plain, "{way:?}");
+    for transform in ways {
+        assert_eq!(read(transform).mesh, plain, "{transform:?}");
     }
 }
 

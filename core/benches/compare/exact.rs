@@ -1,11 +1,11 @@
 //! The same quantities with compensated sums: what the errors are measured against.
 
 use crate::library::CONSTANTS;
-use chromascope_core::camera::{Rendering, Way};
+use chromascope_core::camera::{ColorTransform, Rendering};
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::colorimetry::{Xy, Xyz};
 use chromascope_core::light::planckian::relative_exitance;
-use chromascope_core::object::PatchSet;
+use chromascope_core::patch_set::PatchSet;
 use chromascope_core::spectral::grid::COUNT;
 use chromascope_core::spectral::{GridSpectrum, Primaries, Sensor};
 use chromascope_core::units::Kelvin;
@@ -43,14 +43,14 @@ pub(crate) struct Exact {
 }
 
 impl Exact {
-    pub(crate) fn new(sensor: &Sensor, light: &GridSpectrum, way: Way<'_>) -> Self {
+    pub(crate) fn new(sensor: &Sensor, light: &GridSpectrum, transform: ColorTransform<'_>) -> Self {
         let ones = [1.0; COUNT];
         let white = integrals(sensor, light.values(), &ones);
         let flat = integrals(sensor, &ones, &ones);
-        match (sensor.primaries(), way) {
+        match (sensor.primaries(), transform) {
             (Primaries::Xyz, _) => Self { white: DVec3::splat(white.y), locus: DVec3::ONE, matrix: DMat3::IDENTITY },
-            (_, Way::Paper) => Self { white, locus: flat, matrix: XYZ_FROM_SRGB },
-            (_, Way::Observer { reference, training }) => {
+            (_, ColorTransform::Paper) => Self { white, locus: flat, matrix: XYZ_FROM_SRGB },
+            (_, ColorTransform::Observer { reference, training }) => {
                 let matrix = fit(sensor, light, white, reference, training);
                 Self { white, locus: white, matrix }
             }

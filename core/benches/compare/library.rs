@@ -1,7 +1,7 @@
 //! The program's own data, as texts and as what they hold.
 
 use chromascope_core::light::RadiationConstants;
-use chromascope_core::object::PatchSet;
+use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::{Shared, Temperatures};
 use chromascope_core::spectral::{Dataset, GridSpectrum, Primaries, Sensor};
 use chromascope_core::units::Kelvin;

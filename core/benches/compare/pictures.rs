@@ -2,11 +2,11 @@
 
 use crate::asker::Remembering;
 use crate::library::{patches, sensor, text};
-use chromascope_core::camera::White;
+use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::query::render::{
-    CameraImageOf, GeometryOf, MeshOf, PicturesOf, Roughness, ShadingOf, SourceOf, VisibilityOf,
+    CameraImageQuery, GeometryQuery, MeshQuery, PicturesQuery, Roughness, ShadingQuery, SourceOf, VisibilityQuery,
 };
-use chromascope_core::query::{Ask, RenderingOf, Shared, WayOf};
+use chromascope_core::query::{Ask, ColorTransformSpec, RenderingQuery, Shared};
 use chromascope_core::reflectance::{Reading, Surface};
 use chromascope_core::render::{CameraImage, Quality, RasterSize, Shadows};
 use chromascope_core::scene::{Lighting, Viewpoint, lighting::SUN_RADIUS};
@@ -14,10 +14,10 @@ use chromascope_core::spectral::{Dataset, GridSpectrum, Quantity, Sensor};
 use std::sync::Arc;
 
 /// A camera's weights are made once; a picture is made anew.
-pub(crate) struct Studio {
-    pub(crate) sources: Vec<RenderingOf>,
+pub(crate) struct RenderService {
+    pub(crate) sources: Vec<RenderingQuery>,
     pub(crate) skin: Shared<GridSpectrum>,
-    pub(crate) mesh: MeshOf,
+    pub(crate) mesh: MeshQuery,
     pub(crate) size: RasterSize,
     pub(crate) shadows: Shadows,
     pub(crate) quality: Quality,
@@ -34,25 +34,25 @@ fn curve(path: &str) -> GridSpectrum {
     GridSpectrum::resample(&data.curves[0], Quantity::Light)
 }
 
-impl Studio {
+impl RenderService {
     /// These sources, the truth first.
     pub(crate) fn new(sensors: &[Shared<Sensor>]) -> Self {
         let light = Shared::new(curve("illuminants/direct_sun_astm_g173.csv"));
         let observer = sensor(&text("observers/cie_1931_2deg.csv"));
         let d55 = Dataset::read(&text("illuminants/d55.csv")).unwrap();
-        let white = White::from_light(&d55.curves[0], &observer).unwrap();
-        let rendering = |sensor: &Shared<Sensor>| RenderingOf {
+        let white = WhiteBalanceTarget::from_light(&d55.curves[0], &observer).unwrap();
+        let rendering = |sensor: &Shared<Sensor>| RenderingQuery {
             sensor: sensor.clone(),
             light: light.clone(),
             white,
-            way: WayOf::Paper,
+            transform: ColorTransformSpec::Paper,
         };
         let skin = patches("materials/skin_vrhel.csv");
         let skin = Shared::new(skin.patches()[0].grid.clone());
         Self {
             sources: sensors.iter().map(rendering).collect(),
             skin,
-            mesh: MeshOf::Head(100_000),
+            mesh: MeshQuery::Head(100_000),
             size: RasterSize::new(512, 512),
             shadows: Shadows::Coarse,
             quality: Quality::Full,
@@ -68,19 +68,19 @@ impl Studio {
         Surface::new(self.sigma_m, 10e-6, 50e-6, 50e-6, 1.4).unwrap()
     }
 
-    pub(crate) fn visibility(&self) -> VisibilityOf {
+    pub(crate) fn visibility(&self) -> VisibilityQuery {
         let viewpoint = Viewpoint::new(self.yaw, 0.1, 3.6, 30_f64.to_radians()).unwrap();
-        VisibilityOf { mesh: self.mesh.clone(), viewpoint, size: self.size }
+        VisibilityQuery { mesh: self.mesh.clone(), viewpoint, size: self.size }
     }
 
-    pub(crate) fn geometry(&self) -> GeometryOf {
+    pub(crate) fn geometry(&self) -> GeometryQuery {
         let (up, right) = (25_f64.to_radians(), self.light_right.to_radians());
         let lighting = Lighting::from_angles(up, right, SUN_RADIUS).unwrap();
-        GeometryOf { visibility: self.visibility(), lighting, shadows: self.shadows }
+        GeometryQuery { visibility: self.visibility(), lighting, shadows: self.shadows }
     }
 
-    pub(crate) fn shading(&self) -> ShadingOf {
-        ShadingOf {
+    pub(crate) fn shading(&self) -> ShadingQuery {
+        ShadingQuery {
             geometry: self.geometry(),
             surface: self.surface(),
             roughness: Roughness::Surface,
@@ -89,11 +89,11 @@ impl Studio {
         }
     }
 
-    pub(crate) fn pictures(&self) -> PicturesOf {
-        PicturesOf {
+    pub(crate) fn pictures(&self) -> PicturesQuery {
+        PicturesQuery {
             shading: self.shading(),
             reflectance: self.skin.clone(),
-            truth: self.sources[0].clone(),
+            reference: self.sources[0].clone(),
             sources: self.sources.iter().map(|rendering| SourceOf { rendering: rendering.clone() }).collect(),
             ev: self.ev.to_bits(),
             background: Some([0.2_f32.to_bits(); 3]),
@@ -102,7 +102,7 @@ impl Studio {
     }
 
     /// The question for one source's signals.
-    pub(crate) fn image(&self, source: usize) -> CameraImageOf {
+    pub(crate) fn image(&self, source: usize) -> CameraImageQuery {
         self.pictures().image(&self.sources[source])
     }
 

@@ -2,18 +2,18 @@
 
 use crate::asker::Remembering;
 use crate::library::{defaults, shared, sixty};
-use crate::pictures::Studio;
+use crate::pictures::RenderService;
 use crate::stopwatch::median;
-use chromascope_core::camera::White;
+use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::MeshOf;
+use chromascope_core::query::render::MeshQuery;
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use std::time::Instant;
 
 /// The truth and the cameras of the paper's third experiment.
-fn studio() -> Studio {
-    Studio::new(&defaults()[..4])
+fn studio() -> RenderService {
+    RenderService::new(&defaults()[..4])
 }
 
 fn milliseconds(work: impl FnOnce()) -> f64 {
@@ -23,7 +23,7 @@ fn milliseconds(work: impl FnOnce()) -> f64 {
 }
 
 /// The median time of a frame after a change; what the first frame needed is known already.
-fn frame(rounds: usize, mut studio: Studio, change: impl Fn(&mut Studio, usize)) -> f64 {
+fn frame(rounds: usize, mut studio: RenderService, change: impl Fn(&mut RenderService, usize)) -> f64 {
     let ask = Remembering::default();
     studio.take(&ask);
     let known = ask.len();
@@ -38,7 +38,7 @@ fn frame(rounds: usize, mut studio: Studio, change: impl Fn(&mut Studio, usize))
 }
 
 /// The largest error of any source's signals, relative to its largest, at each eighth sample across and down.
-fn error(mut studio: Studio, quality: Quality) -> f64 {
+fn error(mut studio: RenderService, quality: Quality) -> f64 {
     studio.size = RasterSize::new(64, 64);
     let ask = Remembering::default();
     studio.quality = quality;
@@ -66,30 +66,30 @@ pub(crate) fn render(rounds: usize) {
     let line = |name: &str, aim: f64, time: f64, error: f64| {
         println!("  {name:<44} {time:>7.2} ms {aim:>5.0} ms  {error:.1e}");
     };
-    let preview = || Studio { quality: Quality::Preview, ..studio() };
-    let full = || Studio { shadows: Shadows::Full, ..studio() };
-    let orbit = |studio: &mut Studio, round: usize| studio.yaw = 0.3 + 0.01 * round as f64;
+    let preview = || RenderService { quality: Quality::Preview, ..studio() };
+    let full = || RenderService { shadows: Shadows::Full, ..studio() };
+    let orbit = |studio: &mut RenderService, round: usize| studio.yaw = 0.3 + 0.01 * round as f64;
     line("orbit, preview", 16.0, frame(rounds, preview(), orbit), error(preview(), Quality::Preview));
     line("orbit, full", 16.0, frame(rounds, full(), orbit), error(full(), Quality::Full));
-    let light = |studio: &mut Studio, round: usize| studio.light_right += round as f64;
+    let light = |studio: &mut RenderService, round: usize| studio.light_right += round as f64;
     line("light moved, preview", 16.0, frame(rounds, preview(), light), error(preview(), Quality::Preview));
     for sigma in [5e-6, 0.3e-6, 0.05e-6] {
-        let start = || Studio { sigma_m: sigma, ..full() };
-        let slide = |studio: &mut Studio, round: usize| studio.sigma_m = sigma * (1.0 + 1e-3 * round as f64);
+        let start = || RenderService { sigma_m: sigma, ..full() };
+        let slide = |studio: &mut RenderService, round: usize| studio.sigma_m = sigma * (1.0 + 1e-3 * round as f64);
         let name = format!("σ moved at {:.2} µm", sigma * 1e6);
         line(&name, 5.0, frame(rounds, start(), slide), error(start(), Quality::Full));
     }
-    let expose = |studio: &mut Studio, round: usize| studio.ev = 0.01 * round as f64;
+    let expose = |studio: &mut RenderService, round: usize| studio.ev = 0.01 * round as f64;
     line("exposure moved", 1.0, frame(rounds, full(), expose), error(full(), Quality::Full));
-    let balance = |studio: &mut Studio, round: usize| {
-        let white = White::from_chromaticity(Xy { x: 0.33 + 1e-4 * round as f64, y: 0.34 }).unwrap();
+    let balance = |studio: &mut RenderService, round: usize| {
+        let white = WhiteBalanceTarget::from_chromaticity(Xy { x: 0.33 + 1e-4 * round as f64, y: 0.34 }).unwrap();
         studio.sources.iter_mut().for_each(|source| source.white = white);
     };
     line("white moved", 1.0, frame(rounds, full(), balance), error(full(), Quality::Full));
 }
 
 /// Median times of the stages of a frame, in milliseconds, with everything that a frame does not change known.
-fn stages(rounds: usize, studio: &mut Studio) -> [f64; 5] {
+fn stages(rounds: usize, studio: &mut RenderService) -> [f64; 5] {
     let ask = Remembering::default();
     studio.take(&ask);
     let known = ask.len();
@@ -120,17 +120,17 @@ pub(crate) fn growth(rounds: usize) {
         println!("  {name:<24} {}", cells.concat());
     };
     for side in [128, 256, 512, 1024, 2048] {
-        let mut studio = Studio { size: RasterSize::new(side, side), ..studio() };
+        let mut studio = RenderService { size: RasterSize::new(side, side), ..studio() };
         line(&format!("{side} × {side} pixels"), stages(rounds, &mut studio));
     }
     for triangles in [2_000, 20_000, 100_000, 500_000, 2_000_000] {
-        let mut studio = Studio { mesh: MeshOf::Head(triangles), ..studio() };
+        let mut studio = RenderService { mesh: MeshQuery::Head(triangles), ..studio() };
         line(&format!("{triangles} triangles"), stages(rounds, &mut studio));
     }
     let mut sensors = vec![shared(crate::library::DEFAULT[0])];
     sensors.extend(sixty());
     for count in [1, 4, 10, 50] {
-        let mut studio = Studio::new(&sensors[..count]);
+        let mut studio = RenderService::new(&sensors[..count]);
         line(&format!("{count} sources"), stages(rounds, &mut studio));
     }
     let cores = std::thread::available_parallelism().map_or(1, usize::from);

@@ -6,11 +6,13 @@ use crate::library::{
     CHART, CONSTANTS, DEFAULT, TRAINING, defaults, equal_energy, patches as chart, sensor, shared, temperatures, text,
 };
 use crate::stopwatch::{candidate, compare};
-use chromascope_core::camera::{LocusEvaluator, Rendering, Way, White};
+use chromascope_core::camera::{ColorTransform, LocusEvaluator, Rendering, WhiteBalanceTarget};
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::light::planckian::black_body;
-use chromascope_core::object::{PAPER_FIVE, PatchSet};
-use chromascope_core::query::{Ask, LocusOf, PatchColorsOf, RadiatorSignals, RenderingOf, Shared, WayOf};
+use chromascope_core::patch_set::{PAPER_FIVE, PatchSet};
+use chromascope_core::query::{
+    Ask, ColorTransformSpec, LocusQuery, PatchColorsQuery, RadiatorSignalsQuery, RenderingQuery, Shared,
+};
 use chromascope_core::spectral::{GridSpectrum, Sensor};
 use chromascope_core::units::Kelvin;
 
@@ -32,23 +34,27 @@ impl Screen {
         }
     }
 
-    fn way(&self, observer: bool) -> WayOf {
+    fn transform(&self, observer: bool) -> ColorTransformSpec {
         if observer {
-            WayOf::Observer { reference: self.reference.clone(), training: self.training.clone() }
+            ColorTransformSpec::Observer { reference: self.reference.clone(), training: self.training.clone() }
         } else {
-            WayOf::Paper
+            ColorTransformSpec::Paper
         }
     }
 
     /// Every answer that the screen shows: the loci's points, then the patches', source by source.
     fn answers(&self, ask: &impl Ask, light: GridSpectrum, observer: bool) -> Vec<Xy> {
-        let (light, way) = (Shared::new(light), self.way(observer));
+        let (light, transform) = (Shared::new(light), self.transform(observer));
         let mut found = Vec::with_capacity(self.sensors.len() * (200 + self.patches.patches().len()));
         for sensor in &self.sensors {
-            let rendering =
-                RenderingOf { sensor: sensor.clone(), light: light.clone(), white: White::UNITY, way: way.clone() };
-            let colors = ask.ask(&PatchColorsOf { rendering: rendering.clone(), patches: self.patches.clone() });
-            let locus = ask.ask(&LocusOf { rendering, temperatures: temperatures(200), constants: CONSTANTS });
+            let rendering = RenderingQuery {
+                sensor: sensor.clone(),
+                light: light.clone(),
+                white: WhiteBalanceTarget::UNITY,
+                transform: transform.clone(),
+            };
+            let colors = ask.ask(&PatchColorsQuery { rendering: rendering.clone(), patches: self.patches.clone() });
+            let locus = ask.ask(&LocusQuery { rendering, temperatures: temperatures(200), constants: CONSTANTS });
             found.extend((*locus).as_ref().unwrap().points.iter().map(|point| point.xy.unwrap()));
             found.extend((*colors).as_ref().unwrap().iter().map(|color| color.xy.unwrap()));
         }
@@ -59,7 +65,7 @@ impl Screen {
     fn by_sums(&self, light: &GridSpectrum, observer: bool) -> Vec<Xy> {
         let mut found = Vec::new();
         for sensor in &self.sensors {
-            let rendering = Rendering::new(sensor, light, White::UNITY, self.borrowed(observer)).unwrap();
+            let rendering = Rendering::new(sensor, light, WhiteBalanceTarget::UNITY, self.borrowed(observer)).unwrap();
             let evaluator = LocusEvaluator::by_sum(&**sensor, CONSTANTS);
             found.extend(temperatures(200).to_vec().into_iter().map(|t| locus_point(&rendering, evaluator.raw(t))));
             for patch in self.patches.patches() {
@@ -81,8 +87,12 @@ impl Screen {
         found
     }
 
-    fn borrowed(&self, observer: bool) -> Way<'_> {
-        if observer { Way::Observer { reference: &self.reference, training: &self.training } } else { Way::Paper }
+    fn borrowed(&self, observer: bool) -> ColorTransform<'_> {
+        if observer {
+            ColorTransform::Observer { reference: &self.reference, training: &self.training }
+        } else {
+            ColorTransform::Paper
+        }
     }
 }
 
@@ -124,7 +134,7 @@ pub(crate) fn slider(rounds: usize) {
         let asker = Remembering::default();
         for sensor in &screen.sensors {
             let (sensor, temperatures) = (sensor.clone(), temperatures(200));
-            asker.ask(&RadiatorSignals { sensor, temperatures, constants: CONSTANTS });
+            asker.ask(&RadiatorSignalsQuery { sensor, temperatures, constants: CONSTANTS });
         }
         let known = asker.len();
         let move_to = || {

@@ -7,14 +7,16 @@ use std::sync::Arc;
 use chromascope_core::accuracy::Accuracy;
 use chromascope_core::camera::batch::Sample;
 use chromascope_core::camera::rendering::{raw, under_light};
-use chromascope_core::camera::{Batch, LocusEvaluator, LocusTable, NotInTable, Rendering, Way, White};
+use chromascope_core::camera::{
+    Batch, ColorTransform, LocusEvaluator, LocusTable, LocusTableError, Rendering, WhiteBalanceTarget,
+};
 use chromascope_core::colorimetry::{Lab, Uv60, delta_e_2000, delta_e_2000_into};
 use chromascope_core::light::PlanckianLocus;
 use chromascope_core::reflectance::{Precision, Reading, Surface, diffuse_sum, wavelength_power};
 use chromascope_core::render::diffuse::{by_moments, by_nodes, rough_basis};
 use chromascope_core::render::{
-    Against, CameraImage, Demand, Development, DiffuseTable, GeometryImage, Measure, Plan, Quality, RasterSize,
-    ShadingImage, Shadows, Stop, Visibility, develop,
+    Against, CameraImage, Demand, Development, DiffuseTable, GeometryImage, Plan, Quality, RasterSize, ShadingImage,
+    Shadows, SpectralWeights, Stop, Visibility, develop,
 };
 use chromascope_core::scene::{Lighting, SUN_RADIUS, Viewpoint};
 use chromascope_core::spectral::{GridSpectrum, Quantity, Sensor, SpectralDistribution};
@@ -81,11 +83,11 @@ fn sum(g: f64, b: f64) -> Work {
 }
 
 /// The camera under equal energy before a gray.
-fn measure() -> (Rendering, Measure) {
+fn measure() -> (Rendering, SpectralWeights) {
     let (camera, light) = (camera(), equal_energy());
-    let rendering = Rendering::new(&camera, &light, White::UNITY, Way::Paper).unwrap();
+    let rendering = Rendering::new(&camera, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper).unwrap();
     let power = wavelength_power(Reading::Radiometric);
-    let measure = Measure::new(&camera, &light, &GridSpectrum::constant(0.5), rendering.white_integrals, power);
+    let measure = SpectralWeights::new(&camera, &light, &GridSpectrum::constant(0.5), rendering.white_integrals, power);
     (rendering, measure)
 }
 
@@ -140,7 +142,7 @@ fn tabulated() -> Work {
     let table = LocusTable::new(&camera(), &measure().0, CONSTANTS);
     let kelvin = |i: u32| Kelvin::new(1e6 / (50.0 + 0.95 * f64::from(i * 389 % 1000))).unwrap();
     let temperatures: Vec<Kelvin> = (0..1000).map(kelvin).collect();
-    let mut answers = vec![Err(NotInTable::Outside); temperatures.len()];
+    let mut answers = vec![Err(LocusTableError::Outside); temperatures.len()];
     Box::new(move || {
         table.xys_into(black_box(&temperatures), &mut answers);
         answers[500].map_or(0.0, |xy| xy.x)

@@ -4,11 +4,11 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum InkRole {
     /// The source the others are compared to.
-    Truth,
+    Reference,
     /// An observer beside the truth.
     Observer,
     /// A compared source by its slot, 0 to 7 (taken modulo 8).
-    Source(u8),
+    Sensor(u8),
     /// Text, and marks that are about the reader (rings, cursors).
     Text,
     /// Text of less weight.

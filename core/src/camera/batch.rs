@@ -17,7 +17,7 @@ const ALONE: usize = 1 << 20;
 
 /// Why numbers make no batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-pub enum NoBatch {
+pub enum BatchError {
     /// The samples are not whole curves.
     #[error("{samples} samples are no whole number of curves of {length}")]
     Ragged {
@@ -63,10 +63,10 @@ pub struct Batch<T: Sample> {
 
 impl<T: Sample> Batch<T> {
     /// Takes the curves of any number of channels one after the other, each of `length` samples.
-    pub fn new(curves: &[T], length: usize) -> Result<Self, NoBatch> {
+    pub fn new(curves: &[T], length: usize) -> Result<Self, BatchError> {
         let channels = count(curves.len(), length)?;
         if curves.iter().any(|c| !c.is_finite()) {
-            return Err(NoBatch::NotFinite);
+            return Err(BatchError::NotFinite);
         }
         Ok(Self { length, curves: T::pack(curves, length), channels })
     }
@@ -83,17 +83,17 @@ impl<T: Sample> Batch<T> {
     }
 
     /// The responses to spectra that lie one after the other: all channels of the first, all of the second, ….
-    pub fn responses(&self, spectra: &[T]) -> Result<Vec<T>, NoBatch> {
+    pub fn responses(&self, spectra: &[T]) -> Result<Vec<T>, BatchError> {
         let mut answers = vec![T::ZERO; count(spectra.len(), self.length)? * self.channels];
         self.responses_into(spectra, &mut answers)?;
         Ok(answers)
     }
 
     /// The same into memory that is there already.
-    pub fn responses_into(&self, spectra: &[T], answers: &mut [T]) -> Result<(), NoBatch> {
+    pub fn responses_into(&self, spectra: &[T], answers: &mut [T]) -> Result<(), BatchError> {
         let wanted = count(spectra.len(), self.length)? * self.channels;
         if answers.len() != wanted {
-            return Err(NoBatch::Answers { answers: answers.len(), wanted });
+            return Err(BatchError::Answers { answers: answers.len(), wanted });
         }
         if wanted == 0 {
             return Ok(());
@@ -114,11 +114,11 @@ impl<T: Sample> Batch<T> {
 }
 
 /// How many curves of a length some samples are.
-fn count(samples: usize, length: usize) -> Result<usize, NoBatch> {
+fn count(samples: usize, length: usize) -> Result<usize, BatchError> {
     match (samples, length) {
         (0, 0) => Ok(0),
-        (_, 0) => Err(NoBatch::Ragged { samples, length }),
+        (_, 0) => Err(BatchError::Ragged { samples, length }),
         _ if samples.is_multiple_of(length) => Ok(samples / length),
-        _ => Err(NoBatch::Ragged { samples, length }),
+        _ => Err(BatchError::Ragged { samples, length }),
     }
 }

@@ -26,7 +26,7 @@ const CHUNK: usize = 8192;
 
 /// Why a table has no chromaticity for a temperature. The sum may have one: [`LocusEvaluator`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-pub enum NotInTable {
+pub enum LocusTableError {
     /// Colder than [`COLDEST_K`] or hotter than [`HOTTEST_K`].
     #[error("the temperature is outside the table")]
     Outside,
@@ -47,7 +47,7 @@ pub enum NotInTable {
 /// The error is absolute, in x and y, against the 1 nm sum ([`LocusEvaluator::by_sum`]): where Chebyshev's error is largest,
 /// between all nodes and at both ends, it was looked up for every piece when the table was made. Pieces are halved until
 /// that stays below [`Self::TARGET`]; those that still miss [`Self::LIMIT`] are left out, and their temperatures refused as
-/// [`NotInTable::Rough`].
+/// [`LocusTableError::Rough`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocusTable {
     pieces: Pieces,
@@ -101,19 +101,19 @@ impl LocusTable {
 
     /// The chromaticity of one black body.
     #[inline]
-    pub fn xy(&self, temperature: Kelvin) -> Result<Xy, NotInTable> {
+    pub fn xy(&self, temperature: Kelvin) -> Result<Xy, LocusTableError> {
         self.pieces.xy(temperature)
     }
 
     /// The same for many, on all cores; the answers do not depend on their number.
-    pub fn xys(&self, temperatures: &[Kelvin]) -> Vec<Result<Xy, NotInTable>> {
-        let mut answers = vec![Err(NotInTable::Outside); temperatures.len()];
+    pub fn xys(&self, temperatures: &[Kelvin]) -> Vec<Result<Xy, LocusTableError>> {
+        let mut answers = vec![Err(LocusTableError::Outside); temperatures.len()];
         self.xys_into(temperatures, &mut answers);
         answers
     }
 
     /// The same into memory that is there already; what of the longer slice is beyond the shorter one is left alone.
-    pub fn xys_into(&self, temperatures: &[Kelvin], answers: &mut [Result<Xy, NotInTable>]) {
+    pub fn xys_into(&self, temperatures: &[Kelvin], answers: &mut [Result<Xy, LocusTableError>]) {
         let chunks = answers.par_chunks_mut(CHUNK).zip(temperatures.par_chunks(CHUNK));
         chunks.for_each(|(answers, temperatures)| self.pieces.fill(temperatures, answers));
     }

@@ -1,20 +1,20 @@
 //! How one sensor's signals become numbers on the diagram and colors on a screen.
 
-use super::White;
+use super::WhiteBalanceTarget;
 use crate::accuracy::Unmet;
 use crate::colorimetry::adaptation::bradford;
 use crate::colorimetry::rgb::{XYZ_FROM_SRGB, srgb_from_xyz, srgb_white};
 use crate::colorimetry::{Lab, Xyz, lab::lab_from_xyz};
 use crate::math::dot::{dot, dot_each};
 use crate::math::least_squares::{FitError, matrix_keeping};
-use crate::object::PatchSet;
+use crate::patch_set::PatchSet;
 use crate::spectral::grid::COUNT;
 use crate::spectral::{GridSpectrum, Primaries, Sensor};
 use glam::{DMat3, DVec3};
 
 /// The way from signals to the diagram.
 #[derive(Clone, Copy, Debug)]
-pub enum Way<'a> {
+pub enum ColorTransform<'a> {
     /// Eq 13 for cameras and RGB observers alike; CIE observers directly.
     Paper,
     /// CIE observers directly; all else by a 3×3 matrix fitted to a reference observer over training reflectances.
@@ -28,7 +28,7 @@ pub enum Way<'a> {
 
 /// Why a sensor cannot be shown under a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-pub enum NoRendering {
+pub enum RenderingError {
     /// A channel does not respond to the light: white balance would divide by nothing.
     #[error("channel {} does not respond to this light, so white cannot be balanced; choose another light", channel + 1)]
     BlindToLight {
@@ -79,12 +79,17 @@ pub struct Rendering {
 
 impl Rendering {
     /// Prepares a sensor for a light, a white and a way to the diagram.
-    pub fn new(sensor: &Sensor, light: &GridSpectrum, white: White, way: Way<'_>) -> Result<Self, NoRendering> {
-        match (way, sensor.primaries()) {
+    pub fn new(
+        sensor: &Sensor,
+        light: &GridSpectrum,
+        white: WhiteBalanceTarget,
+        transform: ColorTransform<'_>,
+    ) -> Result<Self, RenderingError> {
+        match (transform, sensor.primaries()) {
             (_, Primaries::Xyz) => direct(sensor, light),
-            (Way::Paper, Primaries::Cones) => Err(NoRendering::ConesNeedObserver),
-            (Way::Paper, Primaries::Camera | Primaries::Rgb) => paper(sensor, light, white),
-            (Way::Observer { reference, training }, _) => {
+            (ColorTransform::Paper, Primaries::Cones) => Err(RenderingError::ConesNeedObserver),
+            (ColorTransform::Paper, Primaries::Camera | Primaries::Rgb) => paper(sensor, light, white),
+            (ColorTransform::Observer { reference, training }, _) => {
                 let targets = FitTargets::new(reference, light, training);
                 fitted(sensor, light, white, training, targets.as_ref().map_err(|&e| e))
             }
@@ -95,10 +100,10 @@ impl Rendering {
     pub fn by_targets(
         sensor: &Sensor,
         light: &GridSpectrum,
-        white: White,
+        white: WhiteBalanceTarget,
         training: &PatchSet,
-        targets: Result<&FitTargets, NoRendering>,
-    ) -> Result<Self, NoRendering> {
+        targets: Result<&FitTargets, RenderingError>,
+    ) -> Result<Self, RenderingError> {
         match sensor.primaries() {
             Primaries::Xyz => direct(sensor, light),
             Primaries::Camera | Primaries::Rgb | Primaries::Cones => fitted(sensor, light, white, training, targets),
@@ -127,7 +132,7 @@ impl Rendering {
 }
 
 /// `∫ C_c L dλ` of one channel, checked against blindness, with the share left of the unsigned integral.
-fn white_integral(sensor: &Sensor, light: &GridSpectrum, channel: usize) -> Result<(f64, f64), NoRendering> {
+fn white_integral(sensor: &Sensor, light: &GridSpectrum, channel: usize) -> Result<(f64, f64), RenderingError> {
     let weighted = sensor.weighted(channel);
     let integral = dot(weighted, light.values());
     let unsigned: f64 = weighted.iter().zip(light.values()).map(|(c, l)| (c * l).abs()).sum();
@@ -136,12 +141,12 @@ fn white_integral(sensor: &Sensor, light: &GridSpectrum, channel: usize) -> Resu
     if share >= BLIND && unsigned.is_normal() {
         Ok((integral, share))
     } else {
-        Err(NoRendering::BlindToLight { channel })
+        Err(RenderingError::BlindToLight { channel })
     }
 }
 
 /// The same for the three channels, with the smallest share.
-fn white_integrals(sensor: &Sensor, light: &GridSpectrum) -> Result<(DVec3, f64), NoRendering> {
+fn white_integrals(sensor: &Sensor, light: &GridSpectrum) -> Result<(DVec3, f64), RenderingError> {
     let (r, of_r) = white_integral(sensor, light, 0)?;
     let (g, of_g) = white_integral(sensor, light, 1)?;
     let (b, of_b) = white_integral(sensor, light, 2)?;
@@ -149,7 +154,7 @@ fn white_integrals(sensor: &Sensor, light: &GridSpectrum) -> Result<(DVec3, f64)
 }
 
 /// What `∫ C_c S L dλ` is divided by: `∫ C_c L dλ` of each channel (Eq 16), for tristimulus values that of Y.
-pub fn white_divisors(sensor: &Sensor, light: &GridSpectrum) -> Result<DVec3, NoRendering> {
+pub fn white_divisors(sensor: &Sensor, light: &GridSpectrum) -> Result<DVec3, RenderingError> {
     if sensor.primaries() == Primaries::Xyz {
         white_integral(sensor, light, 1).map(|(y, _)| DVec3::splat(y))
     } else {
@@ -158,7 +163,7 @@ pub fn white_divisors(sensor: &Sensor, light: &GridSpectrum) -> Result<DVec3, No
 }
 
 /// A CIE observer: tristimulus values with Y = 1 for a perfect white under the light.
-fn direct(sensor: &Sensor, light: &GridSpectrum) -> Result<Rendering, NoRendering> {
+fn direct(sensor: &Sensor, light: &GridSpectrum) -> Result<Rendering, RenderingError> {
     // Only Y divides: light that the other two do not see, such as deep red, is no reason to refuse.
     let (y, conditioning) = white_integral(sensor, light, 1)?;
     let integrals = DVec3::from_array(sensor.integrate(light.values()));
@@ -166,7 +171,7 @@ fn direct(sensor: &Sensor, light: &GridSpectrum) -> Result<Rendering, NoRenderin
     let white = Xyz::from_vector(integrals / divisor);
     // Beside the other two there is no Y.
     if !white.to_vector().is_finite() {
-        return Err(NoRendering::BlindToLight { channel: 1 });
+        return Err(RenderingError::BlindToLight { channel: 1 });
     }
     Ok(Rendering {
         white: DVec3::ONE,
@@ -181,7 +186,11 @@ fn direct(sensor: &Sensor, light: &GridSpectrum) -> Result<Rendering, NoRenderin
 }
 
 /// Eq 15, 16 and 13: loci balanced to equal energy, patches to the light, both through M.
-fn paper(sensor: &Sensor, light: &GridSpectrum, White(white): White) -> Result<Rendering, NoRendering> {
+fn paper(
+    sensor: &Sensor,
+    light: &GridSpectrum,
+    WhiteBalanceTarget(white): WhiteBalanceTarget,
+) -> Result<Rendering, RenderingError> {
     let (integrals, conditioning) = white_integrals(sensor, light)?;
     let equal_energy = GridSpectrum::constant(1.0);
     let (flat, _) = white_integrals(sensor, &equal_energy)?;
@@ -208,9 +217,9 @@ pub struct FitTargets {
 
 impl FitTargets {
     /// Prepares the targets; the reference must count in XYZ and see the light.
-    pub fn new(reference: &Sensor, light: &GridSpectrum, training: &PatchSet) -> Result<Self, NoRendering> {
+    pub fn new(reference: &Sensor, light: &GridSpectrum, training: &PatchSet) -> Result<Self, RenderingError> {
         if reference.primaries() != Primaries::Xyz {
-            return Err(NoRendering::Reference);
+            return Err(RenderingError::Reference);
         }
         let rendering = direct(reference, light)?;
         let product = under_light(reference, light);
@@ -226,10 +235,10 @@ impl FitTargets {
 fn fitted(
     sensor: &Sensor,
     light: &GridSpectrum,
-    White(white): White,
+    WhiteBalanceTarget(white): WhiteBalanceTarget,
     training: &PatchSet,
-    targets: Result<&FitTargets, NoRendering>,
-) -> Result<Rendering, NoRendering> {
+    targets: Result<&FitTargets, RenderingError>,
+) -> Result<Rendering, RenderingError> {
     // The sensor first: a light that neither sees is the sensor's own trouble.
     let (integrals, conditioning) = white_integrals(sensor, light)?;
     let FitTargets { reference, targets } = targets?;
@@ -238,7 +247,7 @@ fn fitted(
         training.patches().iter().map(|patch| raw(&product, patch.grid.values()) / integrals).collect();
     let s = DVec3::from_array(white);
     if s.abs().min_element() == 0.0 {
-        return Err(NoRendering::NoWhite);
+        return Err(RenderingError::NoWhite);
     }
     let unity = matrix_keeping(&samples, targets, DVec3::ONE, reference.lab_white.to_vector())?;
     Ok(Rendering {

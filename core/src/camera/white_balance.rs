@@ -8,18 +8,18 @@ use std::hash::{Hash, Hasher};
 
 /// The color s that a perfect white takes, in balanced camera RGB: `I_c = s_c ∫C_c S L dλ / ∫C_c L dλ`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct White(pub [f64; 3]);
+pub struct WhiteBalanceTarget(pub [f64; 3]);
 
-impl Eq for White {}
+impl Eq for WhiteBalanceTarget {}
 
-impl Hash for White {
+impl Hash for WhiteBalanceTarget {
     fn hash<H: Hasher>(&self, state: &mut H) {
         // Negative zero equals zero, so it must hash as zero.
         self.0.iter().for_each(|v| (v + 0.0).to_bits().hash(state));
     }
 }
 
-impl White {
+impl WhiteBalanceTarget {
     /// Unity: the paper's first two experiments.
     pub const UNITY: Self = Self([1.0, 1.0, 1.0]);
 

@@ -53,7 +53,7 @@ pub struct Cct {
 
 /// Why a color has no correlated color temperature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-pub enum NoCct {
+pub enum CctError {
     /// Black, or numbers that are no chromaticity.
     #[error("the color has no chromaticity")]
     NoChromaticity,
@@ -70,7 +70,7 @@ pub enum NoCct {
 
 /// Why an observer gives no locus to compare with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-pub enum NoLocus {
+pub enum LocusError {
     /// The observer's channels are not X, Y and Z, so that its signals have no place in the 1960 diagram.
     #[error("the observer does not count in XYZ")]
     NotXyz,
@@ -114,15 +114,15 @@ impl PlanckianLocus {
     pub const MAX_ERROR_DUV: f64 = 1e-15;
 
     /// Tabulates the locus of an observer: some 2100 sums over its curves, then a search for each node of the table.
-    pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, NoLocus> {
+    pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, LocusError> {
         if observer.primaries() != Primaries::Xyz {
-            return Err(NoLocus::NotXyz);
+            return Err(LocusError::NotXyz);
         }
         let exact = ExactLocus::new(observer, constants);
-        let pieces = Pieces::new(&exact).ok_or(NoLocus::NoChromaticity)?;
-        let vertices = Vertices::new(&exact, &pieces).ok_or(NoLocus::NoChromaticity)?;
+        let pieces = Pieces::new(&exact).ok_or(LocusError::NoChromaticity)?;
+        let vertices = Vertices::new(&exact, &pieces).ok_or(LocusError::NoChromaticity)?;
         if !is_simple(&pieces) {
-            return Err(NoLocus::Crooked);
+            return Err(LocusError::Crooked);
         }
         let start = Start::new(&pieces, &vertices);
         Ok(Self { pieces, vertices, start })
@@ -131,32 +131,32 @@ impl PlanckianLocus {
     /// The correlated color temperature and Duv of a chromaticity.
     ///
     /// Nothing is clamped: what lies outside is refused, with the reason. A color further than [`MAX_DUV`] from black bodies of
-    /// all temperatures is [`NoCct::TooFar`]; one that is not, but whose nearest is outside [`COLDEST_K`]–[`HOTTEST_K`], is too
+    /// all temperatures is [`CctError::TooFar`]; one that is not, but whose nearest is outside [`COLDEST_K`]–[`HOTTEST_K`], is too
     /// hot or too cold.
     #[inline]
-    pub fn cct(&self, color: Uv60) -> Result<Cct, NoCct> {
+    pub fn cct(&self, color: Uv60) -> Result<Cct, CctError> {
         self.quick(color).map_or_else(|| self.careful(color), Ok)
     }
 
     /// The same from x and y.
-    pub fn cct_of_xy(&self, color: Xy) -> Result<Cct, NoCct> {
-        self.cct(color.uv_prime().ok_or(NoCct::NoChromaticity)?.uv60())
+    pub fn cct_of_xy(&self, color: Xy) -> Result<Cct, CctError> {
+        self.cct(color.uv_prime().ok_or(CctError::NoChromaticity)?.uv60())
     }
 
     /// The same from tristimulus values.
-    pub fn cct_of_xyz(&self, color: Xyz) -> Result<Cct, NoCct> {
-        self.cct(color.uv_prime().ok_or(NoCct::NoChromaticity)?.uv60())
+    pub fn cct_of_xyz(&self, color: Xyz) -> Result<Cct, CctError> {
+        self.cct(color.uv_prime().ok_or(CctError::NoChromaticity)?.uv60())
     }
 
     /// The same for many, on all cores; the answers do not depend on their number.
-    pub fn ccts(&self, colors: &[Uv60]) -> Vec<Result<Cct, NoCct>> {
-        let mut answers = vec![Err(NoCct::NoChromaticity); colors.len()];
+    pub fn ccts(&self, colors: &[Uv60]) -> Vec<Result<Cct, CctError>> {
+        let mut answers = vec![Err(CctError::NoChromaticity); colors.len()];
         self.ccts_into(colors, &mut answers);
         answers
     }
 
     /// The same into memory that is there already; what of the longer slice is beyond the shorter one is left alone.
-    pub fn ccts_into(&self, colors: &[Uv60], answers: &mut [Result<Cct, NoCct>]) {
+    pub fn ccts_into(&self, colors: &[Uv60], answers: &mut [Result<Cct, CctError>]) {
         let chunks = answers.par_chunks_mut(CHUNK).zip(colors.par_chunks(CHUNK));
         chunks.for_each(|(answers, colors)| {
             let mut lanes = Lanes::NOTHING;
@@ -202,26 +202,26 @@ impl PlanckianLocus {
 
     /// A search over the whole locus that always ends with an answer or the right refusal.
     #[cold]
-    fn careful(&self, color: Uv60) -> Result<Cct, NoCct> {
+    fn careful(&self, color: Uv60) -> Result<Cct, CctError> {
         if !(color.u.is_finite() && color.v.is_finite()) {
-            return Err(NoCct::NoChromaticity);
+            return Err(CctError::NoChromaticity);
         }
         if color.u.abs().max(color.v.abs()) > 10.0 {
-            return Err(NoCct::TooFar);
+            return Err(CctError::TooFar);
         }
         let nearest = self.vertices.nearest(&self.pieces, color);
         if nearest.distance > MAX_DUV * (1.0 + SLACK) {
-            return Err(NoCct::TooFar);
+            return Err(CctError::TooFar);
         }
         if nearest.mired < HOTTEST_MIRED * (1.0 - SLACK) {
-            return Err(NoCct::TooHot);
+            return Err(CctError::TooHot);
         }
         if nearest.mired > COLDEST_MIRED * (1.0 + SLACK) {
-            return Err(NoCct::TooCold);
+            return Err(CctError::TooCold);
         }
         let piece = self.pieces.at(nearest.mired);
         let duv = piece.seen(color).above(piece.t(nearest.mired));
-        let temperature = Kelvin::from_mired(nearest.mired).map_err(|_| NoCct::TooHot)?;
+        let temperature = Kelvin::from_mired(nearest.mired).map_err(|_| CctError::TooHot)?;
         Ok(Cct { temperature, duv })
     }
 }

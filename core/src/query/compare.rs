@@ -20,7 +20,7 @@ pub enum Metric {
 
 /// Why there is no difference between two colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-pub enum NoDifference {
+pub enum DifferenceError {
     /// One is drawn by Eq 13, the other directly.
     #[error(
         "a CIE observer is drawn directly while cameras and RGB observers go through Eq 13, so the two differ by construction; \
@@ -36,13 +36,13 @@ pub enum NoDifference {
 }
 
 /// Whether two sensors' colors may be compared on the way that takes Eq 13.
-pub fn comparable_by_paper(a: Primaries, b: Primaries) -> Result<(), NoDifference> {
+pub fn comparable_by_paper(a: Primaries, b: Primaries) -> Result<(), DifferenceError> {
     let direct = |p: Primaries| p == Primaries::Xyz;
-    if direct(a) == direct(b) { Ok(()) } else { Err(NoDifference::Ways) }
+    if direct(a) == direct(b) { Ok(()) } else { Err(DifferenceError::Ways) }
 }
 
 /// The difference of one patch through two sensors.
-pub fn patch_difference(metric: Metric, a: &PatchColor, b: &PatchColor) -> Result<f64, NoDifference> {
+pub fn patch_difference(metric: Metric, a: &PatchColor, b: &PatchColor) -> Result<f64, DifferenceError> {
     match metric {
         Metric::DeltaE2000 => lab_pair(a, b).map(|(a, b)| delta_e_2000(a, b)),
         Metric::DeltaE1976 => lab_pair(a, b).map(|(a, b)| delta_e_1976(a, b)),
@@ -52,22 +52,22 @@ pub fn patch_difference(metric: Metric, a: &PatchColor, b: &PatchColor) -> Resul
 }
 
 /// The distance of two loci at the same temperature, in the 1931 diagram.
-pub fn locus_distance_xy(a: &LocusPoint, b: &LocusPoint) -> Result<f64, NoDifference> {
+pub fn locus_distance_xy(a: &LocusPoint, b: &LocusPoint) -> Result<f64, DifferenceError> {
     distance(a.xy, b.xy, Xy::distance)
 }
 
 /// The distance of two loci at the same temperature, in the 1976 diagram.
-pub fn locus_distance_uv(a: &LocusPoint, b: &LocusPoint) -> Result<f64, NoDifference> {
+pub fn locus_distance_uv(a: &LocusPoint, b: &LocusPoint) -> Result<f64, DifferenceError> {
     distance(a.uv, b.uv, UvPrime::distance)
 }
 
 fn lab_pair(
     a: &PatchColor,
     b: &PatchColor,
-) -> Result<(crate::colorimetry::Lab, crate::colorimetry::Lab), NoDifference> {
-    a.lab.zip(b.lab).ok_or(NoDifference::NoLab)
+) -> Result<(crate::colorimetry::Lab, crate::colorimetry::Lab), DifferenceError> {
+    a.lab.zip(b.lab).ok_or(DifferenceError::NoLab)
 }
 
-fn distance<T: Copy>(a: Option<T>, b: Option<T>, measure: impl Fn(T, T) -> f64) -> Result<f64, NoDifference> {
-    a.zip(b).map(|(a, b)| measure(a, b)).ok_or(NoDifference::NoChromaticity)
+fn distance<T: Copy>(a: Option<T>, b: Option<T>, measure: impl Fn(T, T) -> f64) -> Result<f64, DifferenceError> {
+    a.zip(b).map(|(a, b)| measure(a, b)).ok_or(DifferenceError::NoChromaticity)
 }

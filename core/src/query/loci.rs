@@ -1,10 +1,10 @@
 //! Questions about black bodies and monochromatic light through a sensor.
 
-use super::{Ask, Query, RenderingOf, Shared};
-use crate::camera::{LocusEvaluator, LocusMethod, NoRendering};
+use super::{Ask, Query, RenderingQuery, Shared};
+use crate::camera::{LocusEvaluator, LocusMethod, RenderingError};
 use crate::colorimetry::diagram::{SpectralPoint, spectral_locus};
 use crate::colorimetry::{UvPrime, Xy, Xyz};
-use crate::light::{NoLocus, PlanckianLocus, RadiationConstants};
+use crate::light::{LocusError, PlanckianLocus, RadiationConstants};
 use crate::spectral::Sensor;
 use crate::spectral::grid::{COUNT, wavelength_nm};
 use crate::units::Kelvin;
@@ -63,14 +63,14 @@ fn between(from: Kelvin, to: Kelvin, index: usize, count: usize) -> Option<Kelvi
 
 /// With which quadrature is a sensor's locus evaluated? Making it costs more than a hundred temperatures with it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct LocusRulesOf {
+pub struct LocusRulesQuery {
     /// The camera or observer.
     pub sensor: Shared<Sensor>,
     /// The constants of Planck's law.
     pub constants: RadiationConstants,
 }
 
-impl Query for LocusRulesOf {
+impl Query for LocusRulesQuery {
     type Answer = LocusEvaluator<Shared<Sensor>>;
     const NAME: &'static str = "locus rules";
 
@@ -81,7 +81,7 @@ impl Query for LocusRulesOf {
 
 /// What does a sensor record of black bodies, before any balance? Independent of light, white and way.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct RadiatorSignals {
+pub struct RadiatorSignalsQuery {
     /// The camera or observer.
     pub sensor: Shared<Sensor>,
     /// The temperatures.
@@ -99,12 +99,12 @@ pub struct RawLocus {
     pub method: LocusMethod,
 }
 
-impl Query for RadiatorSignals {
+impl Query for RadiatorSignalsQuery {
     type Answer = RawLocus;
     const NAME: &'static str = "radiator signals";
 
     fn answer(&self, ask: &impl Ask) -> RawLocus {
-        let evaluator = ask.ask(&LocusRulesOf { sensor: self.sensor.clone(), constants: self.constants });
+        let evaluator = ask.ask(&LocusRulesQuery { sensor: self.sensor.clone(), constants: self.constants });
         let points = self.temperatures.to_vec().into_iter().map(|t| (t, evaluator.raw(t))).collect();
         RawLocus { points, method: evaluator.method() }
     }
@@ -142,23 +142,23 @@ impl Locus {
 
 /// Where does a sensor see black bodies (Eq 15)?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct LocusOf {
+pub struct LocusQuery {
     /// The sensor and its way to the diagram.
-    pub rendering: RenderingOf,
+    pub rendering: RenderingQuery,
     /// The temperatures.
     pub temperatures: Temperatures,
     /// The constants of Planck's law.
     pub constants: RadiationConstants,
 }
 
-impl Query for LocusOf {
-    type Answer = Result<Locus, NoRendering>;
+impl Query for LocusQuery {
+    type Answer = Result<Locus, RenderingError>;
     const NAME: &'static str = "locus";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let rendering = ask.ask(&self.rendering);
         let rendering = (*rendering).as_ref().map_err(|&e| e)?;
-        let signals = ask.ask(&RadiatorSignals {
+        let signals = ask.ask(&RadiatorSignalsQuery {
             sensor: self.rendering.sensor.clone(),
             temperatures: self.temperatures.clone(),
             constants: self.constants,
@@ -173,13 +173,13 @@ impl Query for LocusOf {
 
 /// Where does a sensor see monochromatic light? What no matrix can mend shows here at once.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct MonochromaticOf {
+pub struct MonochromaticQuery {
     /// The sensor and its way to the diagram.
-    pub rendering: RenderingOf,
+    pub rendering: RenderingQuery,
 }
 
-impl Query for MonochromaticOf {
-    type Answer = Result<Vec<SpectralPoint>, NoRendering>;
+impl Query for MonochromaticQuery {
+    type Answer = Result<Vec<SpectralPoint>, RenderingError>;
     const NAME: &'static str = "monochromatic light";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
@@ -207,15 +207,15 @@ fn magnitude(v: [f64; 3]) -> f64 {
 
 /// What tells the nearest black body of any color that an XYZ observer sees?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct NearestBlackBodyOf {
+pub struct NearestBlackBodyQuery {
     /// The observer.
     pub observer: Shared<Sensor>,
     /// The constants of Planck's law.
     pub constants: RadiationConstants,
 }
 
-impl Query for NearestBlackBodyOf {
-    type Answer = Result<PlanckianLocus, NoLocus>;
+impl Query for NearestBlackBodyQuery {
+    type Answer = Result<PlanckianLocus, LocusError>;
     const NAME: &'static str = "nearest black body";
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
@@ -225,12 +225,12 @@ impl Query for NearestBlackBodyOf {
 
 /// Where does an XYZ observer see monochromatic light: the diagram's outline?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct SpectralLocusOf {
+pub struct SpectralLocusQuery {
     /// The observer.
     pub observer: Shared<Sensor>,
 }
 
-impl Query for SpectralLocusOf {
+impl Query for SpectralLocusQuery {
     type Answer = Vec<SpectralPoint>;
     const NAME: &'static str = "spectral locus";
 

@@ -2,16 +2,16 @@
 
 use super::{Ask, Query, Shared};
 use crate::camera::rendering::{raw, under_light};
-use crate::camera::{FitTargets, NoRendering, Rendering, Way, White};
+use crate::camera::{ColorTransform, FitTargets, Rendering, RenderingError, WhiteBalanceTarget};
 use crate::colorimetry::rgb::{EncodedSrgb, encode_srgb};
 use crate::colorimetry::{Lab, UvPrime, Xy, Xyz};
-use crate::object::PatchSet;
+use crate::patch_set::PatchSet;
 use crate::spectral::{GridSpectrum, Sensor};
 use glam::DVec3;
 
 /// The way to the diagram, holding what it needs.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum WayOf {
+pub enum ColorTransformSpec {
     /// Eq 13.
     Paper,
     /// A 3×3 matrix fitted to a reference observer.
@@ -25,27 +25,27 @@ pub enum WayOf {
 
 /// How are a sensor's signals brought to the diagram?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct RenderingOf {
+pub struct RenderingQuery {
     /// The camera or observer.
     pub sensor: Shared<Sensor>,
     /// The light on the scene.
     pub light: Shared<GridSpectrum>,
     /// The color a perfect white is to take.
-    pub white: White,
+    pub white: WhiteBalanceTarget,
     /// The way to the diagram.
-    pub way: WayOf,
+    pub transform: ColorTransformSpec,
 }
 
-impl Query for RenderingOf {
-    type Answer = Result<Rendering, NoRendering>;
+impl Query for RenderingQuery {
+    type Answer = Result<Rendering, RenderingError>;
     const NAME: &'static str = "rendering";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        match &self.way {
-            WayOf::Paper => Rendering::new(&self.sensor, &self.light, self.white, Way::Paper),
-            WayOf::Observer { reference, training } => {
+        match &self.transform {
+            ColorTransformSpec::Paper => Rendering::new(&self.sensor, &self.light, self.white, ColorTransform::Paper),
+            ColorTransformSpec::Observer { reference, training } => {
                 let (reference, training, light) = (reference.clone(), training.clone(), self.light.clone());
-                let targets = ask.ask(&FitTargetsOf { reference, light, training: training.clone() });
+                let targets = ask.ask(&FitTargetsQuery { reference, light, training: training.clone() });
                 let targets = (*targets).as_ref().map_err(|&e| e);
                 Rendering::by_targets(&self.sensor, &self.light, self.white, &training, targets)
             }
@@ -55,7 +55,7 @@ impl Query for RenderingOf {
 
 /// What does a reference observer see of the training reflectances? The same for every sensor that is fitted to it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct FitTargetsOf {
+pub struct FitTargetsQuery {
     /// The observer.
     pub reference: Shared<Sensor>,
     /// The light on the scene.
@@ -64,8 +64,8 @@ pub struct FitTargetsOf {
     pub training: Shared<PatchSet>,
 }
 
-impl Query for FitTargetsOf {
-    type Answer = Result<FitTargets, NoRendering>;
+impl Query for FitTargetsQuery {
+    type Answer = Result<FitTargets, RenderingError>;
     const NAME: &'static str = "fit targets";
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
@@ -94,15 +94,15 @@ pub struct PatchColor {
 
 /// What colors do patches take through a sensor (Eq 16)?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct PatchColorsOf {
+pub struct PatchColorsQuery {
     /// The sensor and its way to the diagram.
-    pub rendering: RenderingOf,
+    pub rendering: RenderingQuery,
     /// The patches.
     pub patches: Shared<PatchSet>,
 }
 
-impl Query for PatchColorsOf {
-    type Answer = Result<Vec<PatchColor>, NoRendering>;
+impl Query for PatchColorsQuery {
+    type Answer = Result<Vec<PatchColor>, RenderingError>;
     const NAME: &'static str = "patch colors";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
@@ -131,7 +131,7 @@ pub(super) fn color(rendering: &Rendering, raw: DVec3) -> PatchColor {
 
 /// Colors of flat reflectances through a sensor whose rendering is `rendering`.
 pub(crate) fn patch_colors<'a>(
-    of: &RenderingOf,
+    of: &RenderingQuery,
     rendering: &Rendering,
     reflectances: impl Iterator<Item = &'a GridSpectrum>,
 ) -> Vec<PatchColor> {

@@ -1,7 +1,7 @@
 //! Questions about measured spectra of radiance, through a sensor.
 
-use super::{Ask, PatchColor, Query, RenderingOf, Shared, patches};
-use crate::camera::NoRendering;
+use super::{Ask, PatchColor, Query, RenderingQuery, Shared, patches};
+use crate::camera::RenderingError;
 use crate::camera::rendering::{raw, under_light};
 use crate::spectral::GridSpectrum;
 
@@ -10,15 +10,15 @@ use crate::spectral::GridSpectrum;
 /// W, the radiance of white, takes the place of the rendering's light: a radiance equal to W takes the white-balance target, and
 /// Y = 1.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct RadianceColorsOf {
+pub struct RadianceColorsQuery {
     /// The sensor and its color transform, with W for its light.
-    pub rendering: RenderingOf,
+    pub rendering: RenderingQuery,
     /// The radiances.
     pub radiances: Vec<Shared<GridSpectrum>>,
 }
 
-impl Query for RadianceColorsOf {
-    type Answer = Result<Vec<PatchColor>, NoRendering>;
+impl Query for RadianceColorsQuery {
+    type Answer = Result<Vec<PatchColor>, RenderingError>;
     const NAME: &'static str = "radiance colors";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {

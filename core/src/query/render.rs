@@ -8,17 +8,17 @@ pub mod picture;
 pub mod plan;
 pub mod returned;
 
-pub use difference::{BrightSamples, Difference, DifferenceOf};
-pub use picture::{ExposureOf, PictureOf, Pictures, PicturesOf, SourceOf};
-pub use plan::{PlanOf, ReachOf};
-pub use returned::{ReturnedLight, ReturnedLightOf};
+pub use difference::{BrightSamples, Difference, DifferenceQuery};
+pub use picture::{ExposureQuery, PictureQuery, Pictures, PicturesQuery, SourceOf};
+pub use plan::{PlanQuery, ReachQuery};
+pub use returned::{ReturnedLight, ReturnedLightQuery};
 
 use super::{Ask, Query, Shared};
-use crate::camera::{NoRendering, rendering::white_divisors};
+use crate::camera::{RenderingError, rendering::white_divisors};
 use crate::reflectance::{Reading, Specular, Surface, wavelength_power};
 use crate::render::mirror::Reach;
 use crate::render::{
-    Against, CameraImage, DiffuseTable, GeometryImage, Measure, Quality, RasterSize, ShadingImage, Shadows,
+    Against, CameraImage, DiffuseTable, GeometryImage, Quality, RasterSize, ShadingImage, Shadows, SpectralWeights,
     VertexImage, Visibility,
 };
 use crate::scene::roughness::{VertexRoughness, vertex_roughness};
@@ -29,7 +29,7 @@ use std::sync::Arc;
 
 /// Which mesh?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum MeshOf {
+pub enum MeshQuery {
     /// The head, with about this many triangles.
     Head(usize),
     /// The fern.
@@ -42,7 +42,7 @@ pub enum MeshOf {
     Own(Shared<Mesh>),
 }
 
-impl Query for MeshOf {
+impl Query for MeshQuery {
     type Answer = Shared<Mesh>;
     const NAME: &'static str = "mesh";
     const WHOLE: bool = true;
@@ -65,9 +65,9 @@ impl Query for MeshOf {
 
 /// What tree finds the shadows of a mesh?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct ShadowTreeOf(pub MeshOf);
+pub struct ShadowTreeQuery(pub MeshQuery);
 
-impl Query for ShadowTreeOf {
+impl Query for ShadowTreeQuery {
     type Answer = ShadowTree;
     const NAME: &'static str = "shadow tree";
     const WHOLE: bool = true;
@@ -80,16 +80,16 @@ impl Query for ShadowTreeOf {
 
 /// Which triangle does each sample see? None if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct VisibilityOf {
+pub struct VisibilityQuery {
     /// The mesh.
-    pub mesh: MeshOf,
+    pub mesh: MeshQuery,
     /// Where it is seen from.
     pub viewpoint: Viewpoint,
     /// How many samples there are.
     pub size: RasterSize,
 }
 
-impl Query for VisibilityOf {
+impl Query for VisibilityQuery {
     type Answer = Option<Visibility>;
     const NAME: &'static str = "visibility";
     const KEPT: usize = 6;
@@ -106,16 +106,16 @@ impl Query for VisibilityOf {
 
 /// What are the angles where the light reaches? None if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct GeometryOf {
+pub struct GeometryQuery {
     /// What is seen.
-    pub visibility: VisibilityOf,
+    pub visibility: VisibilityQuery,
     /// Where the light is.
     pub lighting: Lighting,
     /// How shadows are found.
     pub shadows: Shadows,
 }
 
-impl Query for GeometryOf {
+impl Query for GeometryQuery {
     type Answer = Option<Arc<GeometryImage>>;
     const NAME: &'static str = "geometry";
     const KEPT: usize = 6;
@@ -129,7 +129,7 @@ impl Query for GeometryOf {
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let mesh = ask.ask(&self.visibility.mesh);
-        let tree = (self.shadows != Shadows::Off).then(|| ask.ask(&ShadowTreeOf(self.visibility.mesh.clone())));
+        let tree = (self.shadows != Shadows::Off).then(|| ask.ask(&ShadowTreeQuery(self.visibility.mesh.clone())));
         let shadows = tree.as_deref().map(|tree| (tree, self.shadows));
         let visibility = ask.ask(&self.visibility);
         let visibility = (*visibility).as_ref()?;
@@ -139,9 +139,9 @@ impl Query for GeometryOf {
 
 /// Roughness of a mesh at each of its vertices.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct MeshRoughnessOf(pub MeshOf);
+pub struct MeshRoughnessQuery(pub MeshQuery);
 
-impl Query for MeshRoughnessOf {
+impl Query for MeshRoughnessQuery {
     type Answer = Vec<VertexRoughness>;
     const NAME: &'static str = "mesh roughness";
     const WHOLE: bool = true;
@@ -164,9 +164,9 @@ pub enum Roughness {
 
 /// What does a surface make of the angles? None if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct ShadingOf {
+pub struct ShadingQuery {
     /// The angles.
-    pub geometry: GeometryOf,
+    pub geometry: GeometryQuery,
     /// The surface.
     pub surface: Surface,
     /// Where σ and τ are from.
@@ -177,7 +177,7 @@ pub struct ShadingOf {
     pub quality: Quality,
 }
 
-impl Query for ShadingOf {
+impl Query for ShadingQuery {
     type Answer = Option<ShadingImage>;
     const NAME: &'static str = "shading";
     const KEPT: usize = 6;
@@ -190,8 +190,8 @@ impl Query for ShadingOf {
         let geometry = ask.ask(&self.geometry);
         let geometry = (*geometry).as_ref()?;
         if self.roughness == Roughness::Mesh {
-            let GeometryOf { visibility: seen, lighting, .. } = &self.geometry;
-            let (mesh, roughness) = (ask.ask(&seen.mesh), ask.ask(&MeshRoughnessOf(seen.mesh.clone())));
+            let GeometryQuery { visibility: seen, lighting, .. } = &self.geometry;
+            let (mesh, roughness) = (ask.ask(&seen.mesh), ask.ask(&MeshRoughnessQuery(seen.mesh.clone())));
             let visibility = ask.ask(seen);
             let visibility = (*visibility).as_ref()?;
             let vertices = VertexImage::new(&mesh, visibility, Arc::clone(geometry), lighting, &ask.stop())?;
@@ -204,7 +204,7 @@ impl Query for ShadingOf {
 
 /// How does a camera weigh wavelengths under a light, from a reflectance?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct MeasureOf {
+pub struct SpectralWeightsQuery {
     /// The camera or observer.
     pub sensor: Shared<Sensor>,
     /// The light.
@@ -215,18 +215,18 @@ pub struct MeasureOf {
     pub reading: Reading,
 }
 
-impl Query for MeasureOf {
-    type Answer = Result<Measure, NoRendering>;
+impl Query for SpectralWeightsQuery {
+    type Answer = Result<SpectralWeights, RenderingError>;
     const NAME: &'static str = "measure";
     const WHOLE: bool = true;
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         let divisors = white_divisors(&self.sensor, &self.light)?;
-        Ok(Measure::new(&self.sensor, &self.light, &self.reflectance, divisors, wavelength_power(self.reading)))
+        Ok(SpectralWeights::new(&self.sensor, &self.light, &self.reflectance, divisors, wavelength_power(self.reading)))
     }
 }
 
-impl MeasureOf {
+impl SpectralWeightsQuery {
     /// The measure that a shaded mesh takes: where lobes are untinted, with the weights of a white for them.
     pub fn in_picture(&self, shading: &ShadingImage, ask: &impl Ask) -> Arc<<Self as Query>::Answer> {
         let measure = ask.ask(self);
@@ -246,10 +246,10 @@ impl MeasureOf {
 
 /// What is a camera's spectral integral over all roughnesses and angles?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct DiffuseTableOf(pub MeasureOf);
+pub struct DiffuseTableQuery(pub SpectralWeightsQuery);
 
-impl Query for DiffuseTableOf {
-    type Answer = Result<DiffuseTable, NoRendering>;
+impl Query for DiffuseTableQuery {
+    type Answer = Result<DiffuseTable, RenderingError>;
     const NAME: &'static str = "diffuse table";
     const WHOLE: bool = true;
     const KEPT: usize = 64;
@@ -262,15 +262,15 @@ impl Query for DiffuseTableOf {
 
 /// What signals does a camera give of a shaded mesh? None inside if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct CameraImageOf {
+pub struct CameraImageQuery {
     /// The shaded mesh.
-    pub shading: ShadingOf,
+    pub shading: ShadingQuery,
     /// The camera under the light.
-    pub measure: MeasureOf,
+    pub measure: SpectralWeightsQuery,
 }
 
-impl Query for CameraImageOf {
-    type Answer = Result<Option<CameraImage>, NoRendering>;
+impl Query for CameraImageQuery {
+    type Answer = Result<Option<CameraImage>, RenderingError>;
     const NAME: &'static str = "camera image";
     const KEPT: usize = 64;
 
@@ -287,19 +287,19 @@ impl Query for CameraImageOf {
         let reach = match Reach::accuracy_in(shading) {
             Some(accuracy) => {
                 let of = self.measure.untinted(shading).unwrap_or_else(|| self.measure.clone());
-                (*ask.ask(&ReachOf { measure: of, accuracy }))?
+                (*ask.ask(&ReachQuery { measure: of, accuracy }))?
             }
             None => Reach::usual_in(shading, measure),
         };
         if let Some(accuracy) = shading.plan_accuracy() {
             let demand = shading.demand();
             let plan = demand.map(|demand| {
-                ask.ask(&PlanOf { measure: self.measure.clone(), accuracy, against: Against::Peak, demand })
+                ask.ask(&PlanQuery { measure: self.measure.clone(), accuracy, against: Against::Peak, demand })
             });
             let plan = plan.as_deref().map(|plan| plan.as_ref().map_err(|&e| e)).transpose()?;
             return Ok(CameraImage::by_plan(shading, measure, plan, reach, &ask.stop()));
         }
-        let table = shading.needs_table().then(|| ask.ask(&DiffuseTableOf(self.measure.clone())));
+        let table = shading.needs_table().then(|| ask.ask(&DiffuseTableQuery(self.measure.clone())));
         let table = table.as_deref().map(|table| table.as_ref().map_err(|&e| e)).transpose()?;
         Ok(CameraImage::with_reach(shading, measure, table, reach, &ask.stop()))
     }

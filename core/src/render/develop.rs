@@ -1,7 +1,7 @@
 //! From a camera's signals to pixels: white balance, matrix, exposure, and the screen's encoding.
 
 use super::Stop;
-use super::geometry::Placed;
+use super::geometry::LitSamples;
 use super::signals::CameraImage;
 use super::visibility::RasterSize;
 use crate::camera::Rendering;
@@ -126,7 +126,7 @@ fn opaque(linear: Vec3) -> [u8; 4] {
 
 struct Task<'a> {
     size: RasterSize,
-    geometry: &'a Placed,
+    geometry: &'a LitSamples,
     signals: &'a [[f32; 3]],
     matrix: Mat3,
     background: Option<Vec3>,
@@ -209,15 +209,15 @@ fn range(list: &[u32], within: &std::ops::Range<usize>) -> std::ops::Range<usize
 
 /// How colors of a render are measured: XYZ over the luminance of a white of the same roughness that faces the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measurement {
+pub struct ColorimetricScale {
     /// XYZ from signals, Y = 1 for that white.
     pub xyz_from_signals: DMat3,
     /// The white of L*a*b*.
     pub lab_white: Xyz,
 }
 
-impl Measurement {
-    /// For one source; `white_luminance` is the truth's Y of the white, the same for all sources.
+impl ColorimetricScale {
+    /// For one source; `white_luminance` is the reference's Y of the white, the same for all sources.
     pub fn new(rendering: &Rendering, white_luminance: f64) -> Self {
         let scale = if white_luminance > 0.0 { 1.0 / white_luminance } else { 0.0 };
         let balanced = rendering.xyz_from_signals * DMat3::from_diagonal(rendering.white * scale);
@@ -239,20 +239,20 @@ impl Measurement {
 /// none if stopped.
 pub fn differences(
     image: &CameraImage,
-    measured: &Measurement,
-    truth: &CameraImage,
-    measured_truth: &Measurement,
+    measured: &ColorimetricScale,
+    reference: &CameraImage,
+    measured_reference: &ColorimetricScale,
     stride: usize,
     stop: &Stop,
 ) -> Option<(Vec<f32>, Vec<f32>)> {
     let stride = stride.max(1);
-    let count = image.signals().len().min(truth.signals().len()).div_ceil(stride);
+    let count = image.signals().len().min(reference.signals().len()).div_ceil(stride);
     let at = |index: usize| {
         if index.is_multiple_of(1024) && stop.is_set() {
             return (0.0, 0.0);
         }
-        let (a, b) = (image.signals()[index * stride], truth.signals()[index * stride]);
-        let labs = measured.lab(a).zip(measured_truth.lab(b));
+        let (a, b) = (image.signals()[index * stride], reference.signals()[index * stride]);
+        let labs = measured.lab(a).zip(measured_reference.lab(b));
         let difference = |(a, b): (Lab, Lab)| (crate::colorimetry::difference::delta_e_2000(a, b) as f32, b.l as f32);
         labs.map_or((0.0, 0.0), difference)
     };

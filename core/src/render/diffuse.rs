@@ -14,7 +14,7 @@
 //! | table | 1e-3 ≤ κ < 128, β < 5e4 | 2e-6 |
 //! | nodes | everywhere | 1e-9 with 15 |
 
-use super::measure::{MOMENTS, Measure, Node};
+use super::measure::{MOMENTS, Node, SpectralWeights};
 use crate::math::exp::exp;
 use crate::reflectance::{Precision, diffuse_sums_into, ln_diffuse_sums_into, regimes::diffuse_sum_by_regimes};
 use rayon::prelude::*;
@@ -48,7 +48,7 @@ pub struct DiffuseTable {
 
 impl DiffuseTable {
     /// Fills the table: 15 360 places, at nine wavelengths each.
-    pub fn new(measure: &Measure) -> Self {
+    pub fn new(measure: &SpectralWeights) -> Self {
         let rows = (0..KAPPAS).into_par_iter().map(|i| {
             let kappa = (ln_smooth() + i as f64 * kappa_step()).exp();
             let betas: [f64; BETAS] = std::array::from_fn(|j| (j as f64 * beta_step()).exp_m1());

@@ -79,13 +79,13 @@ pub struct Angles {
 
 /// Where a picture's samples are: all that a camera's signals need to know of geometry.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Placed {
+pub struct LitSamples {
     size: RasterSize,
     samples: Vec<u32>,
     seen: Vec<u32>,
 }
 
-impl Placed {
+impl LitSamples {
     /// The picture's size.
     pub fn size(&self) -> RasterSize {
         self.size
@@ -105,7 +105,7 @@ impl Placed {
 /// The angles at the lit samples of a picture. No spectrum, no roughness, no camera is in it.
 #[derive(Clone, Debug)]
 pub struct GeometryImage {
-    placed: Arc<Placed>,
+    placed: Arc<LitSamples>,
     angles: Vec<Angles>,
     angular_radius: f64,
     counts: GeometryCounts,
@@ -169,12 +169,12 @@ impl GeometryImage {
             seen.extend(part.seen);
             counts = counts.plus(part.counts);
         }
-        let placed = Arc::new(Placed { size, samples, seen });
+        let placed = Arc::new(LitSamples { size, samples, seen });
         Some(Self { placed, angles, angular_radius: lighting.angular_radius(), counts })
     }
 
     /// Where the samples are.
-    pub fn placed(&self) -> &Arc<Placed> {
+    pub fn placed(&self) -> &Arc<LitSamples> {
         &self.placed
     }
 
@@ -205,7 +205,7 @@ impl GeometryImage {
         let samples: Vec<u32> = self.samples().iter().copied().step_by(stride).collect();
         let angles = self.angles.iter().copied().step_by(stride).collect();
         let counts = GeometryCounts { lit: samples.len() as u64, ..self.counts };
-        let placed = Arc::new(Placed { size: self.placed.size, samples, seen: self.placed.seen.clone() });
+        let placed = Arc::new(LitSamples { size: self.placed.size, samples, seen: self.placed.seen.clone() });
         Self { placed, angles, counts, ..*self }
     }
 

@@ -32,14 +32,14 @@ pub struct Node {
 
 /// The weights of one camera, light and reflectance.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measure {
+pub struct SpectralWeights {
     dense: Vec<Node>,
     coarse: Vec<Node>,
     fine: Vec<Node>,
     moments: [[f64; MOMENTS]; 3],
     totals: [f64; 3],
     settled_m: f64,
-    untinted: Option<Arc<Measure>>,
+    untinted: Option<Arc<SpectralWeights>>,
 }
 
 /// Wavelengths for a table with errors below 1e-6 of the peak.
@@ -47,7 +47,7 @@ const COARSE_NODES: usize = 9;
 /// Wavelengths for errors below 1e-9 of the peak.
 const FINE_NODES: usize = 15;
 
-impl Measure {
+impl SpectralWeights {
     /// Weighs wavelengths by `C_c S L (λ0/λ)^power / ∫ C_c L dλ`.
     ///
     /// `white_integrals` are the divisors, those of [`crate::camera::Rendering`]; `power` is the reading's
@@ -85,7 +85,7 @@ impl Measure {
     /// This measure with another for the coherent component: that of a white, where a boundary's reflection does not take the
     /// material's color ([`crate::reflectance::Specular::Fresnel`]).
     #[must_use]
-    pub fn with_untinted(self, white: Arc<Measure>) -> Self {
+    pub fn with_untinted(self, white: Arc<SpectralWeights>) -> Self {
         Self { untinted: Some(white), ..self }
     }
 
@@ -126,16 +126,16 @@ impl Measure {
 
     /// From this path in meters, half side of the patch times |v| / k, the mirror lobe's oscillation cancels over the
     /// wavelengths: what is left is below 3e-7 of the lobe's height. At most 36 µm, beyond which a period is below 2 nm and
-    /// the grid no longer shows it: there the mean is nearer the truth than the grid's own sum.
+    /// the grid no longer shows it: there the mean is nearer the reference than the grid's own sum.
     pub fn settled_m(&self) -> f64 {
         self.settled_m
     }
 }
 
-/// Paths that [`Measure::settled_m`] is looked for at: 1 µm to 36 µm in steps of an eighth.
+/// Paths that [`SpectralWeights::settled_m`] is looked for at: 1 µm to 36 µm in steps of an eighth.
 const PATHS: i32 = 31;
 
-/// See [`Measure::settled_m`].
+/// See [`SpectralWeights::settled_m`].
 fn settled(dense: &[Node], unsigned: [f64; 3]) -> f64 {
     let path = |i: i32| 36e-6 * 1.125_f64.powi(-i);
     // sinc² u = (1 − cos 2u) / 2u².

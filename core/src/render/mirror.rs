@@ -1,13 +1,13 @@
 //! The mirror term's spectral integral: `∫ w ρ0² e^-g dλ`.
 //!
 //! ρ0² oscillates in wavelength: with the phase u = 2π X q / λ, q = |v| / k, a few nodes do while the path X q is short;
-//! beyond some path the oscillation cancels over a channel's wavelengths ([`Measure::settled_m`]) and its mean
+//! beyond some path the oscillation cancels over a channel's wavelengths ([`SpectralWeights::settled_m`]) and its mean
 //! 1 / 2(u² − w²) stands for it; in between all wavelengths of the grid are needed.
 //!
-//! [`Measure::settled_m`]: super::measure::Measure::settled_m
+//! [`SpectralWeights::settled_m`]: super::measure::Measure::settled_m
 
 use super::lobe::mean_sinc_squared_quick;
-use super::measure::{Measure, Node};
+use super::measure::{Node, SpectralWeights};
 use super::shading::{Mirror, Quality, ShadingImage};
 use crate::accuracy::Accuracy;
 use crate::math::exp::exp;
@@ -28,7 +28,7 @@ pub struct Reach {
 
 impl Reach {
     /// That of a quality by name; for an accuracy in numbers see [`Self::within`].
-    pub fn of(quality: Quality, measure: &Measure) -> Self {
+    pub fn of(quality: Quality, measure: &SpectralWeights) -> Self {
         let (still_m, settled_m) = match quality {
             // What oscillates in between is a thousandth of the lobe.
             Quality::Preview => (2e-6, 2e-6),
@@ -42,7 +42,7 @@ impl Reach {
 
     /// That of a picture's quality, relative to the picture's brightest sample: where no sample sees the middle of a lobe, errors
     /// relative to its height have to be so much smaller.
-    pub fn in_picture(shading: &ShadingImage, measure: &Measure) -> Self {
+    pub fn in_picture(shading: &ShadingImage, measure: &SpectralWeights) -> Self {
         match Self::accuracy_in(shading) {
             Some(accuracy) => Self::within(measure, accuracy),
             None => Self::usual_in(shading, measure),
@@ -60,18 +60,18 @@ impl Reach {
     }
 
     /// That of a picture for which there is no such accuracy.
-    pub(crate) fn usual_in(shading: &ShadingImage, measure: &Measure) -> Self {
+    pub(crate) fn usual_in(shading: &ShadingImage, measure: &SpectralWeights) -> Self {
         let fine = shading.quality() == Quality::Fine && shading.mirror_scale() < USUAL_SCALE;
         let none = shading.mirrors().is_empty();
         Self::of(if fine || none { Quality::Exact } else { shading.quality() }, measure)
     }
 
-    /// The widest that keeps the error of this measure's lobe ([`Measure::coherent`]) within an accuracy, relative to its height `front Σ|w|`: each of
+    /// The widest that keeps the error of this measure's lobe ([`SpectralWeights::coherent`]) within an accuracy, relative to its height `front Σ|w|`: each of
     /// the lobe's table, the few wavelengths and what is left of the oscillation on two axes takes a part.
     ///
     /// The few wavelengths are compared with all at sixteen paths to an octave, along one axis and beside another, and at five κ,
     /// with a margin of two; the oscillation is bounded by its envelope over the wavelengths.
-    pub fn within(measure: &Measure, accuracy: Accuracy) -> Self {
+    pub fn within(measure: &SpectralWeights, accuracy: Accuracy) -> Self {
         let (error, measure) = (accuracy.max_relative_error(), measure.coherent());
         let settled_m = settled(measure.dense(), error / 8.0);
         let still_m = still(measure, settled_m, error / 4.0);
@@ -124,7 +124,7 @@ fn settled(dense: &[Node], share: f64) -> f64 {
 /// Up to which path a few wavelengths keep an error relative to a lobe's height, alone and beside another axis.
 ///
 /// Looked at from the shortest path on, for the error changes its sign along it.
-fn still(measure: &Measure, settled_m: f64, error: f64) -> f64 {
+fn still(measure: &SpectralWeights, settled_m: f64, error: f64) -> f64 {
     let lists = [List::new(measure.fine(), settled_m), List::new(measure.dense(), settled_m)];
     let unsigned = |c: usize| measure.dense().iter().map(|node| node.weights[c].abs()).sum::<f64>();
     let height = unsigned(0).max(unsigned(1)).max(unsigned(2));

@@ -4,7 +4,7 @@
 //! ```text
 //! J_c(κ, β) = Σ_λ w_c(λ) S(κ (λ0/λ)², β κ (λ0/λ)²)
 //! ```
-//! A [`Plan`] is made once for a [`Measure`], an [`Accuracy`] and a [`Demand`] (which κ, how many samples). Above some κ the
+//! A [`Plan`] is made once for a [`SpectralWeights`], an [`Accuracy`] and a [`Demand`] (which κ, how many samples). Above some κ the
 //! integral separates into moments; below it one of
 //!
 //! | way | cost of a sample |
@@ -39,7 +39,7 @@ pub use domain::{Demand, position};
 pub(in crate::render) use run::{Places, RUN};
 
 use super::diffuse::by_nodes;
-use super::measure::{MOMENTS, Measure, Node};
+use super::measure::{MOMENTS, Node, SpectralWeights};
 use crate::accuracy::{Accuracy, Unmet};
 use crate::reflectance::Precision;
 use nodes::OwnRule;
@@ -88,7 +88,7 @@ impl Plan {
     ///
     /// # Errors
     /// Below 1e-13, which is the error of the most exact S there is, nothing is promised.
-    pub fn new(measure: &Measure, accuracy: Accuracy, against: Against, demand: Demand) -> Result<Self, Unmet> {
+    pub fn new(measure: &SpectralWeights, accuracy: Accuracy, against: Against, demand: Demand) -> Result<Self, Unmet> {
         search::plan(measure, accuracy, against, demand)
     }
 

@@ -2,8 +2,8 @@
 
 use super::Stop;
 use super::diffuse::{DiffuseTable, by_moments, by_nodes, by_regimes, rough_basis};
-use super::geometry::Placed;
-use super::measure::{MOMENTS, Measure};
+use super::geometry::LitSamples;
+use super::measure::{MOMENTS, SpectralWeights};
 use super::mirror::{Nodes, Reach, mirror_sum};
 use super::plan::{Places, Plan, RUN as PLANNED_RUN};
 use super::shading::{Quality, Shade, ShadingImage, Way};
@@ -15,14 +15,19 @@ use std::sync::Arc;
 /// One camera's picture: `cos θi cos⁴α ∫C_c P S L dλ / ∫C_c L dλ` at each lit sample (Eq 12 without its s).
 #[derive(Clone, Debug)]
 pub struct CameraImage {
-    placed: Arc<Placed>,
+    placed: Arc<LitSamples>,
     signals: Arc<Vec<[f32; 3]>>,
 }
 
 impl CameraImage {
     /// Integrates at every lit sample; none if stopped. `table` may be left out where no sample needs it; where one does and
     /// there is none, sums over wavelengths take its place.
-    pub fn new(shading: &ShadingImage, measure: &Measure, table: Option<&DiffuseTable>, stop: &Stop) -> Option<Self> {
+    pub fn new(
+        shading: &ShadingImage,
+        measure: &SpectralWeights,
+        table: Option<&DiffuseTable>,
+        stop: &Stop,
+    ) -> Option<Self> {
         Self::with_reach(shading, measure, table, Reach::in_picture(shading, measure), stop)
     }
 
@@ -30,7 +35,7 @@ impl CameraImage {
     /// it. Finding that may take milliseconds, whatever the number of samples.
     pub fn with_reach(
         shading: &ShadingImage,
-        measure: &Measure,
+        measure: &SpectralWeights,
         table: Option<&DiffuseTable>,
         reach: Reach,
         stop: &Stop,
@@ -42,7 +47,7 @@ impl CameraImage {
     /// made for is summed over all wavelengths.
     pub fn by_plan(
         shading: &ShadingImage,
-        measure: &Measure,
+        measure: &SpectralWeights,
         plan: Option<&Plan>,
         reach: Reach,
         stop: &Stop,
@@ -51,18 +56,18 @@ impl CameraImage {
     }
 
     /// Where its samples are.
-    pub fn placed(&self) -> &Placed {
+    pub fn placed(&self) -> &LitSamples {
         &self.placed
     }
 
-    /// The signals of the lit samples, in the order of [`Placed::samples`].
+    /// The signals of the lit samples, in the order of [`LitSamples::samples`].
     pub fn signals(&self) -> &[[f32; 3]] {
         &self.signals
     }
 }
 
 struct Camera<'a> {
-    measure: &'a Measure,
+    measure: &'a SpectralWeights,
     table: Option<&'a DiffuseTable>,
     quality: Quality,
     plan: Option<&'a Plan>,

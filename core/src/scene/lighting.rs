@@ -126,10 +126,10 @@ impl PlacedLight {
         match self {
             Self::Direction(direction) => Some((direction, f64::INFINITY)),
             Self::Point(place) => {
-                let way = place - point;
-                let (direction, length) = (unit(way)?, way.length());
+                let transform = place - point;
+                let (direction, length) = (unit(transform)?, transform.length());
                 // The squares of the nearest and furthest leave the range of a double, their product with the direction does not.
-                Some((direction, if length.is_normal() { length } else { way.dot(direction) }))
+                Some((direction, if length.is_normal() { length } else { transform.dot(direction) }))
             }
         }
     }

@@ -35,8 +35,8 @@ pub fn vertex_roughness(mesh: &Mesh) -> Vec<VertexRoughness> {
             let (a, b) = (triangle[k] as usize, triangle[(k + 1) % 3] as usize);
             let edge = mesh.positions()[b].as_dvec3() - mesh.positions()[a].as_dvec3();
             let length2 = edge.length_squared();
-            for (at, way) in [(a, edge), (b, -edge)] {
-                let height = way.dot(mesh.normals()[at].as_dvec3());
+            for (at, transform) in [(a, edge), (b, -edge)] {
+                let height = transform.dot(mesh.normals()[at].as_dvec3());
                 sums[at].0 += height * height;
                 sums[at].1 += 1;
                 sums[at].2 = sums[at].2.max(length2);

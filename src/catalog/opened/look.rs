@@ -33,23 +33,23 @@ impl Hash for Contents {
 
 /// What is a file understood as with these switches?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct LookOf {
-    table: TableOf,
+pub struct FilePreviewQuery {
+    table: TableQuery,
     marked: bool,
 }
 
-impl LookOf {
+impl FilePreviewQuery {
     /// Of a file: first what was understood, then also where it stands in the text.
     pub fn stages(file: &OpenFile, options: &ReadOptions) -> Vec<Self> {
         let contents = Contents { origin: file.origin.clone(), bytes: Arc::clone(&file.bytes) };
-        let table = TableOf { contents, options: options.clone() };
+        let table = TableQuery { contents, options: options.clone() };
         [false, true].map(|marked| Self { table: table.clone(), marked }).into()
     }
 }
 
 /// A file's text and what was understood of it.
 #[derive(Debug)]
-pub struct Look {
+pub struct FilePreview {
     /// Which file.
     pub fingerprint: Fingerprint,
     /// The switches it was read with.
@@ -62,31 +62,31 @@ pub struct Look {
     pub marker: Option<Marker>,
 }
 
-impl Query for LookOf {
-    type Answer = Look;
+impl Query for FilePreviewQuery {
+    type Answer = FilePreview;
     const NAME: &'static str = "look at a file";
     const KEPT: usize = 4;
 
-    fn answer(&self, ask: &impl Ask) -> Look {
-        let TableOf { contents, options } = &self.table;
-        let preview = (*ask.ask(&PreviewOf { contents: contents.clone() })).clone();
+    fn answer(&self, ask: &impl Ask) -> FilePreview {
+        let TableQuery { contents, options } = &self.table;
+        let preview = (*ask.ask(&PreviewQuery { contents: contents.clone() })).clone();
         let table = (*ask.ask(&self.table)).clone();
         let marker = match (&preview, &table) {
             (Ok(preview), Ok(table)) if self.marked => Some(preview.marker(table)),
             _ => None,
         };
-        Look { fingerprint: contents.origin.fingerprint, options: options.clone(), preview, table, marker }
+        FilePreview { fingerprint: contents.origin.fingerprint, options: options.clone(), preview, table, marker }
     }
 }
 
 /// What curves does a file hold?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct TableOf {
+struct TableQuery {
     contents: Contents,
     options: ReadOptions,
 }
 
-impl Query for TableOf {
+impl Query for TableQuery {
     type Answer = Result<Arc<Table>, ReadError>;
     const NAME: &'static str = "curves of a file";
     const KEPT: usize = 4;
@@ -105,11 +105,11 @@ impl Query for TableOf {
 
 /// What are the lines of a file?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct PreviewOf {
+struct PreviewQuery {
     contents: Contents,
 }
 
-impl Query for PreviewOf {
+impl Query for PreviewQuery {
     type Answer = Result<Arc<Preview>, ReadError>;
     const NAME: &'static str = "lines of a file";
     const KEPT: usize = 2;

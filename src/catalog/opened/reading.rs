@@ -11,7 +11,7 @@ use spectral_file::{MAX_BYTES, ReadError, Watch};
 use super::{Desk, Failing, Job, OpenFile, OpenedEvent, Why};
 use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
-use crate::document::own::{Fingerprint, OwnSet, Wishes};
+use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::document::session::is_session;
 use crate::files::reason;
 
@@ -33,7 +33,7 @@ pub enum Request {
         bytes: Arc<[u8]>,
     },
     /// A file whose contents are known, with what a person wishes.
-    Known(Fingerprint, Box<Wishes>),
+    Known(Fingerprint, Box<ImportOverrides>),
 }
 
 /// What came of some files.
@@ -55,7 +55,7 @@ struct Harvest {
 /// Reads one after the other; what cannot be read changes nothing. A mesh is only named: what shows it reads it.
 pub(super) fn open(
     requests: Vec<Request>,
-    remembered: &dyn Fn(&[u8]) -> Wishes,
+    remembered: &dyn Fn(&[u8]) -> ImportOverrides,
     desk: &Desk,
     job: &Job,
 ) -> Vec<OpenedEvent> {
@@ -143,7 +143,7 @@ enum Unread {
     Because(String),
 }
 
-type Contents = (Origin, Arc<[u8]>, Option<Wishes>);
+type Contents = (Origin, Arc<[u8]>, Option<ImportOverrides>);
 
 fn contents(
     request: Request,
@@ -197,7 +197,7 @@ fn origin(path: &Path, bytes: &[u8]) -> Origin {
 fn take(
     origin: Origin,
     bytes: Arc<[u8]>,
-    (wishes, from_memory): (&Wishes, bool),
+    (wishes, from_memory): (&ImportOverrides, bool),
     desk: &Desk,
     job: &Job,
     harvest: &mut Harvest,
@@ -207,14 +207,14 @@ fn take(
     if !job.go_on(0.0) {
         return;
     }
-    if from_memory && *wishes != Wishes::default() {
+    if from_memory && *wishes != ImportOverrides::default() {
         match &mut read {
             Ok(imported) => {
                 imported.message.push_str(" Read as you chose for a file like it.");
                 imported.guessed = true;
             }
             // What fitted another file does not fit this one.
-            Err(_) => read = read_once(&origin, &bytes, &Wishes::default(), job),
+            Err(_) => read = read_once(&origin, &bytes, &ImportOverrides::default(), job),
         }
     }
     let failure = read.as_ref().err().cloned();
@@ -234,7 +234,7 @@ fn take(
 }
 
 /// Reads; a panic comes out as a failure of this file alone.
-fn read_once(origin: &Origin, bytes: &[u8], wishes: &Wishes, job: &Job) -> Result<Imported, String> {
+fn read_once(origin: &Origin, bytes: &[u8], wishes: &ImportOverrides, job: &Job) -> Result<Imported, String> {
     let go_on = |share: f32| job.go_on(share);
     let read = catch_unwind(AssertUnwindSafe(|| import_as(origin, bytes, wishes, Watch::new(&go_on))));
     let broken = |_| {
@@ -289,7 +289,7 @@ pub(super) fn recall(failing: Vec<Failing>, desk: &Desk, job: &Job) {
         let origin = origin(&path, &bytes);
         let mut failure = Some(why);
         if origin.fingerprint != fingerprint {
-            failure = read_once(&origin, &bytes, &Wishes::default(), job).err();
+            failure = read_once(&origin, &bytes, &ImportOverrides::default(), job).err();
             let new = origin.fingerprint;
             desk.lock().events.push(OpenedEvent::Replaced { old: fingerprint, new, path });
         }
@@ -341,7 +341,7 @@ pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Jo
 pub fn read_file(path: &Path) -> Result<Imported, String> {
     let bytes = read_bytes(path)?;
     let origin = origin(path, &bytes);
-    let read = import_as(&origin, &bytes, &Wishes::default(), Watch::none());
+    let read = import_as(&origin, &bytes, &ImportOverrides::default(), Watch::none());
     read.map_err(|error| unread(&origin.name, &error))
 }
 

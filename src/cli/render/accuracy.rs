@@ -3,13 +3,13 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use chromascope_core::camera::NoRendering;
+use chromascope_core::camera::RenderingError;
 use chromascope_core::query::Ask as _;
-use chromascope_core::query::render::{DiffuseTableOf, MeasureOf, PlanOf, Roughness};
+use chromascope_core::query::render::{DiffuseTableQuery, PlanQuery, Roughness, SpectralWeightsQuery};
 use chromascope_core::reflectance::{Reading, Surface};
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{
-    Against, CameraImage, DiffuseTable, GeometryImage, Measure, Plan, Quality, ShadingImage, Stop,
+    Against, CameraImage, DiffuseTable, GeometryImage, Plan, Quality, ShadingImage, SpectralWeights, Stop,
 };
 use rayon::ThreadPoolBuilder;
 
@@ -36,11 +36,11 @@ pub(super) struct Measured {
 
 /// What a way of integrating costs.
 pub(super) struct Cost {
-    /// Nanoseconds a sample and source, on one thread.
+    /// Nanoseconds a sample and sensor, on one thread.
     pub(super) ns: f64,
     /// Number of samples whose integral is a sum over wavelengths.
     pub(super) sums: u64,
-    /// Of each source its errors; none for a source without light anywhere.
+    /// Of each sensor its errors; none for a sensor without light anywhere.
     pub(super) errors: Vec<Option<Errors>>,
 }
 
@@ -53,7 +53,7 @@ pub(super) struct Errors {
     pub(super) rms: f64,
 }
 
-/// The signals of each source by one quality.
+/// The signals of each sensor by one quality.
 struct Run {
     signals: Vec<Vec<[f32; 3]>>,
     sums: u64,
@@ -68,12 +68,12 @@ struct Bench {
     cameras: Vec<Camera>,
 }
 
-/// A source's weights, and its table where the picture takes one.
+/// A sensor's weights, and its table where the picture takes one.
 struct Camera {
-    measure: Arc<Result<Measure, NoRendering>>,
-    table: Option<Arc<Result<DiffuseTable, NoRendering>>>,
+    measure: Arc<Result<SpectralWeights, RenderingError>>,
+    table: Option<Arc<Result<DiffuseTable, RenderingError>>>,
     /// What a tolerance takes.
-    planned: Option<(Arc<Result<Plan, NoRendering>>, Reach)>,
+    planned: Option<(Arc<Result<Plan, RenderingError>>, Reach)>,
 }
 
 /// Measures; none where nothing is lit, and where samples lie between vertices of different roughness.
@@ -106,7 +106,7 @@ impl Bench {
         let shading = made.scene.results.ask(&made.query.shading);
         let cameras = made.query.sources.iter().map(|source| {
             let of = made.query.image(&source.rendering).measure;
-            let table = needs_table.then(|| made.scene.results.ask(&DiffuseTableOf(of.clone())));
+            let table = needs_table.then(|| made.scene.results.ask(&DiffuseTableQuery(of.clone())));
             let measure = match (*shading).as_ref() {
                 Some(shading) => of.in_picture(shading, made.scene.results),
                 None => made.scene.results.ask(&of),
@@ -127,7 +127,7 @@ impl Bench {
         Some(best)
     }
 
-    /// From angles to all sources' signals. Making a table is not counted: that is done once for any number of samples.
+    /// From angles to all sensors' signals. Making a table is not counted: that is done once for any number of samples.
     fn once(&self, quality: Quality) -> Option<Run> {
         let start = Instant::now();
         let geometry = Arc::clone(&self.geometry);
@@ -147,16 +147,16 @@ impl Bench {
     }
 }
 
-/// A source's plan for the whole picture, if a tolerance was asked for.
+/// A sensor's plan for the whole picture, if a tolerance was asked for.
 fn planned(
     made: &Made<'_>,
-    of: &MeasureOf,
-    measure: Option<&Measure>,
-) -> Option<(Arc<Result<Plan, NoRendering>>, Reach)> {
+    of: &SpectralWeightsQuery,
+    measure: Option<&SpectralWeights>,
+) -> Option<(Arc<Result<Plan, RenderingError>>, Reach)> {
     let shading = made.scene.results.ask(&made.query.shading);
     let shading = (*shading).as_ref()?;
     let accuracy = shading.plan_accuracy()?;
-    let plan = PlanOf { measure: of.clone(), accuracy, against: Against::Peak, demand: shading.demand()? };
+    let plan = PlanQuery { measure: of.clone(), accuracy, against: Against::Peak, demand: shading.demand()? };
     Some((made.scene.results.ask(&plan), Reach::in_picture(shading, measure?)))
 }
 

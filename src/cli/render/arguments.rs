@@ -104,7 +104,7 @@ pub(in crate::cli) struct RenderArguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=8),
           help_heading = PICTURE)]
     pub(super) samples: u32,
-    /// Exposure in EV, the same for all sources
+    /// Exposure in EV, the same for all sensors
     #[arg(long, value_name = "EV", default_value_t = 0.0, value_parser = ev, allow_hyphen_values = true,
           help_heading = PICTURE)]
     pub(super) exposure: f64,

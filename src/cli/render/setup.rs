@@ -13,12 +13,12 @@ use chromascope_mesh::Mesh;
 use clap::ArgMatches;
 
 use super::arguments::{RenderArguments, SpecularName};
-use crate::catalog::{Kind, meshes};
+use crate::catalog::{SetKind, meshes};
 use crate::cli::request::Request;
 use crate::cli::{CliError, say};
 use crate::document::render::model::SpecularChoice;
 use crate::document::render::{BALANCE, MeshChoice, QualityChoice, RenderSettings, RoughnessChoice, SUN};
-use crate::document::{Compared, Light, WhiteChoice};
+use crate::document::{Compared, Light, WhiteBalanceChoice};
 use crate::scene::render::Finish;
 use crate::view::render::Orbit;
 
@@ -44,7 +44,7 @@ impl Setup {
         let mut request = Request::of_sources(&arguments.sources, matches)?;
         if arguments.sources.names_no_sensor() {
             let Request { document, sources, .. } = &mut request;
-            sources.retain(|(kind, name)| *kind == Kind::Camera || *name == document.truth);
+            sources.retain(|(kind, name)| *kind == SetKind::Camera || *name == document.reference);
         }
         let specular = request.document.render.specular;
         request.document.render = settings(arguments, choice, specular)?;
@@ -54,7 +54,7 @@ impl Setup {
         }
         match &arguments.white {
             Some(white) => request.set_white(white)?,
-            None => request.document.white = WhiteChoice::Light(BALANCE.to_owned()),
+            None => request.document.white = WhiteBalanceChoice::Light(BALANCE.to_owned()),
         }
         request.values = arguments.values;
         if let Some(material) = &arguments.material {

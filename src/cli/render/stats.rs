@@ -7,16 +7,16 @@ use chromascope_core::accuracy::Accuracy;
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::Roughness;
 use chromascope_core::render::plan::Candidate;
-use chromascope_core::render::{Measure, Quality, ShadingCounts};
+use chromascope_core::render::{Quality, ShadingCounts, SpectralWeights};
 use chromascope_core::spectral::grid::COUNT;
 use serde_json::{Value, json};
 
 use super::accuracy::{self, Cost, Errors, Measured};
 use super::{Made, Times};
-use crate::document::WayChoice;
+use crate::document::TransformChoice;
 use crate::export::render::{quality_name, reading_name};
 use crate::figures::render::{headline, returned};
-use crate::laboratory::plans;
+use crate::profiler::plans;
 use crate::results::Count;
 
 /// The figures, as text with a line break at its end.
@@ -70,7 +70,7 @@ fn settings(made: &Made<'_>) -> Value {
         "material": document.render.material,
         "illuminant": made.scene.light_name(),
         "white": document.white.name(),
-        "reference": document.truth,
+        "reference": document.reference,
         "transform": made.scene.conditions()[3],
         "preset": document.start.key(),
         "reading": reading_name(shading.reading),
@@ -139,10 +139,10 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
         "name": source.name,
         "kind": source.kind.singular(),
         "file": made.files[index].display().to_string(),
-        "is_reference": source.is_truth,
-        "is_truth": source.is_truth,
+        "is_reference": source.is_reference,
+        "is_truth": source.is_reference,
         // Under Eq 13 the formula gives no ΔE*00; its numbers are under "difference" with the measure's name.
-        "delta_e_2000": difference.filter(|_| made.scene.document.way != WayChoice::Paper).filter(|difference| !difference.map.is_empty()).map(|difference| {
+        "delta_e_2000": difference.filter(|_| made.scene.document.transform != TransformChoice::Paper).filter(|difference| !difference.map.is_empty()).map(|difference| {
             json!({ "mean": difference.mean, "max": difference.max, "samples": difference.map.len() })
         }),
         "difference": difference.map(|difference| {
@@ -166,7 +166,7 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
     })
 }
 
-/// How a source's integrals were made within a tolerance.
+/// How a sensor's integrals were made within a tolerance.
 fn plan(made: &Made<'_>, index: usize) -> Option<Value> {
     let planned = plans::planned(&made.query, &made.query.sources[index], made.scene.results).ok()??;
     let (explanation, certain) = (planned.explanation.as_ref(), planned.certain);
@@ -189,7 +189,7 @@ fn plan(made: &Made<'_>, index: usize) -> Option<Value> {
 }
 
 /// How many wavelengths of the grid's 401 were looked at. Moments are sums over all, made once for any number of samples.
-fn wavelengths(measure: &Measure, made: &Made<'_>) -> Value {
+fn wavelengths(measure: &SpectralWeights, made: &Made<'_>) -> Value {
     let ShadingCounts { moments, table, sums, mirrors, .. } = made.pictures.shading;
     let quality = made.setup.finish.quality;
     let of_sum = match quality {
@@ -219,7 +219,7 @@ fn errors(errors: Errors) -> Value {
     json!({ "max": errors.max, "rms": errors.rms })
 }
 
-/// Of all sources together. Ratios are to the sum over all wavelengths.
+/// Of all sensors together. Ratios are to the sum over all wavelengths.
 fn summary(made: &Made<'_>, accuracy: &Measured) -> Value {
     let cost = |name: &str, cost: &Cost| {
         let worst = cost

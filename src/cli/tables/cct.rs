@@ -3,7 +3,7 @@
 use chromascope_core::query::{LocusPoint, Temperatures};
 use chromascope_core::units::Kelvin;
 
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use crate::scene::{Scene, SceneError};
 
 /// Temperatures of the reference's locus, in kelvins: well beyond those that a table asks for.
@@ -26,7 +26,7 @@ impl ReferenceLocus {
     pub(super) fn new(scene: &Scene<'_>) -> Result<Self, SceneError> {
         let [from, to] = RANGE_K.map(Kelvin::new);
         let temperatures = Temperatures::Range { from: from?, to: to?, count: POINTS };
-        let locus = scene.locus_at(Kind::Observer, &scene.document.truth, temperatures)?;
+        let locus = scene.locus_at(SetKind::Observer, &scene.document.reference, temperatures)?;
         let place = |point: &LocusPoint| {
             let uv = point.uv?.uv60();
             Some([point.temperature.mired(), uv.u, uv.v])

@@ -10,9 +10,9 @@ use chromascope_core::units::Kelvin;
 use chromascope_figure::{Anchor, Dash, Image, Ink, InkRole, Mark, Shape, TextSize};
 
 use super::Drawing;
-use crate::catalog::Kind;
-use crate::document::{Diagram, REFERENCE};
-use crate::thing::Things;
+use crate::catalog::SetKind;
+use crate::document::{Diagram, FIT_TARGET};
+use crate::plot_item::PickIndex;
 
 /// Pixels along a side of the area's picture.
 const PIXELS: usize = 192;
@@ -29,7 +29,7 @@ pub(super) fn add(drawing: &mut Drawing<'_>) {
             let points: Vec<[f64; 2]> = gamut.primaries.iter().filter_map(|xy| drawing.place(*xy)).collect();
             let label = points.get(1).copied();
             let line = Shape::Line { points, closed: true };
-            drawing.marks.push(Mark::new(Things::NONE, gamut.name, line).with_stroke(InkRole::Weak, 1.2));
+            drawing.marks.push(Mark::new(PickIndex::NONE, gamut.name, line).with_stroke(InkRole::Weak, 1.2));
             if let Some(at) = label {
                 drawing.marks.push(text(gamut.name, at, Anchor::LEFT_BOTTOM, [4.0, -2.0], InkRole::Weak));
             }
@@ -47,8 +47,8 @@ pub(super) fn add_area(drawing: &mut Drawing<'_>, opacity: f64) {
     let image = picture(drawing.diagram, faint, &outline);
     let max = EXTENT[usize::from(drawing.diagram == Diagram::UvPrime)];
     let area = Shape::Image { min: [0.0, 0.0], max, image };
-    drawing.marks.push(Mark::new(Things::NONE, "colors of the diagram", area));
-    let Ok(observer) = drawing.scene.sensor(Kind::Observer, REFERENCE) else { return };
+    drawing.marks.push(Mark::new(PickIndex::NONE, "colors of the diagram", area));
+    let Ok(observer) = drawing.scene.sensor(SetKind::Observer, FIT_TARGET) else { return };
     let points: Vec<([f64; 2], [u8; 3])> = outline
         .iter()
         .filter_map(|p| Some((drawing.place(p.xy)?, wavelength_color(&observer, p.wavelength_nm))))
@@ -56,12 +56,12 @@ pub(super) fn add_area(drawing: &mut Drawing<'_>, opacity: f64) {
     let ends = points.first().zip(points.last()).map(|(a, b)| vec![a.0, b.0]);
     let width = if faint { 2.0 } else { 1.0 };
     if faint {
-        let locus = Mark::new(Things::NONE, "spectral locus", Shape::Gradient { points });
+        let locus = Mark::new(PickIndex::NONE, "spectral locus", Shape::Gradient { points });
         drawing.marks.push(locus.with_stroke(InkRole::Weak, width));
     }
     if let Some(points) = ends {
         let line = Shape::Line { points, closed: false };
-        drawing.marks.push(Mark::new(Things::NONE, "purple line", line).with_stroke(InkRole::Weak, 1.0));
+        drawing.marks.push(Mark::new(PickIndex::NONE, "purple line", line).with_stroke(InkRole::Weak, 1.0));
     }
 }
 
@@ -79,7 +79,7 @@ fn add_labels(drawing: &mut Drawing<'_>) {
         let anchor = Anchor(if away[0] < 0.0 { 1.0 } else { 0.0 }, 0.5);
         drawing.marks.push(text(&format!("{nm:.0}"), at, anchor, [offset[0] * 0.6, offset[1]], InkRole::Weak));
         let dot = Shape::Points { points: vec![at], marker: chromascope_figure::Marker::Circle, radius: 1.8 };
-        drawing.marks.push(Mark::new(Things::NONE, "wavelength", dot).with_fill(InkRole::Weak));
+        drawing.marks.push(Mark::new(PickIndex::NONE, "wavelength", dot).with_fill(InkRole::Weak));
     }
 }
 
@@ -90,7 +90,7 @@ fn add_daylight(drawing: &mut Drawing<'_>) {
         .filter_map(|xy| drawing.place(xy))
         .collect();
     let end = points.last().copied();
-    let line = Mark::new(Things::NONE, "daylight locus", Shape::Line { points, closed: false });
+    let line = Mark::new(PickIndex::NONE, "daylight locus", Shape::Line { points, closed: false });
     drawing.marks.push(line.with_stroke(InkRole::Weak, 1.5).with_dash(Dash::Dashed));
     if let Some(at) = end {
         drawing.marks.push(text("daylight", at, Anchor::RIGHT, [-6.0, 0.0], InkRole::Weak));
@@ -101,7 +101,7 @@ fn add_daylight(drawing: &mut Drawing<'_>) {
 pub(super) fn text(text: &str, at: [f64; 2], anchor: Anchor, offset: [f64; 2], role: InkRole) -> Mark {
     let ink = Ink::new(role);
     let shape = Shape::Text { at, text: text.to_owned(), anchor, offset, size: TextSize::Small, ink };
-    Mark::new(Things::NONE, text, shape).with_halo(InkRole::Plot)
+    Mark::new(PickIndex::NONE, text, shape).with_halo(InkRole::Plot)
 }
 
 /// The colors within the spectral locus, made once for each diagram and strength.

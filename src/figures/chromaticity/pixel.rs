@@ -1,19 +1,19 @@
-//! The pixel that is kept of the rendered pictures, through each source.
+//! The pixel that is kept of the rendered pictures, through each sensor.
 
 use chromascope_figure::{InkRole, Mark, Marker, Shape};
 
 use super::{Drawing, id};
 use crate::figures::render::pixel_of;
-use crate::scene::Source;
-use crate::studio::pixel::PixelShows;
-use crate::thing::Thing;
+use crate::plot_item::PlotItem;
+use crate::render_service::pixel::PixelShows;
+use crate::scene::ComparedSensor;
 use crate::view::render::PixelPlace;
 
 /// The radius of its mark.
 const RADIUS: f64 = 4.5;
 
-/// Adds a diamond for each source that has a picture, in whatever workspace that is.
-pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[Source]) {
+/// Adds a diamond for each sensor that has a picture, in whatever workspace that is.
+pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
     let render = &drawing.view.render;
     let Some(pinned) = render.pinned.clone() else { return };
     for source in sources.iter().rev() {
@@ -23,7 +23,7 @@ pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[Source]) {
         };
         let Some(at) = lit.xy.and_then(|xy| drawing.place(xy)) else { continue };
         drawing.data.push(at);
-        let tag = drawing.things.tag(Thing::Source(id(source)));
+        let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
         let shape = Shape::Points { points: vec![at], marker: Marker::Diamond, radius: RADIUS };
         let mark = Mark::new(tag, format!("{}, pixel", source.label), shape).with_stroke(source.role, 1.5);
         drawing.marks.push(mark.with_fill(source.role).with_halo(InkRole::Plot));

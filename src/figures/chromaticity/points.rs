@@ -1,4 +1,4 @@
-//! Patches as points, with tails from each camera's to the truth's; and what the pointer reads.
+//! Patches as points, with tails from each camera's to the reference's; and what the pointer reads.
 
 use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
@@ -6,53 +6,60 @@ use chromascope_core::units::Kelvin;
 use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, TextSize};
 
 use super::{Drawing, id};
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use crate::document::Diagram;
 use crate::number::number;
-use crate::scene::{Scene, Source};
+use crate::plot_item::{PickIndex, PlotItem, SensorId};
+use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{LINE_TAIL, MARKER, MARKER_SMALL};
-use crate::thing::{SourceId, Thing, Things};
 
 /// Up to this many patches markers are large and all patches named.
 const FEW: usize = 8;
 
-/// Adds the patches of all sources, the truth's on top.
-pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[Source]) {
+/// Adds the patches of all sensors, the reference's on top.
+pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
     let patches = match drawing.scene.patches() {
         Ok(patches) => patches,
         Err(error) => return drawing.refused.push(error.to_string()),
     };
     let names: Vec<&str> = patches.patches().iter().map(|patch| patch.name.as_str()).collect();
-    let truth = drawing.scene.patch_colors(Kind::Observer, &drawing.scene.document.truth).unwrap_or_default();
+    let reference =
+        drawing.scene.patch_colors(SetKind::Observer, &drawing.scene.document.reference).unwrap_or_default();
     let few = names.len() <= FEW;
     for source in sources.iter().rev() {
-        if drawing.view.blink && !source.is_truth {
+        if drawing.view.blink && !source.is_reference {
             continue;
         }
         let Ok(colors) = drawing.scene.patch_colors(source.kind, &source.name) else { continue };
         let comparable = matches!(drawing.scene.comparable(source.kind, &source.name), Ok(Ok(())));
-        let tails = if source.is_truth || !comparable { &[] } else { truth.as_slice() };
+        let tails = if source.is_reference || !comparable { &[] } else { reference.as_slice() };
         add_tails(drawing, source, &names, &colors, tails);
         add_points(drawing, source, &names, &colors, if few { MARKER } else { MARKER_SMALL });
     }
-    add_names(drawing, &names, &truth, few);
+    add_names(drawing, &names, &reference, few);
 }
 
-fn add_tails(drawing: &mut Drawing<'_>, source: &Source, names: &[&str], colors: &[PatchColor], truth: &[PatchColor]) {
-    for ((name, color), truth) in names.iter().zip(colors).zip(truth) {
-        let (from, to) = (drawing.place_of(color.xy, color.uv), drawing.place_of(truth.xy, truth.uv));
+fn add_tails(
+    drawing: &mut Drawing<'_>,
+    source: &ComparedSensor,
+    names: &[&str],
+    colors: &[PatchColor],
+    reference: &[PatchColor],
+) {
+    for ((name, color), reference) in names.iter().zip(colors).zip(reference) {
+        let (from, to) = (drawing.place_of(color.xy, color.uv), drawing.place_of(reference.xy, reference.uv));
         let Some((from, to)) = from.zip(to) else { continue };
-        let tag = drawing.things.tag(Thing::Patch { source: Some(id(source)), patch: (*name).to_owned() });
+        let tag = drawing.things.tag(PlotItem::Patch { source: Some(id(source)), patch: (*name).to_owned() });
         let tail = Mark::new(tag, "tail", Shape::Segments { segments: vec![[from, to]] });
         drawing.marks.push(tail.with_stroke(Ink::new(source.role).faded(0.6), LINE_TAIL));
     }
 }
 
-fn add_points(drawing: &mut Drawing<'_>, source: &Source, names: &[&str], colors: &[PatchColor], radius: f64) {
+fn add_points(drawing: &mut Drawing<'_>, source: &ComparedSensor, names: &[&str], colors: &[PatchColor], radius: f64) {
     for (name, color) in names.iter().zip(colors) {
         let Some(at) = drawing.place_of(color.xy, color.uv) else { continue };
         drawing.data.push(at);
-        let tag = drawing.things.tag(Thing::Patch { source: Some(id(source)), patch: (*name).to_owned() });
+        let tag = drawing.things.tag(PlotItem::Patch { source: Some(id(source)), patch: (*name).to_owned() });
         let shape = Shape::Points { points: vec![at], marker: source.marker, radius };
         let mark = Mark::new(tag, format!("{} {name}", source.label), shape).with_stroke(source.role, 2.0);
         let mark = if source.marker.has_inside() { mark.with_fill(Ink::rgb(color.srgb.bytes)) } else { mark };
@@ -60,9 +67,9 @@ fn add_points(drawing: &mut Drawing<'_>, source: &Source, names: &[&str], colors
     }
 }
 
-/// Names beside the truth's points: all if there are few, else those pointed at or chosen.
-fn add_names(drawing: &mut Drawing<'_>, names: &[&str], truth: &[PatchColor], few: bool) {
-    let places: Vec<Option<[f64; 2]>> = truth.iter().map(|color| drawing.place_of(color.xy, color.uv)).collect();
+/// Names beside the reference's points: all if there are few, else those pointed at or chosen.
+fn add_names(drawing: &mut Drawing<'_>, names: &[&str], reference: &[PatchColor], few: bool) {
+    let places: Vec<Option<[f64; 2]>> = reference.iter().map(|color| drawing.place_of(color.xy, color.uv)).collect();
     let known: Vec<[f64; 2]> = places.iter().flatten().copied().collect();
     let count = known.len().max(1) as f64;
     let center = known.iter().fold([0.0, 0.0], |sum, p| [sum[0] + p[0] / count, sum[1] + p[1] / count]);
@@ -79,34 +86,34 @@ fn add_names(drawing: &mut Drawing<'_>, names: &[&str], truth: &[PatchColor], fe
         let offset = [if right { 8.0 } else { -8.0 }, if up { -6.0 } else { 6.0 }];
         let ink = Ink::new(InkRole::Text);
         let shape = Shape::Text { at, text: (*name).to_owned(), anchor, offset, size: TextSize::Body, ink };
-        labels.push(Mark::new(Things::NONE, *name, shape).with_halo(InkRole::Plot));
+        labels.push(Mark::new(PickIndex::NONE, *name, shape).with_halo(InkRole::Plot));
     }
     drawing.marks.extend(labels);
 }
 
 /// What the pointer reads on a thing: lines of text.
-pub fn describe(scene: &Scene<'_>, thing: &Thing) -> Vec<String> {
+pub fn describe(scene: &Scene<'_>, thing: &PlotItem) -> Vec<String> {
     match thing {
-        Thing::Source(source) => describe_source(scene, source),
-        Thing::Radiator { source, kelvin } => describe_radiator(scene, source, *kelvin),
-        Thing::Patch { source: Some(source), patch } => describe_patch(scene, source, patch),
-        Thing::Patch { source: None, patch } => vec![patch.clone()],
-        Thing::Light => vec![format!("light {}", scene.light_name())],
+        PlotItem::Sensor(source) => describe_source(scene, source),
+        PlotItem::Radiator { source, kelvin } => describe_radiator(scene, source, *kelvin),
+        PlotItem::Patch { source: Some(source), patch } => describe_patch(scene, source, patch),
+        PlotItem::Patch { source: None, patch } => vec![patch.clone()],
+        PlotItem::Light => vec![format!("light {}", scene.light_name())],
     }
 }
 
-/// Where a source sees a patch.
-pub fn patch_xy(scene: &Scene<'_>, source: &SourceId, patch: &str) -> Option<Xy> {
+/// Where a sensor sees a patch.
+pub fn patch_xy(scene: &Scene<'_>, source: &SensorId, patch: &str) -> Option<Xy> {
     let index = scene.patches().ok()?.patches().iter().position(|p| p.name == patch)?;
     scene.patch_colors(source.kind, &source.name).ok()?.get(index)?.xy
 }
 
-fn label(scene: &Scene<'_>, id: &SourceId) -> String {
+fn label(scene: &Scene<'_>, id: &SensorId) -> String {
     let found = scene.sources().into_iter().find(|source| super::id(source) == *id);
     found.map_or_else(|| id.name.clone(), |source| source.label)
 }
 
-fn describe_source(scene: &Scene<'_>, source: &SourceId) -> Vec<String> {
+fn describe_source(scene: &Scene<'_>, source: &SensorId) -> Vec<String> {
     let mut lines = vec![label(scene, source)];
     if let Ok(locus) = scene.locus(source.kind, &source.name) {
         lines.push(format!("locus 1000–20000 K, length {} in xy", number(round4(locus.length_xy()))));
@@ -115,15 +122,15 @@ fn describe_source(scene: &Scene<'_>, source: &SourceId) -> Vec<String> {
     lines
 }
 
-/// Why a source has no distance to the truth, if so.
-fn why_apart(scene: &Scene<'_>, source: &SourceId) -> Option<String> {
+/// Why a sensor has no distance to the reference, if so.
+fn why_apart(scene: &Scene<'_>, source: &SensorId) -> Option<String> {
     let reason = scene.comparable(source.kind, &source.name).ok()?.err()?;
     Some(format!(
         "No distance to the reference: {reason}. Equal energy falls on (1/3, 1/3) for CIE observers, on D65 (0.3127, 0.3290) by Eq 13."
     ))
 }
 
-fn describe_radiator(scene: &Scene<'_>, source: &SourceId, kelvin: f64) -> Vec<String> {
+fn describe_radiator(scene: &Scene<'_>, source: &SensorId, kelvin: f64) -> Vec<String> {
     let mut lines = vec![format!("{}, blackbody {kelvin:.0} K", label(scene, source))];
     let Some(point) = blackbody(scene, source.kind, &source.name, kelvin) else { return lines };
     if let Some((below, end)) = scene.extrapolated_below(source.kind, &source.name).filter(|(below, _)| kelvin < *below)
@@ -143,17 +150,17 @@ fn describe_radiator(scene: &Scene<'_>, source: &SourceId, kelvin: f64) -> Vec<S
 }
 
 /// The blackbody of a temperature through a sensor.
-fn blackbody(scene: &Scene<'_>, kind: Kind, name: &str, kelvin: f64) -> Option<LocusPoint> {
+fn blackbody(scene: &Scene<'_>, kind: SetKind, name: &str, kelvin: f64) -> Option<LocusPoint> {
     let list = Temperatures::List(vec![Kelvin::new(kelvin).ok()?]);
     scene.locus_at(kind, name, list).ok()?.points.first().copied()
 }
 
 /// Distance of a blackbody through a sensor to that of the same temperature through the reference, in words; none where the two
 /// cannot be compared.
-pub fn blackbody_distance(scene: &Scene<'_>, source: &SourceId, kelvin: f64) -> Option<String> {
+pub fn blackbody_distance(scene: &Scene<'_>, source: &SensorId, kelvin: f64) -> Option<String> {
     scene.comparable(source.kind, &source.name).ok()?.ok()?;
     let point = blackbody(scene, source.kind, &source.name, kelvin)?;
-    let reference = blackbody(scene, Kind::Observer, &scene.document.truth, kelvin)?;
+    let reference = blackbody(scene, SetKind::Observer, &scene.document.reference, kelvin)?;
     let xy = compare::locus_distance_xy(&point, &reference);
     let uv = compare::locus_distance_uv(&point, &reference);
     Some(match (xy, uv) {
@@ -162,7 +169,7 @@ pub fn blackbody_distance(scene: &Scene<'_>, source: &SourceId, kelvin: f64) -> 
     })
 }
 
-fn describe_patch(scene: &Scene<'_>, source: &SourceId, patch: &str) -> Vec<String> {
+fn describe_patch(scene: &Scene<'_>, source: &SensorId, patch: &str) -> Vec<String> {
     let mut lines = vec![format!("{}, {patch}", label(scene, source))];
     let index = scene.patches().ok().and_then(|set| set.patches().iter().position(|p| p.name == patch));
     let color = index.and_then(|i| scene.patch_colors(source.kind, &source.name).ok()?.get(i).copied());

@@ -4,7 +4,7 @@ use spectral_file::{Quantity, Role, Table};
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 
-use super::{OnShow, places};
+use super::{ImportSelection, places};
 use crate::catalog::import::taken;
 use crate::document::own::OwnSet;
 use crate::number::number;
@@ -42,7 +42,7 @@ pub struct Curves {
 
 impl Curves {
     /// The first curves of what is on show: of the file while something is tried on it, else of the set. Or why there are none.
-    pub fn of(shown: &OnShow, most: usize) -> Result<Self, String> {
+    pub fn of(shown: &ImportSelection, most: usize) -> Result<Self, String> {
         if let Some(error) = shown.error().filter(|_| shown.pending || shown.set.is_none()) {
             return Err(sentence(&error.to_string()));
         }
@@ -57,7 +57,7 @@ impl Curves {
         }
     }
 
-    fn of_table(shown: &OnShow, table: &Table, most: usize) -> Self {
+    fn of_table(shown: &ImportSelection, table: &Table, most: usize) -> Self {
         let all = taken(table, &shown.wishes);
         let role = table.role.value;
         let channels = shown.wishes.channels.or(table.reading.camera_columns).unwrap_or([0, 1, 2]);
@@ -83,7 +83,7 @@ impl Curves {
             role,
             curves: set.curves[..count].to_vec(),
             decisions: Vec::new(),
-            wishes: crate::document::own::Wishes::default(),
+            wishes: crate::document::own::ImportOverrides::default(),
             ..set.clone()
         };
         let curves = head.curves_in_nm().map_err(|error| format!("{}: {error}", set.name))?;

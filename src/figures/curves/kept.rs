@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
-use super::{Curves, DRAWN, OnShow, drawn};
+use super::{Curves, DRAWN, ImportSelection, drawn};
 
 /// At most so many points are drawn on screen in all.
 const POINTS: usize = 80_000;
 
 /// The curves of what was on show last.
 #[derive(Clone, Debug)]
-pub struct Kept {
-    of: OnShow,
+pub struct CurveCache {
+    of: ImportSelection,
     curves: Result<Arc<Pair>, String>,
 }
 
@@ -21,9 +21,9 @@ struct Pair {
     seen: Curves,
 }
 
-impl Kept {
+impl CurveCache {
     /// The curves of what is on show: those kept, if they are of the same.
-    pub fn of(shown: &OnShow, before: Option<Self>) -> Self {
+    pub fn of(shown: &ImportSelection, before: Option<Self>) -> Self {
         if let Some(before) = before.filter(|before| before.of.is_same(shown)) {
             return before;
         }

@@ -6,30 +6,30 @@ use chromascope_core::query::Shared;
 use spectral_file::{ReadError, Table};
 
 use crate::catalog::import::taken;
-use crate::catalog::opened::{Look, OpenFile, Opened};
-use crate::document::own::{OwnSet, Wishes};
+use crate::catalog::opened::{FilePreview, OpenFile, Opened};
+use crate::document::own::{ImportOverrides, OwnSet};
 use crate::scene::Scene;
 use crate::view::View;
 use crate::view::import::ImportItem;
 
 /// What Import shows.
 #[derive(Clone, Debug)]
-pub struct OnShow {
+pub struct ImportSelection {
     /// Which.
     pub item: ImportItem,
     /// The document's set.
     pub set: Option<Shared<OwnSet>>,
     /// How it is, or is to be, read.
-    pub wishes: Wishes,
+    pub wishes: ImportOverrides,
     /// Whether that is not yet so in the document.
     pub pending: bool,
     /// The file's contents, if they are at hand.
     pub file: Option<OpenFile>,
     /// What the contents were understood as, now or just before.
-    pub look: Option<Arc<Look>>,
+    pub look: Option<Arc<FilePreview>>,
 }
 
-impl OnShow {
+impl ImportSelection {
     /// The selected item; asks for what is not known yet, and keeps the answer for [`figure`](super::figure).
     pub fn refresh(scene: &Scene<'_>, view: &mut View, opened: &Opened) -> Option<Self> {
         let mut shown = Self::of(scene, view)?;

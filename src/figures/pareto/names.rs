@@ -269,14 +269,14 @@ fn passes([from, to]: Line, area: &Area) -> bool {
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     for axis in 0..2 {
         let (low, high) = (area[axis], area[axis + 2]);
-        let way = to[axis] - from[axis];
-        if way == 0.0 {
+        let transform = to[axis] - from[axis];
+        if transform == 0.0 {
             if from[axis] <= low || from[axis] >= high {
                 return false;
             }
             continue;
         }
-        let [a, b] = [(low - from[axis]) / way, (high - from[axis]) / way];
+        let [a, b] = [(low - from[axis]) / transform, (high - from[axis]) / transform];
         enter = enter.max(a.min(b));
         leave = leave.min(a.max(b));
     }

@@ -4,15 +4,15 @@ use chromascope_figure::{Anchor, Image, Ink, Mark, Shape};
 
 use super::text;
 use crate::number::number;
-use crate::studio::Shot;
+use crate::plot_item::PickIndex;
+use crate::render_service::RenderedFrame;
 use crate::theme::difference_ramp;
-use crate::thing::Things;
 
 /// Ends that a scale may have.
 const ENDS: [f32; 9] = [0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0, 50.0];
 
 /// The end of the scale that holds all maps.
-pub fn scale_end(shot: &Shot) -> f32 {
+pub fn scale_end(shot: &RenderedFrame) -> f32 {
     let differences = shot.made().map(|made| made.differences.as_slice()).unwrap_or_default();
     let largest = differences.iter().flatten().map(|difference| difference.max as f32).fold(0.0, f32::max);
     ENDS.into_iter().find(|end| *end >= largest).unwrap_or(100.0)
@@ -43,7 +43,7 @@ pub(super) fn scale(end: f32, measure: &str, [x, y]: [f64; 2], width: f64, ink: 
     let inset = 24.0;
     let (left, right) = (x + inset, x + width - inset);
     let shape = Shape::Image { min: [left, y + 16.0], max: [right, y + 4.0], image };
-    let mut marks = vec![Mark::new(Things::NONE, "scale", shape)];
+    let mut marks = vec![Mark::new(PickIndex::NONE, "scale", shape)];
     let steps = steps(end);
     for step in 0..=steps {
         let share = f64::from(step) / f64::from(steps);
@@ -55,7 +55,7 @@ pub(super) fn scale(end: f32, measure: &str, [x, y]: [f64; 2], width: f64, ink: 
 }
 
 /// A map as width, height and RGBA: the ramp where light falls, black where none does, nothing beside the mesh.
-pub fn map(shot: &Shot, at: usize, end: f32) -> ([usize; 2], Vec<u8>) {
+pub fn map(shot: &RenderedFrame, at: usize, end: f32) -> ([usize; 2], Vec<u8>) {
     let nothing = ([0, 0], Vec::new());
     let Some(made) = shot.made() else { return nothing };
     let (Some(Some(difference)), Some(Some(image))) = (made.differences.get(at), made.images.get(at)) else {

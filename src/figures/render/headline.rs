@@ -18,7 +18,7 @@ pub enum Detail {
     /// The number of the headline.
     Number,
     /// With its measure.
-    Measure,
+    SpectralWeights,
     /// With median and 95th percentile.
     Quantiles,
     /// With the largest as well.
@@ -27,7 +27,7 @@ pub enum Detail {
 
 /// The measure of pictures' differences, by the name it has under a document's color transform.
 pub fn measure(document: &Document) -> &'static str {
-    DifferenceChoice::DeltaE2000.name_under(&document.way)
+    DifferenceChoice::DeltaE2000.name_under(&document.transform)
 }
 
 /// The difference of a picture in words: "no light" where nothing is lit; the quantiles are of samples that are bright enough to judge.
@@ -47,7 +47,7 @@ pub fn words(difference: &Difference, measure: &str, detail: Detail) -> String {
     match detail {
         Detail::Number if measure.starts_with("ΔE") => format!("{short}E {facing}"),
         Detail::Number => format!("{short} {facing}"),
-        Detail::Measure => format!("{measure} {facing}"),
+        Detail::SpectralWeights => format!("{measure} {facing}"),
         Detail::Quantiles => quantiles(),
         Detail::Largest => format!("{}, max {}", quantiles(), fixed(difference.max, 1)),
     }
@@ -62,7 +62,7 @@ mod tests {
     fn a_picture_without_light_has_no_difference() {
         let bright = Some(BrightSamples { count: 2, median: 2.0, p95: 4.0 });
         let some = Difference { stride: 1, map: vec![1.0; 3], mean: 1.0, max: 5.0, facing: Some(3.12), bright };
-        let said = [Detail::Number, Detail::Measure, Detail::Quantiles, Detail::Largest];
+        let said = [Detail::Number, Detail::SpectralWeights, Detail::Quantiles, Detail::Largest];
         assert_eq!(
             said.map(|detail| words(&some, "ΔE*00", detail)),
             [

@@ -1,7 +1,7 @@
 //! The share of light that the chosen surface returns, in words: where the reflectance model says its limits.
 
 use chromascope_core::query::Ask as _;
-use chromascope_core::query::render::{ReturnedLight, ReturnedLightOf};
+use chromascope_core::query::render::{ReturnedLight, ReturnedLightQuery};
 use chromascope_core::reflectance::{Reading, Surface};
 
 use crate::document::render::{ReadingChoice, RoughnessChoice};
@@ -24,7 +24,7 @@ pub fn of(scene: &Scene<'_>) -> Option<ReturnedLight> {
         return None;
     }
     let surface: Surface = settings.surface().ok()?;
-    Some(*scene.results.ask(&ReturnedLightOf { surface, reading: settings.reading.reading() }))
+    Some(*scene.results.ask(&ReturnedLightQuery { surface, reading: settings.reading.reading() }))
 }
 
 /// The share for the surface that is chosen, in words.

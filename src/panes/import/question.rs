@@ -4,7 +4,7 @@ use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
 use spectral_file::{Certainty, Role, Table, Values};
 
 use crate::command::Command;
-use crate::figures::curves::{OnShow, sentence};
+use crate::figures::curves::{ImportSelection, sentence};
 use crate::panes::PaneContext;
 use crate::theme::UNIT;
 use crate::widgets::lines;
@@ -46,7 +46,7 @@ fn question(table: &Table) -> Option<(&str, &'static [Answer])> {
 }
 
 /// Shows the question, if there is one, at the top of a rectangle. Returns what is left below.
-pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &OnShow, context: &mut PaneContext<'_>) -> Rect {
+pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &mut PaneContext<'_>) -> Rect {
     let Some((why, answers)) = shown.table().filter(|_| shown.is_fresh()).and_then(question) else { return rect };
     let color = context.theme.warning;
     let mut child = ui.new_child(UiBuilder::new().id_salt("question").max_rect(rect));

@@ -6,10 +6,10 @@ use egui::{FontId, Id, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, UiBuild
 use spectral_file::{LONGEST_LINE, Preview};
 
 use super::line::{Line, Pen, legend};
-use crate::catalog::opened::Look;
+use crate::catalog::opened::FilePreview;
 use crate::command::Command;
 use crate::document::own::{Fingerprint, OwnSet};
-use crate::figures::curves::{OnShow, sentence};
+use crate::figures::curves::{ImportSelection, sentence};
 use crate::panes::PaneContext;
 use crate::theme::{MONO, ROW, UNIT};
 use crate::widgets::lines;
@@ -25,7 +25,7 @@ const _: () = assert!(WIDEST < LONGEST_LINE, "a line is counted so far");
 const SAID: usize = 200;
 
 /// Shows what is known of the file on show.
-pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &OnShow, context: &mut PaneContext<'_>) {
+pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let Some(file) = &shown.file else {
         if let Some(set) = &shown.set {
             away(ui, rect, set, context);
@@ -112,7 +112,14 @@ struct Place {
     gutter: f32,
 }
 
-fn lines_of(ui: &mut Ui, rect: Rect, shown: &OnShow, look: &Look, preview: &Preview, context: &mut PaneContext<'_>) {
+fn lines_of(
+    ui: &mut Ui,
+    rect: Rect,
+    shown: &ImportSelection,
+    look: &FilePreview,
+    preview: &Preview,
+    context: &mut PaneContext<'_>,
+) {
     // All letters of the font have one width; many together tell it more exactly.
     const SAMPLE: &str = "0000000000000000";
     let sample = ui.painter().layout_no_wrap(SAMPLE.to_owned(), FontId::monospace(MONO), context.theme.text);
@@ -149,8 +156,8 @@ fn lines_of(ui: &mut Ui, rect: Rect, shown: &OnShow, look: &Look, preview: &Prev
 /// The line, and the letter in it, to bring into sight in this frame.
 fn target(
     ui: &Ui,
-    shown: &OnShow,
-    look: &Look,
+    shown: &ImportSelection,
+    look: &FilePreview,
     error: Option<&(usize, Range<usize>)>,
     context: &mut PaneContext<'_>,
 ) -> Option<(usize, usize)> {
@@ -181,8 +188,8 @@ fn target(
 /// What is drawn of a text.
 struct View<'a> {
     preview: &'a Preview,
-    look: &'a Look,
-    shown: &'a OnShow,
+    look: &'a FilePreview,
+    shown: &'a ImportSelection,
     /// Which curves are taken, by place in the file.
     taken: Vec<bool>,
     error: Option<&'a (usize, Range<usize>)>,

@@ -1,18 +1,18 @@
-//! A patch through one source beside the truth, or through all.
+//! A patch through one sensor beside the reference, or through all.
 
-use chromascope_core::query::{NoDifference, PatchColor};
+use chromascope_core::query::{DifferenceError, PatchColor};
 use chromascope_figure::InkRole;
 use egui::text::LayoutJob;
 use egui::{FontId, Rect, Sense, TextFormat, TextStyle, Ui, Vec2};
 
 use super::{
     assumptions, buttons, copy_text, difference_words, failure, head, held_words, no_difference, note, numbers,
-    show_assumptions, truth_id,
+    reference_id, show_assumptions,
 };
 use crate::panes::PaneContext;
-use crate::scene::{Scene, SceneError, Source};
+use crate::plot_item::{PlotItem, SensorId};
+use crate::scene::{ComparedSensor, Scene, SceneError};
 use crate::theme::{HEADING, ROW, TEXT, Theme, UNIT};
-use crate::thing::{SourceId, Thing};
 use crate::widgets::{focus_rim, lines};
 
 /// Height of the pair of swatches with its surround.
@@ -23,8 +23,8 @@ pub(super) fn index_of(scene: &Scene<'_>, patch: &str) -> Option<usize> {
     scene.patches().ok()?.patches().iter().position(|p| p.name == patch)
 }
 
-/// A patch through a source.
-pub(super) fn color_of(scene: &Scene<'_>, id: &SourceId, patch: &str) -> Result<Option<PatchColor>, SceneError> {
+/// A patch through a sensor.
+pub(super) fn color_of(scene: &Scene<'_>, id: &SensorId, patch: &str) -> Result<Option<PatchColor>, SceneError> {
     let colors = scene.patch_colors(id.kind, &id.name)?;
     Ok(index_of(scene, patch).and_then(|index| colors.get(index).copied()))
 }
@@ -41,7 +41,7 @@ fn title(scene: &Scene<'_>, patch: &str) -> String {
     }
 }
 
-/// Swatches on the surround: left the truth, right the source; one if there is no truth beside it.
+/// Swatches on the surround: left the reference, right the sensor; one if there is no truth beside it.
 fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor>, height: f32, width: f32) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(width, height), Sense::hover());
     response.widget_info(|| {
@@ -64,14 +64,14 @@ fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor
     }
 }
 
-/// A patch through one source.
-pub(super) fn one(ui: &mut Ui, id: &SourceId, patch: &str, context: &mut PaneContext<'_>) {
+/// A patch through one sensor.
+pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);
     note(ui, &theme, format!("{}, light {}", title(&scene, patch), scene.light_name()));
-    let truth = truth_id(&scene);
-    let is_truth = truth == *id;
-    let colors = color_of(&scene, id, patch).and_then(|own| Ok((own, color_of(&scene, &truth, patch)?)));
+    let reference = reference_id(&scene);
+    let is_reference = reference == *id;
+    let colors = color_of(&scene, id, patch).and_then(|own| Ok((own, color_of(&scene, &reference, patch)?)));
     let (own, seen) = match colors {
         Ok((Some(own), Some(seen))) => (own, seen),
         Ok(_) => {
@@ -83,16 +83,16 @@ pub(super) fn one(ui: &mut Ui, id: &SourceId, patch: &str, context: &mut PaneCon
             return;
         }
     };
-    let right = if context.view.blink || is_truth { None } else { Some(&own) };
+    let right = if context.view.blink || is_reference { None } else { Some(&own) };
     let width = ui.available_width();
     pair(ui, &theme, &seen, right, PAIR, width);
     if own.srgb.clipped {
         note(ui, &theme, "Notched corner: the screen cannot show this color; the numbers are whole.");
     }
-    if !is_truth {
+    if !is_reference {
         difference(ui, id, patch, context);
     }
-    let (heads, colors) = if is_truth {
+    let (heads, colors) = if is_reference {
         (vec!["reference".to_owned()], vec![Some(own)])
     } else {
         (vec!["reference".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
@@ -112,7 +112,7 @@ pub(super) fn one(ui: &mut Ui, id: &SourceId, patch: &str, context: &mut PaneCon
 }
 
 /// The difference in large type with its rank, or why there is none.
-fn difference(ui: &mut Ui, id: &SourceId, patch: &str, context: &PaneContext<'_>) {
+fn difference(ui: &mut Ui, id: &SensorId, patch: &str, context: &PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     let Ok(differences) = scene.differences(id.kind, &id.name) else { return };
     let measure = scene.document.difference;
@@ -141,7 +141,7 @@ fn difference(ui: &mut Ui, id: &SourceId, patch: &str, context: &PaneContext<'_>
 }
 
 /// Where a difference stands among all of its source.
-pub(super) fn rank(value: f64, all: &[Result<f64, NoDifference>]) -> Option<String> {
+pub(super) fn rank(value: f64, all: &[Result<f64, DifferenceError>]) -> Option<String> {
     let known: Vec<f64> = all.iter().filter_map(|d| d.ok()).collect();
     if known.len() < 2 {
         return None;
@@ -165,12 +165,12 @@ fn ordinal(number: usize) -> String {
     format!("{number}{ending}")
 }
 
-/// A patch through all sources on show.
+/// A patch through all visible sensors.
 pub(super) fn across(ui: &mut Ui, patch: &str, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     ui.label(egui::RichText::new(title(&scene, patch)).strong());
     note(ui, &theme, format!("{}, light {}", scene.document.chart, scene.light_name()));
-    let seen = match color_of(&scene, &truth_id(&scene), patch) {
+    let seen = match color_of(&scene, &reference_id(&scene), patch) {
         Ok(Some(seen)) => seen,
         Ok(None) => {
             note(ui, &theme, "This patch is not on show now.");
@@ -201,21 +201,22 @@ fn buttons_without_copy(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let scene = context.scene;
     let selected = context.view.selected.clone();
     if buttons(ui, context)
-        && let Some(Thing::Patch { patch, .. }) = selected
+        && let Some(PlotItem::Patch { patch, .. }) = selected
     {
-        let shown: Vec<Source> = scene.sources().into_iter().filter(|source| source.visible).collect();
+        let shown: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
         let heads: Vec<String> = shown.iter().map(|source| source.label.clone()).collect();
-        let color =
-            |s: &Source| color_of(&scene, &SourceId { kind: s.kind, name: s.name.clone() }, &patch).ok().flatten();
+        let color = |s: &ComparedSensor| {
+            color_of(&scene, &SensorId { kind: s.kind, name: s.name.clone() }, &patch).ok().flatten()
+        };
         let colors: Vec<_> = shown.iter().map(color).collect();
         copy_text(ui, numbers::to_tsv(&heads, &numbers::of_patches(&colors)), context);
     }
 }
 
-/// Key, label, swatches and difference of one source; a click selects the patch through it.
-fn source_row(ui: &mut Ui, source: &Source, patch: &str, seen: &PatchColor, context: &mut PaneContext<'_>) {
+/// Key, label, swatches and difference of one sensor; a click selects the patch through it.
+fn source_row(ui: &mut Ui, source: &ComparedSensor, patch: &str, seen: &PatchColor, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
-    let id = SourceId { kind: source.kind, name: source.name.clone() };
+    let id = SensorId { kind: source.kind, name: source.name.clone() };
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW + UNIT), Sense::click());
     let own = color_of(&scene, &id, patch);
     let difference = scene.differences(id.kind, &id.name).ok().and_then(|all| {
@@ -224,7 +225,7 @@ fn source_row(ui: &mut Ui, source: &Source, patch: &str, seen: &PatchColor, cont
     });
     let (words, hint) = match (&own, difference) {
         (Err(error), _) => ("–".to_owned(), Some(error.to_string())),
-        _ if source.is_truth => (String::new(), None),
+        _ if source.is_reference => (String::new(), None),
         (_, Some(Ok(value))) => (difference_words(scene.document.difference, value), None),
         (_, Some(Err(reason))) => ("–".to_owned(), Some(no_difference(reason))),
         _ => ("–".to_owned(), None),
@@ -248,12 +249,12 @@ fn source_row(ui: &mut Ui, source: &Source, patch: &str, seen: &PatchColor, cont
     if let Ok(Some(own)) = &own {
         let mut place =
             ui.new_child(egui::UiBuilder::new().id_salt(("pair", source.kind, &source.name)).max_rect(swatches));
-        pair(&mut place, &theme, seen, (!source.is_truth).then_some(own), swatches.height(), swatches.width());
+        pair(&mut place, &theme, seen, (!source.is_reference).then_some(own), swatches.height(), swatches.width());
     }
     let column = rect.shrink2(Vec2::new(UNIT, 0.0));
     lines::right_aligned(ui, column, &words, TextStyle::Monospace, theme.text);
     if response.clicked() {
-        context.view.selected = Some(Thing::Patch { source: Some(id), patch: patch.to_owned() });
+        context.view.selected = Some(PlotItem::Patch { source: Some(id), patch: patch.to_owned() });
     }
     if let Some(hint) = hint {
         response.on_hover_text(hint);

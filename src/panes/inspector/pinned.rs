@@ -3,10 +3,10 @@
 use chromascope_core::query::PatchColor;
 use egui::{RichText, ScrollArea, Ui};
 
-use super::{difference_words, note, numbers, patch, radiator, source_of, truth_id};
+use super::{difference_words, note, numbers, patch, radiator, reference_id, source_of};
 use crate::panes::PaneContext;
+use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
-use crate::thing::{SourceId, Thing};
 use crate::widgets::lines::fixed;
 use crate::widgets::{Icon, icon_button};
 
@@ -46,31 +46,34 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         patches(ui, &scene, &things, context);
         radiators(ui, &scene, &things, context);
     });
-    if things.iter().any(|thing| matches!(thing, Thing::Source(_) | Thing::Light | Thing::Patch { source: None, .. })) {
+    if things
+        .iter()
+        .any(|thing| matches!(thing, PlotItem::Sensor(_) | PlotItem::Light | PlotItem::Patch { source: None, .. }))
+    {
         note(ui, &theme, "Only points and swatches have numbers to set side by side.");
     }
 }
 
-fn name(scene: &Scene<'_>, thing: &Thing) -> String {
-    let label = |id: &SourceId| source_of(scene, id).map_or_else(|| id.name.clone(), |source| source.label);
+fn name(scene: &Scene<'_>, thing: &PlotItem) -> String {
+    let label = |id: &SensorId| source_of(scene, id).map_or_else(|| id.name.clone(), |source| source.label);
     match thing {
-        Thing::Light => format!("light {}", scene.light_name()),
-        Thing::Source(id) => label(id),
-        Thing::Patch { source: None, patch } => format!("patch {patch}"),
-        Thing::Patch { source: Some(id), patch } => format!("{}, {patch}", label(id)),
-        Thing::Radiator { source, kelvin } => format!("{}, {} K", label(source), fixed(*kelvin, 0)),
+        PlotItem::Light => format!("light {}", scene.light_name()),
+        PlotItem::Sensor(id) => label(id),
+        PlotItem::Patch { source: None, patch } => format!("patch {patch}"),
+        PlotItem::Patch { source: Some(id), patch } => format!("{}, {patch}", label(id)),
+        PlotItem::Radiator { source, kelvin } => format!("{}, {} K", label(source), fixed(*kelvin, 0)),
     }
 }
 
-/// Pinned patches; the truth stands first where all are the same patch.
-fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[Thing], context: &PaneContext<'_>) {
+/// Pinned patches; the reference stands first where all are the same patch.
+fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneContext<'_>) {
     let mut heads: Vec<String> = Vec::new();
     let mut colors: Vec<Option<PatchColor>> = Vec::new();
     let mut differences: Vec<String> = Vec::new();
     let mut names: Vec<&str> = Vec::new();
     let measure = scene.document.difference;
     for (index, thing) in things.iter().enumerate() {
-        let Thing::Patch { source: Some(id), patch } = thing else { continue };
+        let PlotItem::Patch { source: Some(id), patch } = thing else { continue };
         heads.push(letter(index));
         colors.push(patch::color_of(scene, id, patch).ok().flatten());
         names.push(patch);
@@ -85,7 +88,7 @@ fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[Thing], context: &PaneConte
     let Some(first) = names.first() else { return };
     if names.iter().all(|name| name == first) {
         heads.insert(0, "reference".to_owned());
-        colors.insert(0, patch::color_of(scene, &truth_id(scene), first).ok().flatten());
+        colors.insert(0, patch::color_of(scene, &reference_id(scene), first).ok().flatten());
     }
     note(
         ui,
@@ -95,13 +98,13 @@ fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[Thing], context: &PaneConte
     numbers::show(ui, &context.theme, &heads, &numbers::of_patches(&colors), COLUMN);
 }
 
-/// Pinned black bodies; the truth stands first where all have the same temperature.
-fn radiators(ui: &mut Ui, scene: &Scene<'_>, things: &[Thing], context: &PaneContext<'_>) {
+/// Pinned black bodies; the reference stands first where all have the same temperature.
+fn radiators(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneContext<'_>) {
     let mut heads = Vec::new();
     let mut points = Vec::new();
     let mut temperatures = Vec::new();
     for (index, thing) in things.iter().enumerate() {
-        let Thing::Radiator { source, kelvin } = thing else { continue };
+        let PlotItem::Radiator { source, kelvin } = thing else { continue };
         heads.push(letter(index));
         points.push(radiator::point_of(scene, source, *kelvin).ok().flatten());
         temperatures.push(*kelvin);
@@ -109,7 +112,7 @@ fn radiators(ui: &mut Ui, scene: &Scene<'_>, things: &[Thing], context: &PaneCon
     let Some(&first) = temperatures.first() else { return };
     if temperatures.iter().all(|kelvin| *kelvin == first) {
         heads.insert(0, "reference".to_owned());
-        points.insert(0, radiator::point_of(scene, &truth_id(scene), first).ok().flatten());
+        points.insert(0, radiator::point_of(scene, &reference_id(scene), first).ok().flatten());
     }
     numbers::show(ui, &context.theme, &heads, &radiator::rows_of(&points), COLUMN);
 }

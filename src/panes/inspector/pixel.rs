@@ -1,4 +1,4 @@
-//! The pixel that is kept of the rendered pictures, through every source.
+//! The pixel that is kept of the rendered pictures, through every sensor.
 
 use egui::{Grid, RichText, Ui};
 
@@ -6,7 +6,7 @@ use super::note;
 use crate::figures::chromaticity::id;
 use crate::figures::render::{facts, headline, index_of, pixel_of};
 use crate::panes::PaneContext;
-use crate::studio::pixel::PixelShows;
+use crate::render_service::pixel::PixelShows;
 use crate::theme::UNIT;
 use crate::view::render::PixelPlace;
 use crate::widgets::lines::key_and_label;

@@ -1,19 +1,21 @@
-//! A black body through a source.
+//! A black body through a sensor.
 
 use chromascope_core::query::{LocusPoint, Temperatures, compare};
 use chromascope_core::units::Kelvin;
 use egui::Ui;
 
 use super::numbers::Row;
-use super::{assumptions, buttons, copy_text, failure, head, no_difference, note, numbers, show_assumptions, truth_id};
+use super::{
+    assumptions, buttons, copy_text, failure, head, no_difference, note, numbers, reference_id, show_assumptions,
+};
 use crate::document::Light;
 use crate::panes::PaneContext;
+use crate::plot_item::SensorId;
 use crate::scene::{Scene, SceneError};
-use crate::thing::SourceId;
 use crate::widgets::lines::fixed;
 
-/// One point of a source's locus.
-pub(super) fn point_of(scene: &Scene<'_>, id: &SourceId, kelvin: f64) -> Result<Option<LocusPoint>, SceneError> {
+/// One point of a sensor's locus.
+pub(super) fn point_of(scene: &Scene<'_>, id: &SensorId, kelvin: f64) -> Result<Option<LocusPoint>, SceneError> {
     let temperatures = Temperatures::List(vec![Kelvin::new(kelvin)?]);
     Ok(scene.locus_at(id.kind, &id.name, temperatures)?.points.first().copied())
 }
@@ -34,13 +36,13 @@ pub(super) fn rows_of(points: &[Option<LocusPoint>]) -> Vec<Row> {
 }
 
 /// Shows it.
-pub(super) fn show(ui: &mut Ui, id: &SourceId, kelvin: f64, context: &mut PaneContext<'_>) {
+pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);
     note(ui, &theme, format!("blackbody, {} K = {} mired", fixed(kelvin, 0), fixed(1e6 / kelvin, 1)));
-    let truth = truth_id(&scene);
-    let is_truth = truth == *id;
-    let points = point_of(&scene, id, kelvin).and_then(|own| Ok((own, point_of(&scene, &truth, kelvin)?)));
+    let reference = reference_id(&scene);
+    let is_reference = reference == *id;
+    let points = point_of(&scene, id, kelvin).and_then(|own| Ok((own, point_of(&scene, &reference, kelvin)?)));
     let (own, seen) = match points {
         Ok((Some(own), Some(seen))) => (own, seen),
         Ok(_) => return,
@@ -52,12 +54,12 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, kelvin: f64, context: &mut PaneCo
     if own.xy.is_none() {
         note(ui, &theme, "No chromaticity: the signals sum to nothing.");
     }
-    let (heads, points) = if is_truth {
+    let (heads, points) = if is_reference {
         (vec!["reference".to_owned()], vec![Some(own)])
     } else {
         (vec!["reference".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
     };
-    if !is_truth {
+    if !is_reference {
         distance(ui, id, &own, &seen, context);
     }
     let rows = rows_of(&points);
@@ -80,7 +82,7 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, kelvin: f64, context: &mut PaneCo
     show_assumptions(ui, &theme, assumptions(&scene, id, &label));
 }
 
-fn distance(ui: &mut Ui, id: &SourceId, own: &LocusPoint, seen: &LocusPoint, context: &PaneContext<'_>) {
+fn distance(ui: &mut Ui, id: &SensorId, own: &LocusPoint, seen: &LocusPoint, context: &PaneContext<'_>) {
     let comparable = context.scene.comparable(id.kind, &id.name).unwrap_or(Ok(()));
     let xy = comparable.and_then(|()| compare::locus_distance_xy(seen, own));
     let uv = comparable.and_then(|()| compare::locus_distance_uv(seen, own));

@@ -5,21 +5,21 @@ use egui::{RichText, Ui};
 
 use super::{
     assumptions, buttons, copy_text, difference_words, failure, head, held_words, measured_words, no_difference, note,
-    show_assumptions, truth_id,
+    reference_id, show_assumptions,
 };
-use crate::catalog::{Kind, Place};
+use crate::catalog::{Place, SetKind};
 use crate::command::Command;
-use crate::document::{Diagram, Light, REFERENCE};
+use crate::document::{Diagram, FIT_TARGET, Light};
 use crate::panes::PaneContext;
+use crate::plot_item::SensorId;
 use crate::scene::Scene;
 use crate::theme::UNIT;
-use crate::thing::SourceId;
 use crate::view::import::ImportItem;
 use crate::widgets::facts::{self, Fact, range_words};
 use crate::widgets::lines::fixed;
 
 /// A camera or an observer.
-pub(super) fn show(ui: &mut Ui, id: &SourceId, context: &mut PaneContext<'_>) {
+pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);
     let entry = match scene.entry(id.kind, &id.name) {
@@ -60,11 +60,11 @@ pub(super) fn show(ui: &mut Ui, id: &SourceId, context: &mut PaneContext<'_>) {
 }
 
 /// How far the sensor is from the reference, in a few numbers.
-fn measures(scene: &Scene<'_>, id: &SourceId) -> Vec<Fact> {
+fn measures(scene: &Scene<'_>, id: &SensorId) -> Vec<Fact> {
     let mut facts: Vec<Fact> = Vec::new();
-    let truth = truth_id(scene);
+    let reference = reference_id(scene);
     let measure = scene.document.difference;
-    if truth != *id
+    if reference != *id
         && let Ok(differences) = scene.differences(id.kind, &id.name)
     {
         let known: Vec<f64> = differences.iter().filter_map(|d| d.ok()).collect();
@@ -84,7 +84,7 @@ fn measures(scene: &Scene<'_>, id: &SourceId) -> Vec<Fact> {
     let Ok(locus) = scene.locus(id.kind, &id.name) else { return facts };
     let words = format!("{} in xy, 1000–20000 K (the paper's “dynamic range”)", fixed(locus.length_xy(), 3));
     facts.push(("Locus length", words));
-    if truth != *id
+    if reference != *id
         && let Ok(Ok(())) = scene.comparable(id.kind, &id.name)
         && let Some(nearest) = scene.nearest_to_reference(id.kind, &id.name, Diagram::Xy)
     {
@@ -111,14 +111,14 @@ pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ("Range", range_words(light.measured.range_nm())),
         ("Resampled", facts::resampling_words(&light.measured, Quantity::Light)),
     ];
-    if let Ok(observer) = scene.sensor(Kind::Observer, REFERENCE)
+    if let Ok(observer) = scene.sensor(SetKind::Observer, FIT_TARGET)
         && observer.primaries() == Primaries::Xyz
     {
         let [x, y, z] = observer.integrate(light.grid.values());
         let xyz = chromascope_core::colorimetry::Xyz::new(x, y, z);
         if let Some((xy, uv)) = xyz.chromaticity().zip(xyz.uv_prime()) {
             let words = format!(
-                "x {} y {}, u′ {} v′ {} for {REFERENCE}",
+                "x {} y {}, u′ {} v′ {} for {FIT_TARGET}",
                 fixed(xy.x, 4),
                 fixed(xy.y, 4),
                 fixed(uv.u, 4),
@@ -129,7 +129,7 @@ pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     match &scene.document.light {
         Light::Set(name) => {
-            if let Ok(entry) = scene.entry(Kind::Illuminant, name) {
+            if let Ok(entry) = scene.entry(SetKind::Illuminant, name) {
                 if let Some(also) = &entry.also {
                     ui.label(also);
                 }

@@ -6,7 +6,7 @@ use egui::{Rect, RichText, Ui, Vec2};
 
 use crate::action::Action;
 use crate::document::start::Start;
-use crate::document::{WayChoice, WhiteChoice};
+use crate::document::{TransformChoice, WhiteBalanceChoice};
 use crate::paint;
 use crate::panes::PaneContext;
 use crate::theme::{Theme, UNIT};
@@ -28,17 +28,17 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         marker: Some(marker),
         fill: Some(role.into()),
     };
-    let thick = line(InkRole::Truth, Marker::Plus, 4.0);
+    let thick = line(InkRole::Reference, Marker::Plus, 4.0);
     entry(
         ui,
         "thick line: the reference observer's Planckian locus, from 20000 K (blue) to 1000 K (red)",
         |ui, rect| paint::key(ui.painter(), rect, &thick, &theme),
     );
-    let colored = line(InkRole::Source(0), Marker::Circle, 2.0);
+    let colored = line(InkRole::Sensor(0), Marker::Circle, 2.0);
     entry(ui, "colored lines: the Planckian locus of each camera", |ui, rect| {
         paint::key(ui.painter(), rect, &colored, &theme);
     });
-    let point = line(InkRole::Source(1), Marker::Square, 1.2);
+    let point = line(InkRole::Sensor(1), Marker::Square, 1.2);
     entry(ui, "points: chart patches; the tail leads to the reference's", |ui, rect| {
         paint::key(ui.painter(), rect, &point, &theme);
     });
@@ -95,19 +95,20 @@ fn swatch(ui: &Ui, rect: Rect, theme: &Theme) {
 fn caveat(context: &PaneContext<'_>) -> Option<&'static str> {
     let scene = &context.scene;
     let sources = scene.sources();
-    let counts_in_xyz = |source: &crate::scene::Source| {
+    let counts_in_xyz = |source: &crate::scene::ComparedSensor| {
         scene.sensor(source.kind, &source.name).is_ok_and(|sensor| sensor.primaries() == Primaries::Xyz)
     };
-    let observers = || sources.iter().filter(|source| source.visible && source.kind == crate::catalog::Kind::Observer);
-    match (&scene.document.way, &scene.document.white) {
-        (WayChoice::Paper, _) if observers().any(counts_in_xyz) => Some(
+    let observers =
+        || sources.iter().filter(|source| source.visible && source.kind == crate::catalog::SetKind::Observer);
+    match (&scene.document.transform, &scene.document.white) {
+        (TransformChoice::Paper, _) if observers().any(counts_in_xyz) => Some(
             "CIE observers are drawn directly, not through Eq 13: their lines differ from the others by construction.",
         ),
-        (_, WhiteChoice::Unity) => None,
-        (WayChoice::Observer(_), _) => {
+        (_, WhiteBalanceChoice::Unity) => None,
+        (TransformChoice::Observer(_), _) => {
             Some("White balance changes camera RGB only; the fitted matrix compensates for it.")
         }
-        (WayChoice::Paper, _) => {
+        (TransformChoice::Paper, _) => {
             Some("All colors, including the reference's, are shifted toward the white-balance target.")
         }
     }

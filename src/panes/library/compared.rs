@@ -1,14 +1,14 @@
-//! The compared sources: the only legend.
+//! The compared sensors: the only legend.
 
 use egui::{Id, Key, Rect, Response, Sense, TextEdit, TextStyle, Ui, Vec2};
 
 use crate::action::{Action, CompareAction};
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use crate::command::Command;
 use crate::panes::PaneContext;
-use crate::scene::Source;
+use crate::plot_item::{PlotItem, SensorId};
+use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, UNIT};
-use crate::thing::{SourceId, Thing};
 use crate::view::import::ImportItem;
 use crate::widgets::{focus_rim, lines};
 use crate::workspaces::PaneKind;
@@ -16,7 +16,7 @@ use crate::workspaces::PaneKind;
 /// A label that is being written.
 #[derive(Clone, Default)]
 struct Renaming {
-    kind: Option<Kind>,
+    kind: Option<SetKind>,
     name: String,
     text: String,
 }
@@ -25,8 +25,8 @@ fn renaming_id() -> Id {
     Id::unique("renamed source")
 }
 
-/// One source: key, label, tag, menu.
-pub(super) fn row(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
+/// One sensor: key, label, tag, menu.
+pub(super) fn row(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     let id = ui.scope_id().with(("compared", source.kind, &source.name));
     key(ui, Rect::from_min_size(rect.min, Vec2::new(lines::KEY + UNIT, ROW)), id, source, context);
@@ -56,7 +56,7 @@ pub(super) fn row(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
 }
 
 /// The key; a click hides or shows.
-fn key(ui: &Ui, rect: Rect, id: Id, source: &Source, context: &mut PaneContext<'_>) {
+fn key(ui: &Ui, rect: Rect, id: Id, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     let response = ui.interact(rect, id.with("key"), Sense::click());
     let verb = if source.visible { "Hide" } else { "Show" };
     let name = format!("{verb} {}", source.label);
@@ -73,18 +73,18 @@ fn key(ui: &Ui, rect: Rect, id: Id, source: &Source, context: &mut PaneContext<'
     }
 }
 
-fn toggle(source: &Source, context: &mut PaneContext<'_>) {
+fn toggle(source: &ComparedSensor, context: &mut PaneContext<'_>) {
     let action = CompareAction::SetVisible(source.kind, source.name.clone(), !source.visible);
     context.push(Action::Compare(action));
 }
 
-fn thing(source: &Source) -> Thing {
-    Thing::Source(SourceId { kind: source.kind, name: source.name.clone() })
+fn thing(source: &ComparedSensor) -> PlotItem {
+    PlotItem::Sensor(SensorId { kind: source.kind, name: source.name.clone() })
 }
 
-/// What the source is besides; returns the width it takes.
-fn tag(ui: &Ui, rect: Rect, source: &Source, context: &PaneContext<'_>) -> f32 {
-    let words = match (source.is_truth, source.is_own) {
+/// What the sensor is besides; returns the width it takes.
+fn tag(ui: &Ui, rect: Rect, source: &ComparedSensor, context: &PaneContext<'_>) -> f32 {
+    let words = match (source.is_reference, source.is_own) {
         (true, _) => "reference",
         (_, true) => "yours",
         _ => return 0.0,
@@ -92,8 +92,8 @@ fn tag(ui: &Ui, rect: Rect, source: &Source, context: &PaneContext<'_>) -> f32 {
     lines::right_aligned(ui, rect, words, TextStyle::Small, context.theme.weak) + UNIT
 }
 
-/// Why the source cannot be shown, if so.
-fn trouble(source: &Source, context: &PaneContext<'_>) -> Option<String> {
+/// Why the sensor cannot be shown, if so.
+fn trouble(source: &ComparedSensor, context: &PaneContext<'_>) -> Option<String> {
     use chromascope_core::query::Ask;
     let scene = &context.scene;
     match scene.rendering_of(source.kind, &source.name) {
@@ -107,7 +107,7 @@ fn trouble(source: &Source, context: &PaneContext<'_>) -> Option<String> {
 }
 
 /// The name; a click selects.
-fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &Source, context: &mut PaneContext<'_>) {
+fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     let thing = thing(source);
     let selected = context.view.selected.as_ref().is_some_and(|chosen| chosen.source() == thing.source());
     let frame = rect.expand2(Vec2::new(UNIT, 0.0));
@@ -134,7 +134,7 @@ fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &Source, context: &mut 
 }
 
 /// The whole name; all else stands in the inspector after a click, where it covers nothing.
-fn hint(response: Response, source: &Source, context: &PaneContext<'_>) {
+fn hint(response: Response, source: &ComparedSensor, context: &PaneContext<'_>) {
     let also = context.scene.entry(source.kind, &source.name).ok().and_then(|entry| entry.also);
     response.on_hover_ui(|ui| {
         ui.strong(&source.name);
@@ -145,12 +145,12 @@ fn hint(response: Response, source: &Source, context: &PaneContext<'_>) {
     });
 }
 
-/// What can be done with a source.
-fn menu(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
+/// What can be done with a sensor.
+fn menu(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     ui.set_min_width(150.0);
     let name = source.name.clone();
-    if source.kind == Kind::Observer && offer(ui, "Make reference", !source.is_truth) {
-        let counts_in_xyz = context.scene.entry(Kind::Observer, &name).is_ok_and(|entry| entry.counts_in_xyz());
+    if source.kind == SetKind::Observer && offer(ui, "Make reference", !source.is_reference) {
+        let counts_in_xyz = context.scene.entry(SetKind::Observer, &name).is_ok_and(|entry| entry.counts_in_xyz());
         context.push(Action::Compare(CompareAction::SetReference { name: name.clone(), counts_in_xyz }));
     }
     if offer(ui, "Rename…", true) {
@@ -160,7 +160,7 @@ fn menu(ui: &mut Ui, source: &Source, context: &mut PaneContext<'_>) {
     if offer(ui, if source.visible { "Hide" } else { "Show" }, true) {
         toggle(source, context);
     }
-    if offer(ui, "Take off", !source.is_truth) {
+    if offer(ui, "Take off", !source.is_reference) {
         context.push(Action::Compare(CompareAction::Remove(source.kind, name)));
     }
     if offer(ui, "Source", true) {

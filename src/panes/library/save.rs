@@ -3,7 +3,7 @@
 use egui::{Key, Modifiers, Popup, Rect, Response, Sense, Ui};
 
 use crate::action::{Action, OwnAction};
-use crate::catalog::{Entry, Kind};
+use crate::catalog::{Entry, SetKind};
 use crate::command::Command;
 use crate::export::spectra::{Form, fits};
 use crate::panes::PaneContext;
@@ -57,7 +57,7 @@ fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
 }
 
 /// The forms a set can be saved in; those that are not for such a set say why.
-pub(super) fn save_as(ui: &mut Ui, kind: Kind, name: &str, context: &mut PaneContext<'_>) {
+pub(super) fn save_as(ui: &mut Ui, kind: SetKind, name: &str, context: &mut PaneContext<'_>) {
     ui.menu_button("Save as", |ui| {
         let Ok(entry) = context.scene.entry(kind, name) else { return };
         for form in Form::ALL {

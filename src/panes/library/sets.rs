@@ -7,7 +7,7 @@ use egui::{Rect, Response, ScrollArea, Sense, TextStyle, Ui, Vec2};
 
 use super::save;
 use crate::action::{Action, CompareAction, SceneAction};
-use crate::catalog::{Entry, Kind, names};
+use crate::catalog::{Entry, SetKind, names};
 use crate::command::Command;
 use crate::document::Light;
 use crate::document::own::OwnSet;
@@ -27,7 +27,7 @@ pub(super) enum Row<'a> {
     /// The head of a group.
     Group {
         /// What it is of.
-        kind: Kind,
+        kind: SetKind,
         /// How many sets it has; while searching, how many match.
         count: usize,
         /// Whether its sets follow.
@@ -56,13 +56,13 @@ pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
     let searching = !search.is_empty();
     let (document, catalog) = (context.scene.document, context.scene.catalog);
     let mut rows = Vec::new();
-    for kind in Kind::ALL {
+    for kind in SetKind::ALL {
         let matches = |entry: &Entry| names::matches_search(entry, search);
-        let own = document.own.iter().filter(|set| Kind::of_own(set) == kind);
+        let own = document.own.iter().filter(|set| SetKind::of_own(set) == kind);
         let own = own.filter(|set| !searching || matches(&Entry::from_own(set))).map(Row::Own);
         let built_in = catalog.of_kind(kind).filter(|entry| !searching || matches(entry)).map(Row::BuiltIn);
         let found: Vec<Row<'a>> = own.chain(built_in).collect();
-        if found.is_empty() && (searching || kind == Kind::Unsorted) {
+        if found.is_empty() && (searching || kind == SetKind::Unsorted) {
             continue;
         }
         let open = searching || !context.view.saved.folded.contains(kind.plural());
@@ -104,7 +104,7 @@ pub(super) fn list(ui: &mut Ui, rows: &[Row<'_>], context: &mut PaneContext<'_>)
 }
 
 /// The head of a group; a click folds it.
-fn group(ui: &mut Ui, kind: Kind, count: usize, open: bool, context: &mut PaneContext<'_>) {
+fn group(ui: &mut Ui, kind: SetKind, count: usize, open: bool, context: &mut PaneContext<'_>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::click());
     let title = title(kind);
     let name = format!("{title} {count}");
@@ -124,14 +124,14 @@ fn group(ui: &mut Ui, kind: Kind, count: usize, open: bool, context: &mut PaneCo
     }
 }
 
-const fn title(kind: Kind) -> &'static str {
+const fn title(kind: SetKind) -> &'static str {
     match kind {
-        Kind::Camera => "Cameras",
-        Kind::Observer => "Observers",
-        Kind::Chart => "Charts",
-        Kind::Illuminant => "Illuminants",
-        Kind::Material => "Materials",
-        Kind::Unsorted => "Unsorted",
+        SetKind::Camera => "Cameras",
+        SetKind::Observer => "Observers",
+        SetKind::Chart => "Charts",
+        SetKind::Illuminant => "Illuminants",
+        SetKind::Material => "Materials",
+        SetKind::Unsorted => "Unsorted",
     }
 }
 
@@ -146,36 +146,36 @@ fn rim(ui: &Ui, rect: Rect, response: &Response, context: &PaneContext<'_>) {
 fn state(entry: &Entry, context: &PaneContext<'_>) -> (bool, bool) {
     let document = context.scene.document;
     match entry.kind {
-        Kind::Camera | Kind::Observer => {
+        SetKind::Camera | SetKind::Observer => {
             let on = document.compared(entry.kind, &entry.name).is_some();
-            (on, entry.kind != Kind::Observer || entry.name != document.truth)
+            (on, entry.kind != SetKind::Observer || entry.name != document.reference)
         }
-        Kind::Chart | Kind::Material => (document.chart == entry.name, true),
-        Kind::Illuminant => (document.light == Light::Set(entry.name.clone()), true),
-        Kind::Unsorted => (false, true),
+        SetKind::Chart | SetKind::Material => (document.chart == entry.name, true),
+        SetKind::Illuminant => (document.light == Light::Set(entry.name.clone()), true),
+        SetKind::Unsorted => (false, true),
     }
 }
 
 /// Puts a set to use, or a compared one off.
 pub(super) fn choose(entry: &Entry, on: bool, context: &mut PaneContext<'_>) {
     let name = entry.name.clone();
-    if entry.kind == Kind::Unsorted {
+    if entry.kind == SetKind::Unsorted {
         // What it is has to be said first.
         context.push(Command::ShowImport(ImportItem::Set(name), None));
         return;
     }
     context.push(match entry.kind {
-        Kind::Camera | Kind::Observer if on => Action::Compare(CompareAction::Add(entry.kind, name)),
-        Kind::Camera | Kind::Observer => Action::Compare(CompareAction::Remove(entry.kind, name)),
-        Kind::Chart | Kind::Material => Action::Scene(SceneAction::SetChart(name)),
-        Kind::Illuminant | Kind::Unsorted => Action::Scene(SceneAction::SetLight(Light::Set(name))),
+        SetKind::Camera | SetKind::Observer if on => Action::Compare(CompareAction::Add(entry.kind, name)),
+        SetKind::Camera | SetKind::Observer => Action::Compare(CompareAction::Remove(entry.kind, name)),
+        SetKind::Chart | SetKind::Material => Action::Scene(SceneAction::SetChart(name)),
+        SetKind::Illuminant | SetKind::Unsorted => Action::Scene(SceneAction::SetLight(Light::Set(name))),
     });
 }
 
 /// One set.
 fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     let (on, enabled) = state(entry, context);
-    let ticks = matches!(entry.kind, Kind::Camera | Kind::Observer);
+    let ticks = matches!(entry.kind, SetKind::Camera | SetKind::Observer);
     let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     let id = ui.scope_id().with(("set", entry.kind, &entry.name, entry.is_own()));
     let mut row = Rect::from_min_max(rect.min + Vec2::new(2.0 * UNIT, 0.0), rect.max);
@@ -201,7 +201,7 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
         words.max.x -= lines::right_aligned(ui, words, "digitized", TextStyle::Small, context.theme.weak) + UNIT;
     }
     let color = if enabled { context.theme.text } else { context.theme.weak };
-    let shown = if entry.kind == Kind::Illuminant && entry.name == "E" { "E, equal energy" } else { &entry.name };
+    let shown = if entry.kind == SetKind::Illuminant && entry.name == "E" { "E, equal energy" } else { &entry.name };
     lines::elided(ui, words, shown, TextStyle::Body, color);
     if enabled && response.clicked() && (ticks || !on) {
         choose(entry, !on, context);

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use egui::{Id, Key, Rect, ScrollArea, TextEdit, Ui, UiBuilder, Vec2};
 
 use super::{compared, sets};
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use crate::panes::PaneContext;
 use crate::theme::{ROW, UNIT};
 use crate::widgets::mark_all;
@@ -45,12 +45,12 @@ fn compared(ui: &mut Ui, height: f32, context: &mut PaneContext<'_>) {
     let (share, [least, most]) = COMPARED;
     let rows = (share * height / pitch).floor().clamp(least, most);
     let seen = Id::unique("compared sensors seen");
-    let now: Vec<(Kind, String)> = sources.iter().map(|source| (source.kind, source.name.clone())).collect();
-    let before: Option<Vec<(Kind, String)>> = ui.data(|data| data.get_temp(seen));
+    let now: Vec<(SetKind, String)> = sources.iter().map(|source| (source.kind, source.name.clone())).collect();
+    let before: Option<Vec<(SetKind, String)>> = ui.data(|data| data.get_temp(seen));
     let area = ScrollArea::vertical().id_salt("compared").max_height(rows * pitch).auto_shrink(false);
     // One that was just added is brought into sight.
     let added = before.as_ref().filter(|before| before.len() < now.len()).and_then(|before| {
-        let before: HashSet<&(Kind, String)> = before.iter().collect();
+        let before: HashSet<&(SetKind, String)> = before.iter().collect();
         now.iter().rposition(|key| !before.contains(key))
     });
     area.show_rows(ui, ROW, sources.len(), |ui, range| {

@@ -3,8 +3,8 @@
 use egui::{Pos2, Rect, Vec2};
 
 use crate::panes::PaneContext;
-use crate::scene::Source;
-use crate::thing::SourceId;
+use crate::plot_item::SensorId;
+use crate::scene::ComparedSensor;
 use crate::view::render::RenderMode;
 
 /// Height of the line above a picture.
@@ -16,8 +16,8 @@ const SCALE: f32 = 40.0;
 
 /// A picture's place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cell {
-    /// Its source's index among those asked for.
+pub(super) struct PictureSlot {
+    /// Its sensor's index among those asked for.
     pub(super) source: usize,
     /// The line above it.
     pub(super) caption: Rect,
@@ -26,13 +26,13 @@ pub(super) struct Cell {
 }
 
 /// What stands where.
-pub(super) struct Stand {
+pub(super) struct PictureLayout {
     /// How pictures stand.
     pub(super) mode: RenderMode,
-    /// The sources that are asked for, the truth first.
-    pub(super) sources: Vec<Source>,
+    /// The sensors that are asked for, the reference first.
+    pub(super) sources: Vec<ComparedSensor>,
     /// The pictures; the two halves of a split one share their place.
-    pub(super) cells: Vec<Cell>,
+    pub(super) cells: Vec<PictureSlot>,
     /// Where the divider of a split picture is.
     pub(super) divider: Option<f32>,
     /// Where the scale of differences is.
@@ -41,9 +41,9 @@ pub(super) struct Stand {
     pub(super) pixels: [u32; 2],
 }
 
-impl Stand {
+impl PictureLayout {
     /// Places pictures in an area, as large as they can be.
-    pub(super) fn new(all: &[Source], body: Rect, pixels_per_point: f32, context: &PaneContext<'_>) -> Self {
+    pub(super) fn new(all: &[ComparedSensor], body: Rect, pixels_per_point: f32, context: &PaneContext<'_>) -> Self {
         let mode = context.view.saved.render.mode;
         let (sources, shown) = match mode {
             RenderMode::Grid => (all.to_vec(), (0..all.len()).collect::<Vec<_>>()),
@@ -51,7 +51,7 @@ impl Stand {
             RenderMode::Split | RenderMode::One => {
                 let chosen = chosen(all, context.view.render.chosen.as_ref());
                 let mut sources = all.first().cloned().into_iter().collect::<Vec<_>>();
-                sources.extend(chosen.filter(|source| !source.is_truth).cloned());
+                sources.extend(chosen.filter(|source| !source.is_reference).cloned());
                 let last = sources.len().saturating_sub(1);
                 let shown = if mode == RenderMode::One { last..sources.len() } else { 0..sources.len() };
                 (sources, shown.collect())
@@ -72,9 +72,9 @@ impl Stand {
             let step = Vec2::new(size.x + GAP, size.y + CAPTION);
             let offset = Vec2::new((index % columns) as f32 * step.x, (index / columns) as f32 * step.y);
             let caption = Rect::from_min_size(area.min + offset, Vec2::new(size.x, CAPTION));
-            Cell { source, caption, picture: Rect::from_min_size(snapped(caption.left_bottom()), whole) }
+            PictureSlot { source, caption, picture: Rect::from_min_size(snapped(caption.left_bottom()), whole) }
         };
-        let cells: Vec<Cell> = shown.iter().enumerate().map(cell).collect();
+        let cells: Vec<PictureSlot> = shown.iter().enumerate().map(cell).collect();
         let share = context.view.saved.render.split.clamp(0.0, 1.0);
         let divider = cells.first().filter(|_| overlaid).map(|cell| {
             let x = cell.picture.left() + share * cell.picture.width();
@@ -105,10 +105,11 @@ impl Stand {
     }
 }
 
-/// The source that stands alone or beside the truth: the chosen one, else the first camera, else the truth.
-pub(super) fn chosen<'a>(all: &'a [Source], chosen: Option<&SourceId>) -> Option<&'a Source> {
-    let is_chosen = |source: &&Source| chosen.is_some_and(|id| source.kind == id.kind && source.name == id.name);
-    all.iter().find(is_chosen).or_else(|| all.iter().find(|source| !source.is_truth)).or_else(|| all.first())
+/// The sensor that stands alone or beside the reference: the chosen one, else the first camera, else the reference.
+pub(super) fn chosen<'a>(all: &'a [ComparedSensor], chosen: Option<&SensorId>) -> Option<&'a ComparedSensor> {
+    let is_chosen =
+        |source: &&ComparedSensor| chosen.is_some_and(|id| source.kind == id.kind && source.name == id.name);
+    all.iter().find(is_chosen).or_else(|| all.iter().find(|source| !source.is_reference)).or_else(|| all.first())
 }
 
 /// How many pictures stand side by side, and their size: such that the smaller side is as large as it can be.

@@ -5,17 +5,17 @@ use egui::{
     Align2, ComboBox, CursorIcon, FontId, Key, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, UiBuilder, Vec2,
 };
 
-use super::cells::{CAPTION, Cell, Stand, chosen};
+use super::cells::{CAPTION, PictureLayout, PictureSlot, chosen};
 use super::difference;
 use crate::figures::chromaticity::id;
 use crate::figures::render::headline::{self, Detail};
 use crate::figures::render::{difference as maps, index_of};
-use crate::paint::{self, PictureOf};
+use crate::paint::{self, PictureQuery};
 use crate::panes::PaneContext;
-use crate::scene::Source;
-use crate::studio::Shot;
+use crate::plot_item::PickIndex;
+use crate::render_service::RenderedFrame;
+use crate::scene::ComparedSensor;
 use crate::theme::TEXT;
-use crate::thing::Things;
 use crate::view::render::RenderMode;
 use crate::widgets::lines;
 
@@ -28,14 +28,15 @@ const WITH_LARGEST: f32 = 540.0;
 const RING: f32 = 7.0;
 
 /// Draws what stands in the pane, as far as it was made.
-pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &Stand, context: &mut PaneContext<'_>) {
+pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, context: &mut PaneContext<'_>) {
     let shot = context.view.render.shot.clone();
     let scale = shot.as_deref().filter(|_| stand.scale.is_some()).map(maps::scale_end);
     for (index, cell) in stand.cells.iter().enumerate() {
         let Some(source) = stand.sources.get(cell.source) else { continue };
-        let index_in = |source: &Source| shot.as_deref().and_then(|shot| Some((shot, index_of(shot, &id(source))?)));
+        let index_in =
+            |source: &ComparedSensor| shot.as_deref().and_then(|shot| Some((shot, index_of(shot, &id(source))?)));
         let found = index_in(source);
-        // While B is held the truth stands in for every camera; a map of differences has none.
+        // While B is held the reference stands in for every camera; a map of differences has none.
         let blinking = context.view.blink && scale.is_none();
         let drawn = if blinking { stand.sources.first().and_then(index_in) } else { found };
         if let Some((shot, at)) = drawn {
@@ -56,9 +57,9 @@ pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &Stand, context: &
 fn picture(
     ui: &Ui,
     painter: &Painter,
-    stand: &Stand,
+    stand: &PictureLayout,
     cell: usize,
-    (shot, at): (&Shot, usize),
+    (shot, at): (&RenderedFrame, usize),
     scale: Option<f32>,
     context: &mut PaneContext<'_>,
 ) {
@@ -75,14 +76,14 @@ fn picture(
             let textures = &mut context.view.render.textures;
             match scale {
                 None => {
-                    let of = PictureOf { name: &name, version: shot.serial, rect, clip, sharp };
+                    let of = PictureQuery { name: &name, version: shot.serial, rect, clip, sharp };
                     textures.draw(painter, of, || ([made.width, made.height], made.rgba.clone()));
                 }
                 Some(end) => {
                     let name = format!("{name}, difference");
                     // The same map in another scale is another picture.
                     let version = (shot.serial << 16) ^ u64::from(end.to_bits() >> 8);
-                    let of = PictureOf { name: &name, version, rect, clip, sharp };
+                    let of = PictureQuery { name: &name, version, rect, clip, sharp };
                     textures.draw(painter, of, || maps::map(shot, at, end));
                 }
             }
@@ -101,30 +102,30 @@ struct Note {
 }
 
 /// The note of a picture's caption.
-fn note(shot: &Shot, at: usize, width: f32, context: &PaneContext<'_>) -> Option<Note> {
+fn note(shot: &RenderedFrame, at: usize, width: f32, context: &PaneContext<'_>) -> Option<Note> {
     let difference = shot.made()?.differences.get(at)?.as_ref()?;
     let words = |detail| headline::words(difference, headline::measure(context.scene.document), detail);
     let steps = [
         (WITH_LARGEST, Detail::Largest),
         (WITH_QUANTILES, Detail::Quantiles),
-        (WITH_MEASURE, Detail::Measure),
+        (WITH_MEASURE, Detail::SpectralWeights),
         (WITH_NOTE, Detail::Number),
     ];
     let short = steps.into_iter().find(|(least, _)| width >= *least).map(|(_, detail)| words(detail));
     Some(Note { short, full: words(Detail::Largest) })
 }
 
-/// What a source is called above its picture.
-fn title(source: &Source) -> String {
-    if source.is_truth { format!("Reference, {}", source.label) } else { source.label.clone() }
+/// What a sensor is called above its picture.
+fn title(source: &ComparedSensor) -> String {
+    if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() }
 }
 
-/// A source's marker and name, and a note at the right.
+/// A sensor's marker and name, and a note at the right.
 fn caption(
     ui: &mut Ui,
     painter: &Painter,
-    cell: &Cell,
-    source: &Source,
+    cell: &PictureSlot,
+    source: &ComparedSensor,
     note: Option<&Note>,
     context: &PaneContext<'_>,
 ) {
@@ -147,18 +148,18 @@ fn caption(
     }
 }
 
-fn marker(painter: &Painter, rect: Rect, source: &Source, context: &PaneContext<'_>) {
+fn marker(painter: &Painter, rect: Rect, source: &ComparedSensor, context: &PaneContext<'_>) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let area = Area::from_min_size([0.0, 0.0], size);
     let mut panel = Panel::board("marker", area, Ink::new(InkRole::Surround));
     let shape = Shape::Points { points: vec![size.map(|side| side / 2.0)], marker: source.marker, radius: 5.0 };
-    let mark = Mark::new(Things::NONE, source.label.clone(), shape).with_stroke(InkRole::OnSurround, 1.5);
+    let mark = Mark::new(PickIndex::NONE, source.label.clone(), shape).with_stroke(InkRole::OnSurround, 1.5);
     panel.marks.push(if source.marker.has_inside() { mark.with_fill(InkRole::OnSurround) } else { mark });
     paint::still(painter, &panel, &context.theme, rect);
 }
 
 /// The ring around the pixel that is kept, in every picture.
-fn ring(painter: &Painter, stand: &Stand, cell: usize, context: &PaneContext<'_>) {
+fn ring(painter: &Painter, stand: &PictureLayout, cell: usize, context: &PaneContext<'_>) {
     let Some(pinned) = &context.view.render.pinned else { return };
     let picture = stand.cells[cell].picture;
     let at = picture.min + Vec2::new(pinned.at[0] as f32, pinned.at[1] as f32) * picture.size();
@@ -169,7 +170,7 @@ fn ring(painter: &Painter, stand: &Stand, cell: usize, context: &PaneContext<'_>
 }
 
 /// The divider of a split picture: drag it, or move it with arrows.
-pub(super) fn divider(ui: &mut Ui, stand: &Stand, context: &mut PaneContext<'_>) {
+pub(super) fn divider(ui: &mut Ui, stand: &PictureLayout, context: &mut PaneContext<'_>) {
     let (Some(x), Some(cell)) = (stand.divider, stand.cells.first()) else { return };
     let picture = cell.picture;
     let line = Rect::from_min_max(Pos2::new(x - 6.0, picture.top()), Pos2::new(x + 6.0, picture.bottom()));
@@ -205,7 +206,7 @@ pub(super) fn divider(ui: &mut Ui, stand: &Stand, context: &mut PaneContext<'_>)
 }
 
 /// The line above a single or split picture, with a list to choose its source from.
-pub(super) fn choosers(ui: &mut Ui, stand: &Stand, sources: &[Source], context: &mut PaneContext<'_>) {
+pub(super) fn choosers(ui: &mut Ui, stand: &PictureLayout, sources: &[ComparedSensor], context: &mut PaneContext<'_>) {
     let Some(cell) = stand.cells.first() else { return };
     if !matches!(stand.mode, RenderMode::One | RenderMode::Split) {
         return;
@@ -215,10 +216,10 @@ pub(super) fn choosers(ui: &mut Ui, stand: &Stand, sources: &[Source], context: 
     let row = cell.caption.shrink2(Vec2::new(8.0, 0.0));
     let mut left = row.left();
     if stand.mode == RenderMode::Split {
-        if let Some(truth) = stand.sources.first() {
+        if let Some(reference) = stand.sources.first() {
             let half = Rect::from_min_max(cell.caption.min, Pos2::new(row.center().x, row.bottom()));
-            let truth_cell = Cell { caption: half, ..*cell };
-            caption(ui, &painter, &truth_cell, truth, None, context);
+            let reference_cell = PictureSlot { caption: half, ..*cell };
+            caption(ui, &painter, &reference_cell, reference, None, context);
         }
         left = row.center().x;
     }
@@ -231,7 +232,7 @@ pub(super) fn choosers(ui: &mut Ui, stand: &Stand, sources: &[Source], context: 
     child.spacing_mut().button_padding.y = 1.0;
     let combo = ComboBox::from_id_salt("source on show").width(place.width()).truncate().selected_text(title(&now));
     let response = combo.show_ui(&mut child, |ui| {
-        for source in sources.iter().filter(|source| stand.mode == RenderMode::One || !source.is_truth) {
+        for source in sources.iter().filter(|source| stand.mode == RenderMode::One || !source.is_reference) {
             let here = source.kind == now.kind && source.name == now.name;
             if ui.selectable_label(here, title(source)).clicked() {
                 context.view.render.chosen = Some(id(source));

@@ -2,12 +2,12 @@
 
 use chromascope_core::colorimetry::rgb::srgb_inverse_transfer;
 use chromascope_core::query::Shared;
-use chromascope_core::query::render::{MeshOf, PicturesOf};
+use chromascope_core::query::render::{MeshQuery, PicturesQuery};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_mesh::Mesh;
 use egui::Ui;
 
-use super::cells::Stand;
+use super::cells::PictureLayout;
 use crate::catalog::meshes::MeshState;
 use crate::document::render::{MeshChoice, QualityChoice, RenderSettings};
 use crate::panes::PaneContext;
@@ -16,7 +16,7 @@ use crate::view::render::{Orbit, RenderMode};
 
 /// Above so many pixels in all, pictures of something that moves have half the resolution.
 const MANY_PIXELS: u64 = 1_500_000;
-/// So many samples are compared with the truth while something moves, and at rest.
+/// So many samples are compared with the reference while something moves, and at rest.
 const COMPARED: [usize; 2] = [2048, 16384];
 /// Samples along the side of a pixel in the finest pictures, and the most in all: beyond, there are fewer to a pixel.
 const SAMPLES: u32 = 3;
@@ -25,7 +25,7 @@ const MOST_SAMPLES: u64 = 6_000_000;
 const TABLES_REACH: f64 = 1e-8;
 
 /// Asks for the pictures that stand here. Says why there are none.
-pub(super) fn ask(ui: &Ui, stand: &Stand, context: &mut PaneContext<'_>) -> Result<(), String> {
+pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>) -> Result<(), String> {
     let mesh = mesh(context)?;
     if stand.cells.is_empty() {
         return Err("Tick a camera in the Library.".to_owned());
@@ -63,7 +63,7 @@ pub(super) fn ask(ui: &Ui, stand: &Stand, context: &mut PaneContext<'_>) -> Resu
 }
 
 /// The mesh, or what is to be said while there is none.
-fn mesh(context: &PaneContext<'_>) -> Result<MeshOf, String> {
+fn mesh(context: &PaneContext<'_>) -> Result<MeshQuery, String> {
     let own: Option<Shared<Mesh>> = match &context.scene.document.render.mesh {
         MeshChoice::File(path) => match context.meshes.get(path) {
             MeshState::Ready(mesh) => Some(mesh.mesh.clone()),
@@ -80,8 +80,8 @@ fn mesh(context: &PaneContext<'_>) -> Result<MeshOf, String> {
 
 /// The pictures as they are to be in the end, with the stages before.
 struct Wish<'a, 'b> {
-    stand: &'a Stand,
-    mesh: MeshOf,
+    stand: &'a PictureLayout,
+    mesh: MeshQuery,
     context: &'a PaneContext<'b>,
 }
 
@@ -127,7 +127,7 @@ impl Wish<'_, '_> {
         Finish { size: self.size(samples), quality: chosen.quality(), ..self.middle() }
     }
 
-    fn query(&self, finish: Finish) -> Result<PicturesOf, String> {
+    fn query(&self, finish: Finish) -> Result<PicturesQuery, String> {
         let look = &self.context.view.saved.render;
         let orbit = look.orbit.unwrap_or_else(|| Orbit::of(&self.context.scene.document.render.mesh));
         let [width, height] = self.stand.pixels;

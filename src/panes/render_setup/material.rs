@@ -3,7 +3,7 @@
 use egui::{ComboBox, ScrollArea, TextEdit, Ui};
 
 use super::set;
-use crate::catalog::{Entry, Kind, names};
+use crate::catalog::{Entry, SetKind, names};
 use crate::panes::PaneContext;
 use crate::theme::ROW;
 use crate::widgets::facts;
@@ -58,8 +58,8 @@ enum Row {
 /// The user's own reflectances, then the built-in ones by file, as far as they match.
 fn rows(context: &PaneContext<'_>) -> Vec<Row> {
     let search = &context.view.render.material_search;
-    let own = context.scene.entries(Kind::Chart).filter(Entry::is_own);
-    let all = own.chain(context.scene.entries(Kind::Material));
+    let own = context.scene.entries(SetKind::Chart).filter(Entry::is_own);
+    let all = own.chain(context.scene.entries(SetKind::Material));
     let mut rows = Vec::new();
     let mut last = String::new();
     let mut found: Vec<Entry> = all.filter(|entry| names::matches_search(entry, search)).collect();

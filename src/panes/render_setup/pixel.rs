@@ -4,9 +4,9 @@ use egui::{Grid, RichText, Ui};
 
 use crate::figures::render::{facts, headline, index_of, pixel_of};
 use crate::panes::PaneContext;
-use crate::studio::pixel::PixelShows;
+use crate::plot_item::SensorId;
+use crate::render_service::pixel::PixelShows;
 use crate::theme::UNIT;
-use crate::thing::SourceId;
 use crate::view::render::{PixelPlace, RenderView};
 
 /// Shows the group.
@@ -50,32 +50,32 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
                  same roughness that faces the light has Y = 1. g: at 550 nm.",
             );
             others(ui, &place, context);
-            if let Some((_, way)) = lit.roughness {
-                ui.label(RichText::new(format!("g at 550 nm, {way}")).small().color(weak));
+            if let Some((_, transform)) = lit.roughness {
+                ui.label(RichText::new(format!("g at 550 nm, {transform}")).small().color(weak));
             }
         }
     }
 }
 
-/// The place in the picture it was kept in or, where that source has none now, in the last one that has.
+/// The place in the picture it was kept in or, where that sensor has none now, in the last one that has.
 fn shown(place: PixelPlace, render: &RenderView) -> PixelPlace {
     let Some(shot) = render.shot.as_deref() else { return place };
     match shot.sources.last() {
         Some(last) if index_of(shot, &place.source).is_none() => {
-            PixelPlace { source: SourceId { kind: last.kind, name: last.name.clone() }, ..place }
+            PixelPlace { source: SensorId { kind: last.kind, name: last.name.clone() }, ..place }
         }
         _ => place,
     }
 }
 
-/// The same pixel through each source, in a line each.
+/// The same pixel through each sensor, in a line each.
 fn others(ui: &mut Ui, place: &PixelPlace, context: &PaneContext<'_>) {
     let render = &context.view.render;
     let Some(shot) = render.shot.as_deref() else { return };
     let delta = if headline::measure(context.scene.document).starts_with("ΔE") { "ΔE" } else { "Δ" };
     Grid::new("pixel through all").num_columns(3).spacing([2.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
         for source in &shot.sources {
-            let place = PixelPlace { at: place.at, source: SourceId { kind: source.kind, name: source.name.clone() } };
+            let place = PixelPlace { at: place.at, source: SensorId { kind: source.kind, name: source.name.clone() } };
             let Some(PixelShows::Lit(lit)) = pixel_of(&context.scene, render, &place).map(|reading| reading.shows)
             else {
                 continue;

@@ -53,12 +53,13 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     without_picture(ui, context);
 }
 
-/// Names the sources that are on show elsewhere but have no picture.
+/// Names the sensors that are on show elsewhere but have no picture.
 fn without_picture(ui: &mut Ui, context: &PaneContext<'_>) {
     let rendered = context.scene.rendered_sources();
-    let left_out = context.scene.sources().into_iter().filter(|source| source.visible);
-    let left_out = left_out.filter(|source| !rendered.iter().any(|r| (r.kind, &r.name) == (source.kind, &source.name)));
-    let names: Vec<String> = left_out.map(|source| source.label).collect();
+    let skipped_work = context.scene.sources().into_iter().filter(|source| source.visible);
+    let skipped_work =
+        skipped_work.filter(|source| !rendered.iter().any(|r| (r.kind, &r.name) == (source.kind, &source.name)));
+    let names: Vec<String> = skipped_work.map(|source| source.label).collect();
     if !names.is_empty() {
         let words = format!("No picture: {}", names.join(", "));
         ui.label(RichText::new(words).small().color(context.theme.weak)).on_hover_text(

@@ -4,8 +4,8 @@ use egui::Ui;
 
 use crate::action::{Action, OwnAction};
 use crate::command::Command;
-use crate::document::own::Wishes;
-use crate::figures::curves::OnShow;
+use crate::document::own::ImportOverrides;
+use crate::figures::curves::ImportSelection;
 use crate::panes::PaneContext;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::ImportItem;
@@ -16,7 +16,7 @@ const SET: f32 = 290.0;
 const FILE: [f32; 2] = [380.0, 270.0];
 
 /// The height that the buttons take.
-pub(super) fn height(shown: &OnShow, width: f32) -> f32 {
+pub(super) fn height(shown: &ImportSelection, width: f32) -> f32 {
     let more = match shown.item {
         ImportItem::Set(_) => usize::from(width < SET),
         ImportItem::File(_) => FILE.into_iter().filter(|least| width < *least).count(),
@@ -26,7 +26,7 @@ pub(super) fn height(shown: &OnShow, width: f32) -> f32 {
 }
 
 /// Whether there is a file to look after.
-fn on_disk(shown: &OnShow) -> bool {
+fn on_disk(shown: &ImportSelection) -> bool {
     match (&shown.set, &shown.file) {
         (Some(set), _) => set.path.is_some(),
         (None, file) => file.as_ref().is_some_and(|file| file.origin.path.is_some()),
@@ -34,7 +34,7 @@ fn on_disk(shown: &OnShow) -> bool {
 }
 
 /// Shows the buttons.
-pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
+pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.x = UNIT;
     ui.horizontal_wrapped(|ui| match &shown.item {
         ImportItem::File(fingerprint) => {
@@ -70,7 +70,7 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
         }
     });
     ui.horizontal(|ui| {
-        let chosen = shown.wishes != Wishes::default();
+        let chosen = shown.wishes != ImportOverrides::default();
         let hint = "Read it as its content says, and other files like it from now on; Undo brings the choices back";
         let button = ui.add_enabled(chosen, egui::Button::new("Forget choices")).on_hover_text(hint);
         if button.on_disabled_hover_text("Nothing was chosen for it").clicked() {
@@ -83,7 +83,7 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
     }
 }
 
-fn alike(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
+fn alike(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let hint = "Read all open files of this kind so, and files like it from now on";
     let reads = shown.is_fresh() && shown.table().is_some();
     if ui.add_enabled(reads, egui::Button::new("Use for all like it")).on_hover_text(hint).clicked() {

@@ -4,8 +4,8 @@ use egui::Ui;
 use spectral_file::{Certainty, Role};
 
 use super::{Closed, caption, list};
-use crate::document::own::Wishes;
-use crate::figures::curves::OnShow;
+use crate::document::own::ImportOverrides;
+use crate::figures::curves::ImportSelection;
 use crate::theme::{Theme, UNIT};
 use crate::widgets::segmented;
 
@@ -13,7 +13,7 @@ use crate::widgets::segmented;
 const LISTED: usize = 500;
 
 /// Shows the switches, if the file is a camera's.
-pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, theme: &Theme) {
+pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, theme: &Theme) {
     let Some(table) = shown.table().filter(|table| table.role.value == Role::Camera) else { return };
     let found = table.reading.camera_columns;
     let mut channels = wishes.channels.or(found).unwrap_or([0, 1, 2]);

@@ -3,8 +3,8 @@
 use egui::{Id, RichText, ScrollArea, TextEdit, Ui};
 
 use crate::catalog::import::TAKEN_AT_FIRST;
-use crate::document::own::Wishes;
-use crate::figures::curves::OnShow;
+use crate::document::own::ImportOverrides;
+use crate::figures::curves::ImportSelection;
 use crate::panes::PaneContext;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::Stop;
@@ -17,7 +17,7 @@ const ROWS: usize = 6;
 const SEARCHED: usize = 8;
 
 /// Shows the list, if there is more than one curve.
-pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, context: &mut PaneContext<'_>) {
+pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, context: &mut PaneContext<'_>) {
     let Some(table) = shown.table().filter(|table| table.curves.len() > 1) else {
         hover(ui, None, false, context);
         return;

@@ -5,7 +5,7 @@ use spectral_file::Values;
 
 use super::{Closed, caption, list, name, note, switches};
 use crate::action::{Action, OwnAction};
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 use crate::document::own::{OwnSet, Role};
 use crate::figures::curves::places;
 use crate::panes::PaneContext;
@@ -113,7 +113,7 @@ fn camera(ui: &mut Ui, set: &mut OwnSet, theme: &Theme) {
 /// Why the set cannot be used as it is read now, if so.
 fn trouble(set: &OwnSet, context: &PaneContext<'_>) -> Option<String> {
     match set.role {
-        Role::Camera => context.scene.sensor(Kind::Camera, &set.name).err().map(|error| error.to_string()),
+        Role::Camera => context.scene.sensor(SetKind::Camera, &set.name).err().map(|error| error.to_string()),
         _ => match set.curves_in_nm() {
             Ok(curves) if curves.is_empty() => Some(format!("{}: it has no curve", set.name)),
             Ok(_) => None,

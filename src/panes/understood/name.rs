@@ -5,11 +5,11 @@ use egui::{Id, RichText, TextEdit, Ui};
 
 use super::caption;
 use crate::action::{Action, OwnAction};
-use crate::catalog::{Entry, Kind};
+use crate::catalog::{Entry, SetKind};
 use crate::document::own::OwnSet;
 use crate::document::uses::Holder;
 use crate::panes::PaneContext;
-use crate::thing::Thing;
+use crate::plot_item::PlotItem;
 
 /// Shows the field.
 pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
@@ -50,8 +50,8 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
 
 /// Keeps the selection on a set whose name changes.
 fn follow(old: &str, new: &str, context: &mut PaneContext<'_>) {
-    if let Some(Thing::Source(id)) = &mut context.view.selected
-        && id.kind == Kind::Camera
+    if let Some(PlotItem::Sensor(id)) = &mut context.view.selected
+        && id.kind == SetKind::Camera
         && id.name == old
     {
         new.clone_into(&mut id.name);

@@ -5,7 +5,7 @@ use spectral_file::Table;
 
 use super::note;
 use crate::dropped;
-use crate::figures::curves::{OnShow, sentence};
+use crate::figures::curves::{ImportSelection, sentence};
 use crate::number::number;
 use crate::panes::PaneContext;
 use crate::theme::UNIT;
@@ -20,7 +20,7 @@ fn led_to() -> Id {
 
 /// In the head of the pane, where nothing has to be scrolled: how many notes there are, and the way to them.
 pub(super) fn button(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let Some(shown) = OnShow::of(&context.scene, context.view) else { return };
+    let Some(shown) = ImportSelection::of(&context.scene, context.view) else { return };
     let Some(count) = shown.table().map(|table| table.warnings.len()).filter(|count| *count > 0) else { return };
     ui.add_space(UNIT);
     let words = RichText::new(counted(count)).color(context.theme.warning);
@@ -39,7 +39,7 @@ fn counted(count: usize) -> String {
 }
 
 /// Shows the notes.
-pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
+pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     let Some(table) = shown.table() else { return };
     ui.add_space(UNIT);
@@ -84,7 +84,7 @@ pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
 }
 
 /// Where the numbers are from, a line each.
-fn facts(shown: &OnShow, table: &Table) -> Vec<String> {
+fn facts(shown: &ImportSelection, table: &Table) -> Vec<String> {
     let reading = &table.reading;
     let step = reading.step_nm;
     let mut facts = vec![
@@ -104,7 +104,7 @@ fn facts(shown: &OnShow, table: &Table) -> Vec<String> {
 }
 
 /// All of it as text.
-fn text(shown: &OnShow, table: &Table) -> String {
+fn text(shown: &ImportSelection, table: &Table) -> String {
     let mut lines: Vec<String> = table.warnings.iter().map(ToString::to_string).collect();
     let decisions = table.decisions();
     lines.extend(decisions.iter().map(|d| format!("{}: {} ({}). {}.", d.what, d.value, d.certainty, d.why)));

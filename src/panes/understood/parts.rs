@@ -7,7 +7,7 @@ use spectral_file::Part;
 
 use super::note;
 use crate::command::Command;
-use crate::figures::curves::OnShow;
+use crate::figures::curves::ImportSelection;
 use crate::panes::PaneContext;
 use crate::theme::{ROW, UNIT};
 
@@ -24,7 +24,7 @@ pub(super) fn name(part: usize, known: Option<&Part>) -> String {
 }
 
 /// Shows the list, if there is more than one part.
-pub(super) fn show(ui: &mut Ui, shown: &OnShow, context: &mut PaneContext<'_>) {
+pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let (Some(table), Some(file)) = (shown.table(), &shown.file) else { return };
     let parts = &table.reading.parts;
     if parts.len() < 2 {

@@ -6,8 +6,8 @@ use spectral_file::{
 };
 
 use super::{CONTENT, CONTENT_SHORT, Closed, list, parts};
-use crate::document::own::Wishes;
-use crate::figures::curves::OnShow;
+use crate::document::own::ImportOverrides;
+use crate::figures::curves::ImportSelection;
 use crate::theme::{Theme, UNIT};
 
 /// The kinds, as a person calls them.
@@ -128,7 +128,7 @@ fn lower(words: &str) -> String {
 }
 
 /// The switches that matter for the file.
-pub(super) fn show(ui: &mut Ui, shown: &OnShow, wishes: &mut Wishes, theme: &Theme) {
+pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, theme: &Theme) {
     // What the last look says is told as long as nothing newer is known.
     let table = shown.table();
     let reading = table.map(|table| &table.reading);
@@ -194,7 +194,7 @@ fn columns(table: Option<&Table>, wish: Option<Reader>) -> bool {
 }
 
 /// The column of the wavelengths, by number and, where it has one, name.
-fn column(ui: &mut Ui, shown: &OnShow, wish: &mut Option<usize>, theme: &Theme, width: f32) {
+fn column(ui: &mut Ui, shown: &ImportSelection, wish: &mut Option<usize>, theme: &Theme, width: f32) {
     let table = shown.table();
     let decided = table.and_then(|table| table.reading.wavelength_column);
     let curves = table.map_or(0, |table| table.curves.len());
@@ -220,7 +220,7 @@ fn column(ui: &mut Ui, shown: &OnShow, wish: &mut Option<usize>, theme: &Theme, 
 }
 
 /// The names of the columns, as their line writes them.
-fn header(shown: &OnShow) -> Vec<String> {
+fn header(shown: &ImportSelection) -> Vec<String> {
     let line = || {
         let reading = &shown.table()?.reading;
         let preview = shown.look.as_ref()?.preview.as_ref().ok()?;

@@ -1,17 +1,17 @@
 //! Names as people type them: exact ones, standard designations, whole words, parts.
 
 use chromascope::catalog::names::{Found, NameError, find};
-use chromascope::catalog::{Catalog, Kind};
+use chromascope::catalog::{Catalog, SetKind};
 
 use super::{column, refused, run, table};
 
-fn found(catalog: &Catalog, kind: Kind, name: &str) -> Result<(String, bool), NameError> {
+fn found(catalog: &Catalog, kind: SetKind, name: &str) -> Result<(String, bool), NameError> {
     let Found { entry, exact, .. } = find(catalog.of_kind(kind), kind.singular(), name)?;
     Ok((entry.name.clone(), exact))
 }
 
 /// The name and what is said about it.
-fn taken(kind: Kind, name: &str) -> (String, Option<String>) {
+fn taken(kind: SetKind, name: &str) -> (String, Option<String>) {
     let catalog = Catalog::built_in();
     let found = find(catalog.of_kind(kind), kind.singular(), name).unwrap_or_else(|error| panic!("{name}: {error}"));
     (found.entry.name.clone(), found.note())
@@ -33,17 +33,17 @@ fn every_built_in_name_finds_exactly_itself() {
 #[test]
 fn standard_designations_are_exact() {
     for (kind, typed, name) in [
-        (Kind::Illuminant, "CIE D65", "D65"),
-        (Kind::Illuminant, "CIE D50", "D50"),
-        (Kind::Illuminant, "CIE A", "A"),
-        (Kind::Illuminant, "illuminant A", "A"),
-        (Kind::Illuminant, "CIE standard illuminant D65", "D65"),
-        (Kind::Illuminant, "CIE Illuminant ID65", "ID65"),
-        (Kind::Illuminant, "ID50", "ID50"),
-        (Kind::Illuminant, "CIE FL3.1", "FL3.1"),
-        (Kind::Observer, "CIE 1931 2 degree standard observer", "CIE 1931 2°"),
-        (Kind::Observer, "1964 10deg", "CIE 1964 10°"),
-        (Kind::Observer, "CIE 1931 2º", "CIE 1931 2°"),
+        (SetKind::Illuminant, "CIE D65", "D65"),
+        (SetKind::Illuminant, "CIE D50", "D50"),
+        (SetKind::Illuminant, "CIE A", "A"),
+        (SetKind::Illuminant, "illuminant A", "A"),
+        (SetKind::Illuminant, "CIE standard illuminant D65", "D65"),
+        (SetKind::Illuminant, "CIE Illuminant ID65", "ID65"),
+        (SetKind::Illuminant, "ID50", "ID50"),
+        (SetKind::Illuminant, "CIE FL3.1", "FL3.1"),
+        (SetKind::Observer, "CIE 1931 2 degree standard observer", "CIE 1931 2°"),
+        (SetKind::Observer, "1964 10deg", "CIE 1964 10°"),
+        (SetKind::Observer, "CIE 1931 2º", "CIE 1931 2°"),
     ] {
         assert_eq!(taken(kind, typed), (name.to_owned(), None), "{typed}");
     }
@@ -52,22 +52,22 @@ fn standard_designations_are_exact() {
 #[test]
 fn whole_words_win_over_parts_and_what_was_taken_is_known() {
     for (kind, typed, name) in [
-        (Kind::Observer, "CIE 1931 standard observer", "CIE 1931 2°"),
-        (Kind::Camera, "5D Mark II", "Canon EOS 5D Mark II"),
-        (Kind::Camera, "5D Mark III", "Canon EOS 5D Mark III"),
-        (Kind::Camera, "EOS R", "Canon EOS R"),
-        (Kind::Camera, "EOS R5", "Canon EOS R5"),
-        (Kind::Camera, "D200", "Nikon D200"),
-        (Kind::Camera, "10D", "Canon EOS 10D (2007 figure)"),
-        (Kind::Camera, "EOS 400D", "Canon Digital Rebel XTi"),
-        (Kind::Illuminant, "tungst", "ISO 7589 studio tungsten"),
-        (Kind::Illuminant, "tungsten", "ISO 7589 studio tungsten"),
+        (SetKind::Observer, "CIE 1931 standard observer", "CIE 1931 2°"),
+        (SetKind::Camera, "5D Mark II", "Canon EOS 5D Mark II"),
+        (SetKind::Camera, "5D Mark III", "Canon EOS 5D Mark III"),
+        (SetKind::Camera, "EOS R", "Canon EOS R"),
+        (SetKind::Camera, "EOS R5", "Canon EOS R5"),
+        (SetKind::Camera, "D200", "Nikon D200"),
+        (SetKind::Camera, "10D", "Canon EOS 10D (2007 figure)"),
+        (SetKind::Camera, "EOS 400D", "Canon Digital Rebel XTi"),
+        (SetKind::Illuminant, "tungst", "ISO 7589 studio tungsten"),
+        (SetKind::Illuminant, "tungsten", "ISO 7589 studio tungsten"),
     ] {
         assert_eq!(taken(kind, typed), (name.to_owned(), Some(format!("taking {name}"))), "{typed}");
     }
     // Of several tables of one model the first that was measured, and the others are named.
     for typed in ["Nikon D70", "d70"] {
-        let (name, note) = taken(Kind::Camera, typed);
+        let (name, note) = taken(SetKind::Camera, typed);
         let expected = "taking Nikon D70 (A.M.P.A.S.); also there: Nikon D70 (2007 figure), Nikon D70 (UPenn 2011)";
         assert_eq!(name, "Nikon D70 (A.M.P.A.S.)");
         let mut parts: Vec<&str> = note.as_deref().unwrap().split([';', ',']).collect();
@@ -84,15 +84,15 @@ fn whole_words_win_over_parts_and_what_was_taken_is_known() {
 fn what_could_be_several_is_refused() {
     let catalog = Catalog::built_in();
     for (kind, typed) in [
-        (Kind::Camera, "Nikon"),
-        (Kind::Camera, "Mark II"),
-        (Kind::Camera, "EOS-1Ds"),
-        (Kind::Observer, "2°"),
-        (Kind::Observer, "Stiles & Burch"),
-        (Kind::Illuminant, "FL3.1x"),
-        (Kind::Illuminant, ""),
-        (Kind::Illuminant, "°"),
-        (Kind::Material, "skin"),
+        (SetKind::Camera, "Nikon"),
+        (SetKind::Camera, "Mark II"),
+        (SetKind::Camera, "EOS-1Ds"),
+        (SetKind::Observer, "2°"),
+        (SetKind::Observer, "Stiles & Burch"),
+        (SetKind::Illuminant, "FL3.1x"),
+        (SetKind::Illuminant, ""),
+        (SetKind::Illuminant, "°"),
+        (SetKind::Material, "skin"),
     ] {
         assert!(found(&catalog, kind, typed).is_err(), "{typed}");
     }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use chromascope_core::query::render::ReturnedLightOf;
+use chromascope_core::query::render::ReturnedLightQuery;
 use chromascope_core::query::{Ask, Direct};
 use chromascope_core::reflectance::{
     Geometry, IlluminatedArea, Precision, Reading, Specular, Surface, diffuse_prefactor, diffuse_sum,
@@ -55,7 +55,7 @@ fn the_quadrature_agrees_with_brute_force() {
 
 #[test]
 fn skin_returns_half_of_the_light_and_next_to_nothing_at_grazing_incidence() {
-    let returned = |reading| *Direct.ask(&ReturnedLightOf { surface: skin(), reading });
+    let returned = |reading| *Direct.ask(&ReturnedLightQuery { surface: skin(), reading });
     let radiometric = returned(Reading::Radiometric);
     assert_near("normal incidence", radiometric.normal, 0.488, 5e-4);
     assert_near("at 85°", radiometric.grazing, 0.034, 5e-4);

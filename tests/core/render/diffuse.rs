@@ -3,14 +3,14 @@
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::Precision;
 use chromascope_core::render::diffuse::{DARK, DiffuseTable, ROUGH, SMOOTH, by_moments, by_nodes, rough_basis};
-use chromascope_core::render::{LAMBDA_0_NM, Measure};
+use chromascope_core::render::{LAMBDA_0_NM, SpectralWeights};
 use chromascope_core::spectral::GridSpectrum;
 
 use crate::support;
 
 /// Cameras and an observer with negative lobes.
 const SUN: &str = "illuminants/direct_sun_astm_g173.csv";
-const SENSORS: [&str; 4] = [support::TRUTH, support::CIE_1931, support::NIKON_D70, support::CANON_10D];
+const SENSORS: [&str; 4] = [support::REFERENCE, support::CIE_1931, support::NIKON_D70, support::CANON_10D];
 
 /// Points of a square that leave no direction out (a rank-one lattice: the golden ratio).
 fn lattice(count: usize) -> impl Iterator<Item = [f64; 2]> {
@@ -26,27 +26,31 @@ fn reflectances() -> [GridSpectrum; 3] {
     [GridSpectrum::from_fn(skin), GridSpectrum::from_fn(leaf), GridSpectrum::constant(1.0)]
 }
 
-fn measures(power: i32) -> Vec<Measure> {
+fn measures(power: i32) -> Vec<SpectralWeights> {
     let light = support::light(SUN);
     let mut measures = Vec::new();
     for path in SENSORS {
         let sensor = support::sensor(path);
         let divisors = white_divisors(&sensor, &light).unwrap();
         for reflectance in reflectances() {
-            measures.push(Measure::new(&sensor, &light, &reflectance, divisors, power));
+            measures.push(SpectralWeights::new(&sensor, &light, &reflectance, divisors, power));
         }
     }
     measures
 }
 
 /// The largest error of a channel relative to the largest channel at β = 0, over geometries.
-fn worst(measure: &Measure, points: impl Iterator<Item = [f64; 2]>, way: impl Fn(f64, f64) -> [f64; 3]) -> f64 {
+fn worst(
+    measure: &SpectralWeights,
+    points: impl Iterator<Item = [f64; 2]>,
+    transform: impl Fn(f64, f64) -> [f64; 3],
+) -> f64 {
     let mut worst = 0.0_f64;
     for [kappa, beta] in points {
         let exact = by_nodes(measure.dense(), kappa, beta, Precision::Full);
         let peak = by_nodes(measure.dense(), kappa, 0.0, Precision::Full);
         let peak = peak.into_iter().map(f64::abs).fold(0.0, f64::max);
-        let found = way(kappa, beta);
+        let found = transform(kappa, beta);
         for c in 0..3 {
             worst = worst.max((found[c] - exact[c]).abs() / peak);
         }
@@ -114,9 +118,9 @@ fn beyond_the_dark_limit_there_is_nothing_to_see() {
 #[test]
 fn weights_sum_to_the_plain_integrals() {
     let light = support::light(SUN);
-    let sensor = support::sensor(support::TRUTH);
+    let sensor = support::sensor(support::REFERENCE);
     let divisors = white_divisors(&sensor, &light).unwrap();
-    let white = Measure::new(&sensor, &light, &GridSpectrum::constant(1.0), divisors, 0);
+    let white = SpectralWeights::new(&sensor, &light, &GridSpectrum::constant(1.0), divisors, 0);
     for total in white.totals() {
         assert!((total - 1.0).abs() < 1e-13);
     }
@@ -135,7 +139,7 @@ fn a_black_material_gives_nothing_everywhere() {
     let light = support::light(SUN);
     let sensor = support::sensor(support::NIKON_D70);
     let divisors = white_divisors(&sensor, &light).unwrap();
-    let black = Measure::new(&sensor, &light, &GridSpectrum::constant(0.0), divisors, 2);
+    let black = SpectralWeights::new(&sensor, &light, &GridSpectrum::constant(0.0), divisors, 2);
     assert_eq!(black.totals(), [0.0; 3]);
     assert_eq!(DiffuseTable::new(&black).at(1.0, 1.0), [0.0; 3]);
     assert_eq!(by_nodes(black.fine(), 1.0, 1.0, Precision::Full), [0.0; 3]);

@@ -8,7 +8,7 @@ use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Reading, Surface, wavelength_power};
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{
-    Against, CameraImage, GeometryImage, Measure, Plan, Quality, RasterSize, ShadingImage, Stop, Visibility,
+    Against, CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, SpectralWeights, Stop, Visibility,
 };
 use chromascope_core::scene::lighting::SUN_RADIUS;
 use chromascope_core::scene::{Lighting, Viewpoint};
@@ -75,7 +75,7 @@ impl Drawn {
     }
 
     /// The error relative to the picture's brightest sample; none for a black picture.
-    fn error(&self, measures: &[[Measure; 3]; 4], quality: Quality) -> Option<f64> {
+    fn error(&self, measures: &[[SpectralWeights; 3]; 4], quality: Quality) -> Option<f64> {
         let geometry = Arc::new(self.geometry()?);
         let reading = [Reading::Radiometric, Reading::Microfacet, Reading::Paper][self.reading];
         let measure = &measures[self.camera][self.reading];
@@ -104,11 +104,11 @@ impl Drawn {
 fn every_scene_keeps_the_tolerance_relative_to_its_brightest_sample() {
     let light = support::light("illuminants/direct_sun_astm_g173.csv");
     let skin = support::patches("materials/skin_vrhel.csv").patches()[0].grid.clone();
-    let measures = [support::TRUTH, support::CANON_10D, support::NIKON_D70, support::DCS200].map(|path| {
+    let measures = [support::REFERENCE, support::CANON_10D, support::NIKON_D70, support::DCS200].map(|path| {
         let sensor = support::sensor(path);
         let divisors = white_divisors(&sensor, &light).unwrap();
         [Reading::Radiometric, Reading::Microfacet, Reading::Paper]
-            .map(|reading| Measure::new(&sensor, &light, &skin, divisors, wavelength_power(reading)))
+            .map(|reading| SpectralWeights::new(&sensor, &light, &skin, divisors, wavelength_power(reading)))
     });
     let mut runner = TestRunner::new_with_rng(support::cases(60), TestRng::deterministic_rng(RngAlgorithm::ChaCha));
     let kept = runner.run(&drawn(), |drawn| {

@@ -4,10 +4,10 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use chromascope_core::accuracy::Accuracy;
-use chromascope_core::camera::NoRendering;
+use chromascope_core::camera::RenderingError;
 use chromascope_core::query::compare::{Metric, patch_difference};
-use chromascope_core::query::render::{BrightSamples, MeshOf, MeshRoughnessOf, Pictures, Roughness};
-use chromascope_core::query::{Ask, Direct, PatchColorsOf, RenderingOf, Shared};
+use chromascope_core::query::render::{BrightSamples, MeshQuery, MeshRoughnessQuery, Pictures, Roughness};
+use chromascope_core::query::{Ask, Direct, PatchColorsQuery, RenderingQuery, Shared};
 use chromascope_core::reflectance::{Reading, Specular};
 use chromascope_core::render::{CameraImage, Quality, RasterSize, Shadows, Stop, Visibility};
 use chromascope_core::scene::Viewpoint;
@@ -16,7 +16,7 @@ use chromascope_core::spectral::GridSpectrum;
 use chromascope_mesh::{Mesh, shapes};
 use glam::Vec3;
 
-use super::studio::{Counting, Studio};
+use super::studio::{Counting, RenderService};
 use crate::support;
 
 /// The largest difference between pictures of one scene, relative to each source's largest signal or, where that is larger,
@@ -44,9 +44,9 @@ fn every_quality_keeps_its_error_against_401_wavelengths() {
     let size = if thorough() { RasterSize::new(20, 20) } else { RasterSize::new(10, 10) };
     for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet] {
         // Tables do not depend on σ: they are made once.
-        let (studio, ask) = (Studio { size, reading, ..Studio::new() }, Counting::default());
+        let (studio, ask) = (RenderService { size, reading, ..RenderService::new() }, Counting::default());
         for sigma_m in [5e-6, 0.4e-6, 0.06e-6, 2e-9] {
-            let with = |quality| Studio { sigma_m, quality, ..studio.clone() };
+            let with = |quality| RenderService { sigma_m, quality, ..studio.clone() };
             let exact = with(Quality::Exact).take(&ask);
             // Signals are kept in single precision, which alone is 6e-8.
             for (quality, bound) in [(Quality::Full, 1e-5), (Quality::Fine, 1e-7), (Quality::Preview, 1e-3)] {
@@ -69,7 +69,8 @@ fn a_picture_keeps_the_error_that_was_asked_for() {
     ] {
         for sigma_m in sigmas_m {
             let with = |quality| {
-                let mut studio = Studio { reading, sigma_m, quality, size: RasterSize::new(12, 12), ..Studio::new() };
+                let mut studio =
+                    RenderService { reading, sigma_m, quality, size: RasterSize::new(12, 12), ..RenderService::new() };
                 studio.sources.truncate(2);
                 studio
             };
@@ -89,17 +90,18 @@ fn a_picture_keeps_the_error_that_was_asked_for() {
 #[test]
 fn what_no_plan_can_promise_is_said() {
     let quality = Quality::Within(Accuracy::new(1e-14).unwrap());
-    let studio = Studio { quality, ..Studio::new() };
+    let studio = RenderService { quality, ..RenderService::new() };
     let pictures = Direct.ask(&studio.question());
     let pictures = (*pictures).as_ref().unwrap().as_ref().unwrap();
     for picture in &pictures.pictures {
-        assert!(matches!(picture, Err(NoRendering::Accuracy(_))));
+        assert!(matches!(picture, Err(RenderingError::Accuracy(_))));
     }
 }
 
 #[test]
 fn three_cases_of_g_are_seen_to_err() {
-    let with = |quality| Studio { sigma_m: 0.2e-6, quality, size: RasterSize::new(20, 20), ..Studio::new() };
+    let with =
+        |quality| RenderService { sigma_m: 0.2e-6, quality, size: RasterSize::new(20, 20), ..RenderService::new() };
     let error = apart(&with(Quality::Regimes).take(&Direct), &with(Quality::Exact).take(&Direct));
     assert!((1e-3..1.0).contains(&error), "{error:.1e}");
 }
@@ -109,7 +111,7 @@ fn the_number_of_threads_changes_nothing() {
     let with = |threads: usize, sigma_m: f64| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let size = RasterSize { width: 70, height: 60, samples: if thorough() { 2 } else { 1 } };
-        let studio = Studio { mesh: MeshOf::Fern(5_000), size, sigma_m, ..Studio::new() };
+        let studio = RenderService { mesh: MeshQuery::Fern(5_000), size, sigma_m, ..RenderService::new() };
         pool.install(|| studio.take(&Direct))
     };
     for sigma_m in [5e-6, 0.1e-6] {
@@ -134,8 +136,8 @@ fn the_number_of_threads_changes_nothing() {
 #[test]
 fn between_vertices_of_one_roughness_there_is_little_to_interpolate() {
     // A plane's σ is 0 everywhere, a fine ball's nearly the same: shading vertices comes near to shading samples.
-    let ball = MeshOf::Sphere(60_000);
-    let own = Direct.ask(&MeshRoughnessOf(ball.clone()));
+    let ball = MeshQuery::Sphere(60_000);
+    let own = Direct.ask(&MeshRoughnessQuery(ball.clone()));
     let median = |length: fn(&VertexRoughness) -> f32| {
         let mut sorted: Vec<f32> = own.iter().map(length).collect();
         sorted.sort_by(f32::total_cmp);
@@ -144,7 +146,7 @@ fn between_vertices_of_one_roughness_there_is_little_to_interpolate() {
     let (sigma_m, tau_m) = (median(|v| v.sigma_m), median(|v| v.tau_m));
     let with = |roughness| {
         let size = RasterSize::new(96, 96);
-        Studio { mesh: ball.clone(), roughness, sigma_m, tau_m, size, ..Studio::new() }.take(&Direct)
+        RenderService { mesh: ball.clone(), roughness, sigma_m, tau_m, size, ..RenderService::new() }.take(&Direct)
     };
     let [uniform, own] = [Roughness::Surface, Roughness::Mesh].map(with);
     assert_eq!(uniform.geometry, own.geometry);
@@ -160,7 +162,7 @@ fn between_vertices_of_one_roughness_there_is_little_to_interpolate() {
 fn by_the_papers_own_roughness_a_head_has_the_gloss_of_its_triangles() {
     let with = |triangles, roughness| {
         let size = RasterSize::new(64, 64);
-        Studio { mesh: MeshOf::Head(triangles), roughness, size, ..Studio::new() }.take(&Direct)
+        RenderService { mesh: MeshQuery::Head(triangles), roughness, size, ..RenderService::new() }.take(&Direct)
     };
     let concentration = |pictures: &Pictures| {
         let signals = pictures.images[0].as_ref().unwrap().signals();
@@ -180,9 +182,12 @@ fn by_the_papers_own_roughness_a_head_has_the_gloss_of_its_triangles() {
 fn of_the_papers_cameras_the_kodak_is_farthest_from_the_truth() {
     let leaf = support::patches("materials/leaves_vrhel.csv");
     let leaf = leaf.patches().iter().find(|patch| patch.name.contains("024")).unwrap();
-    let skin = Studio::new().reflectance;
-    for (mesh, reflectance) in [(MeshOf::Head(9_000), skin), (MeshOf::Fern(20_000), Shared::new(leaf.grid.clone()))] {
-        let studio = Studio { mesh, reflectance, yaw: 0.35, size: RasterSize::new(96, 96), ..Studio::new() };
+    let skin = RenderService::new().reflectance;
+    for (mesh, reflectance) in
+        [(MeshQuery::Head(9_000), skin), (MeshQuery::Fern(20_000), Shared::new(leaf.grid.clone()))]
+    {
+        let studio =
+            RenderService { mesh, reflectance, yaw: 0.35, size: RasterSize::new(96, 96), ..RenderService::new() };
         let differences = studio.take(&Direct).differences;
         let facing: Vec<f64> = differences.iter().flatten().filter_map(|difference| difference.facing).collect();
         let medians: Vec<f64> =
@@ -196,7 +201,7 @@ fn of_the_papers_cameras_the_kodak_is_farthest_from_the_truth() {
 #[test]
 fn read_to_the_letter_a_rough_white_turns_yellow() {
     for (reading, expected) in [(Reading::Radiometric, [0.332, 0.347]), (Reading::Paper, [0.373, 0.379])] {
-        let mut studio = Studio { reading, ..Studio::new() };
+        let mut studio = RenderService { reading, ..RenderService::new() };
         studio.reflectance = Shared::new(GridSpectrum::constant(1.0));
         let light = Shared::new(support::light("illuminants/d55.csv"));
         studio.sources.iter_mut().for_each(|source| source.light = light.clone());
@@ -214,13 +219,14 @@ fn read_to_the_letter_a_rough_white_turns_yellow() {
 #[test]
 fn an_untinted_lobe_keeps_its_color_on_any_material() {
     let with = |specular, reflectance: f64, sigma_m| {
-        let mut studio = Studio { specular, sigma_m, quality: Quality::Exact, ..Studio::new() };
+        let mut studio = RenderService { specular, sigma_m, quality: Quality::Exact, ..RenderService::new() };
         studio.reflectance = Shared::new(GridSpectrum::constant(reflectance));
         studio
     };
     // A mirror has no diffuse component: all that is left is the boundary's reflection.
-    let signals =
-        |studio: &Studio| -> Vec<[f32; 3]> { studio.take(&Direct).images[1].as_ref().unwrap().signals().to_vec() };
+    let signals = |studio: &RenderService| -> Vec<[f32; 3]> {
+        studio.take(&Direct).images[1].as_ref().unwrap().signals().to_vec()
+    };
     let [white, dark] = [1.0, 0.05].map(|reflectance| signals(&with(Specular::Fresnel, reflectance, 0.0)));
     assert_eq!(white, dark);
     assert!(white.iter().any(|signal| signal[1] > 0.0));
@@ -237,7 +243,7 @@ fn untinted_lobes_keep_every_qualitys_error_on_a_dark_material() {
     for sigma_m in [0.4e-6, 0.06e-6, 2e-9] {
         let with = |quality| {
             let (specular, size) = (Specular::Fresnel, RasterSize::new(20, 20));
-            let mut studio = Studio { size, sigma_m, specular, quality, ..Studio::new() };
+            let mut studio = RenderService { size, sigma_m, specular, quality, ..RenderService::new() };
             studio.reflectance = Shared::new(GridSpectrum::from_fn(|nm| if nm > 600.0 { 0.04 } else { 0.02 }));
             studio.sources.truncate(2);
             studio
@@ -255,19 +261,19 @@ fn untinted_lobes_keep_every_qualitys_error_on_a_dark_material() {
 
 #[test]
 fn the_headline_is_the_patch_that_patches_print() {
-    let studio = Studio { mesh: MeshOf::Head(9_000), ..Studio::new() };
+    let studio = RenderService { mesh: MeshQuery::Head(9_000), ..RenderService::new() };
     let skin = support::patches("materials/skin_vrhel.csv")
         .subset(&[&support::patches("materials/skin_vrhel.csv").patches()[0].name]);
     let patches = Shared::new(skin);
-    let color = |of: &RenderingOf| {
-        let colors = Direct.ask(&PatchColorsOf { rendering: of.clone(), patches: patches.clone() });
+    let color = |of: &RenderingQuery| {
+        let colors = Direct.ask(&PatchColorsQuery { rendering: of.clone(), patches: patches.clone() });
         (*colors).as_ref().unwrap()[0]
     };
     // Whatever the roughness, its reading, and where the light stands.
     for (sigma_m, light_up, reading) in
         [(5e-6, 25.0, Reading::Radiometric), (0.1e-6, 80.0, Reading::Paper), (5e-6, -60.0, Reading::Lambertian)]
     {
-        let pictures = Studio { light_up, sigma_m, reading, ..studio.clone() }.take(&Direct);
+        let pictures = RenderService { light_up, sigma_m, reading, ..studio.clone() }.take(&Direct);
         for (source, difference) in studio.sources.iter().zip(&pictures.differences).skip(1) {
             let expected = patch_difference(Metric::DeltaE2000, &color(source), &color(&studio.sources[0])).unwrap();
             assert_eq!(difference.as_ref().unwrap().facing, Some(expected));
@@ -279,7 +285,12 @@ fn the_headline_is_the_patch_that_patches_print() {
 fn the_mean_over_all_lit_samples_is_a_mean_of_brightness() {
     let of = |ev_of_light: f64| {
         let light_up = ev_of_light;
-        let studio = Studio { light_up, mesh: MeshOf::Sphere(20_000), size: RasterSize::new(96, 96), ..Studio::new() };
+        let studio = RenderService {
+            light_up,
+            mesh: MeshQuery::Sphere(20_000),
+            size: RasterSize::new(96, 96),
+            ..RenderService::new()
+        };
         let difference = studio.take(&Direct).differences[1].clone().unwrap();
         let bright = difference.bright.unwrap();
         assert!(bright.count < difference.map.len() && bright.median <= bright.p95 && bright.p95 <= difference.max);
@@ -298,8 +309,8 @@ fn the_mean_over_all_lit_samples_is_a_mean_of_brightness() {
 
 #[test]
 fn every_sample_is_accounted_for() {
-    for mesh in [MeshOf::Sphere(2_000), MeshOf::Fern(5_000), MeshOf::Head(5_000)] {
-        let studio = Studio { mesh, ..Studio::new() };
+    for mesh in [MeshQuery::Sphere(2_000), MeshQuery::Fern(5_000), MeshQuery::Head(5_000)] {
+        let studio = RenderService { mesh, ..RenderService::new() };
         let pictures = studio.take(&Direct);
         let counts = pictures.geometry;
         assert_eq!(counts.seen, counts.lit + counts.facing_away + counts.shadowed);
@@ -314,11 +325,11 @@ fn every_sample_is_accounted_for() {
 fn a_material_facing_light_and_eye_is_shown_at_its_exposure() {
     for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet, Reading::Lambertian] {
         // The light stands behind the eye.
-        let mut question = Studio { mesh: MeshOf::Plane, reading, ..Studio::new() }.question();
+        let mut question = RenderService { mesh: MeshQuery::Plane, reading, ..RenderService::new() }.question();
         question.shading.geometry.visibility.viewpoint = Viewpoint::new(0.0, 0.0, 1000.0, 0.002).unwrap();
         question.shading.geometry.lighting = chromascope_core::scene::Lighting::from_angles(0.0, 0.0, 4.65e-3).unwrap();
         let pictures = (*Direct.ask(&question)).clone().unwrap().unwrap();
-        let rendering = Direct.ask(&question.truth);
+        let rendering = Direct.ask(&question.reference);
         let rendering = (*rendering).as_ref().unwrap();
         let image = pictures.images[0].as_ref().unwrap();
         let middle = image.signals()[image.signals().len() / 2];
@@ -332,7 +343,8 @@ fn a_material_facing_light_and_eye_is_shown_at_its_exposure() {
 
 #[test]
 fn without_a_model_a_white_in_the_light_is_white() {
-    let mut question = Studio { mesh: MeshOf::Plane, reading: Reading::Lambertian, ..Studio::new() }.question();
+    let mut question =
+        RenderService { mesh: MeshQuery::Plane, reading: Reading::Lambertian, ..RenderService::new() }.question();
     question.reflectance = Shared::new(GridSpectrum::constant(1.0));
     let pictures = (*Direct.ask(&question)).clone().unwrap().unwrap();
     let facing = pictures.facing;
@@ -359,9 +371,9 @@ fn table_and_lid() -> Mesh {
 
 #[test]
 fn a_lid_casts_its_shadow_where_the_sun_is_high() {
-    let mesh = MeshOf::Own(Shared::new(table_and_lid()));
+    let mesh = MeshQuery::Own(Shared::new(table_and_lid()));
     let from_above = |shadows| {
-        let mut question = Studio { mesh: mesh.clone(), shadows, ..Studio::new() }.question();
+        let mut question = RenderService { mesh: mesh.clone(), shadows, ..RenderService::new() }.question();
         let geometry = &mut question.shading.geometry;
         geometry.visibility.size = RasterSize::new(101, 101);
         // From straight above the lid hides its own shadow but for perspective; from the side the table is seen.
@@ -382,7 +394,8 @@ fn a_lid_casts_its_shadow_where_the_sun_is_high() {
 #[test]
 fn a_ball_does_not_shadow_itself_in_the_light() {
     // Facets are flat where normals are round: rays that start on them must not meet their neighbors.
-    let studio = Studio { mesh: MeshOf::Sphere(300), size: RasterSize::new(200, 200), ..Studio::new() };
+    let studio =
+        RenderService { mesh: MeshQuery::Sphere(300), size: RasterSize::new(200, 200), ..RenderService::new() };
     let counts = studio.take(&Direct).geometry;
     assert!(counts.shadowed * 200 < counts.lit, "{counts:?}");
 }
@@ -399,7 +412,9 @@ fn what_is_stopped_gives_nothing() {
 fn more_samples_give_the_same_picture_but_for_its_edges() {
     let with = |samples| {
         let size = RasterSize { width: 48, height: 48, samples };
-        Studio { size, mesh: MeshOf::Sphere(20_000), ..Studio::new() }.take(&Direct).pictures[1].clone().unwrap()
+        RenderService { size, mesh: MeshQuery::Sphere(20_000), ..RenderService::new() }.take(&Direct).pictures[1]
+            .clone()
+            .unwrap()
     };
     let (one, nine) = (with(1), with(3));
     let far = |a: &[u8; 4], b: &[u8; 4]| a.iter().zip(b).any(|(a, b)| a.abs_diff(*b) > 12);

@@ -1,17 +1,17 @@
 //! What a change asks for anew, and what it does not.
 
 use chromascope_core::accuracy::Accuracy;
-use chromascope_core::camera::White;
+use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Shared;
 use chromascope_core::reflectance::Reading;
 use chromascope_core::render::{Quality, Shadows};
 use chromascope_core::spectral::GridSpectrum;
 
-use super::studio::{Counting, Studio};
+use super::studio::{Counting, RenderService};
 
 /// What is made after a change to a picture that is known.
-fn after(start: &Studio, change: impl FnOnce(&mut Studio)) -> Vec<(&'static str, usize)> {
+fn after(start: &RenderService, change: impl FnOnce(&mut RenderService)) -> Vec<(&'static str, usize)> {
     let ask = Counting::default();
     let mut studio = start.clone();
     studio.take(&ask);
@@ -24,7 +24,7 @@ fn after(start: &Studio, change: impl FnOnce(&mut Studio)) -> Vec<(&'static str,
 #[test]
 fn four_cameras_share_all_that_has_no_camera_in_it() {
     let ask = Counting::default();
-    Studio::new().take(&ask);
+    RenderService::new().take(&ask);
     let made = ask.made();
     for (name, count) in [("mesh", 1), ("visibility", 1), ("geometry", 1), ("shading", 1), ("camera image", 4)] {
         assert_eq!(made[name], count, "{name}");
@@ -33,13 +33,13 @@ fn four_cameras_share_all_that_has_no_camera_in_it() {
 
 #[test]
 fn exposure_asks_for_pixels_alone() {
-    assert_eq!(after(&Studio::new(), |studio| studio.ev = 1.0), [("picture", 4), ("pictures", 1)]);
+    assert_eq!(after(&RenderService::new(), |studio| studio.ev = 1.0), [("picture", 4), ("pictures", 1)]);
 }
 
 #[test]
 fn a_new_white_asks_for_no_signals() {
-    let made = after(&Studio::new(), |studio| {
-        let white = White::from_chromaticity(Xy { x: 0.31, y: 0.33 }).unwrap();
+    let made = after(&RenderService::new(), |studio| {
+        let white = WhiteBalanceTarget::from_chromaticity(Xy { x: 0.31, y: 0.33 }).unwrap();
         studio.sources.iter_mut().for_each(|source| source.white = white);
     });
     let names: Vec<&str> = made.iter().map(|(name, _)| *name).collect();
@@ -48,7 +48,7 @@ fn a_new_white_asks_for_no_signals() {
 
 #[test]
 fn a_rougher_surface_asks_for_no_geometry_and_no_table() {
-    let smooth = Studio { sigma_m: 0.3e-6, ..Studio::new() };
+    let smooth = RenderService { sigma_m: 0.3e-6, ..RenderService::new() };
     let made = after(&smooth, |studio| studio.sigma_m = 0.35e-6);
     let names: Vec<&str> = made.iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["camera image", "difference", "exposure", "picture", "pictures", "shading"]);
@@ -57,7 +57,7 @@ fn a_rougher_surface_asks_for_no_geometry_and_no_table() {
 #[test]
 fn at_a_chosen_accuracy_a_little_rougher_asks_for_no_plan() {
     let quality = Quality::Within(Accuracy::new(1e-5).unwrap());
-    let start = Studio { sigma_m: 0.3e-6, quality, ..Studio::new() };
+    let start = RenderService { sigma_m: 0.3e-6, quality, ..RenderService::new() };
     let made = after(&start, |studio| studio.sigma_m = 0.305e-6);
     let names: Vec<&str> = made.iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["camera image", "difference", "exposure", "picture", "pictures", "shading"]);
@@ -70,24 +70,24 @@ fn at_a_chosen_accuracy_a_little_rougher_asks_for_no_plan() {
 
 #[test]
 fn moving_the_light_keeps_what_is_seen() {
-    let made = after(&Studio::new(), |studio| studio.light_up = 40.0);
+    let made = after(&RenderService::new(), |studio| studio.light_up = 40.0);
     assert!(made.iter().all(|(name, _)| !["mesh", "visibility", "shadow tree", "measure"].contains(name)), "{made:?}");
     assert!(made.contains(&("geometry", 1)));
 }
 
 #[test]
 fn another_reflectance_keeps_the_shading() {
-    let made = after(&Studio::new(), |studio| studio.reflectance = Shared::new(GridSpectrum::constant(0.5)));
+    let made = after(&RenderService::new(), |studio| studio.reflectance = Shared::new(GridSpectrum::constant(0.5)));
     assert!(made.iter().all(|(name, _)| !["visibility", "geometry", "shading"].contains(name)), "{made:?}");
 }
 
 #[test]
 fn a_hidden_camera_costs_nothing() {
-    let made = after(&Studio::new(), |studio| drop(studio.sources.pop()));
+    let made = after(&RenderService::new(), |studio| drop(studio.sources.pop()));
     assert_eq!(made, [("pictures", 1)]);
     // And one that was never shown is never asked for.
     let ask = Counting::default();
-    let mut studio = Studio::new();
+    let mut studio = RenderService::new();
     studio.sources.truncate(2);
     studio.take(&ask);
     assert_eq!(ask.made()["camera image"], 2);
@@ -96,7 +96,7 @@ fn a_hidden_camera_costs_nothing() {
 #[test]
 fn without_shadows_there_is_no_tree() {
     let ask = Counting::default();
-    Studio { shadows: Shadows::Off, ..Studio::new() }.take(&ask);
+    RenderService { shadows: Shadows::Off, ..RenderService::new() }.take(&ask);
     assert!(!ask.made().contains_key("shadow tree"));
 }
 
@@ -104,10 +104,10 @@ fn without_shadows_there_is_no_tree() {
 fn rough_surfaces_need_no_table_and_no_mirror() {
     let ask = Counting::default();
     // A ball seen face to face with the sun still has samples near grazing, where κ is small.
-    let studio = Studio { sigma_m: 50e-6, ..Studio::new() };
+    let studio = RenderService { sigma_m: 50e-6, ..RenderService::new() };
     let shading = studio.take(&ask).shading;
     assert!(shading.moments * 10 > shading.table * 9);
-    let flat = Studio { reading: Reading::Lambertian, ..Studio::new() };
+    let flat = RenderService { reading: Reading::Lambertian, ..RenderService::new() };
     let ask = Counting::default();
     let shading = flat.take(&ask).shading;
     assert_eq!((shading.table, shading.moments, shading.mirrors), (0, 0, 0));

@@ -5,10 +5,10 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use chromascope_core::camera::White;
-use chromascope_core::query::render::{GeometryOf, Roughness, ShadingOf, VisibilityOf};
-use chromascope_core::query::render::{MeshOf, Pictures, PicturesOf, SourceOf};
-use chromascope_core::query::{Ask, Query, RenderingOf, Shared, WayOf};
+use chromascope_core::camera::WhiteBalanceTarget;
+use chromascope_core::query::render::{GeometryQuery, Roughness, ShadingQuery, VisibilityQuery};
+use chromascope_core::query::render::{MeshQuery, Pictures, PicturesQuery, SourceOf};
+use chromascope_core::query::{Ask, ColorTransformSpec, Query, RenderingQuery, Shared};
 use chromascope_core::reflectance::{Reading, Specular, Surface};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_core::scene::{Lighting, Viewpoint, lighting::SUN_RADIUS};
@@ -18,10 +18,10 @@ use crate::support;
 
 /// What a picture is made of; each test changes what it is about.
 #[derive(Clone)]
-pub(super) struct Studio {
-    pub sources: Vec<RenderingOf>,
+pub(super) struct RenderService {
+    pub sources: Vec<RenderingQuery>,
     pub reflectance: Shared<GridSpectrum>,
-    pub mesh: MeshOf,
+    pub mesh: MeshQuery,
     pub size: RasterSize,
     pub yaw: f64,
     pub light_up: f64,
@@ -35,23 +35,24 @@ pub(super) struct Studio {
     pub ev: f64,
 }
 
-impl Studio {
+impl RenderService {
     /// Skin under the sun on a sphere, through Stiles & Burch and the paper's cameras, at σ = 5 µm.
     pub(super) fn new() -> Self {
         let light = Shared::new(support::light("illuminants/direct_sun_astm_g173.csv"));
-        let sensors = [support::TRUTH, support::CANON_10D, support::NIKON_D70, support::DCS200];
+        let sensors = [support::REFERENCE, support::CANON_10D, support::NIKON_D70, support::DCS200];
         let skin = support::patches("materials/skin_vrhel.csv");
-        let white = White::from_chromaticity(chromascope_core::colorimetry::Xy { x: 0.3324, y: 0.3474 }).unwrap();
-        let rendering = |path: &&str| RenderingOf {
+        let white =
+            WhiteBalanceTarget::from_chromaticity(chromascope_core::colorimetry::Xy { x: 0.3324, y: 0.3474 }).unwrap();
+        let rendering = |path: &&str| RenderingQuery {
             sensor: Shared::new(support::sensor(path)),
             light: light.clone(),
             white,
-            way: WayOf::Paper,
+            transform: ColorTransformSpec::Paper,
         };
         Self {
             sources: sensors.iter().map(rendering).collect(),
             reflectance: Shared::new(skin.patches()[0].grid.clone()),
-            mesh: MeshOf::Sphere(2_000),
+            mesh: MeshQuery::Sphere(2_000),
             size: RasterSize::new(40, 40),
             yaw: 0.0,
             light_up: 25.0,
@@ -70,16 +71,16 @@ impl Studio {
         Surface::new(self.sigma_m, self.tau_m, 50e-6, 50e-6, 1.4).unwrap().with_specular(self.specular)
     }
 
-    pub(super) fn question(&self) -> PicturesOf {
+    pub(super) fn question(&self) -> PicturesQuery {
         let viewpoint = Viewpoint::new(self.yaw, 0.1, 3.6, 30_f64.to_radians()).unwrap();
-        let visibility = VisibilityOf { mesh: self.mesh.clone(), viewpoint, size: self.size };
+        let visibility = VisibilityQuery { mesh: self.mesh.clone(), viewpoint, size: self.size };
         let lighting = Lighting::from_angles(self.light_up.to_radians(), (-25_f64).to_radians(), SUN_RADIUS).unwrap();
-        let geometry = GeometryOf { visibility, lighting, shadows: self.shadows };
+        let geometry = GeometryQuery { visibility, lighting, shadows: self.shadows };
         let (surface, reading, quality) = (self.surface(), self.reading, self.quality);
-        PicturesOf {
-            shading: ShadingOf { geometry, surface, roughness: self.roughness, reading, quality },
+        PicturesQuery {
+            shading: ShadingQuery { geometry, surface, roughness: self.roughness, reading, quality },
             reflectance: self.reflectance.clone(),
-            truth: self.sources[0].clone(),
+            reference: self.sources[0].clone(),
             sources: self.sources.iter().map(|rendering| SourceOf { rendering: rendering.clone() }).collect(),
             ev: self.ev.to_bits(),
             background: None,

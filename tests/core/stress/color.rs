@@ -1,6 +1,6 @@
 //! Tristimulus values, diagrams, L*a*b*, differences, adaptation, screens.
 
-use chromascope_core::camera::White;
+use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::colorimetry::adaptation::bradford;
 use chromascope_core::colorimetry::diagram::area_color;
 use chromascope_core::colorimetry::lab::lab_from_xyz;
@@ -51,7 +51,7 @@ fn draw_six(d: &mut Draw) -> Case {
 fn chromaticity(&[x, y, z, ..]: &Case, v: &mut Verdict) {
     let color = Xyz::new(x, y, z);
     let largest = x.abs().max(y.abs()).max(z.abs());
-    let white = White::from_xyz(color);
+    let white = WhiteBalanceTarget::from_xyz(color);
     let usable = largest < 1e300 && !(x + y + z).is_nan();
     v.holds("a white that is no number", !usable || white.0.iter().all(|s| s.is_finite()));
     let Some(xy) = color.chromaticity() else { return v.refuse() };
@@ -84,7 +84,7 @@ fn diagrams(&[x, y, ..]: &Case, v: &mut Verdict) {
     if let Some(xyz) = xy.with_unit_luminance() {
         v.all_finite([xyz.x, xyz.z]);
         v.holds("Y is not 1", xyz.y == 1.0);
-        v.holds("no white", White::from_chromaticity(xy).is_some());
+        v.holds("no white", WhiteBalanceTarget::from_chromaticity(xy).is_some());
     }
     if let Some(far) = (UvPrime { u: x, v: y }).xy() {
         v.all_finite([far.x, far.y]);

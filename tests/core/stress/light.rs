@@ -8,7 +8,7 @@ use chromascope_core::light::daylight::{DaylightBasis, chromaticity};
 use chromascope_core::light::planckian::{black_body, exitance, relative_exitance};
 use chromascope_core::light::temperature::published::{hernandez_andres_1999, kang_2002, mccamy_1992};
 use chromascope_core::light::temperature::tabulated::{Ohno, Robertson};
-use chromascope_core::light::{Cct, NoCct, PlanckianLocus, RadiationConstants};
+use chromascope_core::light::{Cct, CctError, PlanckianLocus, RadiationConstants};
 use chromascope_core::query::Temperatures;
 use chromascope_core::spectral::{Primaries, Sensor};
 use chromascope_core::units::{Kelvin, Nanometers};
@@ -17,7 +17,7 @@ use chromascope_math::double::Double;
 use super::draw::{Case, Draw, case};
 use super::spectral::drawn_sensor;
 use super::walk::{Verdict, Walk};
-use crate::support::{CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, dataset, sensor};
+use crate::support::{CANON_10D, CIE_1931, DCS200, NIKON_D70, REFERENCE, dataset, sensor};
 
 const C: RadiationConstants = RadiationConstants::Paper;
 
@@ -48,7 +48,7 @@ static OHNO: LazyLock<Ohno> = LazyLock::new(|| Ohno::new(&OBSERVER, C).unwrap())
 static DAYLIGHT: LazyLock<DaylightBasis> =
     LazyLock::new(|| DaylightBasis::new(&dataset("illuminants/cie_daylight_basis.csv")).unwrap());
 static SENSORS: LazyLock<Vec<Sensor>> =
-    LazyLock::new(|| [TRUTH, CIE_1931, CANON_10D, NIKON_D70, DCS200].map(sensor).into());
+    LazyLock::new(|| [REFERENCE, CIE_1931, CANON_10D, NIKON_D70, DCS200].map(sensor).into());
 static EVALUATORS: LazyLock<Vec<LocusEvaluator<&'static Sensor>>> =
     LazyLock::new(|| SENSORS.iter().map(|s| LocusEvaluator::new(s, C)).collect());
 static SUMS: LazyLock<Vec<LocusEvaluator<&'static Sensor>>> =
@@ -211,7 +211,7 @@ fn draw_color(d: &mut Draw) -> Case {
     }
 }
 
-fn said(answer: Result<Cct, NoCct>, v: &mut Verdict) {
+fn said(answer: Result<Cct, CctError>, v: &mut Verdict) {
     match answer {
         Ok(cct) => {
             v.all_finite([cct.temperature.get(), cct.duv]);
@@ -251,7 +251,7 @@ fn many(&[key, ..]: &Case, v: &mut Verdict) {
     let mut d = Draw::new(key as u64, "colors", 0);
     let colors: Vec<Uv60> = (0..37).map(|_| Uv60 { u: d.within(-0.1, 0.7), v: d.within(-0.1, 0.5) }).collect();
     let answers = LOCUS.ccts(&colors);
-    let mut again = vec![Err(NoCct::TooFar); 20];
+    let mut again = vec![Err(CctError::TooFar); 20];
     LOCUS.ccts_into(&colors, &mut again);
     v.holds("not the same twice", again == answers[..20]);
     for (color, answer) in colors.into_iter().zip(answers) {
@@ -282,7 +282,7 @@ fn any_observer(&[key, _, size, ..]: &Case, v: &mut Verdict) {
     }
 }
 
-fn against(found: Result<Cct, NoCct>, kelvins: f64, v: &mut Verdict) {
+fn against(found: Result<Cct, CctError>, kelvins: f64, v: &mut Verdict) {
     match found {
         Ok(found) => v.relative(found.temperature.get(), kelvins, 0.0),
         Err(_) => v.refuse(),

@@ -4,7 +4,9 @@ use std::sync::LazyLock;
 
 use chromascope_core::accuracy::Accuracy;
 use chromascope_core::camera::batch::Sample;
-use chromascope_core::camera::{Batch, LocusEvaluator, LocusTable, NoBatch, NotInTable, Rendering, Way, White};
+use chromascope_core::camera::{
+    Batch, BatchError, ColorTransform, LocusEvaluator, LocusTable, LocusTableError, Rendering, WhiteBalanceTarget,
+};
 use chromascope_core::colorimetry::{Lab, Xy, delta_e_2000, delta_e_2000_into};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::spectral::{Primaries, Sensor};
@@ -15,7 +17,7 @@ use glam::DVec3;
 use super::draw::{Case, Draw, case};
 use super::spectral::{drawn_light, drawn_sensor};
 use super::walk::{Verdict, Walk};
-use crate::support::{CANON_10D, CIE_1931, DCS200, NIKON_D70, TRUTH, light, sensor};
+use crate::support::{CANON_10D, CIE_1931, DCS200, NIKON_D70, REFERENCE, light, sensor};
 
 const C: RadiationConstants = RadiationConstants::Paper;
 
@@ -77,7 +79,10 @@ fn responses<T: Sample + Into<f64>>(curves: &[T], spectra: &[T], shape: Shape, v
         Ok(batch) => batch,
         Err(refusal) => {
             let odd = curves.iter().any(|c| !number(c).is_finite());
-            v.holds("refused without need", odd && refusal == NoBatch::NotFinite || length == 0 && !curves.is_empty());
+            v.holds(
+                "refused without need",
+                odd && refusal == BatchError::NotFinite || length == 0 && !curves.is_empty(),
+            );
             return v.refuse();
         }
     };
@@ -182,11 +187,13 @@ struct Seen {
 static SEEN: LazyLock<Vec<Seen>> = LazyLock::new(|| {
     let of = |path| {
         let sensor = sensor(path);
-        let rendering = Rendering::new(&sensor, &light("illuminants/d55.csv"), White::UNITY, Way::Paper).unwrap();
+        let rendering =
+            Rendering::new(&sensor, &light("illuminants/d55.csv"), WhiteBalanceTarget::UNITY, ColorTransform::Paper)
+                .unwrap();
         let table = LocusTable::new(&sensor, &rendering, C);
         Seen { rendering, table, sum: LocusEvaluator::by_sum(Box::new(sensor), C) }
     };
-    [TRUTH, CIE_1931, CANON_10D, NIKON_D70, DCS200].map(of).into()
+    [REFERENCE, CIE_1931, CANON_10D, NIKON_D70, DCS200].map(of).into()
 });
 
 /// Made before there are many threads: one that waits for a part of a table would take up a case that waits for the table.
@@ -218,8 +225,13 @@ fn is_outside(t: Kelvin) -> bool {
 }
 
 /// What a table says against the sum; refused exactly outside it.
-fn against(answer: Result<Xy, NotInTable>, t: Kelvin, exact: impl Fn() -> Option<Xy>, v: &mut Verdict) -> Option<f64> {
-    v.holds("refused or not", is_outside(t) == (answer == Err(NotInTable::Outside)));
+fn against(
+    answer: Result<Xy, LocusTableError>,
+    t: Kelvin,
+    exact: impl Fn() -> Option<Xy>,
+    v: &mut Verdict,
+) -> Option<f64> {
+    v.holds("refused or not", is_outside(t) == (answer == Err(LocusTableError::Outside)));
     match answer {
         Ok(xy) => {
             v.all_finite([xy.x, xy.y]);
@@ -275,7 +287,9 @@ fn any_table(&[key, kind, size, light, target, other, ..]: &Case, v: &mut Verdic
     let primaries = [Primaries::Camera, Primaries::Rgb, Primaries::Xyz, Primaries::Cones][kind as usize % 4];
     let Some(sensor) = drawn_sensor(key, primaries, size) else { return v.refuse() };
     let light = drawn_light(key + 1.0, light, &sensor);
-    let Ok(rendering) = Rendering::new(&sensor, &light, White::UNITY, Way::Paper) else { return v.refuse() };
+    let Ok(rendering) = Rendering::new(&sensor, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper) else {
+        return v.refuse();
+    };
     let Ok(accuracy) = Accuracy::new(target) else { return v.refuse() };
     let table = LocusTable::within(&sensor, &rendering, C, accuracy);
     let limit = promised(&table, target, v);

@@ -11,7 +11,8 @@ use chromascope_core::render::mirror::{Nodes, Reach, mirror_sum};
 use chromascope_core::render::plan::position;
 use chromascope_core::render::shading::{Mirror, Way};
 use chromascope_core::render::{
-    Against, CameraImage, Demand, GeometryImage, Measure, Plan, Quality, RasterSize, ShadingImage, Stop, Visibility,
+    Against, CameraImage, Demand, GeometryImage, Plan, Quality, RasterSize, ShadingImage, SpectralWeights, Stop,
+    Visibility,
 };
 use chromascope_core::scene::{Lighting, Viewpoint};
 use chromascope_core::spectral::Primaries;
@@ -169,7 +170,13 @@ fn draw_lobe(d: &mut Draw) -> [f64; 5] {
 }
 
 /// A lobe by few wavelengths and by all, in parts of what was asked for, of the lobe's height.
-fn compare(measure: &Measure, reach: Reach, error: f64, [half, vx, vy, kappa, radius]: [f64; 5], v: &mut Verdict) {
+fn compare(
+    measure: &SpectralWeights,
+    reach: Reach,
+    error: f64,
+    [half, vx, vy, kappa, radius]: [f64; 5],
+    v: &mut Verdict,
+) {
     let Ok(surface) = Surface::new(1e-6, 1e-5, half, half, 1.5) else { return v.refuse() };
     let (smooth, every) = (measure.fine(), measure.dense());
     let mirror = Mirror { index: 0, front: 1.0, kappa, v: [vx, vy] };
@@ -259,7 +266,7 @@ fn draw_place(d: &mut Draw) -> Case {
 }
 
 /// A plan beside the sum over all wavelengths, in parts of what it is certified for.
-fn certified(plan: &Plan, measure: &Measure, [kappa, beta]: [f64; 2], v: &mut Verdict) {
+fn certified(plan: &Plan, measure: &SpectralWeights, [kappa, beta]: [f64; 2], v: &mut Verdict) {
     let exact = |beta| by_nodes(measure.dense(), kappa, beta, Precision::Full);
     let largest = |sums: [f64; 3]| sums.into_iter().map(f64::abs).fold(0.0, f64::max);
     let (found, exact, peak) = (plan.at(kappa, beta), exact(beta), largest(exact(0.0)));
@@ -386,7 +393,7 @@ fn picture(&[which, sigma, tau, half, index, key, reading, ..]: &Case, v: &mut V
 }
 
 /// The mirror terms of a whole picture, relative to its brightest sample, beside those that leave nothing out.
-fn against_all(shading: &ShadingImage, reading: Reading, measure: &Measure, v: &mut Verdict) {
+fn against_all(shading: &ShadingImage, reading: Reading, measure: &SpectralWeights, v: &mut Verdict) {
     let asked = shading.quality().accuracy().expect("an accuracy is asked for");
     let scale = shading.mirror_scale();
     v.holds("lobes lower than the picture", scale > 0.0 && scale <= 1.0);

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, LazyLock};
 
-use chromascope_core::camera::{Rendering, Way, White};
+use chromascope_core::camera::{ColorTransform, Rendering, WhiteBalanceTarget};
 use chromascope_core::colorimetry::Xyz;
 use chromascope_core::query::render::BrightSamples;
 use chromascope_core::reflectance::{Precision, Reading, Surface, wavelength_power};
@@ -11,8 +11,8 @@ use chromascope_core::render::diffuse::{by_moments, by_nodes, by_nodes_into, by_
 use chromascope_core::render::mirror::{Nodes, mirror_sum};
 use chromascope_core::render::shading::Mirror;
 use chromascope_core::render::{
-    CameraImage, Development, DiffuseTable, GeometryImage, Measure, Measurement, Quality, RasterSize, ShadingImage,
-    Shadows, Stop, VertexImage, Visibility, develop,
+    CameraImage, ColorimetricScale, Development, DiffuseTable, GeometryImage, Quality, RasterSize, ShadingImage,
+    Shadows, SpectralWeights, Stop, VertexImage, Visibility, develop,
 };
 use chromascope_core::scene::{Lighting, Viewpoint, roughness};
 use chromascope_core::spectral::{GridSpectrum, Primaries};
@@ -40,15 +40,15 @@ pub(super) const WALKS: &[Walk] = &[
 
 pub(super) struct Scene {
     rendering: Rendering,
-    pub(super) measure: Measure,
+    pub(super) measure: SpectralWeights,
     table: DiffuseTable,
 }
 
 fn scene(path: &str) -> Scene {
     let (sensor, light) = (sensor(path), light("illuminants/d55.csv"));
-    let rendering = Rendering::new(&sensor, &light, White::UNITY, Way::Paper).unwrap();
+    let rendering = Rendering::new(&sensor, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper).unwrap();
     let power = wavelength_power(Reading::Radiometric);
-    let measure = Measure::new(&sensor, &light, &GridSpectrum::constant(0.5), rendering.white_integrals, power);
+    let measure = SpectralWeights::new(&sensor, &light, &GridSpectrum::constant(0.5), rendering.white_integrals, power);
     Scene { table: DiffuseTable::new(&measure), measure, rendering }
 }
 
@@ -147,12 +147,12 @@ fn draw_measure(d: &mut Draw) -> Case {
     case([d.key(), d.pick(6), d.pick(2), d.pick(6)])
 }
 
-pub(super) fn drawn_measure(&[key, kind, power, light, ..]: &Case) -> Option<Measure> {
+pub(super) fn drawn_measure(&[key, kind, power, light, ..]: &Case) -> Option<SpectralWeights> {
     let sensor = drawn_sensor(key, Primaries::Camera, 1.0)?;
     let light = drawn_light(key, light, &sensor);
     let reflectance = drawn_light(key + 1.0, kind, &sensor);
-    let rendering = Rendering::new(&sensor, &light, White::UNITY, Way::Paper).ok()?;
-    Some(Measure::new(&sensor, &light, &reflectance, rendering.white_integrals, 2 * i32::from(power >= 1.0)))
+    let rendering = Rendering::new(&sensor, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper).ok()?;
+    Some(SpectralWeights::new(&sensor, &light, &reflectance, rendering.white_integrals, 2 * i32::from(power >= 1.0)))
 }
 
 fn measure(case: &Case, v: &mut Verdict) {
@@ -240,7 +240,7 @@ fn measurement(&[luminance, x, y, ..]: &Case, v: &mut Verdict) {
     let rendering = &SCENES[0].rendering;
     let usable = |n: f64| if n.is_nan() || n.abs() > 1e30 { 1.0 } else { n };
     let measured =
-        Measurement::new(rendering, if luminance > 0.0 { luminance.clamp(1e-100, 1e100) } else { luminance });
+        ColorimetricScale::new(rendering, if luminance > 0.0 { luminance.clamp(1e-100, 1e100) } else { luminance });
     let signal = [usable(x) as f32, usable(y) as f32, 0.5];
     let Xyz { x, y, z } = measured.xyz(signal);
     v.all_finite([x, y, z]);
@@ -312,7 +312,7 @@ fn picture(&[key, sigma, tau, half, index, reading, quality, kind]: &Case, v: &m
         let development = Development::new(&scene.rendering, 1.0, None);
         v.holds("no picture", develop(image, &development, &Stop::NEVER).is_some_and(|p| p.rgba.len() == 120));
     }
-    let measured = Measurement::new(&scene.rendering, 1.0);
+    let measured = ColorimetricScale::new(&scene.rendering, 1.0);
     let (map, lightness) =
         differences(&images[0], &measured, &images[1], &measured, 1, &Stop::NEVER).expect("never stopped");
     v.all_finite(BrightSamples::new(&map, &lightness).into_iter().flat_map(|bright| [bright.median, bright.p95]));

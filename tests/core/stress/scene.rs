@@ -35,9 +35,9 @@ fn lighting(&[x, y, z, radius, up, right, ..]: &Case, v: &mut Verdict) {
     if !point.is_finite() {
         return;
     }
-    if let Some((way, distance)) = PlacedLight::Point(near.place()).seen_from(point) {
-        v.all_finite(way.to_array());
-        v.error((way.length() - 1.0).abs());
+    if let Some((transform, distance)) = PlacedLight::Point(near.place()).seen_from(point) {
+        v.all_finite(transform.to_array());
+        v.error((transform.length() - 1.0).abs());
         v.holds("a distance that is no number", distance > 0.0);
     }
 }

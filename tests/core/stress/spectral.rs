@@ -3,9 +3,9 @@
 use std::sync::LazyLock;
 
 use chromascope_core::camera::rendering::{raw, under_light, white_divisors};
-use chromascope_core::camera::{FitTargets, Rendering, Way, White};
+use chromascope_core::camera::{ColorTransform, FitTargets, Rendering, WhiteBalanceTarget};
 use chromascope_core::colorimetry::diagram::{spectral_locus, wavelength_color};
-use chromascope_core::object::PatchSet;
+use chromascope_core::patch_set::PatchSet;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{GridSpectrum, Primaries, Quantity, Response, Sensor, SpectralDistribution};
 use chromascope_math::dot::dot;
@@ -188,10 +188,10 @@ fn rendering(&[key, kind, size, light, white, ..]: &Case, v: &mut Verdict) {
     let Some(sensor) = drawn_sensor(key, primaries(kind), size) else { return v.refuse() };
     let light = drawn_light(key + 1.0, light, &sensor);
     // A white's numbers are open to all; within what a spectrum's may be.
-    let white = White([1.0, if white.is_finite() { white.clamp(-1e100, 1e100) } else { 1.0 }, 0.5]);
-    let own = light_samples(&light).and_then(|light| White::from_light(&light, &OBSERVER));
+    let white = WhiteBalanceTarget([1.0, if white.is_finite() { white.clamp(-1e100, 1e100) } else { 1.0 }, 0.5]);
+    let own = light_samples(&light).and_then(|light| WhiteBalanceTarget::from_light(&light, &OBSERVER));
     v.holds("a white that is no number", own.is_none_or(|white| white.0.iter().all(|s| s.is_finite())));
-    let Ok(rendering) = Rendering::new(&sensor, &light, white, Way::Paper) else { return v.refuse() };
+    let Ok(rendering) = Rendering::new(&sensor, &light, white, ColorTransform::Paper) else { return v.refuse() };
     let divisors = white_divisors(&sensor, &light);
     v.holds("other divisors", divisors.is_ok_and(|d| d == rendering.white_integrals));
     v.all_finite([rendering.conditioning]);
@@ -222,9 +222,10 @@ fn fitted(&[key, kind, size, light, ..]: &Case, v: &mut Verdict) {
     let Some(sensor) = drawn_sensor(key, primaries(kind), size) else { return v.refuse() };
     let light = drawn_light(key + 1.0, light, &CAMERA);
     let targets = FitTargets::new(&OBSERVER, &light, &TRAINING);
-    let answer = Rendering::by_targets(&sensor, &light, White::UNITY, &TRAINING, targets.as_ref().map_err(|&e| e));
-    let way = Way::Observer { reference: &OBSERVER, training: &TRAINING };
-    v.holds("two ways differ", Rendering::new(&sensor, &light, White::UNITY, way) == answer);
+    let answer =
+        Rendering::by_targets(&sensor, &light, WhiteBalanceTarget::UNITY, &TRAINING, targets.as_ref().map_err(|&e| e));
+    let transform = ColorTransform::Observer { reference: &OBSERVER, training: &TRAINING };
+    v.holds("two ways differ", Rendering::new(&sensor, &light, WhiteBalanceTarget::UNITY, transform) == answer);
     let Ok(rendering) = answer else { return v.refuse() };
     v.holds("not finite", rendering.xyz_from_signals.is_finite() && rendering.srgb_from_xyz.is_finite());
     if sensor.primaries() != Primaries::Xyz {

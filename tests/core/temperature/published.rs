@@ -3,10 +3,10 @@
 use chromascope_core::colorimetry::{Uv60, Xy};
 use chromascope_core::light::temperature::published::{hernandez_andres_1999, kang_2002, mccamy_1992};
 use chromascope_core::light::temperature::tabulated::{Ohno, Robertson};
-use chromascope_core::light::{NoCct, NoLocus, RadiationConstants};
+use chromascope_core::light::{CctError, LocusError, RadiationConstants};
 
 use super::{LOCUS, reference_colors};
-use crate::support::{CIE_1931, TRUTH, assert_near, assert_xy, kelvin, sensor};
+use crate::support::{CIE_1931, REFERENCE, assert_near, assert_xy, kelvin, sensor};
 
 const D65: Xy = Xy { x: 0.3127, y: 0.3290 };
 
@@ -49,13 +49,13 @@ fn formulas_are_as_good_as_claimed_on_the_locus() {
 #[test]
 fn formulas_end_where_they_were_published_to_end() {
     let on = |t: f64| xy(LOCUS.at(kelvin(t)).unwrap());
-    assert_eq!(mccamy_1992(on(2800.0)), Err(NoCct::TooCold));
-    assert_eq!(mccamy_1992(on(6600.0)), Err(NoCct::TooHot));
-    assert_eq!(hernandez_andres_1999(on(2500.0)), Err(NoCct::TooCold));
+    assert_eq!(mccamy_1992(on(2800.0)), Err(CctError::TooCold));
+    assert_eq!(mccamy_1992(on(6600.0)), Err(CctError::TooHot));
+    assert_eq!(hernandez_andres_1999(on(2500.0)), Err(CctError::TooCold));
     assert_eq!((kang_2002(kelvin(1666.9)), kang_2002(kelvin(25_000.1))), (None, None));
     for formula in [mccamy_1992, hernandez_andres_1999] {
-        assert_eq!(formula(Xy { x: f64::NAN, y: 0.3 }), Err(NoCct::NoChromaticity));
-        assert_eq!(formula(Xy { x: 0.3, y: 0.1 }), Err(NoCct::TooFar));
+        assert_eq!(formula(Xy { x: f64::NAN, y: 0.3 }), Err(CctError::NoChromaticity));
+        assert_eq!(formula(Xy { x: 0.3, y: 0.1 }), Err(CctError::TooFar));
         for x in [-1e300, -1.0, 0.0, 1.0, 1e300] {
             for y in [0.173_501, 0.1859, 0.3, 1e300] {
                 assert!(formula(Xy { x, y }).is_ok_and(|t| t.get().is_finite()) || formula(Xy { x, y }).is_err());
@@ -87,19 +87,19 @@ fn tabulated_methods_are_near_the_truth_in_their_range() {
 fn tabulated_methods_refuse_what_is_outside() {
     let (robertson, ohno) = (robertson(), ohno());
     let on = |t: f64| LOCUS.at(kelvin(t)).unwrap();
-    assert_eq!(robertson.cct(on(1600.0)), Err(NoCct::TooCold));
+    assert_eq!(robertson.cct(on(1600.0)), Err(CctError::TooCold));
     let infinitely_hot = Uv60 { u: 0.1800, v: 0.2636 };
-    assert!(robertson.cct(Uv60 { u: 0.1798, v: 0.2620 }) == Err(NoCct::TooHot));
-    assert_eq!(ohno.cct(infinitely_hot), Err(NoCct::TooHot));
-    assert_eq!(ohno.cct(Uv60 { u: 0.47, v: 0.3526 }), Err(NoCct::TooCold));
+    assert!(robertson.cct(Uv60 { u: 0.1798, v: 0.2620 }) == Err(CctError::TooHot));
+    assert_eq!(ohno.cct(infinitely_hot), Err(CctError::TooHot));
+    assert_eq!(ohno.cct(Uv60 { u: 0.47, v: 0.3526 }), Err(CctError::TooCold));
     for far in [Uv60 { u: 0.2, v: 0.5 }, Uv60 { u: 1e300, v: 1.0 }] {
-        assert_eq!(ohno.cct(far), Err(NoCct::TooFar));
+        assert_eq!(ohno.cct(far), Err(CctError::TooFar));
         assert!(robertson.cct(far).is_err());
     }
     for bad in [f64::NAN, f64::INFINITY] {
-        assert_eq!(ohno.cct(Uv60 { u: bad, v: 0.3 }), Err(NoCct::NoChromaticity));
-        assert_eq!(robertson.cct(Uv60 { u: 0.2, v: bad }), Err(NoCct::NoChromaticity));
+        assert_eq!(ohno.cct(Uv60 { u: bad, v: 0.3 }), Err(CctError::NoChromaticity));
+        assert_eq!(robertson.cct(Uv60 { u: 0.2, v: bad }), Err(CctError::NoChromaticity));
     }
-    assert_eq!(Robertson::new(&sensor(TRUTH), RadiationConstants::Paper), Err(NoLocus::NotXyz));
-    assert_eq!(Ohno::new(&sensor(TRUTH), RadiationConstants::Paper), Err(NoLocus::NotXyz));
+    assert_eq!(Robertson::new(&sensor(REFERENCE), RadiationConstants::Paper), Err(LocusError::NotXyz));
+    assert_eq!(Ohno::new(&sensor(REFERENCE), RadiationConstants::Paper), Err(LocusError::NotXyz));
 }

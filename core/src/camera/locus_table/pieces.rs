@@ -3,7 +3,7 @@
 use multiversion::multiversion;
 use rayon::prelude::*;
 
-use super::{COLDEST_K, HOTTEST_K, LocusTable, NotInTable};
+use super::{COLDEST_K, HOTTEST_K, LocusTable, LocusTableError};
 use crate::colorimetry::Xy;
 use crate::math::chebyshev::{coefficients, nodes};
 use crate::units::Kelvin;
@@ -81,13 +81,13 @@ impl Pieces {
 
     /// The chromaticity of one black body.
     #[inline]
-    pub(super) fn xy(&self, temperature: Kelvin) -> Result<Xy, NotInTable> {
+    pub(super) fn xy(&self, temperature: Kelvin) -> Result<Xy, LocusTableError> {
         let (index, t) = place(temperature, self.within_bits);
         answer(&self.pieces, index, t, temperature)
     }
 
     /// The chromaticities of as many as fit both slices.
-    pub(super) fn fill(&self, temperatures: &[Kelvin], answers: &mut [Result<Xy, NotInTable>]) {
+    pub(super) fn fill(&self, temperatures: &[Kelvin], answers: &mut [Result<Xy, LocusTableError>]) {
         fill(&self.pieces, self.within_bits, temperatures, answers);
     }
 }
@@ -95,7 +95,7 @@ impl Pieces {
 /// Compiled for several instruction sets, the best chosen at run time; no operation is fused, so all of them give the same
 /// bits.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
-fn fill(pieces: &[Piece], within_bits: u32, temperatures: &[Kelvin], answers: &mut [Result<Xy, NotInTable>]) {
+fn fill(pieces: &[Piece], within_bits: u32, temperatures: &[Kelvin], answers: &mut [Result<Xy, LocusTableError>]) {
     let (mut indices, mut ts) = ([0; LANES], [0.0; LANES]);
     for (answers, temperatures) in answers.chunks_mut(LANES).zip(temperatures.chunks(LANES)) {
         for ((index, t), &temperature) in indices.iter_mut().zip(&mut ts).zip(temperatures) {
@@ -128,13 +128,13 @@ fn mired(index: usize, bits: u32, t: f64) -> f64 {
 
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
-fn answer(pieces: &[Piece], index: u64, t: f64, temperature: Kelvin) -> Result<Xy, NotInTable> {
+fn answer(pieces: &[Piece], index: u64, t: f64, temperature: Kelvin) -> Result<Xy, LocusTableError> {
     let Some(piece) = pieces.get(index as usize).filter(|_| (COLDEST_K..=HOTTEST_K).contains(&temperature.get()))
     else {
-        return Err(NotInTable::Outside);
+        return Err(LocusTableError::Outside);
     };
     let xy = evaluate(piece, t);
-    if xy.x.is_nan() { Err(NotInTable::Rough) } else { Ok(xy) }
+    if xy.x.is_nan() { Err(LocusTableError::Rough) } else { Ok(xy) }
 }
 
 /// The polynomials at t: even and odd powers side by side, by Horner's rule in t².

@@ -1,6 +1,6 @@
 //! Published closed formulas, each within the range it was published for: to compare with, not to compute with.
 
-use super::NoCct;
+use super::CctError;
 use crate::colorimetry::Xy;
 use crate::units::Kelvin;
 
@@ -11,7 +11,7 @@ use crate::units::Kelvin;
 /// ```
 /// Claimed to be off by less than 2 K from illuminant A to D65, and refused where the result lies further beyond those than
 /// 2 K. Measured against the locus of today's constants it is off by up to 10 K (0.28 %, at 3475 K), and it knows no Duv.
-pub fn mccamy_1992(color: Xy) -> Result<Kelvin, NoCct> {
+pub fn mccamy_1992(color: Xy) -> Result<Kelvin, CctError> {
     let n = slope(color, 0.3320, 0.1858)?;
     within(((-449.0 * n + 3525.0) * n - 6823.3) * n + 5520.33, 2854.0, 6506.0)
 }
@@ -22,7 +22,7 @@ pub fn mccamy_1992(color: Xy) -> Result<Kelvin, NoCct> {
 /// T = A₀ + Σ A_i exp(−n / t_i),   n = (x − x_e) / (y − y_e)
 /// ```
 /// Made for daylight and skylight; measured on the Planckian locus up to 20 000 K it is within 1.4 %. It knows no Duv.
-pub fn hernandez_andres_1999(color: Xy) -> Result<Kelvin, NoCct> {
+pub fn hernandez_andres_1999(color: Xy) -> Result<Kelvin, CctError> {
     let n = slope(color, 0.3366, 0.1735)?;
     let terms = [(6_253.803_38, 0.921_59), (28.705_99, 0.200_39), (0.000_04, 0.071_25)];
     let kelvins = terms.iter().fold(-949.863_15, |sum, (a, t)| sum + a * (-n / t).exp());
@@ -63,20 +63,20 @@ pub fn kang_2002(temperature: Kelvin) -> Option<Xy> {
 }
 
 /// The inverse slope of the line from a point where isotherms roughly meet. Below that point there is no temperature to tell.
-fn slope(color: Xy, x: f64, y: f64) -> Result<f64, NoCct> {
+fn slope(color: Xy, x: f64, y: f64) -> Result<f64, CctError> {
     if !(color.x.is_finite() && color.y.is_finite()) {
-        return Err(NoCct::NoChromaticity);
+        return Err(CctError::NoChromaticity);
     }
-    if color.y <= y { Err(NoCct::TooFar) } else { Ok((color.x - x) / (color.y - y)) }
+    if color.y <= y { Err(CctError::TooFar) } else { Ok((color.x - x) / (color.y - y)) }
 }
 
 /// A result, if it is in the published range.
-fn within(kelvins: f64, coldest: f64, hottest: f64) -> Result<Kelvin, NoCct> {
+fn within(kelvins: f64, coldest: f64, hottest: f64) -> Result<Kelvin, CctError> {
     if kelvins < coldest {
-        return Err(NoCct::TooCold);
+        return Err(CctError::TooCold);
     }
     if kelvins > hottest {
-        return Err(NoCct::TooHot);
+        return Err(CctError::TooHot);
     }
-    Kelvin::new(kelvins).map_err(|_| NoCct::TooFar)
+    Kelvin::new(kelvins).map_err(|_| CctError::TooFar)
 }

@@ -3,7 +3,7 @@
 //! Their tables are not copied but computed, from the observer's own locus at the published temperatures.
 
 use super::exact::{ExactLocus, Motion};
-use super::{Cct, MAX_DUV, NoCct, NoLocus};
+use super::{Cct, CctError, LocusError, MAX_DUV};
 use crate::colorimetry::Uv60;
 use crate::light::RadiationConstants;
 use crate::spectral::{Primaries, Sensor};
@@ -45,23 +45,25 @@ impl Isotherm {
 
 impl Robertson {
     /// The isotherms of an observer: 31 sums.
-    pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, NoLocus> {
+    pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, LocusError> {
         let locus = locus(observer, constants)?;
         let isotherm = |index| {
             let mired = robertson_mired(index);
-            let Motion { at, per_mired: [du, dv] } = locus.motion(mired).ok_or(NoLocus::NoChromaticity)?;
+            let Motion { at, per_mired: [du, dv] } = locus.motion(mired).ok_or(LocusError::NoChromaticity)?;
             let length = du.hypot(dv);
-            (length > 0.0).then_some(Isotherm { mired, at, along: [du / length, dv / length] }).ok_or(NoLocus::Crooked)
+            (length > 0.0)
+                .then_some(Isotherm { mired, at, along: [du / length, dv / length] })
+                .ok_or(LocusError::Crooked)
         };
         Ok(Self { isotherms: (0..31).map(isotherm).collect::<Result<_, _>>()? })
     }
 
     /// The temperature by his interpolation; the distance, which he did not give, by the same from the tangents of both.
-    pub fn cct(&self, color: Uv60) -> Result<Cct, NoCct> {
+    pub fn cct(&self, color: Uv60) -> Result<Cct, CctError> {
         finite(color)?;
         let side = |isotherm: &Isotherm| isotherm.beyond(color);
         let Some(first) = self.isotherms.first().filter(|&hottest| side(hottest) >= 0.0) else {
-            return Err(NoCct::TooHot);
+            return Err(CctError::TooHot);
         };
         let mut hot = *first;
         for cold in self.isotherms.iter().skip(1) {
@@ -70,15 +72,15 @@ impl Robertson {
                 let share = if past + short > 0.0 { past / (past + short) } else { 0.0 };
                 let duv = hot.above(color) + share * (cold.above(color) - hot.above(color));
                 if duv.abs() > MAX_DUV {
-                    return Err(NoCct::TooFar);
+                    return Err(CctError::TooFar);
                 }
                 let mired = hot.mired + share * (cold.mired - hot.mired);
-                let temperature = Kelvin::from_mired(mired).map_err(|_| NoCct::TooHot)?;
+                let temperature = Kelvin::from_mired(mired).map_err(|_| CctError::TooHot)?;
                 return Ok(Cct { temperature, duv });
             }
             hot = *cold;
         }
-        Err(NoCct::TooCold)
+        Err(CctError::TooCold)
     }
 }
 
@@ -103,33 +105,33 @@ const TRIANGLE_TO: f64 = 0.002;
 
 impl Ohno {
     /// The table of an observer: 305 sums.
-    pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, NoLocus> {
+    pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, LocusError> {
         let locus = locus(observer, constants)?;
         let point = |index| {
             // One before 1000 K and one past 20000 K, so that those have two neighbors.
             let kelvins = 1000.0 * STEP.powi(index - 1);
-            Ok((kelvins, locus.motion(1e6 / kelvins).ok_or(NoLocus::NoChromaticity)?.at))
+            Ok((kelvins, locus.motion(1e6 / kelvins).ok_or(LocusError::NoChromaticity)?.at))
         };
         Ok(Self { points: (0..305).map(point).collect::<Result<_, _>>()? })
     }
 
     /// The temperature and Duv of a color.
-    pub fn cct(&self, color: Uv60) -> Result<Cct, NoCct> {
+    pub fn cct(&self, color: Uv60) -> Result<Cct, CctError> {
         finite(color)?;
         let distance = |at: Uv60| (at.u - color.u).hypot(at.v - color.v);
         let distances: Vec<f64> = self.points.iter().map(|&(_, at)| distance(at)).collect();
         let nearest = (0..distances.len()).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap_or(0);
         if distances.get(nearest).is_none_or(|&d| d > MAX_DUV * 1.01) {
-            return Err(NoCct::TooFar);
+            return Err(CctError::TooFar);
         }
         if nearest == 0 {
-            return Err(NoCct::TooCold);
+            return Err(CctError::TooCold);
         }
         let (Some(points), Some(&[a, b, c])) = (
             self.points.get(nearest - 1..nearest + 2),
             distances.get(nearest - 1..nearest + 2).and_then(|three| three.first_chunk::<3>()),
         ) else {
-            return Err(NoCct::TooHot);
+            return Err(CctError::TooHot);
         };
         let ((ta, pa), (tb, _), (tc, pc)) = (points[0], points[1], points[2]);
         let width = (pc.u - pa.u).hypot(pc.v - pa.v);
@@ -144,16 +146,16 @@ impl Ohno {
             (t, sign * d)
         };
         if duv.abs() > MAX_DUV {
-            return Err(NoCct::TooFar);
+            return Err(CctError::TooFar);
         }
         let kelvins = kelvins * CORRECTION;
         if kelvins < 1000.0 * (1.0 - ENDS) {
-            return Err(NoCct::TooCold);
+            return Err(CctError::TooCold);
         }
         if kelvins > 20_000.0 * (1.0 + ENDS) {
-            return Err(NoCct::TooHot);
+            return Err(CctError::TooHot);
         }
-        Ok(Cct { temperature: Kelvin::new(kelvins).map_err(|_| NoCct::TooFar)?, duv })
+        Ok(Cct { temperature: Kelvin::new(kelvins).map_err(|_| CctError::TooFar)?, duv })
     }
 }
 
@@ -165,14 +167,14 @@ fn parabola([(x0, y0), (x1, y1), (x2, y2)]: [(f64, f64); 3]) -> (f64, f64) {
     (x, y0 + (x - x0) * (first + bend * (x - x1)))
 }
 
-fn locus(observer: &Sensor, constants: RadiationConstants) -> Result<ExactLocus<'_>, NoLocus> {
-    (observer.primaries() == Primaries::Xyz).then(|| ExactLocus::new(observer, constants)).ok_or(NoLocus::NotXyz)
+fn locus(observer: &Sensor, constants: RadiationConstants) -> Result<ExactLocus<'_>, LocusError> {
+    (observer.primaries() == Primaries::Xyz).then(|| ExactLocus::new(observer, constants)).ok_or(LocusError::NotXyz)
 }
 
 /// Whether there is a color at all, and one whose squares are numbers.
-fn finite(color: Uv60) -> Result<(), NoCct> {
+fn finite(color: Uv60) -> Result<(), CctError> {
     if !(color.u.is_finite() && color.v.is_finite()) {
-        return Err(NoCct::NoChromaticity);
+        return Err(CctError::NoChromaticity);
     }
-    if color.u.abs().max(color.v.abs()) > 10.0 { Err(NoCct::TooFar) } else { Ok(()) }
+    if color.u.abs().max(color.v.abs()) > 10.0 { Err(CctError::TooFar) } else { Ok(()) }
 }

@@ -1,11 +1,11 @@
 //! Differences of a camera's picture from the reference's.
 
-use super::{CameraImageOf, ExposureOf};
-use crate::camera::NoRendering;
+use super::{CameraImageQuery, ExposureQuery};
+use crate::camera::RenderingError;
 use crate::query::compare::{Metric, patch_difference};
 use crate::query::patches::patch_colors;
-use crate::query::{Ask, Query, RenderingOf};
-use crate::render::Measurement;
+use crate::query::{Ask, Query, RenderingQuery};
+use crate::render::ColorimetricScale;
 use crate::render::develop::differences;
 use std::sync::Arc;
 
@@ -14,15 +14,15 @@ pub const BRIGHT_L: f64 = 20.0;
 
 /// Differences of a camera's picture from the reference's, sample by sample.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct DifferenceOf {
+pub struct DifferenceQuery {
     /// The camera's signals.
-    pub image: CameraImageOf,
+    pub image: CameraImageQuery,
     /// How they are balanced.
-    pub rendering: RenderingOf,
+    pub rendering: RenderingQuery,
     /// The reference's signals.
-    pub truth: CameraImageOf,
+    pub reference: CameraImageQuery,
     /// The material, and the scale of colors, with the reference's balance.
-    pub exposure: ExposureOf,
+    pub exposure: ExposureQuery,
     /// Each how many of the lit samples are compared.
     pub stride: usize,
 }
@@ -69,8 +69,8 @@ impl BrightSamples {
     }
 }
 
-impl Query for DifferenceOf {
-    type Answer = Result<Option<Arc<Difference>>, NoRendering>;
+impl Query for DifferenceQuery {
+    type Answer = Result<Option<Arc<Difference>>, RenderingError>;
     const NAME: &'static str = "difference";
     const KEPT: usize = 64;
 
@@ -81,23 +81,25 @@ impl Query for DifferenceOf {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let facing = ask.ask(&self.exposure);
         let facing = (*facing).as_ref().map_err(|&e| e)?;
-        let [rendering, truth] = [&self.rendering, &self.exposure.truth].map(|of| ask.ask(of));
-        let (rendering, reference) = ((*rendering).as_ref().map_err(|&e| e)?, (*truth).as_ref().map_err(|&e| e)?);
-        let measured = Measurement::new(rendering, facing.white);
-        let measured_truth = Measurement::new(reference, facing.white);
-        let [image, truth] = [&self.image, &self.truth].map(|of| ask.ask(of));
-        let (Some(image), Some(truth)) = ((*image).as_ref().map_err(|&e| e)?, (*truth).as_ref().map_err(|&e| e)?)
+        let [rendering, reference] = [&self.rendering, &self.exposure.reference].map(|of| ask.ask(of));
+        let (rendering, reference) = ((*rendering).as_ref().map_err(|&e| e)?, (*reference).as_ref().map_err(|&e| e)?);
+        let measured = ColorimetricScale::new(rendering, facing.white);
+        let measured_reference = ColorimetricScale::new(reference, facing.white);
+        let [image, reference_image] = [&self.image, &self.reference].map(|of| ask.ask(of));
+        let (Some(image), Some(reference_image)) =
+            ((*image).as_ref().map_err(|&e| e)?, (*reference_image).as_ref().map_err(|&e| e)?)
         else {
             return Ok(None);
         };
-        let Some((map, lightness)) = differences(image, &measured, truth, &measured_truth, self.stride, &ask.stop())
+        let Some((map, lightness)) =
+            differences(image, &measured, reference_image, &measured_reference, self.stride, &ask.stop())
         else {
             return Ok(None);
         };
         let mean = map.iter().map(|&d| f64::from(d)).sum::<f64>() / map.len().max(1) as f64;
         let max = f64::from(map.iter().copied().fold(0.0, f32::max));
         let flat = |of, rendering| patch_colors(of, rendering, std::iter::once(&*self.exposure.reflectance));
-        let flat = [flat(&self.rendering, rendering), flat(&self.exposure.truth, reference)];
+        let flat = [flat(&self.rendering, rendering), flat(&self.exposure.reference, reference)];
         let facing = patch_difference(Metric::DeltaE2000, &flat[0][0], &flat[1][0]).ok();
         let bright = BrightSamples::new(&map, &lightness);
         Ok(Some(Arc::new(Difference { stride: self.stride, map, mean, max, facing, bright })))

@@ -1,26 +1,26 @@
-//! Pictures side by side: one exposure for all, differences to the truth.
+//! Pictures side by side: one exposure for all, differences to the reference.
 
-use super::difference::{Difference, DifferenceOf};
-use super::{CameraImageOf, MeasureOf, ShadingOf};
-use crate::camera::NoRendering;
+use super::difference::{Difference, DifferenceQuery};
+use super::{CameraImageQuery, ShadingQuery, SpectralWeightsQuery};
+use crate::camera::RenderingError;
 use crate::colorimetry::Xyz;
-use crate::query::{Ask, Query, RenderingOf, Shared};
+use crate::query::{Ask, Query, RenderingQuery, Shared};
 use crate::reflectance::power::factors_by;
 use crate::reflectance::{Geometry, Method, Reading, Specular, Surface};
 use crate::render::develop::develop;
-use crate::render::{CameraImage, Development, GeometryCounts, GeometryImage, Measure, Picture, ShadingCounts};
+use crate::render::{CameraImage, Development, GeometryCounts, GeometryImage, Picture, ShadingCounts, SpectralWeights};
 use crate::spectral::GridSpectrum;
 use glam::DVec3;
 use std::sync::Arc;
 
 /// The luminance that a material facing the light takes at 0 EV.
-pub const EXPOSED: f64 = 0.4;
+pub const MID_LUMINANCE: f64 = 0.4;
 
-/// How bright is a material that faces light and eye, through the truth?
+/// How bright is a material that faces light and eye, through the reference?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct ExposureOf {
-    /// The truth.
-    pub truth: RenderingOf,
+pub struct ExposureQuery {
+    /// The reference.
+    pub reference: RenderingQuery,
     /// The material.
     pub reflectance: Shared<GridSpectrum>,
     /// Its roughness.
@@ -33,46 +33,46 @@ pub struct ExposureOf {
 
 /// What exposure and the measuring of colors go by.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Facing {
-    /// XYZ of the material, through the truth.
+pub struct ExposureReference {
+    /// XYZ of the material, through the reference.
     pub material: Xyz,
     /// Y of a white of the same roughness.
     pub white: f64,
 }
 
-impl Facing {
+impl ExposureReference {
     /// The factor on all cameras' signals at an exposure in EV: `2^EV · 0.4 / Y`. 0 for a black material.
     pub fn factor(&self, ev: f64) -> f64 {
-        if self.material.y > 0.0 { ev.exp2() * EXPOSED / self.material.y } else { 0.0 }
+        if self.material.y > 0.0 { ev.exp2() * MID_LUMINANCE / self.material.y } else { 0.0 }
     }
 }
 
-impl Query for ExposureOf {
-    type Answer = Result<Facing, NoRendering>;
+impl Query for ExposureQuery {
+    type Answer = Result<ExposureReference, RenderingError>;
     const NAME: &'static str = "exposure";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let rendering = ask.ask(&self.truth);
+        let rendering = ask.ask(&self.reference);
         let rendering = (*rendering).as_ref().map_err(|&e| e)?;
         let measure = |reflectance: Shared<GridSpectrum>| {
-            let (sensor, light) = (self.truth.sensor.clone(), self.truth.light.clone());
-            ask.ask(&MeasureOf { sensor, light, reflectance, reading: Reading::Lambertian })
+            let (sensor, light) = (self.reference.sensor.clone(), self.reference.light.clone());
+            ask.ask(&SpectralWeightsQuery { sensor, light, reflectance, reading: Reading::Lambertian })
         };
         let (white, material) = (measure(Shared::new(GridSpectrum::constant(1.0))), measure(self.reflectance.clone()));
         let white = (*white).as_ref().map_err(|&e| e)?;
         let material = (*material).as_ref().map_err(|&e| e)?;
-        let xyz = |measure: &Measure| rendering.xyz(rendering.white * self.signals(measure, white));
-        Ok(Facing { material: xyz(material), white: xyz(white).y })
+        let xyz = |measure: &SpectralWeights| rendering.xyz(rendering.white * self.signals(measure, white));
+        Ok(ExposureReference { material: xyz(material), white: xyz(white).y })
     }
 }
 
-impl ExposureOf {
+impl ExposureQuery {
     /// `∫ C_c S P L dλ / ∫ C_c L dλ` with light, eye and normal along one line, where nothing oscillates: a few wavelengths do.
     /// An untinted coherent component is weighed by the measure of a white.
-    fn signals(&self, material: &Measure, white: &Measure) -> DVec3 {
+    fn signals(&self, material: &SpectralWeights, white: &SpectralWeights) -> DVec3 {
         let facing = Geometry::from_angles(0.0, 0.0, 0.0);
         let radius = f64::from_bits(self.angular_radius);
-        let component = |measure: &Measure, which: usize| {
+        let component = |measure: &SpectralWeights, which: usize| {
             let at = |nm| factors_by(&self.surface, &facing, nm, self.reading, Method::default(), radius)[which];
             measure.fine().iter().map(|node| DVec3::from_array(node.weights) * at(node.wavelength_nm)).sum::<DVec3>()
         };
@@ -85,26 +85,26 @@ impl ExposureOf {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SourceOf {
     /// The sensor, its light, white and way to the diagram.
-    pub rendering: RenderingOf,
+    pub rendering: RenderingQuery,
 }
 
 /// What does a camera's picture look like?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct PictureOf {
+pub struct PictureQuery {
     /// Its signals.
-    pub image: CameraImageOf,
+    pub image: CameraImageQuery,
     /// How they are balanced.
-    pub rendering: RenderingOf,
+    pub rendering: RenderingQuery,
     /// Exposure in EV, as bits.
     pub ev: u64,
     /// What is exposed by.
-    pub exposure: ExposureOf,
+    pub exposure: ExposureQuery,
     /// What shows beside the mesh, in linear sRGB as bits; none leaves it transparent.
     pub background: Option<[u32; 3]>,
 }
 
-impl Query for PictureOf {
-    type Answer = Result<Option<Arc<Picture>>, NoRendering>;
+impl Query for PictureQuery {
+    type Answer = Result<Option<Arc<Picture>>, RenderingError>;
     const NAME: &'static str = "picture";
     const KEPT: usize = 64;
 
@@ -127,20 +127,20 @@ impl Query for PictureOf {
 
 /// What do several cameras' pictures of one shaded mesh look like, side by side?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct PicturesOf {
+pub struct PicturesQuery {
     /// The shaded mesh.
-    pub shading: ShadingOf,
+    pub shading: ShadingQuery,
     /// The material.
     pub reflectance: Shared<GridSpectrum>,
-    /// The truth; exposure and differences go by it.
-    pub truth: RenderingOf,
-    /// All sources on show, the truth among them or not.
+    /// The reference; exposure and differences go by it.
+    pub reference: RenderingQuery,
+    /// All visible sensors, the reference among them or not.
     pub sources: Vec<SourceOf>,
     /// Exposure in EV, as bits.
     pub ev: u64,
     /// What shows beside the mesh, in linear sRGB as bits.
     pub background: Option<[u32; 3]>,
-    /// About how many samples are compared with the truth; none compares nothing.
+    /// About how many samples are compared with the reference; none compares nothing.
     pub compared_samples: Option<usize>,
 }
 
@@ -148,26 +148,26 @@ pub struct PicturesOf {
 #[derive(Clone, Debug)]
 pub struct Pictures {
     /// Of each source its picture, or why there is none.
-    pub pictures: Vec<Result<Arc<Picture>, NoRendering>>,
+    pub pictures: Vec<Result<Arc<Picture>, RenderingError>>,
     /// Of each source its signals, to read pixels from.
     pub images: Vec<Option<CameraImage>>,
-    /// Of each source how far it is from the truth.
+    /// Of each source how far it is from the reference.
     pub differences: Vec<Option<Arc<Difference>>>,
     /// The angles at the lit samples, to read pixels from.
     pub angles: Arc<GeometryImage>,
     /// What exposure went by.
-    pub facing: Facing,
+    pub facing: ExposureReference,
     /// Why samples are dark.
     pub geometry: GeometryCounts,
     /// How integrals were made.
     pub shading: ShadingCounts,
 }
 
-impl PicturesOf {
+impl PicturesQuery {
     /// What exposure goes by.
-    pub fn exposure(&self) -> ExposureOf {
-        ExposureOf {
-            truth: self.truth.clone(),
+    pub fn exposure(&self) -> ExposureQuery {
+        ExposureQuery {
+            reference: self.reference.clone(),
             reflectance: self.reflectance.clone(),
             surface: self.shading.surface,
             reading: self.shading.reading,
@@ -176,19 +176,19 @@ impl PicturesOf {
     }
 
     /// A source's signals.
-    pub fn image(&self, rendering: &RenderingOf) -> CameraImageOf {
-        let measure = MeasureOf {
+    pub fn image(&self, rendering: &RenderingQuery) -> CameraImageQuery {
+        let measure = SpectralWeightsQuery {
             sensor: rendering.sensor.clone(),
             light: rendering.light.clone(),
             reflectance: self.reflectance.clone(),
             reading: self.shading.reading,
         };
-        CameraImageOf { shading: self.shading.clone(), measure }
+        CameraImageQuery { shading: self.shading.clone(), measure }
     }
 
     /// A source's picture.
-    pub fn picture(&self, rendering: &RenderingOf) -> PictureOf {
-        PictureOf {
+    pub fn picture(&self, rendering: &RenderingQuery) -> PictureQuery {
+        PictureQuery {
             image: self.image(rendering),
             rendering: rendering.clone(),
             ev: self.ev,
@@ -197,12 +197,12 @@ impl PicturesOf {
         }
     }
 
-    /// How far a source is from the truth, looking at each `stride`-th lit sample.
-    pub fn difference(&self, rendering: &RenderingOf, stride: usize) -> DifferenceOf {
-        DifferenceOf {
+    /// How far a source is from the reference, looking at each `stride`-th lit sample.
+    pub fn difference(&self, rendering: &RenderingQuery, stride: usize) -> DifferenceQuery {
+        DifferenceQuery {
             image: self.image(rendering),
             rendering: rendering.clone(),
-            truth: self.image(&self.truth),
+            reference: self.image(&self.reference),
             exposure: self.exposure(),
             stride,
         }
@@ -212,7 +212,7 @@ impl PicturesOf {
         let Some(wanted) = self.compared_samples else { return vec![None; self.sources.len()] };
         let stride = (lit as usize).div_ceil(wanted.max(1)).max(1);
         let of = |source: &SourceOf| {
-            if source.rendering == self.truth {
+            if source.rendering == self.reference {
                 return None;
             }
             let answer = ask.ask(&self.difference(&source.rendering, stride));
@@ -222,8 +222,8 @@ impl PicturesOf {
     }
 }
 
-impl Query for PicturesOf {
-    type Answer = Result<Option<Pictures>, NoRendering>;
+impl Query for PicturesQuery {
+    type Answer = Result<Option<Pictures>, RenderingError>;
     const NAME: &'static str = "pictures";
     // Each holds on to all of its parts.
     const KEPT: usize = 2;

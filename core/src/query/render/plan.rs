@@ -1,8 +1,8 @@
 //! Questions about how a camera's integrals are made at a chosen accuracy.
 
-use super::MeasureOf;
+use super::SpectralWeightsQuery;
 use crate::accuracy::Accuracy;
-use crate::camera::NoRendering;
+use crate::camera::RenderingError;
 use crate::query::{Ask, Query};
 use crate::render::mirror::Reach;
 use crate::render::{Against, Demand, Plan, Quality};
@@ -10,9 +10,9 @@ use crate::render::{Against, Demand, Plan, Quality};
 /// What is the cheapest way to a camera's spectral integral that keeps an error? Asks for no surface or angle: what a scene
 /// demands changes only as its κ leave a power of two, or its samples.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct PlanOf {
+pub struct PlanQuery {
     /// The camera under the light.
-    pub measure: MeasureOf,
+    pub measure: SpectralWeightsQuery,
     /// The error.
     pub accuracy: Accuracy,
     /// What it is relative to.
@@ -21,8 +21,8 @@ pub struct PlanOf {
     pub demand: Demand,
 }
 
-impl Query for PlanOf {
-    type Answer = Result<Plan, NoRendering>;
+impl Query for PlanQuery {
+    type Answer = Result<Plan, RenderingError>;
     const NAME: &'static str = "plan";
     const WHOLE: bool = true;
     const KEPT: usize = 64;
@@ -40,15 +40,15 @@ impl Query for PlanOf {
 
 /// Over which paths is a mirror's lobe made of a few wavelengths, or of its mean, at an accuracy?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct ReachOf {
+pub struct ReachQuery {
     /// The camera under the light.
-    pub measure: MeasureOf,
+    pub measure: SpectralWeightsQuery,
     /// The error.
     pub accuracy: Accuracy,
 }
 
-impl Query for ReachOf {
-    type Answer = Result<Reach, NoRendering>;
+impl Query for ReachQuery {
+    type Answer = Result<Reach, RenderingError>;
     const NAME: &'static str = "mirror reach";
     const WHOLE: bool = true;
     const KEPT: usize = 64;

@@ -12,7 +12,7 @@ const SLACK: f64 = 4e-3;
 
 /// Share of light that a surface returns, by angle of incidence.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct ReturnedLightOf {
+pub struct ReturnedLightQuery {
     /// The surface.
     pub surface: Surface,
     /// The normalization of P.
@@ -30,7 +30,7 @@ pub struct ReturnedLight {
     pub exceeds_one_from_deg: Option<f64>,
 }
 
-impl Query for ReturnedLightOf {
+impl Query for ReturnedLightQuery {
     type Answer = ReturnedLight;
     const NAME: &'static str = "returned light";
 

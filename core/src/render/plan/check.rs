@@ -6,7 +6,7 @@ use super::nodes::many_by_nodes;
 use crate::accuracy::Accuracy;
 use crate::reflectance::Precision;
 use crate::render::diffuse::{DARK, by_nodes};
-use crate::render::measure::{Measure, Node};
+use crate::render::measure::{Node, SpectralWeights};
 use rayon::prelude::*;
 
 /// The largest error between the points of the check is taken to be at most this much larger than at them.
@@ -57,7 +57,7 @@ pub(super) struct Check {
 
 impl Check {
     /// By the sum over all wavelengths; where 20 or 28 wavelengths are as good as that at some of the points, by those.
-    pub(super) fn new(measure: &Measure, against: Against, demand: Demand) -> Self {
+    pub(super) fn new(measure: &SpectralWeights, against: Against, demand: Demand) -> Self {
         let few = points(measure.dense(), against, demand, COMPARED_STRIDE);
         for count in STAND_INS {
             let nodes = measure.shared(count);

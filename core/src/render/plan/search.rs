@@ -13,7 +13,7 @@ use super::{Against, Below, Demand, Plan, run};
 use crate::accuracy::{Accuracy, Unmet};
 use crate::reflectance::{Precision, diffuse_sum};
 use crate::render::diffuse::{by_moments, by_nodes, rough_basis};
-use crate::render::measure::{MOMENTS, Measure, Node};
+use crate::render::measure::{MOMENTS, Node, SpectralWeights};
 use rayon::prelude::*;
 
 /// The most wavelengths that stand for all.
@@ -32,7 +32,12 @@ const PAYS_NS: f64 = 2e6;
 /// A table's error is taken to be smaller than what is likely by this power of ten at most.
 const UNLIKELY: f64 = 0.1;
 
-pub(super) fn plan(measure: &Measure, accuracy: Accuracy, against: Against, demand: Demand) -> Result<Plan, Unmet> {
+pub(super) fn plan(
+    measure: &SpectralWeights,
+    accuracy: Accuracy,
+    against: Against,
+    demand: Demand,
+) -> Result<Plan, Unmet> {
     accuracy.met_by(REFERENCE)?;
     let check = Check::new(measure, against, demand);
     let mut search = Search { measure, accuracy, demand, check: &check, seen: Vec::new(), best: None };
@@ -79,7 +84,7 @@ pub(super) fn plan(measure: &Measure, accuracy: Accuracy, against: Against, dema
 }
 
 struct Search<'a> {
-    measure: &'a Measure,
+    measure: &'a SpectralWeights,
     accuracy: Accuracy,
     demand: Demand,
     check: &'a Check,

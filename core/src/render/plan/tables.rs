@@ -7,7 +7,7 @@ use super::surface::Surface;
 use super::table::{Size, Table};
 use crate::reflectance::Precision;
 use crate::render::diffuse::by_nodes;
-use crate::render::measure::{Measure, Node};
+use crate::render::measure::{Node, SpectralWeights};
 
 /// The degree of what tables are made of.
 const DEGREE: usize = 9;
@@ -27,7 +27,7 @@ const FULL: f64 = 9.0;
 /// All splines of a measure that tables are made of, each made when it is asked for. What a table is made of does not depend on
 /// what else was looked at.
 pub(super) struct Makings<'a> {
-    measure: &'a Measure,
+    measure: &'a SpectralWeights,
     check: &'a Check,
     extent: Extent,
     /// What so many wavelengths are off by, from none on.
@@ -44,7 +44,7 @@ struct Made {
 }
 
 impl<'a> Makings<'a> {
-    pub(super) fn new(measure: &'a Measure, check: &'a Check, kappa: [f64; 2]) -> Self {
+    pub(super) fn new(measure: &'a SpectralWeights, check: &'a Check, kappa: [f64; 2]) -> Self {
         Self { measure, check, extent: Extent::new(kappa), node_errors: Vec::new(), made: Vec::new() }
     }
 

@@ -3,31 +3,31 @@
 use std::hint::black_box;
 use std::sync::Arc;
 
-use chromascope_core::camera::NoRendering;
+use chromascope_core::camera::RenderingError;
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::{DiffuseTableOf, PicturesOf, PlanOf, SourceOf};
+use chromascope_core::query::render::{DiffuseTableQuery, PicturesQuery, PlanQuery, SourceOf};
 use chromascope_core::reflectance::Precision;
 use chromascope_core::render::diffuse::{by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::measure::Node;
 use chromascope_core::render::plan::Method;
 use chromascope_core::render::shading::{Shade, Way};
-use chromascope_core::render::{Against, DiffuseTable, Measure, Plan, Quality, ShadingImage};
+use chromascope_core::render::{Against, DiffuseTable, Plan, Quality, ShadingImage, SpectralWeights};
 
-use crate::laboratory::stopwatch::shortest;
+use crate::profiler::stopwatch::shortest;
 
 /// How a source's integrals are made.
 pub(super) struct Ways {
     /// One that there is.
-    measure: Arc<Result<Measure, NoRendering>>,
-    table: Option<Arc<Result<DiffuseTable, NoRendering>>>,
-    plan: Option<Arc<Result<Plan, NoRendering>>>,
+    measure: Arc<Result<SpectralWeights, RenderingError>>,
+    table: Option<Arc<Result<DiffuseTable, RenderingError>>>,
+    plan: Option<Arc<Result<Plan, RenderingError>>>,
     quality: Quality,
 }
 
 impl Ways {
     /// With table and plan as the picture takes them; none for a source that gives no signals under this light.
     pub(super) fn new(
-        pictures: &PicturesOf,
+        pictures: &PicturesQuery,
         source: &SourceOf,
         shading: &ShadingImage,
         ask: &impl Ask,
@@ -35,15 +35,15 @@ impl Ways {
         let of = pictures.image(&source.rendering).measure;
         let measure = of.in_picture(shading, ask);
         (*measure).as_ref().ok()?;
-        let table = shading.needs_table().then(|| ask.ask(&DiffuseTableOf(of.clone())));
+        let table = shading.needs_table().then(|| ask.ask(&DiffuseTableQuery(of.clone())));
         let wanted = shading.demand().zip(shading.plan_accuracy());
-        let plan =
-            wanted.map(|(demand, accuracy)| ask.ask(&PlanOf { measure: of, accuracy, against: Against::Peak, demand }));
+        let plan = wanted
+            .map(|(demand, accuracy)| ask.ask(&PlanQuery { measure: of, accuracy, against: Against::Peak, demand }));
         Some(Self { measure, table, plan, quality: shading.quality() })
     }
 
     /// Its weights.
-    pub(super) fn measure(&self) -> &Measure {
+    pub(super) fn measure(&self) -> &SpectralWeights {
         (*self.measure).as_ref().expect("made of nothing else")
     }
 

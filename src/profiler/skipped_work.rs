@@ -10,13 +10,13 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::PicturesOf;
+use chromascope_core::query::render::PicturesQuery;
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::shading::{Shade, Way};
-use chromascope_core::render::{CameraImage, Measure, ShadingImage, Stop};
+use chromascope_core::render::{CameraImage, ShadingImage, SpectralWeights, Stop};
 use serde::{Deserialize, Serialize};
 
-use super::SceneRunOf;
+use super::SceneRunQuery;
 use super::stopwatch::shortest;
 use crate::figures::pareto::duration;
 pub use panes::{LOCI, PATCHES};
@@ -29,7 +29,7 @@ const SUMS: usize = 200;
 
 /// Something that was not computed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LeftOut {
+pub struct SkippedWork {
     /// What it is.
     pub what: Cow<'static, str>,
     /// How many of these were left out.
@@ -43,7 +43,7 @@ pub struct LeftOut {
 }
 
 /// All rows. What is stopped on the way is left out.
-pub(super) fn rows(run: &SceneRunOf, ask: &impl Ask) -> Vec<LeftOut> {
+pub(super) fn rows(run: &SceneRunQuery, ask: &impl Ask) -> Vec<SkippedWork> {
     let mut rows = Vec::new();
     if let Some(pictures) = &run.pictures {
         rows.extend(of_pictures(pictures, ask).unwrap_or_default());
@@ -60,13 +60,13 @@ pub(super) fn rows(run: &SceneRunOf, ask: &impl Ask) -> Vec<LeftOut> {
 
 /// What is measured on.
 struct Sources<'a> {
-    pictures: &'a PicturesOf,
+    pictures: &'a PicturesQuery,
     shading: &'a ShadingImage,
     ways: Vec<Ways>,
 }
 
 impl Sources<'_> {
-    fn measures(&self) -> impl Iterator<Item = &Measure> {
+    fn measures(&self) -> impl Iterator<Item = &SpectralWeights> {
         self.ways.iter().map(Ways::measure)
     }
 
@@ -97,7 +97,7 @@ fn measured_on(taken: usize, all: usize, places: &str) -> String {
     if taken < all { format!("extrapolated from {taken} {places}") } else { format!("all {taken} {places}") }
 }
 
-fn of_pictures(pictures: &PicturesOf, ask: &impl Ask) -> Option<Vec<LeftOut>> {
+fn of_pictures(pictures: &PicturesQuery, ask: &impl Ask) -> Option<Vec<SkippedWork>> {
     let shading = ask.ask(&pictures.shading);
     let shading = (*shading).as_ref()?;
     let ways = pictures.sources.iter().filter_map(|source| Ways::new(pictures, source, shading, ask)).collect();
@@ -111,7 +111,7 @@ fn of_pictures(pictures: &PicturesOf, ask: &impl Ask) -> Option<Vec<LeftOut>> {
 }
 
 /// Samples that no light or no triangle is at.
-fn unlit(sources: &Sources<'_>) -> Vec<LeftOut> {
+fn unlit(sources: &Sources<'_>) -> Vec<SkippedWork> {
     let size = sources.pictures.shading.geometry.visibility.size;
     let all = (size.columns() * size.rows()) as u64;
     let counts = sources.shading.geometry().counts();
@@ -126,7 +126,7 @@ fn unlit(sources: &Sources<'_>) -> Vec<LeftOut> {
     };
     let row = |what: &'static str, count: u64, of: u64| {
         let saved = each.as_ref().map_or(0.0, |each| each.seconds * count as f64);
-        LeftOut { what: what.into(), count, of: Some(of), saved, how: how.clone() }
+        SkippedWork { what: what.into(), count, of: Some(of), saved, how: how.clone() }
     };
     vec![
         row("samples beside the mesh", all - counts.seen.min(all), all),

@@ -1,6 +1,6 @@
 //! What the rows of scenes of several kinds count and say.
 
-use chromascope_core::query::render::MeshOf;
+use chromascope_core::query::render::MeshQuery;
 use chromascope_core::render::RasterSize;
 
 use super::*;
@@ -11,17 +11,17 @@ use crate::results::Results;
 use crate::scene::Scene;
 
 /// The rows of a small picture of the default scene's cameras.
-fn rows_of(change: impl FnOnce(&mut RenderSettings)) -> Vec<LeftOut> {
+fn rows_of(change: impl FnOnce(&mut RenderSettings)) -> Vec<SkippedWork> {
     rows_at(RasterSize { width: 64, height: 48, samples: 1 }, change)
 }
 
-fn rows_at(size: RasterSize, change: impl FnOnce(&mut RenderSettings)) -> Vec<LeftOut> {
+fn rows_at(size: RasterSize, change: impl FnOnce(&mut RenderSettings)) -> Vec<SkippedWork> {
     let mut document = Document::paper();
     (document.render.mesh, document.render.triangles) = (MeshChoice::Sphere, 2000);
     change(&mut document.render);
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let mut run = SceneRunOf::of(&scene, None, None);
+    let mut run = SceneRunQuery::of(&scene, None, None);
     let pictures = run.pictures.as_mut().expect("there is a mesh");
     pictures.shading.geometry.visibility.size = size;
     of_pictures(pictures, &Results::bounded()).expect("nothing stops it")
@@ -32,8 +32,8 @@ fn pictures_that_are_not_on_show_are_made_from_nothing() {
     let document = Document::paper();
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let mut pictures = SceneRunOf::of(&scene, None, None).pictures.expect("there is a mesh");
-    pictures.shading.geometry.visibility.mesh = MeshOf::Sphere(2000);
+    let mut pictures = SceneRunQuery::of(&scene, None, None).pictures.expect("there is a mesh");
+    pictures.shading.geometry.visibility.mesh = MeshQuery::Sphere(2000);
     pictures.shading.geometry.visibility.size = RasterSize { width: 16, height: 12, samples: 1 };
     // Whoever asks has all of it at hand.
     let asking = Results::bounded();
@@ -45,7 +45,7 @@ fn pictures_that_are_not_on_show_are_made_from_nothing() {
     assert_eq!(asked(), before, "nothing that is remembered was used");
 }
 
-fn row<'a>(rows: &'a [LeftOut], what: &str) -> Option<&'a LeftOut> {
+fn row<'a>(rows: &'a [SkippedWork], what: &str) -> Option<&'a SkippedWork> {
     rows.iter().find(|row| row.what == what)
 }
 
@@ -63,7 +63,7 @@ fn a_lambertian_surface_leaves_out_no_mirror_and_no_wavelength() {
 #[test]
 fn wavelengths_that_are_looked_at_do_not_count_as_left_out() {
     let rows_of = |change: fn(&mut RenderSettings)| rows_at(RasterSize { width: 24, height: 18, samples: 1 }, change);
-    let wavelengths = |rows: &[LeftOut]| row(rows, "wavelengths at a lit sample").map(|row| (row.count, row.of));
+    let wavelengths = |rows: &[SkippedWork]| row(rows, "wavelengths at a lit sample").map(|row| (row.count, row.of));
     for quality in [QualityChoice::Exact, QualityChoice::Regimes] {
         let size = RasterSize { width: 24, height: 18, samples: 1 };
         assert_eq!(wavelengths(&rows_at(size, |settings| settings.quality = quality)), None, "{quality:?}");

@@ -6,9 +6,9 @@ use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::Roughness;
 use chromascope_core::reflectance::{Reading, Regime, beta, kappa};
 use chromascope_core::render::diffuse::{DARK, DiffuseTable, ROUGH};
-use chromascope_core::render::{CameraImage, Development, Measurement, Quality};
+use chromascope_core::render::{CameraImage, ColorimetricScale, Development, Quality};
 
-use super::Shot;
+use super::RenderedFrame;
 use crate::results::Results;
 
 /// A pixel in numbers.
@@ -40,7 +40,7 @@ pub struct LitPixel {
     pub xy: Option<Xy>,
     /// L*a*b*, where a white of the same roughness that faces the light has Y = 1.
     pub lab: Option<Lab>,
-    /// ΔE*00 to the truth.
+    /// ΔE*00 to the reference.
     pub difference: Option<f64>,
     /// g at 550 nm, with its regime and how the integral was made.
     pub roughness: Option<(f64, String)>,
@@ -54,7 +54,7 @@ struct Samples {
 }
 
 /// Reads the pixel at a place (right and down, from 0 to 1) of one of the pictures.
-pub fn read(shot: &Shot, results: &Results, index: usize, place: [f64; 2]) -> Option<PixelReading> {
+pub fn read(shot: &RenderedFrame, results: &Results, index: usize, place: [f64; 2]) -> Option<PixelReading> {
     let pictures = shot.made()?;
     let image = pictures.images.get(index)?.as_ref()?;
     let size = image.placed().size();
@@ -70,7 +70,7 @@ pub fn read(shot: &Shot, results: &Results, index: usize, place: [f64; 2]) -> Op
 }
 
 fn lit(
-    shot: &Shot,
+    shot: &RenderedFrame,
     results: &Results,
     index: usize,
     at: [usize; 2],
@@ -81,29 +81,29 @@ fn lit(
     let of = &shot.query.sources.get(index)?.rendering;
     let rendering = results.ask(of);
     let rendering = (*rendering).as_ref().ok()?;
-    let measurement = Measurement::new(rendering, pictures.facing.white);
+    let measurement = ColorimetricScale::new(rendering, pictures.facing.white);
     let factor = pictures.facing.factor(f64::from_bits(shot.query.ev));
     let development = Development::new(rendering, factor, None);
     let signal = glam::DVec3::from(samples.signal.map(f64::from));
     let lab = measurement.lab(samples.signal);
-    let difference = (*of != shot.query.truth).then(|| truth_lab(shot, results, at)).flatten();
+    let difference = (*of != shot.query.reference).then(|| reference_lab(shot, results, at)).flatten();
     Some(LitPixel {
         linear: (development.linear_from_signals * signal).to_array(),
         xy: measurement.xyz(samples.signal).chromaticity(),
         lab,
-        difference: lab.zip(difference).map(|(lab, truth)| delta_e_2000(lab, truth)),
+        difference: lab.zip(difference).map(|(lab, reference)| delta_e_2000(lab, reference)),
         roughness: roughness(shot, middle),
     })
 }
 
-/// L*a*b* of the same pixel through the truth, if that is among the pictures.
-fn truth_lab(shot: &Shot, results: &Results, at: [usize; 2]) -> Option<Lab> {
-    let index = shot.query.sources.iter().position(|source| source.rendering == shot.query.truth)?;
+/// L*a*b* of the same pixel through the reference, if that is among the pictures.
+fn reference_lab(shot: &RenderedFrame, results: &Results, at: [usize; 2]) -> Option<Lab> {
+    let index = shot.query.sources.iter().position(|source| source.rendering == shot.query.reference)?;
     let pictures = shot.made()?;
     let image = pictures.images.get(index)?.as_ref()?;
-    let rendering = results.ask(&shot.query.truth);
+    let rendering = results.ask(&shot.query.reference);
     let rendering = (*rendering).as_ref().ok()?;
-    Measurement::new(rendering, pictures.facing.white).lab(samples(image, at).signal)
+    ColorimetricScale::new(rendering, pictures.facing.white).lab(samples(image, at).signal)
 }
 
 /// The mean over those samples of a pixel that see the mesh.
@@ -134,7 +134,7 @@ fn samples(image: &CameraImage, [x, y]: [usize; 2]) -> Samples {
 }
 
 /// g at 550 nm with its regime and the way that its spectral integral was made.
-fn roughness(shot: &Shot, middle: usize) -> Option<(f64, String)> {
+fn roughness(shot: &RenderedFrame, middle: usize) -> Option<(f64, String)> {
     let shading = &shot.query.shading;
     // Between vertices of different roughness there is no one g.
     if shading.reading == Reading::Lambertian || shading.roughness == Roughness::Mesh {
@@ -147,7 +147,7 @@ fn roughness(shot: &Shot, middle: usize) -> Option<(f64, String)> {
         Regime::Moderate => "moderate",
         Regime::Rough => "rough",
     };
-    let way = match shading.quality {
+    let transform = match shading.quality {
         Quality::Preview | Quality::Full if kappa >= ROUGH && beta > DARK => "below the threshold",
         Quality::Preview | Quality::Full if kappa >= ROUGH => "closed form",
         Quality::Preview | Quality::Full if DiffuseTable::holds(kappa, beta) => "table of 9 wavelengths",
@@ -161,5 +161,5 @@ fn roughness(shot: &Shot, middle: usize) -> Option<(f64, String)> {
             Regime::Rough => "Eq 4",
         },
     };
-    Some((kappa, format!("{regime}, {way}")))
+    Some((kappa, format!("{regime}, {transform}")))
 }

@@ -3,23 +3,23 @@
 use std::fmt::Write as _;
 
 use chromascope_core::accuracy::Accuracy;
-use chromascope_core::camera::NoRendering;
-use chromascope_core::query::render::{PicturesOf, PlanOf, SourceOf};
+use chromascope_core::camera::RenderingError;
+use chromascope_core::query::render::{PicturesQuery, PlanQuery, SourceOf};
 use chromascope_core::query::{Ask, Query};
 use chromascope_core::render::Against;
 use chromascope_core::render::plan::{Candidate, Explanation, Method};
 
 /// What is the plan of each source of these pictures? None inside if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct PlansOf(pub PicturesOf);
+pub struct PlansQuery(pub PicturesQuery);
 
 /// A source's plan; none where no tolerance was asked for, and if stopped.
-pub type PlanAnswer = Result<Option<Planned>, NoRendering>;
+pub type PlanAnswer = Result<Option<Planned>, RenderingError>;
 
-impl PlansOf {
+impl PlansQuery {
     /// What was answered as far as it is of other pictures' sources, in their order: a plan is its camera's under a light with
     /// a material. None if one is missing.
-    pub(super) fn plans_for(&self, pictures: &PicturesOf, plans: &[PlanAnswer]) -> Option<Vec<PlanAnswer>> {
+    pub(super) fn plans_for(&self, pictures: &PicturesQuery, plans: &[PlanAnswer]) -> Option<Vec<PlanAnswer>> {
         let known: Vec<_> = self.0.sources.iter().map(|source| self.0.image(&source.rendering).measure).collect();
         let plan = |source: &SourceOf| {
             let measure = pictures.image(&source.rendering).measure;
@@ -29,7 +29,7 @@ impl PlansOf {
     }
 }
 
-impl Query for PlansOf {
+impl Query for PlansQuery {
     type Answer = Vec<PlanAnswer>;
     const NAME: &'static str = "plans";
     const KEPT: usize = 8;
@@ -90,7 +90,7 @@ impl Certain {
 }
 
 /// The plan of one source; none where no tolerance was asked for, and if stopped.
-pub fn planned(pictures: &PicturesOf, source: &SourceOf, ask: &impl Ask) -> PlanAnswer {
+pub fn planned(pictures: &PicturesQuery, source: &SourceOf, ask: &impl Ask) -> PlanAnswer {
     let shading = ask.ask(&pictures.shading);
     let Some(shading) = (*shading).as_ref() else { return Ok(None) };
     let (Some(tolerance), Some(accuracy)) = (shading.quality().accuracy(), shading.plan_accuracy()) else {
@@ -100,7 +100,7 @@ pub fn planned(pictures: &PicturesOf, source: &SourceOf, ask: &impl Ask) -> Plan
         None => None,
         Some(demand) => {
             let measure = pictures.image(&source.rendering).measure;
-            let plan = ask.ask(&PlanOf { measure, accuracy, against: Against::Peak, demand });
+            let plan = ask.ask(&PlanQuery { measure, accuracy, against: Against::Peak, demand });
             Some((*plan).as_ref().map_err(|&error| error)?.explanation().clone())
         }
     };

@@ -2,15 +2,15 @@
 
 use chromascope_core::accuracy::Accuracy;
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::PicturesOf;
+use chromascope_core::query::render::PicturesQuery;
 use chromascope_core::reflectance::{Precision, Reading};
 use chromascope_core::render::diffuse::{DARK, ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::shading::Way;
-use chromascope_core::render::{Against, Demand, DiffuseTable, Measure, Plan, Quality, ShadingImage};
+use chromascope_core::render::{Against, Demand, DiffuseTable, Plan, Quality, ShadingImage, SpectralWeights};
 
 use super::method::{Method, largest, measured, together};
 use super::stopwatch::once;
-use super::{Family, Point, SceneRunOf, Subject, Trial};
+use super::{Family, Point, SceneRunQuery, Subject, Trial};
 
 /// At most so many samples are measured on.
 const SAMPLES: usize = 300;
@@ -25,7 +25,7 @@ const FULL: &str = "Full: moments, table";
 type Tolerance = (Accuracy, String);
 
 /// Measures; none where nothing is rendered, where no sample takes an integral, and if stopped.
-pub(super) fn trial(run: &SceneRunOf, ask: &impl Ask) -> Option<Trial> {
+pub(super) fn trial(run: &SceneRunQuery, ask: &impl Ask) -> Option<Trial> {
     let pictures = run.pictures.as_ref()?;
     if pictures.shading.reading == Reading::Lambertian {
         return None;
@@ -67,14 +67,14 @@ fn range(places: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// At most how many samples a picture has whose integral is made.
-fn samples(pictures: &PicturesOf) -> u64 {
+fn samples(pictures: &PicturesQuery) -> u64 {
     let size = pictures.shading.geometry.visibility.size;
     (size.columns() * size.rows()) as u64
 }
 
 /// All methods through one source; none if stopped.
 fn through(
-    measure: &Measure,
+    measure: &SpectralWeights,
     places: &[[f64; 2]],
     (demand, tolerances): (Demand, &[Tolerance]),
     ask: &impl Ask,
@@ -140,7 +140,12 @@ fn by_quality(quality: Quality) -> Option<&'static str> {
 }
 
 /// The methods that promise nothing, the reference first.
-fn fixed<'a>(measure: &'a Measure, table: &'a DiffuseTable, build: f64, places: &'a [[f64; 2]]) -> Vec<Method<'a>> {
+fn fixed<'a>(
+    measure: &'a SpectralWeights,
+    table: &'a DiffuseTable,
+    build: f64,
+    places: &'a [[f64; 2]],
+) -> Vec<Method<'a>> {
     let method = |name: &str, family, preparation, at: Box<dyn Fn(f64, f64) -> [f64; 3] + 'a>| Method {
         name: name.to_owned(),
         family,
@@ -166,7 +171,7 @@ fn fixed<'a>(measure: &'a Measure, table: &'a DiffuseTable, build: f64, places: 
 }
 
 /// As the quality Full does it.
-fn full(measure: &Measure, table: &DiffuseTable, kappa: f64, beta: f64) -> [f64; 3] {
+fn full(measure: &SpectralWeights, table: &DiffuseTable, kappa: f64, beta: f64) -> [f64; 3] {
     if kappa >= ROUGH {
         if beta > DARK { [0.0; 3] } else { by_moments(measure.moments(), &rough_basis(kappa, beta)) }
     } else if DiffuseTable::holds(kappa, beta) {

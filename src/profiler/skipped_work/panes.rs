@@ -1,11 +1,11 @@
 //! What nobody looks at: each is computed here from nothing, so that its time is that of the first time.
 
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::PicturesOf;
+use chromascope_core::query::render::PicturesQuery;
 
-use super::LeftOut;
-use crate::laboratory::stopwatch::once;
-use crate::laboratory::{SceneRunOf, fresh};
+use super::SkippedWork;
+use crate::profiler::stopwatch::once;
+use crate::profiler::{SceneRunQuery, fresh};
 
 /// The row of the loci.
 pub const LOCI: &str = "loci, while Chromaticity is not on show";
@@ -21,9 +21,9 @@ fn threads() -> String {
 }
 
 /// Cameras that are not on show: their signals are made here.
-pub(super) fn cameras(run: &SceneRunOf, pictures: &PicturesOf, ask: &impl Ask) -> Option<LeftOut> {
+pub(super) fn cameras(run: &SceneRunQuery, pictures: &PicturesQuery, ask: &impl Ask) -> Option<SkippedWork> {
     let ((), seconds) = once(|| run.hidden.iter().for_each(|hidden| drop(ask.ask(&pictures.image(&hidden.rendering)))));
-    (!run.hidden.is_empty()).then(|| LeftOut {
+    (!run.hidden.is_empty()).then(|| SkippedWork {
         what: "sources that are not on show".into(),
         count: run.hidden.len() as u64,
         of: Some((run.hidden.len() + pictures.sources.len()) as u64),
@@ -33,10 +33,10 @@ pub(super) fn cameras(run: &SceneRunOf, pictures: &PicturesOf, ask: &impl Ask) -
 }
 
 /// The pictures of a workspace that is not on show.
-pub(super) fn pictures(pictures: &PicturesOf, ask: &impl Ask) -> Option<LeftOut> {
+pub(super) fn pictures(pictures: &PicturesQuery, ask: &impl Ask) -> Option<SkippedWork> {
     let fresh = fresh(ask);
     let (answer, seconds) = once(|| fresh.ask(pictures));
-    matches!(&*answer, Ok(Some(_))).then(|| LeftOut {
+    matches!(&*answer, Ok(Some(_))).then(|| SkippedWork {
         what: "pictures, while Render is not on show".into(),
         count: pictures.sources.len() as u64,
         of: None,
@@ -46,11 +46,11 @@ pub(super) fn pictures(pictures: &PicturesOf, ask: &impl Ask) -> Option<LeftOut>
 }
 
 /// What other panes would ask for.
-pub(super) fn others(run: &SceneRunOf, ask: &impl Ask) -> Vec<LeftOut> {
+pub(super) fn others(run: &SceneRunQuery, ask: &impl Ask) -> Vec<SkippedWork> {
     let row = |what: &'static str, count: usize, work: &dyn Fn()| {
         let ((), saved) = once(work);
         let how = format!("each made once from nothing; {}", threads());
-        (count > 0).then_some(LeftOut { what: what.into(), count: count as u64, of: None, saved, how })
+        (count > 0).then_some(SkippedWork { what: what.into(), count: count as u64, of: None, saved, how })
     };
     let loci = row(LOCI, run.loci.len(), &|| run.loci.iter().for_each(|locus| drop(fresh(ask).ask(locus))));
     let patches =

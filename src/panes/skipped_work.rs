@@ -5,9 +5,9 @@ use egui::{Align, Label, Layout, Rect, RichText, ScrollArea, TextStyle, Ui, UiBu
 
 use super::PaneContext;
 use crate::command::Command;
-use crate::figures::left_out::{self, OVERLAP, Section};
 use crate::figures::pareto::duration;
-use crate::laboratory::LeftOut;
+use crate::figures::skipped_work::{self, OVERLAP, Section};
+use crate::profiler::SkippedWork;
 use crate::theme::UNIT;
 use crate::widgets;
 use crate::workspaces::PaneKind;
@@ -15,15 +15,15 @@ use crate::workspaces::PaneKind;
 /// Shows the pane in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     context.refresh_run();
-    let body = widgets::pane(ui, PaneKind::LeftOut, rect, context, |_, _| {});
+    let body = widgets::pane(ui, PaneKind::SkippedWork, rect, context, |_, _| {});
     if !context.view.fixed_clock {
         let run = context.view.accuracy.run.clone();
-        let measured = run.as_ref().map_or(&[][..], |run| &run.left_out);
-        context.view.accuracy.remembered = left_out::remembered(&context.counts(), measured);
+        let measured = run.as_ref().map_or(&[][..], |run| &run.skipped_work);
+        context.view.accuracy.remembered = skipped_work::remembered(&context.counts(), measured);
     }
-    let sections = left_out::sections(context.view);
-    if context.view.saved.tables.contains(&PaneKind::LeftOut) {
-        widgets::data_table(ui, body, "left out", &left_out::table(&sections));
+    let sections = skipped_work::sections(context.view);
+    if context.view.saved.tables.contains(&PaneKind::SkippedWork) {
+        widgets::data_table(ui, body, "left out", &skipped_work::table(&sections));
         return;
     }
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         if context.view.accuracy.run.is_none() {
             ui.horizontal(|ui| {
                 if context.laboratory.busy().is_none() && ui.button("Run").clicked() {
-                    context.push(Command::Measure);
+                    context.push(Command::SpectralWeights);
                 }
                 ui.label("measures what was not computed on this scene, by computing it.");
             });
@@ -73,7 +73,7 @@ fn table(ui: &mut Ui, sections: &[Section], context: &PaneContext<'_>) {
         ui.add_space(if index == 0 { UNIT } else { 3.0 * UNIT });
         ui.horizontal_wrapped(|ui| {
             let color = if section.is_old { theme.warning } else { theme.text };
-            ui.label(RichText::new(left_out::capital(section.when)).strong().color(color));
+            ui.label(RichText::new(skipped_work::capital(section.when)).strong().color(color));
             if index == 0 {
                 ui.label(small(OVERLAP));
             }
@@ -108,7 +108,7 @@ fn column<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) {
 }
 
 /// A count, with its share where there is a whole.
-fn count(row: &LeftOut) -> String {
+fn count(row: &SkippedWork) -> String {
     match row.of {
         Some(of) if of > 0 => {
             let share = 100.0 * row.count as f64 / of as f64;

@@ -1,21 +1,21 @@
 //! What the scene on show costs by each method, with its error, and what was left out of it: measured, not estimated.
 //!
 //! A run computes with answers of its own, so that nothing remembered makes it look cheap. It is a question like any other,
-//! except that asking again measures again: [`SceneRunOf::run`] tells runs apart.
+//! except that asking again measures again: [`SceneRunQuery::run`] tells runs apart.
 
 mod asked;
 mod conditions;
 mod integral;
-mod left_out;
 mod loci;
 mod method;
 pub mod plans;
+mod skipped_work;
 mod stopwatch;
 
 use std::time::Duration;
 
-use chromascope_core::query::render::{PicturesOf, SourceOf};
-use chromascope_core::query::{Ask, LocusOf, PatchColorsOf, Query, Shared};
+use chromascope_core::query::render::{PicturesQuery, SourceOf};
+use chromascope_core::query::{Ask, LocusQuery, PatchColorsQuery, Query, Shared};
 use chromascope_core::spectral::Sensor;
 use serde::{Deserialize, Serialize};
 
@@ -23,24 +23,24 @@ use crate::bench::{self, Effort, Report, Workload};
 use crate::jobs::{Background, Executor};
 use crate::results::Results;
 pub use conditions::Conditions;
-pub use left_out::{LOCI, LeftOut, PATCHES};
-use plans::{PlanAnswer, PlansOf};
+use plans::{PlanAnswer, PlansQuery};
+pub use skipped_work::{LOCI, PATCHES, SkippedWork};
 
 /// What does the scene cost by each method, and what was left out?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct SceneRunOf {
+pub struct SceneRunQuery {
     /// What is rendered, in words.
     pub scene: String,
     /// The pictures; none where there is nothing to render.
-    pub pictures: Option<PicturesOf>,
+    pub pictures: Option<PicturesQuery>,
     /// The sources that are not on show.
     pub hidden: Vec<SourceOf>,
     /// The sensors on show.
     pub sensors: Vec<Shared<Sensor>>,
     /// The loci of the diagram.
-    pub loci: Vec<LocusOf>,
+    pub loci: Vec<LocusQuery>,
     /// The patches of the diagram and the swatches.
-    pub patches: Vec<PatchColorsOf>,
+    pub patches: Vec<PatchColorsQuery>,
     /// Tells runs of the same scene apart.
     pub run: u64,
 }
@@ -54,7 +54,8 @@ pub struct SceneRun {
     /// Of each kind of work its methods.
     pub trials: Vec<Trial>,
     /// What was not computed.
-    pub left_out: Vec<LeftOut>,
+    #[serde(alias = "left_out")]
+    pub skipped_work: Vec<SkippedWork>,
     /// How long measuring took.
     pub time: Duration,
 }
@@ -161,7 +162,7 @@ impl Family {
     }
 }
 
-impl Query for SceneRunOf {
+impl Query for SceneRunQuery {
     type Answer = SceneRun;
     const NAME: &'static str = "scene run";
     const KEPT: usize = 1;
@@ -170,8 +171,8 @@ impl Query for SceneRunOf {
         let (start, conditions) = (std::time::Instant::now(), Conditions::now(self));
         let ask = &fresh(ask);
         let trials = [integral::trial(self, ask), loci::trial(self, ask)].into_iter().flatten().collect();
-        let left_out = left_out::rows(self, ask);
-        SceneRun { conditions, trials, left_out, time: start.elapsed() }
+        let skipped_work = skipped_work::rows(self, ask);
+        SceneRun { conditions, trials, skipped_work, time: start.elapsed() }
     }
 }
 
@@ -184,12 +185,12 @@ fn fresh(ask: &impl Ask) -> Results {
 
 /// What does the program cost on a workload of its own, whatever the scene?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct BenchOf {
+struct BenchQuery {
     workload: Workload,
     run: u64,
 }
 
-impl Query for BenchOf {
+impl Query for BenchQuery {
     type Answer = Result<Report, String>;
     const NAME: &'static str = "bench";
     const KEPT: usize = 1;
@@ -201,14 +202,14 @@ impl Query for BenchOf {
 }
 
 /// Where runs are made, and the last ones.
-pub struct Laboratory {
-    worker: Background<SceneRunOf>,
-    bench: Background<BenchOf>,
-    plans: Background<PlansOf>,
+pub struct Profiler {
+    worker: Background<SceneRunQuery>,
+    bench: Background<BenchQuery>,
+    plans: Background<PlansQuery>,
     runs: u64,
 }
 
-impl Laboratory {
+impl Profiler {
     /// Starts the worker, which wakes the window when it has measured.
     pub fn new(wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
         Self::on(&Executor::default(), wake)
@@ -227,22 +228,22 @@ impl Laboratory {
 
     /// The plan of each of these pictures' sources, in their order. Until it is made, the last one that was made for the same
     /// camera, light and material; none while there is a source without one.
-    pub fn plans(&self, pictures: &PicturesOf) -> Option<Vec<PlanAnswer>> {
-        self.plans.ask(vec![PlansOf(pictures.clone())]);
+    pub fn plans(&self, pictures: &PicturesQuery) -> Option<Vec<PlanAnswer>> {
+        self.plans.ask(vec![PlansQuery(pictures.clone())]);
         let (of, plans) = self.plans.answered()?;
         of.plans_for(pictures, &plans)
     }
 
     /// Measures a scene, anew even if it is the same.
-    pub fn run(&mut self, scene: SceneRunOf) {
+    pub fn run(&mut self, scene: SceneRunQuery) {
         self.runs += 1;
-        self.worker.ask(vec![SceneRunOf { run: self.runs, ..scene }]);
+        self.worker.ask(vec![SceneRunQuery { run: self.runs, ..scene }]);
     }
 
     /// Measures a workload of the bench.
     pub fn run_bench(&mut self, workload: Workload) {
         self.runs += 1;
-        self.bench.ask(vec![BenchOf { workload, run: self.runs }]);
+        self.bench.ask(vec![BenchQuery { workload, run: self.runs }]);
     }
 
     /// The last report of the bench, or why there is none. One that was stopped is not kept.
@@ -258,9 +259,9 @@ impl Laboratory {
     }
 
     /// The last run, and whether it is of this scene.
-    pub fn shown(&self, scene: &SceneRunOf) -> Option<(std::sync::Arc<SceneRun>, bool)> {
+    pub fn shown(&self, scene: &SceneRunQuery) -> Option<(std::sync::Arc<SceneRun>, bool)> {
         let (of, run) = self.worker.answered()?;
-        let same = SceneRunOf { run: of.run, ..scene.clone() } == of;
+        let same = SceneRunQuery { run: of.run, ..scene.clone() } == of;
         Some((run, same))
     }
 

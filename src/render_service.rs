@@ -5,26 +5,26 @@ pub mod pixel;
 use std::sync::Arc;
 use std::time::Duration;
 
-use chromascope_core::camera::NoRendering;
+use chromascope_core::camera::RenderingError;
 use chromascope_core::query::Query;
-use chromascope_core::query::render::{Pictures, PicturesOf};
+use chromascope_core::query::render::{Pictures, PicturesQuery};
 
 use crate::jobs::{Background, Executor};
 use crate::results::Count;
-use crate::scene::Source;
+use crate::scene::ComparedSensor;
 
 /// For this many seconds after the last change something is taken to be moving.
 pub const REST_AFTER: f64 = 0.15;
 
 /// Pictures with the question that they answer.
 #[derive(Clone, Debug)]
-pub struct Shot {
+pub struct RenderedFrame {
     /// The question.
-    pub query: PicturesOf,
-    /// The sources, in the question's order.
-    pub sources: Vec<Source>,
+    pub query: PicturesQuery,
+    /// The sensors, in the question's order.
+    pub sources: Vec<ComparedSensor>,
     /// The answer.
-    pub answer: Arc<<PicturesOf as Query>::Answer>,
+    pub answer: Arc<<PicturesQuery as Query>::Answer>,
     /// How long it took.
     pub time: Duration,
     /// Whether nothing finer is to come.
@@ -33,12 +33,12 @@ pub struct Shot {
     pub serial: u64,
 }
 
-impl Shot {
+impl RenderedFrame {
     /// The pictures, or why there are none.
-    pub fn pictures(&self) -> Result<&Pictures, NoRendering> {
+    pub fn pictures(&self) -> Result<&Pictures, RenderingError> {
         match &*self.answer {
             Ok(Some(pictures)) => Ok(pictures),
-            Ok(None) => Err(NoRendering::NoWhite),
+            Ok(None) => Err(RenderingError::NoWhite),
             Err(error) => Err(*error),
         }
     }
@@ -52,24 +52,24 @@ impl Shot {
 /// What the worker was asked for.
 #[derive(Clone, Default)]
 struct Request {
-    stages: Vec<PicturesOf>,
-    sources: Vec<Source>,
-    wanted: Option<PicturesOf>,
+    stages: Vec<PicturesQuery>,
+    sources: Vec<ComparedSensor>,
+    wanted: Option<PicturesQuery>,
     moving: bool,
 }
 
 /// The worker and its last answer.
-pub struct Studio {
-    worker: Background<PicturesOf>,
+pub struct RenderService {
+    worker: Background<PicturesQuery>,
     latest: Request,
     before: Request,
-    shot: Option<Arc<Shot>>,
-    wanted: Option<PicturesOf>,
+    shot: Option<Arc<RenderedFrame>>,
+    wanted: Option<PicturesQuery>,
     changed_at: f64,
     asked: bool,
 }
 
-impl Studio {
+impl RenderService {
     /// Starts the worker, which wakes the window when it has made something.
     pub fn new(ctx: &egui::Context) -> Self {
         Self::on(&Executor::default(), ctx)
@@ -90,7 +90,7 @@ impl Studio {
     }
 
     /// Says what is to be shown in the end, at a time in seconds. Returns for how long it is still taken to be moving.
-    pub fn want(&mut self, wanted: &PicturesOf, now: f64) -> Option<f64> {
+    pub fn want(&mut self, wanted: &PicturesQuery, now: f64) -> Option<f64> {
         if self.wanted.as_ref() != Some(wanted) {
             // What is shown for the first time did not move.
             if self.wanted.is_some() {
@@ -103,13 +103,13 @@ impl Studio {
     }
 
     /// Whether the finest pictures of the same shaded mesh are on show, so that only their development can differ.
-    pub fn only_develops(&self, wanted: &PicturesOf) -> bool {
+    pub fn only_develops(&self, wanted: &PicturesQuery) -> bool {
         self.shot.as_ref().is_some_and(|shot| shot.is_last && shot.query.shading == wanted.shading)
     }
 
     /// Asks for stages from coarse to fine. While something moves, what is being made is waited for: a picture a little late is
     /// better than none.
-    pub fn ask(&mut self, stages: Vec<PicturesOf>, sources: &[Source], moving: bool) {
+    pub fn ask(&mut self, stages: Vec<PicturesQuery>, sources: &[ComparedSensor], moving: bool) {
         self.asked = true;
         // What ends in the same pictures is on its way already, or there.
         let same_end = !moving && !self.latest.moving && self.latest.stages.last() == stages.last();
@@ -150,7 +150,7 @@ impl Studio {
     }
 
     /// The last pictures made.
-    pub fn shot(&mut self) -> Option<Arc<Shot>> {
+    pub fn shot(&mut self) -> Option<Arc<RenderedFrame>> {
         let shown = self.worker.shown()?;
         if self.shot.as_ref().is_none_or(|shot| shot.serial != shown.serial) {
             // What arrived before the latest request was made answers the one before.
@@ -159,7 +159,7 @@ impl Studio {
             let Some(query) = request.stages.get(shown.stage).cloned() else { return self.shot.clone() };
             // What was only remembered took no time worth telling.
             let remembered = self.shot.as_ref().filter(|shot| shot.query == query).map(|shot| shot.time);
-            self.shot = Some(Arc::new(Shot {
+            self.shot = Some(Arc::new(RenderedFrame {
                 is_last: request.wanted.as_ref() == Some(&query),
                 query,
                 sources: request.sources.clone(),

@@ -5,33 +5,33 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use chromascope_figure::Tag;
 
-use crate::catalog::Kind;
+use crate::catalog::SetKind;
 
-/// A source by kind and name.
+/// A sensor by kind and name.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct SourceId {
+pub struct SensorId {
     /// Camera or observer.
-    pub kind: Kind,
+    pub kind: SetKind,
     /// Its name in the catalog.
     pub name: String,
 }
 
 /// Something on screen that can be hovered, selected or pinned.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Thing {
+pub enum PlotItem {
     /// A camera or observer: its key, its locus, its curves.
-    Source(SourceId),
-    /// A patch, through one source or (a column head, a reflectance curve) through none.
+    Sensor(SensorId),
+    /// A patch, through one sensor or (a column head, a reflectance curve) through none.
     Patch {
-        /// The source, if one is meant.
-        source: Option<SourceId>,
+        /// The sensor, if one is meant.
+        source: Option<SensorId>,
         /// The patch's name.
         patch: String,
     },
-    /// A black body through a source.
+    /// A black body through a sensor.
     Radiator {
-        /// The source.
-        source: SourceId,
+        /// The sensor.
+        source: SensorId,
         /// The temperature in kelvins.
         kelvin: f64,
     },
@@ -41,20 +41,20 @@ pub enum Thing {
 
 /// How a drawn thing stands to the one that is pointed at or chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
+pub enum Relation {
     /// It is that thing, or that thing's part or whole.
     Same,
-    /// It is what the thing is compared with: the truth's patch beside a camera's.
-    Beside,
+    /// It is what the thing is compared with: the reference's patch beside a camera's.
+    Reference,
     /// Neither.
-    Apart,
+    Other,
 }
 
-impl Thing {
-    /// The source it belongs to, if any.
-    pub fn source(&self) -> Option<&SourceId> {
+impl PlotItem {
+    /// The sensor it belongs to, if any.
+    pub fn source(&self) -> Option<&SensorId> {
         match self {
-            Self::Source(source) | Self::Radiator { source, .. } => Some(source),
+            Self::Sensor(source) | Self::Radiator { source, .. } => Some(source),
             Self::Patch { source, .. } => source.as_ref(),
             Self::Light => None,
         }
@@ -77,44 +77,44 @@ impl Thing {
     }
 
     /// How a drawn thing stands to this one.
-    pub fn standing_of(&self, drawn: &Self, truth: &str) -> Standing {
-        let is_truth = |s: Option<&SourceId>| s.is_some_and(|s| s.kind == Kind::Observer && s.name == truth);
-        let same_source = |a: Option<&SourceId>, b: Option<&SourceId>| a.is_none() || b.is_none() || a == b;
+    pub fn relation_to(&self, drawn: &Self, reference: &str) -> Relation {
+        let is_reference = |s: Option<&SensorId>| s.is_some_and(|s| s.kind == SetKind::Observer && s.name == reference);
+        let same_source = |a: Option<&SensorId>, b: Option<&SensorId>| a.is_none() || b.is_none() || a == b;
         match (self, drawn) {
-            (Self::Light, Self::Light) => Standing::Same,
+            (Self::Light, Self::Light) => Relation::Same,
             (Self::Patch { source: a, patch: p }, Self::Patch { source: b, patch: q }) if p == q => {
                 if same_source(a.as_ref(), b.as_ref()) {
-                    Standing::Same
-                } else if is_truth(b.as_ref()) {
-                    Standing::Beside
+                    Relation::Same
+                } else if is_reference(b.as_ref()) {
+                    Relation::Reference
                 } else {
-                    Standing::Apart
+                    Relation::Other
                 }
             }
             (Self::Light | Self::Patch { source: None, .. }, _)
             | (_, Self::Light | Self::Patch { source: None, .. })
-            | (Self::Patch { .. }, Self::Patch { .. }) => Standing::Apart,
-            _ if self.source() == drawn.source() => Standing::Same,
-            _ if is_truth(drawn.source()) => Standing::Beside,
-            _ => Standing::Apart,
+            | (Self::Patch { .. }, Self::Patch { .. }) => Relation::Other,
+            _ if self.source() == drawn.source() => Relation::Same,
+            _ if is_reference(drawn.source()) => Relation::Reference,
+            _ => Relation::Other,
         }
     }
 }
 
 /// The things that a figure's marks stand for.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Things {
-    all: Vec<Thing>,
+pub struct PickIndex {
+    all: Vec<PlotItem>,
     /// Indices of the things of each hash: a chart may have a hundred thousand patches.
     places: HashMap<u64, Vec<usize>>,
 }
 
-impl Things {
+impl PickIndex {
     /// The tag for marks that stand for nothing.
     pub const NONE: Tag = Tag(0);
 
     /// A tag for a thing; equal things get the same.
-    pub fn tag(&mut self, thing: Thing) -> Tag {
+    pub fn tag(&mut self, thing: PlotItem) -> Tag {
         let places = self.places.entry(thing.hashed()).or_default();
         let known = places.iter().copied().find(|&index| self.all[index] == thing);
         let index = known.unwrap_or_else(|| {
@@ -126,7 +126,7 @@ impl Things {
     }
 
     /// What a tag stands for.
-    pub fn get(&self, tag: Tag) -> Option<&Thing> {
+    pub fn get(&self, tag: Tag) -> Option<&PlotItem> {
         self.all.get((tag.0 as usize).checked_sub(1)?)
     }
 }

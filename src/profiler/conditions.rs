@@ -3,7 +3,7 @@
 use chromascope_core::query::render::Roughness;
 use serde::{Deserialize, Serialize};
 
-use super::{SceneRunOf, Subject, Trial};
+use super::{SceneRunQuery, Subject, Trial};
 use crate::bench::{self, Machine};
 use crate::figures::render::mesh_name;
 use crate::number::number;
@@ -27,7 +27,7 @@ pub struct Conditions {
 
 impl Conditions {
     /// Those of a run that begins now.
-    pub(super) fn now(run: &SceneRunOf) -> Self {
+    pub(super) fn now(run: &SceneRunQuery) -> Self {
         Self {
             scene: run.scene.clone(),
             sensors: run.sensors.len(),

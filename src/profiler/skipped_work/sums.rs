@@ -3,20 +3,20 @@
 use chromascope_core::reflectance::Precision;
 use chromascope_core::render::diffuse::by_nodes;
 use chromascope_core::render::shading::{Shade, Way};
-use chromascope_core::render::{Measure, Quality};
+use chromascope_core::render::{Quality, SpectralWeights};
 
-use super::{LeftOut, SAMPLES, SUMS, Sources, measured_on, some_of};
-use crate::laboratory::stopwatch::shortest;
+use super::{SAMPLES, SUMS, SkippedWork, Sources, measured_on, some_of};
+use crate::profiler::stopwatch::shortest;
 
 /// What is dark: its sums are made here.
-pub(super) fn dark(sources: &Sources<'_>) -> Option<LeftOut> {
+pub(super) fn dark(sources: &Sources<'_>) -> Option<SkippedWork> {
     let shades = sources.shading.shades();
     let dark: Vec<&Shade> = shades.iter().filter(|shade| shade.way == Way::Dark).collect();
     let taken = some_of(&dark, SAMPLES);
     if taken.is_empty() {
         return None;
     }
-    let sum = |measure: &Measure| {
+    let sum = |measure: &SpectralWeights| {
         let sum = |shade: &&Shade| by_nodes(measure.coarse(), shade.kappa, shade.beta, Precision::Fine);
         taken.iter().map(sum).collect::<Vec<_>>()
     };
@@ -28,7 +28,7 @@ pub(super) fn dark(sources: &Sources<'_>) -> Option<LeftOut> {
         }
         Quality::Fine | Quality::Exact | Quality::Regimes => "where the model gives nothing",
     };
-    Some(LeftOut {
+    Some(SkippedWork {
         what: format!("lit {places} below the threshold").into(),
         count: dark.len() as u64,
         of: Some(shades.len() as u64),
@@ -41,7 +41,7 @@ pub(super) fn dark(sources: &Sources<'_>) -> Option<LeftOut> {
 }
 
 /// Wavelengths of the grid that were not looked at: the sums over all are made here.
-pub(super) fn wavelengths(sources: &Sources<'_>) -> Option<LeftOut> {
+pub(super) fn wavelengths(sources: &Sources<'_>) -> Option<SkippedWork> {
     let lit = sources.lit();
     let (mut looked_at, mut all) = (0, 0);
     for ways in &sources.ways {
@@ -52,14 +52,14 @@ pub(super) fn wavelengths(sources: &Sources<'_>) -> Option<LeftOut> {
         return None;
     }
     let taken = some_of(&lit, SUMS);
-    let sum = |measure: &Measure| {
+    let sum = |measure: &SpectralWeights| {
         let sum = |shade: &&Shade| by_nodes(measure.dense(), shade.kappa, shade.beta, Precision::Full);
         taken.iter().map(sum).collect::<Vec<_>>()
     };
     let by_sum = shortest(|| sources.measures().map(sum).collect::<Vec<_>>());
     let now: f64 = sources.ways.iter().map(|ways| ways.seconds(&taken)).sum();
     let places = sources.places();
-    Some(LeftOut {
+    Some(SkippedWork {
         what: format!("wavelengths at a lit {}", sources.place()).into(),
         count: all - looked_at,
         of: Some(all),

@@ -3,7 +3,7 @@
 use chromascope_figure::{Anchor, Axis, Cell, Figure, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks};
 
 use super::pareto::duration;
-use crate::laboratory::{LOCI, LeftOut, PATCHES};
+use crate::profiler::{LOCI, PATCHES, SkippedWork};
 use crate::results::Count;
 use crate::view::View;
 
@@ -25,7 +25,7 @@ pub struct Section {
     /// Whether it is of the scene as it was.
     pub is_old: bool,
     /// The rows.
-    pub rows: Vec<LeftOut>,
+    pub rows: Vec<SkippedWork>,
 }
 
 /// What was left out: as the last run measured it, and what was remembered since the start. Sections without rows are none.
@@ -33,7 +33,7 @@ pub fn sections(view: &View) -> Vec<Section> {
     let accuracy = &view.accuracy;
     let at_the_run =
         if accuracy.is_current { "measured at the run" } else { "measured at the run, of the scene as it was" };
-    let run = accuracy.run.as_ref().map_or_else(Vec::new, |run| run.left_out.clone());
+    let run = accuracy.run.as_ref().map_or_else(Vec::new, |run| run.skipped_work.clone());
     let sections = [
         Section { when: at_the_run, is_old: !accuracy.is_current, rows: run },
         Section { when: SINCE_THE_START, is_old: false, rows: accuracy.remembered.clone() },
@@ -50,7 +50,7 @@ pub fn figure(view: &View) -> Option<Figure> {
         return None;
     }
     let mut figure = Figure::new("Time saved by what was left out", [WIDTH, AROUND + ROW * lines as f64]);
-    let saved = |row: &LeftOut| row.saved.max(1e-9).log10();
+    let saved = |row: &SkippedWork| row.saved.max(1e-9).log10();
     let timed = rows().filter(|row| row.saved > 0.0).map(saved);
     let (low, high) = timed.fold((-6.0_f64, -3.0_f64), |(low, high), s| (low.min(s), high.max(s)));
     let (low, high) = (low.floor(), high.ceil() + 4.0);
@@ -84,7 +84,7 @@ pub fn figure(view: &View) -> Option<Figure> {
 }
 
 /// A row's time in words.
-fn time(row: &LeftOut) -> String {
+fn time(row: &SkippedWork) -> String {
     if row.saved > 0.0 { duration(row.saved) } else { "time not measured".to_owned() }
 }
 
@@ -113,7 +113,7 @@ pub fn table(sections: &[Section]) -> Table {
 }
 
 /// What was remembered since the start, by kind of question. What a run measures from nothing, `run` says the time of.
-pub fn remembered(counts: &[(&'static str, Count)], run: &[LeftOut]) -> Vec<LeftOut> {
+pub fn remembered(counts: &[(&'static str, Count)], run: &[SkippedWork]) -> Vec<SkippedWork> {
     let reused = |&(name, count): &(&'static str, Count)| {
         let what = STAGES.iter().find(|(stage, _)| *stage == name)?.1;
         let made = format!("made {} times", count.misses);
@@ -130,7 +130,7 @@ pub fn remembered(counts: &[(&'static str, Count)], run: &[LeftOut]) -> Vec<Left
                 None => (0.0, format!("{made}; Run measures the time of one")),
             },
         };
-        (count.hits > 0).then(|| LeftOut {
+        (count.hits > 0).then(|| SkippedWork {
             what: what.into(),
             count: count.hits,
             of: Some(count.hits + count.misses),
@@ -170,7 +170,7 @@ mod tests {
         let time = Duration::from_micros(100);
         let counts =
             [("locus", Count { hits: 10, misses: 2, time, own_time: time }), ("patch colors", Count::default())];
-        let run = LeftOut { what: LOCI.into(), count: 4, of: None, saved: 0.02, how: String::new() };
+        let run = SkippedWork { what: LOCI.into(), count: 4, of: None, saved: 0.02, how: String::new() };
         let rows = remembered(&counts, &[run]);
         assert_eq!(rows.len(), 1, "what was not asked for again saved nothing");
         assert!((rows[0].saved - 0.05).abs() < 1e-12, "10 times 5 ms: {}", rows[0].saved);

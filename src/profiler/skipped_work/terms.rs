@@ -5,16 +5,16 @@ use std::hint::black_box;
 use chromascope_core::reflectance::series_terms;
 use chromascope_core::render::Quality;
 
-use super::{LeftOut, SUMS, Sources, measured_on, some_of};
+use super::{SUMS, SkippedWork, Sources, measured_on, some_of};
 use crate::figures::pareto::duration;
-use crate::laboratory::stopwatch::shortest;
+use crate::profiler::stopwatch::shortest;
 
 /// At most so many terms of all sums together are added: the time of a term is known by then.
 const AT_MOST: f64 = 5e6;
 
 /// The terms of plain sums at the wavelengths that a lit sample's integral rests on. None where the paper's cases are asked
 /// for, which add ten at most whatever matters.
-pub(super) fn terms(sources: &Sources<'_>) -> Option<LeftOut> {
+pub(super) fn terms(sources: &Sources<'_>) -> Option<SkippedWork> {
     let quality = sources.pictures.shading.quality;
     let lit = sources.lit();
     let taken = some_of(&lit, SUMS);
@@ -44,7 +44,7 @@ pub(super) fn terms(sources: &Sources<'_>) -> Option<LeftOut> {
     let now: f64 = sources.ways.iter().map(|ways| ways.seconds(&taken)).sum();
     let scale = lit.len() as f64 / taken.len() as f64;
     let places = sources.places();
-    Some(LeftOut {
+    Some(SkippedWork {
         what: format!("terms of S at a lit {}", sources.place()).into(),
         count: ((all - added) * scale) as u64,
         of: Some((all * scale) as u64),

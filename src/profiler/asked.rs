@@ -1,35 +1,36 @@
 //! The scene on show as a question of what it costs.
 
 use chromascope_core::light::RadiationConstants;
-use chromascope_core::query::render::{PicturesOf, SourceOf};
-use chromascope_core::query::{LocusOf, PatchColorsOf, Shared};
+use chromascope_core::query::render::{PicturesQuery, SourceOf};
+use chromascope_core::query::{LocusQuery, PatchColorsQuery, Shared};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_mesh::Mesh;
 
-use super::SceneRunOf;
+use super::SceneRunQuery;
 use crate::scene::render::Finish;
-use crate::scene::{Scene, Source};
+use crate::scene::{ComparedSensor, Scene};
 use crate::view::render::Orbit;
 
 /// The pictures that are measured on: as large as a pane's, whatever the window's size.
 const WIDTH: u32 = 480;
 const HEIGHT: u32 = 360;
 
-impl SceneRunOf {
+impl SceneRunQuery {
     /// Asks what a scene costs; a file's mesh is `own`, once it was read.
     pub fn of(scene: &Scene<'_>, own: Option<&Shared<Mesh>>, orbit: Option<Orbit>) -> Self {
         let sources = scene.sources();
-        let (shown, hidden): (Vec<&Source>, Vec<&Source>) = sources.iter().partition(|source| source.visible);
-        let rendering = |source: &&Source| scene.rendering_of(source.kind, &source.name).ok();
+        let (shown, hidden): (Vec<&ComparedSensor>, Vec<&ComparedSensor>) =
+            sources.iter().partition(|source| source.visible);
+        let rendering = |source: &&ComparedSensor| scene.rendering_of(source.kind, &source.name).ok();
         let renderings: Vec<_> = shown.iter().filter_map(rendering).collect();
         let temperatures = Scene::locus_temperatures().ok();
         let locus = |rendering: &_| {
             let constants = RadiationConstants::Paper;
-            Some(LocusOf { rendering: Clone::clone(rendering), temperatures: temperatures.clone()?, constants })
+            Some(LocusQuery { rendering: Clone::clone(rendering), temperatures: temperatures.clone()?, constants })
         };
         let patches = scene.patches().ok();
         let colors =
-            |rendering: &_| Some(PatchColorsOf { rendering: Clone::clone(rendering), patches: patches.clone()? });
+            |rendering: &_| Some(PatchColorsQuery { rendering: Clone::clone(rendering), patches: patches.clone()? });
         Self {
             scene: super::conditions::words(scene, scene.rendered_sources().len()),
             pictures: Self::pictures_of(scene, own, orbit, scene.document.render.quality()),
@@ -47,7 +48,7 @@ impl SceneRunOf {
         own: Option<&Shared<Mesh>>,
         orbit: Option<Orbit>,
         quality: Quality,
-    ) -> Option<PicturesOf> {
+    ) -> Option<PicturesQuery> {
         let sources = scene.rendered_sources();
         let settings = &scene.document.render;
         let orbit = orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));

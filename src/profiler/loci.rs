@@ -11,7 +11,7 @@ use chromascope_math::exp::exp;
 
 use super::method::{Method, largest, measured, together};
 use super::stopwatch::once;
-use super::{Family, Point, SceneRunOf, Subject, Trial};
+use super::{Family, Point, SceneRunQuery, Subject, Trial};
 
 /// So many temperatures, evenly in 1/T over the range on show.
 const TEMPERATURES: usize = 200;
@@ -23,7 +23,7 @@ const STEPS: [usize; 5] = [1, 2, 5, 10, 20];
 const TOLERANCES: [i32; 5] = [-2, -4, -6, -9, -12];
 
 /// Measures; none without sensors, and if stopped.
-pub(super) fn trial(run: &SceneRunOf, ask: &impl Ask) -> Option<Trial> {
+pub(super) fn trial(run: &SceneRunQuery, ask: &impl Ask) -> Option<Trial> {
     let temperatures: Vec<Kelvin> = (0..TEMPERATURES)
         .filter_map(|i| {
             let t = i as f64 / (TEMPERATURES - 1) as f64;
@@ -123,7 +123,7 @@ mod tests {
     use chromascope_core::render::Stop;
 
     use super::*;
-    use crate::catalog::{Catalog, Kind};
+    use crate::catalog::{Catalog, SetKind};
     use crate::document::Document;
     use crate::results::Results;
     use crate::scene::Scene;
@@ -132,7 +132,7 @@ mod tests {
     fn sums_of_one_kind_compare() {
         let (document, catalog, results) = (Document::paper(), Catalog::built_in(), Results::default());
         let scene = Scene { document: &document, catalog: &catalog, results: &results };
-        let sensor = scene.sensor(Kind::Camera, "Nikon D70 (2007 figure)").expect("a built-in camera");
+        let sensor = scene.sensor(SetKind::Camera, "Nikon D70 (2007 figure)").expect("a built-in camera");
         let temperatures: Vec<Kelvin> = (1..=20).filter_map(|i| Kelvin::new(1000.0 * f64::from(i)).ok()).collect();
         let terms = STEPS.map(|step| Stepped::new(&sensor, RadiationConstants::Paper, step).terms.len());
         assert_eq!(terms, [401, 201, 81, 41, 21], "a step of 20 nm adds a twentieth of the terms");

@@ -3,17 +3,17 @@
 use std::collections::BTreeSet;
 
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::MeshRoughnessOf;
+use chromascope_core::query::render::MeshRoughnessQuery;
 use chromascope_core::reflectance::{Geometry, Reading, Surface, coherent_prefactor, kappa};
-use chromascope_core::render::Measure;
+use chromascope_core::render::SpectralWeights;
 use chromascope_core::render::mirror::{Nodes, Reach, mirror_sum};
 use chromascope_core::render::shading::Mirror;
 
-use super::{LeftOut, SUMS, Sources, measured_on, some_of};
-use crate::laboratory::stopwatch::shortest;
+use super::{SUMS, SkippedWork, Sources, measured_on, some_of};
+use crate::profiler::stopwatch::shortest;
 
 /// They are made here, as the quality in use makes those that it has. None where the reading has no mirror.
-pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<LeftOut> {
+pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<SkippedWork> {
     let shading = sources.shading;
     let quality = shading.quality();
     let of = &sources.pictures.shading;
@@ -23,7 +23,7 @@ pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<LeftOut> 
     if of.reading == Reading::Lambertian || skipped.is_empty() {
         return None;
     }
-    let roughness = shading.vertices().map(|_| ask.ask(&MeshRoughnessOf(of.geometry.visibility.mesh.clone())));
+    let roughness = shading.vertices().map(|_| ask.ask(&MeshRoughnessQuery(of.geometry.visibility.mesh.clone())));
     let surface = *shading.surface();
     let place = |index: usize| -> Option<(Geometry, f64, Surface)> {
         match (shading.vertices(), &roughness) {
@@ -44,21 +44,21 @@ pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<LeftOut> 
         })
     };
     let taken: Vec<Mirror> = some_of(&skipped, SUMS).iter().filter_map(mirror).collect();
-    let reach = |measure: &Measure| {
+    let reach = |measure: &SpectralWeights| {
         // Of a picture without any it is not known how much smaller than their height lobes have to be right.
         let any = !shading.mirrors().is_empty();
         if any { Reach::in_picture(shading, measure) } else { Reach::of(quality, measure) }
     };
     let reaches: Vec<Reach> = sources.measures().map(reach).collect();
     let radius = shading.geometry().angular_radius();
-    let sum = |(measure, reach): (&Measure, &Reach)| {
+    let sum = |(measure, reach): (&SpectralWeights, &Reach)| {
         let Reach { still_m, settled_m, quick } = *reach;
         let measure = measure.coherent();
         let nodes = Nodes { smooth: measure.fine(), every: measure.dense(), still_m, settled_m, quick };
         taken.iter().map(|mirror| mirror_sum(mirror, &surface, nodes, radius)).collect::<Vec<_>>()
     };
     let seconds = shortest(|| sources.measures().zip(&reaches).map(sum).collect::<Vec<_>>());
-    Some(LeftOut {
+    Some(SkippedWork {
         what: "mirror terms".into(),
         count: skipped.len() as u64,
         of: Some(all as u64),
