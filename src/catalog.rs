@@ -15,12 +15,8 @@ use std::sync::LazyLock;
 
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::{Dataset, Header};
-use include_dir::{Dir, include_dir};
 
 use crate::document::own::{OwnSet, Role};
-
-/// The data files in the program.
-static ASSETS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets");
 
 /// What a data set is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
@@ -152,11 +148,10 @@ impl Catalog {
     pub fn built_in() -> Self {
         let mut entries = Vec::new();
         for kind in SetKind::ALL {
-            for file in ASSETS.get_dir(kind.plural()).into_iter().flat_map(Dir::files) {
-                let Some((path, header)) = file.path().to_str().zip(file.contents_utf8().and_then(header_of)) else {
-                    continue;
-                };
-                add_entries(&mut entries, kind, path, &header);
+            for (path, text) in chromascope_data::files(kind.plural()) {
+                if let Ok(header) = Dataset::read_header(text) {
+                    add_entries(&mut entries, kind, path, &header);
+                }
             }
         }
         entries.sort_by_cached_key(|e| {
@@ -201,19 +196,9 @@ pub fn is_built_in(kind: SetKind, name: &str) -> bool {
     }
 }
 
-/// The text of a built-in file.
-pub fn asset_text(path: &str) -> Option<&'static str> {
-    ASSETS.get_file(path).and_then(|file| file.contents_utf8())
-}
-
-/// The licence texts and notices in the program: file name and text.
+/// File name and text of each license and notice.
 pub fn licenses() -> impl Iterator<Item = (&'static str, &'static str)> {
-    let files = ASSETS.get_dir("licenses").into_iter().flat_map(Dir::files);
-    files.filter_map(|file| Some((file.path().file_name()?.to_str()?, file.contents_utf8()?)))
-}
-
-fn header_of(text: &'static str) -> Option<Header> {
-    Dataset::read_header(text).ok()
+    chromascope_data::files("licenses").map(|(path, text)| (path.rsplit('/').next().unwrap_or(path), text))
 }
 
 /// A file is one set, or, with several value columns of lights or materials, as many.

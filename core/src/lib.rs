@@ -40,10 +40,13 @@ pub use glam;
 pub mod accuracy;
 pub mod camera;
 pub mod colorimetry;
+#[cfg(feature = "data")]
+pub mod data;
 
 pub mod light;
 
 pub mod patch_set;
+pub mod prelude;
 pub mod query;
 pub mod reflectance;
 pub mod render;

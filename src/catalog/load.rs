@@ -9,7 +9,7 @@ use chromascope_core::spectral::{
 };
 use chromascope_core::units::Kelvin;
 
-use super::{Place, asset_text};
+use super::Place;
 
 /// The daylight basis among the built-in files.
 pub const DAYLIGHT_BASIS: &str = "illuminants/cie_daylight_basis.csv";
@@ -27,12 +27,6 @@ pub enum LoadError {
         path: &'static str,
         /// What is wrong.
         error: DatasetError,
-    },
-    /// A sensor needs three curves.
-    #[error("{found} curves, but a camera needs three: red, green and blue")]
-    NotThree {
-        /// How many there are.
-        found: usize,
     },
     /// A light needs a curve.
     #[error("it has no curve")]
@@ -57,7 +51,7 @@ impl Query for FileQuery {
     const NAME: &'static str = "data file";
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
-        let text = asset_text(self.0).ok_or(LoadError::Missing(self.0))?;
+        let text = chromascope_data::text(self.0).ok_or(LoadError::Missing(self.0))?;
         Dataset::read(text).map_err(|error| LoadError::Damaged { path: self.0, error })
     }
 }
@@ -93,7 +87,7 @@ impl Query for SensorQuery {
             Place::BuiltIn { path, .. } => {
                 let file = ask.ask(&FileQuery(path));
                 let header = &(*file).as_ref().map_err(Clone::clone)?.header;
-                (primaries_of(&header.columns), header.response())
+                (Primaries::from_columns(&header.columns), header.response())
             }
             Place::Own(set) => (Primaries::Camera, set.response()),
         };
@@ -103,18 +97,8 @@ impl Query for SensorQuery {
             .map(|(_, curve)| curve)
             .collect::<Vec<_>>()
             .try_into()
-            .map_err(|_| LoadError::NotThree { found })?;
+            .map_err(|_| SensorError::NotThree { found })?;
         Ok(Shared::new(Sensor::new(primaries, three, response)?))
-    }
-}
-
-/// In what a file's columns count.
-fn primaries_of(columns: &[String]) -> Primaries {
-    match columns.first().map(String::as_str) {
-        Some("x_bar") => Primaries::Xyz,
-        Some("r_bar") => Primaries::Rgb,
-        Some("l_bar") => Primaries::Cones,
-        _ => Primaries::Camera,
     }
 }
 

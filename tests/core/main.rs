@@ -10,6 +10,7 @@ mod batch;
 mod camera;
 mod colorimetry;
 mod double;
+mod examples;
 mod light;
 mod locus_table;
 mod math;

@@ -7,7 +7,7 @@ use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::{ColorTransformSpec, RenderingQuery, Shared};
-use chromascope_core::spectral::{Dataset, GridSpectrum, Primaries, Quantity, Sensor};
+use chromascope_core::spectral::{Dataset, GridSpectrum, Quantity, Sensor};
 use chromascope_core::units::Kelvin;
 use proptest::prelude::ProptestConfig;
 
@@ -33,15 +33,7 @@ pub(crate) fn dataset(path: &str) -> Dataset {
 }
 
 pub(crate) fn sensor(path: &str) -> Sensor {
-    let data = dataset(path);
-    let primaries = match data.header.columns[0].as_str() {
-        "r_bar" => Primaries::Rgb,
-        "x_bar" => Primaries::Xyz,
-        "l_bar" => Primaries::Cones,
-        _ => Primaries::Camera,
-    };
-    let response = data.header.response();
-    Sensor::new(primaries, data.curves.try_into().unwrap(), response).unwrap()
+    Sensor::from_dataset(&dataset(path)).unwrap()
 }
 
 pub(crate) fn patches(path: &str) -> PatchSet {

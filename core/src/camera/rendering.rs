@@ -115,6 +115,20 @@ impl Rendering {
         self.white * (DVec3::from_array(raw) / self.white_integrals)
     }
 
+    /// Rendering under equal energy with unity white balance by Eq 13: the conditions of the paper's first two experiments.
+    ///
+    /// # Errors
+    ///
+    /// As [`Rendering::new`].
+    pub fn under_equal_energy(sensor: &Sensor) -> Result<Self, RenderingError> {
+        Self::new(sensor, &GridSpectrum::constant(1.0), WhiteBalanceTarget::UNITY, ColorTransform::Paper)
+    }
+
+    /// XYZ of a blackbody, up to a positive factor, from its raw integrals `∫ C_c E dλ` (Eq 15).
+    pub fn blackbody(&self, raw: [f64; 3]) -> Xyz {
+        self.xyz(DVec3::from_array(raw) * self.locus_gain)
+    }
+
     /// XYZ of signals; Y = 1 for a perfect white.
     pub fn xyz(&self, signals: DVec3) -> Xyz {
         Xyz::from_vector(self.xyz_from_signals * signals)

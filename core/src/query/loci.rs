@@ -8,7 +8,6 @@ use crate::light::{LocusError, PlanckianLocus, RadiationConstants};
 use crate::spectral::Sensor;
 use crate::spectral::grid::{COUNT, wavelength_nm};
 use crate::units::Kelvin;
-use glam::DVec3;
 
 /// Which temperatures a locus goes through.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -164,7 +163,7 @@ impl Query for LocusQuery {
             constants: self.constants,
         });
         let points = signals.points.iter().map(|&(temperature, raw)| {
-            let xyz = rendering.xyz(DVec3::from_array(raw) * rendering.locus_gain);
+            let xyz = rendering.blackbody(raw);
             LocusPoint { temperature, xyz, xy: xyz.chromaticity(), uv: xyz.uv_prime() }
         });
         Ok(Locus { points: points.collect(), method: signals.method })
@@ -193,7 +192,7 @@ impl Query for MonochromaticQuery {
             if magnitude(signals) < 1e-3 * strongest {
                 return None;
             }
-            let xy = rendering.xyz(DVec3::from_array(signals) * rendering.locus_gain).chromaticity()?;
+            let xy = rendering.blackbody(signals).chromaticity()?;
             Some(SpectralPoint { wavelength_nm: wavelength_nm(index), xy })
         });
         Ok(points.collect())

@@ -1,7 +1,7 @@
 //! Three sensitivities, ready to integrate: an observer's or a camera's.
 
 use super::grid::{COUNT, FIRST_NM, GridSpectrum, LAST_NM, Quantity, wavelength_nm};
-use super::{DistributionError, SpectralDistribution};
+use super::{Dataset, DistributionError, SpectralDistribution};
 use crate::math::dot::dot_each;
 use std::hash::{Hash, Hasher};
 
@@ -24,6 +24,16 @@ impl Primaries {
         match self {
             Self::Camera => Quantity::CameraSensitivity,
             Self::Rgb | Self::Xyz | Self::Cones => Quantity::MatchingFunction,
+        }
+    }
+
+    /// Primaries that the column heads of a data file name: `x_bar`, `r_bar` or `l_bar` first for an observer's; a camera's otherwise.
+    pub fn from_columns(columns: &[String]) -> Self {
+        match columns.first().map(String::as_str) {
+            Some("x_bar") => Self::Xyz,
+            Some("r_bar") => Self::Rgb,
+            Some("l_bar") => Self::Cones,
+            _ => Self::Camera,
         }
     }
 
@@ -78,6 +88,12 @@ pub enum SensorError {
         /// The channel, 0 to 2.
         channel: usize,
     },
+    /// A sensor has three curves.
+    #[error("{found} curves, but a camera needs three: red, green and blue")]
+    NotThree {
+        /// Number of curves found.
+        found: usize,
+    },
     /// A curve could not be converted to energy units.
     #[error(transparent)]
     Curve(#[from] DistributionError),
@@ -127,6 +143,17 @@ impl Sensor {
             Some(channel) => Err(SensorError::Blind { channel }),
             None => Ok(Self { primaries, response, curves, weighted, integrals, absolute }),
         }
+    }
+
+    /// Sensor of a data file: primaries from its column heads, response from its header.
+    ///
+    /// # Errors
+    ///
+    /// [`SensorError::NotThree`] unless the file has three curves; otherwise as [`Sensor::new`].
+    pub fn from_dataset(dataset: &Dataset) -> Result<Self, SensorError> {
+        let curves = <[SpectralDistribution; 3]>::try_from(dataset.curves.clone());
+        let curves = curves.map_err(|curves| SensorError::NotThree { found: curves.len() })?;
+        Self::new(Primaries::from_columns(&dataset.header.columns), curves, dataset.header.response())
     }
 
     /// In what the channels are counted.
