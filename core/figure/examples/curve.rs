@@ -14,8 +14,7 @@ impl Palette for Print {
 
 fn main() -> std::io::Result<()> {
     let area = Rect::from_min_size([50.0, 20.0], [320.0, 200.0]);
-    let mut panel =
-        Panel::new("sine", area, Axis::new("phase (rad)", [0.0, 6.3]), Axis::new("amplitude", [-1.0, 1.0]));
+    let mut panel = Panel::new("sine", area, Axis::new("phase (rad)", [0.0, 6.3]), Axis::new("amplitude", [-1.0, 1.0]));
     let points = (0..=126).map(|i| f64::from(i) / 20.0).map(|x| [x, x.sin()]).collect();
     let line = Shape::Line { points, closed: false };
     panel.marks.push(Mark::new(Tag(0), "sine", line).with_stroke(InkRole::Text, 1.5));
