@@ -14,11 +14,11 @@ pub struct Axis {
     pub range: [f64; 2],
     /// Its ticks.
     pub ticks: Ticks,
-    /// Whether a line is drawn at each tick.
+    /// True if a grid line is drawn at each tick.
     pub grid: bool,
 }
 
-/// Which ticks an axis has.
+/// Ticks of an axis.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Ticks {
     /// None, and no room for labels.
@@ -33,9 +33,9 @@ pub enum Ticks {
 /// A tick of an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tick {
-    /// Where it stands.
+    /// Value at the tick.
     pub value: f64,
-    /// What is written there; empty where there is no room.
+    /// Label; empty where there is no room.
     pub label: String,
 }
 
@@ -50,13 +50,13 @@ impl Axis {
         Self { label: String::new(), range, ticks: Ticks::None, grid: false }
     }
 
-    /// The same axis with the given ticks.
+    /// Axis with the given ticks.
     #[must_use]
     pub fn with_ticks(self, ticks: Ticks) -> Self {
         Self { ticks, ..self }
     }
 
-    /// The same axis with or without grid lines.
+    /// Axis with or without grid lines.
     #[must_use]
     pub fn with_grid(self, grid: bool) -> Self {
         Self { grid, ..self }
@@ -207,7 +207,7 @@ fn thin_out(ticks: &mut [Tick], range: [f64; 2], length: f64) {
     }
 }
 
-/// Where a label stands along its axis, in points.
+/// Position of a label along its axis, in points.
 #[derive(Clone, Copy, PartialEq)]
 struct Span {
     tick: f64,

@@ -1,6 +1,6 @@
 //! Roles instead of colors.
 
-/// What a mark is drawn for. A palette turns it into a color.
+/// Role of a mark. A palette turns it into a color.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum InkRole {
     /// The source the others are compared to.
@@ -34,7 +34,7 @@ pub enum InkRole {
 /// A role with an opacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ink {
-    /// What it stands for.
+    /// Role.
     pub role: InkRole,
     /// Opacity, 0 (nothing) to 1 (opaque).
     pub alpha: f32,
@@ -51,7 +51,7 @@ impl Ink {
         Self::new(InkRole::Rgb(rgb))
     }
 
-    /// The same ink with its opacity multiplied.
+    /// Ink with its opacity multiplied.
     #[must_use]
     pub fn faded(self, factor: f32) -> Self {
         Self { alpha: (self.alpha * factor).clamp(0.0, 1.0), ..self }

@@ -51,7 +51,7 @@ impl Rect {
 /// A figure: everything that is needed to show it, print it, and write its numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// What the figure shows, in a few words. Read by screen readers and written as the SVG's title.
+    /// Title in a few words, read by screen readers and written as the SVG's title.
     pub title: String,
     /// Width and height in points, without caption and margins.
     pub size: [f64; 2],
@@ -59,7 +59,7 @@ pub struct Figure {
     pub panels: Vec<Panel>,
     /// Keys of the legend; empty for none.
     pub legend: Vec<LegendEntry>,
-    /// Where the legend stands.
+    /// Position of the legend.
     pub legend_place: LegendPlace,
     /// Text below the figure: conditions and sources. Empty for none.
     pub caption: String,
@@ -95,13 +95,13 @@ pub struct Panel {
     pub y: Axis,
     /// One unit is as long on x as on y. The ranges are enlarged to fill the area, never cropped.
     pub equal_aspect: bool,
-    /// What lies behind the marks.
+    /// Background of the marks.
     pub background: Ink,
     /// Small text in the upper right corner.
     pub note: String,
     /// A thin frame around the plot.
     pub framed: bool,
-    /// What is drawn, from back to front.
+    /// Marks from back to front.
     pub marks: Vec<Mark>,
 }
 
@@ -138,11 +138,11 @@ pub struct LegendEntry {
     pub stroke: Option<Stroke>,
     /// Its marker; `None` for a key with a line only.
     pub marker: Option<Marker>,
-    /// What fills the marker; `None` for a hollow one.
+    /// Fill of the marker; `None` for a hollow one.
     pub fill: Option<Ink>,
 }
 
-/// Where a legend stands.
+/// Position of a legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum LegendPlace {
     /// Inside the first panel, upper right, below the panel's note.

@@ -1,4 +1,4 @@
-//! What is drawn inside a panel.
+//! Marks inside a panel.
 
 use std::sync::Arc;
 
@@ -7,14 +7,14 @@ use super::Ink;
 /// An 8-bit sRGB color of data.
 pub type Rgb = [u8; 3];
 
-/// What a mark stands for, opaque to the figure: returned by hit tests, looked at for emphasis.
+/// Identity of what a mark stands for, opaque to the figure: returned by hit tests, used for emphasis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct Tag(pub u32);
 
 /// One drawn thing: a shape, how it is drawn, and what it stands for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    /// What it stands for.
+    /// Item that the mark stands for.
     pub tag: Tag,
     /// Name for screen readers and the SVG; may repeat.
     pub name: String,
@@ -37,32 +37,32 @@ impl Mark {
         Self { tag, name: name.into(), shape, stroke: None, fill: None, halo: None }
     }
 
-    /// The same mark with a solid line of the given width in points.
+    /// Mark with a solid line of the given width in points.
     #[must_use]
     pub fn with_stroke(self, ink: impl Into<Ink>, width: f64) -> Self {
         Self { stroke: Some(Stroke::solid(ink, width)), ..self }
     }
 
-    /// The same mark with its line dashed; without a line nothing changes.
+    /// Mark with its line dashed; without a line nothing changes.
     #[must_use]
     pub fn with_dash(self, dash: Dash) -> Self {
         Self { stroke: self.stroke.map(|stroke| Stroke { dash, ..stroke }), ..self }
     }
 
-    /// The same mark, filled.
+    /// Mark with a fill.
     #[must_use]
     pub fn with_fill(self, ink: impl Into<Ink>) -> Self {
         Self { fill: Some(ink.into()), ..self }
     }
 
-    /// The same mark with a halo.
+    /// Mark with a halo.
     #[must_use]
     pub fn with_halo(self, ink: impl Into<Ink>) -> Self {
         Self { halo: Some(ink.into()), ..self }
     }
 }
 
-/// How a line is drawn.
+/// Ink, width and pattern of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
     /// Its ink.
@@ -110,7 +110,7 @@ pub enum Shape {
     Line {
         /// Its points; one that is not finite breaks it.
         points: Vec<[f64; 2]>,
-        /// Whether the last point is joined to the first.
+        /// True if the last point is joined to the first.
         closed: bool,
     },
     /// A line with a color at each point, such as the spectral locus. Takes width and opacity from the stroke (2 and 1 without).
@@ -133,7 +133,7 @@ pub enum Shape {
         at: [f64; 2],
         /// The text.
         text: String,
-        /// Which point of the text lies on the place.
+        /// Point of the text that lies on the place.
         anchor: Anchor,
         /// Shift in points, y downward.
         offset: [f64; 2],
@@ -182,13 +182,13 @@ pub struct Image {
 }
 
 impl Image {
-    /// Whether there is a pixel, and as many bytes as the size says.
+    /// True if there is a pixel, and as many bytes as the size says.
     pub fn is_drawable(&self) -> bool {
         self.width > 0 && self.height > 0 && self.rgba.len() == 4 * self.width * self.height
     }
 }
 
-/// Which point of a text lies on its place: horizontal, then vertical, each 0 (left, top), 0.5 or 1 (right, bottom).
+/// Point of a text that lies on its place: horizontal, then vertical, each 0 (left, top), 0.5 or 1 (right, bottom).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Anchor(pub f64, pub f64);
 
@@ -302,7 +302,7 @@ impl Marker {
         if slot.is_multiple_of(2) { Self::Cross } else { Self::Asterisk }
     }
 
-    /// Whether the marker has an inside that can be filled.
+    /// True if the marker has an inside that can be filled.
     pub fn has_inside(self) -> bool {
         !matches!(self, Self::Plus | Self::Cross | Self::Asterisk)
     }

@@ -17,7 +17,7 @@ pub fn fit_equal(x: [f64; 2], y: [f64; 2], size: [f64; 2]) -> ([f64; 2], [f64; 2
     (enlarge(x, width), enlarge(y, height))
 }
 
-/// Where a panel's plot lies in the figure and how data units become points there.
+/// Area of a panel's plot in the figure, and the map from data units to points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Projection {
     /// The box of the plot, without tick labels, in points.

@@ -12,7 +12,7 @@ use super::{
 };
 use canvas::{Canvas, escaped};
 
-/// How a figure is written, apart from its colors.
+/// Fonts and images of a written figure, apart from its colors.
 pub struct SvgStyle<'a> {
     /// Font family of text.
     pub font_family: &'a str,

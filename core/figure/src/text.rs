@@ -52,7 +52,7 @@ pub struct Annotation {
     pub at: [f64; 2],
     /// The text.
     pub text: String,
-    /// Which point of the text lies there.
+    /// Point of the text that lies there.
     pub anchor: Anchor,
 }
 

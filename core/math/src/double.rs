@@ -50,12 +50,12 @@ impl Double {
         self.high
     }
 
-    /// What the nearest double lacks.
+    /// Part that the nearest double lacks.
     pub const fn low(self) -> f64 {
         self.low
     }
 
-    /// How far a double is from this number, with its sign: `found - self`, correct in the leading digits however near it is.
+    /// Signed distance of a double from this number: `found - self`, correct in the leading digits however near it is.
     pub fn error_of(self, found: f64) -> f64 {
         (found - self.high) - self.low
     }
@@ -67,7 +67,7 @@ impl Double {
         Self { high, low: (a - (high - other)) + (b - other) }
     }
 
-    /// The same where the first is the larger (Dekker).
+    /// Sum where the first is the larger (Dekker).
     fn quick_sum(a: f64, b: f64) -> Self {
         let high = a + b;
         Self { high, low: b - (high - a) }
@@ -148,7 +148,7 @@ impl Double {
         if self.high.abs() < 0.5 { self.small_exp_m1() } else { self.exp() - Self::ONE }
     }
 
-    /// The same for magnitudes below 1: Taylor's series of a 256th, doubled eight times by `(1 + y)² - 1 = 2y + y²`.
+    /// Exponential for magnitudes below 1: Taylor's series of a 256th, doubled eight times by `(1 + y)² - 1 = 2y + y²`.
     fn small_exp_m1(self) -> Self {
         let small = self.times(1.0 / 256.0);
         let (mut term, mut sum) = (small, small);

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-/// Why a fit has no answer.
+/// Reason that a fit has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum FitError {
     /// The three channels do not span three dimensions over the samples.

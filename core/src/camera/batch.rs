@@ -15,23 +15,23 @@ const NEAR: usize = 1 << 20;
 /// Below this many products the work is done where it is asked for: waking other threads takes longer.
 const ALONE: usize = 1 << 20;
 
-/// Why numbers make no batch.
+/// Reason that numbers make no batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum BatchError {
     /// The samples are not whole curves.
     #[error("{samples} samples are no whole number of curves of {length}")]
     Ragged {
-        /// How many samples there are.
+        /// Number of samples.
         samples: usize,
-        /// How many each curve should have.
+        /// Number of samples that each curve should have.
         length: usize,
     },
     /// There is no room for exactly one answer for each spectrum and channel.
     #[error("{answers} places for {wanted} responses")]
     Answers {
-        /// How many places there are.
+        /// Number of places.
         answers: usize,
-        /// How many are needed.
+        /// Number of places needed.
         wanted: usize,
     },
     /// A sensitivity is not a finite number.
@@ -71,13 +71,13 @@ impl<T: Sample> Batch<T> {
         Ok(Self { length, curves: T::pack(curves, length), channels })
     }
 
-    /// How many channels there are.
+    /// Number of channels.
     pub fn channels(&self) -> usize {
         self.channels
     }
 
-    /// How far a response may be off, in parts of `Σ|S C|`: `(⌈L/4⌉ + 4) ε` (`⌈L/8⌉` in `f32`), ε half the distance from 1 to
-    /// the next number. So much only where no product is below the normal numbers.
+    /// Error bound of a response relative to `Σ|S C|`: `(⌈L/4⌉ + 4) ε` (`⌈L/8⌉` in `f32`), ε half the distance from 1 to the next
+    /// number. Holds where no product is subnormal.
     pub fn max_error(&self) -> f64 {
         (self.length.div_ceil(T::LANES) + 4) as f64 * T::ROUNDING
     }
@@ -89,7 +89,7 @@ impl<T: Sample> Batch<T> {
         Ok(answers)
     }
 
-    /// The same into memory that is there already.
+    /// Responses written into existing memory.
     pub fn responses_into(&self, spectra: &[T], answers: &mut [T]) -> Result<(), BatchError> {
         let wanted = count(spectra.len(), self.length)? * self.channels;
         if answers.len() != wanted {
@@ -113,7 +113,7 @@ impl<T: Sample> Batch<T> {
     }
 }
 
-/// How many curves of a length some samples are.
+/// Number of curves of a length that some samples make.
 fn count(samples: usize, length: usize) -> Result<usize, BatchError> {
     match (samples, length) {
         (0, 0) => Ok(0),

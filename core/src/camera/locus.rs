@@ -21,17 +21,17 @@ const COUNTS: [usize; 7] = [10, 12, 14, 17, 20, 24, 28];
 /// Temperatures at which a rule is checked against the full sum.
 const CHECKS_K: [f64; 9] = [1000.0, 1100.0, 1300.0, 1700.0, 2500.0, 4000.0, 8000.0, 20_000.0, 1e6];
 
-/// How many temperatures a rule is checked at where an accuracy is asked for, evenly in 1/T over the range of nodes.
+/// Number of temperatures a rule is checked at for a given tolerance, evenly in 1/T over the range of nodes.
 const DENSE_CHECKS: usize = 48;
 /// The node counts that can be asked for.
 const FEWEST: usize = 2;
 const MOST: usize = 28;
 /// An error seen at those temperatures is taken to be at most this much larger between them.
 const MARGIN: f64 = 2.0;
-/// What rounding leaves of the 1 nm sum, relative to the largest signal: the exponents that weigh are below 40.
+/// Rounding error of the 1 nm sum, relative to the largest signal: the exponents that weigh are below 40.
 const SUM_ROUNDING: f64 = 1e-14;
 
-/// How a locus was computed.
+/// Method by which a locus was computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LocusMethod {
     /// Quadrature made for this sensor, checked against the 1 nm sum.
@@ -138,7 +138,7 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
         Self { sensor, constants, anchor_nm, all, nodes: None, method: LocusMethod::Sum }
     }
 
-    /// How this evaluator works, with its error.
+    /// Method of this evaluator, with its error.
     pub fn method(&self) -> LocusMethod {
         self.method
     }

@@ -24,7 +24,7 @@ pub const HOTTEST_K: f64 = 1e15;
 /// Temperatures per piece of work: enough to outweigh handing it over.
 const CHUNK: usize = 8192;
 
-/// Why a table has no chromaticity for a temperature. The sum may have one: [`LocusEvaluator`].
+/// Reason that a table has no chromaticity for a temperature. The sum may have one: [`LocusEvaluator`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum LocusTableError {
     /// Colder than [`COLDEST_K`] or hotter than [`HOTTEST_K`].
@@ -65,8 +65,8 @@ impl LocusTable {
         Self::summed(sensor, rendering, constants, Self::TARGET)
     }
 
-    /// The same with another error at which pieces are narrow enough than [`Self::TARGET`], which a smaller one is taken for;
-    /// a piece is left out beyond ten times that. Absolute, in x and y. Large errors take fewer sums.
+    /// Table with another error of its pieces than [`Self::TARGET`], absolute in x and y; smaller ones count as that target. A
+    /// piece is left out beyond ten times its error. Larger errors take fewer sums.
     pub fn within(sensor: &Sensor, rendering: &Rendering, constants: RadiationConstants, accuracy: Accuracy) -> Self {
         Self::summed(sensor, rendering, constants, accuracy.max_relative_error())
     }
@@ -94,7 +94,7 @@ impl LocusTable {
         self.max_error
     }
 
-    /// How many pieces the table has, and coefficients each piece.
+    /// Number of pieces of the table, and of coefficients of a piece.
     pub fn size(&self) -> [usize; 2] {
         [self.pieces.len(), 2 * TERMS]
     }
@@ -105,14 +105,14 @@ impl LocusTable {
         self.pieces.xy(temperature)
     }
 
-    /// The same for many, on all cores; the answers do not depend on their number.
+    /// Chromaticities of many temperatures, on all cores; the answers do not depend on their number.
     pub fn xys(&self, temperatures: &[Kelvin]) -> Vec<Result<Xy, LocusTableError>> {
         let mut answers = vec![Err(LocusTableError::Outside); temperatures.len()];
         self.xys_into(temperatures, &mut answers);
         answers
     }
 
-    /// The same into memory that is there already; what of the longer slice is beyond the shorter one is left alone.
+    /// Chromaticities written into existing memory. Extra elements of the longer slice are ignored.
     pub fn xys_into(&self, temperatures: &[Kelvin], answers: &mut [Result<Xy, LocusTableError>]) {
         let chunks = answers.par_chunks_mut(CHUNK).zip(temperatures.par_chunks(CHUNK));
         chunks.for_each(|(answers, temperatures)| self.pieces.fill(temperatures, answers));

@@ -1,4 +1,4 @@
-//! How one sensor's signals become numbers on the diagram and colors on a screen.
+//! From one sensor's signals to XYZ, chromaticity and colors on a screen.
 
 use super::WhiteBalanceTarget;
 use crate::accuracy::Unmet;
@@ -26,7 +26,7 @@ pub enum ColorTransform<'a> {
     },
 }
 
-/// Why a sensor cannot be shown under a light.
+/// Reason that a sensor cannot be rendered under a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum RenderingError {
     /// A channel does not respond to the light: white balance would divide by nothing.
@@ -58,9 +58,9 @@ const BLIND: f64 = 1e-6;
 /// Everything between a sensor's raw integrals and its places on the diagram, fixed for one light, white and way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rendering {
-    /// What a perfect white takes: Eq 11's s.
+    /// Signals of a perfect diffuser: Eq 11's s.
     pub white: DVec3,
-    /// What `∫ C_c S L dλ` is divided by: `∫ C_c L dλ` (Eq 16), for tristimulus values that of Y. Divided, not multiplied with
+    /// Divisors of `∫ C_c S L dλ`: `∫ C_c L dλ` (Eq 16), for tristimulus values that of Y. Divided, not multiplied with
     /// the reciprocal, so that a perfect white takes `white` exactly.
     pub white_integrals: DVec3,
     /// Factors that turn `∫ C_c E dλ` of a glowing body into signals (Eq 15), the same along a locus.
@@ -71,7 +71,7 @@ pub struct Rendering {
     pub srgb_from_xyz: DMat3,
     /// CIE's adopted white of L*a*b*: the tristimulus values of a perfect diffuser.
     pub lab_white: Xyz,
-    /// Whether the signals are RGB (cameras, RGB observers) or already tristimulus values or cones.
+    /// True if the signals are RGB (cameras, RGB observers), false if tristimulus values.
     pub is_rgb: bool,
     /// The smallest share that is left of a white integral after cancellation; below 0.01 the balance is fragile.
     pub conditioning: f64,
@@ -96,7 +96,7 @@ impl Rendering {
         }
     }
 
-    /// The same as [`Rendering::new`] on the way by an observer, with the part made already that other sensors share.
+    /// [`Rendering::new`] with a transform fitted to an observer, given the part that other sensors share.
     pub fn by_targets(
         sensor: &Sensor,
         light: &GridSpectrum,
@@ -159,7 +159,7 @@ fn white_integral(sensor: &Sensor, light: &GridSpectrum, channel: usize) -> Resu
     }
 }
 
-/// The same for the three channels, with the smallest share.
+/// White integrals of the three channels, with the smallest share left after cancellation.
 fn white_integrals(sensor: &Sensor, light: &GridSpectrum) -> Result<(DVec3, f64), RenderingError> {
     let (r, of_r) = white_integral(sensor, light, 0)?;
     let (g, of_g) = white_integral(sensor, light, 1)?;
@@ -167,7 +167,7 @@ fn white_integrals(sensor: &Sensor, light: &GridSpectrum) -> Result<(DVec3, f64)
     Ok((DVec3::new(r, g, b), of_r.min(of_g).min(of_b)))
 }
 
-/// What `∫ C_c S L dλ` is divided by: `∫ C_c L dλ` of each channel (Eq 16), for tristimulus values that of Y.
+/// Divisors of `∫ C_c S L dλ`: `∫ C_c L dλ` of each channel (Eq 16), for tristimulus values that of Y.
 pub fn white_divisors(sensor: &Sensor, light: &GridSpectrum) -> Result<DVec3, RenderingError> {
     if sensor.primaries() == Primaries::Xyz {
         white_integral(sensor, light, 1).map(|(y, _)| DVec3::splat(y))
@@ -222,7 +222,7 @@ fn paper(
     })
 }
 
-/// What a reference observer sees of the training reflectances under a light: the part of a fit that all sensors share.
+/// XYZ of the training reflectances through a reference observer: the part of a fit that all sensors share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitTargets {
     reference: Rendering,

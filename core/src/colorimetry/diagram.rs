@@ -1,4 +1,4 @@
-//! What a chromaticity diagram shows besides data: the spectral locus, the daylight locus, the colors of its area.
+//! Contents of a chromaticity diagram besides data: the spectral locus, the daylight locus, the colors of its area.
 
 use super::rgb::{srgb_from_xyz, srgb_transfer};
 use super::{Xy, Xyz};
@@ -10,7 +10,7 @@ use crate::spectral::grid::{COUNT, wavelength_nm};
 pub struct SpectralPoint {
     /// The wavelength in nanometers.
     pub wavelength_nm: f64,
-    /// Where it lies.
+    /// Its chromaticity.
     pub xy: Xy,
 }
 

@@ -41,7 +41,7 @@ pub fn srgb_white() -> Xyz {
 pub struct EncodedSrgb {
     /// Eight bits a channel.
     pub bytes: [u8; 3],
-    /// Whether a channel was below 0 or above 1 by more than half a step of the encoding.
+    /// True if a channel was below 0 or above 1 by more than half a step of the encoding.
     pub clipped: bool,
 }
 

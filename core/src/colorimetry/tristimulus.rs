@@ -80,7 +80,7 @@ impl Xyz {
         (sum.abs() > NO_SUM).then(|| UvPrime { u: 4.0 * v.x / sum, v: 9.0 * v.y / sum })
     }
 
-    /// The same as a vector, for matrices.
+    /// Tristimulus values as a vector, for matrices.
     pub const fn to_vector(self) -> DVec3 {
         DVec3::new(self.x, self.y, self.z)
     }
@@ -105,7 +105,7 @@ impl Xy {
         (self.y.abs() > NO_SUM && xyz.to_vector().is_finite()).then_some(xyz)
     }
 
-    /// The same color in the 1976 diagram: u′ = 4x / (−2x + 12y + 3), v′ = 9y / (−2x + 12y + 3).
+    /// Chromaticity in the 1976 diagram: u′ = 4x / (−2x + 12y + 3), v′ = 9y / (−2x + 12y + 3).
     pub fn uv_prime(self) -> Option<UvPrime> {
         let d = -2.0 * self.x + 12.0 * self.y + 3.0;
         let uv = UvPrime { u: 4.0 * self.x / d, v: 9.0 * self.y / d };
@@ -119,12 +119,12 @@ impl Xy {
 }
 
 impl UvPrime {
-    /// The same color in the 1960 diagram: u = u′, v = 2v′/3.
+    /// Chromaticity in the 1960 diagram: u = u′, v = 2v′/3.
     pub fn uv60(self) -> Uv60 {
         Uv60 { u: self.u, v: self.v * 2.0 / 3.0 }
     }
 
-    /// The same color in the 1931 diagram: x = 9u′ / (6u′ − 16v′ + 12), y = 4v′ / (6u′ − 16v′ + 12).
+    /// Chromaticity in the 1931 diagram: x = 9u′ / (6u′ − 16v′ + 12), y = 4v′ / (6u′ − 16v′ + 12).
     pub fn xy(self) -> Option<Xy> {
         let d = 6.0 * self.u - 16.0 * self.v + 12.0;
         let xy = Xy { x: 9.0 * self.u / d, y: 4.0 * self.v / d };

@@ -142,7 +142,7 @@ pub fn rho0_squared(geometry: &Geometry, surface: &Surface, wave_number: f64, an
     x * y
 }
 
-/// What [`rho0_squared`] does not exceed, without a sine.
+/// Upper bound of [`rho0_squared`] that needs no sine.
 ///
 /// ```text
 /// min(1, 1/u²) for each axis, u the end of u0 ± w that is nearer to 0; not above π/2w
@@ -156,7 +156,7 @@ pub fn rho0_squared_bound(geometry: &Geometry, surface: &Surface, wave_number: f
     x * y
 }
 
-/// Whether the mirror term at a wavelength is certainly below `tolerance` times the diffuse one.
+/// True if the coherent component at a wavelength is certainly below `tolerance` times the diffuse one.
 ///
 /// ```text
 /// g ≥ ln(1.25 g coherent_prefactor ρ0²_bound / (diffuse_prefactor · tolerance)) + β,  g ≥ 10

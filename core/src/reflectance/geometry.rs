@@ -71,8 +71,8 @@ impl Geometry {
         Self::new([normal.dot(to_light), normal.dot(to_viewer)], v, turned.length_squared())
     }
 
-    /// What [`Self::from_directions`] gives, without a branch, and whether it does: not where a vector is no number, nor so
-    /// near to normal incidence that the plane of incidence is any.
+    /// [`Self::from_directions`] without a branch, and true if the result holds: not where a vector is NaN, nor so near to normal
+    /// incidence that the plane of incidence is undefined.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub fn quickly_from_directions(to_light: DVec3, to_viewer: DVec3, normal: DVec3) -> (Self, bool) {
@@ -103,7 +103,7 @@ impl Geometry {
         }
     }
 
-    /// Whether both light and viewer are before the surface.
+    /// True if both light and viewer are in front of the surface.
     #[inline]
     pub fn is_lit(&self) -> bool {
         self.cos_i > 0.0 && self.cos_s > 0.0

@@ -20,7 +20,7 @@ use std::f64::consts::{PI, TAU};
 pub const LAMBDA_0_NM: f64 = 550.0;
 /// λ0 in meters.
 const LAMBDA_0_M: f64 = 550e-9;
-/// Where values that grow without bound are cut: a thousandth of what a product of two parts could still carry.
+/// Limit at which unbounded values are cut: a thousandth of what a product of two parts could carry.
 const LARGEST: f64 = 1e150;
 
 /// Sum of the diffuse and the coherent component in Eq 12, with the diffuse sum at full precision: see [`factor_by`].
@@ -90,7 +90,7 @@ pub fn factors_by(
     [diffuse * sum, coherent * pattern].map(|component| bounded(power * bounded(component)))
 }
 
-/// What stands before `(λ0/λ)^p S(g, βg)`: dimensionless, without wavelength.
+/// Factor before `(λ0/λ)^p S(g, βg)`: dimensionless, without wavelength.
 ///
 /// ```text
 /// Radiometric   π² τ²/λ0² · T(θi) T(θs)/cos θs · cos θi

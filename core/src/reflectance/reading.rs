@@ -2,7 +2,7 @@
 
 use super::sum::Precision;
 
-/// What the scattered power P of Eq 12 stands for.
+/// Quantity that the scattered power P of Eq 12 stands for.
 ///
 /// P is Beckmann's power relative to that of a smooth mirror of the same patch: dimensionless, and no reflectance
 /// distribution. Put into Eq 12 as it stands, it tints: on a rough surface P goes with λ², so that a white under D55 comes out
@@ -27,7 +27,7 @@ pub enum Reading {
     Lambertian,
 }
 
-/// How the sum of Eq 2 is evaluated.
+/// Method by which the sum of Eq 2 is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Method {
     /// One method for all roughnesses, within the stated error.

@@ -1,6 +1,6 @@
 //! The paper's three cases of the diffuse sum: kept to show their error.
 
-/// Which of the paper's cases a roughness belongs to.
+/// The paper's case of roughness that a value of g belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Regime {
     /// g < 0.1: the first term of Eq 2.
@@ -11,7 +11,7 @@ pub enum Regime {
     Rough,
 }
 
-/// How many terms the paper's middle case takes.
+/// Number of terms of the paper's middle case.
 const TERMS: u32 = 10;
 
 impl Regime {

@@ -11,8 +11,7 @@
 //! small, the terms that weigh are added (`direct`). What decides is m, not g: with b ≫ g² a sum of many terms belongs to a
 //! small g. With b ≫ g² the terms can also fall off within one step of n, at any m (`narrow`).
 //!
-//! Where S is neither slight nor far down, that is for nearly all that is ever asked, ln S is read from polynomials that are
-//! made of the same sums when they are first wanted (`pieces`).
+//! For nearly all arguments that occur, ln S is read from polynomials fitted to the same sums at first use (`pieces`).
 
 mod coefficients;
 mod direct;
@@ -30,7 +29,7 @@ use pieces::RUN;
 use saddle::Peak;
 pub use terms::{SeriesTerms, series_terms};
 
-/// How closely a diffuse sum is wanted.
+/// Error allowed of a diffuse sum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Precision {
     /// Relative error of 1e-6.
@@ -123,7 +122,7 @@ pub fn diffuse_sum(g: f64, b: f64, precision: Precision) -> f64 {
     value(g, b, precision)
 }
 
-/// Where m δ, which is at most −E of the largest term, is beyond this, S is below the smallest, though m and δ are only near.
+/// Limit of m δ, which is at most −E of the largest term, beyond which S is below the smallest number.
 const NOTHING: f64 = 760.0;
 
 /// Compiled for several instruction sets, the best chosen at run time; no operation is fused, so all of them give the same
@@ -133,7 +132,7 @@ fn value(g: f64, b: f64, precision: Precision) -> f64 {
     pieces::ln(g, b, precision).map_or_else(|| remote(g, b, precision), |ln| raised(ln, 1.0))
 }
 
-/// The same where there are no polynomials.
+/// Diffuse sum outside the range of the polynomials.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn remote(g: f64, b: f64, precision: Precision) -> f64 {
     parts(g, b, precision, NOTHING).map_or(0.0, |(ln_scale, rest)| raised(ln_scale, rest))

@@ -11,7 +11,7 @@ const LENGTH_M: RangeInclusive<f64> = 1e-9..=1.0;
 /// The largest refractive index.
 const LARGEST_INDEX: f64 = 1000.0;
 
-/// Why numbers are not a surface of the model.
+/// Reason that numbers are not a surface of the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SurfaceError {
     /// The height deviation.
@@ -74,7 +74,7 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The same with another height deviation in meters; what is beyond 0 to 1 m counts as the nearest, no number as 0.
+    /// Surface with another RMS roughness in meters, clamped to 0 to 1 m; NaN counts as 0.
     #[must_use]
     pub fn with_sigma(self, sigma_m: f64) -> Self {
         Self { sigma_m: if sigma_m > 0.0 { sigma_m.min(*SIGMA_M.end()) } else { 0.0 }, ..self }
@@ -155,7 +155,7 @@ impl Surface {
         self.area.factor() * self.half_x_m * self.half_y_m
     }
 
-    /// Which area stands for A.
+    /// Area that A of Eq 1 stands for.
     pub const fn area(&self) -> IlluminatedArea {
         self.area
     }
@@ -170,7 +170,7 @@ impl Surface {
         std::f64::consts::SQRT_2 * self.sigma_m / self.tau_m
     }
 
-    /// What to bear in mind when this surface's numbers are read: where the model is stretched.
+    /// Limits of validity that this surface exceeds.
     pub fn cautions(&self) -> Vec<Caution> {
         let mut cautions = Vec::new();
         if self.half_x_m.min(self.half_y_m) < 5.0 * self.tau_m {
@@ -189,7 +189,7 @@ impl Surface {
 /// The end of the grid's range.
 const LONGEST_VISIBLE_M: f64 = 780e-9;
 
-/// Where the model is stretched beyond what it was derived for.
+/// Limit of the model's validity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Caution {
     /// min(X, Y) < 5 τ.

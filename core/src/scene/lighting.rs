@@ -1,4 +1,4 @@
-//! Where the light is: far away in a direction, or at a point.
+//! Position of the light: far away in a direction, or at a point.
 
 use super::viewpoint::Eye;
 use glam::DVec3;
@@ -7,7 +7,7 @@ use std::hash::{Hash, Hasher};
 /// The Sun's angular radius in radians.
 pub const SUN_RADIUS: f64 = 4.65e-3;
 
-/// Why a light has no place.
+/// Reason that a light has no position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum LightingError {
     /// A coordinate is not a number.
@@ -21,7 +21,7 @@ pub enum LightingError {
     AngularRadius,
 }
 
-/// Whether the light is far away or near.
+/// Distance of the light: infinite or finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Distance {
     /// Parallel rays from a direction.
@@ -104,7 +104,7 @@ impl Lighting {
     }
 }
 
-/// The same direction with a length of 1; none without direction.
+/// Direction of unit length; none for a zero vector.
 fn unit(v: DVec3) -> Option<DVec3> {
     let largest = v.abs().max_element();
     // Beyond these its squares leave the range of a double.
@@ -116,7 +116,7 @@ fn unit(v: DVec3) -> Option<DVec3> {
 pub enum PlacedLight {
     /// The unit vector towards it.
     Direction(DVec3),
-    /// Where it is.
+    /// Position.
     Point(DVec3),
 }
 

@@ -1,11 +1,11 @@
-//! Where a mesh is seen from: an orbit around its center, through a lens.
+//! Viewpoint of a mesh: an orbit around its center, through a lens.
 
 use chromascope_mesh::Bounds;
 use glam::{DMat3, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::hash::{Hash, Hasher};
 
-/// Why an orbit is none.
+/// Reason that numbers are not an orbit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum ViewpointError {
     /// An angle or distance is not a number.
@@ -99,9 +99,9 @@ impl Viewpoint {
 /// An eye in the mesh's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eye {
-    /// Where it is.
+    /// Position.
     pub position: DVec3,
-    /// What it looks at.
+    /// Point looked at.
     pub center: DVec3,
     /// The radius of the mesh's bounding sphere.
     pub radius: f64,

@@ -26,26 +26,26 @@ pub struct Header {
     pub also: Option<String>,
     /// A shorter name, for narrow places.
     pub short: Option<String>,
-    /// What the figures are of.
+    /// Quantity of the figures.
     pub quantity: String,
     /// Their unit; `1` for ratios.
     pub unit: String,
     /// For sensitivities, what they are a response to, and on which evidence.
     pub response: Option<String>,
-    /// How the figures came to be, where they are not a published table of a measurement.
+    /// Origin of the figures, where they are not a published table of a measurement.
     pub origin: Option<String>,
     /// Who measured and published them, and where they were read.
     pub source: String,
     /// Under what terms.
     pub license: String,
-    /// What to know before using them.
+    /// Notes on their use.
     pub notes: Vec<String>,
     /// The names of the value columns.
     pub columns: Vec<String>,
 }
 
 impl Header {
-    /// What sensitivities are a response to; unknown unless the header says it.
+    /// Response that the sensitivities are given for; unknown unless the header says it.
     pub fn response(&self) -> Response {
         match self.said_of_response().0 {
             "per energy" => Response::PerEnergy,
@@ -69,7 +69,7 @@ impl Header {
         self.notes.iter().find(grounds).map(String::as_str)
     }
 
-    /// Whether the figures were read off a published figure, not taken from a table of a measurement.
+    /// True if the figures were read off a published figure, not taken from a table of a measurement.
     pub fn is_digitized(&self) -> bool {
         self.origin.as_deref() == Some("digitized figure")
     }
@@ -82,7 +82,7 @@ impl Header {
     }
 }
 
-/// Why a data file cannot be read. Lines count from one.
+/// Reason that a data file cannot be read. Lines count from one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DatasetError {
     /// A header line without `key: value`, or with a key the format does not have.
@@ -102,7 +102,7 @@ pub enum DatasetError {
     Fields {
         /// The line.
         line: usize,
-        /// How many the heads promise.
+        /// Number of fields that the heads promise.
         expected: usize,
     },
     /// A field that is no number.

@@ -2,7 +2,7 @@
 
 use std::hash::{Hash, Hasher};
 
-/// Why samples do not make a spectrum.
+/// Reason that samples do not make a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum DistributionError {
     /// No samples at all.
@@ -11,9 +11,9 @@ pub enum DistributionError {
     /// The two columns differ in length.
     #[error("{wavelengths} wavelengths but {values} values")]
     Lengths {
-        /// How many wavelengths.
+        /// Number of wavelengths.
         wavelengths: usize,
-        /// How many values.
+        /// Number of values.
         values: usize,
     },
     /// A wavelength that is not above the one before it, or not a positive number.
@@ -104,7 +104,7 @@ impl SpectralDistribution {
         even.then_some(step)
     }
 
-    /// The same samples with every value mapped by `f(wavelength, value)`, refused where the result is no spectrum.
+    /// Spectrum with every value mapped by `f(wavelength, value)`, refused where the result is no spectrum.
     pub fn map(&self, f: impl Fn(f64, f64) -> f64) -> Result<Self, DistributionError> {
         let values = self.wavelengths.iter().zip(&self.values).map(|(&w, &v)| f(w, v)).collect();
         Self::new(self.wavelengths.clone(), values)

@@ -14,7 +14,7 @@ pub const FIRST_NM: f64 = 380.0;
 pub const LAST_NM: f64 = 780.0;
 /// The spacing of the grid, in nanometers.
 pub const STEP_NM: f64 = 1.0;
-/// How many wavelengths the grid has.
+/// Number of wavelengths of the grid.
 pub const COUNT: usize = 401;
 
 /// The wavelength of grid sample `index`, in nanometers.
@@ -22,7 +22,7 @@ pub fn wavelength_nm(index: usize) -> f64 {
     FIRST_NM + index as f64 * STEP_NM
 }
 
-/// What a spectrum is of; it decides how the table is interpolated and what holds beyond it.
+/// Quantity of a spectrum; it decides how the table is interpolated and what holds beyond it.
 ///
 /// | quantity | steps ≥ 5 nm | negatives after interpolation | beyond the table |
 /// |---|---|---|---|
@@ -45,18 +45,18 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Whether the quantity cannot be negative.
+    /// True if the quantity cannot be negative.
     fn clamps(self) -> bool {
         matches!(self, Self::Reflectance | Self::CameraSensitivity)
     }
 
-    /// Whether nothing is taken to be there beyond the table.
+    /// True if the quantity counts as zero beyond the table.
     fn ends_in_zero(self) -> bool {
         matches!(self, Self::CameraSensitivity | Self::MatchingFunction)
     }
 }
 
-/// How a table is brought to the steps of the grid.
+/// Interpolation that brings a table to the steps of the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Interpolation {
     /// None: the table has a sample at each wavelength of the grid that it covers.
@@ -85,7 +85,7 @@ fn sprague(spectrum: &SpectralDistribution, quantity: Quantity) -> Option<Spragu
     Sprague::new(spectrum.range_nm()[0], step, spectrum.values())
 }
 
-/// Where a spectrum on the grid was not measured: its end values hold there (sensitivities: zero).
+/// Ranges of the grid that were not measured: end values hold there (sensitivities: zero).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Assumed {
     /// The first measured wavelength in nanometers, if the grid begins before it.
@@ -95,7 +95,7 @@ pub struct Assumed {
 }
 
 impl Assumed {
-    /// Whether the whole grid was measured.
+    /// True if the whole grid was measured.
     pub fn nothing(self) -> bool {
         self.below_nm.is_none() && self.above_nm.is_none()
     }
@@ -161,7 +161,7 @@ impl GridSpectrum {
         &self.values
     }
 
-    /// Where these values were assumed, not measured.
+    /// Ranges in which values were assumed, not measured.
     pub fn assumed(&self) -> Assumed {
         self.assumed
     }

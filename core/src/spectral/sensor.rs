@@ -19,7 +19,7 @@ pub enum Primaries {
 }
 
 impl Primaries {
-    /// How the curves are brought onto the grid.
+    /// Quantity by which the curves are brought onto the grid.
     pub fn quantity(self) -> Quantity {
         match self {
             Self::Camera => Quantity::CameraSensitivity,
@@ -48,7 +48,7 @@ impl Primaries {
     }
 }
 
-/// What a sensitivity is a response to. Everything computes per energy: `C_energy ∝ λ C_photon`.
+/// Stimulus that sensitivities are a response to. Computation is per energy: `C_energy ∝ λ C_photon`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Response {
     /// Response to equal power at each wavelength.
@@ -79,7 +79,7 @@ pub const TAIL_NM: f64 = 720.0;
 /// distance to Stiles & Burch 1955, by 0.005 at 1500 K and by less than 0.001 from 2500 K on.
 pub const TAIL_BELOW_K: f64 = 2500.0;
 
-/// Why three curves make no sensor.
+/// Reason that three curves make no sensor.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SensorError {
     /// A channel has no sensitivity anywhere on the grid.
@@ -161,7 +161,7 @@ impl Sensor {
         self.primaries
     }
 
-    /// What the source's figures were a response to.
+    /// Response that the source's figures were given for.
     pub fn response(&self) -> Response {
         self.response
     }

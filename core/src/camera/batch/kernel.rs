@@ -15,18 +15,18 @@ impl Sample for f32 {}
 pub struct Register<T>(T);
 
 pub(super) mod sealed {
-    /// What the product needs of a type of numbers.
+    /// Operations that the product needs of a type of numbers.
     pub trait Kernel: Sized {
         /// Zero.
         const ZERO: Self;
-        /// How many numbers a register of AVX2 holds.
+        /// Number of values in an AVX2 register.
         const LANES: usize;
         /// Half the distance from 1 to the next number.
         const ROUNDING: f64;
         /// A register.
         type Lanes: Clone + PartialEq + std::fmt::Debug + Send + Sync;
 
-        /// Whether it is neither infinite nor NaN.
+        /// True if neither infinite nor NaN.
         fn is_finite(&self) -> bool;
 
         /// Curves of a length, in the order in which [`Self::multiply`] reads them, filled up with zeros.
@@ -79,7 +79,7 @@ macro_rules! kernel {
         pub(super) mod $type {
             use super::*;
 
-            /// What a register holds.
+            /// Contents of a register.
             type Lanes = Register<[$type; $lanes]>;
 
             /// Spectra that are multiplied at once.
@@ -140,7 +140,7 @@ macro_rules! kernel {
                 portable(spectra, length, curves, answers, channels, far);
             }
 
-            /// The same for any processor.
+            /// Portable form for any processor.
             #[allow(clippy::inline_always, reason = "only there is it compiled for the caller's instruction set")]
             #[inline(always)]
             pub(super) fn portable(

@@ -19,13 +19,13 @@ const DEPTH: f64 = 52.0;
 /// One channel's weights in a list of wavelengths.
 #[derive(Clone, Debug, PartialEq)]
 struct Channel {
-    /// Where in the list they begin.
+    /// Index in the list at which they begin.
     first: usize,
     /// The weight times (λ₀/λ)⁵, for each wavelength.
     weights: Vec<f64>,
     /// The gap of the last wavelength that weighs.
     last_gap: f64,
-    /// How much smaller the exponential of a term must be than the last one's, so that the term is left out: as a logarithm.
+    /// Logarithm of the ratio of exponentials, last term's to a term's, beyond which the term is left out.
     depth: f64,
 }
 
@@ -49,8 +49,7 @@ pub(super) struct Terms {
 }
 
 impl Terms {
-    /// The same wavelengths for all channels, in nanometers, each with three weights; from the shortest to the anchor, which is
-    /// the last.
+    /// Channels over the same wavelengths in nanometers, each with three weights; from the shortest to the anchor, the last.
     pub(super) fn shared(terms: &[(f64, [f64; 3])], anchor_nm: f64) -> Self {
         let gaps = filled(terms.iter().map(|&(nm, _)| gap(nm, anchor_nm)));
         let channels = [0, 1, 2].map(|c: usize| {
@@ -111,7 +110,7 @@ fn plain(terms: &Terms, skip: usize, scale: f64, anchor: f64) -> [f64; 3] {
     .map(|sum| sum * anchor)
 }
 
-/// The same for small exponents: 1 − e^−x as the sum of two positive numbers.
+/// Small exponents: 1 − e^−x as the sum of two positive numbers.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 fn hot(terms: &Terms, skip: usize, scale: f64, anchor: f64) -> [f64; 3] {
     let rest = 1.0 - anchor;

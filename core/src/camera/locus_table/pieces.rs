@@ -11,7 +11,7 @@ use crate::units::Kelvin;
 /// Coefficients per polynomial: degree 7.
 pub(super) const TERMS: usize = 8;
 
-/// What is added to the reciprocal temperature, in mired: a power of two. Below it the pieces are of one width.
+/// Offset of the reciprocal temperature in mired: a power of two. Below it the pieces are of one width.
 const SHIFT: f64 = 256.0;
 /// The exponent of [`SHIFT`], as the bits of a double have it.
 const FIRST_EXPONENT: u64 = 1023 + 8;
@@ -34,13 +34,13 @@ const LANES: usize = 64;
 /// together is multiplied together.
 type Piece = [[f64; 4]; TERMS / 2];
 
-/// Where the pieces that are left out have their coefficients.
+/// Index of the coefficients of the pieces that are left out.
 const NOTHING: Piece = [[f64::NAN; 4]; TERMS / 2];
 
 /// All pieces, from the hottest to the coldest.
 #[derive(Clone, Debug)]
 pub(super) struct Pieces {
-    /// How many low bits of m + [`SHIFT`] tell the place within a piece.
+    /// Number of low bits of m + [`SHIFT`] that tell the place within a piece.
     within_bits: u32,
     pieces: Vec<Piece>,
 }
@@ -151,7 +151,7 @@ fn evaluate(piece: &Piece, t: f64) -> Xy {
     Xy { x: sum[0] + t * sum[2], y: sum[1] + t * sum[3] }
 }
 
-/// How many pieces of a doubling are tried first, as a power of two: no sensor's locus is so smooth that fewer would do.
+/// Number of pieces of a doubling tried first, as a power of two: no sensor's locus is so smooth that fewer would do.
 fn fewest_bits(target: f64) -> u32 {
     match target {
         ..5e-13 => 4,
@@ -186,7 +186,7 @@ fn piece(exact: &impl Fn(Kelvin) -> Option<Xy>, index: usize, bits: u32) -> (Pie
     (piece, error)
 }
 
-/// Where the error is looked up: both ends, and between every two nodes where Tₙ has its extremes.
+/// Points at which the error is looked up: both ends, and between every two nodes where Tₙ has its extremes.
 fn checks() -> impl Iterator<Item = f64> {
     (0..=TERMS).map(|j| (std::f64::consts::PI * j as f64 / TERMS as f64).cos())
 }

@@ -67,7 +67,7 @@ pub(super) fn difference([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 
     (l * l + c * c + h * h + turn * c * h).max(0.0).sqrt()
 }
 
-/// What becomes of two hues.
+/// Mean and difference of two hues.
 struct Hues {
     /// ΔH′.
     difference: f64,

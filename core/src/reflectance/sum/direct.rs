@@ -121,7 +121,7 @@ fn span(peak: &Peak, depth: f64) -> [usize; 3] {
     [first, last, stride(peak, depth)]
 }
 
-/// How many terms one may stand for.
+/// Number of terms that one term may stand for.
 #[inline(always)]
 fn stride(peak: &Peak, depth: f64) -> usize {
     let Peak { m, delta, .. } = *peak;

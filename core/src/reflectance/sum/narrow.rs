@@ -5,7 +5,7 @@
 
 use super::saddle::Peak;
 
-/// How many neighbors on each side are added. The first term is never among them: m is at least 22 here.
+/// Number of neighbors added on each side. The first term is never among them: m is at least 22 here.
 const REACH: u32 = 13;
 
 /// S as e to the first times the second, for m ≥ 22 with a variance below 2.

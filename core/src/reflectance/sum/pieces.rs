@@ -34,10 +34,10 @@ type Tile = [[f64; LANES]; 4];
 /// Powers of y side by side.
 const LANES: usize = 4;
 
-/// Which tiles there are: p and q, the large ones last. What the others would add is below 5e-14.
+/// Tiles as p and q, the large ones last. The others would add less than 5e-14.
 const SHAPE: [[usize; 2]; 12] =
     [[2, 2], [1, 3], [3, 0], [2, 1], [0, 3], [1, 2], [2, 0], [1, 1], [0, 2], [1, 0], [0, 1], [0, 0]];
-/// How many of them leave less than 9e-11, and less than 9e-7: most where g and β are large, a tenth of that elsewhere.
+/// Number of tiles that leave less than 9e-11, and less than 9e-7: the largest error where g and β are large.
 const FINE: usize = 7;
 const COARSE: usize = 3;
 
@@ -84,11 +84,11 @@ const MANTISSA: u64 = (1 << 52) - 1;
 const BIAS: u64 = 1023;
 /// The fourth root of 2 and its powers.
 const ROOTS: [f64; 3] = [1.189_207_115_002_721, std::f64::consts::SQRT_2, 1.681_792_830_507_429];
-/// What takes `(g − g1)/(g + g1)` over an octave to −1…1, and `(t − t1)/(t + t1)` over half of one.
+/// Scale that takes `(g − g1)/(g + g1)` over an octave to −1…1, and `(t − t1)/(t + t1)` over half of one.
 const TO_X: f64 = (ROOTS[1] + 1.0) / (ROOTS[1] - 1.0);
 const TO_Y: f64 = (ROOTS[0] + 1.0) / (ROOTS[0] - 1.0);
 
-/// Where a pair of arguments lies.
+/// Place of a pair of arguments in the table.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     piece: usize,
@@ -175,7 +175,7 @@ pub(super) fn ln_run(g: &[f64; RUN], b: &[f64; RUN], precision: Precision) -> [f
     }
 }
 
-/// What takes no coefficients is done together, the rest one by one: each piece is one's own.
+/// Steps without coefficients run together, the rest one by one: each value has a piece of its own.
 #[inline(always)]
 fn run<const TILES: usize>(g: &[f64; RUN], b: &[f64; RUN]) -> [f64; RUN] {
     let mut found = [NOWHERE; RUN];

@@ -12,7 +12,7 @@
 use super::coefficients::CORRECTIONS;
 use crate::math::exp::{exp, exp_m1_near};
 
-/// Where the terms of S(g, b) are largest.
+/// Index of the largest term of S(g, b).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Peak {
     pub(super) g: f64,
@@ -36,7 +36,7 @@ impl Peak {
         Self::with(g, b, l * (1.0 - roughly_ln(1.0 + l) / (2.0 + l)))
     }
 
-    /// The same with all digits: two steps of fourth order (Fritsch 1973), for the first of which six digits do.
+    /// Index of the largest term with all digits: two steps of fourth order (Fritsch 1973) from a six-digit start.
     #[inline(always)]
     pub(super) fn refined(self) -> Self {
         let Self { g, b, delta, .. } = self;

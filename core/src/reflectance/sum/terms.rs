@@ -1,4 +1,4 @@
-//! How many terms there are to S(g, b), for those who tell what closed forms and tables spare.
+//! Number of terms of S(g, b), to tell what closed forms and tables save.
 
 use std::f64::consts::LN_2;
 
@@ -15,7 +15,7 @@ const FEW: f64 = 64.0;
 pub struct SeriesTerms {
     /// The last that matters: so many does a plain sum add that begins with the first.
     pub last: f64,
-    /// How many matter.
+    /// Number of terms that matter.
     pub weighing: f64,
 }
 
