@@ -18,7 +18,7 @@ use crate::theme::{self, Theme};
 /// The longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16_384;
 
-/// Why there is no picture.
+/// Reason that there is no picture.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The SVG could not be read.
@@ -37,7 +37,7 @@ pub enum ExportError {
     Encode(#[from] image::ImageError),
 }
 
-/// How a figure is set on paper.
+/// Layout of a figure on paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Paper {
     /// Width in millimeters; `None` takes the figure's own points.

@@ -40,7 +40,7 @@ const TEMPORARY: &str = ".chromascope-";
 /// So many letters and digits follow it.
 const RANDOM: usize = 6;
 
-/// What came of a dialog, a read or a write.
+/// Result of a dialog, a read or a write.
 #[derive(Debug)]
 pub enum FileEvent {
     /// Files or folders are to be opened.
@@ -57,7 +57,7 @@ pub enum FileEvent {
     Failed(String),
 }
 
-/// What a thread says.
+/// Message of a thread.
 enum Note {
     Event(FileEvent),
     Answered(u64, Answer, Option<SaveRequest>),
@@ -76,9 +76,9 @@ pub struct Files {
     /// The system's dialogs; none where paths are asked for in the window alone.
     dialogs: Option<Arc<dyn Dialogs>>,
     waiting: Option<asking::Waiting>,
-    /// Whether something that is to be saved is being made.
+    /// True while something to be saved is being computed.
     making: bool,
-    /// How many files that are being made are no longer wanted.
+    /// Number of files being computed that are no longer wanted.
     unwanted: usize,
     /// The number of the last dialog.
     ticket: u64,
@@ -141,7 +141,7 @@ impl Files {
         self.watch = watch::Watch::new(Some(ctx.clone()));
     }
 
-    /// What happened since.
+    /// Events since the last query.
     pub fn poll(&mut self) -> Vec<FileEvent> {
         let notes: Vec<Note> = self.receiver.try_iter().collect();
         let mut events = Vec::new();
@@ -316,13 +316,13 @@ fn sweep(folder: &Path) {
     }
 }
 
-/// Whether a file was written last more than so long ago.
+/// True if a file was last written more than some time ago.
 fn is_older(path: &Path, age: Duration, now: SystemTime) -> bool {
     let modified = fs::symlink_metadata(path).and_then(|facts| facts.modified()).ok();
     modified.and_then(|modified| now.duration_since(modified).ok()).is_some_and(|past| past > age)
 }
 
-/// Whether a name is one of those that [`temporary`] makes.
+/// True if a name is one of those that [`temporary`] makes.
 fn is_temporary(name: &OsStr) -> bool {
     let random = name.to_str().and_then(|name| name.strip_prefix(TEMPORARY));
     random.is_some_and(|random| random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric()))

@@ -19,7 +19,7 @@ use crate::theme::Theme;
 pub use hit::{Hit, nearest};
 pub use pictures::{PictureQuery, PictureTextures};
 
-/// How a mark stands out, or does not.
+/// Emphasis of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Emphasis {
     /// As it is.
@@ -33,13 +33,13 @@ pub enum Emphasis {
     Faded,
 }
 
-/// Which emphasis marks have.
+/// Emphasis of each mark, by its tag.
 pub type EmphasisOf<'a> = &'a dyn Fn(Tag) -> Emphasis;
 
-/// How a panel is shown.
+/// Interaction with a panel.
 #[derive(Clone, Copy)]
 pub struct PlotOptions<'a> {
-    /// Whether the user can zoom (wheel, pinch) and pan (drag). A double click shows the panel's ranges again.
+    /// True if the user can zoom (wheel, pinch) and pan (drag). A double click shows the panel's ranges again.
     pub zoomable: bool,
     /// Shows the panel's ranges again now.
     pub reset: bool,
@@ -55,12 +55,12 @@ impl Default for PlotOptions<'_> {
     }
 }
 
-/// What came of showing a panel.
+/// Result of showing a panel.
 #[derive(Debug, Clone)]
 pub struct PlotOutput {
     /// Clicks, drags and the pointer inside the plot.
     pub response: Response,
-    /// Where data are on screen.
+    /// Map from data to the screen.
     pub view: View,
     /// The pointer in data units.
     pub hovered: Option<[f64; 2]>,
@@ -78,7 +78,7 @@ pub struct View {
 }
 
 impl View {
-    /// Where a data point is on screen. Points far outside are held near the screen: egui's numbers are `f32`.
+    /// Position of a data point on screen. Points far outside are held near the screen: egui's numbers are `f32`.
     pub fn at(&self, point: [f64; 2]) -> Pos2 {
         let far = 1e5;
         let u = (point[0] - self.x[0]) / (self.x[1] - self.x[0]) * f64::from(self.rect.width());

@@ -89,7 +89,7 @@ impl Surround {
 /// The colors of one theme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Theme {
-    /// Whether text is light on dark.
+    /// True if text is light on dark.
     pub dark: bool,
     /// Ground of panes and bars.
     pub panel: Color32,
@@ -195,7 +195,7 @@ impl Theme {
         if visuals.dark_mode { Self::DARK } else { Self::LIGHT }
     }
 
-    /// The same theme with another gray around swatches and renders.
+    /// Theme with another gray around swatches and renders.
     #[must_use]
     pub const fn with_surround(self, surround: Surround) -> Self {
         Self { surround, ..self }

@@ -1,4 +1,4 @@
-//! What is looked at: named reflectances.
+//! Named reflectances: charts, training data, materials.
 
 use crate::spectral::{Dataset, GridSpectrum, Quantity, SpectralDistribution};
 use std::hash::{Hash, Hasher};

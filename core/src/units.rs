@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
-/// Why a number is not a physical quantity of the wanted kind.
+/// Reason that a number is not a physical quantity of the wanted kind.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{value} is not a positive, finite number of {unit}")]
 pub struct NotPositive {

@@ -12,7 +12,7 @@ use exr::prelude::{
     LineOrder, Text, WritableImage as _,
 };
 
-/// Why there is no file.
+/// Reason that there is no file.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// The PNG could not be encoded.
@@ -23,7 +23,7 @@ pub enum PictureError {
     Exr(#[from] exr::error::Error),
 }
 
-/// What the numbers of a picture hold, for its file's header.
+/// Conditions of a picture, for its file's header.
 #[derive(Clone, Copy, Debug)]
 pub struct Provenance<'a> {
     /// The camera's or observer's name.
@@ -36,15 +36,15 @@ pub struct Provenance<'a> {
     pub material: &'a str,
     /// The mesh's name.
     pub mesh: &'a str,
-    /// How integrals were made.
+    /// Method of integration.
     pub quality: Quality,
-    /// Where the light is.
+    /// Position of the light.
     pub lighting: Lighting,
-    /// Where the eye is.
+    /// Position of the eye.
     pub viewpoint: Viewpoint,
     /// The roughness.
     pub surface: Surface,
-    /// How Eq 1 is read.
+    /// Normalization of Eq 1.
     pub reading: Reading,
 }
 
@@ -156,7 +156,7 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
     }
 }
 
-/// What the numbers mean.
+/// Meaning of the numbers.
 fn comments(reading: Reading) -> &'static str {
     match reading {
         Reading::Radiometric | Reading::Microfacet => {
@@ -195,7 +195,7 @@ fn utf8(text: &str) -> Text {
     Text::from_slice_unchecked(text.as_bytes())
 }
 
-/// The same file with its header's attributes in the order of their names: the crate writes them in an order that changes from
+/// File with its header's attributes in the order of their names: the crate writes them in an order that changes from
 /// run to run.
 fn with_sorted_header(mut file: Vec<u8>) -> Vec<u8> {
     const START: usize = 8; // after the magic number and the version

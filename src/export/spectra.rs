@@ -49,7 +49,7 @@ impl Form {
     }
 }
 
-/// Why a set cannot be saved.
+/// Reason that a set cannot be saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SpectraError {
     /// Its curves cannot be had.
@@ -65,9 +65,9 @@ pub enum SpectraError {
 pub struct SpectraFile {
     /// The name offered for it.
     pub name: String,
-    /// What it holds.
+    /// Contents.
     pub text: String,
-    /// What is not as it is in the set.
+    /// Differences from the set.
     pub notes: Vec<Note>,
 }
 
@@ -79,7 +79,7 @@ struct Facts<'a> {
     comments: Vec<(String, String)>,
 }
 
-/// Whether a form is one for such a set, by what the set is and how many curves it has.
+/// True if a format suits such a set, by its kind and its number of curves.
 pub fn fits(entry: &Entry, form: Form) -> Result<(), WriteError> {
     let count = match &entry.place {
         Place::BuiltIn { column: Some(_), .. } => 1,
@@ -177,7 +177,7 @@ fn header_comments(kind: SetKind, header: &Header) -> Vec<(String, String)> {
     comments
 }
 
-/// Where the set is from, and how its file was read.
+/// Source of the set, and how its file was read.
 fn own_comments(set: &OwnSet) -> Vec<(String, String)> {
     let mut comments = vec![("source".to_owned(), set.file.clone())];
     comments.extend(set.decisions.iter().map(|decision| ("reading".to_owned(), decision.clone())));
@@ -228,7 +228,7 @@ fn file_name(name: &str) -> String {
     if name.is_empty() { "spectra".to_owned() } else { name.to_owned() }
 }
 
-/// What became of the curves on the way, for the end of a sentence: empty if nothing.
+/// Changes of the curves on writing, for the end of a sentence: empty if none.
 pub fn notes_in_words(notes: &[Note]) -> String {
     notes.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }

@@ -99,12 +99,12 @@ impl Files {
         }
     }
 
-    /// Whether a path is being asked for, or will be at once: keys are meant for that.
+    /// True while a path is asked for, or will be at once: keys are meant for that.
     pub fn is_asking(&self) -> bool {
         self.is_waiting() || self.prompt.is_some()
     }
 
-    /// Whether a dialog or the path box is on its way and has not the keyboard yet.
+    /// True while a dialog or the path box is opening and has no keyboard focus yet.
     pub fn is_waiting(&self) -> bool {
         self.waiting.is_some() || self.making || self.prompt.as_ref().is_some_and(|prompt| prompt.focus)
     }

@@ -83,7 +83,7 @@ impl Dialogs for System {
 }
 
 thread_local! {
-    /// Whether the dialog of this thread failed. The library says so in its log alone: to its caller a missing dialog looks
+    /// True if this thread's dialog failed. The library says so in its log alone: to its caller a missing dialog looks
     /// like Cancel.
     static FAILED: Cell<bool> = const { Cell::new(false) };
 }

@@ -22,7 +22,7 @@ pub(super) struct Keeper {
     executor: Executor,
 }
 
-/// What lies between the window and the thread that writes.
+/// State shared by the window and the thread that writes.
 pub(super) struct Desk {
     state: Mutex<State>,
     /// Held while something is written.
@@ -31,7 +31,7 @@ pub(super) struct Desk {
     closing: Condvar,
     clock: Clock,
     is_driven: bool,
-    /// Whether there is a file to keep the document in.
+    /// True if there is a file to save the document in.
     keeps: bool,
 }
 
@@ -41,11 +41,11 @@ struct State {
     newest: Option<Arc<Document>>,
     /// The document as it is on disk; the same one where there is nothing to write.
     saved: Option<Arc<Document>>,
-    /// Whether a thread writes, or waits to write again.
+    /// True while a thread writes, or waits to write again.
     running: bool,
-    /// Whether the window is closing.
+    /// True if the window is closing.
     closed: bool,
-    /// When the last writing ended.
+    /// Time at which the last write ended.
     ended: Option<Duration>,
     /// The reason why the last writing did not save all.
     failure: Option<String>,
@@ -54,7 +54,7 @@ struct State {
     wake: Option<egui::Context>,
 }
 
-/// What came of reading the kept document.
+/// Result of reading the saved document.
 pub(super) struct Loaded {
     /// The document, or the first screen.
     pub(super) document: Document,
@@ -82,7 +82,7 @@ impl State {
             Some(if is(&self.saved) { self.saved.clone() } else { None }.unwrap_or_else(|| Arc::new(document.clone())));
     }
 
-    /// How long to rest after the last writing.
+    /// Time to rest after the last write.
     fn pause(&self) -> Duration {
         if self.failure.is_some() { RETRY } else { PAUSE }
     }
@@ -219,7 +219,7 @@ impl Keeper {
         self.profile.other.zip(self.profile.file.as_deref())
     }
 
-    /// Whether a window keeps its document in a file: this one or another.
+    /// True if a window saves its document in a file: this one or another.
     pub(super) fn is_in_use(&self, path: &Path) -> bool {
         self.moved().as_deref() == Some(path) || self.profile.is_in_use(path)
     }
@@ -229,7 +229,7 @@ impl Keeper {
         self.profile.copies(self.moved().as_deref())
     }
 
-    /// Whether no document was kept before, by this window or another.
+    /// True if no document was saved before, by this window or another.
     pub(super) fn is_first_run(&self) -> bool {
         self.profile.first.as_ref().is_some_and(|file| std::fs::symlink_metadata(file).is_err())
     }
@@ -359,7 +359,7 @@ impl Keeper {
         self.desk.lock().failure.clone()
     }
 
-    /// Whether all is on disk.
+    /// True if all is on disk.
     pub(super) fn is_saved(&self) -> bool {
         self.desk.lock().is_clean()
     }

@@ -42,7 +42,7 @@ impl Files {
         loaded.document
     }
 
-    /// Where this window keeps its document while another one has the profile: a sentence that stays on screen, and the file.
+    /// File of this window's document while another window has the profile, with a sentence that stays on screen.
     pub fn copy(&self) -> Option<(String, PathBuf)> {
         let (other, file) = self.keeper.other()?;
         let process = other.process.map_or_else(String::new, |process| format!(" (process {process})"));
@@ -119,7 +119,7 @@ impl Files {
         self.keeper.save(document)
     }
 
-    /// Whether the document is on disk as it was seen last.
+    /// True if the document is on disk as last seen.
     pub fn is_saved(&self) -> bool {
         self.keeper.is_saved()
     }

@@ -89,7 +89,7 @@ pub fn save_on_signals() -> io::Result<()> {
     Ok(())
 }
 
-/// Whether whoever started the program had it ignore a signal, as `nohup` does.
+/// True if the parent process had the program ignore a signal, as `nohup` does.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

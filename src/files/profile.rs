@@ -53,7 +53,7 @@ pub(super) struct OtherWindow {
 pub struct Copy {
     /// Its file.
     pub path: PathBuf,
-    /// When it was written last.
+    /// Time of the last write.
     pub modified: Option<SystemTime>,
 }
 
@@ -115,7 +115,7 @@ impl Profile {
         copies
     }
 
-    /// Whether a document is this window's, the first one's, or locked by another.
+    /// Owner of a document: this window, the first one, or another that holds its lock.
     pub(super) fn is_in_use(&self, path: &Path) -> bool {
         [&self.file, &self.first].into_iter().flatten().any(|own| own == path) || is_held(path)
     }
@@ -191,7 +191,7 @@ fn free(folder: &Path, name: impl Fn(u32) -> String) -> PathBuf {
     paths.into_iter().find(is_free).unwrap_or_else(|| folder.join(name(0)))
 }
 
-/// Whether files can be made in a folder, which is made if it is not there.
+/// True if files can be made in a folder, which is made if it does not exist.
 fn writable(folder: &Path) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     tempfile::Builder::new().prefix(super::TEMPORARY).tempfile_in(folder).map(drop)
@@ -209,7 +209,7 @@ fn lock(path: &Path) -> Result<File, TryLockError> {
     Ok(file)
 }
 
-/// Whether a window holds the lock of a copy.
+/// True if a window holds the lock of a copy.
 fn is_held(copy: &Path) -> bool {
     // Network folders lock only what is open for writing.
     match OpenOptions::new().read(true).write(true).open(copy.with_extension("lock")) {

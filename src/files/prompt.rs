@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{SaveRequest, reason};
 
-/// So many completions are listed.
+/// Number of completions listed.
 const MOST: usize = 200;
 
 /// A path to be typed, where there is no dialog or what was chosen there cannot be.
@@ -21,11 +21,11 @@ pub struct PathPrompt {
     pub failure: Option<String>,
     /// Names that the path typed could go on with.
     pub candidates: Vec<String>,
-    /// Whether the field takes the keyboard in this frame, with the cursor at the end.
+    /// True if the field takes the keyboard in this frame, with the cursor at the end.
     pub focus: bool,
-    /// Whether the cursor goes to the end of the text in this frame.
+    /// True if the cursor goes to the end of the text in this frame.
     pub to_end: bool,
-    /// Whether it stands in for a dialog that is not there.
+    /// True if it replaces a dialog that is not available.
     pub no_dialog: bool,
     /// The dialog it stands in for.
     pub(super) ticket: u64,
@@ -37,14 +37,14 @@ impl PathPrompt {
         Self { text, save, focus: true, no_dialog: true, ticket, ..Self::default() }
     }
 
-    /// What was said of the path goes, because another one is typed.
+    /// Clears the message about the path, because another one is typed.
     pub fn typed(&mut self) {
         self.replaces = None;
         self.failure = None;
         self.candidates.clear();
     }
 
-    /// The same with a reason why it was not taken.
+    /// Prompt with a reason why the path was refused.
     pub(super) fn refused(self, why: impl Into<String>) -> Self {
         Self { failure: Some(why.into()), replaces: None, candidates: Vec::new(), focus: true, ..self }
     }
@@ -59,7 +59,7 @@ pub(super) fn expanded(text: &str, home: Option<&Path>) -> PathBuf {
     }
 }
 
-/// Why a path cannot be opened, if so.
+/// Reason that a path cannot be opened, if any.
 pub(super) fn cannot_open(path: &Path) -> Option<String> {
     let facts = match fs::metadata(path) {
         Ok(facts) => facts,

@@ -32,18 +32,18 @@ pub enum StandingKind {
 }
 
 impl StandingKind {
-    /// Whether a person can dismiss it.
+    /// True if the user can dismiss it.
     pub const fn is_dismissible(self) -> bool {
         matches!(self, Self::SetAside | Self::Moved | Self::Copies)
     }
 }
 
-/// What the sentences are made of.
+/// Facts that the sentences are made of.
 #[derive(Debug, Default)]
 pub(super) struct Notices {
     /// A document that could not be read: a sentence, and its file.
     pub(super) complaint: Option<(String, PathBuf)>,
-    /// How many documents other windows had kept at the start.
+    /// Number of documents that other windows had saved at the start.
     pub(super) copies: usize,
     dismissed: HashSet<StandingKind>,
 }

@@ -20,14 +20,14 @@ use crate::document::own::{Fingerprint, OwnCurve, OwnSet};
 use crate::document::session::SessionError;
 use crate::document::{Document, VERSION};
 
-/// What came of writing a document.
+/// Result of writing a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Written {
     /// Sets that were left out, in one sentence; may be empty.
     pub(super) skipped_work: String,
 }
 
-/// Why a kept document could not be read.
+/// Reason that a saved document could not be read.
 #[derive(Debug)]
 pub(super) enum Unread {
     /// There is none.
@@ -49,9 +49,9 @@ pub(super) struct Store {
     known: HashMap<usize, (Shared<OwnSet>, Place)>,
     /// Curves that this window wrote, by their text.
     written: HashMap<u128, Place>,
-    /// Whether the file on disk holds curves itself, which are lost with it.
+    /// True if the file on disk holds curves itself, which are lost with it.
     by_value: bool,
-    /// Whether the file on disk is known to be in the present form, or kept beside it.
+    /// True if the file on disk is known to be in the present form, or saved beside it.
     is_present: bool,
     /// The file that the document is kept in because another program wrote to the one before.
     moved: Option<PathBuf>,
@@ -81,7 +81,7 @@ impl Store {
         self.moved.as_ref()
     }
 
-    /// Whether the file holds curves itself, as earlier versions wrote it.
+    /// True if the file holds curves itself, as earlier versions wrote it.
     pub(super) fn is_by_value(&self) -> bool {
         self.by_value
     }
@@ -141,7 +141,7 @@ impl Store {
         Ok(Written { skipped_work })
     }
 
-    /// Whether the file holds what this window neither read nor wrote. What it read in an earlier form is kept beside it before
+    /// True if the file holds what this window neither read nor wrote. An earlier form that it read is saved beside it before
     /// that is written over.
     fn is_foreign(&mut self) -> Result<bool, String> {
         let bytes = match fs::read(&self.file) {

@@ -16,7 +16,7 @@ const REST: Duration = Duration::from_millis(300);
 const RESTLESS: Duration = Duration::from_secs(1);
 /// Time between two readings of a file.
 const APART: Duration = Duration::from_millis(500);
-/// So often a folder that is gone is looked for.
+/// Interval at which a missing folder is looked for.
 const LOOK: Duration = Duration::from_secs(1);
 
 /// Watches files through their folders, because editors and instruments often put a new file in the old one's place.
@@ -31,19 +31,19 @@ pub(super) struct Watch {
     looked: Option<Duration>,
 }
 
-/// What happened since it was last asked, on the thread that hears of it.
+/// Events since the last query, on the thread that receives them.
 #[derive(Default)]
 struct Heard {
-    /// What is listened for.
+    /// Watched paths.
     files: BTreeSet<PathBuf>,
     folders: BTreeSet<PathBuf>,
     changes: BTreeMap<PathBuf, Change>,
     gone: BTreeSet<PathBuf>,
-    /// When files that changed were last told of.
+    /// Time at which changed files were last reported.
     told: BTreeMap<PathBuf, Duration>,
 }
 
-/// When a file that was not told of since was written first and last.
+/// Times of the first and last write of a file that has not been reported since.
 #[derive(Clone, Copy, Debug)]
 struct Change {
     first: Duration,

@@ -1,4 +1,4 @@
-//! What surrounds the marks: ground, grid, frame, tick labels, notes.
+//! Surroundings of the marks: ground, grid, frame, tick labels, notes.
 
 use chromascope_figure::{Anchor, Annotation, Ink, InkRole, Panel, Rect as Area, TextSize, Tick, annotations};
 use egui::{Painter, Pos2, Rect, Stroke, StrokeKind};

@@ -1,4 +1,4 @@
-//! What is under the pointer.
+//! Marks under the pointer.
 
 use chromascope_figure::{Mark, Panel, Shape, Tag};
 use egui::Pos2;
@@ -8,7 +8,7 @@ use super::View;
 /// A mark near the pointer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// What it stands for.
+    /// Tag of the mark.
     pub tag: Tag,
     /// Its place among the panel's marks.
     pub mark: usize,

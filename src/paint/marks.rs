@@ -9,7 +9,7 @@ use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, epaint
 use super::{Emphasis, View, dense, texture, triangles};
 use crate::theme::{self, Theme};
 
-/// What drawing a mark needs to know.
+/// Context in which a mark is drawn.
 struct Brush<'a> {
     painter: &'a Painter,
     view: &'a View,
@@ -257,7 +257,7 @@ pub(super) fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Th
     }
 }
 
-/// How a line of text is drawn.
+/// Layout of a line of text.
 #[derive(Clone, Copy)]
 pub(super) struct TextStyle {
     pub(super) anchor: Anchor,

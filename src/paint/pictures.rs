@@ -19,18 +19,18 @@ struct Entry {
     used: u64,
 }
 
-/// Which picture is drawn, and where.
+/// Picture to be drawn, and its area.
 #[derive(Clone, Copy, Debug)]
 pub struct PictureQuery<'a> {
     /// The picture's name: the same texture serves all its versions.
     pub name: &'a str,
     /// Its version: it is made and uploaded when this changed.
     pub version: u64,
-    /// Where all of it would be.
+    /// Area of the whole picture.
     pub rect: Rect,
-    /// What of it is shown.
+    /// Visible part of it.
     pub clip: Rect,
-    /// Whether its pixels are those of the screen.
+    /// True if its pixels are those of the screen.
     pub sharp: bool,
 }
 

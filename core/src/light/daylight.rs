@@ -4,7 +4,7 @@ use crate::colorimetry::Xy;
 use crate::spectral::{Dataset, SpectralDistribution};
 use crate::units::Kelvin;
 
-/// Why there is no daylight of a temperature.
+/// Reason that there is no daylight of a temperature.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum DaylightError {
     /// The CIE formula holds from 4000 to 25000 K.

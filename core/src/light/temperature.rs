@@ -51,7 +51,7 @@ pub struct Cct {
     pub duv: f64,
 }
 
-/// Why a color has no correlated color temperature.
+/// Reason that a color has no correlated color temperature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum CctError {
     /// Black, or numbers that are no chromaticity.
@@ -68,7 +68,7 @@ pub enum CctError {
     TooCold,
 }
 
-/// Why an observer gives no locus to compare with.
+/// Reason that an observer gives no locus to compare with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum LocusError {
     /// The observer's channels are not X, Y and Z, so that its signals have no place in the 1960 diagram.
@@ -108,9 +108,9 @@ pub struct PlanckianLocus {
 }
 
 impl PlanckianLocus {
-    /// How far a temperature is off at most, in kelvins.
+    /// Error bound of a temperature, in kelvins.
     pub const MAX_ERROR_K: f64 = 2e-9;
-    /// How far a Duv is off at most.
+    /// Error bound of a Duv.
     pub const MAX_ERROR_DUV: f64 = 1e-15;
 
     /// Tabulates the locus of an observer: some 2100 sums over its curves, then a search for each node of the table.
@@ -138,24 +138,24 @@ impl PlanckianLocus {
         self.quick(color).map_or_else(|| self.careful(color), Ok)
     }
 
-    /// The same from x and y.
+    /// Correlated color temperature and Duv of x and y.
     pub fn cct_of_xy(&self, color: Xy) -> Result<Cct, CctError> {
         self.cct(color.uv_prime().ok_or(CctError::NoChromaticity)?.uv60())
     }
 
-    /// The same from tristimulus values.
+    /// Correlated color temperature and Duv of tristimulus values.
     pub fn cct_of_xyz(&self, color: Xyz) -> Result<Cct, CctError> {
         self.cct(color.uv_prime().ok_or(CctError::NoChromaticity)?.uv60())
     }
 
-    /// The same for many, on all cores; the answers do not depend on their number.
+    /// Correlated color temperatures of many colors, on all cores; the answers do not depend on their number.
     pub fn ccts(&self, colors: &[Uv60]) -> Vec<Result<Cct, CctError>> {
         let mut answers = vec![Err(CctError::NoChromaticity); colors.len()];
         self.ccts_into(colors, &mut answers);
         answers
     }
 
-    /// The same into memory that is there already; what of the longer slice is beyond the shorter one is left alone.
+    /// Correlated color temperatures written into existing memory. Extra elements of the longer slice are ignored.
     pub fn ccts_into(&self, colors: &[Uv60], answers: &mut [Result<Cct, CctError>]) {
         let chunks = answers.par_chunks_mut(CHUNK).zip(colors.par_chunks(CHUNK));
         chunks.for_each(|(answers, colors)| {
@@ -226,14 +226,14 @@ impl PlanckianLocus {
     }
 }
 
-/// Whether a reciprocal temperature is one that is looked for.
+/// True if a reciprocal temperature is within the domain.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn is_in_range(mired: f64) -> bool {
     (HOTTEST_MIRED * (1.0 - SLACK)..=COLDEST_MIRED * (1.0 + SLACK)).contains(&mired)
 }
 
-/// Whether the tangent never stands still and turns gently enough for one nearest point within [`MAX_DUV`], with room to spare.
+/// True if the tangent never stops and turns gently enough for one nearest point within [`MAX_DUV`], with a margin.
 fn is_simple(pieces: &Pieces) -> bool {
     let tangents: Vec<[f64; 2]> = pieces.iter().map(|piece| piece.motion(0.0).per_mired).collect();
     let spacing = pieces::WIDTH;

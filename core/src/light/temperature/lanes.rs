@@ -56,7 +56,7 @@ impl Lanes {
         solve(self, start, pieces);
     }
 
-    /// What was found for one color, if the search ended in the domain.
+    /// Temperature found for one color, if the search ended in the domain.
     #[inline]
     pub(super) fn found(&self, lane: usize) -> Option<Found> {
         self.good[lane].then(|| Found { kelvins: self.kelvins[lane], duv: self.duv[lane], good: true })

@@ -18,7 +18,7 @@ const STEPS: usize = 60;
 pub(super) struct Nearest {
     /// Its reciprocal temperature in mired; to no more than tell on which side it lies beyond the pieces.
     pub(super) mired: f64,
-    /// How far away it is.
+    /// Distance from the color.
     pub(super) distance: f64,
 }
 
@@ -64,7 +64,7 @@ impl Vertices {
     }
 }
 
-/// Where between two reciprocal temperatures the distance is least, if it is least inside.
+/// Reciprocal temperature of least distance between two others, if the minimum lies inside.
 pub(super) fn root(pieces: &Pieces, color: Uv60, mut low: f64, mut high: f64) -> Option<f64> {
     let at = |mired: f64| {
         let piece = pieces.at(mired);

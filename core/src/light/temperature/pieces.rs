@@ -10,9 +10,9 @@ use crate::units::Kelvin;
 
 /// Coefficients per polynomial: degree 6.
 pub(super) const TERMS: usize = 7;
-/// How many pieces.
+/// Number of pieces.
 const PIECES: usize = 256;
-/// Where the pieces begin and end, in mired: beyond 20000 K and 1000 K far enough that a search from a nearby start
+/// Ends of the pieces in mired: beyond 20000 K and 1000 K far enough that a search from a nearby start
 /// finds what lies just outside.
 pub(super) const FIRST_MIRED: f64 = 20.0;
 pub(super) const LAST_MIRED: f64 = 1044.0;
@@ -63,7 +63,7 @@ pub(super) struct Found {
     pub(super) kelvins: f64,
     /// The distance from the tangent, positive above the locus.
     pub(super) duv: f64,
-    /// Whether the method converged, within the piece and the domain.
+    /// True if the method converged, within the piece and the domain.
     pub(super) good: bool,
 }
 

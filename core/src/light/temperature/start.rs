@@ -1,4 +1,4 @@
-//! Where to begin: reciprocal temperatures over a grid of chromaticities.
+//! Start values: reciprocal temperatures over a grid of chromaticities.
 
 use rayon::prelude::*;
 
@@ -63,7 +63,7 @@ impl Start {
         Self { corner, last: [(columns - 2) as f64, (rows - 2) as f64], columns: columns - 1, cells }
     }
 
-    /// Where on the grid a color lies. Colors beyond it are held at its border, and NaN at a corner: searches from there do
+    /// Place of a color on the grid. Colors beyond it are held at its border, and NaN at a corner: searches from there do
     /// not end near them.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[allow(clippy::manual_clamp, reason = "clamp keeps what is not a number")]

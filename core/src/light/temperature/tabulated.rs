@@ -32,12 +32,12 @@ struct Isotherm {
 }
 
 impl Isotherm {
-    /// How far on the cold side a color lies.
+    /// Signed distance of a color on the cold side.
     fn beyond(&self, color: Uv60) -> f64 {
         (color.u - self.at.u) * self.along[0] + (color.v - self.at.v) * self.along[1]
     }
 
-    /// How far above the tangent a color lies.
+    /// Signed distance of a color above the tangent.
     fn above(&self, color: Uv60) -> f64 {
         (color.v - self.at.v) * self.along[0] - (color.u - self.at.u) * self.along[1]
     }
@@ -98,9 +98,9 @@ pub struct Ohno {
 const STEP: f64 = 1.01;
 /// His correction of temperatures that were interpolated over such steps.
 const CORRECTION: f64 = 0.999_91;
-/// So much, relative to them, the temperatures at the ends of the domain may come out beyond it.
+/// Relative amount by which temperatures at the ends of the domain may exceed it.
 const ENDS: f64 = 5e-4;
-/// Where the triangle gives way to the parabola.
+/// Duv at which the triangle gives way to the parabola.
 const TRIANGLE_TO: f64 = 0.002;
 
 impl Ohno {
@@ -171,7 +171,7 @@ fn locus(observer: &Sensor, constants: RadiationConstants) -> Result<ExactLocus<
     (observer.primaries() == Primaries::Xyz).then(|| ExactLocus::new(observer, constants)).ok_or(LocusError::NotXyz)
 }
 
-/// Whether there is a color at all, and one whose squares are numbers.
+/// True if there is a color, and one whose squares are finite.
 fn finite(color: Uv60) -> Result<(), CctError> {
     if !(color.u.is_finite() && color.v.is_finite()) {
         return Err(CctError::NoChromaticity);
