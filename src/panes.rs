@@ -18,7 +18,7 @@ pub mod swatches;
 pub mod tolerance;
 pub mod understood;
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::NearestBlackBodyQuery;
 use chromascope_core::query::render::PicturesQuery;
 use chromascope_core::render::Quality;
@@ -83,7 +83,7 @@ impl PaneContext<'_> {
     /// The pictures as they would be made within the document's tolerance.
     pub fn planned_pictures(&self) -> Option<PicturesQuery> {
         let own = self.meshes.chosen(&self.scene.document.render.mesh);
-        let quality = Accuracy::new(self.scene.document.render.tolerance).ok().map(Quality::Within)?;
+        let quality = RelTolerance::new(self.scene.document.render.tolerance).ok().map(Quality::Within)?;
         SceneRunQuery::pictures_of(&self.scene, own.as_ref(), self.view.saved.render.orbit, quality)
     }
 

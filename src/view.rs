@@ -47,7 +47,7 @@ pub struct View {
     pub import: ImportView,
     /// What the Render pane shows now.
     pub render: RenderView,
-    /// What is looked at in Accuracy.
+    /// What is looked at in RelTolerance.
     pub accuracy: AccuracyView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,

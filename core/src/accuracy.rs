@@ -1,6 +1,6 @@
 //! How exactly a number is wanted, and what is said where that cannot be had.
 //!
-//! What takes an [`Accuracy`] chooses the cheapest way whose error it has checked, and says [`Unmet`] where none is exact
+//! What takes an [`RelTolerance`] chooses the cheapest way whose error it has checked, and says [`Unmet`] where none is exact
 //! enough. Relative to what an error is, each says itself: a peak, a value, the largest of three signals.
 
 use std::cmp::Ordering;
@@ -9,23 +9,23 @@ use std::hash::{Hash, Hasher};
 
 /// The largest relative error that is allowed: above 0, below 1. Equal and hashed by its bits, so that questions can hold it.
 #[derive(Clone, Copy, Debug)]
-pub struct Accuracy {
+pub struct RelTolerance {
     max_relative_error: f64,
 }
 
-impl Accuracy {
+impl RelTolerance {
     /// Takes a relative error above 0 and below 1.
     ///
     /// ```
-    /// use chromascope_core::accuracy::Accuracy;
-    /// assert_eq!(Accuracy::new(1e-6).unwrap().to_string(), "1e-6");
-    /// assert!(Accuracy::new(0.0).is_err());
+    /// use chromascope_core::accuracy::RelTolerance;
+    /// assert_eq!(RelTolerance::new(1e-6).unwrap().to_string(), "1e-6");
+    /// assert!(RelTolerance::new(0.0).is_err());
     /// ```
-    pub fn new(max_relative_error: f64) -> Result<Self, NotAnAccuracy> {
+    pub fn new(max_relative_error: f64) -> Result<Self, NotATolerance> {
         if max_relative_error > 0.0 && max_relative_error < 1.0 {
             Ok(Self { max_relative_error })
         } else {
-            Err(NotAnAccuracy { value: max_relative_error })
+            Err(NotATolerance { value: max_relative_error })
         }
     }
 
@@ -61,33 +61,33 @@ impl Accuracy {
     }
 }
 
-impl PartialEq for Accuracy {
+impl PartialEq for RelTolerance {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Accuracy {}
+impl Eq for RelTolerance {}
 
-impl Hash for Accuracy {
+impl Hash for RelTolerance {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.max_relative_error.to_bits().hash(state);
     }
 }
 
-impl PartialOrd for Accuracy {
+impl PartialOrd for RelTolerance {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Accuracy {
+impl Ord for RelTolerance {
     fn cmp(&self, other: &Self) -> Ordering {
         self.max_relative_error.total_cmp(&other.max_relative_error)
     }
 }
 
-impl fmt::Display for Accuracy {
+impl fmt::Display for RelTolerance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(digits) = f.precision() {
             return write!(f, "{:.digits$e}", self.max_relative_error);
@@ -99,7 +99,7 @@ impl fmt::Display for Accuracy {
 /// Why a number is no accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{value} is not a relative error between 0 and 1")]
-pub struct NotAnAccuracy {
+pub struct NotATolerance {
     /// The number that was offered.
     pub value: f64,
 }
@@ -109,7 +109,7 @@ pub struct NotAnAccuracy {
 #[error("an error of {asked:.1} cannot be promised; the best that can be is {best:.1}")]
 pub struct Unmet {
     /// What was asked for.
-    pub asked: Accuracy,
+    pub asked: RelTolerance,
     /// The smallest error that can be promised.
-    pub best: Accuracy,
+    pub best: RelTolerance,
 }

@@ -18,16 +18,16 @@ pub mod coherent;
 pub mod fresnel;
 pub mod geometry;
 pub mod hemispherical;
+pub mod normalization;
 pub mod power;
-pub mod reading;
 pub mod regimes;
 pub mod sum;
 pub mod surface;
 
 pub use geometry::Geometry;
 pub use hemispherical::{HemisphericalReflectance, directional_hemispherical};
+pub use normalization::{Method, Normalization};
 pub use power::{beta, coherent_prefactor, diffuse_prefactor, factor, factor_by, factors_by, kappa, wavelength_power};
-pub use reading::{Method, Reading};
 pub use regimes::{Regime, diffuse_sum_by_regimes};
 pub use sum::{
     Precision, SeriesTerms, diffuse_sum, diffuse_sums_into, ln_diffuse_sum, ln_diffuse_sums_into, series_terms,

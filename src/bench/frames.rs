@@ -3,13 +3,12 @@
 use std::hint::black_box;
 use std::sync::Arc;
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
-use chromascope_core::reflectance::{Reading, Surface, wavelength_power};
+use chromascope_core::reflectance::{Normalization, Surface, wavelength_power};
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{
-    Against, CameraImage, DiffuseTable, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows,
-    SpectralWeights, Stop, Visibility,
+    CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows, SpectralWeights, Stop, Visibility,
 };
 use chromascope_core::scene::lighting::SUN_RADIUS;
 use chromascope_core::scene::{Lighting, Viewpoint};
@@ -34,13 +33,6 @@ const CHECKED: u32 = 48;
 /// Up to this side slow qualities are measured too: beyond it they take minutes, and as long per pixel.
 const SLOW_UP_TO: u32 = 128;
 
-/// How the integral of a frame is made.
-#[derive(Clone, Copy)]
-enum Way<'a> {
-    Quality(Quality),
-    Plans(Accuracy, &'a [(Plan, Reach)]),
-}
-
 /// What no frame makes anew.
 struct RenderService {
     mesh: Mesh,
@@ -48,7 +40,7 @@ struct RenderService {
     eye: Viewpoint,
     lighting: Lighting,
     surface: Surface,
-    sources: Vec<(SpectralWeights, DiffuseTable)>,
+    sources: Vec<SpectralWeights>,
 }
 
 impl RenderService {
@@ -59,9 +51,8 @@ impl RenderService {
             let sensor = sensor(path)?;
             let Ok(divisors) = white_divisors(&sensor, &light) else { return Ok(None) };
             let measure =
-                SpectralWeights::new(&sensor, &light, &skin, divisors, wavelength_power(Reading::Radiometric));
-            let table = DiffuseTable::new(&measure);
-            sources.push((measure, table));
+                SpectralWeights::new(&sensor, &light, &skin, divisors, wavelength_power(Normalization::Radiometric));
+            sources.push(measure);
         }
         let eye = Viewpoint::new(0.3, 0.1, 3.6, 30_f64.to_radians());
         let lighting = Lighting::from_angles(25_f64.to_radians(), -25_f64.to_radians(), SUN_RADIUS);
@@ -78,46 +69,38 @@ impl RenderService {
         let visibility = Visibility::new(&self.mesh, eye, RasterSize::new(side, side), stop)?;
         let shadows = Some((&self.tree, Shadows::Coarse));
         let geometry = GeometryImage::new(&self.mesh, &visibility, &self.lighting, shadows, stop)?;
-        ShadingImage::new(Arc::new(geometry), self.surface, Reading::Radiometric, quality, stop)
+        ShadingImage::new(Arc::new(geometry), self.surface, Normalization::Radiometric, quality, stop)
     }
 
-    /// A frame through all sources; none only if it was stopped.
-    fn frame(&self, side: u32, way: Way<'_>, stop: &Stop) -> Option<Vec<CameraImage>> {
-        match way {
-            Way::Quality(quality) => {
-                let shading = self.shading(side, quality, stop)?;
-                let images = self.sources.iter().map(|(measure, table)| {
-                    let table = shading.needs_table().then_some(table);
-                    CameraImage::new(&shading, measure, table, stop)
-                });
-                images.collect()
-            }
-            Way::Plans(accuracy, plans) => {
-                let shading = self.shading(side, Quality::Within(accuracy), stop)?;
-                let images = self.sources.iter().zip(plans).map(|((measure, _), (plan, reach))| {
-                    CameraImage::by_plan(&shading, measure, Some(plan), *reach, stop)
-                });
-                images.collect()
-            }
-        }
+    /// A frame through all sources by plans of this quality; none only if it was stopped.
+    fn frame(
+        &self,
+        side: u32,
+        quality: Quality,
+        plans: &[(Arc<Plan>, Reach)],
+        stop: &Stop,
+    ) -> Option<Vec<CameraImage>> {
+        let shading = self.shading(side, quality, stop)?;
+        let images = self.sources.iter().zip(plans);
+        images.map(|(measure, (plan, reach))| CameraImage::new(&shading, measure, plan.clone(), *reach, stop)).collect()
     }
 
-    /// What a tolerance takes for each source of a frame of this size; nothing where it cannot be kept, or if stopped.
-    fn plans(&self, side: u32, accuracy: Accuracy, stop: &Stop) -> Option<Vec<(Plan, Reach)>> {
-        let shading = self.shading(side, Quality::Within(accuracy), stop)?;
-        let (demand, accuracy) = shading.demand().zip(shading.plan_accuracy())?;
-        let plans = self.sources.iter().map(|(measure, _)| {
-            let plan = Plan::new(measure, accuracy, Against::Peak, demand).ok()?;
-            Some((plan, Reach::in_picture(&shading, measure)))
+    /// The plans of a frame of this size, one for each source; none where the tolerance cannot be kept, or if stopped.
+    fn plans(&self, side: u32, quality: Quality, stop: &Stop) -> Option<Vec<(Arc<Plan>, Reach)>> {
+        let shading = self.shading(side, quality, stop)?;
+        let plans = self.sources.iter().map(|measure| {
+            let plan = Plan::for_picture(&shading, measure).ok()?;
+            Some((Arc::new(plan), Reach::in_picture(&shading, measure)))
         });
         plans.collect()
     }
 
     /// The signals of a small frame beside those of the sum over 401 wavelengths.
-    fn error(&self, way: Way<'_>, stop: &Stop) -> ErrorOf {
+    fn error(&self, quality: Quality, plans: &[(Arc<Plan>, Reach)], stop: &Stop) -> ErrorOf {
         let mut errors = Errors::default();
-        let exact = self.frame(CHECKED, Way::Quality(Quality::Exact), stop);
-        let frames = self.frame(CHECKED, way, stop).zip(exact);
+        let reference = self.plans(CHECKED, Quality::Reference, stop);
+        let exact = reference.and_then(|plans| self.frame(CHECKED, Quality::Reference, &plans, stop));
+        let frames = self.frame(CHECKED, quality, plans, stop).zip(exact);
         for (found, exact) in frames.into_iter().flat_map(|(found, exact)| found.into_iter().zip(exact)) {
             let signals = |image: &CameraImage| -> Vec<f64> {
                 image.signals().iter().flatten().map(|&signal| f64::from(signal)).collect()
@@ -140,39 +123,33 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     for ((name, sigma_m), sides) in [("\u{3c3} 5 µm", 5e-6), ("\u{3c3} 0.3 µm", 0.3e-6)].into_iter().zip(sides) {
         let most = bench.pools.most();
         let Some(studio) = bench.pools.on(most, || RenderService::new(triangles, sigma_m))? else { continue };
-        let tables = || studio.sources.iter().map(|(measure, _)| DiffuseTable::new(measure)).collect::<Vec<_>>();
-        let (_, table_seconds) = timed(|| bench.pools.on(most, tables));
         let studio = &studio;
         for &side in sides {
             let mut qualities = vec![("full", Quality::Full), ("preview", Quality::Preview)];
             if side <= SLOW_UP_TO {
                 let slow = [
-                    ("401 wavelengths", Quality::Exact),
+                    ("401 wavelengths", Quality::Reference),
                     ("401, the paper's cases", Quality::Regimes),
-                    ("15 nodes", Quality::Fine),
+                    ("fine", Quality::Fine),
                 ];
                 qualities.splice(0..0, slow);
             }
             let exponents: &[i32] = if side <= SLOW_UP_TO { &[-3, -5, -8] } else { &[-5] };
-            let tolerances: Vec<Tolerance> =
-                exponents.iter().filter_map(|&exponent| tolerance(bench, studio, side, exponent)).collect();
-            let mut ways: Vec<(String, Way<'_>, f64)> = Vec::new();
-            for (method, quality) in qualities {
-                // The mesh and its tree are the same for all; of what is made once only that counts which a way needs.
-                let tabled = quality <= Quality::Full && studio.surface.sigma_m() < 1e-6;
-                ways.push((method.to_owned(), Way::Quality(quality), if tabled { table_seconds } else { 0.0 }));
-            }
-            for (method, accuracy, plans, seconds) in &tolerances {
-                ways.push((method.clone(), Way::Plans(*accuracy, plans), *seconds));
-            }
+            let tolerances = exponents.iter().filter_map(|&exponent| {
+                let tolerance = RelTolerance::new(10_f64.powi(exponent)).ok()?;
+                Some((format!("within 1e{exponent}"), Quality::Within(tolerance)))
+            });
+            let named = qualities.into_iter().map(|(name, quality)| (name.to_owned(), quality));
             let mut candidates = Vec::new();
-            for (method, way, seconds) in ways {
-                let error = bench.pools.on(most, || studio.error(way, bench.stop));
-                let often = matches!(way, Way::Quality(Quality::Full));
+            for (method, quality) in named.chain(tolerances) {
+                let (plans, seconds) = timed(|| bench.pools.on(most, || studio.plans(side, quality, bench.stop)));
+                let Some(plans) = plans.map(Arc::new) else { continue };
+                let error = bench.pools.on(most, || studio.error(quality, &plans, bench.stop));
+                let often = quality == Quality::Full;
                 for threads in if often { bench.pools.counts() } else { vec![most] } {
-                    let stop = bench.stop;
+                    let (stop, plans) = (bench.stop, Arc::clone(&plans));
                     let work = move |_: usize| {
-                        black_box(studio.frame(side, way, stop));
+                        black_box(studio.frame(side, quality, &plans, stop));
                     };
                     let candidate = Candidate::new(method.as_str(), 1, error.clone(), work);
                     candidates.push(candidate.undivided().on(threads).built_in(seconds));
@@ -183,13 +160,4 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
         }
     }
     Ok(())
-}
-
-/// A tolerance by name, with what it takes for each source and how long that took to make.
-type Tolerance = (String, Accuracy, Vec<(Plan, Reach)>, f64);
-
-fn tolerance(bench: &Bench<'_>, studio: &RenderService, side: u32, exponent: i32) -> Option<Tolerance> {
-    let accuracy = Accuracy::new(10_f64.powi(exponent)).ok()?;
-    let (plans, seconds) = timed(|| bench.pools.on(bench.pools.most(), || studio.plans(side, accuracy, bench.stop)));
-    Some((format!("within 1e{exponent}"), accuracy, plans?, seconds))
 }

@@ -2,13 +2,12 @@
 
 use std::hint::black_box;
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Precision, diffuse_sum};
 use chromascope_core::render::diffuse::{ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::measure::Node;
-use chromascope_core::render::plan::Method;
-use chromascope_core::render::{Against, Demand, DiffuseTable, Plan, SpectralWeights};
+use chromascope_core::render::{Against, Demand, Plan, SpectralWeights};
 use chromascope_core::spectral::Quantity;
 use chromascope_math::double::Double;
 use chromascope_math::gauss::gauss_rule;
@@ -97,8 +96,6 @@ fn one(bench: &mut Bench<'_>, name: &str, [low, high]: [f64; 2], measure: &Spect
     });
     let error = |found: &[Signals]| error(found, &exact);
     let room = Room::new(items, &[0.0; 3]);
-    let (table, table_seconds) = timed(|| DiffuseTable::new(measure));
-    let table = &table;
     let one = [1, checked];
     let dense = measure.dense();
     let mut candidates: Vec<Candidate<'_>> = vec![
@@ -125,10 +122,6 @@ fn one(bench: &mut Bench<'_>, name: &str, [low, high]: [f64; 2], measure: &Spect
         if low >= ROUGH {
             let answer = move |&(k, b): &Pixel| by_moments(measure.moments(), &rough_basis(k, b));
             candidates.push(each("four moments", many, &pixels, &room, error, answer).built_in(made));
-        } else {
-            let answer = move |&(k, b): &Pixel| table.at(k, b);
-            candidates
-                .push(each("table 120 × 128, degree 5", many, &pixels, &room, error, answer).built_in(table_seconds));
         }
     }
     for tolerance in TOLERANCES {
@@ -146,7 +139,7 @@ fn plans<'a>(
     (points, some, room): (&'a [[f64; 2]], &[Pixel], &'a Room<Signals>),
     error: impl Fn(&[Signals]) -> ErrorOf,
 ) -> Vec<Candidate<'a>> {
-    let Ok(accuracy) = Accuracy::new(tolerance) else { return Vec::new() };
+    let Ok(accuracy) = RelTolerance::new(tolerance) else { return Vec::new() };
     let demand = Demand::new(kappa, points.len() as u64);
     let plan = || timed(|| Plan::new(measure, accuracy, Against::Peak, demand));
     let on = |threads| {
@@ -160,7 +153,7 @@ fn plans<'a>(
 /// All pixels as a plan says, in pieces that several threads can share.
 fn planned<'a>(plan: Plan, points: &'a [[f64; 2]], room: &'a Room<Signals>, error: ErrorOf) -> Candidate<'a> {
     let explanation = plan.explanation();
-    let name = format!("plan for {}: {}", explanation.asked, way(&explanation.chosen.method));
+    let name = format!("plan for {}: {}", explanation.asked, explanation.chosen.method.name());
     let work = move |items: usize| {
         room.lend(|sums| {
             let chunks = sums[..items].par_chunks_mut(CHUNK).zip(points[..items].par_chunks(CHUNK));
@@ -169,18 +162,6 @@ fn planned<'a>(plan: Plan, points: &'a [[f64; 2]], room: &'a Room<Signals>, erro
         });
     };
     Candidate::new(name, points.len(), error, work)
-}
-
-/// A way in few words.
-fn way(method: &Method) -> String {
-    match method {
-        Method::Nothing => "nothing".to_owned(),
-        Method::Moments { orders, .. } => format!("{orders} moments"),
-        Method::Table { degree, .. } => format!("table, degree {degree}"),
-        Method::Shared { nodes, .. } => format!("{nodes} wavelengths"),
-        Method::Own { nodes, .. } => format!("{nodes} of Gauss"),
-        Method::Every { .. } => "all wavelengths".to_owned(),
-    }
 }
 
 fn error(found: &[Signals], exact: &[([Double; 3], Signals)]) -> ErrorOf {

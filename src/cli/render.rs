@@ -193,15 +193,11 @@ impl<'a> Made<'a> {
         lines.join("\n")
     }
 
-    /// How a picture was made within a tolerance, in words.
+    /// Integration methods of a picture within a tolerance, in words.
     fn plan(&self, index: usize) -> Option<String> {
         let planned = plans::planned(&self.query, &self.query.sources[index], self.scene.results).ok()??;
-        let certain = planned.certain.words();
-        Some(
-            planned
-                .explanation
-                .map_or_else(|| certain.clone(), |explanation| format!("{}; {certain}", plans::sentence(&explanation))),
-        )
+        let bounds = planned.bounds.words();
+        Some(planned.explanation.map_or_else(|| bounds.clone(), |explanation| format!("{explanation}; {bounds}")))
     }
 
     /// How far a picture is from the reference, in words.

@@ -5,10 +5,10 @@ pub mod model;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::render::Roughness;
-use chromascope_core::reflectance::{Reading, Surface, SurfaceError};
-use chromascope_core::render::Quality;
+use chromascope_core::reflectance::{Normalization, Surface, SurfaceError};
+use chromascope_core::render::{Quality, QualityLevel};
 use chromascope_core::scene::lighting::{Lighting, LightingError, SUN_RADIUS};
 use model::{AreaChoice, SpecularChoice};
 use serde::{Deserialize, Serialize};
@@ -67,9 +67,9 @@ pub struct RenderSettings {
     /// The reflectance factor of the coherent component.
     #[serde(default = "SpecularChoice::before")]
     pub specular: SpecularChoice,
-    /// How exactly integrals are made.
-    pub quality: QualityChoice,
-    /// The error that [`QualityChoice::Tolerance`] allows, relative to the peak.
+    /// Exactness of the integrals once nothing moves.
+    pub quality: QualityLevel,
+    /// The error that [`QualityLevel::Tolerance`] allows, relative to the peak.
     pub tolerance: f64,
     /// The light above the view axis, in degrees.
     pub light_up_deg: f64,
@@ -100,7 +100,7 @@ impl Default for RenderSettings {
             index: 1.40,
             reading: ReadingChoice::Radiometric,
             specular: SpecularChoice::Fresnel,
-            quality: QualityChoice::Full,
+            quality: QualityLevel::Full,
             tolerance: TOLERANCE,
             light_up_deg: 25.0,
             light_right_deg: -25.0,
@@ -149,17 +149,10 @@ impl RenderSettings {
         }
     }
 
-    /// How exactly integrals are made.
+    /// Exactness of the integrals once nothing moves.
     pub fn quality(&self) -> Quality {
-        match self.quality {
-            QualityChoice::Preview => Quality::Preview,
-            QualityChoice::Full => Quality::Full,
-            QualityChoice::Fine => Quality::Fine,
-            QualityChoice::Exact => Quality::Exact,
-            QualityChoice::Regimes => Quality::Regimes,
-            // Outside the range only until the session was mended.
-            QualityChoice::Tolerance => Accuracy::new(self.tolerance).map_or(Quality::Exact, Quality::Within),
-        }
+        // Outside the range only until the session was mended.
+        RelTolerance::new(self.tolerance).map_or(Quality::Reference, |tolerance| self.quality.quality(tolerance))
     }
 
     /// The surface in meters.
@@ -244,12 +237,12 @@ impl ReadingChoice {
     pub const ALL: [Self; 4] = [Self::Radiometric, Self::Paper, Self::Microfacet, Self::Lambertian];
 
     /// The core's reading.
-    pub const fn reading(self) -> Reading {
+    pub const fn reading(self) -> Normalization {
         match self {
-            Self::Radiometric => Reading::Radiometric,
-            Self::Paper => Reading::Paper,
-            Self::Microfacet => Reading::Microfacet,
-            Self::Lambertian => Reading::Lambertian,
+            Self::Radiometric => Normalization::Radiometric,
+            Self::Paper => Normalization::Paper,
+            Self::Microfacet => Normalization::Microfacet,
+            Self::Lambertian => Normalization::Lambertian,
         }
     }
 
@@ -277,42 +270,6 @@ impl ReadingChoice {
                 "Beckmann's own geometric factor in place of the cos θi of Eq 3. Only the diffuse component is reciprocal (Helmholtz)."
             }
             Self::Lambertian => "No model: every direction gets the same share. The quickest, and a plain reference.",
-        }
-    }
-}
-
-/// How exactly integrals are made once nothing moves.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum QualityChoice {
-    /// As while something moves.
-    Preview,
-    /// Error below 1e-5 of the peak.
-    #[default]
-    Full,
-    /// Below 1e-9.
-    Fine,
-    /// All 401 wavelengths.
-    Exact,
-    /// All 401 wavelengths with the paper's three cases of g.
-    Regimes,
-    /// The cheapest within [`RenderSettings::tolerance`], camera by camera.
-    Tolerance,
-}
-
-impl QualityChoice {
-    /// All of them, in the order they are listed.
-    pub const ALL: [Self; 6] = [Self::Preview, Self::Full, Self::Fine, Self::Exact, Self::Tolerance, Self::Regimes];
-
-    /// What it is called.
-    pub const fn label(self) -> &'static str {
-        match self {
-            Self::Preview => "Preview",
-            Self::Full => "Full, error < 1e-5",
-            Self::Fine => "Fine, error < 1e-9",
-            Self::Exact => "Exact, 401 wavelengths",
-            Self::Regimes => "Paper's three cases of g",
-            Self::Tolerance => "Within a tolerance",
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::io::{Cursor, Seek, Write};
 
 use chromascope_core::camera::Rendering;
-use chromascope_core::reflectance::{Reading, Specular, Surface};
+use chromascope_core::reflectance::{Normalization, Specular, Surface};
 use chromascope_core::render::{CameraImage, Picture, Quality};
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::lighting::{Distance, Lighting};
@@ -45,7 +45,7 @@ pub struct Provenance<'a> {
     /// The roughness.
     pub surface: Surface,
     /// Normalization of Eq 1.
-    pub reading: Reading,
+    pub reading: Normalization,
 }
 
 /// The bytes of a PNG file: eight bits, sRGB, with opacity.
@@ -132,7 +132,7 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         ("illuminant", text(provenance.illuminant)),
         ("material", text(provenance.material)),
         ("mesh", text(provenance.mesh)),
-        ("quality", text(quality_name(provenance.quality))),
+        ("quality", text(provenance.quality.level().key())),
         ("reading", text(reading_name(provenance.reading))),
         (place, three(lighting.place().to_array())),
         ("lightAngularRadius", AttributeValue::F64(lighting.angular_radius())),
@@ -146,8 +146,8 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
         ("orbit", three(orbit)),
         ("fieldOfView", AttributeValue::F64(viewpoint.field_of_view().to_degrees())),
     ];
-    let tolerance = provenance.quality.accuracy();
-    let tolerance = tolerance.map(|accuracy| ("tolerance", AttributeValue::F64(accuracy.max_relative_error())));
+    let tolerance = provenance.quality.given_tolerance();
+    let tolerance = tolerance.map(|tolerance| ("tolerance", AttributeValue::F64(tolerance.max_relative_error())));
     LayerAttributes {
         software_name: Some(utf8(concat!("chromascope ", env!("CARGO_PKG_VERSION")))),
         comments: Some(utf8(comments(provenance.reading))),
@@ -157,14 +157,14 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
 }
 
 /// Meaning of the numbers.
-fn comments(reading: Reading) -> &'static str {
+fn comments(reading: Normalization) -> &'static str {
     match reading {
-        Reading::Radiometric | Reading::Microfacet => {
+        Normalization::Radiometric | Normalization::Microfacet => {
             "R G B: Eq 12 balanced, before exposure, with pi f in the place of P; X Y Z: tristimulus values by the program's way \
              to the diagram; A: coverage, multiplied in. Lengths in meters, angles in degrees except lightAngularRadius \
              (radians), the light in view axes, orbit = yaw, pitch, distance in scene radii."
         }
-        Reading::Paper | Reading::Lambertian => {
+        Normalization::Paper | Normalization::Lambertian => {
             "R G B: Eq 12 balanced, before exposure; X Y Z: tristimulus values by the program's way to the diagram; A: coverage, \
              multiplied in. Lengths in meters, angles in degrees except lightAngularRadius (radians), the light in view \
              axes, orbit = yaw, pitch, distance in scene radii."
@@ -173,12 +173,12 @@ fn comments(reading: Reading) -> &'static str {
 }
 
 /// A reading's name, as the command line takes it.
-pub const fn reading_name(reading: Reading) -> &'static str {
+pub const fn reading_name(reading: Normalization) -> &'static str {
     match reading {
-        Reading::Radiometric => "radiometric",
-        Reading::Paper => "paper",
-        Reading::Microfacet => "microfacet",
-        Reading::Lambertian => "lambertian",
+        Normalization::Radiometric => "radiometric",
+        Normalization::Paper => "paper",
+        Normalization::Microfacet => "microfacet",
+        Normalization::Lambertian => "lambertian",
     }
 }
 
@@ -218,16 +218,4 @@ fn with_sorted_header(mut file: Vec<u8>) -> Vec<u8> {
     let sorted = attributes.concat();
     file[START..at].copy_from_slice(&sorted);
     file
-}
-
-/// The word for a quality, as the command line takes it.
-pub const fn quality_name(quality: Quality) -> &'static str {
-    match quality {
-        Quality::Preview => "preview",
-        Quality::Full => "full",
-        Quality::Fine => "fine",
-        Quality::Exact => "exact",
-        Quality::Regimes => "regimes",
-        Quality::Within(_) => "tolerance",
-    }
 }

@@ -151,7 +151,7 @@ const STAGES: [(&str, &str); 11] = [
     ("visibility", "visibilities of a mesh"),
     ("geometry", "angles and shadows"),
     ("shading", "surfaces at all samples"),
-    ("diffuse table", "tables of a camera"),
+    ("plan", "integration methods of a camera"),
     ("camera image", "signals of a camera"),
     ("picture", "pixels of a picture"),
     ("locus", "loci"),

@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use chromascope_core::camera::LocusMethod;
-use chromascope_core::render::Quality;
 use egui::{Align, Button, Color32, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
@@ -220,14 +219,7 @@ fn render_facts(context: &PaneContext<'_>) -> Vec<String> {
         let milliseconds = shot.time.as_secs_f64() * 1e3;
         facts.push(format!("updated in {} ms", fixed(milliseconds, usize::from(milliseconds < 100.0))));
     }
-    let error = match shot.query.shading.quality {
-        Quality::Preview => "preview".to_owned(),
-        Quality::Full => "error < 1e−5".to_owned(),
-        Quality::Fine => "error < 1e−9".to_owned(),
-        Quality::Exact => "1 nm sums".to_owned(),
-        Quality::Regimes => "the paper's three cases of g".to_owned(),
-        Quality::Within(accuracy) => format!("error < {accuracy}").replace('-', "−"),
-    };
+    let error = shot.query.shading.quality.summary().replace('-', "−");
     facts.push(error);
     let cameras = shot.sources.iter().filter(|source| source.kind == SetKind::Camera).count();
     facts.push(format!("{cameras} {}", if cameras == 1 { "camera" } else { "cameras" }));

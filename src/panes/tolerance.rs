@@ -5,13 +5,14 @@ use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::action::{Action, RenderAction};
-use crate::document::render::{QualityChoice, RenderSettings};
+use crate::document::render::RenderSettings;
 use crate::figures::pareto::duration;
-use crate::profiler::plans::{self, Planned};
+use crate::profiler::plans::Planned;
 use crate::scene::ComparedSensor;
 use crate::theme::UNIT;
 use crate::widgets;
 use crate::workspaces::PaneKind;
+use chromascope_core::render::QualityLevel;
 
 /// Shows the pane in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
@@ -30,11 +31,11 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 /// The tolerance, and whether pictures keep it.
 fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
-    let on = settings.quality == QualityChoice::Tolerance;
+    let on = settings.quality == QualityLevel::Tolerance;
     ui.label("Largest error of a picture, relative to its brightest sample").on_hover_text(TOLERANCE);
     ui.spacing_mut().slider_width = (ui.available_width() - 100.0).max(60.0);
     let id = ui.make_persistent_id("tolerance field");
-    let hint = "What the ways below have to keep. Pictures keep it once the box below is ticked; choosing it here does not tick it.";
+    let hint = "Tolerance of the methods below. Pictures keep it once the box below is ticked; choosing it here does not tick it.";
     if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "", hint, context) {
         set(context, "Tolerance", |settings| settings.tolerance = to);
     }
@@ -42,11 +43,11 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let mut keep = on;
     let hint = "On, pictures are made within the tolerance. Off, at quality Full; the Scene pane of Render has more qualities.";
     if ui.checkbox(&mut keep, "Pictures keep it").on_hover_text(hint).changed() {
-        let quality = if keep { QualityChoice::Tolerance } else { QualityChoice::Full };
+        let quality = if keep { QualityLevel::Tolerance } else { QualityLevel::Full };
         set(context, "Quality", |settings| settings.quality = quality);
     }
     let words = if on {
-        "Each camera takes the cheapest way whose error, checked under this light and with this material, is within it."
+        "For each camera the fastest method is used whose estimated error, checked for this light and material, is within it."
             .to_owned()
     } else {
         format!("Now: {}. Below is what the tolerance would take.", settings.quality.label())
@@ -68,7 +69,7 @@ fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
         return;
     };
     let Some(plans) = context.laboratory.plans(&pictures) else {
-        ui.label(RichText::new("Looking for the cheapest ways…").color(weak));
+        ui.label(RichText::new("Searching the fastest methods…").color(weak));
         ui.ctx().request_repaint_after(std::time::Duration::from_millis(100));
         return;
     };
@@ -111,14 +112,14 @@ fn not_rendered(ui: &mut Ui, context: &PaneContext<'_>) {
 
 fn explained(ui: &mut Ui, name: &str, planned: &Planned, context: &PaneContext<'_>) {
     let small = |words: String| RichText::new(words).small();
-    let certain = format!("{}.", capital(&planned.certain.words().replace('-', "−")));
+    let bounds = format!("{}.", capital(&planned.bounds.words().replace('-', "−")));
     let Some(explanation) = &planned.explanation else {
-        ui.label(small(certain).color(context.theme.weak));
+        ui.label(small(bounds).color(context.theme.weak));
         return;
     };
-    ui.label(small(format!("{}.", capital(&plans::sentence(explanation))))).on_hover_text(WAYS);
-    ui.label(small(certain)).on_hover_text(CERTIFIED);
-    let parts: Vec<String> = plans::parts(explanation).map(cost).collect();
+    ui.label(small(format!("{}.", capital(&explanation.to_string())))).on_hover_text(METHODS);
+    ui.label(small(bounds)).on_hover_text(BOUNDS);
+    let parts: Vec<String> = explanation.parts().map(cost).collect();
     let costs = if parts.is_empty() { "nothing".to_owned() } else { parts.join("; below that ") };
     ui.label(small(format!("Estimated: {costs}.")).color(context.theme.weak)).on_hover_text(ESTIMATED);
     if explanation.rejected.is_empty() {
@@ -126,7 +127,7 @@ fn explained(ui: &mut Ui, name: &str, planned: &Planned, context: &PaneContext<'
     }
     let id = ui.make_persistent_id(("rejected", name));
     let count = explanation.rejected.len();
-    let plural = if count == 1 { "way" } else { "ways" };
+    let plural = if count == 1 { "method" } else { "methods" };
     let title = format!("{count} other {plural}");
     CollapsingHeader::new(small(title)).id_salt(id).show(ui, |ui| {
         for candidate in &explanation.rejected {
@@ -135,18 +136,19 @@ fn explained(ui: &mut Ui, name: &str, planned: &Planned, context: &PaneContext<'
     });
 }
 
-const TOLERANCE: &str = "How far a sample may be off the sum over all wavelengths. The diffuse integral J(κ, β) is largest at β = 0, \
-                         seen from the mirror's direction: ways are certified relative to that peak, J(κ, 0), at the sample's κ, and \
-                         keep a smaller share of it where no sample is that bright. S itself is exact to 1e−13.";
-const WAYS: &str = "κ is the roughness g at 550 nm and the angles of a sample; S(g, b) is the diffuse sum of Eq 2, made to the error said.";
-const CERTIFIED: &str = "Diffuse part: the largest error seen in the check against the sum over all wavelengths, times a margin, \
-                         relative to J(κ, 0) at the sample's κ; where no sample is seen from near the mirror's direction it is kept \
-                         below the tolerance, for the brightest sample's sake. Mirror lobes are made within the tolerance of the \
-                         brightest sample of the picture. Signals are then kept as numbers with 24 binary digits.";
-const ESTIMATED: &str = "Times by a model of the program's methods, not measured here; Methods measures them. The way with the least \
-                         time in all, making it once and then all samples, is taken.";
+const TOLERANCE: &str = "Allowed difference of a sample from the sum over all wavelengths. The diffuse integral J(κ, β) is largest at \
+                         β = 0, seen from the mirror's direction: estimated error bounds are relative to that peak, J(κ, 0), at the \
+                         sample's κ; where no sample is that bright, methods keep a smaller share of it. S itself is exact to 1e−13.";
+const METHODS: &str = "κ is the roughness g at 550 nm and the angles of a sample; S(g, b) is the diffuse sum of Eq 2, evaluated within the \
+                       stated error.";
+const BOUNDS: &str = "Diffuse component: the largest error found in the check against the sum over all wavelengths, times a margin, \
+                      relative to J(κ, 0) at the sample's κ; where no sample is seen from near the mirror's direction, a tighter bound \
+                      is used so that the error relative to the brightest pixel stays within tolerance. Specular lobes are within the \
+                      tolerance of the brightest sample of the picture. Signals are then kept as numbers with 24 binary digits.";
+const ESTIMATED: &str = "Times by a model of the program's methods, not measured here; Methods measures them. The method with the least \
+                         total time, preparation and all samples, is used.";
 
-/// What a way costs by the model.
+/// Cost of a method by the model.
 fn cost(candidate: &Candidate) -> String {
     let [sample, making] = [candidate.sample_ns, candidate.making_ns].map(|ns| duration(ns * 1e-9));
     if candidate.making_ns > 0.0 {
@@ -156,16 +158,16 @@ fn cost(candidate: &Candidate) -> String {
     }
 }
 
-/// A way that was not taken, with why.
+/// A rejected method, and the reason.
 fn rejected(candidate: &Candidate) -> String {
-    let error = candidate.certified.map_or_else(|| "not checked".to_owned(), |e| format!("error {e:.0e}"));
+    let error = candidate.error_bound.map_or_else(|| "not checked".to_owned(), |e| format!("error {e:.0e}"));
     let why = match candidate.verdict {
         Verdict::Chosen => "chosen",
         Verdict::TooInexact => "not exact enough",
         Verdict::TooSlow => "slower in all",
     };
-    let transform = plans::words(&candidate.method);
-    format!("{transform}: {}, {}, {why}", error.replace('-', "−"), cost(candidate))
+    let method = candidate.method.to_string();
+    format!("{method}: {}, {}, {why}", error.replace('-', "−"), cost(candidate))
 }
 
 fn capital(words: &str) -> String {

@@ -1,12 +1,12 @@
 //! The spectral integral of the rendered samples, by each method.
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::Ask;
 use chromascope_core::query::render::PicturesQuery;
-use chromascope_core::reflectance::{Precision, Reading};
-use chromascope_core::render::diffuse::{DARK, ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
-use chromascope_core::render::shading::Way;
-use chromascope_core::render::{Against, Demand, DiffuseTable, Plan, Quality, ShadingImage, SpectralWeights};
+use chromascope_core::reflectance::{Normalization, Precision};
+use chromascope_core::render::diffuse::by_nodes;
+use chromascope_core::render::shading::DiffuseKind;
+use chromascope_core::render::{Against, Demand, Plan, Quality, ShadingImage, SpectralWeights};
 
 use super::method::{Method, largest, measured, together};
 use super::stopwatch::once;
@@ -18,16 +18,14 @@ const SAMPLES: usize = 300;
 const TOLERANCES: [i32; 6] = [-3, -5, -7, -9, -11, -13];
 const EXACT: &str = "401 wavelengths, S to 1e-13";
 const REGIMES: &str = "401 wavelengths, the paper's cases";
-const FINE: &str = "Fine: 15 wavelengths";
-const FULL: &str = "Full: moments, table";
 
 /// A tolerance relative to the peak, and what it is called.
-type Tolerance = (Accuracy, String);
+type Tolerance = (RelTolerance, String);
 
 /// Measures; none where nothing is rendered, where no sample takes an integral, and if stopped.
 pub(super) fn trial(run: &SceneRunQuery, ask: &impl Ask) -> Option<Trial> {
     let pictures = run.pictures.as_ref()?;
-    if pictures.shading.reading == Reading::Lambertian {
+    if pictures.shading.reading == Normalization::Lambertian {
         return None;
     }
     let shading = ask.ask(&pictures.shading);
@@ -35,8 +33,8 @@ pub(super) fn trial(run: &SceneRunQuery, ask: &impl Ask) -> Option<Trial> {
     if places.is_empty() {
         return None;
     }
-    let demand = Demand::new(range(&places), samples(pictures));
-    let set = set((*shading).as_ref()?);
+    let demand = Demand::of_picture(range(&places), samples(pictures));
+    let (set, fixed) = (set((*shading).as_ref()?), (*shading).as_ref()?.fixed_quality());
     let tolerances = tolerances(set.clone());
     let mut sources = Vec::new();
     for source in &pictures.sources {
@@ -45,8 +43,8 @@ pub(super) fn trial(run: &SceneRunQuery, ask: &impl Ask) -> Option<Trial> {
         sources.push(through(measure, &places, (demand, &tolerances), ask)?);
     }
     let points = together(&sources);
-    let set = set.map(|(_, name)| name).or_else(|| by_quality(pictures.shading.quality).map(str::to_owned));
-    let set = set.and_then(|name| points.iter().position(|point| point.name == name));
+    let set = set.map_or_else(|| by_quality(fixed).to_owned(), |(_, name)| name);
+    let set = points.iter().position(|point| point.name == set);
     Some(Trial { subject: Subject::Integral, inputs: places.len(), points, set })
 }
 
@@ -55,7 +53,7 @@ fn places(shading: &ShadingImage) -> Vec<[f64; 2]> {
     let lit: Vec<[f64; 2]> = shading
         .shades()
         .iter()
-        .filter(|shade| !matches!(shade.way, Way::Dark | Way::Flat))
+        .filter(|shade| shade.kind == DiffuseKind::Spectral)
         .map(|shade| [shade.kappa, shade.beta])
         .collect();
     lit.iter().step_by(lit.len().div_ceil(SAMPLES).max(1)).copied().collect()
@@ -79,8 +77,7 @@ fn through(
     (demand, tolerances): (Demand, &[Tolerance]),
     ask: &impl Ask,
 ) -> Option<Vec<Point>> {
-    let (table, build) = once(|| DiffuseTable::new(measure));
-    let mut methods = fixed(measure, &table, build, places);
+    let mut methods = fixed(measure, places);
     for (accuracy, name) in tolerances {
         let (plan, preparation) = once(|| Plan::new(measure, *accuracy, Against::Peak, demand));
         let Ok(plan) = plan else { continue };
@@ -88,7 +85,7 @@ fn through(
             name: name.clone(),
             family: Family::Tolerance,
             preparation,
-            certified: Some(plan.explanation().certified()),
+            certified: Some(plan.explanation().error_bound()),
             values: Box::new(move || {
                 let mut sums = vec![[0.0; 3]; places.len()];
                 plan.fill(places, &mut sums);
@@ -111,7 +108,7 @@ fn through(
 /// The tolerances that are tried, and the one that pictures keep, if any: the largest first.
 fn tolerances(set: Option<Tolerance>) -> Vec<Tolerance> {
     // Through their text: powers of ten that are not the nearest numbers have long names.
-    let usual = TOLERANCES.iter().filter_map(|exponent| Accuracy::new(format!("1e{exponent}").parse().ok()?).ok());
+    let usual = TOLERANCES.iter().filter_map(|exponent| RelTolerance::new(format!("1e{exponent}").parse().ok()?).ok());
     let usual = usual.map(|accuracy| (accuracy, format!("within {:e}", accuracy.max_relative_error())));
     let mut all: Vec<Tolerance> = set.into_iter().chain(usual).collect();
     all.sort_by(|(a, _), (b, _)| b.max_relative_error().total_cmp(&a.max_relative_error()));
@@ -119,64 +116,59 @@ fn tolerances(set: Option<Tolerance>) -> Vec<Tolerance> {
     all
 }
 
-/// The tolerance that pictures keep, if any: of the integral's peak it may be less than of the picture's brightest sample.
+/// The tolerance that plans of the pictures keep, if any: of the integral's peak it may be less than of the picture's brightest
+/// sample.
 fn set(shading: &ShadingImage) -> Option<Tolerance> {
-    let (of_picture, of_peak) = (shading.quality().accuracy()?, shading.plan_accuracy()?);
-    let [picture, peak] = [of_picture, of_peak].map(Accuracy::max_relative_error);
-    let name =
-        if of_picture == of_peak { format!("within {peak:e}") } else { format!("within {peak:.1e}, for {picture:e}") };
+    let (of_peak, _) = shading.plan_request()?;
+    let peak = of_peak.max_relative_error();
+    let name = match shading.quality().given_tolerance().map(RelTolerance::max_relative_error) {
+        None => format!("{}: within {peak:e}", shading.quality().level().key()),
+        Some(picture) if picture == peak => format!("within {peak:e}"),
+        Some(picture) => format!("within {peak:.1e}, for {picture:e}"),
+    };
     Some((of_peak, name))
 }
 
-/// What the integral of a quality is called here; none where it is not tried.
-fn by_quality(quality: Quality) -> Option<&'static str> {
+/// Name of the fixed method of a quality.
+fn by_quality(quality: Quality) -> &'static str {
     match quality {
-        Quality::Exact => Some(EXACT),
-        Quality::Regimes => Some(REGIMES),
-        Quality::Fine => Some(FINE),
-        Quality::Full => Some(FULL),
-        Quality::Preview | Quality::Within(_) => None,
+        Quality::Reference | Quality::Within(_) => EXACT,
+        Quality::Regimes => REGIMES,
+        Quality::Preview => "6 wavelengths, 4 moments",
+        Quality::Full => "9 wavelengths, 4 moments",
+        Quality::Fine => "15 wavelengths",
     }
 }
 
-/// The methods that promise nothing, the reference first.
-fn fixed<'a>(
-    measure: &'a SpectralWeights,
-    table: &'a DiffuseTable,
-    build: f64,
-    places: &'a [[f64; 2]],
-) -> Vec<Method<'a>> {
-    let method = |name: &str, family, preparation, at: Box<dyn Fn(f64, f64) -> [f64; 3] + 'a>| Method {
+/// The methods that are not searched, the reference first.
+fn fixed<'a>(measure: &'a SpectralWeights, places: &'a [[f64; 2]]) -> Vec<Method<'a>> {
+    let method = |name: &str, family, values| Method {
         name: name.to_owned(),
         family,
-        preparation,
+        preparation: 0.0,
         certified: None,
-        values: Box::new(move || places.iter().map(|&[kappa, beta]| at(kappa, beta)).collect()),
+        values,
     };
     let sum = |name: &str, precision| {
-        let at = move |kappa, beta| by_nodes(measure.dense(), kappa, beta, precision);
-        method(name, Family::Sum, 0.0, Box::new(at))
+        let at = move |&[kappa, beta]: &[f64; 2]| by_nodes(measure.dense(), kappa, beta, precision);
+        method(name, Family::Sum, Box::new(move || places.iter().map(at).collect()))
     };
-    let regimes = |kappa, beta| by_regimes(measure.dense(), kappa, beta);
-    let fine = |kappa, beta| by_nodes(measure.fine(), kappa, beta, Precision::Full);
-    let full = |kappa, beta| full(measure, table, kappa, beta);
+    let quality = |quality| {
+        let plan = Plan::fixed(measure, quality);
+        let values = move || {
+            let mut sums = vec![[0.0; 3]; places.len()];
+            plan.fill(places, &mut sums);
+            sums
+        };
+        method(by_quality(quality), Family::Quality, Box::new(values))
+    };
     vec![
         sum(EXACT, Precision::Full),
         sum("401 wavelengths, S to 1e-10", Precision::Fine),
         sum("401 wavelengths, S to 1e-6", Precision::Coarse),
-        method(REGIMES, Family::Quality, 0.0, Box::new(regimes)),
-        method(FINE, Family::Quality, 0.0, Box::new(fine)),
-        method(FULL, Family::Quality, build, Box::new(full)),
+        quality(Quality::Regimes),
+        quality(Quality::Fine),
+        quality(Quality::Full),
+        quality(Quality::Preview),
     ]
-}
-
-/// As the quality Full does it.
-fn full(measure: &SpectralWeights, table: &DiffuseTable, kappa: f64, beta: f64) -> [f64; 3] {
-    if kappa >= ROUGH {
-        if beta > DARK { [0.0; 3] } else { by_moments(measure.moments(), &rough_basis(kappa, beta)) }
-    } else if DiffuseTable::holds(kappa, beta) {
-        table.at(kappa, beta)
-    } else {
-        by_nodes(measure.coarse(), kappa, beta, Precision::Fine)
-    }
 }

@@ -1,6 +1,6 @@
 //! Black bodies through the sensors on show, by each method.
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::{LocusEvaluator, LocusMethod};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::query::{Ask, Shared};
@@ -71,7 +71,7 @@ fn methods<'a>(sensor: &Shared<Sensor>, constants: RadiationConstants, temperatu
     };
     methods.push(method(name, Family::Quality, preparation, certified, Box::new(move |t| evaluator.raw(t))));
     for exponent in TOLERANCES {
-        let Ok(accuracy) = Accuracy::new(10_f64.powi(exponent)) else { continue };
+        let Ok(accuracy) = RelTolerance::new(10_f64.powi(exponent)) else { continue };
         let (evaluator, preparation) = once(|| LocusEvaluator::within(sensor.clone(), constants, accuracy));
         let Ok(evaluator) = evaluator else { continue };
         let name = format!("within 1e{exponent}");

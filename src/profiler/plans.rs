@@ -1,13 +1,11 @@
 //! How each source's integrals are made within a tolerance, and what was rejected.
 
-use std::fmt::Write as _;
-
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::RenderingError;
 use chromascope_core::query::render::{PicturesQuery, PlanQuery, SourceOf};
 use chromascope_core::query::{Ask, Query};
 use chromascope_core::render::Against;
-use chromascope_core::render::plan::{Candidate, Explanation, Method};
+use chromascope_core::render::plan::Explanation;
 
 /// What is the plan of each source of these pictures? None inside if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -44,13 +42,13 @@ impl Query for PlansQuery {
 pub struct Planned {
     /// The plan of the diffuse integral; none where no sample takes one.
     pub explanation: Option<Explanation>,
-    /// What is certain of the samples.
-    pub certain: Certain,
+    /// Estimated error bounds of the samples.
+    pub bounds: ErrorBounds,
 }
 
 /// The error of a rendered sample in its parts; none where a sample has no such part.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Certain {
+pub struct ErrorBounds {
     /// Of the diffuse integral, relative to its peak J(κ, 0) at the sample's κ: the largest seen in the check, times a margin.
     pub diffuse: Option<f64>,
     /// Of the mirror lobes, relative to the brightest sample of the picture.
@@ -60,14 +58,14 @@ pub struct Certain {
 /// What keeping a signal as a single-precision number changes at most, relative to the signal itself: `2^-24`.
 pub const SINGLE_PRECISION: f64 = 6e-8;
 
-impl Certain {
+impl ErrorBounds {
     /// Where other errors are below this, that of single precision is worth saying.
     const WORTH_SAYING: f64 = 1e-7;
 
-    /// What is certain with this plan, so many mirror lobes, and this tolerance.
-    pub fn of(explanation: Option<&Explanation>, mirrors: u64, tolerance: Accuracy) -> Self {
+    /// Bounds with this plan, so many specular lobes, and this tolerance.
+    pub fn of(explanation: Option<&Explanation>, mirrors: u64, tolerance: RelTolerance) -> Self {
         let mirror = (mirrors > 0).then_some(tolerance.max_relative_error());
-        Self { diffuse: explanation.map(Explanation::certified), mirror }
+        Self { diffuse: explanation.map(Explanation::error_bound), mirror }
     }
 
     /// Whether single precision is what limits it.
@@ -80,9 +78,9 @@ impl Certain {
     pub fn words(self) -> String {
         let diffuse = self.diffuse.map_or_else(
             || "no sample takes a spectral integral".to_owned(),
-            |error| format!("diffuse part certified below {error:.1e} of the peak"),
+            |error| format!("estimated error bound of the diffuse component {error:.1e} of the peak"),
         );
-        let mirror = self.mirror.map(|error| format!("mirror lobes within {error:e} of the brightest sample"));
+        let mirror = self.mirror.map(|error| format!("specular lobes within {error:e} of the brightest sample"));
         let storage = format!("kept in single precision ({SINGLE_PRECISION:e})");
         let storage = ((self.diffuse.or(self.mirror)).is_some() && self.is_limited_by_storage()).then_some(storage);
         [Some(diffuse), mirror, storage].into_iter().flatten().collect::<Vec<_>>().join("; ")
@@ -93,57 +91,19 @@ impl Certain {
 pub fn planned(pictures: &PicturesQuery, source: &SourceOf, ask: &impl Ask) -> PlanAnswer {
     let shading = ask.ask(&pictures.shading);
     let Some(shading) = (*shading).as_ref() else { return Ok(None) };
-    let (Some(tolerance), Some(accuracy)) = (shading.quality().accuracy(), shading.plan_accuracy()) else {
+    let (Some(tolerance), Some(of_peak)) = (shading.quality().given_tolerance(), shading.plan_tolerance()) else {
         return Ok(None);
     };
     let explanation = match shading.demand() {
         None => None,
         Some(demand) => {
             let measure = pictures.image(&source.rendering).measure;
-            let plan = ask.ask(&PlanQuery { measure, accuracy, against: Against::Peak, demand });
+            let plan = ask.ask(&PlanQuery { measure, tolerance: of_peak, against: Against::Peak, demand });
             Some((*plan).as_ref().map_err(|&error| error)?.explanation().clone())
         }
     };
-    let certain = Certain::of(explanation.as_ref(), shading.counts().mirrors, tolerance);
-    Ok(Some(Planned { explanation, certain }))
-}
-
-/// A way in words.
-pub fn words(method: &Method) -> String {
-    match method {
-        Method::Nothing => "nothing".to_owned(),
-        Method::Moments { orders, from_kappa } => {
-            let plural = if *orders == 1 { "moment" } else { "moments" };
-            format!("{orders} {plural} from κ {}", crate::number::number(*from_kappa))
-        }
-        Method::Table { degree, kappas, betas, nodes } => {
-            format!("table of {kappas} × {betas}, degree {degree}, {nodes} wavelengths a place")
-        }
-        Method::Shared { nodes, precision } => {
-            format!("{nodes} wavelengths for all channels, S to {:e}", precision.max_relative_error())
-        }
-        Method::Own { nodes, precision } => {
-            format!("{nodes} wavelengths, each channel its own, S to {:e}", precision.max_relative_error())
-        }
-        Method::Every { precision } => format!("all 401 wavelengths, S to {:e}", precision.max_relative_error()),
-    }
-}
-
-/// The ways that a plan takes: how rough surfaces are made, if not as the others, and how the others.
-pub fn parts(explanation: &Explanation) -> impl Iterator<Item = &Candidate> {
-    let mut parts: Vec<&Candidate> = explanation.rough.iter().chain([&explanation.chosen]).collect();
-    parts.dedup_by_key(|part| part.method);
-    parts.into_iter().filter(|part| part.method != Method::Nothing)
-}
-
-/// A whole plan in words: how rough surfaces are made, and how the others.
-pub fn sentence(explanation: &Explanation) -> String {
-    let mut used = parts(explanation).map(|part| words(&part.method));
-    let mut text = used.next().unwrap_or_else(|| "nothing".to_owned());
-    for part in used {
-        let _ = write!(text, ", below that {part}");
-    }
-    text
+    let bounds = ErrorBounds::of(explanation.as_ref(), shading.counts().mirrors, tolerance);
+    Ok(Some(Planned { explanation, bounds }))
 }
 
 #[cfg(test)]
@@ -152,24 +112,24 @@ mod tests {
 
     #[test]
     fn each_error_is_said_with_what_it_is_relative_to() {
-        let words = |diffuse, mirror| Certain { diffuse, mirror }.words();
+        let words = |diffuse, mirror| ErrorBounds { diffuse, mirror }.words();
         assert_eq!(
             words(Some(3.4e-10), Some(1e-9)),
-            "diffuse part certified below 3.4e-10 of the peak; mirror lobes within 1e-9 of the brightest sample; \
+            "estimated error bound of the diffuse component 3.4e-10 of the peak; specular lobes within 1e-9 of the brightest sample; \
              kept in single precision (6e-8)"
         );
         assert_eq!(
             words(Some(4.3e-8), None),
-            "diffuse part certified below 4.3e-8 of the peak; kept in single precision (6e-8)"
+            "estimated error bound of the diffuse component 4.3e-8 of the peak; kept in single precision (6e-8)"
         );
         assert_eq!(
             words(Some(4.3e-8), Some(1e-3)),
-            "diffuse part certified below 4.3e-8 of the peak; mirror lobes within 1e-3 of the brightest sample"
+            "estimated error bound of the diffuse component 4.3e-8 of the peak; specular lobes within 1e-3 of the brightest sample"
         );
         assert_eq!(words(None, None), "no sample takes a spectral integral");
         assert_eq!(
             words(None, Some(1e-5)),
-            "no sample takes a spectral integral; mirror lobes within 1e-5 of the brightest sample"
+            "no sample takes a spectral integral; specular lobes within 1e-5 of the brightest sample"
         );
     }
 }

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use chromascope_core::query::Ask;
 use chromascope_core::query::render::PicturesQuery;
 use chromascope_core::render::mirror::Reach;
-use chromascope_core::render::shading::{Shade, Way};
+use chromascope_core::render::shading::{DiffuseKind, Shade};
 use chromascope_core::render::{CameraImage, ShadingImage, SpectralWeights, Stop};
 use serde::{Deserialize, Serialize};
 
@@ -73,7 +73,7 @@ impl Sources<'_> {
     /// The samples, or vertices in their place, that take a spectral integral.
     fn lit(&self) -> Vec<&Shade> {
         let shades = self.shading.shades().iter();
-        shades.filter(|shade| !matches!(shade.way, Way::Dark | Way::Flat)).collect()
+        shades.filter(|shade| shade.kind == DiffuseKind::Spectral).collect()
     }
 
     /// What shades are of.
@@ -161,10 +161,7 @@ fn sample_cost(sources: &Sources<'_>) -> Result<SampleCost, &'static str> {
         let shading = ShadingImage::new(thinned.clone(), of.surface, of.reading, of.quality, &Stop::NEVER)?;
         for (ways, &reach) in sources.ways.iter().zip(&reaches) {
             let measure = ways.measure();
-            match ways.plan() {
-                Some(plan) => CameraImage::by_plan(&shading, measure, Some(plan), reach, &Stop::NEVER)?,
-                None => CameraImage::with_reach(&shading, measure, ways.table(), reach, &Stop::NEVER)?,
-            };
+            CameraImage::new(&shading, measure, Arc::clone(ways.plan()), reach, &Stop::NEVER)?;
         }
         Some(())
     };

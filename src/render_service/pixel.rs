@@ -4,9 +4,8 @@ use chromascope_core::colorimetry::difference::delta_e_2000;
 use chromascope_core::colorimetry::{Lab, Xy};
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::Roughness;
-use chromascope_core::reflectance::{Reading, Regime, beta, kappa};
-use chromascope_core::render::diffuse::{DARK, DiffuseTable, ROUGH};
-use chromascope_core::render::{CameraImage, ColorimetricScale, Development, Quality};
+use chromascope_core::reflectance::{Normalization, Regime, beta, kappa};
+use chromascope_core::render::{CameraImage, ColorimetricScale, Development};
 
 use super::RenderedFrame;
 use crate::results::Results;
@@ -92,7 +91,7 @@ fn lit(
         xy: measurement.xyz(samples.signal).chromaticity(),
         lab,
         difference: lab.zip(difference).map(|(lab, reference)| delta_e_2000(lab, reference)),
-        roughness: roughness(shot, middle),
+        roughness: roughness(shot, pictures.images.get(index)?.as_ref()?, middle),
     })
 }
 
@@ -133,11 +132,11 @@ fn samples(image: &CameraImage, [x, y]: [usize; 2]) -> Samples {
     found
 }
 
-/// g at 550 nm with its regime and the way that its spectral integral was made.
-fn roughness(shot: &RenderedFrame, middle: usize) -> Option<(f64, String)> {
+/// g at 550 nm with its regime and the method of its spectral integral.
+fn roughness(shot: &RenderedFrame, image: &CameraImage, middle: usize) -> Option<(f64, String)> {
     let shading = &shot.query.shading;
     // Between vertices of different roughness there is no one g.
-    if shading.reading == Reading::Lambertian || shading.roughness == Roughness::Mesh {
+    if shading.reading == Normalization::Lambertian || shading.roughness == Roughness::Mesh {
         return None;
     }
     let geometry = shot.made()?.angles.angles().get(middle)?.geometry();
@@ -147,19 +146,6 @@ fn roughness(shot: &RenderedFrame, middle: usize) -> Option<(f64, String)> {
         Regime::Moderate => "moderate",
         Regime::Rough => "rough",
     };
-    let transform = match shading.quality {
-        Quality::Preview | Quality::Full if kappa >= ROUGH && beta > DARK => "below the threshold",
-        Quality::Preview | Quality::Full if kappa >= ROUGH => "closed form",
-        Quality::Preview | Quality::Full if DiffuseTable::holds(kappa, beta) => "table of 9 wavelengths",
-        Quality::Preview | Quality::Full => "9 wavelengths",
-        Quality::Fine => "15 wavelengths",
-        Quality::Within(_) => "as the camera's plan says",
-        Quality::Exact => "401 wavelengths",
-        Quality::Regimes => match Regime::of(kappa) {
-            Regime::Slight => "first term of Eq 2",
-            Regime::Moderate => "ten terms of Eq 2",
-            Regime::Rough => "Eq 4",
-        },
-    };
-    Some((kappa, format!("{regime}, {transform}")))
+    let method = image.plan().method(kappa, beta);
+    Some((kappa, format!("{regime}, {}", method.name())))
 }

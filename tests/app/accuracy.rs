@@ -7,13 +7,14 @@ use chromascope::bench::{self, Effort, Workload};
 use chromascope::catalog::SetKind;
 use chromascope::command::Command;
 use chromascope::document::Light;
-use chromascope::document::render::{QualityChoice, ReadingChoice, RenderSettings};
+use chromascope::document::render::{ReadingChoice, RenderSettings};
 use chromascope::panes;
 use chromascope::profiler::{SceneRun, Subject};
 use chromascope::scene::Scene;
 use chromascope::view::accuracy::Shows;
 use chromascope::workspaces::{PaneKind, Workspace};
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
+use chromascope_core::render::QualityLevel;
 use chromascope_core::render::Stop;
 use chromascope_figure::{Ink, InkRole, Shape};
 use egui::accesskit::Role;
@@ -134,7 +135,7 @@ fn methods_say_what_was_measured_and_what_marks_stand_for() {
         assert!(window.query_by_label(&run(&window).conditions.scene).is_some());
         let trial = run(&window).trials[0].clone();
         assert_eq!(trial.name(0), "401 wavelengths, S to 1e-13 (reference)");
-        assert_eq!(trial.set.map(|set| trial.name(set)).as_deref(), Some("Full: moments, table (set)"));
+        assert_eq!(trial.set.map(|set| trial.name(set)).as_deref(), Some("9 wavelengths, 4 moments (set)"));
         let panel = chromascope::figures::accuracy::panel(&trial, true, [600.0, 400.0]);
         assert!(panel.marks.iter().any(|mark| mark.name.ends_with(" (set)")));
         let of_a_camera = |ink: Ink| matches!(ink.role, InkRole::Sensor(_) | InkRole::Reference | InkRole::Observer);
@@ -148,7 +149,7 @@ fn methods_say_what_was_measured_and_what_marks_stand_for() {
 fn a_hidden_camera_is_told_of() {
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
     let mut settings = window.state().history().document().render.clone();
-    (settings.quality, settings.tolerance) = (QualityChoice::Tolerance, 5e-10);
+    (settings.quality, settings.tolerance) = (QualityLevel::Tolerance, 5e-10);
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Quality", to: Box::new(settings) }));
     let hide = CompareAction::SetVisible(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), false);
     window.state_mut().push(Action::Compare(hide));
@@ -171,22 +172,26 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.state_mut().push(Command::Show(Workspace::Accuracy));
     window.run_steps(2);
     let render = |window: &Window| window.state().history().document().render.clone();
-    assert_eq!(render(&window).quality, QualityChoice::Full);
+    assert_eq!(render(&window).quality, QualityLevel::Full);
     window.get_by_label("Pictures keep it").click();
     window.run_steps(2);
-    assert_eq!((render(&window).quality, render(&window).tolerance), (QualityChoice::Tolerance, 1e-6));
+    assert_eq!((render(&window).quality, render(&window).tolerance), (QualityLevel::Tolerance, 1e-6));
     take_in(&mut window);
-    assert_eq!(window.query_all_by_label_contains("Diffuse part certified below").count(), 4, "one for each source");
+    assert_eq!(
+        window.query_all_by_label_contains("Estimated error bound of the diffuse component").count(),
+        4,
+        "one for each source"
+    );
     window.state_mut().push(Command::Show(Workspace::Render));
     window.run_steps(2);
     window.state().studio().wait();
     window.run_steps(3);
     let shot = window.state().view().render.shot.clone().expect("pictures");
-    assert_eq!(shot.query.shading.quality.accuracy().map(Accuracy::max_relative_error), Some(1e-6));
-    assert!(shot.made().is_some_and(|made| made.shading.planned > 1000));
+    assert_eq!(shot.query.shading.quality.given_tolerance().map(RelTolerance::max_relative_error), Some(1e-6));
+    assert!(shot.made().is_some_and(|made| made.shading.spectral > 1000));
     window.state_mut().push(Command::Undo);
     window.run_steps(2);
-    assert_eq!(render(&window).quality, QualityChoice::Full);
+    assert_eq!(render(&window).quality, QualityLevel::Full);
     assert!(window.state().view().status.text.starts_with("Undone: "), "{}", window.state().view().status.text);
 }
 
@@ -217,7 +222,7 @@ fn a_typed_tolerance_is_taken_as_it_is_and_ticks_nothing() {
     for (typed, taken, shown) in [("5e-10", 5e-10, "5e−10"), ("2.5e−4", 2.5e-4, "2.5e−4"), ("1e−6", 1e-6, "1e−6")]
     {
         type_tolerance(&mut window, typed, egui::Key::Enter);
-        assert_eq!((render(&window).tolerance, render(&window).quality), (taken, QualityChoice::Full));
+        assert_eq!((render(&window).tolerance, render(&window).quality), (taken, QualityLevel::Full));
         let text = window.get_by_role_and_label(Role::TextInput, "Tolerance").value();
         assert_eq!(text.as_deref(), Some(shown));
     }
@@ -241,7 +246,7 @@ fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
     for workspace in [Workspace::Accuracy, Workspace::Render] {
         let mut window = open([1280.0, 1000.0], egui::Theme::Light);
         let mut settings = window.state().history().document().render.clone();
-        settings.quality = QualityChoice::Tolerance;
+        settings.quality = QualityLevel::Tolerance;
         window.state_mut().push(Action::Render(RenderAction::Set { what: "Quality", to: Box::new(settings) }));
         window.state_mut().push(Command::Show(workspace));
         window.run_steps(3);

@@ -3,7 +3,7 @@
 use chromascope::action::{Action, RenderAction, SceneAction};
 use chromascope::catalog::Catalog;
 use chromascope::command::Command;
-use chromascope::document::render::{MeshChoice, QualityChoice, ReadingChoice, RenderSettings};
+use chromascope::document::render::{MeshChoice, ReadingChoice, RenderSettings};
 use chromascope::document::{Document, Light};
 use chromascope::jobs::Executor;
 use chromascope::panes;
@@ -12,6 +12,7 @@ use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::query::Ask;
+use chromascope_core::render::QualityLevel;
 use chromascope_core::render::RasterSize;
 use egui_kittest::kittest::Queryable;
 
@@ -47,7 +48,7 @@ fn a_second_run_measures_computing_and_not_remembering() {
 fn plans_are_of_the_sources_that_are_asked_for() {
     let with = |sources: &[usize]| {
         let run =
-            small(|document| (document.render.quality, document.render.tolerance) = (QualityChoice::Tolerance, 1e-3));
+            small(|document| (document.render.quality, document.render.tolerance) = (QualityLevel::Tolerance, 1e-3));
         let mut pictures = run.pictures.expect("there is a mesh");
         pictures.sources = sources.iter().map(|&source| pictures.sources[source].clone()).collect();
         pictures

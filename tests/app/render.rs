@@ -9,7 +9,7 @@ use chromascope::catalog::SetKind;
 use chromascope::catalog::meshes::MeshState;
 use chromascope::command::Command;
 use chromascope::document::render::model::{AreaChoice, SpecularChoice};
-use chromascope::document::render::{BALANCE, MeshChoice, QualityChoice, ReadingChoice, RenderSettings, SUN};
+use chromascope::document::render::{BALANCE, MeshChoice, ReadingChoice, RenderSettings, SUN};
 use chromascope::document::{Document, Light, WhiteBalanceChoice, session};
 use chromascope::panes;
 use chromascope::plot_item::SensorId;
@@ -17,6 +17,7 @@ use chromascope::scene::Scene;
 use chromascope::view::View;
 use chromascope::view::render::{PixelPlace, RenderMode};
 use chromascope::workspaces::{PaneKind, Workspace};
+use chromascope_core::render::QualityLevel;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -378,7 +379,7 @@ fn a_click_keeps_a_pixel_and_escape_lets_go() {
     let pinned = window.state().view().render.pinned.clone().expect("it is kept");
     assert_eq!(pinned.source.kind, SetKind::Camera);
     assert!(window.query_by(|node| node.value().is_some_and(|text| text.starts_with("Pixel "))).is_some());
-    assert!(window.query_by(|node| node.value().is_some_and(|text| text.contains("closed form"))).is_some());
+    assert!(window.query_by(|node| node.value().is_some_and(|text| text.contains("moments"))).is_some());
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
     assert!(window.state().view().render.pinned.is_none());
@@ -417,7 +418,7 @@ fn the_pictures_are_a_figure_with_numbers() {
 fn escape_stops_what_takes_long_and_keeps_what_was_made() {
     let (executor, window) = driven([900.0, 600.0], egui::Theme::Dark);
     let mut window = in_render(window);
-    render(&mut window, |settings| (settings.quality, settings.sigma_um) = (QualityChoice::Exact, 0.3));
+    render(&mut window, |settings| (settings.quality, settings.sigma_um) = (QualityLevel::Reference, 0.3));
     window.run_steps(2);
     assert!(executor.run_one("pictures"));
     window.run_steps(1);

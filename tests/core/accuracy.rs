@@ -1,12 +1,12 @@
 //! What is promised at a chosen accuracy: random cameras, lights, reflectances, surfaces and tolerances beside the exact sum.
 
-use chromascope_core::accuracy::{Accuracy, NotAnAccuracy};
+use chromascope_core::accuracy::{NotATolerance, RelTolerance};
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::camera::{LocusEvaluator, LocusMethod};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::reflectance::{Precision, diffuse_sum};
 use chromascope_core::render::diffuse::{DARK, by_nodes};
-use chromascope_core::render::plan::{Method, Verdict, position};
+use chromascope_core::render::plan::{IntegrationMethod, Verdict, position};
 use chromascope_core::render::{Against, Demand, Plan, SpectralWeights};
 use chromascope_core::spectral::{GridSpectrum, Sensor};
 
@@ -37,8 +37,8 @@ impl Chance {
     }
 }
 
-fn accuracy(error: f64) -> Accuracy {
-    Accuracy::new(error).unwrap()
+fn accuracy(error: f64) -> RelTolerance {
+    RelTolerance::new(error).unwrap()
 }
 
 /// Cameras, observers with negative lobes, lights with lines and without, smooth and sharp reflectances.
@@ -94,8 +94,8 @@ fn scene(chance: &mut Chance) -> [f64; 2] {
 #[test]
 fn an_accuracy_lies_between_nothing_and_all() {
     for value in [0.0, -1e-9, 1.0, f64::NAN, f64::INFINITY] {
-        let refused = Accuracy::new(value).map(Accuracy::max_relative_error);
-        assert!(matches!(refused, Err(NotAnAccuracy { .. })), "{value}");
+        let refused = RelTolerance::new(value).map(RelTolerance::max_relative_error);
+        assert!(matches!(refused, Err(NotATolerance { .. })), "{value}");
     }
     assert!(accuracy(1e-9) < accuracy(1e-8));
     assert_eq!(accuracy(2.5e-7).to_string(), "2.5e-7");
@@ -112,27 +112,27 @@ fn random_scenes_keep_their_promise() {
         let against = *chance.of(&[Against::Peak, Against::Value]);
         let demand = Demand::new(kappa, chance.power(1.0, 3e4) as u64);
         let plan = Plan::new(&measure, accuracy(tolerance), against, demand).unwrap();
-        let certified = plan.explanation().certified();
-        assert!(certified <= tolerance, "{case}: {certified:.1e} for {tolerance:.1e}");
+        let bound = plan.explanation().error_bound();
+        assert!(bound <= tolerance, "{case}: {bound:.1e} for {tolerance:.1e}");
         for _ in 0..60 {
             let kappa = chance.power(kappa[0], kappa[1]);
             let last = 30.0 * (1.0 + 6.0 / kappa.sqrt() + 3.5 / kappa);
             let beta = chance.power(1.0, 1.0 + 1.2 * last) - 1.0;
             let Some(error) = error(&plan, &measure, against, kappa, beta) else { continue };
-            nearest = nearest.max(error / certified);
+            nearest = nearest.max(error / bound);
             assert!(
-                error <= certified,
-                "{case}: {error:.1e} for {certified:.1e} {against:?} at κ {kappa:.2e} β {beta:.2e}: {:?}",
+                error <= bound,
+                "{case}: {error:.1e} for {bound:.1e} {against:?} at κ {kappa:.2e} β {beta:.2e}: {:?}",
                 plan.explanation()
             );
         }
     }
-    // What is certified is no idle number either.
+    // The bound is not far above the errors either.
     assert!(nearest > 0.1, "{nearest}");
 }
 
 #[test]
-fn a_smaller_tolerance_never_certifies_a_larger_error() {
+fn a_smaller_tolerance_never_has_a_larger_bound() {
     let library = Library::new();
     let mut chance = Chance(0xacc0_0acc_1357_2468);
     for case in 0..3 {
@@ -143,9 +143,9 @@ fn a_smaller_tolerance_never_certifies_a_larger_error() {
         for step in 0..12 {
             let tolerance = 1e-3 * 10_f64.powf(-0.8 * f64::from(step));
             let plan = Plan::new(&measure, accuracy(tolerance), against, demand).unwrap();
-            let certified = plan.explanation().certified();
-            assert!(certified <= last, "{case}: {certified:.2e} after {last:.2e} at {tolerance:.1e}");
-            last = certified;
+            let bound = plan.explanation().error_bound();
+            assert!(bound <= last, "{case}: {bound:.2e} after {last:.2e} at {tolerance:.1e}");
+            last = bound;
         }
     }
 }
@@ -162,7 +162,7 @@ fn an_explanation_says_why() {
         for other in &said.rejected {
             match other.verdict {
                 Verdict::Chosen => panic!("{other:?}"),
-                Verdict::TooInexact => assert!(other.certified.unwrap() > tolerance, "{other:?}"),
+                Verdict::TooInexact => assert!(other.error_bound.unwrap() > tolerance, "{other:?}"),
                 Verdict::TooSlow => {
                     let samples = demand.samples();
                     assert!(other.total_ns(samples) >= said.chosen.total_ns(samples), "{other:?}");
@@ -170,10 +170,10 @@ fn an_explanation_says_why() {
             }
         }
         // A table pays for many samples alone.
-        assert_eq!(matches!(said.chosen.method, Method::Table { .. }), samples > 1, "{:?}", said.chosen);
+        assert_eq!(matches!(said.chosen.method, IntegrationMethod::Table { .. }), samples > 1, "{:?}", said.chosen);
     }
     let rough = Plan::new(&measure, accuracy(1e-3), Against::Peak, Demand::new([1e6, 1e8], 10)).unwrap();
-    assert!(matches!(rough.explanation().chosen.method, Method::Moments { orders: 1, .. }));
+    assert!(matches!(rough.explanation().chosen.method, IntegrationMethod::Moments { orders: 1, .. }));
 }
 
 #[test]

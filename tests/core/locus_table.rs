@@ -1,6 +1,6 @@
 //! Tables of black bodies' chromaticities against the 1 nm sum, 50 digits, and curves that no table can hold.
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::locus_table::{COLDEST_K, HOTTEST_K};
 use chromascope_core::camera::{ColorTransform, LocusEvaluator, Rendering, WhiteBalanceTarget};
 use chromascope_core::camera::{LocusTable, LocusTableError};
@@ -82,7 +82,7 @@ fn a_larger_error_takes_a_smaller_table_that_keeps_it() {
         let sensor = sensor(path);
         let rendering = rendering(&sensor, ColorTransform::Paper).unwrap();
         let exact = LocusTable::new(&sensor, &rendering, PAPER);
-        let within = |target| LocusTable::within(&sensor, &rendering, PAPER, Accuracy::new(target).unwrap());
+        let within = |target| LocusTable::within(&sensor, &rendering, PAPER, RelTolerance::new(target).unwrap());
         assert_eq!(within(f64::MIN_POSITIVE), exact);
         let mut size = exact.size()[0];
         for target in [1e-11, 1e-9, 1e-6, 1e-4] {

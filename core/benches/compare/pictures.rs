@@ -7,7 +7,7 @@ use chromascope_core::query::render::{
     CameraImageQuery, GeometryQuery, MeshQuery, PicturesQuery, Roughness, ShadingQuery, SourceOf, VisibilityQuery,
 };
 use chromascope_core::query::{Ask, ColorTransformSpec, RenderingQuery, Shared};
-use chromascope_core::reflectance::{Reading, Surface};
+use chromascope_core::reflectance::{Normalization, Surface};
 use chromascope_core::render::{CameraImage, Quality, RasterSize, Shadows};
 use chromascope_core::scene::{Lighting, Viewpoint, lighting::SUN_RADIUS};
 use chromascope_core::spectral::{Dataset, GridSpectrum, Quantity, Sensor};
@@ -21,7 +21,7 @@ pub(crate) struct RenderService {
     pub(crate) size: RasterSize,
     pub(crate) shadows: Shadows,
     pub(crate) quality: Quality,
-    pub(crate) reading: Reading,
+    pub(crate) reading: Normalization,
     pub(crate) sigma_m: f64,
     pub(crate) yaw: f64,
     pub(crate) light_right: f64,
@@ -56,7 +56,7 @@ impl RenderService {
             size: RasterSize::new(512, 512),
             shadows: Shadows::Coarse,
             quality: Quality::Full,
-            reading: Reading::Radiometric,
+            reading: Normalization::Radiometric,
             sigma_m: 5e-6,
             yaw: 0.3,
             light_right: -25.0,

@@ -43,7 +43,7 @@ fn error(mut studio: RenderService, quality: Quality) -> f64 {
     let ask = Remembering::default();
     studio.quality = quality;
     let found = studio.images(&ask);
-    studio.quality = Quality::Exact;
+    studio.quality = Quality::Reference;
     let exact = studio.images(&ask);
     let mut worst = 0.0_f32;
     for (found, exact) in found.iter().zip(&exact) {

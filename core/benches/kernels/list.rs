@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::hint::black_box;
 use std::sync::Arc;
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::batch::Sample;
 use chromascope_core::camera::rendering::{raw, under_light};
 use chromascope_core::camera::{
@@ -12,11 +12,12 @@ use chromascope_core::camera::{
 };
 use chromascope_core::colorimetry::{Lab, Uv60, delta_e_2000, delta_e_2000_into};
 use chromascope_core::light::PlanckianLocus;
-use chromascope_core::reflectance::{Precision, Reading, Surface, diffuse_sum, wavelength_power};
+use chromascope_core::reflectance::{Normalization, Precision, Surface, diffuse_sum, wavelength_power};
 use chromascope_core::render::diffuse::{by_moments, by_nodes, rough_basis};
+use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{
-    Against, CameraImage, Demand, Development, DiffuseTable, GeometryImage, Plan, Quality, RasterSize, ShadingImage,
-    Shadows, SpectralWeights, Stop, Visibility, develop,
+    Against, CameraImage, Demand, Development, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows,
+    SpectralWeights, Stop, Visibility, develop,
 };
 use chromascope_core::scene::{Lighting, SUN_RADIUS, Viewpoint};
 use chromascope_core::spectral::{GridSpectrum, Quantity, Sensor, SpectralDistribution};
@@ -47,8 +48,7 @@ pub(crate) const KERNELS: &[Kernel] = &[
     Kernel { name: "sum_saddle", count: 10_000, ready: || sum(1e3, 2e3) },
     Kernel { name: "integral_by_nodes", count: 2000, ready: nodes },
     Kernel { name: "integral_by_moments", count: 10_000, ready: moments },
-    Kernel { name: "integral_by_table", count: 10_000, ready: table },
-    Kernel { name: "table_filled", count: 1, ready: filled },
+    Kernel { name: "plan_searched", count: 1, ready: searched },
     Kernel { name: "plan_1000_samples", count: 20, ready: planned },
     Kernel { name: "locus_evaluator", count: 10_000, ready: || locus(false) },
     Kernel { name: "locus_sum", count: 500, ready: || locus(true) },
@@ -86,7 +86,7 @@ fn sum(g: f64, b: f64) -> Work {
 fn measure() -> (Rendering, SpectralWeights) {
     let (camera, light) = (camera(), equal_energy());
     let rendering = Rendering::new(&camera, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper).unwrap();
-    let power = wavelength_power(Reading::Radiometric);
+    let power = wavelength_power(Normalization::Radiometric);
     let measure = SpectralWeights::new(&camera, &light, &GridSpectrum::constant(0.5), rendering.white_integrals, power);
     (rendering, measure)
 }
@@ -101,20 +101,17 @@ fn moments() -> Work {
     Box::new(move || by_moments(measure.moments(), &rough_basis(black_box(400.0), black_box(3.0)))[1])
 }
 
-fn table() -> Work {
-    let table = DiffuseTable::new(&measure().1);
-    Box::new(move || table.at(black_box(10.0), black_box(3.0))[1])
-}
-
-fn filled() -> Work {
+/// A plan for a picture, found and its table filled.
+fn searched() -> Work {
     let (_, measure) = measure();
-    Box::new(move || DiffuseTable::new(black_box(&measure)).at(1.0, 1.0)[1])
+    let (tolerance, demand) = (RelTolerance::new(1e-5).unwrap(), Demand::of_picture([0.1, 100.0], 100_000));
+    Box::new(move || Plan::new(black_box(&measure), tolerance, Against::Peak, demand).unwrap().at(1.0, 1.0)[1])
 }
 
 /// Samples from smooth to rough and from the peak into the dark, by a plan that took a table and moments.
 fn planned() -> Work {
     let demand = Demand::new([1e-2, 1e4], 10_000_000);
-    let plan = Plan::new(&measure().1, Accuracy::new(1e-5).unwrap(), Against::Peak, demand).unwrap();
+    let plan = Plan::new(&measure().1, RelTolerance::new(1e-5).unwrap(), Against::Peak, demand).unwrap();
     let point = |i: u32| [1e-2 * 1e6_f64.powf(f64::from(i) / 999.0), 0.03 * f64::from(i * 389 % 1000)];
     let points: Vec<[f64; 2]> = (0..1000).map(point).collect();
     let mut sums = vec![[0.0; 3]; points.len()];
@@ -219,12 +216,11 @@ fn csv() -> Work {
     })
 }
 
-/// Every stage from the mesh to pixels, the mesh's tree and the camera's table made once.
+/// Every stage from the mesh to pixels, the mesh's tree made once.
 fn sphere() -> Work {
     let mesh = shapes::sphere(2000);
     let tree = ShadowTree::new(&mesh);
     let (rendering, measure) = measure();
-    let table = DiffuseTable::new(&measure);
     let surface = Surface::new(1e-6, 10e-6, 50e-6, 50e-6, 1.5).unwrap();
     let lighting = Lighting::far(DVec3::new(0.5, 0.6, 0.8), SUN_RADIUS).unwrap();
     let viewpoint = Viewpoint::new(0.3, 0.2, 3.0, 0.7).unwrap();
@@ -233,8 +229,9 @@ fn sphere() -> Work {
         let seen = Visibility::new(&mesh, viewpoint.eye(mesh.bounds()), size, &stop).unwrap();
         let geometry = GeometryImage::new(&mesh, &seen, &lighting, Some((&tree, Shadows::Full)), &stop).unwrap();
         let shading =
-            ShadingImage::new(Arc::new(geometry), surface, Reading::Radiometric, Quality::Full, &stop).unwrap();
-        let image = CameraImage::new(&shading, &measure, Some(&table), &stop).unwrap();
+            ShadingImage::new(Arc::new(geometry), surface, Normalization::Radiometric, Quality::Full, &stop).unwrap();
+        let plan = Arc::new(Plan::for_picture(&shading, &measure).unwrap());
+        let image = CameraImage::new(&shading, &measure, plan, Reach::in_picture(&shading, &measure), &stop).unwrap();
         let development = Development::new(&rendering, 1.0, None);
         develop(&image, &development, &stop).unwrap().rgba.iter().map(|&v| f64::from(v)).sum()
     })

@@ -5,7 +5,7 @@ mod terms;
 use std::ops::Deref;
 
 use self::terms::Terms;
-use crate::accuracy::{Accuracy, Unmet};
+use crate::accuracy::{RelTolerance, Unmet};
 use crate::light::RadiationConstants;
 use crate::math::gauss::{Rule, gauss_rule, interpolatory_rule};
 use crate::spectral::Sensor;
@@ -103,7 +103,7 @@ impl<S: Deref<Target = Sensor>> LocusEvaluator<S> {
     ///
     /// # Errors
     /// Below 1e-14 even the sum is rounded more.
-    pub fn within(sensor: S, constants: RadiationConstants, accuracy: Accuracy) -> Result<Self, Unmet> {
+    pub fn within(sensor: S, constants: RadiationConstants, accuracy: RelTolerance) -> Result<Self, Unmet> {
         accuracy.met_by(SUM_ROUNDING)?;
         let mut evaluator = Self::by_sum(sensor, constants);
         let last = (DENSE_CHECKS - 1) as f64;

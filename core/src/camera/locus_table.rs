@@ -8,7 +8,7 @@ mod pieces;
 use rayon::prelude::*;
 
 use self::pieces::{Pieces, TERMS};
-use crate::accuracy::Accuracy;
+use crate::accuracy::RelTolerance;
 use crate::camera::{LocusEvaluator, Rendering};
 use crate::colorimetry::Xy;
 use crate::light::RadiationConstants;
@@ -67,7 +67,12 @@ impl LocusTable {
 
     /// Table with another error of its pieces than [`Self::TARGET`], absolute in x and y; smaller ones count as that target. A
     /// piece is left out beyond ten times its error. Larger errors take fewer sums.
-    pub fn within(sensor: &Sensor, rendering: &Rendering, constants: RadiationConstants, accuracy: Accuracy) -> Self {
+    pub fn within(
+        sensor: &Sensor,
+        rendering: &Rendering,
+        constants: RadiationConstants,
+        accuracy: RelTolerance,
+    ) -> Self {
         Self::summed(sensor, rendering, constants, accuracy.max_relative_error())
     }
 

@@ -15,10 +15,10 @@ pub use returned::{ReturnedLight, ReturnedLightQuery};
 
 use super::{Ask, Query, Shared};
 use crate::camera::{RenderingError, rendering::white_divisors};
-use crate::reflectance::{Reading, Specular, Surface, wavelength_power};
+use crate::reflectance::{Normalization, Specular, Surface, wavelength_power};
 use crate::render::mirror::Reach;
 use crate::render::{
-    Against, CameraImage, DiffuseTable, GeometryImage, Quality, RasterSize, ShadingImage, Shadows, SpectralWeights,
+    Against, CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows, SpectralWeights,
     VertexImage, Visibility,
 };
 use crate::scene::roughness::{VertexRoughness, vertex_roughness};
@@ -172,7 +172,7 @@ pub struct ShadingQuery {
     /// Where σ and τ are from.
     pub roughness: Roughness,
     /// How Eq 1 is read.
-    pub reading: Reading,
+    pub reading: Normalization,
     /// How exactly integrals are made.
     pub quality: Quality,
 }
@@ -212,7 +212,7 @@ pub struct SpectralWeightsQuery {
     /// The reflectance.
     pub reflectance: Shared<GridSpectrum>,
     /// How Eq 1 is read.
-    pub reading: Reading,
+    pub reading: Normalization,
 }
 
 impl Query for SpectralWeightsQuery {
@@ -244,22 +244,6 @@ impl SpectralWeightsQuery {
     }
 }
 
-/// What is a camera's spectral integral over all roughnesses and angles?
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct DiffuseTableQuery(pub SpectralWeightsQuery);
-
-impl Query for DiffuseTableQuery {
-    type Answer = Result<DiffuseTable, RenderingError>;
-    const NAME: &'static str = "diffuse table";
-    const WHOLE: bool = true;
-    const KEPT: usize = 64;
-
-    fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let measure = ask.ask(&self.0);
-        Ok(DiffuseTable::new((*measure).as_ref().map_err(|&e| e)?))
-    }
-}
-
 /// What signals does a camera give of a shaded mesh? None inside if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct CameraImageQuery {
@@ -285,22 +269,29 @@ impl Query for CameraImageQuery {
         let measure = self.measure.in_picture(shading, ask);
         let measure = (*measure).as_ref().map_err(|&e| e)?;
         let reach = match Reach::accuracy_in(shading) {
-            Some(accuracy) => {
+            Some(tolerance) => {
                 let of = self.measure.untinted(shading).unwrap_or_else(|| self.measure.clone());
-                (*ask.ask(&ReachQuery { measure: of, accuracy }))?
+                (*ask.ask(&ReachQuery { measure: of, tolerance }))?
             }
             None => Reach::usual_in(shading, measure),
         };
-        if let Some(accuracy) = shading.plan_accuracy() {
-            let demand = shading.demand();
-            let plan = demand.map(|demand| {
-                ask.ask(&PlanQuery { measure: self.measure.clone(), accuracy, against: Against::Peak, demand })
-            });
-            let plan = plan.as_deref().map(|plan| plan.as_ref().map_err(|&e| e)).transpose()?;
-            return Ok(CameraImage::by_plan(shading, measure, plan, reach, &ask.stop()));
-        }
-        let table = shading.needs_table().then(|| ask.ask(&DiffuseTableQuery(self.measure.clone())));
-        let table = table.as_deref().map(|table| table.as_ref().map_err(|&e| e)).transpose()?;
-        Ok(CameraImage::with_reach(shading, measure, table, reach, &ask.stop()))
+        let plan = self.plan(shading, measure, ask)?;
+        Ok(CameraImage::new(shading, measure, plan, reach, &ask.stop()))
+    }
+}
+
+impl CameraImageQuery {
+    /// The plan that the image is made by, where its shading and measure are known.
+    pub fn plan(
+        &self,
+        shading: &ShadingImage,
+        measure: &SpectralWeights,
+        ask: &impl Ask,
+    ) -> Result<Arc<Plan>, RenderingError> {
+        let Some((tolerance, demand)) = shading.plan_request() else {
+            return Ok(Arc::new(Plan::fixed(measure, shading.fixed_quality())));
+        };
+        let plan = ask.ask(&PlanQuery { measure: self.measure.clone(), tolerance, against: Against::Peak, demand });
+        (*plan).as_ref().map(Arc::clone).map_err(|&e| e)
     }
 }

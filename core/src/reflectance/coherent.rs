@@ -7,8 +7,8 @@
 //! the mean of ρ0² over the light. It is taken along each axis, over a square as wide as the disk, which separates.
 
 use super::geometry::Geometry;
+use super::normalization::Normalization;
 use super::power::{LAMBDA_0_NM, beta, coherent_prefactor, diffuse_prefactor, kappa};
-use super::reading::Reading;
 use super::surface::Surface;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -166,7 +166,7 @@ pub fn rho0_squared_bound(geometry: &Geometry, surface: &Surface, wave_number: f
 pub fn is_negligible(
     surface: &Surface,
     geometry: &Geometry,
-    reading: Reading,
+    reading: Normalization,
     wavelength_nm: f64,
     angular_radius: f64,
     tolerance: f64,

@@ -9,8 +9,8 @@
 
 use super::coherent::GAUSS;
 use super::geometry::Geometry;
+use super::normalization::Normalization;
 use super::power::{LAMBDA_0_NM, coherent_prefactor, diffuse_prefactor, kappa};
-use super::reading::Reading;
 use super::sum::{Precision, diffuse_sum};
 use super::surface::Surface;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -42,22 +42,22 @@ impl HemisphericalReflectance {
 /// horizon.
 ///
 /// The diffuse component by quadrature, relative error below 4e-3 up to 85°. The coherent one in the limit of a narrow lobe,
-/// `X cos θi ≫ λ`: `A/(4XY) e^-g`, times F(θi) under [`super::Specular::Fresnel`]. Under [`Reading::Paper`] P is no reflectance, and this is the
+/// `X cos θi ≫ λ`: `A/(4XY) e^-g`, times F(θi) under [`super::Specular::Fresnel`]. Under [`Normalization::Paper`] P is no reflectance, and this is the
 /// share that Eq 12 makes of it by putting P where π f belongs.
 ///
 /// ```
-/// use chromascope_core::reflectance::{Reading, Surface, directional_hemispherical};
+/// use chromascope_core::reflectance::{Normalization, Surface, directional_hemispherical};
 /// let skin = Surface::new(5e-6, 10e-6, 50e-6, 50e-6, 1.4)?;
-/// let returned = |degrees: f64| directional_hemispherical(&skin, Reading::Radiometric, degrees.to_radians()).total();
+/// let returned = |degrees: f64| directional_hemispherical(&skin, Normalization::Radiometric, degrees.to_radians()).total();
 /// assert!((returned(0.0) - 0.488).abs() < 1e-3 && (returned(85.0) - 0.034).abs() < 1e-3);
 /// # Ok::<(), chromascope_core::reflectance::SurfaceError>(())
 /// ```
-pub fn directional_hemispherical(surface: &Surface, reading: Reading, theta_i: f64) -> HemisphericalReflectance {
+pub fn directional_hemispherical(surface: &Surface, reading: Normalization, theta_i: f64) -> HemisphericalReflectance {
     let (sin_i, cos_i) = theta_i.sin_cos();
     if cos_i <= 0.0 || cos_i.is_nan() {
         return HemisphericalReflectance::default();
     }
-    if reading == Reading::Lambertian {
+    if reading == Normalization::Lambertian {
         return HemisphericalReflectance { diffuse: 1.0, coherent: 0.0 };
     }
     let view = View { surface, reading, sin_i, cos_i };
@@ -67,7 +67,7 @@ pub fn directional_hemispherical(surface: &Surface, reading: Reading, theta_i: f
 /// Light from one direction.
 struct View<'a> {
     surface: &'a Surface,
-    reading: Reading,
+    reading: Normalization,
     sin_i: f64,
     cos_i: f64,
 }

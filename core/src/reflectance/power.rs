@@ -10,7 +10,7 @@
 use super::coherent::rho0_squared;
 use super::fresnel::{reflectance, transmittance, transmittance_by_cosine};
 use super::geometry::Geometry;
-use super::reading::{Method, Reading};
+use super::normalization::{Method, Normalization};
 use super::regimes::diffuse_sum_by_regimes;
 use super::sum::diffuse_sum;
 use super::surface::{Specular, Surface};
@@ -28,7 +28,7 @@ pub fn factor(
     surface: &Surface,
     geometry: &Geometry,
     wavelength_nm: f64,
-    reading: Reading,
+    reading: Normalization,
     angular_radius: f64,
 ) -> f64 {
     factor_by(surface, geometry, wavelength_nm, reading, Method::default(), angular_radius)
@@ -40,7 +40,7 @@ pub fn factor_by(
     surface: &Surface,
     geometry: &Geometry,
     wavelength_nm: f64,
-    reading: Reading,
+    reading: Normalization,
     method: Method,
     angular_radius: f64,
 ) -> f64 {
@@ -57,21 +57,21 @@ pub fn factor_by(
 /// Lambertian                1
 /// D = (π τ²/A) G² S(g, b),  G² = T(θi) T(θs) cos θi,  A = 4XY
 /// ```
-/// For [`Reading::Microfacet`] the cos θi within G² is `4 (l·ĥ)⁴/(cos θi (cos θi + cos θs)²)`, and `cos θi/cos θs` before ρ0² is 1,
+/// For [`Normalization::Microfacet`] the cos θi within G² is `4 (l·ĥ)⁴/(cos θi (cos θi + cos θs)²)`, and `cos θi/cos θs` before ρ0² is 1,
 /// which it is in the mirror direction. Under [`Specular::Fresnel`] ρ0² is multiplied by F(l·ĥ); in the paper it carries no
 /// Fresnel factor. ρ0² is its mean over the light's disk. 0 unless both light and viewer are before the surface; always finite.
 pub fn factors_by(
     surface: &Surface,
     geometry: &Geometry,
     wavelength_nm: f64,
-    reading: Reading,
+    reading: Normalization,
     method: Method,
     angular_radius: f64,
 ) -> [f64; 2] {
     if !(geometry.is_lit() && wavelength_nm > 0.0 && wavelength_nm.is_finite()) {
         return [0.0; 2];
     }
-    if reading == Reading::Lambertian {
+    if reading == Normalization::Lambertian {
         return [1.0, 0.0];
     }
     let wave_number = TAU / (wavelength_nm * 1e-9);
@@ -97,16 +97,16 @@ pub fn factors_by(
 /// Microfacet    π² τ²/λ0² · T(θi)/cos θi · T(θs)/cos θs · 4 (l·ĥ)⁴/(cos θi + cos θs)²
 /// Paper         π τ²/A · T(θi) T(θs) cos θi
 /// ```
-/// 0 for [`Reading::Lambertian`], whose factor has no such part, and unless both light and viewer are before the surface.
+/// 0 for [`Normalization::Lambertian`], whose factor has no such part, and unless both light and viewer are before the surface.
 #[inline]
-pub fn diffuse_prefactor(surface: &Surface, geometry: &Geometry, reading: Reading) -> f64 {
+pub fn diffuse_prefactor(surface: &Surface, geometry: &Geometry, reading: Normalization) -> f64 {
     if !geometry.is_lit() {
         return 0.0;
     }
     let (cos_i, cos_s, index) = (geometry.cos_i, geometry.cos_s, surface.index());
     let correlation = surface.tau_m() / LAMBDA_0_M;
     bounded(match reading {
-        Reading::Radiometric => {
+        Normalization::Radiometric => {
             PI * PI
                 * correlation
                 * correlation
@@ -114,7 +114,7 @@ pub fn diffuse_prefactor(surface: &Surface, geometry: &Geometry, reading: Readin
                 * transmittance_by_cosine(cos_s, index)
                 * cos_i
         }
-        Reading::Microfacet => {
+        Normalization::Microfacet => {
             let form = 2.0 * geometry.cos_half2 / geometry.vz_by_k;
             // The fourth power of a half vector near grazing can overflow where the transmittances are 0.
             PI * PI
@@ -124,13 +124,13 @@ pub fn diffuse_prefactor(surface: &Surface, geometry: &Geometry, reading: Readin
                 * transmittance_by_cosine(cos_s, index)
                 * bounded(form * form)
         }
-        Reading::Paper => {
+        Normalization::Paper => {
             PI * surface.tau_m() * surface.tau_m() / surface.area_m2()
                 * transmittance(cos_i, index)
                 * transmittance(cos_s, index)
                 * cos_i
         }
-        Reading::Lambertian => 0.0,
+        Normalization::Lambertian => 0.0,
     })
 }
 
@@ -143,18 +143,18 @@ pub fn diffuse_prefactor(surface: &Surface, geometry: &Geometry, reading: Readin
 /// ```
 /// Under [`Specular::Fresnel`] times F(l·ĥ), Fresnel's reflectance at the half vector: `((n − 1)/(n + 1))²` at normal incidence.
 ///
-/// 0 for [`Reading::Lambertian`], and unless both light and viewer are before the surface.
+/// 0 for [`Normalization::Lambertian`], and unless both light and viewer are before the surface.
 #[inline]
-pub fn coherent_prefactor(surface: &Surface, geometry: &Geometry, reading: Reading) -> f64 {
+pub fn coherent_prefactor(surface: &Surface, geometry: &Geometry, reading: Normalization) -> f64 {
     if !geometry.is_lit() {
         return 0.0;
     }
     let patch = PI * surface.area_m2() / (LAMBDA_0_M * LAMBDA_0_M);
     let mirror = match reading {
-        Reading::Radiometric => bounded(patch * (geometry.cos_i / geometry.cos_s)),
-        Reading::Microfacet => patch,
-        Reading::Paper => 1.0,
-        Reading::Lambertian => 0.0,
+        Normalization::Radiometric => bounded(patch * (geometry.cos_i / geometry.cos_s)),
+        Normalization::Microfacet => patch,
+        Normalization::Paper => 1.0,
+        Normalization::Lambertian => 0.0,
     };
     match surface.specular() {
         Specular::Paper => mirror,
@@ -163,10 +163,10 @@ pub fn coherent_prefactor(surface: &Surface, geometry: &Geometry, reading: Readi
 }
 
 /// p: the power of λ0/λ that both parts of a reading carry beside g.
-pub const fn wavelength_power(reading: Reading) -> i32 {
+pub const fn wavelength_power(reading: Normalization) -> i32 {
     match reading {
-        Reading::Radiometric | Reading::Microfacet => 2,
-        Reading::Paper | Reading::Lambertian => 0,
+        Normalization::Radiometric | Normalization::Microfacet => 2,
+        Normalization::Paper | Normalization::Lambertian => 0,
     }
 }
 

@@ -21,7 +21,7 @@ mod pieces;
 mod saddle;
 mod terms;
 
-use crate::accuracy::{Accuracy, Unmet};
+use crate::accuracy::{RelTolerance, Unmet};
 use crate::math::exp::exp;
 use direct::Choice;
 use multiversion::multiversion;
@@ -52,7 +52,7 @@ impl Precision {
     ///
     /// # Errors
     /// Below 1e-13 none does.
-    pub fn within(accuracy: Accuracy) -> Result<Self, Unmet> {
+    pub fn within(accuracy: RelTolerance) -> Result<Self, Unmet> {
         let found = Self::ALL.into_iter().find(|precision| accuracy.allows(precision.max_relative_error()));
         found.map_or_else(|| accuracy.met_by(Self::Full.max_relative_error()).map(|()| Self::Full), Ok)
     }

@@ -9,7 +9,7 @@
 use super::lobe::mean_sinc_squared_quick;
 use super::measure::{Node, SpectralWeights};
 use super::shading::{Mirror, Quality, ShadingImage};
-use crate::accuracy::Accuracy;
+use crate::accuracy::RelTolerance;
 use crate::math::exp::exp;
 use crate::reflectance::Surface;
 use crate::reflectance::coherent::{mean_sinc_squared, sinc};
@@ -34,7 +34,7 @@ impl Reach {
             Quality::Preview => (2e-6, 2e-6),
             Quality::Full => (1e-6, measure.coherent().settled_m()),
             Quality::Fine => (0.4e-6, f64::INFINITY),
-            Quality::Exact | Quality::Regimes => (0.0, f64::INFINITY),
+            Quality::Reference | Quality::Regimes => (0.0, f64::INFINITY),
             Quality::Within(accuracy) => return Self::within(measure, accuracy),
         };
         Self { still_m, settled_m, quick: quality <= Quality::Full }
@@ -50,20 +50,20 @@ impl Reach {
     }
 
     /// The accuracy that [`Self::within`] has to be made for in a picture; none where the quality's own will do.
-    pub(crate) fn accuracy_in(shading: &ShadingImage) -> Option<Accuracy> {
+    pub(crate) fn accuracy_in(shading: &ShadingImage) -> Option<RelTolerance> {
         if shading.mirrors().is_empty() {
             return None;
         }
         let scale = shading.mirror_scale();
         let full = shading.quality() == Quality::Full && scale < USUAL_SCALE;
-        shading.mirror_accuracy().or_else(|| full.then(|| Accuracy::at_best(FULL_ERROR * scale)))
+        shading.mirror_tolerance().or_else(|| full.then(|| RelTolerance::at_best(FULL_ERROR * scale)))
     }
 
     /// That of a picture for which there is no such accuracy.
     pub(crate) fn usual_in(shading: &ShadingImage, measure: &SpectralWeights) -> Self {
         let fine = shading.quality() == Quality::Fine && shading.mirror_scale() < USUAL_SCALE;
         let none = shading.mirrors().is_empty();
-        Self::of(if fine || none { Quality::Exact } else { shading.quality() }, measure)
+        Self::of(if fine || none { Quality::Reference } else { shading.quality() }, measure)
     }
 
     /// The widest that keeps the error of this measure's lobe ([`SpectralWeights::coherent`]) within an accuracy, relative to its height `front Σ|w|`: each of
@@ -71,7 +71,7 @@ impl Reach {
     ///
     /// The few wavelengths are compared with all at sixteen paths to an octave, along one axis and beside another, and at five κ,
     /// with a margin of two; the oscillation is bounded by its envelope over the wavelengths.
-    pub fn within(measure: &SpectralWeights, accuracy: Accuracy) -> Self {
+    pub fn within(measure: &SpectralWeights, accuracy: RelTolerance) -> Self {
         let (error, measure) = (accuracy.max_relative_error(), measure.coherent());
         let settled_m = settled(measure.dense(), error / 8.0);
         let still_m = still(measure, settled_m, error / 4.0);

@@ -4,15 +4,16 @@ mod brightness;
 mod lobes;
 
 use super::Stop;
-use super::diffuse::{DARK, DiffuseTable, ROUGH};
+use super::diffuse::ROUGH;
 use super::geometry::{Angles, GeometryImage};
 use super::measure::LAMBDA_0_NM;
-use super::plan::{self, Demand};
+use super::plan::{self, Demand, Plan};
+pub use super::quality::Quality;
 use super::vertices::VertexImage;
-use crate::accuracy::Accuracy;
+use crate::accuracy::RelTolerance;
 use crate::reflectance::coherent::rho0_squared_bound;
 use crate::reflectance::{
-    Geometry, Precision, Reading, Specular, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa, ln_diffuse_sum,
+    Geometry, Normalization, Precision, Specular, Surface, beta, coherent_prefactor, diffuse_prefactor, kappa,
 };
 use crate::scene::roughness::VertexRoughness;
 use crate::spectral::grid::{FIRST_NM, LAST_NM};
@@ -22,99 +23,35 @@ use std::sync::Arc;
 use brightness::Brightness;
 use lobes::{Lobe, Lobes};
 
-/// Mirror terms below this share of the brightest sample are left out at [`Quality::Full`] and below.
-pub const MIRROR_SHARE: f64 = 1e-7;
-
-/// The same for fifteen wavelengths, and for what others are compared with: below what the integral itself is off by.
-const FINE_MIRROR_SHARE: f64 = 1e-10;
-const EXACT_MIRROR_SHARE: f64 = 1e-14;
-
-/// The share of an accuracy's error that mirror terms left out may take.
-const MIRROR_OF_ERROR: f64 = 0.1;
-
 /// Reflectance of the darkest material that untinted lobes are weighed against: which one it is a surface does not know.
 const DARKEST: f64 = 1.0 / 64.0;
 
-/// How exactly the spectral integral is made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Quality {
-    /// Moments and table; of the mirror lobe's oscillation only the mean, from a path of 2 µm on: while something moves.
-    Preview,
-    /// Moments and table: error below 1e-5 of the peak.
-    #[default]
-    Full,
-    /// Fifteen wavelengths: below 1e-9.
-    Fine,
-    /// The sum over 401 wavelengths.
-    Exact,
-    /// The sum over 401 wavelengths with the paper's three cases of g: to see their error.
-    Regimes,
-    /// The cheapest way that keeps this error, relative to the picture's brightest sample, chosen for each camera
-    /// ([`super::Plan`], [`super::mirror::Reach`]): of the diffuse part and of the mirror term, both before signals are rounded to
-    /// single precision (6e-8 of themselves).
-    Within(Accuracy),
-}
-
-impl Quality {
-    /// The accuracy that was asked for in numbers.
-    pub const fn accuracy(self) -> Option<Accuracy> {
-        if let Self::Within(accuracy) = self { Some(accuracy) } else { None }
-    }
-
-    /// Mirror terms below this share of the brightest sample are left out.
-    pub fn mirror_share(self) -> f64 {
-        match self {
-            Self::Preview | Self::Full => MIRROR_SHARE,
-            Self::Fine => FINE_MIRROR_SHARE,
-            Self::Exact | Self::Regimes => EXACT_MIRROR_SHARE,
-            Self::Within(accuracy) => MIRROR_OF_ERROR * accuracy.max_relative_error(),
-        }
-    }
-}
-
-/// How a sample's integral is made.
+/// Spectral dependence of a sample's diffuse component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
-    /// Nothing comes from it.
+pub enum DiffuseKind {
+    /// No light, or below e^-30 of its peak.
     Dark,
     /// All wavelengths are scattered alike.
     Flat,
-    /// By moments.
-    Moments,
-    /// By the table.
-    Table,
-    /// By a sum over wavelengths.
-    Sum,
-    /// As each camera's plan says.
-    Planned,
+    /// An integral over wavelengths, by the method that each camera's [`plan::Plan`] has for it.
+    Spectral,
 }
 
 /// One lit sample of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shade {
-    /// The diffuse part's factor beside J: `cos θi cos⁴α` and what the reading makes of the angles.
+    /// Factor beside J: `cos θi cos⁴α` and the normalization's factor.
     pub front: f64,
     /// g at 550 nm.
     pub kappa: f64,
     /// b / g.
     pub beta: f64,
-    /// Where that lies in a camera's table, if it is made by the table: [`DiffuseTable::position`].
-    pub position: [f64; 2],
-    /// How its integral is made.
-    pub way: Way,
+    /// Spectral dependence.
+    pub kind: DiffuseKind,
 }
 
 impl Shade {
-    const DARK: Self = Self { front: 0.0, kappa: 0.0, beta: 0.0, position: [0.0; 2], way: Way::Dark };
-
-    /// A sample whose way each camera decides.
-    fn planned(front: f64, kappa: f64, beta: f64) -> Self {
-        if front <= 0.0 || kappa <= 0.0 {
-            return Self::DARK;
-        }
-        let way = if plan::is_lit(kappa, beta) { Way::Planned } else { Way::Dark };
-        Self { front, kappa, beta, position: [0.0; 2], way }
-    }
+    const DARK: Self = Self { front: 0.0, kappa: 0.0, beta: 0.0, kind: DiffuseKind::Dark };
 }
 
 /// A sample with a mirror term worth having.
@@ -130,21 +67,15 @@ pub struct Mirror {
     pub v: [f64; 2],
 }
 
-/// How many samples take which way.
+/// Number of samples of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ShadingCounts {
     /// Samples whose light lies below the threshold.
     pub dark: u64,
     /// Samples that scatter all wavelengths alike.
     pub flat: u64,
-    /// Samples by moments.
-    pub moments: u64,
-    /// Samples by the table.
-    pub table: u64,
-    /// Samples by a sum over wavelengths.
-    pub sums: u64,
-    /// Samples as each camera's plan says.
-    pub planned: u64,
+    /// Samples with a spectral integral.
+    pub spectral: u64,
     /// Samples with a mirror term.
     pub mirrors: u64,
     /// Samples whose mirror term was left out.
@@ -164,6 +95,14 @@ pub struct ShadingImage {
     mirror_scale: f64,
     diffuse_scale: f64,
     counts: ShadingCounts,
+    range: Option<KappaRange>,
+}
+
+/// Smallest and largest κ of the spectral integrals, and how many are below [`ROUGH`].
+#[derive(Clone, Copy, Debug)]
+struct KappaRange {
+    kappa: [f64; 2],
+    samples: u64,
 }
 
 impl ShadingImage {
@@ -171,7 +110,7 @@ impl ShadingImage {
     pub fn new(
         geometry: Arc<GeometryImage>,
         surface: Surface,
-        reading: Reading,
+        reading: Normalization,
         quality: Quality,
         stop: &Stop,
     ) -> Option<Self> {
@@ -184,7 +123,7 @@ impl ShadingImage {
         vertices: Arc<VertexImage>,
         roughness: &[VertexRoughness],
         surface: Surface,
-        reading: Reading,
+        reading: Normalization,
         quality: Quality,
         stop: &Stop,
     ) -> Option<Self> {
@@ -196,7 +135,7 @@ impl ShadingImage {
         geometry: Arc<GeometryImage>,
         vertices: Option<(Arc<VertexImage>, &[VertexRoughness])>,
         surface: Surface,
-        reading: Reading,
+        reading: Normalization,
         quality: Quality,
         stop: &Stop,
     ) -> Option<Self> {
@@ -221,8 +160,9 @@ impl ShadingImage {
             }
         };
         let counts = counts(&shades, mirrors.len());
+        let range = KappaRange::of(&shades);
         let vertices = vertices.map(|(vertices, _)| vertices);
-        Some(Self { geometry, vertices, surface, quality, shades, mirrors, mirror_scale, diffuse_scale, counts })
+        Some(Self { geometry, vertices, surface, quality, shades, mirrors, mirror_scale, diffuse_scale, counts, range })
     }
 
     /// The angles it is made of.
@@ -261,72 +201,63 @@ impl ShadingImage {
         self.mirror_scale
     }
 
-    /// The accuracy of lobes, relative to their height, that keeps the one that was asked for of the picture.
-    pub fn mirror_accuracy(&self) -> Option<Accuracy> {
-        self.quality.accuracy().map(|accuracy| accuracy.times(self.mirror_scale))
+    /// Tolerance of lobes, relative to their height, that keeps the one given for the picture.
+    pub fn mirror_tolerance(&self) -> Option<RelTolerance> {
+        self.quality.given_tolerance().map(|tolerance| tolerance.times(self.mirror_scale))
     }
 
-    /// The accuracy of the diffuse part's integral, relative to its peak, that keeps the one that was asked for of the picture:
-    /// smaller where no sample is seen from near the mirror's direction, but not below what S is good for.
-    pub fn plan_accuracy(&self) -> Option<Accuracy> {
-        let accuracy = self.quality.accuracy()?;
+    /// Tolerance of the diffuse component's integral, relative to its peak, that keeps the picture's: smaller where no sample is
+    /// seen from near the mirror's direction, by a power of 16, but not below the error of S.
+    pub fn plan_tolerance(&self) -> Option<RelTolerance> {
+        let tolerance = self.quality.tolerance()?;
         let best = Precision::Full.max_relative_error();
-        let least = (best / accuracy.max_relative_error()).min(1.0);
-        Some(accuracy.times(self.diffuse_scale.max(least)))
+        let least = (best / tolerance.max_relative_error()).min(1.0);
+        let scale = (4.0 * (self.diffuse_scale.log2() / 4.0).floor()).exp2();
+        Some(tolerance.times(scale.max(least)))
     }
 
-    /// How many samples or vertices take which way.
+    /// Number of samples or vertices of each kind.
     pub fn counts(&self) -> ShadingCounts {
         self.counts
     }
 
-    /// What is asked of a camera's plan, if anything is.
+    /// Demand of the picture on a camera's plan; none where no sample has a spectral integral.
     pub fn demand(&self) -> Option<Demand> {
-        let chunks = self.shades.par_iter().with_min_len(GeometryImage::chunk());
-        let planned = chunks.filter(|shade| shade.way == Way::Planned);
-        let of = |shade: &Shade| ([shade.kappa; 2], u64::from(shade.kappa < ROUGH));
-        let both = |([a, b], n): ([f64; 2], u64), ([c, d], m): ([f64; 2], u64)| ([a.min(c), b.max(d)], n + m);
-        planned.map(of).reduce_with(both).map(|(kappa, samples)| Demand::new(kappa, samples))
+        self.range.map(|range| Demand::of_picture(range.kappa, range.samples))
     }
 
-    /// Whether a camera needs a table for this.
-    pub fn needs_table(&self) -> bool {
-        self.counts.table > 0
+    /// The quality whose [`Plan::fixed`] serves where no plan is searched.
+    pub fn fixed_quality(&self) -> Quality {
+        Plan::fixed_quality(self.quality, self.plan_tolerance())
+    }
+
+    /// Tolerance and demand of a plan that is to be searched ([`Plan::new`]); none where [`Plan::fixed`] serves.
+    pub fn plan_request(&self) -> Option<(RelTolerance, Demand)> {
+        let (range, tolerance) = self.range.zip(self.plan_tolerance())?;
+        let is_searched = Plan::is_searched(self.quality, tolerance, range.samples);
+        is_searched.then(|| (tolerance, Demand::of_picture(range.kappa, range.samples)))
     }
 }
 
-/// Whether even the reddest light, which scatters widest, is far below its peak.
-fn is_dark(kappa: f64, beta: f64) -> bool {
-    let g = kappa * (LAMBDA_0_NM / LAST_NM).powi(2);
-    ln_diffuse_sum(g, beta * g, Precision::Coarse) < ln_diffuse_sum(g, 0.0, Precision::Coarse) - DARK
+impl KappaRange {
+    fn of(shades: &[Shade]) -> Option<Self> {
+        let shades = shades.par_iter().with_min_len(GeometryImage::chunk());
+        let spectral = shades.filter(|shade| shade.kind == DiffuseKind::Spectral);
+        let of = |shade: &Shade| Self { kappa: [shade.kappa; 2], samples: u64::from(shade.kappa < ROUGH) };
+        let both = |a: Self, b: Self| Self {
+            kappa: [a.kappa[0].min(b.kappa[0]), a.kappa[1].max(b.kappa[1])],
+            samples: a.samples + b.samples,
+        };
+        spectral.map(of).reduce_with(both)
+    }
 }
 
 fn counts(shades: &[Shade], mirrors: usize) -> ShadingCounts {
-    let of_run = |shades: &[Shade]| {
-        let mut counts = ShadingCounts::default();
-        for shade in shades {
-            *match shade.way {
-                Way::Dark => &mut counts.dark,
-                Way::Flat => &mut counts.flat,
-                Way::Moments => &mut counts.moments,
-                Way::Table => &mut counts.table,
-                Way::Sum => &mut counts.sums,
-                Way::Planned => &mut counts.planned,
-            } += 1;
-        }
-        counts
-    };
-    let all =
-        shades.par_chunks(GeometryImage::chunk()).map(of_run).reduce(ShadingCounts::default, |a, b| ShadingCounts {
-            dark: a.dark + b.dark,
-            flat: a.flat + b.flat,
-            moments: a.moments + b.moments,
-            table: a.table + b.table,
-            sums: a.sums + b.sums,
-            planned: a.planned + b.planned,
-            ..a
-        });
-    ShadingCounts { mirrors: mirrors as u64, mirrors_skipped: (shades.len() - mirrors) as u64, ..all }
+    let count =
+        |kind| shades.par_iter().with_min_len(GeometryImage::chunk()).filter(|shade| shade.kind == kind).count();
+    let [dark, flat, spectral] =
+        [DiffuseKind::Dark, DiffuseKind::Flat, DiffuseKind::Spectral].map(|kind| count(kind) as u64);
+    ShadingCounts { dark, flat, spectral, mirrors: mirrors as u64, mirrors_skipped: (shades.len() - mirrors) as u64 }
 }
 
 /// A lit sample, or a vertex in its place.
@@ -339,7 +270,7 @@ struct Place {
 
 /// One reading of the model.
 struct Material {
-    reading: Reading,
+    reading: Normalization,
     quality: Quality,
     angular_radius: f64,
     /// Reflectance that diffuse parts are weighed with beside lobes: 1 where both take the material's color.
@@ -371,41 +302,22 @@ impl Material {
     fn shade(&self, place: &Place) -> Shade {
         let Place { geometry, light, surface } = place;
         let light = *light;
-        if self.reading == Reading::Lambertian {
-            return Shade { front: light, kappa: 0.0, beta: 0.0, position: [0.0; 2], way: Way::Flat };
+        if self.reading == Normalization::Lambertian {
+            return Shade { front: light, kappa: 0.0, beta: 0.0, kind: DiffuseKind::Flat };
         }
         let front = light * diffuse_prefactor(surface, geometry, self.reading);
         let (kappa, beta) = (kappa(surface, geometry), beta(surface, geometry));
-        if self.quality.accuracy().is_some() {
-            return Shade::planned(front, kappa, beta);
-        }
-        let way = self.way(front, kappa, beta);
-        let position = if way == Way::Table { DiffuseTable::position(kappa, beta) } else { [0.0; 2] };
-        Shade { front, kappa, beta, position, way }
-    }
-
-    fn way(&self, front: f64, kappa: f64, beta: f64) -> Way {
         if front <= 0.0 || kappa <= 0.0 {
-            return Way::Dark;
+            return Shade::DARK;
         }
-        match self.quality {
-            Quality::Preview | Quality::Full if kappa >= ROUGH => {
-                if beta > DARK {
-                    Way::Dark
-                } else {
-                    Way::Moments
-                }
-            }
-            Quality::Preview | Quality::Full if DiffuseTable::holds(kappa, beta) => Way::Table,
-            Quality::Preview | Quality::Full if is_dark(kappa, beta) => Way::Dark,
-            _ => Way::Sum,
-        }
+        let is_dark = self.quality.leaves_dark() && !plan::is_lit(kappa, beta);
+        Shade { front, kappa, beta, kind: if is_dark { DiffuseKind::Dark } else { DiffuseKind::Spectral } }
     }
 
     /// The mirror term of a sample, if it may be above the least that counts.
     fn lobe(&self, place: &Place, index: usize, least: f64) -> Option<Lobe> {
         let Place { geometry, light, surface } = place;
-        if self.reading == Reading::Lambertian {
+        if self.reading == Normalization::Lambertian {
             return None;
         }
         let kappa = kappa(surface, geometry);

@@ -5,12 +5,11 @@ use std::time::{Duration, Instant};
 
 use chromascope_core::camera::RenderingError;
 use chromascope_core::query::Ask as _;
-use chromascope_core::query::render::{DiffuseTableQuery, PlanQuery, Roughness, SpectralWeightsQuery};
-use chromascope_core::reflectance::{Reading, Surface};
+use chromascope_core::query::render::Roughness;
+use chromascope_core::reflectance::{Normalization, Surface};
 use chromascope_core::render::mirror::Reach;
-use chromascope_core::render::{
-    Against, CameraImage, DiffuseTable, GeometryImage, Plan, Quality, ShadingImage, SpectralWeights, Stop,
-};
+use chromascope_core::render::shading::DiffuseKind;
+use chromascope_core::render::{CameraImage, GeometryImage, Plan, Quality, ShadingImage, SpectralWeights, Stop};
 use rayon::ThreadPoolBuilder;
 
 use super::Made;
@@ -64,16 +63,16 @@ struct Run {
 struct Bench {
     geometry: Arc<GeometryImage>,
     surface: Surface,
-    reading: Reading,
+    reading: Normalization,
+    quality: Quality,
     cameras: Vec<Camera>,
 }
 
-/// A sensor's weights, and its table where the picture takes one.
+/// A sensor's weights, and the integration methods of the picture.
 struct Camera {
     measure: Arc<Result<SpectralWeights, RenderingError>>,
-    table: Option<Arc<Result<DiffuseTable, RenderingError>>>,
-    /// What a tolerance takes.
-    planned: Option<(Arc<Result<Plan, RenderingError>>, Reach)>,
+    plan: Option<Arc<Plan>>,
+    reach: Option<Reach>,
 }
 
 /// Measures; none where nothing is lit, and where samples lie between vertices of different roughness.
@@ -88,7 +87,7 @@ pub(super) fn measure(made: &Made<'_>) -> Option<Measured> {
     // One thread: times of a sample, not of a machine, and nothing waits for others.
     let pool = ThreadPoolBuilder::new().num_threads(1).build().ok()?;
     let run = |quality: Quality| pool.install(|| bench.shortest(quality));
-    let [chosen, exact, regimes] = [made.setup.finish.quality, Quality::Exact, Quality::Regimes].map(run);
+    let [chosen, exact, regimes] = [made.setup.finish.quality, Quality::Reference, Quality::Regimes].map(run);
     let (chosen, exact, regimes) = (chosen?, exact?, regimes?);
     let peaks: Vec<f64> = made.pictures.images.iter().map(|image| image.as_ref().map_or(0.0, peak)).collect();
     let samples = bench.geometry.samples().len();
@@ -102,20 +101,20 @@ pub(super) fn measure(made: &Made<'_>) -> Option<Measured> {
 
 impl Bench {
     fn new(made: &Made<'_>, geometry: Arc<GeometryImage>) -> Self {
-        let needs_table = made.pictures.shading.table > 0;
         let shading = made.scene.results.ask(&made.query.shading);
         let cameras = made.query.sources.iter().map(|source| {
-            let of = made.query.image(&source.rendering).measure;
-            let table = needs_table.then(|| made.scene.results.ask(&DiffuseTableQuery(of.clone())));
-            let measure = match (*shading).as_ref() {
-                Some(shading) => of.in_picture(shading, made.scene.results),
-                None => made.scene.results.ask(&of),
+            let image = made.query.image(&source.rendering);
+            let Some(shading) = (*shading).as_ref() else {
+                return Camera { measure: made.scene.results.ask(&image.measure), plan: None, reach: None };
             };
-            let planned = planned(made, &of, (*measure).as_ref().ok());
-            Camera { measure, table, planned }
+            let measure = image.measure.in_picture(shading, made.scene.results);
+            let own = (*measure).as_ref().ok();
+            let plan = own.and_then(|measure| image.plan(shading, measure, made.scene.results).ok());
+            let reach = own.map(|measure| Reach::in_picture(shading, measure));
+            Camera { plan, reach, measure }
         });
         let of = &made.query.shading;
-        Self { geometry, surface: of.surface, reading: of.reading, cameras: cameras.collect() }
+        Self { geometry, surface: of.surface, reading: of.reading, quality: of.quality, cameras: cameras.collect() }
     }
 
     fn shortest(&self, quality: Quality) -> Option<Run> {
@@ -127,37 +126,30 @@ impl Bench {
         Some(best)
     }
 
-    /// From angles to all sensors' signals. Making a table is not counted: that is done once for any number of samples.
+    /// From angles to all sensors' signals. Finding the methods is not counted: that is done once for any number of samples.
     fn once(&self, quality: Quality) -> Option<Run> {
         let start = Instant::now();
         let geometry = Arc::clone(&self.geometry);
         let shading = ShadingImage::new(geometry, self.surface, self.reading, quality, &Stop::NEVER)?;
         let image = |camera: &Camera| {
-            if let (Quality::Within(_), Some((plan, reach))) = (quality, &camera.planned) {
-                let (measure, plan) = ((*camera.measure).as_ref().ok()?, (**plan).as_ref().ok());
-                return CameraImage::by_plan(&shading, measure, plan, *reach, &Stop::NEVER);
-            }
-            let table = camera.table.as_deref().and_then(|table| table.as_ref().ok());
-            CameraImage::new(&shading, (*camera.measure).as_ref().ok()?, table, &Stop::NEVER)
+            let measure = (*camera.measure).as_ref().ok()?;
+            // The plan of the whole picture: that of fewer samples may be another.
+            let made = (quality == self.quality).then(|| camera.plan.clone().zip(camera.reach)).flatten();
+            let (plan, reach) =
+                made.unwrap_or_else(|| (Arc::new(Plan::fixed(measure, quality)), Reach::in_picture(&shading, measure)));
+            CameraImage::new(&shading, measure, plan, reach, &Stop::NEVER)
         };
         let images: Vec<CameraImage> = self.cameras.iter().map(image).collect::<Option<_>>()?;
         let time = start.elapsed();
         let signals = images.iter().map(|image| image.signals().to_vec()).collect();
-        Some(Run { signals, sums: shading.counts().sums, time })
+        Some(Run { sums: images.iter().map(|image| sums(&shading, image.plan())).max().unwrap_or(0), signals, time })
     }
 }
 
-/// A sensor's plan for the whole picture, if a tolerance was asked for.
-fn planned(
-    made: &Made<'_>,
-    of: &SpectralWeightsQuery,
-    measure: Option<&SpectralWeights>,
-) -> Option<(Arc<Result<Plan, RenderingError>>, Reach)> {
-    let shading = made.scene.results.ask(&made.query.shading);
-    let shading = (*shading).as_ref()?;
-    let accuracy = shading.plan_accuracy()?;
-    let plan = PlanQuery { measure: of.clone(), accuracy, against: Against::Peak, demand: shading.demand()? };
-    Some((made.scene.results.ask(&plan), Reach::in_picture(shading, measure?)))
+/// Number of samples whose integral is a sum over wavelengths.
+fn sums(shading: &ShadingImage, plan: &Plan) -> u64 {
+    let spectral = shading.shades().iter().filter(|shade| shade.kind == DiffuseKind::Spectral);
+    spectral.filter(|shade| plan.method(shade.kappa, shade.beta).node_count() > 0).count() as u64
 }
 
 /// The largest signal of a picture; 0 for a black one.

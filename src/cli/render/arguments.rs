@@ -4,12 +4,14 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use chromascope_core::render::visibility::MAX_SIDE;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use spectral_file::Values;
 
 use crate::cli::arguments::SourceArguments;
 use crate::document::render::model::{AreaChoice, SpecularChoice};
-use crate::document::render::{QualityChoice, ReadingChoice, TOLERANCES};
+use crate::document::render::{ReadingChoice, TOLERANCES};
+use chromascope_core::render::QualityLevel;
 
 pub(in crate::cli) const EXAMPLES: &str = "\
 Examples:
@@ -89,11 +91,11 @@ pub(in crate::cli) struct RenderArguments {
     /// Reflectance factor of the coherent (specular) component [default: fresnel; paper in the paper's start]
     #[arg(long, value_enum, help_heading = SURFACE)]
     pub(super) specular: Option<SpecularName>,
-    /// How exactly the sums over wavelengths are made
-    #[arg(long, value_enum, default_value_t = QualityName::Full, help_heading = PICTURE)]
-    pub(super) quality: QualityName,
-    /// The largest error of a picture, relative to its brightest sample, from 1e-13 to 0.1: the cheapest way that keeps it is
-    /// taken for each camera, and named with what is certified of it
+    /// Exactness of the integrals over wavelength
+    #[arg(long, value_parser = quality(), default_value = "full", help_heading = PICTURE)]
+    pub(super) quality: QualityLevel,
+    /// The largest error of a picture, relative to its brightest sample, from 1e-13 to 0.1: for each camera the fastest method
+    /// within it is used, and stated with its estimated error bound
     #[arg(long, value_name = "ERROR", value_parser = tolerance, allow_hyphen_values = true, conflicts_with = "quality",
           help_heading = PICTURE)]
     pub(super) tolerance: Option<f64>,
@@ -187,31 +189,16 @@ impl ReadingName {
     }
 }
 
-/// How exactly sums are made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum QualityName {
-    /// As in the window while something moves
-    Preview,
-    /// Error below 1e-5 of the peak
-    Full,
-    /// Error below 1e-9 of the peak
-    Fine,
-    /// All 401 wavelengths
-    Exact,
-    /// All 401 wavelengths with the paper's three cases of g
-    Regimes,
-}
-
-impl QualityName {
-    pub(super) fn choice(self) -> QualityChoice {
-        match self {
-            Self::Preview => QualityChoice::Preview,
-            Self::Full => QualityChoice::Full,
-            Self::Fine => QualityChoice::Fine,
-            Self::Exact => QualityChoice::Exact,
-            Self::Regimes => QualityChoice::Regimes,
-        }
-    }
+/// The levels of exactness by name; a tolerance has an option of its own.
+fn quality() -> impl TypedValueParser<Value = QualityLevel> {
+    let levels = || QualityLevel::ALL.into_iter().filter(|level| *level != QualityLevel::Tolerance);
+    let value = |level: QualityLevel| {
+        let value = PossibleValue::new(level.key()).help(level.description());
+        // Its name up to version 0.1.
+        if level == QualityLevel::Reference { value.alias("exact") } else { value }
+    };
+    PossibleValuesParser::new(levels().map(value))
+        .map(move |name| levels().find(|level| level.key() == name).unwrap_or(QualityLevel::Reference))
 }
 
 /// A kind of files.

@@ -17,10 +17,11 @@ use crate::catalog::{SetKind, meshes};
 use crate::cli::request::Request;
 use crate::cli::{CliError, say};
 use crate::document::render::model::SpecularChoice;
-use crate::document::render::{BALANCE, MeshChoice, QualityChoice, RenderSettings, RoughnessChoice, SUN};
+use crate::document::render::{BALANCE, MeshChoice, RenderSettings, RoughnessChoice, SUN};
 use crate::document::{Compared, Light, WhiteBalanceChoice};
 use crate::scene::render::Finish;
 use crate::view::render::Orbit;
+use chromascope_core::render::QualityLevel;
 
 /// All that pictures are made of.
 pub(super) struct Setup {
@@ -146,7 +147,7 @@ fn settings(
         index: arguments.ior.unwrap_or(usual.index),
         reading: arguments.reading.choice(),
         specular: arguments.specular.map_or(specular, SpecularName::choice),
-        quality: if arguments.tolerance.is_some() { QualityChoice::Tolerance } else { arguments.quality.choice() },
+        quality: if arguments.tolerance.is_some() { QualityLevel::Tolerance } else { arguments.quality },
         tolerance: arguments.tolerance.unwrap_or(usual.tolerance),
         shadows: !arguments.no_shadows,
         exposure_ev: arguments.exposure,

@@ -3,18 +3,17 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::Roughness;
 use chromascope_core::render::plan::Candidate;
-use chromascope_core::render::{Quality, ShadingCounts, SpectralWeights};
-use chromascope_core::spectral::grid::COUNT;
+use chromascope_core::render::shading::DiffuseKind;
 use serde_json::{Value, json};
 
 use super::accuracy::{self, Cost, Errors, Measured};
 use super::{Made, Times};
 use crate::document::TransformChoice;
-use crate::export::render::{quality_name, reading_name};
+use crate::export::render::reading_name;
 use crate::figures::render::{headline, returned};
 use crate::profiler::plans;
 use crate::results::Count;
@@ -24,7 +23,7 @@ pub(super) fn json(made: &Made<'_>, counts: &BTreeMap<&'static str, Count>, time
     let accuracy = accuracy::measure(made);
     let size = made.setup.finish.size;
     let mesh = made.scene.results.ask(&made.query.shading.geometry.visibility.mesh);
-    let table = counts.get("diffuse table").copied().unwrap_or_default();
+    let plans = counts.get("plan").copied().unwrap_or_default();
     let value = json!({
         "program": concat!("chromascope ", env!("CARGO_PKG_VERSION")),
         "mesh": {
@@ -42,7 +41,7 @@ pub(super) fn json(made: &Made<'_>, counts: &BTreeMap<&'static str, Count>, time
         },
         "stages": counts.iter().map(|(name, count)| ((*name).to_owned(), stage(count))).collect::<serde_json::Map<_, _>>(),
         "samples": samples(made),
-        "tables": { "built": table.misses, "reused": table.hits },
+        "plans": { "built": plans.misses, "reused": plans.hits },
         "sources": (0..made.sources.len()).map(|index| source(made, index, accuracy.as_ref())).collect::<Vec<_>>(),
         "accuracy": accuracy.as_ref().map(|accuracy| summary(made, accuracy)),
     });
@@ -74,8 +73,8 @@ fn settings(made: &Made<'_>) -> Value {
         "transform": made.scene.conditions()[3],
         "preset": document.start.key(),
         "reading": reading_name(shading.reading),
-        "quality": quality_name(shading.quality),
-        "tolerance": shading.quality.accuracy().map(Accuracy::max_relative_error),
+        "quality": shading.quality.level().key(),
+        "tolerance": shading.quality.given_tolerance().map(RelTolerance::max_relative_error),
         "sigma_m": plain(surface.sigma_m()),
         "tau_from_mesh": shading.roughness == Roughness::Mesh,
         "sigma_from_mesh": shading.roughness == Roughness::Mesh,
@@ -120,10 +119,7 @@ fn samples(made: &Made<'_>) -> Value {
         "in_shadow": geometry.shadowed,
         "below_threshold": shading.dark,
         "lambertian": shading.flat,
-        "by_moments": shading.moments,
-        "by_table": shading.table,
-        "by_sums": shading.sums,
-        "by_plans": shading.planned,
+        "spectral": shading.spectral,
         "mirror_terms": shading.mirrors,
         "mirror_terms_skipped": shading.mirrors_skipped,
         "shadow_rays": geometry.rays,
@@ -160,59 +156,50 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
         "clipped_samples": pictures.pictures[index].as_ref().ok().map(|picture| picture.clipped),
         "plan": plan(made, index),
         "peak_signal": pictures.images[index].as_ref().map(accuracy::peak),
-        "wavelengths": (*measure).as_ref().ok().map(|measure| wavelengths(measure, made)),
+        "wavelengths_with_weight": (*measure).as_ref().ok().map(|measure| measure.dense().len()),
+        "integrals": integrals(made, index),
         "error_to_peak": accuracy.map(|accuracy| of(&accuracy.chosen)),
         "error_to_peak_by_regimes": accuracy.map(|accuracy| of(&accuracy.regimes)),
     })
 }
 
-/// How a sensor's integrals were made within a tolerance.
+/// Integration methods of a sensor.
 fn plan(made: &Made<'_>, index: usize) -> Option<Value> {
-    let planned = plans::planned(&made.query, &made.query.sources[index], made.scene.results).ok()??;
-    let (explanation, certain) = (planned.explanation.as_ref(), planned.certain);
+    let explanation = made.pictures.images[index].as_ref()?.plan().explanation();
+    let planned = plans::planned(&made.query, &made.query.sources[index], made.scene.results).ok()?;
     let candidate = |candidate: &Candidate| {
         json!({
-            "way": plans::words(&candidate.method),
-            "certified_error": candidate.certified,
+            "method": candidate.method.to_string(),
+            "estimated_error_bound": candidate.error_bound,
             "sample_ns_by_model": candidate.sample_ns,
             "making_ms_by_model": candidate.making_ns / 1e6,
         })
     };
     Some(json!({
-        "certified_error": certain.diffuse,
-        "mirror_error": certain.mirror,
+        "certified_error": explanation.error_bound(),
+        "estimated_error_bound": explanation.error_bound(),
+        "mirror_error": planned.and_then(|planned| planned.bounds.mirror),
         "single_precision": plans::SINGLE_PRECISION,
-        "rough": explanation.and_then(|explanation| explanation.rough.as_ref()).map(candidate),
-        "chosen": explanation.map(|explanation| candidate(&explanation.chosen)),
-        "rejected": explanation.map(|explanation| explanation.rejected.iter().map(candidate).collect::<Vec<_>>()),
+        "rough": explanation.rough.as_ref().map(candidate),
+        "chosen": candidate(&explanation.chosen),
+        "rejected": explanation.rejected.iter().map(candidate).collect::<Vec<_>>(),
     }))
 }
 
-/// How many wavelengths of the grid's 401 were looked at. Moments are sums over all, made once for any number of samples.
-fn wavelengths(measure: &SpectralWeights, made: &Made<'_>) -> Value {
-    let ShadingCounts { moments, table, sums, mirrors, .. } = made.pictures.shading;
-    let quality = made.setup.finish.quality;
-    let of_sum = match quality {
-        Quality::Preview | Quality::Full => measure.coarse().len(),
-        Quality::Fine => measure.fine().len(),
-        Quality::Exact | Quality::Regimes | Quality::Within(_) => measure.dense().len(),
+/// Samples of a sensor by integration method, and how many wavelengths each rests on.
+fn integrals(made: &Made<'_>, index: usize) -> Option<Value> {
+    let plan = made.pictures.images[index].as_ref()?.plan();
+    let shading = made.scene.results.ask(&made.query.shading);
+    let mut samples: BTreeMap<&'static str, (u64, usize)> = BTreeMap::new();
+    for shade in (*shading).as_ref()?.shades().iter().filter(|shade| shade.kind == DiffuseKind::Spectral) {
+        let method = plan.method(shade.kappa, shade.beta);
+        let entry = samples.entry(method.name()).or_default();
+        *entry = (entry.0 + 1, method.node_count());
+    }
+    let value = |(name, (samples, wavelengths)): (&str, (u64, usize))| {
+        (name.to_owned(), json!({ "samples": samples, "wavelengths": wavelengths }))
     };
-    let where_any = |count: u64, wavelengths: usize| (count > 0).then_some(wavelengths);
-    let ways = [
-        where_any(moments, 0),
-        where_any(table, measure.coarse().len()),
-        where_any(sums, of_sum),
-        where_any(mirrors, measure.dense().len()),
-    ];
-    json!({
-        "of": COUNT,
-        "with_weight": measure.dense().len(),
-        "used": ways.iter().flatten().max(),
-        "in_a_moment_sample": ways[0],
-        "in_a_table_place": ways[1],
-        "in_a_sum": ways[2],
-        "in_a_mirror_term_at_most": ways[3],
-    })
+    Some(Value::Object(samples.into_iter().map(value).collect()))
 }
 
 fn errors(errors: Errors) -> Value {
@@ -241,7 +228,7 @@ fn summary(made: &Made<'_>, accuracy: &Measured) -> Value {
         "samples": accuracy.samples,
         "stride": accuracy.stride,
         "threads": 1,
-        "chosen": cost(quality_name(made.setup.finish.quality), &accuracy.chosen),
+        "chosen": cost(made.setup.finish.quality.level().key(), &accuracy.chosen),
         "exact": cost("exact", &accuracy.exact),
         "regimes": cost("regimes", &accuracy.regimes),
     })

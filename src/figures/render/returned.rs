@@ -2,7 +2,7 @@
 
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::{ReturnedLight, ReturnedLightQuery};
-use chromascope_core::reflectance::{Reading, Surface};
+use chromascope_core::reflectance::{Normalization, Surface};
 
 use crate::document::render::{ReadingChoice, RoughnessChoice};
 use crate::number::number;
@@ -46,14 +46,14 @@ pub const fn meaning(reading: ReadingChoice) -> &'static str {
     }
 }
 
-fn sentence(light: ReturnedLight, reading: Reading) -> Words {
+fn sentence(light: ReturnedLight, reading: Normalization) -> Words {
     let share = |value: f64| {
         let decimals = if value < 0.005 && value > 0.0 { return format!("{value:.0e}") } else { 2 };
         crate::widgets::lines::fixed(value, decimals)
     };
     let (normal, grazing) = (share(light.normal), share(light.grazing));
     let mut text = format!("Returns {normal} of the light at normal incidence ({grazing} at 85°)");
-    if reading == Reading::Paper {
+    if reading == Normalization::Paper {
         text.push_str(", taking P for π f");
     }
     if let Some(from) = light.exceeds_one_from_deg {

@@ -9,10 +9,11 @@ use egui::Ui;
 
 use super::cells::PictureLayout;
 use crate::catalog::meshes::MeshState;
-use crate::document::render::{MeshChoice, QualityChoice, RenderSettings};
+use crate::document::render::{MeshChoice, RenderSettings};
 use crate::panes::PaneContext;
 use crate::scene::render::Finish;
 use crate::view::render::{Orbit, RenderMode};
+use chromascope_core::render::QualityLevel;
 
 /// Above so many pixels in all, pictures of something that moves have half the resolution.
 const MANY_PIXELS: u64 = 1_500_000;
@@ -22,7 +23,7 @@ const COMPARED: [usize; 2] = [2048, 16384];
 const SAMPLES: u32 = 3;
 const MOST_SAMPLES: u64 = 6_000_000;
 /// Below this tolerance a sample takes sums over wavelengths.
-const TABLES_REACH: f64 = 1e-8;
+const TABLES_REACH: f64 = 1e-9;
 
 /// Asks for the pictures that stand here. Says why there are none.
 pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>) -> Result<(), String> {
@@ -36,7 +37,7 @@ pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>)
     let [first, middle] = [0, 1].map(|stage: usize| wish.query(stages[stage]));
     let (first, middle) = (first?, middle?);
     let making = context.scene.document.render.quality.label();
-    let settled = context.scene.document.render.quality != QualityChoice::Full;
+    let settled = context.scene.document.render.quality != QualityLevel::Full;
     context.view.render.making = if settled { making } else { "Rendering" };
     let studio = &mut *context.studio;
     let known = studio.shot().is_some();
@@ -141,12 +142,12 @@ impl Wish<'_, '_> {
     }
 }
 
-/// Whether a quality sums over wavelengths at every sample.
+/// Returns true for a quality that sums over wavelengths at every sample.
 fn is_slow(settings: &RenderSettings) -> bool {
     match settings.quality {
-        QualityChoice::Preview | QualityChoice::Full => false,
-        QualityChoice::Fine | QualityChoice::Exact | QualityChoice::Regimes => true,
+        QualityLevel::Preview | QualityLevel::Full | QualityLevel::Fine => false,
+        QualityLevel::Reference | QualityLevel::Regimes => true,
         // Tables reach that far.
-        QualityChoice::Tolerance => settings.tolerance < TABLES_REACH,
+        QualityLevel::Tolerance => settings.tolerance < TABLES_REACH,
     }
 }

@@ -1,6 +1,5 @@
 //! What was computed for the pictures on show, and what was left out.
 
-use chromascope_core::render::Quality;
 use egui::{Grid, RichText, Ui};
 
 use crate::panes::PaneContext;
@@ -14,7 +13,7 @@ const STAGES: [(&str, &str); 8] = [
     ("visibility", "visibility"),
     ("geometry", "angles, shadows"),
     ("shading", "surface"),
-    ("diffuse table", "tables"),
+    ("plan", "integration methods"),
     ("camera image", "signals"),
     ("picture", "pixels"),
 ];
@@ -25,14 +24,6 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(shot) = context.view.render.shot.clone() else { return };
     let Some(made) = shot.made() else { return };
     let (geometry, shading) = (made.geometry, made.shading);
-    let quality = shot.query.shading.quality;
-    let wavelengths = match quality {
-        Quality::Within(_) => "as each camera's plan says",
-        Quality::Preview | Quality::Full if shading.table == 0 && shading.sums == 0 => "closed form, none of 401",
-        Quality::Preview | Quality::Full => "9 of 401 for the table",
-        Quality::Fine => "15 of 401",
-        Quality::Exact | Quality::Regimes => "401 of 401",
-    };
     rows(
         ui,
         "samples",
@@ -41,14 +32,16 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ("Facing away", geometry.facing_away.to_string()),
             ("In shadow", format!("{}, {} rays", geometry.shadowed, geometry.rays)),
             ("Below threshold", shading.dark.to_string()),
-            ("Closed form", shading.moments.to_string()),
-            ("By table", shading.table.to_string()),
-            ("By sums", shading.sums.to_string()),
-            ("By a plan", shading.planned.to_string()),
+            ("Spectral integrals", shading.spectral.to_string()),
             ("Specular terms", format!("{}, {} skipped", shading.mirrors, shading.mirrors_skipped)),
-            ("Wavelengths", wavelengths.to_owned()),
         ],
     );
+    let methods =
+        shot.sources.iter().zip(&made.images).filter_map(|(source, image)| {
+            Some((source.label.as_str(), image.as_ref()?.plan().explanation().to_string()))
+        });
+    ui.label(RichText::new("Integration methods").small().color(context.theme.weak));
+    rows(ui, "methods", &methods.collect::<Vec<_>>());
     let counts = context.studio.counts();
     let mut stages = Vec::new();
     for (name, words) in STAGES {

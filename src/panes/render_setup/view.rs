@@ -3,10 +3,10 @@
 use egui::{ComboBox, RichText, Ui};
 
 use super::{Dial, set};
-use crate::document::render::QualityChoice;
 use crate::panes::PaneContext;
 use crate::view::render::Orbit;
 use crate::widgets;
+use chromascope_core::render::QualityLevel;
 
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -27,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         let now = settings.quality;
         let combo = ComboBox::from_id_salt("quality").width(150.0).selected_text(now.label());
         let response = combo.show_ui(ui, |ui| {
-            for quality in QualityChoice::ALL {
+            for quality in QualityLevel::ALL {
                 if ui.selectable_label(now == quality, quality.label()).clicked() {
                     set(context, "Quality", |settings| settings.quality = quality);
                 }
@@ -42,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ui.ctx().request_repaint();
         }
     });
-    if settings.quality == QualityChoice::Tolerance {
+    if settings.quality == QualityLevel::Tolerance {
         let hint =
             "The largest error of a picture, relative to its brightest sample. Accuracy says how each camera keeps it.";
         let id = ui.make_persistent_id("tolerance field");

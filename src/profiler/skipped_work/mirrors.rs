@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use chromascope_core::query::Ask;
 use chromascope_core::query::render::MeshRoughnessQuery;
-use chromascope_core::reflectance::{Geometry, Reading, Surface, coherent_prefactor, kappa};
+use chromascope_core::reflectance::{Geometry, Normalization, Surface, coherent_prefactor, kappa};
 use chromascope_core::render::SpectralWeights;
 use chromascope_core::render::mirror::{Nodes, Reach, mirror_sum};
 use chromascope_core::render::shading::Mirror;
@@ -20,7 +20,7 @@ pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<SkippedWo
     let all = shading.shades().len();
     let has: BTreeSet<u32> = shading.mirrors().iter().map(|mirror| mirror.index).collect();
     let skipped: Vec<usize> = (0..all).filter(|&index| !has.contains(&(index as u32))).collect();
-    if of.reading == Reading::Lambertian || skipped.is_empty() {
+    if of.reading == Normalization::Lambertian || skipped.is_empty() {
         return None;
     }
     let roughness = shading.vertices().map(|_| ask.ask(&MeshRoughnessQuery(of.geometry.visibility.mesh.clone())));

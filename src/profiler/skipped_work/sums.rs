@@ -1,9 +1,9 @@
 //! Sums over wavelengths that were not made.
 
 use chromascope_core::reflectance::Precision;
+use chromascope_core::render::SpectralWeights;
 use chromascope_core::render::diffuse::by_nodes;
-use chromascope_core::render::shading::{Shade, Way};
-use chromascope_core::render::{Quality, SpectralWeights};
+use chromascope_core::render::shading::{DiffuseKind, Shade};
 
 use super::{SAMPLES, SUMS, SkippedWork, Sources, measured_on, some_of};
 use crate::profiler::stopwatch::shortest;
@@ -11,7 +11,7 @@ use crate::profiler::stopwatch::shortest;
 /// What is dark: its sums are made here.
 pub(super) fn dark(sources: &Sources<'_>) -> Option<SkippedWork> {
     let shades = sources.shading.shades();
-    let dark: Vec<&Shade> = shades.iter().filter(|shade| shade.way == Way::Dark).collect();
+    let dark: Vec<&Shade> = shades.iter().filter(|shade| shade.kind == DiffuseKind::Dark).collect();
     let taken = some_of(&dark, SAMPLES);
     if taken.is_empty() {
         return None;
@@ -22,11 +22,10 @@ pub(super) fn dark(sources: &Sources<'_>) -> Option<SkippedWork> {
     };
     let seconds = shortest(|| sources.measures().map(sum).collect::<Vec<_>>());
     let places = sources.places();
-    let threshold = match sources.pictures.shading.quality {
-        Quality::Preview | Quality::Full | Quality::Within(_) => {
-            "below e^-30 of the peak at their roughness at every wavelength, or the model gives nothing"
-        }
-        Quality::Fine | Quality::Exact | Quality::Regimes => "where the model gives nothing",
+    let threshold = if sources.pictures.shading.quality.leaves_dark() {
+        "below e^-30 of the peak at their roughness at every wavelength, or the model gives nothing"
+    } else {
+        "where the model gives nothing"
     };
     Some(SkippedWork {
         what: format!("lit {places} below the threshold").into(),

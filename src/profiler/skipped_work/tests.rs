@@ -6,9 +6,10 @@ use chromascope_core::render::RasterSize;
 use super::*;
 use crate::catalog::Catalog;
 use crate::document::Document;
-use crate::document::render::{MeshChoice, QualityChoice, ReadingChoice, RenderSettings, RoughnessChoice};
+use crate::document::render::{MeshChoice, ReadingChoice, RenderSettings, RoughnessChoice};
 use crate::results::Results;
 use crate::scene::Scene;
+use chromascope_core::render::QualityLevel;
 
 /// The rows of a small picture of the default scene's cameras.
 fn rows_of(change: impl FnOnce(&mut RenderSettings)) -> Vec<SkippedWork> {
@@ -50,7 +51,7 @@ fn row<'a>(rows: &'a [SkippedWork], what: &str) -> Option<&'a SkippedWork> {
 }
 
 fn tolerance(settings: &mut RenderSettings, tolerance: f64) {
-    (settings.quality, settings.tolerance) = (QualityChoice::Tolerance, tolerance);
+    (settings.quality, settings.tolerance) = (QualityLevel::Tolerance, tolerance);
 }
 
 #[test]
@@ -64,18 +65,18 @@ fn a_lambertian_surface_leaves_out_no_mirror_and_no_wavelength() {
 fn wavelengths_that_are_looked_at_do_not_count_as_left_out() {
     let rows_of = |change: fn(&mut RenderSettings)| rows_at(RasterSize { width: 24, height: 18, samples: 1 }, change);
     let wavelengths = |rows: &[SkippedWork]| row(rows, "wavelengths at a lit sample").map(|row| (row.count, row.of));
-    for quality in [QualityChoice::Exact, QualityChoice::Regimes] {
+    for quality in [QualityLevel::Reference, QualityLevel::Regimes] {
         let size = RasterSize { width: 24, height: 18, samples: 1 };
         assert_eq!(wavelengths(&rows_at(size, |settings| settings.quality = quality)), None, "{quality:?}");
     }
     // Fifteen at each sample, of those of 401 that a source responds at.
-    let Some((fine, Some(of))) = wavelengths(&rows_of(|settings| settings.quality = QualityChoice::Fine)) else {
+    let Some((fine, Some(of))) = wavelengths(&rows_of(|settings| settings.quality = QualityLevel::Fine)) else {
         panic!("some are left out");
     };
     assert!(fine < of && (of - fine).is_multiple_of(15), "{fine} of {of}");
-    // Moments and tables look at none.
-    let Some((full, Some(of_full))) = wavelengths(&rows_of(|_| ())) else { panic!("all are left out") };
-    assert!(full == of_full && of_full <= of, "{full} of {of_full}: of dark samples no sums are made");
+    // Nine, or none by moments.
+    let Some((full, Some(of_full))) = wavelengths(&rows_of(|_| ())) else { panic!("some are left out") };
+    assert!((of_full - full).is_multiple_of(9) && full > fine && of_full <= of, "{full} of {of_full}");
     // Few samples so exact are summed over some wavelengths or all, as each camera's plan says.
     let exact = rows_of(|settings| tolerance(settings, 1e-13));
     let left = wavelengths(&exact).map_or(0, |(count, _)| count);

@@ -6,7 +6,7 @@ use chromascope_core::reflectance::coherent::{
     is_negligible, mean_sinc_squared, rho0_squared, rho0_squared_bound, sinc, sine_integral,
 };
 use chromascope_core::reflectance::{
-    Geometry, Precision, Reading, Surface, beta, coherent_prefactor, diffuse_prefactor, diffuse_sum, kappa,
+    Geometry, Normalization, Precision, Surface, beta, coherent_prefactor, diffuse_prefactor, diffuse_sum, kappa,
 };
 use proptest::prelude::*;
 
@@ -109,7 +109,7 @@ proptest! {
     ) {
         let surface = Surface::new(sigma, tau, half, half, 1.4).unwrap();
         let geometry = Geometry::from_angles(angles.0, angles.1, angles.2);
-        for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet] {
+        for reading in [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet] {
             if is_negligible(&surface, &geometry, reading, nm, radius, tolerance) {
                 let g = kappa(&surface, &geometry) * (550.0 / nm).powi(2);
                 let pattern = rho0_squared(&geometry, &surface, TAU / (nm * 1e-9), radius) * (-g).exp();
@@ -127,8 +127,8 @@ fn the_mirror_term_is_left_out_where_it_should_be() {
     let geometry = Geometry::from_angles(0.3, 0.3, 0.0);
     let light = 4.65e-3;
     let [rough, smooth] = [5e-6, 5e-8].map(|sigma| Surface::new(sigma, 10e-6, 50e-6, 50e-6, 1.4).unwrap());
-    assert!(is_negligible(&rough, &geometry, Reading::Radiometric, 550.0, light, 1e-12));
-    assert!(!is_negligible(&smooth, &geometry, Reading::Radiometric, 550.0, light, 1e-3));
-    assert!(is_negligible(&smooth, &Geometry::DARK, Reading::Radiometric, 550.0, light, 1e-12));
-    assert!(is_negligible(&smooth, &geometry, Reading::Lambertian, 550.0, light, 1e-12));
+    assert!(is_negligible(&rough, &geometry, Normalization::Radiometric, 550.0, light, 1e-12));
+    assert!(!is_negligible(&smooth, &geometry, Normalization::Radiometric, 550.0, light, 1e-3));
+    assert!(is_negligible(&smooth, &Geometry::DARK, Normalization::Radiometric, 550.0, light, 1e-12));
+    assert!(is_negligible(&smooth, &geometry, Normalization::Lambertian, 550.0, light, 1e-12));
 }

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use chromascope_core::query::render::ReturnedLightQuery;
 use chromascope_core::query::{Ask, Direct};
 use chromascope_core::reflectance::{
-    Geometry, IlluminatedArea, Precision, Reading, Specular, Surface, diffuse_prefactor, diffuse_sum,
+    Geometry, IlluminatedArea, Normalization, Precision, Specular, Surface, diffuse_prefactor, diffuse_sum,
     directional_hemispherical, kappa,
 };
 
@@ -18,7 +18,7 @@ fn skin() -> Surface {
 }
 
 /// ∫ f cos θs dω of the diffuse component in polar angles about the normal.
-fn brute_force(surface: &Surface, reading: Reading, theta_i: f64) -> f64 {
+fn brute_force(surface: &Surface, reading: Normalization, theta_i: f64) -> f64 {
     let k = 2.0 * PI / 550e-9;
     let ring = |theta_s: f64| {
         let around = |phi: f64| {
@@ -42,7 +42,7 @@ fn the_quadrature_agrees_with_brute_force() {
         Surface::new(20e-9, 1e-6, 50e-6, 50e-6, 2.5).unwrap(),
     ];
     for surface in surfaces {
-        for reading in [Reading::Radiometric, Reading::Microfacet, Reading::Paper] {
+        for reading in [Normalization::Radiometric, Normalization::Microfacet, Normalization::Paper] {
             for degrees in [0.0_f64, 20.0, 60.0, 85.0] {
                 let found = directional_hemispherical(&surface, reading, degrees.to_radians()).diffuse;
                 let expected = brute_force(&surface, reading, degrees.to_radians());
@@ -56,26 +56,26 @@ fn the_quadrature_agrees_with_brute_force() {
 #[test]
 fn skin_returns_half_of_the_light_and_next_to_nothing_at_grazing_incidence() {
     let returned = |reading| *Direct.ask(&ReturnedLightQuery { surface: skin(), reading });
-    let radiometric = returned(Reading::Radiometric);
+    let radiometric = returned(Normalization::Radiometric);
     assert_near("normal incidence", radiometric.normal, 0.488, 5e-4);
     assert_near("at 85°", radiometric.grazing, 0.034, 5e-4);
     assert_eq!(radiometric.exceeds_one_from_deg, None);
-    let microfacet = returned(Reading::Microfacet);
+    let microfacet = returned(Normalization::Microfacet);
     assert_near("normal incidence", microfacet.normal, radiometric.normal, 1e-3);
     assert_near("at 85°", microfacet.grazing, 1.384, 3e-3);
     assert!(microfacet.exceeds_one_from_deg.is_some_and(|from| (68.0..75.0).contains(&from)), "{microfacet:?}");
-    assert_eq!(returned(Reading::Lambertian).normal, 1.0);
+    assert_eq!(returned(Normalization::Lambertian).normal, 1.0);
 }
 
 #[test]
 fn a_smooth_surface_returns_what_its_boundary_reflects() {
     let smooth = Surface::new(0.0, 10e-6, 50e-6, 50e-6, 1.4).unwrap();
-    let normal = |surface: Surface| directional_hemispherical(&surface, Reading::Radiometric, 0.0);
+    let normal = |surface: Surface| directional_hemispherical(&surface, Normalization::Radiometric, 0.0);
     assert_near("as in the paper", normal(smooth).coherent, 1.0, 1e-12);
     assert_near("Fresnel", normal(smooth.with_specular(Specular::Fresnel)).coherent, 1.0 / 36.0, 1e-12);
     assert_near("A = XY", normal(smooth.with_area(IlluminatedArea::Xy)).coherent, 0.25, 1e-12);
     assert_eq!(normal(smooth).diffuse, 0.0);
     for nonsense in [FRAC_PI_2 + 0.1, f64::NAN, f64::INFINITY] {
-        assert_eq!(directional_hemispherical(&smooth, Reading::Paper, nonsense).total(), 0.0);
+        assert_eq!(directional_hemispherical(&smooth, Normalization::Paper, nonsense).total(), 0.0);
     }
 }

@@ -6,7 +6,7 @@ use chromascope_core::reflectance::coherent::rho0_squared;
 use chromascope_core::reflectance::fresnel::transmittance;
 use chromascope_core::reflectance::power::factor_by;
 use chromascope_core::reflectance::{
-    Geometry, IlluminatedArea, Method, Precision, Reading, Specular, Surface, beta, coherent_prefactor,
+    Geometry, IlluminatedArea, Method, Normalization, Precision, Specular, Surface, beta, coherent_prefactor,
     diffuse_prefactor, diffuse_sum, factor, factors_by, fresnel, kappa, wavelength_power,
 };
 use proptest::prelude::*;
@@ -14,13 +14,15 @@ use proptest::prelude::*;
 use super::{integral, rough};
 use crate::support::{assert_near, cases};
 
-const READINGS: [Reading; 4] = [Reading::Radiometric, Reading::Paper, Reading::Microfacet, Reading::Lambertian];
+const READINGS: [Normalization; 4] =
+    [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet, Normalization::Lambertian];
 
 /// The share of light from θi that leaves, by the factor's integral over all directions: ∫ f cos θs dω.
 fn albedo(surface: &Surface, theta_i: f64, pieces: [u32; 2]) -> f64 {
     let ring = |theta_s: f64| {
-        let around =
-            |phi: f64| factor(surface, &Geometry::from_angles(theta_i, theta_s, phi), 550.0, Reading::Radiometric, 0.0);
+        let around = |phi: f64| {
+            factor(surface, &Geometry::from_angles(theta_i, theta_s, phi), 550.0, Normalization::Radiometric, 0.0)
+        };
         // Symmetric about the plane of incidence.
         2.0 * integral(0.0, PI, pieces[1], around) * theta_s.sin() * theta_s.cos()
     };
@@ -31,7 +33,7 @@ fn albedo(surface: &Surface, theta_i: f64, pieces: [u32; 2]) -> f64 {
 fn the_papers_coherent_component_is_36_times_too_bright() {
     let paper = Surface::new(0.05e-6, 10e-6, 50e-6, 50e-6, 1.4).unwrap();
     let dielectric = paper.with_specular(Specular::Fresnel);
-    for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet] {
+    for reading in [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet] {
         let ratio = |theta: f64| {
             let mirrored = Geometry::from_angles(theta, theta, 0.0);
             let at = |surface| factors_by(surface, &mirrored, 550.0, reading, Method::default(), 0.0);
@@ -63,9 +65,11 @@ fn the_area_as_printed_is_a_quarter_of_the_patch() {
         let (printed, whole) = (at(&printed), at(&whole));
         [printed[0] / whole[0], printed[1] / whole[1]]
     };
-    for (reading, [diffuse, coherent]) in
-        [(Reading::Paper, [4.0, 1.0]), (Reading::Radiometric, [1.0, 0.25]), (Reading::Microfacet, [1.0, 0.25])]
-    {
+    for (reading, [diffuse, coherent]) in [
+        (Normalization::Paper, [4.0, 1.0]),
+        (Normalization::Radiometric, [1.0, 0.25]),
+        (Normalization::Microfacet, [1.0, 0.25]),
+    ] {
         let [found_diffuse, found_coherent] = ratio(reading);
         assert_near("diffuse", found_diffuse, diffuse, 1e-12);
         assert_near("coherent", found_coherent, coherent, 1e-12);
@@ -79,7 +83,7 @@ fn only_the_diffuse_component_is_reciprocal() {
     let (light, viewer) = (light.normalize(), viewer.normalize());
     let by = |light, viewer| {
         let geometry = Geometry::from_directions(light, viewer, normal);
-        factors_by(&surface, &geometry, 550.0, Reading::Microfacet, Method::default(), 0.0)
+        factors_by(&surface, &geometry, 550.0, Normalization::Microfacet, Method::default(), 0.0)
     };
     let ([diffuse, coherent], [diffuse_back, coherent_back]) = (by(light, viewer), by(viewer, light));
     assert!((diffuse_back / diffuse - 1.0).abs() < 1e-12 && diffuse > 0.0, "{diffuse} {diffuse_back}");
@@ -112,8 +116,9 @@ fn a_smooth_surface_returns_all_light_as_a_mirror() {
     let k = TAU / 550e-9;
     let width = 0.3;
     let lobe = |theta_s: f64| {
-        let around =
-            |phi: f64| factor(&surface, &Geometry::from_angles(0.0, theta_s, phi), 550.0, Reading::Radiometric, 0.0);
+        let around = |phi: f64| {
+            factor(&surface, &Geometry::from_angles(0.0, theta_s, phi), 550.0, Normalization::Radiometric, 0.0)
+        };
         4.0 * integral(0.0, FRAC_PI_2, 40, around) * theta_s.sin() * theta_s.cos()
     };
     let inside = integral(0.0, width, 300, lobe) / PI;
@@ -131,7 +136,7 @@ fn a_slightly_rough_surface_loses_to_the_mirror_what_it_scatters() {
         let geometry = Geometry::from_angles(0.0, theta_s, 0.0);
         let g = kappa(&surface, &geometry);
         let sum = diffuse_sum(g, beta(&surface, &geometry) * g, Precision::Full);
-        2.0 * diffuse_prefactor(&surface, &geometry, Reading::Radiometric) * sum * theta_s.sin() * theta_s.cos()
+        2.0 * diffuse_prefactor(&surface, &geometry, Normalization::Radiometric) * sum * theta_s.sin() * theta_s.cos()
     };
     // g itself falls with θs over the lobe, hence no more digits.
     assert_near("scattered", integral(0.0, 0.3, 100, scattered), 1.0 - (-1.0_f64).exp(), 1e-4);
@@ -142,7 +147,7 @@ fn headlights_fade_toward_the_rim() {
     let skin = Surface::new(5e-6, 10e-6, 50e-6, 50e-6, 1.4).unwrap();
     let radiometric = [1.0, 0.93, 0.64, 0.36, 0.09, 0.0];
     let paper = [1.0, 0.88, 0.49, 0.23, 0.045, 0.0];
-    for (reading, expected) in [(Reading::Radiometric, radiometric), (Reading::Paper, paper)] {
+    for (reading, expected) in [(Normalization::Radiometric, radiometric), (Normalization::Paper, paper)] {
         // Light and viewer in one direction.
         let brightness =
             |theta: f64| theta.cos() * factor(&skin, &Geometry::from_angles(theta, theta, PI), 550.0, reading, 0.0);
@@ -158,7 +163,7 @@ fn grazing_views_stay_finite() {
     let skin = Surface::new(5e-6, 10e-6, 50e-6, 50e-6, 1.4).unwrap();
     let at = |cos_s: f64| {
         let geometry = Geometry::from_angles(0.5, FRAC_PI_2 - cos_s, 0.3);
-        diffuse_prefactor(&skin, &geometry, Reading::Radiometric)
+        diffuse_prefactor(&skin, &geometry, Normalization::Radiometric)
     };
     assert_near("the limit is reached", at(1e-12) / at(1e-9), 1.0, 1e-8);
     assert!(at(1e-12) > 0.0);
@@ -169,11 +174,11 @@ fn a_smooth_surface_has_no_diffuse_part() {
     let smooth = Surface::new(0.0, 10e-6, 50e-6, 50e-6, 1.4).unwrap();
     let geometry = Geometry::from_angles(0.3, 0.301, 0.001);
     assert_eq!([kappa(&smooth, &geometry), beta(&smooth, &geometry)], [0.0; 2]);
-    let paper = factor(&smooth, &geometry, 600.0, Reading::Paper, 0.0);
+    let paper = factor(&smooth, &geometry, 600.0, Normalization::Paper, 0.0);
     assert_near("P", paper, rho0_squared(&geometry, &smooth, TAU / 600e-9, 0.0), 1e-15);
     // The limit is approached as σ².
     let nearly = Surface::new(1e-12, 10e-6, 50e-6, 50e-6, 1.4).unwrap();
-    assert_near("σ → 0", factor(&nearly, &geometry, 600.0, Reading::Paper, 0.0), paper, 1e-9);
+    assert_near("σ → 0", factor(&nearly, &geometry, 600.0, Normalization::Paper, 0.0), paper, 1e-9);
 }
 
 #[test]
@@ -181,19 +186,19 @@ fn rough_surfaces_scatter_all_wavelengths_alike_unless_read_literally() {
     let skin = Surface::new(5e-6, 10e-6, 50e-6, 50e-6, 1.4).unwrap();
     let geometry = Geometry::from_angles(0.3, 0.5, 2.0);
     let ratio = |reading| factor(&skin, &geometry, 700.0, reading, 0.0) / factor(&skin, &geometry, 450.0, reading, 0.0);
-    assert_near("radiometric", ratio(Reading::Radiometric), 1.0, 1e-4);
-    assert_near("paper", ratio(Reading::Paper), (700.0_f64 / 450.0).powi(2), 1e-3);
-    assert_eq!(ratio(Reading::Lambertian), 1.0);
+    assert_near("radiometric", ratio(Normalization::Radiometric), 1.0, 1e-4);
+    assert_near("paper", ratio(Normalization::Paper), (700.0_f64 / 450.0).powi(2), 1e-3);
+    assert_eq!(ratio(Normalization::Lambertian), 1.0);
 }
 
 #[test]
 fn the_defaults_are_the_radiometric_reading_and_full_precision() {
-    assert_eq!(Reading::default(), Reading::Radiometric);
+    assert_eq!(Normalization::default(), Normalization::Radiometric);
     assert_eq!(Method::default(), Method::Uniform(Precision::Full));
     let skin = Surface::new(1e-7, 10e-6, 50e-6, 50e-6, 1.4).unwrap();
     let geometry = Geometry::from_angles(0.3, 0.31, 0.05);
-    let by = |method| factor_by(&skin, &geometry, 550.0, Reading::default(), method, 0.0);
-    assert_eq!(factor(&skin, &geometry, 550.0, Reading::default(), 0.0), by(Method::default()));
+    let by = |method| factor_by(&skin, &geometry, 550.0, Normalization::default(), method, 0.0);
+    assert_eq!(factor(&skin, &geometry, 550.0, Normalization::default(), 0.0), by(Method::default()));
     assert_ne!(by(Method::Regimes), by(Method::default()));
 }
 
@@ -256,7 +261,7 @@ proptest! {
         let g = kappa(&surface, &geometry) * ratio * ratio;
         let sum = diffuse_sum(g, beta(&surface, &geometry) * g, Precision::Full);
         let pattern = rho0_squared(&geometry, &surface, TAU / (nm * 1e-9), radius) * (-g).exp();
-        for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet] {
+        for reading in [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet] {
             let expected = ratio.powi(wavelength_power(reading))
                 * (diffuse_prefactor(&surface, &geometry, reading) * sum
                     + coherent_prefactor(&surface, &geometry, reading) * pattern);
@@ -275,9 +280,9 @@ proptest! {
         let (there, back) =
             (Geometry::from_angles(theta_i, theta_s, phi), Geometry::from_angles(theta_s, theta_i, phi));
         for (reading, expected) in [
-            (Reading::Radiometric, (there.cos_i / back.cos_i).powi(2)),
-            (Reading::Microfacet, 1.0),
-            (Reading::Paper, there.cos_i / back.cos_i),
+            (Normalization::Radiometric, (there.cos_i / back.cos_i).powi(2)),
+            (Normalization::Microfacet, 1.0),
+            (Normalization::Paper, there.cos_i / back.cos_i),
         ] {
             let ratio = diffuse_prefactor(&surface, &there, reading) / diffuse_prefactor(&surface, &back, reading);
             prop_assert!((ratio / expected - 1.0).abs() < 1e-12, "{:?}: {} {}", reading, ratio, expected);
@@ -285,7 +290,7 @@ proptest! {
         prop_assert_eq!(kappa(&surface, &there), kappa(&surface, &back));
         let (a, b) = (beta(&surface, &there), beta(&surface, &back));
         prop_assert!((a - b).abs() <= 1e-12 * a, "{} {}", a, b);
-        let mirror = [&there, &back].map(|g| coherent_prefactor(&surface, g, Reading::Microfacet));
+        let mirror = [&there, &back].map(|g| coherent_prefactor(&surface, g, Normalization::Microfacet));
         prop_assert_eq!(mirror[0], mirror[1]);
     }
 
@@ -307,7 +312,7 @@ proptest! {
         let distribution = (-tan2 / alpha2).exp() / (PI * alpha2 * half.z.powi(4));
         let passed = transmittance(cos_i, index) * transmittance(cos_s, index);
         let expected = distribution * passed / (4.0 * cos_i * cos_s);
-        let value = factor(&surface, &geometry, 550.0, Reading::Microfacet, 0.0) / PI;
+        let value = factor(&surface, &geometry, 550.0, Normalization::Microfacet, 0.0) / PI;
         // Eq 4 but for the first correction, (1 − 2β + β²/2)/g.
         let correction = (1.0 + beta(&surface, &geometry).powi(2)) / kappa(&surface, &geometry);
         prop_assert!((value / expected - 1.0).abs() <= correction + 1e-9 || expected < 1e-280, "{} {}", value, expected);

@@ -1,9 +1,10 @@
-//! The spectral integral: table beside nodes beside the sum over 401 wavelengths.
+//! The spectral integral by plans, moments and nodes beside the sum over 401 wavelengths.
 
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::Precision;
-use chromascope_core::render::diffuse::{DARK, DiffuseTable, ROUGH, SMOOTH, by_moments, by_nodes, rough_basis};
-use chromascope_core::render::{LAMBDA_0_NM, SpectralWeights};
+use chromascope_core::render::diffuse::{DARK, ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
+use chromascope_core::render::{Against, Demand, IntegrationMethod, LAMBDA_0_NM, Plan, Quality, SpectralWeights};
 use chromascope_core::spectral::GridSpectrum;
 
 use crate::support;
@@ -63,36 +64,65 @@ fn within(low: f64, high: f64, t: f64) -> f64 {
 }
 
 #[test]
-fn the_table_keeps_its_error() {
-    for power in [0, 2] {
-        for measure in measures(power) {
-            let table = DiffuseTable::new(&measure);
-            let points = lattice(150).map(|[s, t]| [within(SMOOTH, ROUGH, s), within(1.0, 4e4, t) - 1.0]);
-            let error = worst(&measure, points, |kappa, beta| table.at(kappa, beta));
-            assert!(error < 2e-6, "{error:.2e}");
-            // Where most of a picture lies.
-            let points = lattice(100).map(|[s, t]| [within(0.5, ROUGH, s), within(1.0, 21.0, t) - 1.0]);
-            let error = worst(&measure, points, |kappa, beta| table.at(kappa, beta));
-            assert!(error < 2e-6, "{error:.2e}");
+fn plans_of_pictures_keep_their_tolerance() {
+    // Every range of κ that pictures ask for, few samples and many, and the κ beyond its ends.
+    for (power, tolerance) in [(0, 1e-5), (2, 1e-5), (2, 1e-9)] {
+        for (i, measure) in measures(power).iter().enumerate() {
+            let kappa = [[0.3, 90.0], [1e-6, 1e5], [200.0, 1e6]][i % 3];
+            let demand = Demand::of_picture(kappa, if i % 2 == 0 { 100_000 } else { 300 });
+            let plan = Plan::new(measure, RelTolerance::new(tolerance).unwrap(), Against::Peak, demand).unwrap();
+            let points = lattice(200).map(|[s, t]| [within(kappa[0], kappa[1], s), within(1.0, 1e3, t) - 1.0]);
+            let ends = lattice(40).map(|[s, t]| [within(1e-15, 1e-10, s), 200.0 * t]);
+            let ends = ends.chain(lattice(40).map(|[s, t]| [within(1e9, 1e15, s), 40.0 * t]));
+            let error = worst(measure, points.chain(ends), |kappa, beta| plan.at(kappa, beta));
+            assert!(error < tolerance, "{error:.2e}: {}", plan.explanation());
         }
     }
 }
 
 #[test]
-fn moments_keep_their_error_and_meet_the_table() {
+fn fixed_plans_keep_what_is_known_of_them() {
     for measure in measures(2) {
-        let table = DiffuseTable::new(&measure);
+        for quality in [Quality::Preview, Quality::Full, Quality::Fine] {
+            let plan = Plan::fixed(&measure, quality);
+            let points = lattice(200).map(|[s, t]| [within(1e-4, 1e5, s), within(1.0, 1e3, t) - 1.0]);
+            let error = worst(&measure, points, |kappa, beta| plan.at(kappa, beta));
+            assert!(error < 2.0 * plan.explanation().error_bound(), "{quality:?}: {error:.2e}");
+            assert!(quality.tolerance().unwrap().allows(error), "{quality:?}: {error:.2e}");
+        }
+        let [reference, regimes] = [Quality::Reference, Quality::Regimes].map(|quality| Plan::fixed(&measure, quality));
+        assert_eq!(reference.at(3.0, 2.0), by_nodes(measure.dense(), 3.0, 2.0, Precision::Full));
+        assert_eq!(regimes.at(3.0, 2.0), by_regimes(measure.dense(), 3.0, 2.0));
+    }
+}
+
+#[test]
+fn a_plan_says_how_each_sample_is_integrated() {
+    let measure = &measures(2)[0];
+    let plan = Plan::fixed(measure, Quality::Full);
+    let said = |plan: &Plan, kappa, beta| plan.method(kappa, beta).to_string();
+    assert_eq!(said(&plan, 200.0, 1.0), "4 moments (κ ≥ 128)");
+    assert_eq!(said(&plan, 2.0, 1.0), "9 wavelengths for all channels, S to 1e-10");
+    assert_eq!(plan.method(2.0, 1.0).node_count(), 9);
+    assert_eq!(plan.method(2.0, 1e6), IntegrationMethod::Nothing);
+    assert_eq!(said(&Plan::fixed(measure, Quality::Reference), 2.0, 1e6), "all 401 wavelengths, S to 1e-13");
+    assert_eq!(Plan::fixed(measure, Quality::Regimes).method(2.0, 1.0), IntegrationMethod::Regimes);
+    let demand = Demand::of_picture([1e-6, 90.0], 100_000);
+    let plan = Plan::new(measure, RelTolerance::new(1e-5).unwrap(), Against::Peak, demand).unwrap();
+    let methods = [1e3, 5.0, 1e-9].map(|kappa| plan.method(kappa, 0.1));
+    assert!(matches!(methods[0], IntegrationMethod::Moments { .. }), "{methods:?}");
+    assert!(matches!(methods[1], IntegrationMethod::Table { .. }), "{methods:?}");
+    assert!(matches!(methods[2], IntegrationMethod::Shared { .. }), "{methods:?}");
+    assert_eq!(methods.map(|method| method.node_count() > 0), [false, false, true]);
+}
+
+#[test]
+fn moments_keep_their_error() {
+    for measure in measures(2) {
         let points = lattice(200).map(|[s, t]| [within(ROUGH, 1e8, s), within(1.0, 1.0 + DARK, t) - 1.0]);
         let moments = |kappa, beta| by_moments(measure.moments(), &rough_basis(kappa, beta));
         let error = worst(&measure, points, moments);
         assert!(error < 2e-6, "{error:.2e}");
-        let meeting = (0..40).map(|i| [ROUGH, f64::from(i) * 0.7]);
-        let error = worst(&measure, meeting, |kappa, beta| {
-            let (a, b) = (table.at(kappa, beta), moments(kappa, beta));
-            let exact = by_nodes(measure.dense(), kappa, beta, Precision::Full);
-            [0, 1, 2].map(|c: usize| exact[c] + (a[c] - b[c]))
-        });
-        assert!(error < 4e-6, "{error:.2e}");
     }
 }
 
@@ -141,6 +171,8 @@ fn a_black_material_gives_nothing_everywhere() {
     let divisors = white_divisors(&sensor, &light).unwrap();
     let black = SpectralWeights::new(&sensor, &light, &GridSpectrum::constant(0.0), divisors, 2);
     assert_eq!(black.totals(), [0.0; 3]);
-    assert_eq!(DiffuseTable::new(&black).at(1.0, 1.0), [0.0; 3]);
+    for quality in [Quality::Preview, Quality::Full, Quality::Reference] {
+        assert_eq!(Plan::fixed(&black, quality).at(1.0, 1.0), [0.0; 3]);
+    }
     assert_eq!(by_nodes(black.fine(), 1.0, 1.0, Precision::Full), [0.0; 3]);
 }

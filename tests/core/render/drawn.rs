@@ -3,12 +3,12 @@
 
 use std::sync::Arc;
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
-use chromascope_core::reflectance::{Reading, Surface, wavelength_power};
+use chromascope_core::reflectance::{Normalization, Surface, wavelength_power};
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{
-    Against, CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, SpectralWeights, Stop, Visibility,
+    CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, SpectralWeights, Stop, Visibility,
 };
 use chromascope_core::scene::lighting::SUN_RADIUS;
 use chromascope_core::scene::{Lighting, Viewpoint};
@@ -56,8 +56,8 @@ impl Drawn {
         if self.is_plane { shapes::plane(2) } else { shapes::sphere(2000) }
     }
 
-    fn accuracy(&self) -> Accuracy {
-        Accuracy::new(10_f64.powf(self.powers[3])).unwrap()
+    fn accuracy(&self) -> RelTolerance {
+        RelTolerance::new(10_f64.powf(self.powers[3])).unwrap()
     }
 
     /// What is lit of it; none where nothing is.
@@ -77,20 +77,17 @@ impl Drawn {
     /// The error relative to the picture's brightest sample; none for a black picture.
     fn error(&self, measures: &[[SpectralWeights; 3]; 4], quality: Quality) -> Option<f64> {
         let geometry = Arc::new(self.geometry()?);
-        let reading = [Reading::Radiometric, Reading::Microfacet, Reading::Paper][self.reading];
+        let reading = [Normalization::Radiometric, Normalization::Microfacet, Normalization::Paper][self.reading];
         let measure = &measures[self.camera][self.reading];
         let [sigma, tau, half, _] = self.powers.map(|power| 10_f64.powf(power));
         let surface = Surface::new(sigma, tau, half, half, self.index).unwrap();
         let shading = |quality| ShadingImage::new(geometry.clone(), surface, reading, quality, &Stop::NEVER).unwrap();
-        let exact = CameraImage::new(&shading(Quality::Exact), measure, None, &Stop::NEVER).unwrap();
-        let shading = shading(quality);
-        let found = match shading.plan_accuracy().zip(shading.demand()) {
-            Some((accuracy, demand)) => {
-                let plan = Plan::new(measure, accuracy, Against::Peak, demand).unwrap();
-                CameraImage::by_plan(&shading, measure, Some(&plan), Reach::in_picture(&shading, measure), &Stop::NEVER)
-            }
-            None => CameraImage::new(&shading, measure, None, &Stop::NEVER),
+        let image = |shading: &ShadingImage| {
+            let plan = Arc::new(Plan::for_picture(shading, measure).unwrap());
+            CameraImage::new(shading, measure, plan, Reach::in_picture(shading, measure), &Stop::NEVER)
         };
+        let exact = image(&shading(Quality::Reference)).unwrap();
+        let found = image(&shading(quality));
         let signals =
             |image: &CameraImage| -> Vec<f64> { image.signals().iter().flatten().map(|&v| v.into()).collect() };
         let (found, exact) = (signals(&found.unwrap()), signals(&exact));
@@ -107,7 +104,7 @@ fn every_scene_keeps_the_tolerance_relative_to_its_brightest_sample() {
     let measures = [support::REFERENCE, support::CANON_10D, support::NIKON_D70, support::DCS200].map(|path| {
         let sensor = support::sensor(path);
         let divisors = white_divisors(&sensor, &light).unwrap();
-        [Reading::Radiometric, Reading::Microfacet, Reading::Paper]
+        [Normalization::Radiometric, Normalization::Microfacet, Normalization::Paper]
             .map(|reading| SpectralWeights::new(&sensor, &light, &skin, divisors, wavelength_power(reading)))
     });
     let mut runner = TestRunner::new_with_rng(support::cases(60), TestRng::deterministic_rng(RngAlgorithm::ChaCha));

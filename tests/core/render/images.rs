@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::RenderingError;
 use chromascope_core::query::compare::{Metric, patch_difference};
 use chromascope_core::query::render::{BrightSamples, MeshQuery, MeshRoughnessQuery, Pictures, Roughness};
 use chromascope_core::query::{Ask, Direct, PatchColorsQuery, RenderingQuery, Shared};
-use chromascope_core::reflectance::{Reading, Specular};
+use chromascope_core::reflectance::{Normalization, Specular};
 use chromascope_core::render::{CameraImage, Quality, RasterSize, Shadows, Stop, Visibility};
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::roughness::VertexRoughness;
@@ -42,12 +42,12 @@ fn thorough() -> bool {
 #[test]
 fn every_quality_keeps_its_error_against_401_wavelengths() {
     let size = if thorough() { RasterSize::new(20, 20) } else { RasterSize::new(10, 10) };
-    for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet] {
+    for reading in [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet] {
         // Tables do not depend on σ: they are made once.
         let (studio, ask) = (RenderService { size, reading, ..RenderService::new() }, Counting::default());
         for sigma_m in [5e-6, 0.4e-6, 0.06e-6, 2e-9] {
             let with = |quality| RenderService { sigma_m, quality, ..studio.clone() };
-            let exact = with(Quality::Exact).take(&ask);
+            let exact = with(Quality::Reference).take(&ask);
             // Signals are kept in single precision, which alone is 6e-8.
             for (quality, bound) in [(Quality::Full, 1e-5), (Quality::Fine, 1e-7), (Quality::Preview, 1e-3)] {
                 let error = apart(&with(quality).take(&ask), &exact);
@@ -62,10 +62,10 @@ fn a_picture_keeps_the_error_that_was_asked_for() {
     let tolerances: &[f64] = if thorough() { &[1e-3, 1e-5, 1e-7, 1e-11] } else { &[1e-3, 1e-7] };
     // At 0.05 µm very many mirror terms are next to nothing.
     for (reading, sigmas_m) in [
-        (Reading::Radiometric, [5e-6, 0.4e-6]),
-        (Reading::Radiometric, [0.1e-6, 0.05e-6]),
-        (Reading::Paper, [0.06e-6, 2e-9]),
-        (Reading::Lambertian, [1e-6, 1e-9]),
+        (Normalization::Radiometric, [5e-6, 0.4e-6]),
+        (Normalization::Radiometric, [0.1e-6, 0.05e-6]),
+        (Normalization::Paper, [0.06e-6, 2e-9]),
+        (Normalization::Lambertian, [1e-6, 1e-9]),
     ] {
         for sigma_m in sigmas_m {
             let with = |quality| {
@@ -74,10 +74,10 @@ fn a_picture_keeps_the_error_that_was_asked_for() {
                 studio.sources.truncate(2);
                 studio
             };
-            let exact = with(Quality::Exact).take(&Direct);
+            let exact = with(Quality::Reference).take(&Direct);
             for &tolerance in tolerances {
-                let found = with(Quality::Within(Accuracy::new(tolerance).unwrap())).take(&Direct);
-                assert_eq!(found.shading.planned == 0, reading == Reading::Lambertian, "{:?}", found.shading);
+                let found = with(Quality::Within(RelTolerance::new(tolerance).unwrap())).take(&Direct);
+                assert_eq!(found.shading.spectral == 0, reading == Normalization::Lambertian, "{:?}", found.shading);
                 assert!(found.shading.mirrors <= exact.shading.mirrors, "what it is compared with leaves more out");
                 let error = apart(&found, &exact);
                 // Signals are kept in single precision.
@@ -89,7 +89,7 @@ fn a_picture_keeps_the_error_that_was_asked_for() {
 
 #[test]
 fn what_no_plan_can_promise_is_said() {
-    let quality = Quality::Within(Accuracy::new(1e-14).unwrap());
+    let quality = Quality::Within(RelTolerance::new(1e-14).unwrap());
     let studio = RenderService { quality, ..RenderService::new() };
     let pictures = Direct.ask(&studio.question());
     let pictures = (*pictures).as_ref().unwrap().as_ref().unwrap();
@@ -102,7 +102,7 @@ fn what_no_plan_can_promise_is_said() {
 fn three_cases_of_g_are_seen_to_err() {
     let with =
         |quality| RenderService { sigma_m: 0.2e-6, quality, size: RasterSize::new(20, 20), ..RenderService::new() };
-    let error = apart(&with(Quality::Regimes).take(&Direct), &with(Quality::Exact).take(&Direct));
+    let error = apart(&with(Quality::Regimes).take(&Direct), &with(Quality::Reference).take(&Direct));
     assert!((1e-3..1.0).contains(&error), "{error:.1e}");
 }
 
@@ -200,7 +200,7 @@ fn of_the_papers_cameras_the_kodak_is_farthest_from_the_truth() {
 
 #[test]
 fn read_to_the_letter_a_rough_white_turns_yellow() {
-    for (reading, expected) in [(Reading::Radiometric, [0.332, 0.347]), (Reading::Paper, [0.373, 0.379])] {
+    for (reading, expected) in [(Normalization::Radiometric, [0.332, 0.347]), (Normalization::Paper, [0.373, 0.379])] {
         let mut studio = RenderService { reading, ..RenderService::new() };
         studio.reflectance = Shared::new(GridSpectrum::constant(1.0));
         let light = Shared::new(support::light("illuminants/d55.csv"));
@@ -219,7 +219,7 @@ fn read_to_the_letter_a_rough_white_turns_yellow() {
 #[test]
 fn an_untinted_lobe_keeps_its_color_on_any_material() {
     let with = |specular, reflectance: f64, sigma_m| {
-        let mut studio = RenderService { specular, sigma_m, quality: Quality::Exact, ..RenderService::new() };
+        let mut studio = RenderService { specular, sigma_m, quality: Quality::Reference, ..RenderService::new() };
         studio.reflectance = Shared::new(GridSpectrum::constant(reflectance));
         studio
     };
@@ -248,8 +248,8 @@ fn untinted_lobes_keep_every_qualitys_error_on_a_dark_material() {
             studio.sources.truncate(2);
             studio
         };
-        let exact = with(Quality::Exact).take(&Direct);
-        let within = |error| Quality::Within(Accuracy::new(error).unwrap());
+        let exact = with(Quality::Reference).take(&Direct);
+        let within = |error| Quality::Within(RelTolerance::new(error).unwrap());
         for (quality, bound) in
             [(Quality::Full, 1e-5), (Quality::Fine, 1e-7), (within(1e-3), 1e-3), (within(1e-5), 1.1e-5)]
         {
@@ -270,9 +270,11 @@ fn the_headline_is_the_patch_that_patches_print() {
         (*colors).as_ref().unwrap()[0]
     };
     // Whatever the roughness, its reading, and where the light stands.
-    for (sigma_m, light_up, reading) in
-        [(5e-6, 25.0, Reading::Radiometric), (0.1e-6, 80.0, Reading::Paper), (5e-6, -60.0, Reading::Lambertian)]
-    {
+    for (sigma_m, light_up, reading) in [
+        (5e-6, 25.0, Normalization::Radiometric),
+        (0.1e-6, 80.0, Normalization::Paper),
+        (5e-6, -60.0, Normalization::Lambertian),
+    ] {
         let pictures = RenderService { light_up, sigma_m, reading, ..studio.clone() }.take(&Direct);
         for (source, difference) in studio.sources.iter().zip(&pictures.differences).skip(1) {
             let expected = patch_difference(Metric::DeltaE2000, &color(source), &color(&studio.sources[0])).unwrap();
@@ -315,7 +317,7 @@ fn every_sample_is_accounted_for() {
         let counts = pictures.geometry;
         assert_eq!(counts.seen, counts.lit + counts.facing_away + counts.shadowed);
         let shading = pictures.shading;
-        assert_eq!(counts.lit, shading.dark + shading.flat + shading.moments + shading.table + shading.sums);
+        assert_eq!(counts.lit, shading.dark + shading.flat + shading.spectral);
         assert_eq!(counts.lit, shading.mirrors + shading.mirrors_skipped);
         assert!(counts.seen > 0 && counts.rays <= counts.lit + counts.shadowed);
     }
@@ -323,7 +325,9 @@ fn every_sample_is_accounted_for() {
 
 #[test]
 fn a_material_facing_light_and_eye_is_shown_at_its_exposure() {
-    for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet, Reading::Lambertian] {
+    for reading in
+        [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet, Normalization::Lambertian]
+    {
         // The light stands behind the eye.
         let mut question = RenderService { mesh: MeshQuery::Plane, reading, ..RenderService::new() }.question();
         question.shading.geometry.visibility.viewpoint = Viewpoint::new(0.0, 0.0, 1000.0, 0.002).unwrap();
@@ -344,7 +348,7 @@ fn a_material_facing_light_and_eye_is_shown_at_its_exposure() {
 #[test]
 fn without_a_model_a_white_in_the_light_is_white() {
     let mut question =
-        RenderService { mesh: MeshQuery::Plane, reading: Reading::Lambertian, ..RenderService::new() }.question();
+        RenderService { mesh: MeshQuery::Plane, reading: Normalization::Lambertian, ..RenderService::new() }.question();
     question.reflectance = Shared::new(GridSpectrum::constant(1.0));
     let pictures = (*Direct.ask(&question)).clone().unwrap().unwrap();
     let facing = pictures.facing;

@@ -1,11 +1,11 @@
 //! What a change asks for anew, and what it does not.
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::colorimetry::Xy;
-use chromascope_core::query::Shared;
-use chromascope_core::reflectance::Reading;
-use chromascope_core::render::{Quality, Shadows};
+use chromascope_core::query::{Ask, Shared};
+use chromascope_core::reflectance::Normalization;
+use chromascope_core::render::{IntegrationMethod, Quality, RasterSize, Shadows};
 use chromascope_core::spectral::GridSpectrum;
 
 use super::studio::{Counting, RenderService};
@@ -47,16 +47,17 @@ fn a_new_white_asks_for_no_signals() {
 }
 
 #[test]
-fn a_rougher_surface_asks_for_no_geometry_and_no_table() {
-    let smooth = RenderService { sigma_m: 0.3e-6, ..RenderService::new() };
-    let made = after(&smooth, |studio| studio.sigma_m = 0.35e-6);
+fn a_rougher_surface_asks_for_no_geometry_and_no_plan() {
+    // Enough samples for a plan.
+    let smooth = RenderService { sigma_m: 0.3e-6, size: RasterSize::new(256, 256), ..RenderService::new() };
+    let made = after(&smooth, |studio| studio.sigma_m = 0.4e-6);
     let names: Vec<&str> = made.iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["camera image", "difference", "exposure", "picture", "pictures", "shading"]);
 }
 
 #[test]
 fn at_a_chosen_accuracy_a_little_rougher_asks_for_no_plan() {
-    let quality = Quality::Within(Accuracy::new(1e-5).unwrap());
+    let quality = Quality::Within(RelTolerance::new(1e-5).unwrap());
     let start = RenderService { sigma_m: 0.3e-6, quality, ..RenderService::new() };
     let made = after(&start, |studio| studio.sigma_m = 0.305e-6);
     let names: Vec<&str> = made.iter().map(|(name, _)| *name).collect();
@@ -65,7 +66,27 @@ fn at_a_chosen_accuracy_a_little_rougher_asks_for_no_plan() {
     start.take(&ask);
     let made = ask.made();
     assert_eq!(made["plan"], 4);
-    assert!(!made.contains_key("diffuse table"));
+}
+
+#[test]
+fn few_samples_and_pictures_in_motion_ask_for_no_plan() {
+    let large = RenderService { sigma_m: 0.3e-6, size: RasterSize::new(256, 256), ..RenderService::new() };
+    let asked = |studio: &RenderService| {
+        let ask = Counting::default();
+        studio.take(&ask);
+        ask.made().get("plan").copied()
+    };
+    assert_eq!(asked(&large), Some(4));
+    assert_eq!(asked(&RenderService { quality: Quality::Fine, ..large.clone() }), Some(4));
+    for quality in [Quality::Preview, Quality::Reference, Quality::Regimes] {
+        assert_eq!(
+            asked(&RenderService { quality, size: RasterSize::new(40, 40), ..large.clone() }),
+            None,
+            "{quality:?}"
+        );
+    }
+    assert_eq!(asked(&RenderService { quality: Quality::Preview, ..large.clone() }), None);
+    assert_eq!(asked(&RenderService { size: RasterSize::new(40, 40), ..large }), None);
 }
 
 #[test]
@@ -101,15 +122,22 @@ fn without_shadows_there_is_no_tree() {
 }
 
 #[test]
-fn rough_surfaces_need_no_table_and_no_mirror() {
+fn rough_surfaces_need_moments_and_no_mirror() {
     let ask = Counting::default();
     // A ball seen face to face with the sun still has samples near grazing, where κ is small.
     let studio = RenderService { sigma_m: 50e-6, ..RenderService::new() };
-    let shading = studio.take(&ask).shading;
-    assert!(shading.moments * 10 > shading.table * 9);
-    let flat = RenderService { reading: Reading::Lambertian, ..RenderService::new() };
+    let shading = ask.ask(&studio.question().shading);
+    let shades = (*shading).as_ref().unwrap().shades().to_vec();
+    let pictures = studio.take(&ask);
+    let plan = pictures.images[0].as_ref().unwrap().plan();
+    let moments = shades
+        .iter()
+        .filter(|shade| matches!(plan.method(shade.kappa, shade.beta), IntegrationMethod::Moments { orders: 4, .. }));
+    let moments = moments.count();
+    assert!(moments * 10 > (shades.len() - moments) * 9);
+    let flat = RenderService { reading: Normalization::Lambertian, ..RenderService::new() };
     let ask = Counting::default();
     let shading = flat.take(&ask).shading;
-    assert_eq!((shading.table, shading.moments, shading.mirrors), (0, 0, 0));
-    assert!(!ask.made().contains_key("diffuse table"));
+    assert_eq!((shading.spectral, shading.mirrors), (0, 0));
+    assert!(!ask.made().contains_key("plan"));
 }

@@ -9,7 +9,7 @@ use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::query::render::{GeometryQuery, Roughness, ShadingQuery, VisibilityQuery};
 use chromascope_core::query::render::{MeshQuery, Pictures, PicturesQuery, SourceOf};
 use chromascope_core::query::{Ask, ColorTransformSpec, Query, RenderingQuery, Shared};
-use chromascope_core::reflectance::{Reading, Specular, Surface};
+use chromascope_core::reflectance::{Normalization, Specular, Surface};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_core::scene::{Lighting, Viewpoint, lighting::SUN_RADIUS};
 use chromascope_core::spectral::GridSpectrum;
@@ -29,7 +29,7 @@ pub(super) struct RenderService {
     pub tau_m: f64,
     pub specular: Specular,
     pub shadows: Shadows,
-    pub reading: Reading,
+    pub reading: Normalization,
     pub roughness: Roughness,
     pub quality: Quality,
     pub ev: f64,
@@ -60,7 +60,7 @@ impl RenderService {
             tau_m: 10e-6,
             specular: Specular::Paper,
             shadows: Shadows::Full,
-            reading: Reading::Radiometric,
+            reading: Normalization::Radiometric,
             roughness: Roughness::Surface,
             quality: Quality::Full,
             ev: 0.0,

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::batch::Sample;
 use chromascope_core::camera::{
     Batch, BatchError, ColorTransform, LocusEvaluator, LocusTable, LocusTableError, Rendering, WhiteBalanceTarget,
@@ -290,7 +290,7 @@ fn any_table(&[key, kind, size, light, target, other, ..]: &Case, v: &mut Verdic
     let Ok(rendering) = Rendering::new(&sensor, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper) else {
         return v.refuse();
     };
-    let Ok(accuracy) = Accuracy::new(target) else { return v.refuse() };
+    let Ok(accuracy) = RelTolerance::new(target) else { return v.refuse() };
     let table = LocusTable::within(&sensor, &rendering, C, accuracy);
     let limit = promised(&table, target, v);
     let sum = LocusEvaluator::by_sum(&sensor, C);

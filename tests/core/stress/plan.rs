@@ -2,14 +2,14 @@
 
 use std::sync::{Arc, LazyLock};
 
-use chromascope_core::accuracy::Accuracy;
+use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::LocusEvaluator;
 use chromascope_core::light::RadiationConstants;
-use chromascope_core::reflectance::{Precision, Reading, Surface, diffuse_sum};
+use chromascope_core::reflectance::{Normalization, Precision, Surface, diffuse_sum};
 use chromascope_core::render::diffuse::by_nodes;
 use chromascope_core::render::mirror::{Nodes, Reach, mirror_sum};
 use chromascope_core::render::plan::position;
-use chromascope_core::render::shading::{Mirror, Way};
+use chromascope_core::render::shading::{DiffuseKind, Mirror, Shade};
 use chromascope_core::render::{
     Against, CameraImage, Demand, GeometryImage, Plan, Quality, RasterSize, ShadingImage, SpectralWeights, Stop,
     Visibility,
@@ -27,7 +27,13 @@ use super::sum::reference;
 use super::walk::{Verdict, Walk};
 
 pub(super) const WALKS: &[Walk] = &[
-    Walk { name: "Accuracy", promise: 0.0, share: 10.0, draw: |d| case([d.anything(), d.anything()]), check: accuracy },
+    Walk {
+        name: "RelTolerance",
+        promise: 0.0,
+        share: 10.0,
+        draw: |d| case([d.anything(), d.anything()]),
+        check: accuracy,
+    },
     Walk { name: "Precision::within", promise: 1.0, share: 2.0, draw: draw_sum, check: precision },
     Walk { name: "LocusEvaluator::within", promise: 1.0, share: 0.05, draw: draw_locus, check: locus },
     Walk { name: "Measure::shared", promise: 1e-9, share: 0.05, draw: draw_shared, check: shared },
@@ -50,13 +56,13 @@ fn draw_accuracy(d: &mut Draw) -> f64 {
 }
 
 fn accuracy(&[x, y, ..]: &Case, v: &mut Verdict) {
-    let taken = Accuracy::new(x);
+    let taken = RelTolerance::new(x);
     v.holds("taken and not", taken.is_ok() == (x > 0.0 && x < 1.0));
     let Ok(accuracy) = taken else { return v.refuse() };
     v.holds("another number", accuracy.max_relative_error() == x);
     v.holds("itself is not allowed", accuracy.allows(x) && !accuracy.allows(x.next_up()) && !accuracy.allows(f64::NAN));
     v.holds("not what is smaller", accuracy.allows(y) == (y <= x));
-    if let Ok(other) = Accuracy::new(y) {
+    if let Ok(other) = RelTolerance::new(y) {
         v.holds("another order", (accuracy < other) == (x < y) && (accuracy == other) == (x == y));
     }
 }
@@ -68,7 +74,7 @@ fn draw_sum(d: &mut Draw) -> Case {
 
 /// The cheapest that is exact enough, beside S in two doubles.
 fn precision(&[error, g, b, ..]: &Case, v: &mut Verdict) {
-    let Ok(accuracy) = Accuracy::new(error) else { return v.refuse() };
+    let Ok(accuracy) = RelTolerance::new(error) else { return v.refuse() };
     let precision = match Precision::within(accuracy) {
         Ok(precision) => precision,
         Err(unmet) => {
@@ -99,7 +105,7 @@ fn locus(&[key, kind, size, kelvins, error, ..]: &Case, v: &mut Verdict) {
     const C: RadiationConstants = RadiationConstants::Si2019;
     let primaries = [Primaries::Camera, Primaries::Rgb, Primaries::Xyz, Primaries::Cones][kind as usize % 4];
     let Some(sensor) = drawn_sensor(key, primaries, size) else { return v.refuse() };
-    let Ok(accuracy) = Accuracy::new(error) else { return v.refuse() };
+    let Ok(accuracy) = RelTolerance::new(error) else { return v.refuse() };
     let evaluator = match LocusEvaluator::within(&sensor, C, accuracy) {
         Ok(evaluator) => evaluator,
         Err(unmet) => {
@@ -139,7 +145,7 @@ fn shared(numbers: &Case, v: &mut Verdict) {
     }
 }
 
-const QUALITIES: [Quality; 5] = [Quality::Preview, Quality::Full, Quality::Fine, Quality::Exact, Quality::Regimes];
+const QUALITIES: [Quality; 5] = [Quality::Preview, Quality::Full, Quality::Fine, Quality::Reference, Quality::Regimes];
 
 fn draw_reach(d: &mut Draw) -> Case {
     case([d.key(), d.pick(6), d.pick(2), d.pick(6), draw_accuracy(d), d.key()])
@@ -148,13 +154,16 @@ fn draw_reach(d: &mut Draw) -> Case {
 /// Lobes of a drawn measure.
 fn reach(numbers: &Case, v: &mut Verdict) {
     let (error, key) = (numbers[4], numbers[5]);
-    let (Some(measure), Ok(accuracy)) = (drawn_measure(numbers), Accuracy::new(error)) else { return v.refuse() };
+    let (Some(measure), Ok(accuracy)) = (drawn_measure(numbers), RelTolerance::new(error)) else { return v.refuse() };
     let paths = |reach: Reach| reach.still_m >= 0.0 && reach.settled_m >= 0.0 && reach.still_m.is_finite();
     v.holds("no paths", QUALITIES.into_iter().all(|quality| paths(Reach::of(quality, &measure))));
     let reach = Reach::within(&measure, accuracy);
     v.holds("no paths", paths(reach));
     let quality = Quality::Within(accuracy);
-    v.holds("of a quality another", quality.accuracy() == Some(accuracy) && Reach::of(quality, &measure) == reach);
+    v.holds(
+        "of a quality another",
+        quality.given_tolerance() == Some(accuracy) && Reach::of(quality, &measure) == reach,
+    );
     let mut d = Draw::new(key as u64, "lobes", 0);
     for _ in 0..50 {
         let lobe = draw_lobe(&mut d);
@@ -196,7 +205,7 @@ fn compare(
 const ERRORS: [f64; 4] = [1e-2, 1e-4, 1e-7, 1e-11];
 
 static REACHES: LazyLock<[[Reach; 4]; 2]> = LazyLock::new(|| {
-    [0.0, 1.0].map(|which| ERRORS.map(|error| Reach::within(&of(which).measure, Accuracy::new(error).unwrap())))
+    [0.0, 1.0].map(|which| ERRORS.map(|error| Reach::within(&of(which).measure, RelTolerance::new(error).unwrap())))
 });
 
 fn draw_mirror(d: &mut Draw) -> Case {
@@ -237,7 +246,7 @@ fn demand(&[least, most, kappa, beta, samples, inside, ..]: &Case, v: &mut Verdi
 /// Plans of two sensors in turn: for many samples, where tables pay, and for few.
 static PLANS: LazyLock<[Plan; 4]> = LazyLock::new(|| {
     [0, 1, 2, 3].map(|i| {
-        let (accuracy, samples) = (Accuracy::new(ERRORS[i]).unwrap(), if i % 2 == 0 { 1_000_000 } else { 10 });
+        let (accuracy, samples) = (RelTolerance::new(ERRORS[i]).unwrap(), if i % 2 == 0 { 1_000_000 } else { 10 });
         let against = if i == 1 { Against::Value } else { Against::Peak };
         Plan::new(&of((i % 2) as f64).measure, accuracy, against, Demand::new([1e-3, 1e6], samples)).unwrap()
     })
@@ -265,8 +274,8 @@ fn draw_place(d: &mut Draw) -> Case {
     case([d.pick(4), kappa, beta])
 }
 
-/// A plan beside the sum over all wavelengths, in parts of what it is certified for.
-fn certified(plan: &Plan, measure: &SpectralWeights, [kappa, beta]: [f64; 2], v: &mut Verdict) {
+/// A plan beside the sum over all wavelengths, in parts of its estimated error bound.
+fn bounded(plan: &Plan, measure: &SpectralWeights, [kappa, beta]: [f64; 2], v: &mut Verdict) {
     let exact = |beta| by_nodes(measure.dense(), kappa, beta, Precision::Full);
     let largest = |sums: [f64; 3]| sums.into_iter().map(f64::abs).fold(0.0, f64::max);
     let (found, exact, peak) = (plan.at(kappa, beta), exact(beta), largest(exact(0.0)));
@@ -277,13 +286,13 @@ fn certified(plan: &Plan, measure: &SpectralWeights, [kappa, beta]: [f64; 2], v:
         Against::Value => largest(exact).max((-30.0_f64).exp() * peak),
     };
     for (a, b) in found.into_iter().zip(exact) {
-        v.error(if a == b { 0.0 } else { (a - b).abs() / relative_to / explanation.certified() });
+        v.error(if a == b { 0.0 } else { (a - b).abs() / relative_to / explanation.error_bound() });
     }
 }
 
 fn place(&[which, kappa, beta, ..]: &Case, v: &mut Verdict) {
     let which = which as usize % 4;
-    certified(&PLANS[which], &of((which % 2) as f64).measure, [kappa, beta], v);
+    bounded(&PLANS[which], &of((which % 2) as f64).measure, [kappa, beta], v);
 }
 
 fn draw_fill(d: &mut Draw) -> Case {
@@ -320,7 +329,7 @@ fn draw_plan(d: &mut Draw) -> Case {
 /// A plan for a drawn measure and range of κ.
 fn any_plan(numbers: &Case, v: &mut Verdict) {
     let &[.., error, from, span, key] = numbers;
-    let (Some(measure), Ok(accuracy)) = (drawn_measure(numbers), Accuracy::new(error)) else { return v.refuse() };
+    let (Some(measure), Ok(accuracy)) = (drawn_measure(numbers), RelTolerance::new(error)) else { return v.refuse() };
     let mut d = Draw::new(key as u64, "places", 0);
     let against = if d.pick(2) == 0.0 { Against::Peak } else { Against::Value };
     let demand = Demand::new([from, from * span], d.log(1.0, 1e12) as u64);
@@ -333,18 +342,18 @@ fn any_plan(numbers: &Case, v: &mut Verdict) {
         }
     };
     let explanation = plan.explanation();
-    v.holds("certified for less", accuracy.allows(explanation.certified()));
+    v.holds("a bound above the tolerance", accuracy.allows(explanation.error_bound()));
     v.holds("another demand", plan.demand() == demand && explanation.demand == demand);
     v.holds("no memory", plan.bytes() < 1 << 30);
     let all = explanation.rejected.iter().chain(&explanation.rough).chain([&explanation.chosen]);
     let samples = demand.samples();
-    v.all_finite(all.flat_map(|c| [c.total_ns(samples), c.seen.unwrap_or(0.0), c.certified.unwrap_or(0.0)]));
+    v.all_finite(all.flat_map(|c| [c.total_ns(samples), c.seen.unwrap_or(0.0), c.error_bound.unwrap_or(0.0)]));
     let [from, to] = demand.kappa();
     for i in 0..60 {
         let [far, beta] = draw_near(&mut d);
         let kappa = if i % 6 == 0 { far } else { d.log(from, to) };
         let last = 30.0 * (1.0 + 6.0 / kappa.sqrt() + 3.5 / kappa);
-        certified(&plan, &measure, [kappa, if i % 5 == 0 { beta } else { d.unit().powi(2) * last }], v);
+        bounded(&plan, &measure, [kappa, if i % 5 == 0 { beta } else { d.unit().powi(2) * last }], v);
     }
 }
 
@@ -362,30 +371,32 @@ fn picture(&[which, sigma, tau, half, index, key, reading, ..]: &Case, v: &mut V
     let viewpoint = Viewpoint::new(d.angle(), d.within(-1.0, 1.0), d.log(2.0, 10.0), 0.7);
     let place = DVec3::new(d.within(-1.0, 1.0), d.within(-1.0, 1.0), d.within(-1.0, 1.0));
     let (Ok(viewpoint), Ok(lighting)) = (viewpoint, Lighting::far(place, 4.65e-3)) else { return v.refuse() };
-    let reading = [Reading::Radiometric, Reading::Paper, Reading::Microfacet][reading as usize % 3];
+    let reading = [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet][reading as usize % 3];
     let mesh = shapes::sphere(200);
     let seen = Visibility::new(&mesh, viewpoint.eye(mesh.bounds()), RasterSize::new(6, 5), &Stop::NEVER);
     let geometry = GeometryImage::new(&mesh, &seen.expect("never stopped"), &lighting, None, &Stop::NEVER);
     let quality = Quality::Within(plan.explanation().asked);
     let geometry = Arc::new(geometry.expect("never stopped"));
     let shading = ShadingImage::new(geometry, surface, reading, quality, &Stop::NEVER).expect("never stopped");
-    let planned = |way: Way| way == Way::Planned;
+    let is_spectral = |shade: &Shade| shade.kind == DiffuseKind::Spectral;
     if let Some(demand) = shading.demand() {
-        let held = shading.shades().iter().all(|s| !planned(s.way) || demand.holds(s.kappa));
+        let held = shading.shades().iter().all(|s| !is_spectral(s) || demand.holds(s.kappa));
         v.holds("a sample that is not asked for", held);
     } else {
-        v.holds("samples without a demand", !shading.shades().iter().any(|s| planned(s.way)));
+        v.holds("samples without a demand", !shading.shades().iter().any(is_spectral));
     }
     let reach = REACHES[which % 2][which];
-    let image =
-        |plan| CameraImage::by_plan(&shading, &scene.measure, plan, reach, &Stop::NEVER).expect("never stopped");
-    let (image, by_sum) = (image(Some(plan)), image(None));
+    let image = |plan: &Plan| {
+        let plan = Arc::new(plan.clone());
+        CameraImage::new(&shading, &scene.measure, plan, reach, &Stop::NEVER).expect("never stopped")
+    };
+    let (image, by_sum) = (image(plan), image(&Plan::fixed(&scene.measure, Quality::Reference)));
     against_all(&shading, reading, &scene.measure, v);
     let mirrored = |i: usize| shading.mirrors().iter().any(|mirror| mirror.index as usize == i);
     for (i, shade) in shading.shades().iter().enumerate() {
         let signal = image.signals()[i];
         v.all_finite(signal.into_iter().chain(by_sum.signals()[i]).map(f64::from));
-        if planned(shade.way) && !mirrored(i) {
+        if is_spectral(shade) && !mirrored(i) {
             let expected = plan.at(shade.kappa, shade.beta).map(|sum| (sum * shade.front) as f32);
             v.holds("not as the plan says", signal == expected);
         }
@@ -393,19 +404,20 @@ fn picture(&[which, sigma, tau, half, index, key, reading, ..]: &Case, v: &mut V
 }
 
 /// The mirror terms of a whole picture, relative to its brightest sample, beside those that leave nothing out.
-fn against_all(shading: &ShadingImage, reading: Reading, measure: &SpectralWeights, v: &mut Verdict) {
-    let asked = shading.quality().accuracy().expect("an accuracy is asked for");
+fn against_all(shading: &ShadingImage, reading: Normalization, measure: &SpectralWeights, v: &mut Verdict) {
+    let asked = shading.quality().given_tolerance().expect("an accuracy is asked for");
     let scale = shading.mirror_scale();
     v.holds("lobes lower than the picture", scale > 0.0 && scale <= 1.0);
-    let of_parts = [shading.mirror_accuracy(), shading.plan_accuracy()];
+    let of_parts = [shading.mirror_tolerance(), shading.plan_tolerance()];
     v.holds("parts less exact than the whole", of_parts.into_iter().flatten().all(|part| part <= asked));
     let (geometry, surface) = (Arc::clone(shading.geometry()), *shading.surface());
-    let exact = ShadingImage::new(geometry, surface, reading, Quality::Exact, &Stop::NEVER).expect("never stopped");
+    let exact = ShadingImage::new(geometry, surface, reading, Quality::Reference, &Stop::NEVER).expect("never stopped");
     v.holds("the truth leaves more out", exact.quality().mirror_share() <= shading.quality().mirror_share().max(1e-14));
-    let of_truth = Reach::of(Quality::Exact, measure);
-    let exact = CameraImage::with_reach(&exact, measure, None, of_truth, &Stop::NEVER).expect("never stopped");
+    let of_truth = Reach::of(Quality::Reference, measure);
+    let plan = Arc::new(Plan::fixed(measure, Quality::Reference));
+    let exact = CameraImage::new(&exact, measure, plan.clone(), of_truth, &Stop::NEVER).expect("never stopped");
     let reach = Reach::in_picture(shading, measure);
-    let found = CameraImage::by_plan(shading, measure, None, reach, &Stop::NEVER).expect("never stopped");
+    let found = CameraImage::new(shading, measure, plan, reach, &Stop::NEVER).expect("never stopped");
     let pairs = || found.signals().as_flattened().iter().zip(exact.signals().as_flattened());
     let peak = pairs().fold(0.0_f64, |most, (_, exact)| most.max(exact.abs().into()));
     let off = pairs().fold(0.0_f64, |most, (found, exact)| most.max((found - exact).abs().into()));

@@ -5,7 +5,7 @@ use chromascope_core::reflectance::coherent::{
 };
 use chromascope_core::reflectance::fresnel::{reflectance, transmittance, transmittance_by_cosine};
 use chromascope_core::reflectance::{
-    Geometry, IlluminatedArea, Method, Precision, Reading, Specular, Surface, beta, coherent_prefactor,
+    Geometry, IlluminatedArea, Method, Normalization, Precision, Specular, Surface, beta, coherent_prefactor,
     diffuse_prefactor, diffuse_sum, directional_hemispherical, factor, factor_by, factors_by, kappa, wavelength_power,
 };
 use chromascope_core::render::lobe::mean_sinc_squared_quick;
@@ -258,7 +258,7 @@ fn draw_power(d: &mut Draw) -> Case {
 
 fn power(&[sigma, tau, half, index, i, s, phi, nm]: &Case, v: &mut Verdict) {
     let Ok(surface) = Surface::new(sigma, tau, half, half, index) else { return v.refuse() };
-    let returned = directional_hemispherical(&surface, Reading::Microfacet, i);
+    let returned = directional_hemispherical(&surface, Normalization::Microfacet, i);
     v.all_finite([returned.diffuse, returned.coherent, returned.total()]);
     for surface in [surface, surface.with_area(IlluminatedArea::Xy).with_specular(Specular::Fresnel)] {
         power_of(&surface, [i, s, phi, nm], v);
@@ -279,7 +279,9 @@ fn power_of(surface: &Surface, [i, s, phi, nm]: [f64; 4], v: &mut Verdict) {
             "ρ0² above its bound",
             pattern <= rho0_squared_bound(&g, &surface, wave_number, radius) * (1.0 + 1e-9) + 1e-14,
         );
-        for reading in [Reading::Radiometric, Reading::Paper, Reading::Microfacet, Reading::Lambertian] {
+        for reading in
+            [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet, Normalization::Lambertian]
+        {
             let value = factor(&surface, &g, nm, reading, radius);
             v.finite(value);
             v.holds("below 0", value >= 0.0);
@@ -291,11 +293,14 @@ fn power_of(surface: &Surface, [i, s, phi, nm]: [f64; 4], v: &mut Verdict) {
             let (diffuse, coherent) =
                 (diffuse_prefactor(&surface, &g, reading), coherent_prefactor(&surface, &g, reading));
             v.holds("a prefactor below 0 or infinite", diffuse >= 0.0 && coherent >= 0.0 && diffuse + coherent < 1e151);
-            if reading == Reading::Microfacet && radius == 0.0 {
+            if reading == Normalization::Microfacet && radius == 0.0 {
                 // Light and viewer can be exchanged.
                 v.relative(factor(&surface, &back, nm, reading, radius), value, 0.0);
             }
-            if is_negligible(&surface, &g, reading, nm, radius, 1e-6) && g.is_lit() && reading != Reading::Lambertian {
+            if is_negligible(&surface, &g, reading, nm, radius, 1e-6)
+                && g.is_lit()
+                && reading != Normalization::Lambertian
+            {
                 let ratio = 550.0 / nm;
                 let smooth = k * ratio * ratio;
                 let mirror = coherent * pattern * (-smooth).exp();
@@ -304,5 +309,5 @@ fn power_of(surface: &Surface, [i, s, phi, nm]: [f64; 4], v: &mut Verdict) {
             }
         }
     }
-    v.holds("another power", wavelength_power(Reading::Paper) == 0);
+    v.holds("another power", wavelength_power(Normalization::Paper) == 0);
 }

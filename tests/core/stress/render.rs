@@ -5,14 +5,14 @@ use std::sync::{Arc, LazyLock};
 use chromascope_core::camera::{ColorTransform, Rendering, WhiteBalanceTarget};
 use chromascope_core::colorimetry::Xyz;
 use chromascope_core::query::render::BrightSamples;
-use chromascope_core::reflectance::{Precision, Reading, Surface, wavelength_power};
+use chromascope_core::reflectance::{Normalization, Precision, Surface, wavelength_power};
 use chromascope_core::render::develop::differences;
 use chromascope_core::render::diffuse::{by_moments, by_nodes, by_nodes_into, by_regimes, rough_basis};
-use chromascope_core::render::mirror::{Nodes, mirror_sum};
+use chromascope_core::render::mirror::{Nodes, Reach, mirror_sum};
 use chromascope_core::render::shading::Mirror;
 use chromascope_core::render::{
-    CameraImage, ColorimetricScale, Development, DiffuseTable, GeometryImage, Quality, RasterSize, ShadingImage,
-    Shadows, SpectralWeights, Stop, VertexImage, Visibility, develop,
+    CameraImage, ColorimetricScale, Development, GeometryImage, IntegrationMethod, Plan, Quality, RasterSize,
+    ShadingImage, Shadows, SpectralWeights, Stop, VertexImage, Visibility, develop,
 };
 use chromascope_core::scene::{Lighting, Viewpoint, roughness};
 use chromascope_core::spectral::{GridSpectrum, Primaries};
@@ -25,13 +25,12 @@ use super::walk::{Verdict, Walk};
 use crate::support::{CANON_10D, CIE_1931, light, sensor};
 
 pub(super) const WALKS: &[Walk] = &[
-    Walk { name: "DiffuseTable::at", promise: 2e-6, share: 0.5, draw: draw_table, check: by_table },
     Walk { name: "by_moments", promise: 1e-6, share: 0.5, draw: draw_rough, check: moments },
     Walk { name: "by_nodes", promise: 1e-9, share: 0.5, draw: draw_any, check: nodes },
     Walk { name: "diffuse ends", promise: 0.0, share: 4.0, draw: draw_ends, check: ends },
     Walk { name: "mirror_sum", promise: 1e-6, share: 0.5, draw: draw_mirror, check: mirror },
     Walk { name: "Measure::new", promise: 1e-9, share: 0.2, draw: draw_measure, check: measure },
-    Walk { name: "DiffuseTable::new", promise: 0.0, share: 0.0003, draw: draw_measure, check: table },
+    Walk { name: "Plan::fixed", promise: 0.0, share: 0.01, draw: draw_measure, check: fixed },
     Walk { name: "ShadowTree::is_blocked", promise: 0.0, share: 20.0, draw: draw_ray, check: shadow },
     Walk { name: "RasterSize, Hit", promise: 1e-6, share: 20.0, draw: draw_size, check: size },
     Walk { name: "Measurement", promise: 0.0, share: 10.0, draw: draw_size, check: measurement },
@@ -41,25 +40,20 @@ pub(super) const WALKS: &[Walk] = &[
 pub(super) struct Scene {
     rendering: Rendering,
     pub(super) measure: SpectralWeights,
-    table: DiffuseTable,
 }
 
 fn scene(path: &str) -> Scene {
     let (sensor, light) = (sensor(path), light("illuminants/d55.csv"));
     let rendering = Rendering::new(&sensor, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper).unwrap();
-    let power = wavelength_power(Reading::Radiometric);
+    let power = wavelength_power(Normalization::Radiometric);
     let measure = SpectralWeights::new(&sensor, &light, &GridSpectrum::constant(0.5), rendering.white_integrals, power);
-    Scene { table: DiffuseTable::new(&measure), measure, rendering }
+    Scene { measure, rendering }
 }
 
 static SCENES: LazyLock<[Scene; 2]> = LazyLock::new(|| [CANON_10D, CIE_1931].map(scene));
 
 pub(super) fn of(which: f64) -> &'static Scene {
     &SCENES[usize::from(which >= 1.0)]
-}
-
-fn draw_table(d: &mut Draw) -> Case {
-    case([d.pick(2), d.log(1e-3, 128.0), d.log(1e-6, 5e4) - 1e-6])
 }
 
 fn draw_rough(d: &mut Draw) -> Case {
@@ -87,16 +81,6 @@ fn compare(scene: &Scene, kappa: f64, value: [f64; 3], exact_value: [f64; 3], v:
     }
 }
 
-fn by_table(&[which, kappa, beta, ..]: &Case, v: &mut Verdict) {
-    if !DiffuseTable::holds(kappa, beta) {
-        return v.refuse();
-    }
-    let scene = of(which);
-    let value = scene.table.at(kappa, beta);
-    v.holds("read otherwise", value == scene.table.read(DiffuseTable::position(kappa, beta)));
-    compare(scene, kappa, value, exact(scene, kappa, beta), v);
-}
-
 fn moments(&[which, kappa, beta, ..]: &Case, v: &mut Verdict) {
     let scene = of(which);
     let value = by_moments(scene.measure.moments(), &rough_basis(kappa.max(128.0), beta));
@@ -117,9 +101,6 @@ fn ends(&[which, kappa, beta, ..]: &Case, v: &mut Verdict) {
     v.holds("by nodes of many", many[1] == by_nodes(scene.measure.fine(), kappa, beta, Precision::Full));
     v.all_finite(by_regimes(scene.measure.coarse(), kappa, beta));
     v.all_finite(rough_basis(kappa.max(128.0), beta));
-    if DiffuseTable::holds(kappa, beta) {
-        v.all_finite(DiffuseTable::position(kappa, beta));
-    }
 }
 
 fn draw_mirror(d: &mut Draw) -> Case {
@@ -171,12 +152,18 @@ fn measure(case: &Case, v: &mut Verdict) {
     }
 }
 
-fn table(case: &Case, v: &mut Verdict) {
+/// The methods of the qualities by name, for any measure.
+fn fixed(case: &Case, v: &mut Verdict) {
     let Some(measure) = drawn_measure(case) else { return v.refuse() };
-    let table = DiffuseTable::new(&measure);
-    for kappa in [1e-3, 0.03, 1.0, 40.0, 128.0] {
-        for beta in [0.0, 1.0, 30.0, 4e4] {
-            v.all_finite(table.at(kappa, beta));
+    for quality in [Quality::Preview, Quality::Full, Quality::Fine, Quality::Reference, Quality::Regimes] {
+        let plan = Plan::fixed(&measure, quality);
+        for kappa in [0.0, 1e-30, 1e-3, 1.0, 128.0, 1e30] {
+            for beta in [0.0, 1.0, 30.0, 4e4] {
+                v.all_finite(plan.at(kappa, beta));
+                let method = plan.method(kappa, beta);
+                v.holds("a dark place that is integrated", kappa > 0.0 || method == IntegrationMethod::Nothing);
+                v.holds("more wavelengths than there are", method.node_count() <= 401);
+            }
         }
     }
 }
@@ -278,9 +265,10 @@ fn picture(&[key, sigma, tau, half, index, reading, quality, kind]: &Case, v: &m
     let lighting = if d.pick(2) == 0.0 { Lighting::far(place, radius) } else { Lighting::near(place, radius) };
     let Ok(lighting) = lighting else { return v.refuse() };
     let reading =
-        [Reading::Radiometric, Reading::Paper, Reading::Microfacet, Reading::Lambertian][reading as usize % 4];
+        [Normalization::Radiometric, Normalization::Paper, Normalization::Microfacet, Normalization::Lambertian]
+            [reading as usize % 4];
     let quality =
-        [Quality::Preview, Quality::Full, Quality::Fine, Quality::Exact, Quality::Regimes][quality as usize % 5];
+        [Quality::Preview, Quality::Full, Quality::Fine, Quality::Reference, Quality::Regimes][quality as usize % 5];
     let eye = viewpoint.eye(mesh.bounds());
     let seen = Visibility::new(&mesh, eye, RasterSize::new(6, 5), &Stop::NEVER).expect("never stopped");
     let tree = ShadowTree::new(&mesh);
@@ -303,9 +291,10 @@ fn picture(&[key, sigma, tau, half, index, reading, quality, kind]: &Case, v: &m
     let rough = ShadingImage::by_vertices(Arc::new(vertices), &heights, surface, reading, quality, &Stop::NEVER);
     let images = [plain, rough].map(|shading| {
         let shading = shading.expect("never stopped");
-        let table = shading.needs_table().then_some(&scene.table);
         let measure = scene.measure.clone().with_untinted(Arc::new(scene.measure.clone()));
-        CameraImage::new(&shading, &measure, table, &Stop::NEVER).expect("never stopped")
+        let plan = Arc::new(Plan::fixed(&measure, shading.fixed_quality()));
+        CameraImage::new(&shading, &measure, plan, Reach::in_picture(&shading, &measure), &Stop::NEVER)
+            .expect("never stopped")
     });
     for image in &images {
         v.all_finite(image.signals().iter().flatten().map(|s| f64::from(*s)));

@@ -6,7 +6,7 @@ use crate::camera::RenderingError;
 use crate::colorimetry::Xyz;
 use crate::query::{Ask, Query, RenderingQuery, Shared};
 use crate::reflectance::power::factors_by;
-use crate::reflectance::{Geometry, Method, Reading, Specular, Surface};
+use crate::reflectance::{Geometry, Method, Normalization, Specular, Surface};
 use crate::render::develop::develop;
 use crate::render::{CameraImage, Development, GeometryCounts, GeometryImage, Picture, ShadingCounts, SpectralWeights};
 use crate::spectral::GridSpectrum;
@@ -26,7 +26,7 @@ pub struct ExposureQuery {
     /// Its roughness.
     pub surface: Surface,
     /// How Eq 1 is read.
-    pub reading: Reading,
+    pub reading: Normalization,
     /// The light's angular radius in radians, as bits.
     pub angular_radius: u64,
 }
@@ -56,7 +56,7 @@ impl Query for ExposureQuery {
         let rendering = (*rendering).as_ref().map_err(|&e| e)?;
         let measure = |reflectance: Shared<GridSpectrum>| {
             let (sensor, light) = (self.reference.sensor.clone(), self.reference.light.clone());
-            ask.ask(&SpectralWeightsQuery { sensor, light, reflectance, reading: Reading::Lambertian })
+            ask.ask(&SpectralWeightsQuery { sensor, light, reflectance, reading: Normalization::Lambertian })
         };
         let (white, material) = (measure(Shared::new(GridSpectrum::constant(1.0))), measure(self.reflectance.clone()));
         let white = (*white).as_ref().map_err(|&e| e)?;

@@ -1,50 +1,51 @@
-//! Questions about how a camera's integrals are made at a chosen accuracy.
+//! Queries for the methods of a camera's spectral integrals within a tolerance.
 
 use super::SpectralWeightsQuery;
-use crate::accuracy::Accuracy;
+use crate::accuracy::RelTolerance;
 use crate::camera::RenderingError;
 use crate::query::{Ask, Query};
 use crate::render::mirror::Reach;
 use crate::render::{Against, Demand, Plan, Quality};
+use std::sync::Arc;
 
-/// What is the cheapest way to a camera's spectral integral that keeps an error? Asks for no surface or angle: what a scene
-/// demands changes only as its κ leave a power of two, or its samples.
+/// The fastest method of a camera's spectral integral within a tolerance. Depends on no surface or angle: the demands of pictures
+/// are rounded out to a few ([`Demand::of_picture`]).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PlanQuery {
     /// The camera under the light.
     pub measure: SpectralWeightsQuery,
-    /// The error.
-    pub accuracy: Accuracy,
-    /// What it is relative to.
+    /// The allowed error.
+    pub tolerance: RelTolerance,
+    /// Scale of the error.
     pub against: Against,
-    /// The κ and how many samples.
+    /// Range of κ and number of samples.
     pub demand: Demand,
 }
 
 impl Query for PlanQuery {
-    type Answer = Result<Plan, RenderingError>;
+    type Answer = Result<Arc<Plan>, RenderingError>;
     const NAME: &'static str = "plan";
     const WHOLE: bool = true;
     const KEPT: usize = 64;
 
     fn bytes(plan: &Self::Answer) -> usize {
-        plan.as_ref().map_or(0, Plan::bytes)
+        plan.as_ref().map_or(0, |plan| plan.bytes())
     }
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let measure = ask.ask(&self.measure);
         let measure = (*measure).as_ref().map_err(|&e| e)?;
-        Ok(Plan::new(measure, self.accuracy, self.against, self.demand)?)
+        Ok(Arc::new(Plan::new(measure, self.tolerance, self.against, self.demand)?))
     }
 }
 
-/// Over which paths is a mirror's lobe made of a few wavelengths, or of its mean, at an accuracy?
+/// Paths over which a specular lobe is integrated by a few wavelengths, or by its mean, within a tolerance.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ReachQuery {
     /// The camera under the light.
     pub measure: SpectralWeightsQuery,
-    /// The error.
-    pub accuracy: Accuracy,
+    /// The allowed error.
+    pub tolerance: RelTolerance,
 }
 
 impl Query for ReachQuery {
@@ -55,6 +56,6 @@ impl Query for ReachQuery {
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let measure = ask.ask(&self.measure);
-        Ok(Reach::of(Quality::Within(self.accuracy), (*measure).as_ref().map_err(|&e| e)?))
+        Ok(Reach::of(Quality::Within(self.tolerance), (*measure).as_ref().map_err(|&e| e)?))
     }
 }

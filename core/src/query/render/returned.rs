@@ -1,7 +1,7 @@
 //! Share of light that a surface returns: where the reflectance model loses or makes energy.
 
 use crate::query::{Ask, Query};
-use crate::reflectance::{Reading, Surface, directional_hemispherical};
+use crate::reflectance::{Normalization, Surface, directional_hemispherical};
 
 /// The grazing angle of incidence that is stated beside normal incidence, in degrees.
 pub const GRAZING_DEG: f64 = 85.0;
@@ -16,7 +16,7 @@ pub struct ReturnedLightQuery {
     /// The surface.
     pub surface: Surface,
     /// The normalization of P.
-    pub reading: Reading,
+    pub reading: Normalization,
 }
 
 /// Directional-hemispherical reflectance of a white of this surface at 550 nm ([`directional_hemispherical`]).

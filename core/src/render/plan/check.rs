@@ -1,9 +1,10 @@
 //! A fixed set of (κ, β) with the integral there: what every way is compared with.
 
-use super::Against;
 use super::domain::{Demand, beta_at};
 use super::nodes::many_by_nodes;
-use crate::accuracy::Accuracy;
+use super::run::RUN;
+use super::{Against, Plan};
+use crate::accuracy::RelTolerance;
 use crate::reflectance::Precision;
 use crate::render::diffuse::{DARK, by_nodes};
 use crate::render::measure::{Node, SpectralWeights};
@@ -25,23 +26,26 @@ const SMOOTH_STRIDE: usize = 3;
 /// How many β there are at the least and the largest κ, and where moments begin: errors are largest in the corners.
 const EDGE_BETAS: usize = 64;
 
-/// The wavelengths that may stand for all in the check, compared with all at each so manyth point.
-const STAND_INS: [usize; 2] = [20, 28];
-const COMPARED_STRIDE: usize = 25;
+/// Numbers of wavelengths that may stand for all in the check, compared with all at every 101st point.
+const STAND_INS: [usize; 3] = [12, 20, 28];
+const COMPARED_STRIDE: usize = 101;
+/// Share of the tolerance that a stand-in may be off by.
+const STAND_IN_SHARE: f64 = 1e-4;
 
 /// Towards β = 0, where a table's error is largest, it is compared at so many κ and at these shares of its first interval.
 const FIRST_KAPPAS: usize = 384;
 const FIRST_SHARES: [f64; 2] = [0.02, 0.5];
 
-/// Each so manyth point tells what is far off.
+/// Every 41st point shows what is far off.
 const FEW_STRIDE: usize = 41;
 
-/// A place and what the integral is there.
+/// A place and the integral there.
+#[derive(Clone)]
 pub(super) struct Point {
     pub(super) kappa: f64,
     pub(super) beta: f64,
     pub(super) exact: [f64; 3],
-    /// What errors are relative to.
+    /// Scale of errors.
     pub(super) scale: f64,
 }
 
@@ -56,14 +60,15 @@ pub(super) struct Check {
 }
 
 impl Check {
-    /// By the sum over all wavelengths; where 20 or 28 wavelengths are as good as that at some of the points, by those.
-    pub(super) fn new(measure: &SpectralWeights, against: Against, demand: Demand) -> Self {
+    /// By the sum over all wavelengths; where fewer are as good as that next to a tolerance, by those.
+    pub(super) fn new(measure: &SpectralWeights, against: Against, demand: Demand, tolerance: RelTolerance) -> Self {
         let few = points(measure.dense(), against, demand, COMPARED_STRIDE);
+        let slack = (STAND_IN_SHARE * tolerance.max_relative_error()).max(REFERENCE);
         for count in STAND_INS {
             let nodes = measure.shared(count);
             let off = |point: &Point| off(point, by_nodes(&nodes, point.kappa, point.beta, Precision::Full));
             let apart = few.par_iter().map(off).reduce(|| 0.0, f64::max);
-            if apart <= REFERENCE {
+            if apart <= slack {
                 return Self::by(nodes, against, demand, MARGIN * apart + REFERENCE);
             }
         }
@@ -99,25 +104,24 @@ impl Check {
     }
 
     /// The largest error of a way that is smooth in κ and β; where a few points tell that it is too large, at those.
-    pub(super) fn error_within(&self, accuracy: Accuracy, way: impl Fn(f64, f64) -> [f64; 3] + Sync) -> f64 {
+    pub(super) fn error_within(&self, tolerance: RelTolerance, way: impl Fn(f64, f64) -> [f64; 3] + Sync) -> f64 {
         let few = self.error_of_few(&way);
-        if accuracy.allows(self.certified(few)) { few.max(self.error(|_| true, way)) } else { few }
+        if tolerance.allows(self.error_bound(few)) { few.max(self.error(|_| true, way)) } else { few }
     }
 
-    /// The largest error of a table of so many intervals along v in the first of them, without margin.
-    pub(super) fn error_of_first(
-        &self,
-        [from, to]: [f64; 2],
-        intervals: usize,
-        way: impl Fn(f64, f64) -> [f64; 3] + Sync,
-    ) -> f64 {
+    /// The largest error of a plan, without margin.
+    pub(super) fn error_of_plan(&self, plan: &Plan) -> f64 {
+        error_of_plan(&self.grid, plan).max(error_of_plan(&self.edges, plan))
+    }
+
+    /// The largest error of a plan by a table of so many intervals along v in the first of them, without margin.
+    pub(super) fn error_of_first(&self, [from, to]: [f64; 2], intervals: usize, plan: &Plan) -> f64 {
         let of_row = |i: usize| {
             let kappa = from * (to / from).powf((i as f64 + 0.5) / FIRST_KAPPAS as f64);
-            let points =
-                row(&self.nodes, self.against, kappa, FIRST_SHARES.iter().map(|share| share / intervals as f64));
-            points.iter().map(|point| off(point, way(point.kappa, point.beta))).fold(0.0, f64::max)
+            row(&self.nodes, self.against, kappa, FIRST_SHARES.iter().map(|share| share / intervals as f64))
         };
-        (0..FIRST_KAPPAS).into_par_iter().map(of_row).reduce(|| 0.0, f64::max)
+        let rows: Vec<Vec<Point>> = (0..FIRST_KAPPAS).into_par_iter().map(of_row).collect();
+        error_of_plan(&rows.concat(), plan)
     }
 
     /// The wavelengths that stand for all.
@@ -129,13 +133,25 @@ impl Check {
         self.grid.iter().chain(&self.edges)
     }
 
-    /// What an error seen certifies.
-    pub(super) fn certified(&self, seen: f64) -> f64 {
+    /// Estimated error bound from the largest error found.
+    pub(super) fn error_bound(&self, seen: f64) -> f64 {
         MARGIN * seen + self.reference
     }
 }
 
-/// Each so manyth point of the grid, by a sum over these wavelengths; only where something is promised.
+/// The largest error of a plan at some points.
+fn error_of_plan(points: &[Point], plan: &Plan) -> f64 {
+    // In runs: outside a table each point takes sums over wavelengths.
+    let of_run = |points: &[Point]| {
+        let places: Vec<[f64; 2]> = points.iter().map(|point| [point.kappa, point.beta]).collect();
+        let mut sums = [[0.0; 3]; RUN];
+        plan.fill(&places, &mut sums);
+        points.iter().zip(sums).map(|(point, sum)| off(point, sum)).fold(0.0, f64::max)
+    };
+    points.par_chunks(RUN).map(of_run).reduce(|| 0.0, f64::max)
+}
+
+/// Every `stride`th point of the grid, by a sum over these wavelengths; only where something is promised.
 fn points(nodes: &[Node], against: Against, demand: Demand, stride: usize) -> Vec<Point> {
     let [from, to] = demand.kappa();
     let rows: Vec<Vec<Point>> = (0..KAPPAS)
@@ -182,12 +198,12 @@ fn largest(sums: [f64; 3]) -> f64 {
 }
 
 /// A point's error. Black is exact if it is black.
-pub(super) fn off(point: &Point, found: [f64; 3]) -> f64 {
+fn off(point: &Point, found: [f64; 3]) -> f64 {
     let off = apart(point.exact, found);
     if off == 0.0 { 0.0 } else { off / point.scale }
 }
 
 /// The largest difference of a channel.
-pub(super) fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
 }

@@ -2,7 +2,7 @@
 //!
 //! Measured on an AVX2 Xeon; ratios hold better than times.
 
-use super::candidate::Method;
+use super::candidate::IntegrationMethod;
 use crate::reflectance::Precision;
 
 /// One S(g, b) among many.
@@ -17,6 +17,9 @@ pub(super) const fn sum_ns(precision: Precision) -> f64 {
 /// How much longer one alone takes.
 const ALONE: f64 = 1.5;
 
+/// One of the paper's three cases of g.
+const REGIMES_NS: f64 = 30.0;
+
 /// A place of a table from another.
 pub(super) const PLACE_NS: f64 = 100.0;
 
@@ -28,16 +31,17 @@ const FAR_NS: f64 = 4.0;
 const EVERY: f64 = 401.0;
 
 /// One sample.
-pub(super) fn of_sample(method: &Method) -> f64 {
+pub(super) fn of_sample(method: &IntegrationMethod) -> f64 {
     match *method {
-        Method::Nothing => 0.0,
-        Method::Moments { orders, .. } => 3.0 + orders as f64,
-        Method::Table { degree, kappas, betas, .. } => {
+        IntegrationMethod::Nothing => 0.0,
+        IntegrationMethod::Moments { orders, .. } => 3.0 + orders as f64,
+        IntegrationMethod::Table { degree, kappas, betas, .. } => {
             let far = ((kappas * betas) as f64 / NEAR_CELLS).log2().max(0.0);
             24.0 + 0.9 * ((degree + 1) * (degree + 1)) as f64 + FAR_NS * far
         }
-        Method::Shared { nodes, precision } => nodes as f64 * sum_ns(precision),
-        Method::Own { nodes, precision } => ALONE * nodes as f64 * sum_ns(precision),
-        Method::Every { precision } => EVERY * sum_ns(precision),
+        IntegrationMethod::Shared { nodes, precision } => nodes as f64 * sum_ns(precision),
+        IntegrationMethod::Own { nodes, precision } => ALONE * nodes as f64 * sum_ns(precision),
+        IntegrationMethod::Every { precision } => EVERY * sum_ns(precision),
+        IntegrationMethod::Regimes => EVERY * REGIMES_NS,
     }
 }

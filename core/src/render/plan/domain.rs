@@ -1,21 +1,28 @@
 //! Which κ and β are asked for, and where they lie in a table.
 
 use crate::math::ln::{ln, ln_1p};
-use crate::render::diffuse::DARK;
+use crate::render::diffuse::{DARK, ROUGH};
 
-/// The κ of a scene and how many samples lie where a table may serve them, in powers of two: little changes of a scene make no
-/// new plan.
+/// Range of κ and number of samples below [`ROUGH`] that a plan is made for, both rounded out to powers of two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Demand {
     from: i16,
     to: i16,
     samples: u16,
+    /// Whether κ beyond the farthest ends are served as those at the ends.
+    open: bool,
 }
 
 /// The powers of two that κ may lie between: beyond, a surface is a mirror or beyond geometrical optics by any measure.
 const POWERS: (f64, f64) = (-60.0, 60.0);
 /// How many powers of two a demand spans at most; the smoothest beyond that are left to the sum over all wavelengths.
 const SPAN: i16 = 40;
+/// Powers of two at which the demands of pictures end: rough alone, all that a table reaches, and beyond.
+const ROUGH_POWER: i16 = 7;
+const TABLE_POWERS: (i16, i16) = (-12, 12);
+const FAR_POWERS: (i16, i16) = (-28, 28);
+/// Numbers of samples of pictures are rounded up to a multiple of so many powers of two.
+const SAMPLE_POWERS: u16 = 6;
 
 impl Demand {
     /// The κ from the smallest to the largest, and the number of samples, among those below [`ROUGH`] (the others cost
@@ -26,7 +33,21 @@ impl Demand {
         let power = |kappa: f64, other: f64| if kappa > 0.0 { kappa.log2() } else { other };
         let to = power(kappa[1], POWERS.1).ceil().clamp(POWERS.0 + 1.0, POWERS.1) as i16;
         let from = power(kappa[0], POWERS.0).floor().clamp(POWERS.0, f64::from(to - 1)) as i16;
-        Self { from: from.max(to - SPAN), to, samples: samples.max(1).ilog2() as u16 + 1 }
+        Self { from: from.max(to - SPAN), to, samples: samples.max(1).ilog2() as u16 + 1, open: false }
+    }
+
+    /// The demand of a picture, rounded out to one of a few, so that a plan outlives changes of viewpoint and roughness.
+    ///
+    /// κ beyond the farthest ends are served too. Above 2²⁸ the error of moments falls with κ⁻⁴ and that of nodes stays as it is,
+    /// since S goes to `e^-β / g`; below 2⁻²⁸ it stays as it is, since S goes to `g e^-b`.
+    pub fn of_picture(kappa: [f64; 2], samples: u64) -> Self {
+        let (least, most) = (kappa[0], kappa[1]);
+        let smoothest = if least >= f64::from(TABLE_POWERS.0).exp2() { TABLE_POWERS.0 } else { FAR_POWERS.0 };
+        let from = if least >= ROUGH { ROUGH_POWER } else { smoothest };
+        let to =
+            if from == ROUGH_POWER || most > f64::from(TABLE_POWERS.1).exp2() { FAR_POWERS.1 } else { TABLE_POWERS.1 };
+        let samples = (samples.max(1).ilog2() as u16 + 1).next_multiple_of(SAMPLE_POWERS);
+        Self { from, to, samples, open: true }
     }
 
     /// The κ at which it begins and ends.
@@ -39,15 +60,25 @@ impl Demand {
         f64::from(self.samples).exp2()
     }
 
-    /// Whether a κ was asked for.
+    /// Smallest and largest κ that are served.
+    pub(super) fn held(self) -> [f64; 2] {
+        let [from, to] = self.kappa();
+        let is_at = |power: i16, end: i16| self.open && power == end;
+        [
+            if is_at(self.from, FAR_POWERS.0) { f64::MIN_POSITIVE } else { from },
+            if is_at(self.to, FAR_POWERS.1) { f64::MAX } else { to },
+        ]
+    }
+
+    /// Returns true if a κ is served.
     #[inline]
     pub fn holds(self, kappa: f64) -> bool {
-        let [from, to] = self.kappa();
+        let [from, to] = self.held();
         from <= kappa && kappa <= to
     }
 }
 
-/// Where (κ, β) lies in any camera's table: ln κ, and v from 0 at β = 0 to 1 where every wavelength is dark.
+/// Position of (κ, β) in any camera's table: ln κ, and v from 0 at β = 0 to 1 where every wavelength is dark.
 ///
 /// ```text
 /// v = ln(1 + β) / ln(1 + β_last(κ)),  β_last = 30 (1 + 6/√κ + 3.5/κ)
@@ -60,9 +91,9 @@ pub fn position(kappa: f64, beta: f64) -> [f64; 2] {
     [ln(kappa), ln_1p(beta) / ln_last(kappa)]
 }
 
-/// Whether a place lies within v = 1; what is no number does not.
+/// Returns true within v = 1. NaN is never within.
 #[inline]
-pub(in crate::render) fn is_lit(kappa: f64, beta: f64) -> bool {
+pub fn is_lit(kappa: f64, beta: f64) -> bool {
     beta <= last(kappa)
 }
 

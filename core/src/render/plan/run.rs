@@ -56,7 +56,7 @@ impl Plan {
     pub(in crate::render) fn run(&self, places: &Places, sums: &mut [[f64; RUN]; 3]) {
         let mut ways = [Quick::Dark; RUN];
         let table = self.table();
-        let ([from, to], rough) = (self.kappa, self.rough.0);
+        let ([from, to], rough) = (self.held, self.rough.0);
         let [first, last] = table.map_or([f64::INFINITY, 0.0], Table::kappa);
         let mut slowly = false;
         for (i, way) in ways.iter_mut().enumerate().take(places.count) {
@@ -74,12 +74,12 @@ impl Plan {
         }
     }
 
-    /// What neither moments nor table serve: together where wavelengths are in common.
+    /// Samples that neither moments nor table serve: together where wavelengths are in common.
     fn slow(&self, places: &Places, ways: &[Quick; RUN], sums: &mut [[f64; RUN]; 3]) {
         let (mut which, mut kappa, mut beta, mut count) = ([0; RUN], [0.0; RUN], [0.0; RUN], 0);
         let common = self.common();
         for i in (0..places.count).filter(|&i| ways[i] == Quick::Neither) {
-            if common.is_some() && self.demand.holds(places.kappa[i]) {
+            if common.is_some() && self.holds(places.kappa[i]) {
                 (which[count], kappa[count], beta[count]) = (i, places.kappa[i], places.beta[i]);
                 count += 1;
             } else {
@@ -152,7 +152,7 @@ fn read<const N: usize>(table: &Table, places: &Places, ways: &[Quick; RUN], sum
     table.around(&places.kappa, &places.beta, &mut around);
     let mut peaks = [0.0; RUN];
     for i in 0..RUN {
-        // Written so that what is no number is dark.
+        // Written so that NaN is dark.
         let lit = ways[i] == Quick::Table && around.v[i] <= 1.0;
         let [peak, channels @ ..] = if lit { table.read(&around, i) } else { [0.0; 4] };
         peaks[i] = peak;

@@ -1,20 +1,20 @@
 //! Which way is the cheapest that keeps the error.
 //!
-//! What a way costs and is off by does not depend on the accuracy; what is passed over is dearer than one that meets it, or
+//! What a way costs and is off by does not depend on the tolerance; what is passed over is dearer than one that meets it, or
 //! surely does not meet it: then the cheapest that meets a smaller error never has a larger one than the cheapest that meets a
 //! larger.
 
-use super::candidate::{Candidate, Explanation, Method, Verdict};
-use super::check::{Check, Point, REFERENCE, off};
+use super::candidate::{Candidate, Explanation, IntegrationMethod, Verdict};
+pub(super) use super::check::REFERENCE;
+use super::check::{Check, Point};
 use super::nodes::{by_own, carried, own_rules};
 use super::table::Size;
 use super::tables::Makings;
 use super::{Against, Below, Demand, Plan, run};
-use crate::accuracy::{Accuracy, Unmet};
+use crate::accuracy::{RelTolerance, Unmet};
 use crate::reflectance::{Precision, diffuse_sum};
 use crate::render::diffuse::{by_moments, by_nodes, rough_basis};
 use crate::render::measure::{MOMENTS, Node, SpectralWeights};
-use rayon::prelude::*;
 
 /// The most wavelengths that stand for all.
 const MOST_NODES: usize = 24;
@@ -34,13 +34,13 @@ const UNLIKELY: f64 = 0.1;
 
 pub(super) fn plan(
     measure: &SpectralWeights,
-    accuracy: Accuracy,
+    tolerance: RelTolerance,
     against: Against,
     demand: Demand,
 ) -> Result<Plan, Unmet> {
-    accuracy.met_by(REFERENCE)?;
-    let check = Check::new(measure, against, demand);
-    let mut search = Search { measure, accuracy, demand, check: &check, seen: Vec::new(), best: None };
+    tolerance.met_by(REFERENCE)?;
+    let check = Check::new(measure, against, demand, tolerance);
+    let mut search = Search { measure, tolerance, demand, check: &check, seen: Vec::new(), best: None };
     let whole = search.moments();
     let rough = search.rough();
     let from = rough.as_ref().map_or(f64::INFINITY, |(_, from)| *from);
@@ -60,20 +60,23 @@ pub(super) fn plan(
         (Some(moments), _) => (moments, Below::Nothing, Some((moments, demand.kappa()[0]))),
         (None, Some((chosen, below))) => (chosen, below, rough),
         // The sum over all wavelengths meets whatever the reference does.
-        (None, None) => return Err(Unmet { asked: accuracy, best: Accuracy::at_best(REFERENCE) }),
+        (None, None) => return Err(Unmet { asked: tolerance, best: RelTolerance::at_best(REFERENCE) }),
     };
     let chosen = Candidate { verdict: Verdict::Chosen, ..chosen };
     seen.retain(|candidate| candidate.method != chosen.method);
-    let orders = |candidate: &Candidate| if let Method::Moments { orders, .. } = candidate.method { orders } else { 0 };
+    let orders = |candidate: &Candidate| {
+        if let IntegrationMethod::Moments { orders, .. } = candidate.method { orders } else { 0 }
+    };
     Ok(Plan {
         demand,
-        kappa: demand.kappa(),
+        held: demand.held(),
+        leaves_dark: true,
         rough: rough.as_ref().map_or((f64::INFINITY, 0), |(candidate, from)| (*from, orders(candidate))),
         moments: *measure.moments(),
         below,
         every: measure.dense().to_vec(),
         explanation: Explanation {
-            asked: accuracy,
+            asked: tolerance,
             against,
             demand,
             rough: rough.map(|(candidate, _)| Candidate { verdict: Verdict::Chosen, ..candidate }),
@@ -85,7 +88,7 @@ pub(super) fn plan(
 
 struct Search<'a> {
     measure: &'a SpectralWeights,
-    accuracy: Accuracy,
+    tolerance: RelTolerance,
     demand: Demand,
     check: &'a Check,
     seen: Vec<Candidate>,
@@ -95,7 +98,7 @@ struct Search<'a> {
 impl Search<'_> {
     /// Takes a candidate if it is exact enough and the cheapest so far.
     fn offer(&mut self, mut candidate: Candidate, below: Below) {
-        let meets = candidate.meets(self.accuracy);
+        let meets = candidate.meets(self.tolerance);
         candidate.verdict = if meets { Verdict::TooSlow } else { Verdict::TooInexact };
         self.seen.push(candidate);
         if meets && self.may_win(&candidate) {
@@ -111,7 +114,7 @@ impl Search<'_> {
 
     /// Whether there are so many samples that a table is likely to pay.
     fn many(&self, rough: f64) -> bool {
-        let fewest = Candidate::unseen(Method::Shared { nodes: 2, precision: Precision::Coarse });
+        let fewest = Candidate::unseen(IntegrationMethod::Shared { nodes: 2, precision: Precision::Coarse });
         self.tabulated(rough).is_some() && fewest.total_ns(self.demand.samples()) > PAYS_NS
     }
 
@@ -132,8 +135,9 @@ impl Search<'_> {
         }
         for orders in 1..=MOMENTS {
             let seen = self.check.error_from(from_kappa, self.by_moments(orders));
-            let found = Candidate::new(Method::Moments { orders, from_kappa }, seen, self.check.certified(seen));
-            if found.meets(self.accuracy) {
+            let found =
+                Candidate::new(IntegrationMethod::Moments { orders, from_kappa }, seen, self.check.error_bound(seen));
+            if found.meets(self.tolerance) {
                 return Some(found);
             }
             self.seen.push(Candidate { verdict: Verdict::TooInexact, ..found });
@@ -147,14 +151,14 @@ impl Search<'_> {
         let steps =
             (1..).map(|i| last * (-0.5 * f64::from(i)).exp2()).take_while(|&step| step >= LEAST_ROUGH.max(least));
         // Where each begins, the error is looked at last: that takes sums over wavelengths, elsewhere they are made already.
-        let meets = |seen| self.accuracy.allows(self.check.certified(seen));
+        let meets = |seen| self.tolerance.allows(self.check.error_bound(seen));
         let within: Vec<f64> =
             steps.take_while(|&step| meets(self.check.error(|k| k >= step, self.by_moments(MOMENTS)))).collect();
         for from_kappa in within.into_iter().rev() {
             let seen = self.check.error_from(from_kappa, self.by_moments(MOMENTS));
-            let method = Method::Moments { orders: MOMENTS, from_kappa };
-            let candidate = Candidate::new(method, seen, self.check.certified(seen));
-            if candidate.meets(self.accuracy) {
+            let method = IntegrationMethod::Moments { orders: MOMENTS, from_kappa };
+            let candidate = Candidate::new(method, seen, self.check.error_bound(seen));
+            if candidate.meets(self.tolerance) {
                 return Some((candidate, from_kappa));
             }
             self.seen.push(Candidate { verdict: Verdict::TooInexact, ..candidate });
@@ -168,7 +172,7 @@ impl Search<'_> {
             // Compared with itself the most exact would be without error.
             let full = precision == Precision::Full;
             let seen = if full { 0.0 } else { carried * precision.max_relative_error() };
-            let candidate = Candidate::new(Method::Every { precision }, seen, seen + REFERENCE);
+            let candidate = Candidate::new(IntegrationMethod::Every { precision }, seen, seen + REFERENCE);
             self.offer(candidate, Below::Every(precision));
         }
     }
@@ -190,23 +194,23 @@ impl Search<'_> {
     /// The fewest wavelengths that do, with each precision of S.
     fn shared(&mut self) {
         for count in 2..=MOST_NODES {
-            let cheapest = Candidate::unseen(Method::Shared { nodes: count, precision: Precision::Coarse });
+            let cheapest = Candidate::unseen(IntegrationMethod::Shared { nodes: count, precision: Precision::Coarse });
             if !self.may_win(&cheapest) {
                 self.seen.push(cheapest);
                 break;
             }
             let nodes = self.measure.shared(count);
             let way = |kappa, beta| by_nodes(&nodes, kappa, beta, Precision::Full);
-            let seen = self.check.error_within(self.accuracy, way);
-            let method = |precision| Method::Shared { nodes: nodes.len(), precision };
-            let exact = Candidate::new(method(Precision::Full), seen, self.check.certified(seen));
-            let meets = exact.meets(self.accuracy);
+            let seen = self.check.error_within(self.tolerance, way);
+            let method = |precision| IntegrationMethod::Shared { nodes: nodes.len(), precision };
+            let exact = Candidate::new(method(Precision::Full), seen, self.check.error_bound(seen));
+            let meets = exact.meets(self.tolerance);
             if meets {
                 let carried = self.carried(&nodes);
                 for precision in [Precision::Coarse, Precision::Fine] {
                     let rounded = precision.max_relative_error() * carried;
                     let candidate =
-                        Candidate::new(method(precision), seen + rounded, self.check.certified(seen) + rounded);
+                        Candidate::new(method(precision), seen + rounded, self.check.error_bound(seen) + rounded);
                     self.offer(candidate, Below::Shared(nodes.clone(), precision));
                 }
             }
@@ -221,16 +225,16 @@ impl Search<'_> {
     fn own(&mut self) {
         for count in 1..=MOST_NODES / 2 {
             let rules = own_rules(self.measure.dense(), count);
-            let method = Method::Own { nodes: rules.iter().map(Vec::len).sum(), precision: Precision::Full };
+            let method = IntegrationMethod::Own { nodes: rules.iter().map(Vec::len).sum(), precision: Precision::Full };
             let unseen = Candidate::unseen(method);
             if !self.may_win(&unseen) {
                 self.seen.push(unseen);
                 break;
             }
             let way = |kappa, beta| by_own(&rules, kappa, beta, Precision::Full);
-            let seen = self.check.error_within(self.accuracy, way);
-            let candidate = Candidate::new(method, seen, self.check.certified(seen));
-            let meets = candidate.meets(self.accuracy);
+            let seen = self.check.error_within(self.tolerance, way);
+            let candidate = Candidate::new(method, seen, self.check.error_bound(seen));
+            let meets = candidate.meets(self.tolerance);
             self.offer(candidate, Below::Own(rules, Precision::Full));
             if meets {
                 break;
@@ -256,7 +260,7 @@ impl Search<'_> {
             let size = next.swap_remove(cheapest);
             let plan = self.with(Below::Table(makings.table(&size)));
             let seen = self.table_error(&plan);
-            self.offer(candidates[cheapest].checked(seen, self.check.certified(seen)), plan.below);
+            self.offer(candidates[cheapest].checked(seen, self.check.error_bound(seen)), plan.below);
             next.extend(self.finer(&makings, &size, seen));
         }
     }
@@ -271,7 +275,7 @@ impl Search<'_> {
 
     /// The coarsest table of a degree that is likely to be exact enough, and some that are not.
     fn first(&self, makings: &Makings<'_>, degree: usize) -> Option<Size> {
-        let tried = -self.accuracy.max_relative_error().log10() - UNLIKELY;
+        let tried = -self.tolerance.max_relative_error().log10() - UNLIKELY;
         makings.sizes(degree, 0).find(|size| size.digits() >= tried)
     }
 
@@ -281,21 +285,15 @@ impl Search<'_> {
         let mut least = seen;
         makings.sizes(size.degree, size.step + 1).find(|_| {
             least /= steepest;
-            self.accuracy.allows(self.check.certified(least))
+            self.tolerance.allows(self.check.error_bound(least))
         })
     }
 
     fn table_error(&self, plan: &Plan) -> f64 {
-        let places: Vec<[f64; 2]> = self.check.points().map(|point| [point.kappa, point.beta]).collect();
-        let mut sums = vec![[0.0; 3]; places.len()];
-        // Small pieces: beyond the table's κ each place takes sums over wavelengths.
-        let pieces = places.par_chunks(run::RUN).zip(sums.par_chunks_mut(run::RUN));
-        pieces.for_each(|(places, sums)| plan.fill(places, sums));
-        let seen = self.check.points().zip(sums).map(|(point, sum)| off(point, sum)).fold(0.0, f64::max);
+        let seen = self.check.error_of_plan(plan);
         match &plan.below {
-            Below::Table(table) if self.accuracy.allows(self.check.certified(seen)) => {
-                let way = |kappa, beta| plan.at(kappa, beta);
-                seen.max(self.check.error_of_first(table.kappa(), table.intervals(), way))
+            Below::Table(table) if self.tolerance.allows(self.check.error_bound(seen)) => {
+                seen.max(self.check.error_of_first(table.kappa(), table.intervals(), plan))
             }
             _ => seen,
         }
@@ -303,11 +301,12 @@ impl Search<'_> {
 
     /// A plan of one way alone.
     fn with(&self, below: Below) -> Plan {
-        let chosen = Candidate::unseen(Method::Nothing);
-        let (asked, demand) = (self.accuracy, self.demand);
+        let chosen = Candidate::unseen(IntegrationMethod::Nothing);
+        let (asked, demand) = (self.tolerance, self.demand);
         Plan {
             demand,
-            kappa: demand.kappa(),
+            held: demand.held(),
+            leaves_dark: true,
             rough: (f64::INFINITY, 0),
             moments: *self.measure.moments(),
             below,

@@ -1,6 +1,6 @@
 //! ln J over (ln κ, v) by splines of odd degree, as fine as is wanted.
 
-use super::candidate::Method;
+use super::candidate::IntegrationMethod;
 use super::extent::Extent;
 use super::run::RUN;
 use super::spline::weights;
@@ -52,9 +52,9 @@ impl Size {
     }
 
     /// A table of this size as a way.
-    pub(super) fn method(&self, nodes: usize) -> Method {
+    pub(super) fn method(&self, nodes: usize) -> IntegrationMethod {
         let [kappas, betas] = self.places();
-        Method::Table { degree: self.degree, kappas, betas, nodes }
+        IntegrationMethod::Table { degree: self.degree, kappas, betas, nodes }
     }
 }
 
@@ -88,7 +88,18 @@ impl Table {
         self.surface.degree
     }
 
-    /// From which to which κ.
+    /// The table as a method.
+    pub(super) fn method(&self) -> IntegrationMethod {
+        let [kappas, betas] = self.surface.intervals.map(|count| count + self.surface.degree);
+        IntegrationMethod::Table { degree: self.surface.degree, kappas, betas, nodes: self.nodes.len() }
+    }
+
+    /// Returns true if a κ lies in the table.
+    pub(super) fn holds(&self, kappa: f64) -> bool {
+        self.extent.kappa[0] <= kappa && kappa <= self.extent.kappa[1]
+    }
+
+    /// Smallest and largest κ.
     pub(super) fn kappa(&self) -> [f64; 2] {
         self.extent.kappa
     }

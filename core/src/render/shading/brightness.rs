@@ -1,6 +1,6 @@
 //! How bright a picture is, for errors that are relative to something in it.
 
-use super::{Shade, Way};
+use super::{DiffuseKind, Shade};
 use crate::reflectance::{Precision, diffuse_sum};
 use rayon::prelude::*;
 
@@ -21,7 +21,7 @@ pub(super) struct Brightness {
 impl Brightness {
     pub(super) fn of(shades: &[Shade]) -> Self {
         let stride = shades.len().div_ceil(LOOKED_AT).max(1);
-        let looked_at = shades.par_iter().step_by(stride).filter(|shade| !matches!(shade.way, Way::Dark | Way::Flat));
+        let looked_at = shades.par_iter().step_by(stride).filter(|shade| shade.kind == DiffuseKind::Spectral);
         let of = |shade: &Shade| {
             let at = |beta: f64| shade.front * diffuse_sum(shade.kappa, beta * shade.kappa, Precision::Coarse);
             [at(shade.beta), at(0.0)]

@@ -8,7 +8,7 @@ use super::sum::Precision;
 /// distribution. Put into Eq 12 as it stands, it tints: on a rough surface P goes with λ², so that a white under D55 comes out
 /// mustard.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Reading {
+pub enum Normalization {
     /// π f with the bidirectional reflectance `f = A/(λ² cos θs) (cos θi ρ0² e^-g + D)`, in 1/sr.
     ///
     /// The default: energy is accounted for (a smooth surface reflects as a mirror, a rough one scatters what falls on it), and

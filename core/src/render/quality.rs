@@ -1,0 +1,167 @@
+//! Levels of exactness of a rendering.
+
+use crate::accuracy::RelTolerance;
+use crate::spectral::grid::COUNT;
+use serde::{Deserialize, Serialize};
+
+/// Share of a tolerance that coherent terms left out may take.
+const MIRROR_OF_ERROR: f64 = 0.1;
+/// Coherent terms below this share of the brightest sample are left out of a preview and of [`Quality::Full`].
+pub const MIRROR_SHARE: f64 = 1e-7;
+const FINE_MIRROR_SHARE: f64 = 1e-10;
+const REFERENCE_MIRROR_SHARE: f64 = 1e-14;
+
+/// Exactness of the spectral integrals of a picture.
+///
+/// All but the last two keep a tolerance: a [`super::Plan`] chooses the fastest [`super::IntegrationMethod`] whose estimated error
+/// bound is within it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Quality {
+    /// Six wavelengths, or four moments where the surface is rough: error below 1e-4 of the peak. Of the specular lobe's
+    /// oscillation only the mean, from a path of 2 µm on. For pictures in motion: nothing is made beforehand.
+    Preview,
+    /// Error below 1e-5 of the peak.
+    #[default]
+    Full,
+    /// Error below 1e-9 of the peak.
+    Fine,
+    /// Sum over 401 wavelengths, S within 1e-13.
+    Reference,
+    /// Sum over 401 wavelengths with the paper's three cases of g, to show their error.
+    Regimes,
+    /// Error within a tolerance relative to the brightest sample of the picture: of the diffuse component and of the specular
+    /// one, both before signals are rounded to single precision (6e-8 of themselves).
+    Within(RelTolerance),
+}
+
+impl Quality {
+    /// Allowed error; none of the two that sum over 401 wavelengths.
+    pub fn tolerance(self) -> Option<RelTolerance> {
+        match self {
+            Self::Preview => Some(RelTolerance::at_best(1e-4)),
+            Self::Full => Some(RelTolerance::at_best(1e-5)),
+            Self::Fine => Some(RelTolerance::at_best(1e-9)),
+            Self::Within(tolerance) => Some(tolerance),
+            Self::Reference | Self::Regimes => None,
+        }
+    }
+
+    /// Tolerance that was given as a number: that of [`Self::Within`].
+    pub const fn given_tolerance(self) -> Option<RelTolerance> {
+        if let Self::Within(tolerance) = self { Some(tolerance) } else { None }
+    }
+
+    /// Share of the brightest sample below which coherent terms are left out.
+    pub fn mirror_share(self) -> f64 {
+        match self {
+            Self::Preview | Self::Full => MIRROR_SHARE,
+            Self::Fine => FINE_MIRROR_SHARE,
+            Self::Reference | Self::Regimes => REFERENCE_MIRROR_SHARE,
+            Self::Within(tolerance) => MIRROR_OF_ERROR * tolerance.max_relative_error(),
+        }
+    }
+
+    /// Returns true if samples below e^-30 of their peak are left out.
+    pub const fn leaves_dark(self) -> bool {
+        !matches!(self, Self::Reference | Self::Regimes)
+    }
+
+    /// Exactness in a few words: "error < 1e-5".
+    pub fn summary(self) -> String {
+        match self {
+            Self::Preview => "preview".to_owned(),
+            Self::Reference => format!("{COUNT} wavelengths"),
+            Self::Regimes => "the paper's three cases of g".to_owned(),
+            Self::Full => "error < 1e-5".to_owned(),
+            Self::Fine => "error < 1e-9".to_owned(),
+            Self::Within(tolerance) => format!("error < {tolerance}"),
+        }
+    }
+
+    /// Name of the level.
+    pub const fn level(self) -> QualityLevel {
+        match self {
+            Self::Preview => QualityLevel::Preview,
+            Self::Full => QualityLevel::Full,
+            Self::Fine => QualityLevel::Fine,
+            Self::Reference => QualityLevel::Reference,
+            Self::Regimes => QualityLevel::Regimes,
+            Self::Within(_) => QualityLevel::Tolerance,
+        }
+    }
+}
+
+/// A [`Quality`] by name, as documents and the command line have it: without the number of [`Quality::Within`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum QualityLevel {
+    /// [`Quality::Preview`].
+    Preview,
+    /// [`Quality::Full`].
+    #[default]
+    Full,
+    /// [`Quality::Fine`].
+    Fine,
+    /// [`Quality::Reference`].
+    #[serde(rename = "exact", alias = "reference")]
+    Reference,
+    /// [`Quality::Within`] a tolerance.
+    Tolerance,
+    /// [`Quality::Regimes`].
+    Regimes,
+}
+
+impl QualityLevel {
+    /// All levels, in the order in which they are listed.
+    pub const ALL: [Self; 6] = [Self::Preview, Self::Full, Self::Fine, Self::Reference, Self::Tolerance, Self::Regimes];
+
+    /// The quality of this name.
+    pub const fn quality(self, tolerance: RelTolerance) -> Quality {
+        match self {
+            Self::Preview => Quality::Preview,
+            Self::Full => Quality::Full,
+            Self::Fine => Quality::Fine,
+            Self::Reference => Quality::Reference,
+            Self::Tolerance => Quality::Within(tolerance),
+            Self::Regimes => Quality::Regimes,
+        }
+    }
+
+    /// Key on the command line and in exported files.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Preview => "preview",
+            Self::Full => "full",
+            Self::Fine => "fine",
+            Self::Reference => "reference",
+            Self::Tolerance => "tolerance",
+            Self::Regimes => "regimes",
+        }
+    }
+
+    /// Label in a list.
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::Preview => "Preview, error < 1e-4",
+            Self::Full => "Full, error < 1e-5",
+            Self::Fine => "Fine, error < 1e-9",
+            Self::Reference => "Reference, 401 wavelengths",
+            Self::Tolerance => "Within a tolerance",
+            Self::Regimes => "Paper's three cases of g",
+        }
+    }
+
+    /// One sentence without a full stop, for help and hover text.
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::Preview => {
+                "as while something moves: few wavelengths, and only the mean of the specular lobe's oscillation"
+            }
+            Self::Full => "error below 1e-5 of the peak, by the fastest method that keeps it",
+            Self::Fine => "error below 1e-9 of the peak, by the fastest method that keeps it",
+            Self::Reference => "sum over all 401 wavelengths",
+            Self::Tolerance => "error within a tolerance, by the fastest method that keeps it",
+            Self::Regimes => "sum over all 401 wavelengths with the paper's three cases of g",
+        }
+    }
+}
