@@ -2,7 +2,6 @@
 
 use crate::accuracy::RelTolerance;
 use crate::spectral::grid::COUNT;
-use serde::{Deserialize, Serialize};
 
 /// Share of a tolerance that coherent terms left out may take.
 const MIRROR_OF_ERROR: f64 = 0.1;
@@ -92,8 +91,8 @@ impl Quality {
 }
 
 /// A [`Quality`] by name, as documents and the command line have it: without the number of [`Quality::Within`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum QualityLevel {
     /// [`Quality::Preview`].
     Preview,
@@ -103,7 +102,7 @@ pub enum QualityLevel {
     /// [`Quality::Fine`].
     Fine,
     /// [`Quality::Reference`].
-    #[serde(rename = "exact", alias = "reference")]
+    #[cfg_attr(feature = "serde", serde(rename = "exact", alias = "reference"))]
     Reference,
     /// [`Quality::Within`] a tolerance.
     Tolerance,
