@@ -16,6 +16,10 @@ pub struct RelTolerance {
 impl RelTolerance {
     /// Takes a relative error above 0 and below 1.
     ///
+    /// # Errors
+    ///
+    /// [`NotAnAccuracy`] unless the number is positive and below 1.
+    ///
     /// ```
     /// use chromascope_core::accuracy::RelTolerance;
     /// assert_eq!(RelTolerance::new(1e-6).unwrap().to_string(), "1e-6");

@@ -25,6 +25,10 @@ macro_rules! positive_unit {
 
         impl $name {
             /// Takes a positive, finite number.
+            ///
+            /// # Errors
+            ///
+            /// [`NotPositive`] otherwise.
             pub fn new(value: f64) -> Result<Self, NotPositive> {
                 if value.is_finite() && value > 0.0 {
                     Ok(Self(value))
@@ -102,6 +106,10 @@ impl Kelvin {
     }
 
     /// The temperature of a reciprocal temperature in mired.
+    ///
+    /// # Errors
+    ///
+    /// [`NotPositive`] unless the number is positive and finite.
     pub fn from_mired(mired: f64) -> Result<Self, NotPositive> {
         Self::new(1e6 / mired)
     }

@@ -20,6 +20,10 @@ pub enum FitError {
 /// conditioning of the samples themselves. The side condition holds to rounding.
 ///
 /// Refuses with [`FitError::Dependent`] when a channel carries less than 1e-10 of new information, or none that is finite.
+///
+/// # Errors
+///
+/// [`FitError`] where the samples do not determine a matrix.
 pub fn matrix_keeping(samples: &[DVec3], targets: &[DVec3], white: DVec3, image: DVec3) -> Result<DMat3, FitError> {
     // By its largest component, because the squares of a tiny white underflow.
     let largest = white.abs().max_element();

@@ -105,6 +105,10 @@ impl LocusTable {
     }
 
     /// The chromaticity of one black body.
+    ///
+    /// # Errors
+    ///
+    /// [`LocusTableError`] where the temperature is outside the table, or in a piece that is left out.
     #[inline]
     pub fn xy(&self, temperature: Kelvin) -> Result<Xy, LocusTableError> {
         self.pieces.xy(temperature)

@@ -79,6 +79,10 @@ pub struct Rendering {
 
 impl Rendering {
     /// Prepares a sensor for a light, a white and a way to the diagram.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderingError`] where white cannot be balanced or the transform does not apply to the sensor.
     pub fn new(
         sensor: &Sensor,
         light: &GridSpectrum,
@@ -97,6 +101,10 @@ impl Rendering {
     }
 
     /// [`Rendering::new`] with a transform fitted to an observer, given the part that other sensors share.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderingError`] where white cannot be balanced or the fit has no answer.
     pub fn by_targets(
         sensor: &Sensor,
         light: &GridSpectrum,
@@ -168,6 +176,10 @@ fn white_integrals(sensor: &Sensor, light: &GridSpectrum) -> Result<(DVec3, f64)
 }
 
 /// Divisors of `∫ C_c S L dλ`: `∫ C_c L dλ` of each channel (Eq 16), for tristimulus values that of Y.
+///
+/// # Errors
+///
+/// [`RenderingError::BlindToLight`] where a channel does not respond to the light.
 pub fn white_divisors(sensor: &Sensor, light: &GridSpectrum) -> Result<DVec3, RenderingError> {
     if sensor.primaries() == Primaries::Xyz {
         white_integral(sensor, light, 1).map(|(y, _)| DVec3::splat(y))
@@ -231,6 +243,10 @@ pub struct FitTargets {
 
 impl FitTargets {
     /// Prepares the targets; the reference must count in XYZ and see the light.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderingError`] unless the reference is an XYZ observer that responds to the light.
     pub fn new(reference: &Sensor, light: &GridSpectrum, training: &PatchSet) -> Result<Self, RenderingError> {
         if reference.primaries() != Primaries::Xyz {
             return Err(RenderingError::Reference);

@@ -23,12 +23,20 @@ pub struct DaylightBasis {
 
 impl DaylightBasis {
     /// Takes the data set with the columns S0, S1 and S2.
+    ///
+    /// # Errors
+    ///
+    /// [`DaylightError`] unless the data set holds the three functions S0, S1 and S2.
     pub fn new(dataset: &Dataset) -> Result<Self, DaylightError> {
         let curves: [SpectralDistribution; 3] = dataset.curves.clone().try_into().map_err(|_| DaylightError::Basis)?;
         Ok(Self { curves })
     }
 
     /// The relative spectral power of daylight (CIE 15:2004, 3.1).
+    ///
+    /// # Errors
+    ///
+    /// [`DaylightError`] outside 4000 K to 25 000 K.
     ///
     /// ```text
     /// S(λ) = S₀(λ) + M₁ S₁(λ) + M₂ S₂(λ)
@@ -49,6 +57,10 @@ impl DaylightBasis {
 }
 
 /// The chromaticity of daylight of a correlated color temperature (CIE 15:2004, 3.1), from 4000 to 25000 K.
+///
+/// # Errors
+///
+/// [`DaylightError`] outside 4000 K to 25 000 K.
 ///
 /// ```text
 /// x = −4.6070e9/T³ + 2.9678e6/T² + 0.09911e3/T + 0.244063    4000 K ≤ T ≤ 7000 K

@@ -114,6 +114,10 @@ impl PlanckianLocus {
     pub const MAX_ERROR_DUV: f64 = 1e-15;
 
     /// Tabulates the locus of an observer: some 2100 sums over its curves, then a search for each node of the table.
+    ///
+    /// # Errors
+    ///
+    /// [`LocusError`] unless the observer's matching functions are XYZ with a locus that has one nearest point for each color.
     pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, LocusError> {
         if observer.primaries() != Primaries::Xyz {
             return Err(LocusError::NotXyz);
@@ -133,17 +137,29 @@ impl PlanckianLocus {
     /// Nothing is clamped: what lies outside is refused, with the reason. A color further than [`MAX_DUV`] from black bodies of
     /// all temperatures is [`CctError::TooFar`]; one that is not, but whose nearest is outside [`COLDEST_K`]–[`HOTTEST_K`], is too
     /// hot or too cold.
+    ///
+    /// # Errors
+    ///
+    /// [`CctError`] where the color is farther than [`MAX_DUV`] from the locus or outside its temperatures.
     #[inline]
     pub fn cct(&self, color: Uv60) -> Result<Cct, CctError> {
         self.quick(color).map_or_else(|| self.careful(color), Ok)
     }
 
     /// Correlated color temperature and Duv of x and y.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::cct`].
     pub fn cct_of_xy(&self, color: Xy) -> Result<Cct, CctError> {
         self.cct(color.uv_prime().ok_or(CctError::NoChromaticity)?.uv60())
     }
 
     /// Correlated color temperature and Duv of tristimulus values.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::cct`].
     pub fn cct_of_xyz(&self, color: Xyz) -> Result<Cct, CctError> {
         self.cct(color.uv_prime().ok_or(CctError::NoChromaticity)?.uv60())
     }

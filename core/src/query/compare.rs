@@ -36,12 +36,20 @@ pub enum DifferenceError {
 }
 
 /// Whether two sensors' colors may be compared on the way that takes Eq 13.
+///
+/// # Errors
+///
+/// [`DifferenceError`] where one sensor counts in RGB and the other in XYZ.
 pub fn comparable_by_paper(a: Primaries, b: Primaries) -> Result<(), DifferenceError> {
     let direct = |p: Primaries| p == Primaries::Xyz;
     if direct(a) == direct(b) { Ok(()) } else { Err(DifferenceError::Ways) }
 }
 
 /// The difference of one patch through two sensors.
+///
+/// # Errors
+///
+/// [`DifferenceError`] where a color has no chromaticity or no L\*a\*b\*, or the difference is not finite.
 pub fn patch_difference(metric: Metric, a: &PatchColor, b: &PatchColor) -> Result<f64, DifferenceError> {
     match metric {
         Metric::DeltaE2000 => lab_pair(a, b).map(|(a, b)| delta_e_2000(a, b)),
@@ -52,11 +60,19 @@ pub fn patch_difference(metric: Metric, a: &PatchColor, b: &PatchColor) -> Resul
 }
 
 /// The distance of two loci at the same temperature, in the 1931 diagram.
+///
+/// # Errors
+///
+/// [`DifferenceError`] where a point has no chromaticity.
 pub fn locus_distance_xy(a: &LocusPoint, b: &LocusPoint) -> Result<f64, DifferenceError> {
     distance(a.xy, b.xy, Xy::distance)
 }
 
 /// The distance of two loci at the same temperature, in the 1976 diagram.
+///
+/// # Errors
+///
+/// [`DifferenceError`] where a point has no chromaticity.
 pub fn locus_distance_uv(a: &LocusPoint, b: &LocusPoint) -> Result<f64, DifferenceError> {
     distance(a.uv, b.uv, UvPrime::distance)
 }

@@ -101,6 +101,10 @@ impl Surface {
 
     /// A = 4XY and the paper's coherent component; takes σ from 0 to 1 m, τ and the half sides X and Y from 1 nm to 1 m, and an index above 0 and up to 1000.
     ///
+    /// # Errors
+    ///
+    /// [`SurfaceError`] where a number is outside the model's range.
+    ///
     /// ```
     /// use chromascope_core::reflectance::Surface;
     /// let surface = Surface::new(5e-6, 10e-6, 50e-6, 50e-6, 1.4)?;

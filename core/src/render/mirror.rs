@@ -4,7 +4,7 @@
 //! beyond some path the oscillation cancels over a channel's wavelengths ([`SpectralWeights::settled_m`]) and its mean
 //! 1 / 2(u² − w²) stands for it; in between all wavelengths of the grid are needed.
 //!
-//! [`SpectralWeights::settled_m`]: super::measure::Measure::settled_m
+//! [`SpectralWeights::settled_m`]: super::measure::SpectralWeights::settled_m
 
 use super::lobe::mean_sinc_squared_quick;
 use super::measure::{Node, SpectralWeights};

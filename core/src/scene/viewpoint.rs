@@ -43,6 +43,10 @@ impl Viewpoint {
     /// Takes yaw and pitch in radians, the distance in scene radii, and the vertical field of view in radians.
     ///
     /// Yaw is brought within half a turn; pitch is held within ±90°.
+    ///
+    /// # Errors
+    ///
+    /// [`ViewpointError`] where a number is not finite or out of range.
     pub fn new(yaw: f64, pitch: f64, distance: f64, field_of_view: f64) -> Result<Self, ViewpointError> {
         if ![yaw, pitch, distance, field_of_view].iter().all(|v| v.is_finite()) {
             return Err(ViewpointError::NotFinite);

@@ -13,7 +13,7 @@
 //! 400,0.01,0.02,0.3
 //! ```
 //!
-//! This reader is strict, for files we write ourselves; a person's files go through [`crate::table`].
+//! This reader is strict, for files we write ourselves; files of instruments go through the crate `spectral-file`.
 
 use super::{DistributionError, Evidence, Response, SpectralDistribution};
 
@@ -129,11 +129,19 @@ pub struct Dataset {
 
 impl Dataset {
     /// Reads only the header and the column heads; the figures are not looked at.
+    ///
+    /// # Errors
+    ///
+    /// [`DatasetError`] with the line.
     pub fn read_header(text: &str) -> Result<Header, DatasetError> {
         read_header(text).map(|(header, _)| header)
     }
 
     /// Reads the whole file.
+    ///
+    /// # Errors
+    ///
+    /// [`DatasetError`] with the line, and the column where a field is no number.
     pub fn read(text: &str) -> Result<Self, DatasetError> {
         let (header, first) = read_header(text)?;
         let width = header.columns.len() + 1;

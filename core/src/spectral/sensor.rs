@@ -124,6 +124,10 @@ impl Hash for Sensor {
 
 impl Sensor {
     /// Takes the three curves as measured, in the order of [`Primaries::channels`].
+    ///
+    /// # Errors
+    ///
+    /// [`SensorError`] where a channel has no sensitivity on the grid.
     pub fn new(
         primaries: Primaries,
         curves: [SpectralDistribution; 3],
