@@ -5,7 +5,7 @@ use chromascope_core::colorimetry::Uv60;
 use chromascope_core::prelude::*;
 
 /// Prints how many colors have a correlated color temperature, and the mean of it.
-pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let locus = PlanckianLocus::new(&data::observer("CIE 1931 2°")?, RadiationConstants::Paper)?;
     let side = 1000_u32;
     let step = |i: u32, from: f64, to: f64| from + (to - from) * f64::from(i) / f64::from(side - 1);

@@ -3,7 +3,7 @@
 use chromascope_core::prelude::*;
 
 /// Prints x and y.
-pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let camera = data::camera("Nikon D70 (2007 figure)")?;
     let signals = LocusEvaluator::new(&camera, RadiationConstants::Paper).raw(Kelvin::new(5500.0)?);
     let xyz = Rendering::under_equal_energy(&camera)?.blackbody(signals);

@@ -4,7 +4,7 @@ use chromascope_core::colorimetry::delta_e_2000;
 use chromascope_core::prelude::*;
 
 /// Prints name, xy and ΔE*00 of each patch.
-pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (camera, reference) = (data::camera("Nikon D850")?, data::observer("CIE 1931 2°")?);
     let (light, chart) = (data::illuminant("D65")?, data::chart("ColorChecker 24 (Ohta 1997)")?);
     let training = data::chart("Training reflectances (190)")?;

@@ -144,7 +144,7 @@ fn form(what: Option<What>, pen: &Pen<'_>) -> TextFormat {
         Some(What::Name { .. }) => TextFormat { background: theme.control, expand_bg: 1.5, ..bright },
         Some(What::Unit { .. }) => TextFormat { italics: true, ..bright },
         Some(What::Setting) => TextFormat { italics: true, ..weak },
-        Some(What::SkippedWork { .. }) => TextFormat { strikethrough: line(theme.weak), ..weak },
+        Some(What::LeftOut { .. }) => TextFormat { strikethrough: line(theme.weak), ..weak },
         // Values, whatever else is a part of a curve, and all of a text of which nothing is known yet.
         _ => bright,
     }
@@ -156,14 +156,14 @@ pub(super) fn legend(theme: &Theme, gap: f32) -> LayoutJob {
     let mut job = LayoutJob::default();
     let mut first = true;
     let value = What::Value { curve: 0, nm: 0.0, value: 0.0, written: 0.0 };
-    let skipped_work = What::SkippedWork { why: spectral_file::LeftOut::Column };
+    let left_out = What::LeftOut { why: spectral_file::LeftOut::Column };
     for (words, what) in [
         ("wavelength", Some(What::Wavelength { nm: 0.0 })),
         ("value", Some(value)),
         ("name", Some(What::Name { curve: 0 })),
         ("unit", Some(What::Unit { curve: None })),
         ("setting", Some(What::Setting)),
-        ("left out", Some(skipped_work)),
+        ("left out", Some(left_out)),
         ("not used", None),
     ] {
         let format = form(what, &pen);
