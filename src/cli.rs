@@ -92,7 +92,7 @@ pub enum CliError {
     #[error("{}: two outputs cannot go to one file; name another", .0.display())]
     Twice(PathBuf),
     /// The output could not be written.
-    #[error("cannot write {}: {}", path.display(), crate::files::reason(error))]
+    #[error("cannot write {}: {}", path.display(), crate::format::io_reason(error))]
     Output {
         /// Where.
         path: PathBuf,

@@ -208,13 +208,6 @@ impl Files {
     }
 }
 
-/// The system's reason without its error number.
-pub fn reason(error: &io::Error) -> String {
-    let text = error.to_string();
-    let end = text.find(" (os error").unwrap_or(text.len());
-    text[..end].to_lowercase()
-}
-
 /// A file's name of a stem and an ending, the stem cut where both together are longer than file systems take: 255 bytes.
 pub fn fitting(stem: &str, ending: &str) -> String {
     const LONGEST: usize = 255;

@@ -11,7 +11,7 @@ use egui::{Align, Button, Label, Layout, Rect, Response, RichText, Sense, Ui, Ui
 use egui_extras::{Column, TableBuilder};
 
 use crate::command::{Command, Format};
-use crate::number::number;
+use crate::format::number;
 use crate::paint;
 use crate::panes::PaneContext;
 use crate::plot_item::SensorId;

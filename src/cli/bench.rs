@@ -11,7 +11,7 @@ use super::outputs::{show, write_to};
 use super::{CliError, say};
 use crate::bench::{self, Effort, Measurement, Progress, Report, Workload};
 use crate::export::{Paper, png, png_file, svg};
-use crate::figures::pareto::duration;
+use crate::format::duration;
 use crate::theme::Theme;
 
 pub(super) const EXAMPLES: &str = "\

@@ -10,12 +10,11 @@ use chromascope_figure::{
     TextSize, finite_runs,
 };
 
-pub(crate) use drawn::sentence;
 pub use drawn::{Curve, Curves};
 pub use kept::CurveCache;
 pub use on_show::{ImportSelection, places};
 
-use crate::number::number;
+use crate::format::number;
 use crate::plot_item::PickIndex;
 use crate::scene::Scene;
 use crate::view::View;

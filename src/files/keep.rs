@@ -298,7 +298,7 @@ impl Keeper {
                     "{what} stays {}; this window's is {} ({why}; it could not be moved: {}).",
                     file.display(),
                     own.display(),
-                    super::reason(&error)
+                    crate::format::io_reason(&error)
                 );
                 (words, file.to_owned())
             }

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use super::store::{Unread, read};
-use super::{FileEvent, Files, Note, reason, write_atomically};
+use super::{FileEvent, Files, Note, write_atomically};
 use crate::document::Document;
 use crate::document::start::Start;
+use crate::format::io_reason;
 
 /// The file of the window's place and layout, which eframe reads.
 const LAYOUT: &str = "app.ron";
@@ -103,7 +104,7 @@ impl Files {
         } else {
             match std::fs::remove_file(path) {
                 Ok(()) => FileEvent::Said(format!("{} is deleted.", path.display())),
-                Err(error) => FileEvent::Failed(format!("{}: {}.", path.display(), reason(&error))),
+                Err(error) => FileEvent::Failed(format!("{}: {}.", path.display(), io_reason(&error))),
             }
         };
         self.note(Note::Event(event));

@@ -6,7 +6,8 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use super::{is_older, reason, sweep};
+use super::{is_older, sweep};
+use crate::format::io_reason;
 
 /// The file that the first window's document is kept in.
 const DOCUMENT: &str = "document.json";
@@ -64,7 +65,7 @@ impl Profile {
         let first = Some(folder.join(DOCUMENT));
         let of_first = Self { file: first.clone(), first: first.clone(), ..Self::default() };
         if let Err(error) = writable(&folder) {
-            return Self { closed: Some(format!("{}: {}", folder.display(), reason(&error))), ..of_first };
+            return Self { closed: Some(format!("{}: {}", folder.display(), io_reason(&error))), ..of_first };
         }
         match lock(&folder.join(LOCK)) {
             Ok(file) => {

@@ -5,7 +5,8 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{FileEvent, reason, write_atomically};
+use super::{FileEvent, write_atomically};
+use crate::format::io_reason;
 
 /// A form in which something can be written. Its bytes are made only when it is.
 #[derive(Clone)]
@@ -103,7 +104,7 @@ pub(super) fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }
         Ok(()) if note.is_empty() => FileEvent::Saved(format!("Saved {}.", path.display()), what.clone()),
         Ok(()) => FileEvent::Saved(format!("Saved {}: {note}.", path.display()), what.clone()),
         Err(error) => {
-            FileEvent::Failed(format!("Cannot write {}: {}. Your work is safe.", path.display(), reason(&error)))
+            FileEvent::Failed(format!("Cannot write {}: {}. Your work is safe.", path.display(), io_reason(&error)))
         }
     }
 }

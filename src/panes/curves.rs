@@ -57,7 +57,7 @@ fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2]
         context.view.point = Some(lines.join("  "));
         widgets::read_at_pointer(&shown.response, &lines);
     } else {
-        context.view.point = Some(format!("{nm:.0} nm  {}", crate::number::number(value)));
+        context.view.point = Some(format!("{nm:.0} nm  {}", crate::format::number(value)));
     }
 }
 

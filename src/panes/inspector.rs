@@ -16,13 +16,12 @@ use super::PaneContext;
 use crate::catalog::SetKind;
 use crate::command::Command;
 use crate::document::DifferenceChoice;
-use crate::number::number;
+use crate::format::{fixed, number};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{Theme, UNIT};
 use crate::widgets;
 use crate::widgets::facts::range_words;
-use crate::widgets::lines::fixed;
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Shows the pane in its rectangle.

@@ -117,7 +117,7 @@ impl Dial<'_> {
 
 /// A value as it is shown: three digits.
 fn short(value: f64) -> String {
-    crate::number::number(short_value(value))
+    crate::format::number(short_value(value))
 }
 
 /// Three digits: what a drag can mean, and what can be read.

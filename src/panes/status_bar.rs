@@ -10,10 +10,11 @@ use super::PaneContext;
 use crate::catalog::SetKind;
 use crate::catalog::opened::Progress;
 use crate::command::Command;
+use crate::format::fixed;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::UNIT;
 use crate::view::Weight;
-use crate::widgets::lines::{self, fixed};
+use crate::widgets::lines;
 use crate::workspaces::{Arrangement, PaneKind};
 
 /// What the bar says when there is nothing else.

@@ -6,7 +6,7 @@ use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 use super::PaneContext;
 use crate::action::{Action, RenderAction};
 use crate::document::render::{QualityChoice, RenderSettings};
-use crate::figures::pareto::duration;
+use crate::format::{capitalized, duration};
 use crate::profiler::plans::{self, Planned};
 use crate::scene::ComparedSensor;
 use crate::theme::UNIT;
@@ -111,12 +111,12 @@ fn not_rendered(ui: &mut Ui, context: &PaneContext<'_>) {
 
 fn explained(ui: &mut Ui, name: &str, planned: &Planned, context: &PaneContext<'_>) {
     let small = |words: String| RichText::new(words).small();
-    let certain = format!("{}.", capital(&planned.certain.words().replace('-', "−")));
+    let certain = format!("{}.", capitalized(&planned.certain.words().replace('-', "−")));
     let Some(explanation) = &planned.explanation else {
         ui.label(small(certain).color(context.theme.weak));
         return;
     };
-    ui.label(small(format!("{}.", capital(&plans::sentence(explanation))))).on_hover_text(WAYS);
+    ui.label(small(format!("{}.", capitalized(&plans::sentence(explanation))))).on_hover_text(WAYS);
     ui.label(small(certain)).on_hover_text(CERTIFIED);
     let parts: Vec<String> = plans::parts(explanation).map(cost).collect();
     let costs = if parts.is_empty() { "nothing".to_owned() } else { parts.join("; below that ") };
@@ -166,9 +166,4 @@ fn rejected(candidate: &Candidate) -> String {
     };
     let transform = plans::words(&candidate.method);
     format!("{transform}: {}, {}, {why}", error.replace('-', "−"), cost(candidate))
-}
-
-fn capital(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

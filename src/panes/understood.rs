@@ -16,7 +16,8 @@ use egui::{ComboBox, FontId, Rect, Response, RichText, ScrollArea, TextFormat, U
 use super::PaneContext;
 use crate::command::Command;
 use crate::document::own::ImportOverrides;
-use crate::figures::curves::{ImportSelection, sentence};
+use crate::figures::curves::ImportSelection;
+use crate::format::sentence;
 use crate::theme::{ROW, SMALL, TEXT, Theme, UNIT};
 use crate::view::import::Stop;
 use crate::widgets;

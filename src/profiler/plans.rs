@@ -114,7 +114,7 @@ pub fn words(method: &Method) -> String {
         Method::Nothing => "nothing".to_owned(),
         Method::Moments { orders, from_kappa } => {
             let plural = if *orders == 1 { "moment" } else { "moments" };
-            format!("{orders} {plural} from κ {}", crate::number::number(*from_kappa))
+            format!("{orders} {plural} from κ {}", crate::format::number(*from_kappa))
         }
         Method::Table { degree, kappas, betas, nodes } => {
             format!("table of {kappas} × {betas}, degree {degree}, {nodes} wavelengths a place")

@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SceneRunQuery;
 use super::stopwatch::shortest;
-use crate::figures::pareto::duration;
+use crate::format::duration;
 pub use panes::{LOCI, PATCHES};
 use ways::Ways;
 

@@ -8,7 +8,7 @@ use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, TextSize};
 use super::{Drawing, id};
 use crate::catalog::SetKind;
 use crate::document::Diagram;
-use crate::number::number;
+use crate::format::number;
 use crate::plot_item::{PickIndex, PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{LINE_TAIL, MARKER, MARKER_SMALL};

@@ -6,7 +6,7 @@
 use chromascope_core::query::render::Difference;
 
 use crate::document::{DifferenceChoice, Document};
-use crate::widgets::lines::fixed;
+use crate::format::fixed;
 
 /// What the numbers mean, for hints.
 pub const MEANING: &str = "Facing the light: the flat material under this light, as a patch. Median and 95 %: over the lit \

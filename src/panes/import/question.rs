@@ -4,7 +4,8 @@ use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
 use spectral_file::{Certainty, Role, Table, Values};
 
 use crate::command::Command;
-use crate::figures::curves::{ImportSelection, sentence};
+use crate::figures::curves::ImportSelection;
+use crate::format::sentence;
 use crate::panes::PaneContext;
 use crate::theme::UNIT;
 use crate::widgets::lines;

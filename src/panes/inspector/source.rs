@@ -10,13 +10,13 @@ use super::{
 use crate::catalog::{Place, SetKind};
 use crate::command::Command;
 use crate::document::{Diagram, FIT_TARGET, Light};
+use crate::format::fixed;
 use crate::panes::PaneContext;
 use crate::plot_item::SensorId;
 use crate::scene::Scene;
 use crate::theme::UNIT;
 use crate::view::import::ImportItem;
 use crate::widgets::facts::{self, Fact, range_words};
-use crate::widgets::lines::fixed;
 
 /// A camera or an observer.
 pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {

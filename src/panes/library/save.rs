@@ -6,6 +6,7 @@ use crate::action::{Action, OwnAction};
 use crate::catalog::{Entry, SetKind};
 use crate::command::Command;
 use crate::export::spectra::{Form, fits};
+use crate::format::sentence;
 use crate::panes::PaneContext;
 use crate::view::import::ImportItem;
 use crate::widgets::lines;
@@ -72,11 +73,4 @@ pub(super) fn save_as(ui: &mut Ui, kind: SetKind, name: &str, context: &mut Pane
             }
         }
     });
-}
-
-/// With a capital at the start and a point at the end.
-fn sentence(words: &str) -> String {
-    let mut letters = words.chars();
-    let first = letters.next().into_iter().flat_map(char::to_uppercase);
-    first.chain(letters).chain(['.']).collect()
 }

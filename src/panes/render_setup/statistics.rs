@@ -3,9 +3,9 @@
 use chromascope_core::render::Quality;
 use egui::{Grid, RichText, Ui};
 
+use crate::format::fixed;
 use crate::panes::PaneContext;
 use crate::theme::UNIT;
-use crate::widgets::lines::fixed;
 
 /// Stages in the order they follow each other, as counted and as shown.
 const STAGES: [(&str, &str); 8] = [
