@@ -32,5 +32,4 @@ pub mod scene;
 pub mod terminal;
 pub mod theme;
 pub mod view;
-pub mod widgets;
 pub mod workspaces;

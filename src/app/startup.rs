@@ -6,8 +6,8 @@ use std::time::Instant;
 use eframe::{NativeOptions, egui::ViewportBuilder};
 
 use super::{ChromascopeApp, LAYOUT_KEY};
+use crate::action::history::History;
 use crate::catalog::opened::Request;
-use crate::document::history::History;
 use crate::files::{self, Files};
 use crate::view::SavedView;
 

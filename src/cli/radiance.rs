@@ -8,8 +8,8 @@ use chromascope_core::spectral::{GridSpectrum, Quantity};
 
 use super::CliError;
 use super::request::{Request, told};
-use crate::catalog::SetKind;
 use crate::catalog::names::{NameError, folded};
+use crate::document::SetKind;
 use crate::document::own::Role;
 use crate::scene::{Scene, SceneError};
 

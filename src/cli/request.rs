@@ -15,11 +15,11 @@ use super::outputs::is_descriptor;
 use super::{CliError, checks, say};
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
-use crate::catalog::{Catalog, Entry, SetKind};
+use crate::catalog::{Catalog, Entry};
 use crate::document::own::{ImportOverrides, OwnSet, Role};
 use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
-use crate::document::{CHART, CIE_1931, Document, Light, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::document::{CHART, CIE_1931, Document, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::io_reason;
 
 /// The name of the paper's five patches as a chart of their own.

@@ -229,7 +229,7 @@ fn table(scene: &Scene<'_>) -> Table {
         "distance_uv",
         "extrapolated",
     ]);
-    let reference_locus = scene.locus(crate::catalog::SetKind::Observer, &scene.document.reference).ok();
+    let reference_locus = scene.locus(crate::document::SetKind::Observer, &scene.document.reference).ok();
     for source in scene.sources().iter().filter(|source| source.visible) {
         let comparable = matches!(scene.comparable(source.kind, &source.name), Ok(Ok(())));
         let near = |xy: Option<Xy>, uv: Option<UvPrime>, txy: Option<Xy>, tuv: Option<UvPrime>| {
@@ -249,7 +249,7 @@ fn table(scene: &Scene<'_>) -> Table {
             }
         }
         let reference =
-            scene.patch_colors(crate::catalog::SetKind::Observer, &scene.document.reference).unwrap_or_default();
+            scene.patch_colors(crate::document::SetKind::Observer, &scene.document.reference).unwrap_or_default();
         let (Ok(colors), Ok(patches)) = (scene.patch_colors(source.kind, &source.name), scene.patches()) else {
             continue;
         };

@@ -9,11 +9,11 @@ mod view;
 
 use egui::{CollapsingHeader, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::action::{Action, RenderAction};
 use crate::document::render::RenderSettings;
+use crate::panes::widgets;
 use crate::theme::UNIT;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// Height of the numbers of a pixel, at the foot of the pane, beside a line for each of some sensors.

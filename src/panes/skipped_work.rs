@@ -3,13 +3,13 @@
 use chromascope_figure::{TextSize, text_width};
 use egui::{Align, Label, Layout, Rect, RichText, ScrollArea, TextStyle, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::command::Command;
 use crate::figures::skipped_work::{self, OVERLAP, Section};
 use crate::format::{capitalized, duration};
+use crate::panes::widgets;
 use crate::profiler::SkippedWork;
 use crate::theme::UNIT;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// Shows the pane in its rectangle.

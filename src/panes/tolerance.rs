@@ -3,14 +3,14 @@
 use chromascope_core::render::plan::{Candidate, Verdict};
 use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::action::{Action, RenderAction};
 use crate::document::render::{QualityChoice, RenderSettings};
 use crate::format::{capitalized, duration};
+use crate::panes::widgets;
 use crate::profiler::plans::{self, Planned};
 use crate::scene::ComparedSensor;
 use crate::theme::UNIT;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// Shows the pane in its rectangle.

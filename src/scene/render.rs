@@ -10,7 +10,7 @@ use chromascope_core::spectral::GridSpectrum;
 use chromascope_mesh::Mesh;
 
 use super::{ComparedSensor, Scene, SceneError};
-use crate::catalog::SetKind;
+use crate::document::SetKind;
 use crate::document::render::MeshChoice;
 
 /// How finely a picture is made.

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use chromascope::catalog::{Catalog, SetKind};
+use chromascope::catalog::Catalog;
 use chromascope::document::render::{MeshChoice, RenderSettings, SUN};
-use chromascope::document::{Compared, Document, Light, WhiteBalanceChoice};
+use chromascope::document::{Compared, Document, Light, SetKind, WhiteBalanceChoice};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
+use chromascope::scene::orbit::Orbit;
 use chromascope::scene::render::Finish;
-use chromascope::view::render::Orbit;
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::Pictures;
 use chromascope_core::render::{Quality, RasterSize, Shadows};

@@ -6,8 +6,7 @@ use chromascope_core::units::Kelvin;
 use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, TextSize};
 
 use super::{Drawing, id};
-use crate::catalog::SetKind;
-use crate::document::Diagram;
+use crate::document::{Diagram, SetKind};
 use crate::format::number;
 use crate::plot_item::{PickIndex, PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene};

@@ -5,10 +5,10 @@ use egui::{RichText, ScrollArea, Ui};
 
 use super::{difference_words, note, numbers, patch, radiator, reference_id, source_of};
 use crate::format::fixed;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::{Icon, icon_button};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
-use crate::widgets::{Icon, icon_button};
 
 /// Width of a column of numbers.
 const COLUMN: f32 = 56.0;

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::document::Light;
 use crate::format::fixed;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::plot_item::SensorId;
 use crate::scene::{Scene, SceneError};
 

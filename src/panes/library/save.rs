@@ -3,13 +3,14 @@
 use egui::{Key, Modifiers, Popup, Rect, Response, Sense, Ui};
 
 use crate::action::{Action, OwnAction};
-use crate::catalog::{Entry, SetKind};
+use crate::catalog::Entry;
 use crate::command::Command;
+use crate::document::SetKind;
 use crate::export::spectra::{Form, fits};
 use crate::format::sentence;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::lines;
 use crate::view::import::ImportItem;
-use crate::widgets::lines;
 
 /// The dots at the end of a row and what they open; so do a right click on the row and the menu key. A row of the program's
 /// shows its dots while it is pointed at or has the focus. Returns whether they are on show.

@@ -2,7 +2,7 @@
 
 use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Ui, Vec2};
 
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::theme::{SMALL, difference_ramp};
 
 /// The scale: what the ramp's colors stand for.

@@ -10,9 +10,10 @@ use egui::Ui;
 use super::cells::PictureLayout;
 use crate::catalog::meshes::MeshState;
 use crate::document::render::{MeshChoice, QualityChoice, RenderSettings};
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
-use crate::view::render::{Orbit, RenderMode};
+use crate::view::render::RenderMode;
 
 /// Above so many pixels in all, pictures of something that moves have half the resolution.
 const MANY_PIXELS: u64 = 1_500_000;

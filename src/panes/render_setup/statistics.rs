@@ -4,7 +4,7 @@ use chromascope_core::render::Quality;
 use egui::{Grid, RichText, Ui};
 
 use crate::format::fixed;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::theme::UNIT;
 
 /// Stages in the order they follow each other, as counted and as shown.

@@ -4,9 +4,9 @@ use egui::{ComboBox, RichText, Ui};
 
 use super::{Dial, set};
 use crate::document::render::QualityChoice;
-use crate::panes::PaneContext;
-use crate::view::render::Orbit;
-use crate::widgets;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets;
+use crate::scene::orbit::Orbit;
 
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {

@@ -7,9 +7,9 @@ use super::note;
 use crate::figures::curves::ImportSelection;
 use crate::format;
 use crate::format::{number, sentence};
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::facts::range_words;
 use crate::theme::UNIT;
-use crate::widgets::facts::range_words;
 
 /// So many dropped rows are told one by one.
 const TOLD: usize = 5;
