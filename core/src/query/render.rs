@@ -13,7 +13,8 @@ pub use picture::{ExposureQuery, PictureQuery, Pictures, PicturesQuery, SourceOf
 pub use plan::{PlanQuery, ReachQuery};
 pub use returned::{ReturnedLight, ReturnedLightQuery};
 
-use super::{Ask, Query, Shared};
+use super::ask::{Ask, Query};
+use super::shared::Shared;
 use crate::camera::{RenderingError, rendering::white_divisors};
 use crate::reflectance::{Reading, Specular, Surface, wavelength_power};
 use crate::render::mirror::Reach;

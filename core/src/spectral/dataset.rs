@@ -15,7 +15,8 @@
 //!
 //! This reader is strict, for files we write ourselves; a person's files go through [`crate::table`].
 
-use super::{DistributionError, Evidence, Response, SpectralDistribution};
+use super::distribution::{DistributionError, SpectralDistribution};
+use super::sensor::{Evidence, Response};
 
 /// The facts at the top of a data file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
