@@ -14,7 +14,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use chromascope_core::camera::Rendering;
-use chromascope_core::query::render::{Pictures, PicturesQuery};
+use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
 use chromascope_core::query::{Ask as _, DifferenceError, RenderingQuery};
 use chromascope_core::render::{CameraImage, Picture};
 use clap::ArgMatches;

@@ -2,7 +2,7 @@
 
 use chromascope_core::accuracy::Accuracy;
 use chromascope_core::query::NearestBlackBodyQuery;
-use chromascope_core::query::render::PicturesQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::Quality;
 
 use crate::catalog::meshes::MeshStore;

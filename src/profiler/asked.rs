@@ -1,7 +1,7 @@
 //! The scene on show as a question of what it costs.
 
 use chromascope_core::light::RadiationConstants;
-use chromascope_core::query::render::{PicturesQuery, SourceOf};
+use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
 use chromascope_core::query::{LocusQuery, PatchColorsQuery, Shared};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_mesh::Mesh;

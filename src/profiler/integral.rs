@@ -2,7 +2,7 @@
 
 use chromascope_core::accuracy::Accuracy;
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::PicturesQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::reflectance::{Precision, Reading};
 use chromascope_core::render::diffuse::{DARK, ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::shading::Way;

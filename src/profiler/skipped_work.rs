@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::PicturesQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::shading::{Shade, Way};
 use chromascope_core::render::{CameraImage, ShadingImage, SpectralWeights, Stop};

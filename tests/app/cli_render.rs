@@ -12,7 +12,7 @@ use chromascope::scene::Scene;
 use chromascope::scene::orbit::Orbit;
 use chromascope::scene::render::Finish;
 use chromascope_core::query::Ask as _;
-use chromascope_core::query::render::Pictures;
+use chromascope_core::query::render::picture::Pictures;
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use exr::prelude::{AnyChannels, AttributeValue, FlatImage, FlatSamples, Layer};
 use serde_json::Value;

@@ -8,10 +8,7 @@ pub mod picture;
 pub mod plan;
 pub mod returned;
 
-pub use difference::{BrightSamples, Difference, DifferenceQuery};
-pub use picture::{ExposureQuery, PictureQuery, Pictures, PicturesQuery, SourceOf};
-pub use plan::{PlanQuery, ReachQuery};
-pub use returned::{ReturnedLight, ReturnedLightQuery};
+use plan::{PlanQuery, ReachQuery};
 
 use super::ask::{Ask, Query};
 use super::shared::Shared;

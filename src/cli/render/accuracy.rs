@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use chromascope_core::camera::RenderingError;
 use chromascope_core::query::Ask as _;
-use chromascope_core::query::render::{DiffuseTableQuery, PlanQuery, Roughness, SpectralWeightsQuery};
+use chromascope_core::query::render::plan::PlanQuery;
+use chromascope_core::query::render::{DiffuseTableQuery, Roughness, SpectralWeightsQuery};
 use chromascope_core::reflectance::{Reading, Surface};
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{

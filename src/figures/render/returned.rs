@@ -1,7 +1,7 @@
 //! The share of light that the chosen surface returns, in words: where the reflectance model says its limits.
 
 use chromascope_core::query::Ask as _;
-use chromascope_core::query::render::{ReturnedLight, ReturnedLightQuery};
+use chromascope_core::query::render::returned::{ReturnedLight, ReturnedLightQuery};
 use chromascope_core::reflectance::{Reading, Surface};
 
 use crate::document::render::{ReadingChoice, RoughnessChoice};

@@ -2,7 +2,8 @@
 
 use chromascope_core::colorimetry::rgb::srgb_inverse_transfer;
 use chromascope_core::query::Shared;
-use chromascope_core::query::render::{MeshQuery, PicturesQuery};
+use chromascope_core::query::render::MeshQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_mesh::Mesh;
 use egui::Ui;

@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use chromascope_core::camera::RenderingError;
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::{DiffuseTableQuery, PicturesQuery, PlanQuery, SourceOf};
+use chromascope_core::query::render::DiffuseTableQuery;
+use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
+use chromascope_core::query::render::plan::PlanQuery;
 use chromascope_core::reflectance::Precision;
 use chromascope_core::render::diffuse::{by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::measure::Node;
