@@ -19,10 +19,11 @@ use spectral_file::{Certainty, Decided, ReadError, Role, Table};
 
 use self::arguments::InspectArguments;
 use self::out::Out;
+use super::error::CliError;
 use super::outputs::{Stop, put, show, stream};
 use super::request::read;
-use super::{CliError, say};
 use crate::format::io_reason;
+use crate::terminal::say;
 
 /// Why a file could not be read or written.
 #[derive(Clone)]

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use chromascope_core::query::{Ask as _, PatchColor, RadianceColorsQuery, RenderingQuery, Shared};
 use chromascope_core::spectral::{GridSpectrum, Quantity};
 
-use super::CliError;
+use super::error::CliError;
 use super::request::{Request, told};
 use crate::catalog::names::{NameError, folded};
 use crate::document::SetKind;

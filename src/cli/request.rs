@@ -11,8 +11,9 @@ use clap::ArgMatches;
 use spectral_file::{Certainty, MAX_BYTES, Values};
 
 use super::arguments::{CommonArguments, Per, SourceArguments, Transform};
+use super::checks;
+use super::error::CliError;
 use super::outputs::is_descriptor;
-use super::{CliError, checks, say};
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry};
@@ -21,6 +22,7 @@ use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
 use crate::document::{CHART, CIE_1931, Document, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::io_reason;
+use crate::terminal::say;
 
 /// The name of the paper's five patches as a chart of their own.
 pub(super) const FIVE: &str = "ColorChecker five";

@@ -6,7 +6,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use super::{is_older, sweep};
+use super::atomic::{TEMPORARY, is_older, sweep};
 use crate::format::io_reason;
 
 /// The file that the first window's document is kept in.
@@ -195,7 +195,7 @@ fn free(folder: &Path, name: impl Fn(u32) -> String) -> PathBuf {
 /// Whether files can be made in a folder, which is made if it is not there.
 fn writable(folder: &Path) -> io::Result<()> {
     fs::create_dir_all(folder)?;
-    tempfile::Builder::new().prefix(super::TEMPORARY).tempfile_in(folder).map(drop)
+    tempfile::Builder::new().prefix(TEMPORARY).tempfile_in(folder).map(drop)
 }
 
 fn lock(path: &Path) -> Result<File, TryLockError> {

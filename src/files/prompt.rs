@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::SaveRequest;
+use super::save::SaveRequest;
 use crate::format::io_reason;
 
 /// So many completions are listed.

@@ -13,8 +13,8 @@ use std::ptr::from_ref;
 
 use chromascope_core::query::Shared;
 
+use super::atomic::write_atomically;
 use super::profile::{CURVES, Lock, free_copy};
-use super::write_atomically;
 use crate::document::kept::{self, Kept, Place};
 use crate::document::own::{Fingerprint, OwnCurve, OwnSet};
 use crate::document::session::SessionError;

@@ -3,6 +3,7 @@
 //! Read from the source text, with test modules, comments and strings blanked out. Each check takes a path and a text,
 //! so that the tests at the end can plant what it must find.
 
+mod circles;
 mod clocks;
 mod rust_text;
 
@@ -28,6 +29,36 @@ const CORE_LAYERS: &[&str] = &[
     "render",
     "query",
 ];
+
+/// Modules of the app in their order: each uses only those before it. The picture is in `src/lib.rs`.
+const APP_LAYERS: &[&str] = &[
+    "format",
+    "terminal",
+    "theme",
+    "document",
+    "action",
+    "results",
+    "jobs",
+    "catalog",
+    "scene",
+    "files",
+    "export",
+    "plot_item",
+    "paint",
+    "workspaces",
+    "render_service",
+    "bench",
+    "profiler",
+    "view",
+    "command",
+    "figures",
+    "panes",
+    "cli",
+    "app",
+];
+
+/// Uses against that order, which can only become fewer.
+const AGAINST_ORDER: &[(&str, &str)] = &[("bench", "figures"), ("document", "catalog")];
 
 /// Other crates under the names that `chromascope-core` gives them.
 const REEXPORTED: &[&str] = &["math", "mesh"];
@@ -75,6 +106,11 @@ fn app_modules_keep_to_their_part() {
         .filter(|module| !PARTS_OF_PANES.contains(&module.as_str()))
         .collect();
     hold(sources.iter().flat_map(|(path, text)| app_layers(path, text, &panes)));
+}
+
+#[test]
+fn app_modules_use_only_what_is_before_them() {
+    hold(sources("src").iter().flat_map(|(path, text)| app_order(path, text)));
 }
 
 #[test]
@@ -181,6 +217,27 @@ fn app_layers(file: &str, text: &str, panes: &BTreeSet<String>) -> Vec<Violation
         {
             let rule = "only `files`, `catalog`, `export` and the command line touch the disk";
             found.push(path.line, format!("{rule}: `{disk}`"));
+        }
+    }
+    found.violations
+}
+
+fn app_order(file: &str, text: &str) -> Vec<Violation> {
+    let own = module(file);
+    let mut found = Report::new(file);
+    let layer = |name: &str| APP_LAYERS.iter().position(|layer| *layer == name);
+    let Some(top) = own.first() else { return found.violations };
+    let Some(place) = layer(top) else {
+        found.push(1, format!("`{top}` has no place in the order: give it one in tests/app/architecture.rs"));
+        return found.violations;
+    };
+    for path in paths(&own, &code(text)) {
+        let [first, used, ..] = path.names.as_slice() else { continue };
+        if first != "crate" || used == top || AGAINST_ORDER.contains(&(top.as_str(), used.as_str())) {
+            continue;
+        }
+        if layer(used).is_none_or(|other| other > place) {
+            found.push(path.line, format!("`{top}` may not use `{used}`, only {}", APP_LAYERS[..place].join(", ")));
         }
     }
     found.violations
@@ -360,6 +417,23 @@ use egui;
         "core/src/math.rs:6: the core never uses `egui`",
     ];
     assert_eq!(found(&pure("core/src/math.rs", text)), expected);
+}
+
+#[test]
+fn an_app_module_that_looks_up_is_found() {
+    let check = |file: &str, text: &str| found(&app_order(file, text));
+    let text = "use crate::format::number;\nuse crate::{action::Action, document};\nfn f(_: super::super::view::View) {}";
+    let rule = "src/document/own.rs:";
+    let only = "only format, terminal, theme";
+    let expected = [
+        format!("{rule}2: `document` may not use `action`, {only}"),
+        format!("{rule}3: `document` may not use `view`, {only}"),
+    ];
+    assert_eq!(check("src/document/own.rs", text), expected);
+    assert_eq!(check("src/app.rs", text), [""; 0]);
+    assert_eq!(check("src/lib.rs", "pub mod view; pub use crate::view::View;"), [""; 0]);
+    let unknown = check("src/shiny.rs", "");
+    assert!(unknown[0].contains("`shiny` has no place in the order"));
 }
 
 #[test]

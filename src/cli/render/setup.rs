@@ -14,13 +14,14 @@ use clap::ArgMatches;
 
 use super::arguments::{RenderArguments, SpecularName};
 use crate::catalog::meshes;
+use crate::cli::error::CliError;
 use crate::cli::request::Request;
-use crate::cli::{CliError, say};
 use crate::document::render::model::SpecularChoice;
 use crate::document::render::{BALANCE, MeshChoice, QualityChoice, RenderSettings, RoughnessChoice, SUN};
 use crate::document::{Compared, Light, SetKind, WhiteBalanceChoice};
 use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
+use crate::terminal::say;
 
 /// All that pictures are made of.
 pub(super) struct Setup {

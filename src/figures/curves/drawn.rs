@@ -4,10 +4,13 @@ use spectral_file::{Quantity, Role, Table};
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 
-use super::{ImportSelection, places};
+use super::on_show::{ImportSelection, places};
 use crate::catalog::import::taken;
 use crate::document::own::OwnSet;
 use crate::format::{capitalized, number, sentence};
+
+/// Maximum number of curves drawn.
+pub const DRAWN: usize = 200;
 
 /// A curve to draw.
 #[derive(Clone, Debug, PartialEq)]
