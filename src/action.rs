@@ -1,15 +1,17 @@
 //! Every change a user can make to the document. Undo is the previous document.
 
+pub mod history;
+
 use std::path::PathBuf;
 
 use chromascope_core::query::Shared;
 
-use crate::catalog::{Entry, SetKind};
 use crate::document::own::OwnSet;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
 use crate::document::{
-    Diagram, DifferenceChoice, Document, LOCUS_RANGE_K, Light, Overlays, Subset, TransformChoice, WhiteBalanceChoice,
+    Diagram, DifferenceChoice, Document, LOCUS_RANGE_K, Light, Overlays, SetKind, Subset, TransformChoice,
+    WhiteBalanceChoice,
 };
 
 /// A change of the document.
@@ -306,7 +308,7 @@ impl OwnAction {
                         continue;
                     }
                     let mut set = Shared::new(set.clone());
-                    let name = document.free_name(Entry::from_own(&set).kind, &set.name, None);
+                    let name = document.free_name(SetKind::of_own(&set), &set.name, None);
                     if name != set.name {
                         set = Shared::new(OwnSet { name, ..(*set).clone() });
                     }
@@ -323,7 +325,7 @@ impl OwnAction {
             Self::Remove(name) => {
                 let Some(index) = document.own.iter().position(|set| set.name == *name) else { return };
                 let set = document.own.remove(index);
-                document.forget_name(Entry::from_own(&set).kind, name);
+                document.forget_name(SetKind::of_own(&set), name);
             }
         }
     }
@@ -347,9 +349,9 @@ fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool)
 /// Puts another version of a set in its place. What it is used as stays, unless that has become something else.
 fn replace(document: &mut Document, name: &str, with: &OwnSet) {
     let Some(index) = document.own.iter().position(|set| set.name == name) else { return };
-    let before = Entry::from_own(&document.own[index]).kind;
+    let before = SetKind::of_own(&document.own[index]);
     let mut set = Shared::new(with.clone());
-    let kind = Entry::from_own(&set).kind;
+    let kind = SetKind::of_own(&set);
     let free = document.free_name(kind, &set.name, Some(index));
     if free != set.name {
         set = Shared::new(OwnSet { name: free, ..with.clone() });

@@ -15,14 +15,16 @@ mod startup;
 use chromascope_core::query::NearestBlackBodyQuery;
 use egui::{Align2, CentralPanel, CursorIcon, Event, Frame, Panel, Rect, Sense, Ui};
 
+use crate::action::history::History;
 use crate::catalog::Catalog;
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
 use crate::command::{Command, key_bindings};
-use crate::document::history::History;
+use crate::figures::curves::CurveCache;
 use crate::files::{Files, Standing};
 use crate::jobs::{Background, Executor};
-use crate::panes::{self, PaneContext};
+use crate::panes;
+use crate::panes::context::PaneContext;
 use crate::profiler::Profiler;
 use crate::render_service::RenderService;
 use crate::results::Results;
@@ -49,6 +51,7 @@ pub struct ChromascopeApp {
     radiators: Background<NearestBlackBodyQuery>,
     studio: RenderService,
     laboratory: Profiler,
+    curves: Option<CurveCache>,
     commands: Vec<Command>,
     /// The latest reading of each set that was read again.
     last_read: std::collections::HashMap<String, u64>,
@@ -86,6 +89,7 @@ impl ChromascopeApp {
             radiators: Background::on(executor, "black bodies", move || third.request_repaint()),
             studio: RenderService::on(executor, ctx),
             laboratory: Profiler::on(executor, move || fourth.request_repaint()),
+            curves: None,
             commands: Vec::new(),
             last_read: std::collections::HashMap::new(),
             arrangement: Arrangement::default(),
@@ -252,10 +256,12 @@ impl ChromascopeApp {
             radiators,
             studio,
             laboratory,
+            curves,
             ..
         } = self;
         let scene = Scene { document: history.document(), catalog, results };
-        let mut context = PaneContext { scene, theme, view, meshes, opened, radiators, studio, laboratory, commands };
+        let mut context =
+            PaneContext { scene, theme, view, meshes, opened, radiators, studio, laboratory, curves, commands };
         let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
             let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
             let frame = Frame::NONE.fill(theme.panel);

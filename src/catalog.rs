@@ -16,65 +16,8 @@ use std::sync::LazyLock;
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::{Dataset, Header};
 
-use crate::document::own::{OwnSet, Role};
-
-/// What a data set is of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SetKind {
-    /// A camera's spectral sensitivities.
-    Camera,
-    /// An observer's color matching functions or cone fundamentals.
-    Observer,
-    /// A set of patches.
-    Chart,
-    /// A light.
-    Illuminant,
-    /// Single reflectances.
-    Material,
-    /// Spectra of the user's of which nobody has said what they are of.
-    Unsorted,
-}
-
-impl SetKind {
-    /// All kinds in the order they are listed.
-    pub const ALL: [Self; 6] =
-        [Self::Camera, Self::Observer, Self::Chart, Self::Illuminant, Self::Material, Self::Unsorted];
-
-    /// The plural, as shown and as the command line takes it.
-    pub const fn plural(self) -> &'static str {
-        match self {
-            Self::Camera => "cameras",
-            Self::Observer => "observers",
-            Self::Chart => "charts",
-            Self::Illuminant => "illuminants",
-            Self::Material => "materials",
-            Self::Unsorted => "unsorted spectra",
-        }
-    }
-
-    /// Kind of one of the user's sets.
-    pub const fn of_own(set: &OwnSet) -> Self {
-        match set.role {
-            Role::Camera => Self::Camera,
-            Role::Reflectance | Role::Transmittance => Self::Chart,
-            Role::Illuminant => Self::Illuminant,
-            Role::Unknown => Self::Unsorted,
-        }
-    }
-
-    /// One of them.
-    pub const fn singular(self) -> &'static str {
-        match self {
-            Self::Camera => "camera",
-            Self::Observer => "observer",
-            Self::Chart => "chart",
-            Self::Illuminant => "illuminant",
-            Self::Material => "material",
-            Self::Unsorted => "unsorted spectrum",
-        }
-    }
-}
+use crate::document::SetKind;
+use crate::document::own::OwnSet;
 
 /// Where a set's figures are: a file of the program, or a set of the user's, held by value.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -4,7 +4,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::action::Action;
 use crate::bench::Workload;
-use crate::catalog::SetKind;
+use crate::document::SetKind;
 use crate::document::own::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
 use crate::plot_item::SensorId;

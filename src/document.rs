@@ -3,8 +3,8 @@
 //! Everything that can be computed from it and the data sets is not in here. The JSON it is saved as is the session file:
 //! versioned, unknown fields kept, the user's own data by value.
 
-pub mod history;
 pub mod kept;
+pub mod kind;
 pub mod own;
 pub mod paths;
 pub mod render;
@@ -12,8 +12,8 @@ pub mod session;
 pub mod start;
 pub mod uses;
 
-use crate::catalog::SetKind;
 use chromascope_core::query::{Metric, Shared};
+pub use kind::SetKind;
 use own::OwnSet;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};

@@ -3,7 +3,9 @@
 //! Dialogs, reads and writes run on threads of their own and come back through [`Files::poll`]; the window never waits.
 
 mod asking;
+mod atomic;
 mod dialogs;
+mod event;
 mod keep;
 mod kept;
 mod last;
@@ -14,58 +16,23 @@ mod standing;
 mod store;
 mod watch;
 
-use std::ffi::OsStr;
 use std::fs;
-use std::io::{self, Seek as _};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
-use std::time::{Duration, SystemTime};
-
-use tempfile::NamedTempFile;
 
 use crate::jobs::Executor;
+use event::Note;
 
+pub use atomic::{write_atomically, write_atomically_with};
 pub use dialogs::{Answer, DialogLog, Dialogs, Question};
-pub use kept::Opened as OpenedDocument;
+pub use event::{FileEvent, OpenedDocument};
 pub use last::{install_panic_hook, save_last, save_on_exit, save_on_signals};
 pub use profile::Copy;
 pub use prompt::PathPrompt;
 pub use save::{FileForm, SaveRequest};
 pub use standing::{Standing, StandingKind};
-
-/// The beginning of names of files that are being written.
-const TEMPORARY: &str = ".chromascope-";
-/// So many letters and digits follow it.
-const RANDOM: usize = 6;
-
-/// Result of a dialog, a read or a write.
-#[derive(Debug)]
-pub enum FileEvent {
-    /// Files or folders are to be opened.
-    Open(Vec<PathBuf>),
-    /// Files changed on disk.
-    Changed(Vec<PathBuf>),
-    /// Something to know.
-    Said(String),
-    /// A file was written: a sentence, and the description of what is in it.
-    Saved(String, String),
-    /// A document was read, and the one before it kept.
-    Document(Box<kept::Opened>),
-    /// Something failed; nothing was changed.
-    Failed(String),
-}
-
-/// Message of a thread.
-enum Note {
-    Event(FileEvent),
-    Answered(u64, Answer, Option<SaveRequest>),
-    ToSave(SaveRequest),
-    NotMade(String),
-    NotSaved(PathPrompt),
-    Completed(prompt::Completed),
-}
 
 /// The only part of the window that touches the disk.
 pub struct Files {
@@ -208,13 +175,6 @@ impl Files {
     }
 }
 
-/// The system's reason without its error number.
-pub fn reason(error: &io::Error) -> String {
-    let text = error.to_string();
-    let end = text.find(" (os error").unwrap_or(text.len());
-    text[..end].to_lowercase()
-}
-
 /// A file's name of a stem and an ending, the stem cut where both together are longer than file systems take: 255 bytes.
 pub fn fitting(stem: &str, ending: &str) -> String {
     const LONGEST: usize = 255;
@@ -227,103 +187,4 @@ pub fn processor() -> Option<String> {
     let facts = fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = facts.lines().find(|line| line.starts_with("model name"))?;
     Some(line.split_once(": ")?.1.trim().to_owned())
-}
-
-/// Writes a file whole or not at all: beside it first, then moved into its place. It is flushed to the disk before it takes its
-/// name, and its folder after it.
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    write_atomically_with(path, |file| file.write_all(bytes))
-}
-
-/// Writes a file whole or not at all, as its contents are made.
-pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>) -> io::Result<()> {
-    // What a link leads to is written, and the link stays.
-    let target = match fs::canonicalize(path) {
-        Ok(target) => target,
-        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-        Err(_) if fs::symlink_metadata(path).is_ok() => {
-            return Err(io::Error::new(io::ErrorKind::NotFound, "it is a link to a file that is not there"));
-        }
-        Err(_) => path.to_owned(),
-    };
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = temporary(folder)?;
-    write(file.as_file_mut())?;
-    finish(&file, &target)?;
-    file.persist(&target).map(drop).or_else(|error| again(error, folder, &target))?;
-    // The file is in its place; some systems cannot flush a folder.
-    #[cfg(unix)]
-    if let Err(error) = fs::File::open(folder).and_then(|folder| folder.sync_all()) {
-        log::debug!("{} is not flushed: {error}", folder.display());
-    }
-    Ok(())
-}
-
-/// Makes a file that is to take the place of another, and locks it: it is being written.
-fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(TEMPORARY).rand_bytes(RANDOM);
-    // A temporary file is private else; what is saved is as readable as any new file, so the system's mask applies.
-    #[cfg(unix)]
-    let builder = {
-        use std::os::unix::fs::PermissionsExt as _;
-        builder.permissions(fs::Permissions::from_mode(0o666))
-    };
-    let file = builder.tempfile_in(folder)?;
-    // Where there are no locks, nothing is swept either.
-    let _unlocked = file.as_file().try_lock();
-    Ok(file)
-}
-
-/// Makes a file as readable as the one that it takes the place of, and flushes it.
-fn finish(file: &NamedTempFile, target: &Path) -> io::Result<()> {
-    if cfg!(unix)
-        && let Ok(known) = fs::metadata(target)
-    {
-        file.as_file().set_permissions(known.permissions())?;
-    }
-    file.as_file().sync_all()
-}
-
-/// Writes a file once more whose name another program removed before it was in its place.
-fn again(error: tempfile::PersistError, folder: &Path, target: &Path) -> io::Result<()> {
-    if error.error.kind() != io::ErrorKind::NotFound {
-        return Err(error.error);
-    }
-    let mut gone = error.file;
-    gone.as_file_mut().rewind()?;
-    let mut file = temporary(folder)?;
-    io::copy(gone.as_file_mut(), file.as_file_mut())?;
-    finish(&file, target)?;
-    file.persist(target).map(drop).map_err(|error| error.error)
-}
-
-/// Removes what a process that was killed was writing in a folder of the program's. What is being written is locked, or about
-/// to be.
-fn sweep(folder: &Path) {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    for entry in entries.filter(|entry| is_temporary(&entry.file_name())) {
-        let path = entry.path();
-        // Network folders lock only what is open for writing.
-        let is_free = || {
-            let file = fs::OpenOptions::new().read(true).write(true).open(&path);
-            file.is_ok_and(|file| file.try_lock().is_ok())
-        };
-        // One that another window has made but not locked yet is made again by that window.
-        if entry.file_type().is_ok_and(|kind| kind.is_file()) && is_free() {
-            let _gone = fs::remove_file(&path);
-        }
-    }
-}
-
-/// True if a file was last written more than some time ago.
-fn is_older(path: &Path, age: Duration, now: SystemTime) -> bool {
-    let modified = fs::symlink_metadata(path).and_then(|facts| facts.modified()).ok();
-    modified.and_then(|modified| now.duration_since(modified).ok()).is_some_and(|past| past > age)
-}
-
-/// True if a name is one of those that [`temporary`] makes.
-fn is_temporary(name: &OsStr) -> bool {
-    let random = name.to_str().and_then(|name| name.strip_prefix(TEMPORARY));
-    random.is_some_and(|random| random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric()))
 }

@@ -20,13 +20,13 @@ fn main() -> ExitCode {
     // Errors come through whatever the environment says: by them dialogs that are not there are told from Cancel.
     log::set_max_level(logger.filter().max(log::LevelFilter::Error));
     if let Err(error) = log::set_boxed_logger(Box::new(files::DialogLog::new(logger))) {
-        cli::say(&format!("chromascope: no log: {error}\n"));
+        terminal::say(&format!("chromascope: no log: {error}\n"));
     }
     files::install_panic_hook();
     match app::run(opened, start) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            cli::say(&format!("chromascope: {error}\n"));
+            terminal::say(&format!("chromascope: {error}\n"));
             ExitCode::FAILURE
         }
     }

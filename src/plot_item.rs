@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use chromascope_figure::Tag;
 
-use crate::catalog::SetKind;
+use crate::document::SetKind;
 
 /// A sensor by kind and name.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

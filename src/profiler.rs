@@ -14,7 +14,7 @@ mod stopwatch;
 
 use std::time::Duration;
 
-use chromascope_core::query::render::{PicturesQuery, SourceOf};
+use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
 use chromascope_core::query::{Ask, LocusQuery, PatchColorsQuery, Query, Shared};
 use chromascope_core::spectral::Sensor;
 use serde::{Deserialize, Serialize};

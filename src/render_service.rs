@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use chromascope_core::camera::RenderingError;
 use chromascope_core::query::Query;
-use chromascope_core::query::render::{Pictures, PicturesQuery};
+use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
 
 use crate::jobs::{Background, Executor};
 use crate::results::Count;

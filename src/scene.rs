@@ -4,6 +4,7 @@
 
 pub mod conditions;
 pub mod locus;
+pub mod orbit;
 pub mod render;
 
 use std::sync::Arc;
@@ -24,9 +25,10 @@ use chromascope_figure::{InkRole, Marker};
 
 use crate::catalog::load::{LightQuery, LoadError, LoadedLight, PatchesQuery, SensorQuery};
 use crate::catalog::names::caseless;
-use crate::catalog::{Catalog, Entry, Place, SetKind};
+use crate::catalog::{Catalog, Entry, Place};
 use crate::document::{
-    Compared, Document, FIT_TARGET, LOCUS_RANGE_K, Light, Subset, TRAINING, TransformChoice, WhiteBalanceChoice,
+    Compared, Document, FIT_TARGET, LOCUS_RANGE_K, Light, SetKind, Subset, TRAINING, TransformChoice,
+    WhiteBalanceChoice,
 };
 use crate::results::Results;
 

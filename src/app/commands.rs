@@ -6,11 +6,11 @@ use chromascope_figure::{Figure, Table};
 use egui::ViewportCommand;
 
 use super::ChromascopeApp;
+use crate::action::history::History;
 use crate::action::{Action, CompareAction};
-use crate::catalog::SetKind;
 use crate::catalog::opened::Request;
 use crate::command::{Command, Format};
-use crate::document::history::History;
+use crate::document::SetKind;
 use crate::export;
 use crate::files::{FileEvent, FileForm, SaveRequest};
 use crate::panes;

@@ -6,13 +6,13 @@ use std::path::PathBuf;
 use chromascope_core::query::Shared;
 
 use super::ChromascopeApp;
+use crate::action::history::History;
 use crate::action::{Action, OwnAction};
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{OpenFile, OpenedEvent, Request, Why};
 use crate::command::Command;
 use crate::document::Document;
-use crate::document::history::History;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet, Role};
 use crate::view::import::{ImportItem, of_a_kind};
 use crate::view::{Status, Weight};

@@ -3,8 +3,8 @@
 use egui::{Button, Rect, Sense, TextStyle, Ui, Vec2};
 
 use crate::files::{Standing, StandingKind};
+use crate::panes::widgets::lines;
 use crate::theme::{Theme, UNIT};
-use crate::widgets::lines;
 
 /// Height of a line.
 pub(super) const HEIGHT: f32 = 24.0;

@@ -1,7 +1,7 @@
 //! Sets of the library as files.
 
 use super::ChromascopeApp;
-use crate::catalog::SetKind;
+use crate::document::SetKind;
 use crate::export::spectra::{self, Form};
 use crate::files::{FileForm, SaveRequest};
 use crate::results::Results;

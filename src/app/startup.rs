@@ -6,8 +6,8 @@ use std::time::Instant;
 use eframe::{NativeOptions, egui::ViewportBuilder};
 
 use super::{ChromascopeApp, LAYOUT_KEY};
+use crate::action::history::History;
 use crate::catalog::opened::Request;
-use crate::document::history::History;
 use crate::files::{self, Files};
 use crate::view::SavedView;
 
@@ -71,7 +71,7 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         }),
     )?;
     if let Some(copy) = copy.filter(|copy| copy.exists()) {
-        crate::cli::say(&format!("chromascope: this window's document is kept in {}\n", copy.display()));
+        crate::terminal::say(&format!("chromascope: this window's document is kept in {}\n", copy.display()));
     }
     Ok(())
 }

@@ -16,7 +16,8 @@ use super::case::{ErrorOf, ErrorScale, Errors};
 use super::inputs::{Numbers, sensor};
 use super::timing::{Bench, Candidate, Case, Cost, Room, timed};
 use super::{BenchError, Workload};
-use crate::catalog::{Catalog, Place, SetKind};
+use crate::catalog::{Catalog, Place};
+use crate::document::SetKind;
 
 /// So many samples of reflectances differ; more are these again. They are far beyond any cache.
 const DIFFERENT: usize = 16_000_000;

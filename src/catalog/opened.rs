@@ -4,9 +4,11 @@
 //! read or not, so that a person can look at its text and at what was understood ([`Opened::look`]), flip a switch, and look
 //! again.
 
+mod file;
 mod look;
 mod reading;
 
+pub use file::OpenFile;
 pub use look::{FilePreview, FilePreviewQuery};
 pub use reading::{Request, read_file};
 
@@ -17,24 +19,13 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::import::{Imported, Origin};
+use super::import::Imported;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::jobs::{Background, Clock, Executor};
 use crate::results::Count;
 
 /// Files that no set is made of are forgotten, the oldest first, beyond so many bytes in all.
 const REMEMBERED_BYTES: usize = 256_000_000;
-
-/// A file's contents.
-#[derive(Clone, Debug)]
-pub struct OpenFile {
-    /// Where they are from.
-    pub origin: Origin,
-    /// The bytes.
-    pub bytes: Arc<[u8]>,
-    /// Why it could not be read when it was opened, as a sentence with its name.
-    pub failure: Option<String>,
-}
 
 /// A file on disk that could not be read, as it is remembered between runs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -7,11 +7,12 @@ use chromascope_core::render::Stop;
 use chromascope_figure::Figure;
 use clap::Args;
 
+use super::error::CliError;
 use super::outputs::{show, write_to};
-use super::{CliError, say};
 use crate::bench::{self, Effort, Measurement, Progress, Report, Workload};
 use crate::export::{Paper, png, png_file, svg};
-use crate::figures::pareto::duration;
+use crate::format::duration;
+use crate::terminal::say;
 use crate::theme::Theme;
 
 pub(super) const EXAMPLES: &str = "\

@@ -2,8 +2,9 @@
 
 use spectral_file::{Certainty, ReadOptions, Table, Warning};
 
-use super::{CliError, say};
+use super::error::CliError;
 use crate::document::own::{OwnSet, Role};
+use crate::terminal::say;
 
 /// Refuses as reflectances what the file says is something else, and numbers whose scale nobody said.
 pub(super) fn reflectances(path: &str, role: Role, table: &Table) -> Result<(), CliError> {

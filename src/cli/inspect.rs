@@ -19,10 +19,11 @@ use spectral_file::{Certainty, Decided, ReadError, Role, Table};
 
 use self::arguments::InspectArguments;
 use self::out::Out;
+use super::error::CliError;
 use super::outputs::{Stop, put, show, stream};
 use super::request::read;
-use super::{CliError, say};
-use crate::files::reason;
+use crate::format::io_reason;
+use crate::terminal::say;
 
 /// Why a file could not be read or written.
 #[derive(Clone)]
@@ -141,7 +142,7 @@ fn answer(
 }
 
 fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<Table, Failure> {
-    let bytes = contents(file).map_err(|error| Failure::Disk(reason(&error)))?;
+    let bytes = contents(file).map_err(|error| Failure::Disk(io_reason(&error)))?;
     let mut table = spectral_file::read(&bytes, &arguments.options()).map_err(Failure::Read)?;
     name_the_only_curve(&mut table, name);
     if let Some(per_photon) = arguments.per_photon() {
@@ -231,7 +232,7 @@ fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, bool), CliError> {
             continue;
         }
         several = true;
-        let cannot = |error: &io::Error| CliError::File(format!("{}: {}", path.display(), reason(error)));
+        let cannot = |error: &io::Error| CliError::File(format!("{}: {}", path.display(), io_reason(error)));
         let within = files_of(path).map_err(|error| cannot(&error))?;
         if within.is_empty() {
             return Err(CliError::File(format!("{}: no files in it", path.display())));

@@ -6,10 +6,10 @@ use std::sync::Arc;
 use chromascope_core::query::{Ask as _, PatchColor, RadianceColorsQuery, RenderingQuery, Shared};
 use chromascope_core::spectral::{GridSpectrum, Quantity};
 
-use super::CliError;
+use super::error::CliError;
 use super::request::{Request, told};
-use crate::catalog::SetKind;
 use crate::catalog::names::{NameError, folded};
+use crate::document::SetKind;
 use crate::document::own::Role;
 use crate::scene::{Scene, SceneError};
 

@@ -14,7 +14,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use chromascope_core::camera::Rendering;
-use chromascope_core::query::render::{Pictures, PicturesQuery};
+use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
 use chromascope_core::query::{Ask as _, DifferenceError, RenderingQuery};
 use chromascope_core::render::{CameraImage, Picture};
 use clap::ArgMatches;
@@ -22,8 +22,8 @@ use rayon::prelude::*;
 
 use self::arguments::{Format, RenderArguments};
 use self::setup::Setup;
+use super::error::CliError;
 use super::outputs::{self, is_standard_output, put, show, write_to};
-use super::{CliError, say};
 use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
 use crate::figures::render::headline::{self, Detail};
 use crate::figures::render::returned;
@@ -31,6 +31,7 @@ use crate::files::fitting;
 use crate::profiler::plans;
 use crate::results::{Count, Results};
 use crate::scene::{ComparedSensor, Scene, SceneError};
+use crate::terminal::say;
 
 /// Makes the pictures, writes them, and says what came of it.
 pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {

@@ -11,16 +11,18 @@ use clap::ArgMatches;
 use spectral_file::{Certainty, MAX_BYTES, Values};
 
 use super::arguments::{CommonArguments, Per, SourceArguments, Transform};
+use super::checks;
+use super::error::CliError;
 use super::outputs::is_descriptor;
-use super::{CliError, checks, say};
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
-use crate::catalog::{Catalog, Entry, SetKind};
+use crate::catalog::{Catalog, Entry};
 use crate::document::own::{ImportOverrides, OwnSet, Role};
 use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
-use crate::document::{CHART, CIE_1931, Document, Light, Subset, TransformChoice, WhiteBalanceChoice};
-use crate::files::reason;
+use crate::document::{CHART, CIE_1931, Document, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::format::io_reason;
+use crate::terminal::say;
 
 /// The name of the paper's five patches as a chart of their own.
 pub(super) const FIVE: &str = "ColorChecker five";
@@ -281,7 +283,7 @@ impl Request {
     pub(super) fn read(&mut self, path: &Path, role: Role) -> Result<OwnSet, CliError> {
         self.read.push(path.to_owned());
         let file = told(path);
-        let bytes = read(path).map_err(|error| CliError::File(format!("{file}: {}", reason(&error))))?;
+        let bytes = read(path).map_err(|error| CliError::File(format!("{file}: {}", io_reason(&error))))?;
         let mut wishes = ImportOverrides::for_role(Some(role));
         wishes.options.values = self.values.filter(|_| role.is_fraction());
         let table =

@@ -14,15 +14,17 @@ use spectral_file::guarded;
 use cct::ReferenceLocus;
 
 use super::arguments::{CommonArguments, ListKind, LocusArguments, PatchesArguments};
+use super::error::CliError;
+use super::outputs;
 use super::outputs::Stop;
 use super::radiance::Radiances;
 use super::request::{FIVE, Request};
-use super::{CliError, outputs, say};
-use crate::catalog::{Catalog, SetKind};
-use crate::document::{LOCUS_RANGE_K, TransformChoice};
+use crate::catalog::Catalog;
+use crate::document::{LOCUS_RANGE_K, SetKind, TransformChoice};
 use crate::results::Results;
 use crate::scene::conditions::CONDITIONS;
 use crate::scene::{Caution, LOCUS_POINTS, Scene, SceneError};
+use crate::terminal::say;
 
 const LOCUS_HEAD: &str = "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv,cct_error_k,arc_length_xy";
 const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,\

@@ -2,10 +2,10 @@
 
 use chromascope_core::query::Shared;
 
+use super::kind::SetKind;
 use super::own::{OwnSet, Role};
 use super::start::Start;
 use super::{DifferenceChoice, Document, MOST_COMPARED, VERSION, kept};
-use crate::catalog::SetKind;
 
 /// Why a saved document cannot be opened.
 #[derive(Debug, thiserror::Error)]

@@ -1,8 +1,8 @@
 //! The named starts: what is compared, and under which conditions, on the first screen and after a reset.
 
+use super::kind::SetKind;
 use super::render::model::SpecularChoice;
 use super::{CHART, CIE_1931, Document, Light, PAPER_REFERENCE, Subset, TransformChoice};
-use crate::catalog::SetKind;
 use serde::{Deserialize, Serialize};
 
 /// A named start.

@@ -1,10 +1,11 @@
 //! Which names the user's own sets may have, and what a document uses them as.
 
+use super::kind::SetKind;
 use super::own::OwnSet;
 use super::render::RenderSettings;
 use super::{CHART, Document, LIGHT, Light, Subset, WhiteBalanceChoice};
+use crate::catalog::is_built_in;
 use crate::catalog::names::caseless;
-use crate::catalog::{Entry, SetKind, is_built_in};
 use chromascope_core::query::Shared;
 use std::collections::{HashMap, HashSet};
 
@@ -43,7 +44,7 @@ impl Document {
 
     /// Shows what was just opened: a camera in the list, a chart as the patches, a light as the light.
     pub fn put_to_use(&mut self, set: &Shared<OwnSet>) {
-        match Entry::from_own(set).kind {
+        match SetKind::of_own(set) {
             SetKind::Camera | SetKind::Observer => self.compare(&set.name, SetKind::Camera),
             SetKind::Chart | SetKind::Material => {
                 self.chart.clone_from(&set.name);
@@ -57,7 +58,7 @@ impl Document {
     /// Shows what was opened among others: a camera, while there are places for more.
     pub fn put_beside(&mut self, set: &Shared<OwnSet>) {
         let shown = self.compared.iter().filter(|compared| compared.kind == SetKind::Camera).count();
-        if Entry::from_own(set).kind == SetKind::Camera && shown < PLACES {
+        if SetKind::of_own(set) == SetKind::Camera && shown < PLACES {
             self.compare(&set.name, SetKind::Camera);
         }
     }

@@ -5,7 +5,8 @@ use chromascope_core::spectral::{Header, Response, SpectralDistribution};
 use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
 
 use crate::catalog::load::{FileQuery, LoadError};
-use crate::catalog::{Entry, Place, SetKind};
+use crate::catalog::{Entry, Place};
+use crate::document::SetKind;
 use crate::document::own::{OwnSet, Role};
 use crate::files::fitting;
 

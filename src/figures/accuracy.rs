@@ -2,9 +2,9 @@
 
 use chromascope_figure::{Cell, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag};
 
-use super::pareto::{self, Place, duration};
+use super::pareto::{self, Place};
 use crate::bench::{Measurement, Report, Workload};
-use crate::number::number;
+use crate::format::{duration, number};
 use crate::profiler::{Conditions, Family, Point, SceneRun, Subject, Trial};
 use crate::view::View;
 use crate::view::accuracy::Shows;

@@ -1,5 +1,6 @@
 //! The diagram: loci with temperature ticks, patches with tails to the reference's points, and what surrounds them.
 
+mod drawing;
 mod ground;
 mod loci;
 mod pixel;
@@ -13,9 +14,11 @@ use chromascope_figure::{
 use chromascope_core::spectral::sensor::TAIL_BELOW_K;
 
 use crate::document::{Diagram, TransformChoice};
-use crate::plot_item::{PickIndex, SensorId};
+use crate::plot_item::PickIndex;
 use crate::scene::{ComparedSensor, Scene};
 use crate::view::{DiagramFit, View};
+use drawing::Drawing;
+pub(crate) use drawing::id;
 
 pub use points::{blackbody_distance, describe, distance_symbol, patch_xy};
 
@@ -30,43 +33,8 @@ pub struct Built {
     pub refused: Vec<String>,
 }
 
-/// What everything on the diagram is drawn with.
-struct Drawing<'a> {
-    scene: &'a Scene<'a>,
-    view: &'a View,
-    diagram: Diagram,
-    marks: Vec<Mark>,
-    things: PickIndex,
-    refused: Vec<String>,
-    /// All that the ranges have to hold.
-    data: Vec<[f64; 2]>,
-}
-
-impl Drawing<'_> {
-    /// Where a chromaticity lies in the chosen diagram.
-    fn place(&self, xy: Xy) -> Option<[f64; 2]> {
-        match self.diagram {
-            Diagram::Xy => Some([xy.x, xy.y]),
-            Diagram::UvPrime => xy.uv_prime().map(|uv| [uv.u, uv.v]),
-        }
-    }
-
-    /// The same for a color that is known in both diagrams.
-    fn place_of(&self, xy: Option<Xy>, uv: Option<UvPrime>) -> Option<[f64; 2]> {
-        match self.diagram {
-            Diagram::Xy => xy.map(|xy| [xy.x, xy.y]),
-            Diagram::UvPrime => uv.map(|uv| [uv.u, uv.v]),
-        }
-    }
-}
-
 /// Coordinates that the data's fit takes in; real colors lie between 0 and 0.85.
 const NEAR: std::ops::RangeInclusive<f64> = -0.25..=1.1;
-
-/// A sensor's identity.
-pub(crate) fn id(source: &ComparedSensor) -> SensorId {
-    SensorId { kind: source.kind, name: source.name.clone() }
-}
 
 /// The names of the coordinates.
 pub const fn coordinates(diagram: Diagram) -> [&'static str; 2] {
@@ -229,7 +197,7 @@ fn table(scene: &Scene<'_>) -> Table {
         "distance_uv",
         "extrapolated",
     ]);
-    let reference_locus = scene.locus(crate::catalog::SetKind::Observer, &scene.document.reference).ok();
+    let reference_locus = scene.locus(crate::document::SetKind::Observer, &scene.document.reference).ok();
     for source in scene.sources().iter().filter(|source| source.visible) {
         let comparable = matches!(scene.comparable(source.kind, &source.name), Ok(Ok(())));
         let near = |xy: Option<Xy>, uv: Option<UvPrime>, txy: Option<Xy>, tuv: Option<UvPrime>| {
@@ -249,7 +217,7 @@ fn table(scene: &Scene<'_>) -> Table {
             }
         }
         let reference =
-            scene.patch_colors(crate::catalog::SetKind::Observer, &scene.document.reference).unwrap_or_default();
+            scene.patch_colors(crate::document::SetKind::Observer, &scene.document.reference).unwrap_or_default();
         let (Ok(colors), Ok(patches)) = (scene.patch_colors(source.kind, &source.name), scene.patches()) else {
             continue;
         };

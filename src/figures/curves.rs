@@ -10,18 +10,15 @@ use chromascope_figure::{
     TextSize, finite_runs,
 };
 
-pub(crate) use drawn::sentence;
-pub use drawn::{Curve, Curves};
+pub use drawn::{Curve, Curves, DRAWN};
 pub use kept::CurveCache;
 pub use on_show::{ImportSelection, places};
 
-use crate::number::number;
+use crate::format::number;
 use crate::plot_item::PickIndex;
 use crate::scene::Scene;
 use crate::view::View;
 
-/// At most so many curves are drawn.
-pub const DRAWN: usize = 200;
 /// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 360.0];
 /// The height of a line of small text with its margins, and of the labels below a plot.

@@ -4,6 +4,8 @@ mod names;
 
 use chromascope_figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Rect, Shape, Tag, Ticks};
 
+use crate::format::duration;
+
 /// Errors below this are drawn there: a double tells them from nothing only by chance.
 pub const LEAST_ERROR: f64 = 1e-18;
 
@@ -95,32 +97,9 @@ fn time_ticks([low, high]: [f64; 2]) -> Vec<(f64, String)> {
     (low as i32..=high as i32).map(|exponent| (f64::from(exponent), duration(10_f64.powi(exponent)))).collect()
 }
 
-/// A time with three digits in the unit that suits it.
-pub fn duration(seconds: f64) -> String {
-    let (value, unit) = match seconds {
-        s if s < 0.9995e-6 => (s * 1e9, "ns"),
-        s if s < 0.9995e-3 => (s * 1e6, "µs"),
-        s if s < 0.9995 => (s * 1e3, "ms"),
-        s => (s, "s"),
-    };
-    // A whole number of units is a tick of an axis.
-    let decimals = match value {
-        v if (v - v.round()).abs() < 1e-9 * v || v >= 99.95 => 0,
-        v if v >= 9.995 => 1,
-        _ => 2,
-    };
-    format!("{value:.decimals$} {unit}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn times_have_units_that_suit() {
-        let all = [1e-9, 1.5e-8, 9.99e-7, 1e-6, 2.5e-6, 1.5e-3, 0.9999, 12.0].map(duration);
-        assert_eq!(all, ["1 ns", "15 ns", "999 ns", "1 µs", "2.50 µs", "1.50 ms", "1.00 s", "12 s"]);
-    }
 
     #[test]
     fn what_has_no_error_has_a_place() {

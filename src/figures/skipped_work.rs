@@ -2,7 +2,7 @@
 
 use chromascope_figure::{Anchor, Axis, Cell, Figure, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks};
 
-use super::pareto::duration;
+use crate::format::{capitalized, duration};
 use crate::profiler::{LOCI, PATCHES, SkippedWork};
 use crate::results::Count;
 use crate::view::View;
@@ -64,7 +64,7 @@ pub fn figure(view: &View) -> Option<Figure> {
     };
     let mut middle = 0.5;
     for section in &sections {
-        panel.marks.push(text(section.when, [low, middle], capital(section.when)));
+        panel.marks.push(text(section.when, [low, middle], capitalized(section.when)));
         for row in &section.rows {
             middle += 1.0;
             let mut end = low;
@@ -86,12 +86,6 @@ pub fn figure(view: &View) -> Option<Figure> {
 /// A row's time in words.
 fn time(row: &SkippedWork) -> String {
     if row.saved > 0.0 { duration(row.saved) } else { "time not measured".to_owned() }
-}
-
-/// A section's head.
-pub fn capital(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// As numbers.

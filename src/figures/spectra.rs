@@ -11,8 +11,7 @@ use chromascope_figure::{
 };
 
 use super::chromaticity::{caption, id};
-use crate::catalog::SetKind;
-use crate::document::{FIT_TARGET, Subset};
+use crate::document::{FIT_TARGET, SetKind, Subset};
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{ComparedSensor, Scene};
 use crate::view::{SpectraLayout, View};

@@ -5,8 +5,7 @@ use chromascope_figure::{
 };
 
 use super::chromaticity::id;
-use crate::catalog::SetKind;
-use crate::document::LOCUS_RANGE_K;
+use crate::document::{LOCUS_RANGE_K, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::locus::{distance, split};
 use crate::scene::{ComparedSensor, Scene};

@@ -4,8 +4,7 @@ use chromascope_core::query::PatchColor;
 use chromascope_figure::{Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, TextSize, text_width};
 
 use super::chromaticity::{caption, id};
-use crate::catalog::SetKind;
-use crate::document::TransformChoice;
+use crate::document::{SetKind, TransformChoice};
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{ComparedSensor, Scene};
 use crate::view::{SwatchLayout, SwatchStyle, View};

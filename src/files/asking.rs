@@ -2,7 +2,13 @@
 
 use std::path::Path;
 
-use super::{Answer, FileEvent, Files, Note, PathPrompt, Question, SaveRequest, prompt, save};
+use super::Files;
+use super::atomic::write_atomically;
+use super::dialogs::{Answer, Question};
+use super::event::{FileEvent, Note};
+use super::prompt::{self, PathPrompt};
+use super::save::{FileForm, SaveRequest};
+use crate::format::io_reason;
 
 /// A dialog that was asked for and has not answered.
 pub(super) struct Waiting {
@@ -158,7 +164,7 @@ impl Files {
             return self.ask_again(PathPrompt { replaces: Some(path), ..prompt });
         }
         self.in_background(move || {
-            let event = save::write(&path, &form, &request);
+            let event = write(&path, &form, &request);
             let again = match &event {
                 FileEvent::Failed(why) => Some(Note::NotSaved(prompt.refused(why))),
                 _ => None,
@@ -197,6 +203,21 @@ impl Files {
             (Some(PathPrompt { save: Some(_), .. }), Some(request)) => self.ask_to_save(request),
             (Some(prompt), None) => prompt.focus = true,
             (prompt, save) => *prompt = Some(PathPrompt::new(save, ticket)),
+        }
+    }
+}
+
+/// Writes a form to a path and reports what came of it.
+fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }: &SaveRequest) -> FileEvent {
+    let bytes = match (form.make)() {
+        Ok(bytes) => bytes,
+        Err(sentence) => return FileEvent::Failed(sentence),
+    };
+    match write_atomically(path, &bytes) {
+        Ok(()) if note.is_empty() => FileEvent::Saved(format!("Saved {}.", path.display()), what.clone()),
+        Ok(()) => FileEvent::Saved(format!("Saved {}: {note}.", path.display()), what.clone()),
+        Err(error) => {
+            FileEvent::Failed(format!("Cannot write {}: {}. Your work is safe.", path.display(), io_reason(&error)))
         }
     }
 }

@@ -4,26 +4,16 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use super::Files;
+use super::atomic::write_atomically;
+use super::event::{FileEvent, Note, OpenedDocument};
 use super::store::{Unread, read};
-use super::{FileEvent, Files, Note, reason, write_atomically};
 use crate::document::Document;
 use crate::document::start::Start;
+use crate::format::io_reason;
 
 /// The file of the window's place and layout, which eframe reads.
 const LAYOUT: &str = "app.ron";
-
-/// A document that was opened in place of another one.
-#[derive(Debug)]
-pub struct Opened {
-    /// Its file.
-    pub path: PathBuf,
-    /// The document.
-    pub document: Document,
-    /// Sets of it that could not be read, in words; may be empty.
-    pub lost: Vec<String>,
-    /// The document that it takes the place of, which is kept in a file of its own if it was changed.
-    pub before: Document,
-}
 
 impl Files {
     /// The document as it was kept, else the first screen.
@@ -78,7 +68,7 @@ impl Files {
                 Ok((kept, _)) => {
                     let is_untouched = before == before.start.document();
                     match if is_untouched { Ok(()) } else { keeper.put_aside(&before) } {
-                        Ok(()) => FileEvent::Document(Box::new(Opened {
+                        Ok(()) => FileEvent::Document(Box::new(OpenedDocument {
                             path,
                             document: kept.document,
                             lost: kept.lost,
@@ -103,7 +93,7 @@ impl Files {
         } else {
             match std::fs::remove_file(path) {
                 Ok(()) => FileEvent::Said(format!("{} is deleted.", path.display())),
-                Err(error) => FileEvent::Failed(format!("{}: {}.", path.display(), reason(&error))),
+                Err(error) => FileEvent::Failed(format!("{}: {}.", path.display(), io_reason(&error))),
             }
         };
         self.note(Note::Event(event));

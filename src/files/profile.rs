@@ -6,7 +6,8 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use super::{is_older, reason, sweep};
+use super::atomic::{TEMPORARY, is_older, sweep};
+use crate::format::io_reason;
 
 /// The file that the first window's document is kept in.
 const DOCUMENT: &str = "document.json";
@@ -64,7 +65,7 @@ impl Profile {
         let first = Some(folder.join(DOCUMENT));
         let of_first = Self { file: first.clone(), first: first.clone(), ..Self::default() };
         if let Err(error) = writable(&folder) {
-            return Self { closed: Some(format!("{}: {}", folder.display(), reason(&error))), ..of_first };
+            return Self { closed: Some(format!("{}: {}", folder.display(), io_reason(&error))), ..of_first };
         }
         match lock(&folder.join(LOCK)) {
             Ok(file) => {
@@ -194,7 +195,7 @@ fn free(folder: &Path, name: impl Fn(u32) -> String) -> PathBuf {
 /// True if files can be made in a folder, which is made if it does not exist.
 fn writable(folder: &Path) -> io::Result<()> {
     fs::create_dir_all(folder)?;
-    tempfile::Builder::new().prefix(super::TEMPORARY).tempfile_in(folder).map(drop)
+    tempfile::Builder::new().prefix(TEMPORARY).tempfile_in(folder).map(drop)
 }
 
 fn lock(path: &Path) -> Result<File, TryLockError> {

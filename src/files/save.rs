@@ -5,14 +5,12 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{FileEvent, reason, write_atomically};
-
 /// A form in which something can be written. Its bytes are made only when it is.
 #[derive(Clone)]
 pub struct FileForm {
     /// The ending of such files.
     pub extension: &'static str,
-    make: Arc<dyn Fn() -> Result<Vec<u8>, String> + Send + Sync>,
+    pub(super) make: Arc<dyn Fn() -> Result<Vec<u8>, String> + Send + Sync>,
 }
 
 impl FileForm {
@@ -91,21 +89,6 @@ fn ending(path: &Path) -> Option<&str> {
     let ending = path.extension().and_then(OsStr::to_str)?;
     let is_kind = ending.chars().all(|c| c.is_ascii_alphanumeric()) && ending.chars().any(|c| c.is_ascii_alphabetic());
     (is_kind && ending.len() <= 8).then_some(ending)
-}
-
-/// Writes a form to a path and reports what came of it.
-pub(super) fn write(path: &Path, form: &FileForm, SaveRequest { what, note, .. }: &SaveRequest) -> FileEvent {
-    let bytes = match (form.make)() {
-        Ok(bytes) => bytes,
-        Err(sentence) => return FileEvent::Failed(sentence),
-    };
-    match write_atomically(path, &bytes) {
-        Ok(()) if note.is_empty() => FileEvent::Saved(format!("Saved {}.", path.display()), what.clone()),
-        Ok(()) => FileEvent::Saved(format!("Saved {}: {note}.", path.display()), what.clone()),
-        Err(error) => {
-            FileEvent::Failed(format!("Cannot write {}: {}. Your work is safe.", path.display(), reason(&error)))
-        }
-    }
 }
 
 #[cfg(test)]

@@ -13,12 +13,13 @@ use std::ptr::from_ref;
 
 use chromascope_core::query::Shared;
 
+use super::atomic::write_atomically;
 use super::profile::{CURVES, Lock, free_copy};
-use super::{reason, write_atomically};
 use crate::document::kept::{self, Kept, Place};
 use crate::document::own::{Fingerprint, OwnCurve, OwnSet};
 use crate::document::session::SessionError;
 use crate::document::{Document, VERSION};
+use crate::format::io_reason;
 
 /// Result of writing a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -104,7 +105,7 @@ impl Store {
     /// Writes the document. A set that cannot be written does not stop the rest.
     pub(super) fn write(&mut self, document: &Document) -> Result<Written, String> {
         let folder = self.file.parent().map(Path::to_owned).unwrap_or_default();
-        fs::create_dir_all(&folder).map_err(|error| format!("{}: {}", folder.display(), reason(&error)))?;
+        fs::create_dir_all(&folder).map_err(|error| format!("{}: {}", folder.display(), io_reason(&error)))?;
         if self.is_foreign()? {
             let copy = free_copy(&folder);
             self.moved = Some(copy.clone());
@@ -132,7 +133,7 @@ impl Store {
         };
         self.tried = Some(Fingerprint::of(json.as_bytes()));
         write_atomically(&self.file, json.as_bytes())
-            .map_err(|error| format!("{}: {}", self.file.display(), reason(&error)))?;
+            .map_err(|error| format!("{}: {}", self.file.display(), io_reason(&error)))?;
         (self.seen, self.by_value) = (self.tried, false);
         let present: HashSet<usize> = document.own.iter().map(address).collect();
         if skipped_work.is_empty() && self.known.len() > present.len() {
@@ -147,7 +148,7 @@ impl Store {
         let bytes = match fs::read(&self.file) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
-            Err(error) => return Err(format!("{}: {}", self.file.display(), reason(&error))),
+            Err(error) => return Err(format!("{}: {}", self.file.display(), io_reason(&error))),
         };
         let there = Some(Fingerprint::of(&bytes));
         if there == self.tried {
@@ -200,7 +201,7 @@ impl Store {
         let keys: Vec<u8> = fresh.iter().flat_map(|(_, key, _)| key.to_le_bytes()).collect();
         let name = format!("{:032x}.json", fingerprint(&keys));
         let folder = folder.join(CURVES);
-        let failed = |error: io::Error| format!("{}: {}", folder.display(), reason(&error));
+        let failed = |error: io::Error| format!("{}: {}", folder.display(), io_reason(&error));
         fs::create_dir_all(&folder).map_err(failed)?;
         write_atomically(&folder.join(&name), &text).map_err(failed)?;
         for (index, (set, key, _)) in fresh.into_iter().enumerate() {
@@ -223,7 +224,7 @@ fn keep_earlier(file: &Path, bytes: &[u8]) -> Result<(), String> {
     if fs::symlink_metadata(&beside).is_ok() {
         return Ok(());
     }
-    write_atomically(&beside, bytes).map_err(|error| format!("{}: {}", beside.display(), reason(&error)))
+    write_atomically(&beside, bytes).map_err(|error| format!("{}: {}", beside.display(), io_reason(&error)))
 }
 
 /// Reads a document with the curves it names.
@@ -234,7 +235,7 @@ pub(super) fn read(file: &Path) -> Result<(Kept, Fingerprint), Unread> {
             because("it is a link to a file that is not there".to_owned())
         }
         io::ErrorKind::NotFound => Unread::Missing,
-        _ => because(reason(&error)),
+        _ => because(io_reason(&error)),
     })?;
     let text = std::str::from_utf8(&bytes).map_err(|error| because(format!("it is no text: {error}")))?;
     let folder = file.parent().map(|folder| folder.join(CURVES)).unwrap_or_default();
@@ -254,7 +255,7 @@ fn read_curves(folder: &Path, name: &str) -> Result<Vec<Vec<OwnCurve>>, String> 
         return Err(format!("{name} is no name of a file"));
     }
     let path = folder.join(name);
-    let bytes = fs::read(&path).map_err(|error| format!("{}: {}", path.display(), reason(&error)))?;
+    let bytes = fs::read(&path).map_err(|error| format!("{}: {}", path.display(), io_reason(&error)))?;
     serde_json::from_slice(&bytes).map_err(|error| format!("{}: {error}", path.display()))
 }
 

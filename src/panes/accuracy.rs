@@ -5,15 +5,15 @@ use std::time::Duration;
 use chromascope_figure::LegendEntry;
 use egui::{Align2, ComboBox, FontId, Id, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::bench::Workload;
 use crate::command::Command;
 use crate::figures::accuracy;
 use crate::paint::{self, PlotOptions};
+use crate::panes::widgets;
 use crate::profiler::Subject;
 use crate::theme::UNIT;
 use crate::view::accuracy::Shows;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// How near the pointer must be, in points.

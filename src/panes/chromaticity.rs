@@ -5,17 +5,16 @@ use chromascope_core::light::{CctError, RadiationConstants};
 use chromascope_core::query::NearestBlackBodyQuery;
 use egui::{Align2, Id, Pos2, Rect, Ui, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::action::{Action, SceneAction};
-use crate::catalog::SetKind;
-use crate::document::{Diagram, FIT_TARGET};
+use crate::document::{Diagram, FIT_TARGET, SetKind};
 use crate::figures::chromaticity::{self, Built};
 use crate::figures::strip;
 use crate::paint::{self, Emphasis, PlotOptions};
+use crate::panes::widgets;
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::theme::UNIT;
 use crate::view::DiagramFit;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// How near the pointer must be, in points.

@@ -4,12 +4,12 @@ use std::time::Duration;
 
 use egui::{Align2, Id, Rect, Ui, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::figures::curves::{self, CurveCache, Curves, ImportSelection};
 use crate::paint::{self, PlotOptions};
+use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::view::import::ImportItem;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// How near the pointer must be, in points.
@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if shown.file.is_some() && !shown.is_fresh() {
         busy_line(ui, body, context);
     }
-    let kept = CurveCache::of(&shown, context.view.import.kept.take());
+    let kept = CurveCache::of(&shown, context.curves.take());
     match kept.all() {
         Err(words) => {
             let color = if shown.error().is_some() { context.theme.error } else { context.theme.weak };
@@ -39,7 +39,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
         Ok(curves) => plot(ui, body, &shown.item, [curves, kept.seen().unwrap_or(curves)], context),
     }
-    context.view.import.kept = Some(kept);
+    *context.curves = Some(kept);
 }
 
 fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2], context: &mut PaneContext<'_>) {
@@ -57,7 +57,7 @@ fn plot(ui: &mut Ui, body: Rect, item: &ImportItem, [curves, seen]: [&Curves; 2]
         context.view.point = Some(lines.join("  "));
         widgets::read_at_pointer(&shown.response, &lines);
     } else {
-        context.view.point = Some(format!("{nm:.0} nm  {}", crate::number::number(value)));
+        context.view.point = Some(format!("{nm:.0} nm  {}", crate::format::number(value)));
     }
 }
 

@@ -2,16 +2,16 @@
 
 use egui::{Align2, Grid, Key, RichText, ScrollArea, TextEdit, Ui, Vec2, Window};
 
-use super::PaneContext;
+use super::context::PaneContext;
+use crate::action::history::History;
 use crate::action::{Action, CompareAction, RenderAction, SceneAction};
-use crate::catalog::{Entry, SetKind, licenses, names};
+use crate::catalog::{Entry, licenses, names};
 use crate::command::{Command, key_bindings};
-use crate::document::Light;
-use crate::document::history::History;
+use crate::document::{Light, SetKind};
+use crate::panes::widgets::{WHAT_YOU_SEE, facts};
 use crate::theme::{ROW, UNIT};
 use crate::view::HelpPage;
 use crate::view::import::ImportItem;
-use crate::widgets::{WHAT_YOU_SEE, facts};
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Shows what is open.

@@ -10,11 +10,11 @@ use std::time::Duration;
 
 use egui::{ProgressBar, Rect, RichText, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::command::Command;
 use crate::figures::curves::ImportSelection;
+use crate::panes::widgets;
 use crate::theme::UNIT;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 use entries::Entry;

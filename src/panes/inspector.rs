@@ -12,17 +12,15 @@ use chromascope_core::query::DifferenceError;
 use chromascope_core::spectral::{Assumed, Evidence, Sensor};
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
-use crate::catalog::SetKind;
+use super::context::PaneContext;
 use crate::command::Command;
-use crate::document::DifferenceChoice;
-use crate::number::number;
+use crate::document::{DifferenceChoice, SetKind};
+use crate::format::{fixed, number};
+use crate::panes::widgets;
+use crate::panes::widgets::facts::range_words;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{Theme, UNIT};
-use crate::widgets;
-use crate::widgets::facts::range_words;
-use crate::widgets::lines::fixed;
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Shows the pane in its rectangle.

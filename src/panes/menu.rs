@@ -2,11 +2,11 @@
 
 use egui::{Align, Button, Layout, Rect, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
+use crate::action::history::History;
 use crate::action::{Action, SceneAction};
 use crate::command::{Command, Format, shortcut_of};
 use crate::document::DifferenceChoice;
-use crate::document::history::History;
 use crate::document::start::Start;
 use crate::theme::{ROW, Surround, UNIT};
 use crate::view::HelpPage;

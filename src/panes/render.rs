@@ -9,10 +9,10 @@ mod switches;
 
 use egui::{Align2, FontId, Rect, Sense, Ui, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
+use crate::panes::widgets;
 use crate::theme::{HEADING, UNIT};
 use crate::view::render::{PixelPlace, RenderMode, RenderView};
-use crate::widgets;
 use crate::workspaces::PaneKind;
 use cells::PictureLayout;
 

@@ -9,11 +9,11 @@ mod view;
 
 use egui::{CollapsingHeader, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::action::{Action, RenderAction};
 use crate::document::render::RenderSettings;
+use crate::panes::widgets;
 use crate::theme::UNIT;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// Height of the numbers of a pixel, at the foot of the pane, beside a line for each of some sensors.
@@ -117,7 +117,7 @@ impl Dial<'_> {
 
 /// A value as it is shown: three digits.
 fn short(value: f64) -> String {
-    crate::number::number(short_value(value))
+    crate::format::number(short_value(value))
 }
 
 /// Three digits: what a drag can mean, and what can be read.

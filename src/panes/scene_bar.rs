@@ -2,12 +2,11 @@
 
 use egui::{Align, ComboBox, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::action::{Action, CompareAction, SceneAction};
-use crate::catalog::SetKind;
-use crate::document::{DifferenceChoice, Light, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::document::{DifferenceChoice, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::panes::widgets::number_field::NumberField;
 use crate::theme::{ROW, UNIT};
-use crate::widgets::number_field::NumberField;
 
 /// Temperatures of the slider, in mired from hot to cold; the slider runs like the strip, cold at the left.
 const MIRED: [f64; 2] = [50.0, 1000.0];

@@ -3,13 +3,13 @@
 use chromascope_figure::{TextSize, text_width};
 use egui::{Align, Label, Layout, Rect, RichText, ScrollArea, TextStyle, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::command::Command;
-use crate::figures::pareto::duration;
 use crate::figures::skipped_work::{self, OVERLAP, Section};
+use crate::format::{capitalized, duration};
+use crate::panes::widgets;
 use crate::profiler::SkippedWork;
 use crate::theme::UNIT;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// Shows the pane in its rectangle.
@@ -73,7 +73,7 @@ fn table(ui: &mut Ui, sections: &[Section], context: &PaneContext<'_>) {
         ui.add_space(if index == 0 { UNIT } else { 3.0 * UNIT });
         ui.horizontal_wrapped(|ui| {
             let color = if section.is_old { theme.warning } else { theme.text };
-            ui.label(RichText::new(skipped_work::capital(section.when)).strong().color(color));
+            ui.label(RichText::new(capitalized(section.when)).strong().color(color));
             if index == 0 {
                 ui.label(small(OVERLAP));
             }

@@ -2,12 +2,12 @@
 
 use egui::{Align2, Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::figures::spectra::{self, Built};
 use crate::paint::{self, PlotOptions};
+use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::view::SpectraLayout;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// The least height of a panel before the pane scrolls.

@@ -5,14 +5,15 @@ use std::time::Duration;
 use chromascope_core::camera::LocusMethod;
 use egui::{Align, Button, Color32, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
-use crate::catalog::SetKind;
+use super::context::PaneContext;
 use crate::catalog::opened::Progress;
 use crate::command::Command;
+use crate::document::SetKind;
+use crate::format::fixed;
+use crate::panes::widgets::lines;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::theme::UNIT;
 use crate::view::Weight;
-use crate::widgets::lines::{self, fixed};
 use crate::workspaces::{Arrangement, PaneKind};
 
 /// What the bar says when there is nothing else.

@@ -2,14 +2,14 @@
 
 use egui::{Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::action::{Action, SceneAction};
 use crate::document::Subset;
 use crate::figures::{chromaticity, swatches};
 use crate::paint;
+use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::view::{SwatchLayout, SwatchStyle};
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// Shows the pane in its rectangle.

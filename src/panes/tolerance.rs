@@ -3,14 +3,14 @@
 use chromascope_core::render::plan::{Candidate, Verdict};
 use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::action::{Action, RenderAction};
 use crate::document::render::RenderSettings;
-use crate::figures::pareto::duration;
+use crate::format::{capitalized, duration};
+use crate::panes::widgets;
 use crate::profiler::plans::Planned;
 use crate::scene::ComparedSensor;
 use crate::theme::UNIT;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 use chromascope_core::render::QualityLevel;
 
@@ -112,12 +112,12 @@ fn not_rendered(ui: &mut Ui, context: &PaneContext<'_>) {
 
 fn explained(ui: &mut Ui, name: &str, planned: &Planned, context: &PaneContext<'_>) {
     let small = |words: String| RichText::new(words).small();
-    let bounds = format!("{}.", capital(&planned.bounds.words().replace('-', "−")));
+    let bounds = format!("{}.", capitalized(&planned.bounds.words().replace('-', "−")));
     let Some(explanation) = &planned.explanation else {
         ui.label(small(bounds).color(context.theme.weak));
         return;
     };
-    ui.label(small(format!("{}.", capital(&explanation.to_string())))).on_hover_text(METHODS);
+    ui.label(small(format!("{}.", capitalized(&explanation.to_string())))).on_hover_text(METHODS);
     ui.label(small(bounds)).on_hover_text(BOUNDS);
     let parts: Vec<String> = explanation.parts().map(cost).collect();
     let costs = if parts.is_empty() { "nothing".to_owned() } else { parts.join("; below that ") };
@@ -168,9 +168,4 @@ fn rejected(candidate: &Candidate) -> String {
     };
     let method = candidate.method.to_string();
     format!("{method}: {}, {}, {why}", error.replace('-', "−"), cost(candidate))
-}
-
-fn capital(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -13,13 +13,14 @@ mod switches;
 use egui::text::LayoutJob;
 use egui::{ComboBox, FontId, Rect, Response, RichText, ScrollArea, TextFormat, Ui, UiBuilder, Vec2};
 
-use super::PaneContext;
+use super::context::PaneContext;
 use crate::command::Command;
 use crate::document::own::ImportOverrides;
-use crate::figures::curves::{ImportSelection, sentence};
+use crate::figures::curves::ImportSelection;
+use crate::format::sentence;
+use crate::panes::widgets;
 use crate::theme::{ROW, SMALL, TEXT, Theme, UNIT};
 use crate::view::import::Stop;
-use crate::widgets;
 use crate::workspaces::PaneKind;
 
 /// What the first entry of each list says.

@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{SceneRunQuery, Subject, Trial};
 use crate::bench::{self, Machine};
-use crate::figures::render::mesh_name;
-use crate::number::number;
+use crate::format::number;
 use crate::scene::Scene;
 
 /// What a run was of, and on what.
@@ -120,7 +119,7 @@ pub(super) fn words(scene: &Scene<'_>, sources: usize) -> String {
         Roughness::Surface => format!("σ {} µm", number(settings.sigma_um)),
     };
     let reading = settings.reading.label();
-    let (mesh, light) = (mesh_name(&settings.mesh), scene.light_name());
+    let (mesh, light) = (settings.mesh.name(), scene.light_name());
     let light = if light == "E" { "E, equal energy".to_owned() } else { light };
     let plural = if sources == 1 { "source" } else { "sources" };
     format!("{mesh}, {}, {sigma}, {reading}, under {light}, {sources} {plural}", settings.material)

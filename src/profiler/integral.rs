@@ -2,7 +2,7 @@
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::PicturesQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::reflectance::{Normalization, Precision};
 use chromascope_core::render::diffuse::by_nodes;
 use chromascope_core::render::shading::DiffuseKind;

@@ -123,8 +123,9 @@ mod tests {
     use chromascope_core::render::Stop;
 
     use super::*;
-    use crate::catalog::{Catalog, SetKind};
+    use crate::catalog::Catalog;
     use crate::document::Document;
+    use crate::document::SetKind;
     use crate::results::Results;
     use crate::scene::Scene;
 

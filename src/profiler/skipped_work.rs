@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::PicturesQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::shading::{DiffuseKind, Shade};
 use chromascope_core::render::{CameraImage, ShadingImage, SpectralWeights, Stop};
@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SceneRunQuery;
 use super::stopwatch::shortest;
-use crate::figures::pareto::duration;
+use crate::format::duration;
 pub use panes::{LOCI, PATCHES};
 use ways::Ways;
 

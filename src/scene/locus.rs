@@ -4,8 +4,7 @@ use chromascope_core::query::{LocusPoint, Temperatures};
 use chromascope_core::units::Kelvin;
 
 use super::Scene;
-use crate::catalog::SetKind;
-use crate::document::{Diagram, TransformChoice};
+use crate::document::{Diagram, SetKind, TransformChoice};
 
 /// The smallest distance between a locus and the reference's at equal temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]

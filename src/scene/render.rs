@@ -1,8 +1,7 @@
 //! The rendered scene as a question.
 
-use chromascope_core::query::render::{
-    GeometryQuery, MeshQuery, PicturesQuery, ShadingQuery, SourceOf, VisibilityQuery,
-};
+use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
+use chromascope_core::query::render::{GeometryQuery, MeshQuery, ShadingQuery, VisibilityQuery};
 use chromascope_core::query::{RenderingQuery, Shared};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_core::scene::Viewpoint;
@@ -10,7 +9,7 @@ use chromascope_core::spectral::GridSpectrum;
 use chromascope_mesh::Mesh;
 
 use super::{ComparedSensor, Scene, SceneError};
-use crate::catalog::SetKind;
+use crate::document::SetKind;
 use crate::document::render::MeshChoice;
 
 /// How finely a picture is made.

@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{Failing, FilePreview};
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
-use crate::figures::curves::CurveCache;
 
 /// So many kinds of files are remembered.
 const REMEMBERED: usize = 100;
@@ -46,8 +45,6 @@ pub struct ImportView {
     pub hovered_curve: Option<usize>,
     /// What the file on show was last understood as.
     pub look: Option<Arc<FilePreview>>,
-    /// Its curves, kept from frame to frame.
-    pub kept: Option<CurveCache>,
 }
 
 /// A place in Import where the keyboard stops on its way from pane to pane.

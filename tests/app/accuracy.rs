@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use chromascope::action::{Action, CompareAction, RenderAction, SceneAction};
 use chromascope::bench::{self, Effort, Workload};
-use chromascope::catalog::SetKind;
 use chromascope::command::Command;
-use chromascope::document::Light;
 use chromascope::document::render::{ReadingChoice, RenderSettings};
+use chromascope::document::{Light, SetKind};
 use chromascope::panes;
 use chromascope::profiler::{SceneRun, Subject};
 use chromascope::scene::Scene;

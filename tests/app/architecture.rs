@@ -3,6 +3,7 @@
 //! Read from the source text, with test modules, comments and strings blanked out. Each check takes a path and a text,
 //! so that the tests at the end can plant what it must find.
 
+mod circles;
 mod clocks;
 mod rust_text;
 
@@ -29,6 +30,36 @@ const CORE_LAYERS: &[&str] = &[
     "query",
 ];
 
+/// Modules of the app in their order: each uses only those before it. The picture is in `src/lib.rs`.
+const APP_LAYERS: &[&str] = &[
+    "format",
+    "terminal",
+    "theme",
+    "document",
+    "action",
+    "results",
+    "jobs",
+    "catalog",
+    "scene",
+    "files",
+    "export",
+    "plot_item",
+    "paint",
+    "workspaces",
+    "render_service",
+    "bench",
+    "profiler",
+    "view",
+    "command",
+    "figures",
+    "panes",
+    "cli",
+    "app",
+];
+
+/// Uses against that order, which can only become fewer.
+const AGAINST_ORDER: &[(&str, &str)] = &[("bench", "figures"), ("document", "catalog")];
+
 /// Other crates under the names that `chromascope-core` gives them.
 const REEXPORTED: &[&str] = &["math", "mesh"];
 
@@ -39,6 +70,9 @@ const NOT_IN_THE_CORE: &[&str] =
 /// Modules of the app that hold and change what is compared, without a window.
 const WITHOUT_WINDOW: &[&str] = &["action", "catalog", "document", "results"];
 const WINDOW: &[&str] = &["ecolor", "eframe", "egui", "egui_extras", "egui_plot", "emath", "epaint"];
+
+/// Modules below `panes` that every pane may use.
+const PARTS_OF_PANES: &[&str] = &["context", "widgets"];
 
 /// Modules of the app that may make colors, and that may touch the disk.
 const MAKES_COLORS: &[&str] = &["paint", "theme"];
@@ -69,8 +103,14 @@ fn app_modules_keep_to_their_part() {
         .map(|(path, _)| module(path))
         .filter(|module| module.len() > 1 && module[0] == "panes")
         .map(|module| module[1].clone())
+        .filter(|module| !PARTS_OF_PANES.contains(&module.as_str()))
         .collect();
     hold(sources.iter().flat_map(|(path, text)| app_layers(path, text, &panes)));
+}
+
+#[test]
+fn app_modules_use_only_what_is_before_them() {
+    hold(sources("src").iter().flat_map(|(path, text)| app_order(path, text)));
 }
 
 #[test]
@@ -177,6 +217,27 @@ fn app_layers(file: &str, text: &str, panes: &BTreeSet<String>) -> Vec<Violation
         {
             let rule = "only `files`, `catalog`, `export` and the command line touch the disk";
             found.push(path.line, format!("{rule}: `{disk}`"));
+        }
+    }
+    found.violations
+}
+
+fn app_order(file: &str, text: &str) -> Vec<Violation> {
+    let own = module(file);
+    let mut found = Report::new(file);
+    let layer = |name: &str| APP_LAYERS.iter().position(|layer| *layer == name);
+    let Some(top) = own.first() else { return found.violations };
+    let Some(place) = layer(top) else {
+        found.push(1, format!("`{top}` has no place in the order: give it one in tests/app/architecture.rs"));
+        return found.violations;
+    };
+    for path in paths(&own, &code(text)) {
+        let [first, used, ..] = path.names.as_slice() else { continue };
+        if first != "crate" || used == top || AGAINST_ORDER.contains(&(top.as_str(), used.as_str())) {
+            continue;
+        }
+        if layer(used).is_none_or(|other| other > place) {
+            found.push(path.line, format!("`{top}` may not use `{used}`, only {}", APP_LAYERS[..place].join(", ")));
         }
     }
     found.violations
@@ -359,6 +420,24 @@ use egui;
 }
 
 #[test]
+fn an_app_module_that_looks_up_is_found() {
+    let check = |file: &str, text: &str| found(&app_order(file, text));
+    let text =
+        "use crate::format::number;\nuse crate::{action::Action, document};\nfn f(_: super::super::view::View) {}";
+    let rule = "src/document/own.rs:";
+    let only = "only format, terminal, theme";
+    let expected = [
+        format!("{rule}2: `document` may not use `action`, {only}"),
+        format!("{rule}3: `document` may not use `view`, {only}"),
+    ];
+    assert_eq!(check("src/document/own.rs", text), expected);
+    assert_eq!(check("src/app.rs", text), [""; 0]);
+    assert_eq!(check("src/lib.rs", "pub mod view; pub use crate::view::View;"), [""; 0]);
+    let unknown = check("src/shiny.rs", "");
+    assert!(unknown[0].contains("`shiny` has no place in the order"));
+}
+
+#[test]
 fn app_modules_out_of_their_part_are_found() {
     let panes = ["spectra", "swatches"].map(str::to_owned).into();
     let check = |file: &str, text: &str| {
@@ -378,7 +457,7 @@ fn app_modules_out_of_their_part_are_found() {
     assert_eq!(lines("src/panes.rs", pane), [0; 0]);
 
     let colors = "fn f() { Color32::from_rgb(1, 2, 3) }\nlet c = egui::Color32::WHITE;\nColor32::TRANSPARENT;\nimage::Rgba([1]);\necolor::Hsva::new(1.0);\nColor32::default()";
-    assert_eq!(lines("src/widgets/strip.rs", colors), [1, 2, 5]);
+    assert_eq!(lines("src/panes/widgets/strip.rs", colors), [1, 2, 5]);
     assert_eq!(lines("src/theme.rs", colors), [0; 0]);
     assert_eq!(lines("src/paint/image.rs", colors), [0; 0]);
 

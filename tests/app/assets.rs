@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use chromascope::catalog::{Catalog, SetKind};
+use chromascope::catalog::Catalog;
+use chromascope::document::SetKind;
 use chromascope_core::spectral::Dataset;
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets");

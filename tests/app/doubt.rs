@@ -1,7 +1,7 @@
 //! Data with its doubt: what a table does not hold is marked wherever its numbers are shown.
 
-use chromascope::catalog::{Catalog, SetKind};
-use chromascope::document::{Diagram, Document, Light};
+use chromascope::catalog::Catalog;
+use chromascope::document::{Diagram, Document, Light, SetKind};
 use chromascope::figures::{chromaticity, strip};
 use chromascope::plot_item::{PlotItem, SensorId};
 use chromascope::results::Results;

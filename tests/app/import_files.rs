@@ -3,12 +3,11 @@
 use std::fs;
 use std::path::Path;
 
+use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::SetKind;
 use chromascope::command::Command;
-use chromascope::document::history::History;
 use chromascope::document::own::ImportOverrides;
-use chromascope::document::{Document, Light};
+use chromascope::document::{Document, Light, SetKind};
 use chromascope::files::Files;
 use chromascope::view::import::ImportItem;
 use chromascope::view::{SavedView, Weight};

@@ -1,8 +1,7 @@
 //! What Import and the plots beside it look like: nothing is written over curves or over other words.
 
-use chromascope::catalog::SetKind;
 use chromascope::catalog::import::import;
-use chromascope::document::Document;
+use chromascope::document::{Document, SetKind};
 use chromascope::figures::curves::{self, ImportSelection};
 use chromascope::figures::{spectra, swatches};
 use chromascope::results::Results;

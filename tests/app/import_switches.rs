@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use chromascope::action::{Action, OwnAction};
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::SetKind;
 use chromascope::catalog::import::import;
 use chromascope::command::Command;
+use chromascope::document::SetKind;
 use chromascope::document::own::{OwnSet, WavelengthUnit};
 use chromascope::view::Weight;
 use chromascope::view::import::ImportItem;

@@ -1,7 +1,8 @@
 //! The inspector and the foot of the window.
 
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::{Catalog, SetKind};
+use chromascope::catalog::Catalog;
+use chromascope::document::SetKind;
 use chromascope::plot_item::{PlotItem, SensorId};
 use chromascope::results::Results;
 use chromascope::scene::Scene;

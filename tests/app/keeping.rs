@@ -6,12 +6,12 @@ use std::os::unix::ffi::OsStringExt as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use chromascope::action::history::History;
 use chromascope::action::{Action, OwnAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::import::import;
 use chromascope::catalog::meshes::{MeshState, MeshStore};
 use chromascope::command::Command;
-use chromascope::document::history::History;
 use chromascope::document::own::{Fingerprint, OwnSet};
 use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, session};

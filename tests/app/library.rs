@@ -2,9 +2,9 @@
 
 use chromascope::action::{Action, OwnAction};
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::{SetKind, import};
+use chromascope::catalog::import;
 use chromascope::command::Command;
-use chromascope::document::Light;
+use chromascope::document::{Light, SetKind};
 use chromascope::plot_item::{PlotItem, SensorId};
 use egui::accesskit::Role;
 use egui_kittest::Harness;

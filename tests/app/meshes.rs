@@ -5,10 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::meshes::{LoadedMesh, MeshFailure, MeshState, MeshStore, Opened, is_mesh, read};
 use chromascope::command::Command;
-use chromascope::document::history::History;
 use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, session};
 use chromascope::files::Files;

@@ -213,7 +213,7 @@ fn the_second_window_says_so_as_long_as_it_is_open() {
         assert!(files.copy().is_some() && second.copy().is_some());
         let mut window =
             Harness::builder().with_size(size).renderer(crate::cpu_renderer::Cpu::default()).build_eframe(|cc| {
-                let history = chromascope::document::history::History::new(Document::paper());
+                let history = chromascope::action::history::History::new(Document::paper());
                 ChromascopeApp::new(&cc.egui_ctx, history, chromascope::view::SavedView::default(), files)
             });
         window.run();

@@ -5,10 +5,10 @@ use std::fs;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 
+use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 use chromascope::command::{Command, Format};
 use chromascope::document::Document;
-use chromascope::document::history::History;
 use chromascope::files::{Answer, Dialogs, Files, Question};
 use chromascope::view::SavedView;
 use chromascope::workspaces::PaneKind;

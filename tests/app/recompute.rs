@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use chromascope::action::{Action, CompareAction, SceneAction};
-use chromascope::catalog::{Catalog, SetKind};
+use chromascope::catalog::Catalog;
 use chromascope::document::render::MeshChoice;
-use chromascope::document::{DifferenceChoice, Document, Light, WhiteBalanceChoice};
+use chromascope::document::{DifferenceChoice, Document, Light, SetKind, WhiteBalanceChoice};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
+use chromascope::scene::orbit::Orbit;
 use chromascope::scene::render::Finish;
-use chromascope::view::render::Orbit;
 use chromascope_core::query::Ask;
 use chromascope_core::render::{RasterSize, Shadows};
 

@@ -1,11 +1,11 @@
 //! What actions do to the document, and what undo takes back.
 
+use chromascope::action::history::History;
 use chromascope::action::{Action, CompareAction, OwnAction, SceneAction};
-use chromascope::catalog::{Catalog, SetKind};
-use chromascope::document::history::History;
+use chromascope::catalog::Catalog;
 use chromascope::document::own::{ImportOverrides, OwnCurve, OwnSet, ReadAs, Role, WavelengthUnit};
 use chromascope::document::uses::PLACES;
-use chromascope::document::{CHART, Document, Light, PAPER_REFERENCE, Subset, WhiteBalanceChoice, session};
+use chromascope::document::{CHART, Document, Light, PAPER_REFERENCE, SetKind, Subset, WhiteBalanceChoice, session};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope_core::query::Shared;

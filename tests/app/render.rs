@@ -5,12 +5,11 @@ use std::time::Duration;
 
 use chromascope::action::{Action, CompareAction, RenderAction};
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::SetKind;
 use chromascope::catalog::meshes::MeshState;
 use chromascope::command::Command;
 use chromascope::document::render::model::{AreaChoice, SpecularChoice};
 use chromascope::document::render::{BALANCE, MeshChoice, ReadingChoice, RenderSettings, SUN};
-use chromascope::document::{Document, Light, WhiteBalanceChoice, session};
+use chromascope::document::{Document, Light, SetKind, WhiteBalanceChoice, session};
 use chromascope::panes;
 use chromascope::plot_item::SensorId;
 use chromascope::scene::Scene;

@@ -1,12 +1,11 @@
 //! A file that is opened again is the set that it was, and names that differ by case are one.
 
 use chromascope::action::{Action, OwnAction};
+use chromascope::catalog::Catalog;
 use chromascope::catalog::import::{Origin, imported};
 use chromascope::catalog::names::is_same_name;
-use chromascope::catalog::{Catalog, SetKind};
 use chromascope::document::own::{ImportOverrides, OwnSet, Role};
-use chromascope::document::session;
-use chromascope::document::{Compared, Document, Light, MOST_COMPARED};
+use chromascope::document::{Compared, Document, Light, MOST_COMPARED, SetKind, session};
 use chromascope::plot_item::{PickIndex, PlotItem, SensorId};
 use chromascope::results::Results;
 use chromascope::scene::Scene;

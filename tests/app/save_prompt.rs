@@ -2,12 +2,11 @@
 
 use std::fs;
 
+use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 use chromascope::bench::{self, Effort, Workload};
-use chromascope::catalog::SetKind;
 use chromascope::command::{Command, Format};
-use chromascope::document::Document;
-use chromascope::document::history::History;
+use chromascope::document::{Document, SetKind};
 use chromascope::export::spectra::Form;
 use chromascope::files::Files;
 use chromascope::view::accuracy::Shows;

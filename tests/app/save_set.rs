@@ -2,7 +2,8 @@
 
 use chromascope::action::{Action, OwnAction};
 use chromascope::catalog::import::import;
-use chromascope::catalog::{Catalog, Entry, SetKind};
+use chromascope::catalog::{Catalog, Entry};
+use chromascope::document::SetKind;
 use chromascope::document::own::{OwnSet, Role};
 use chromascope::export::spectra::{Form, file, fits, notes_in_words};
 use chromascope::results::Results;

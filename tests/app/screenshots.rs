@@ -4,12 +4,11 @@
 
 use std::path::Path;
 
+use chromascope::action::history::History;
 use chromascope::action::{Action, CompareAction, RenderAction, SceneAction};
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::SetKind;
 use chromascope::command::Command;
-use chromascope::document::history::History;
-use chromascope::document::{Diagram, Document, Overlays, Subset, TransformChoice};
+use chromascope::document::{Diagram, Document, Overlays, SetKind, Subset, TransformChoice};
 use chromascope::files::Files;
 use chromascope::jobs::Executor;
 use chromascope::plot_item::{PlotItem, SensorId};

@@ -2,12 +2,12 @@
 
 use chromascope::action::{Action, CompareAction, RenderAction, SceneAction};
 use chromascope::app::ChromascopeApp;
-use chromascope::catalog::{Catalog, SetKind};
+use chromascope::catalog::Catalog;
 use chromascope::command::Command;
 use chromascope::document::start::Start;
 use chromascope::document::{
-    CIE_1931, Diagram, DifferenceChoice, Document, Light, PAPER_REFERENCE, Subset, TransformChoice, WhiteBalanceChoice,
-    session,
+    CIE_1931, Diagram, DifferenceChoice, Document, Light, PAPER_REFERENCE, SetKind, Subset, TransformChoice,
+    WhiteBalanceChoice, session,
 };
 use chromascope::results::Results;
 use chromascope::scene::{Caution, Scene};

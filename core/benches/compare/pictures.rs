@@ -3,8 +3,9 @@
 use crate::asker::Remembering;
 use crate::library::{patches, sensor, text};
 use chromascope_core::camera::WhiteBalanceTarget;
+use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
 use chromascope_core::query::render::{
-    CameraImageQuery, GeometryQuery, MeshQuery, PicturesQuery, Roughness, ShadingQuery, SourceOf, VisibilityQuery,
+    CameraImageQuery, GeometryQuery, MeshQuery, Roughness, ShadingQuery, VisibilityQuery,
 };
 use chromascope_core::query::{Ask, ColorTransformSpec, RenderingQuery, Shared};
 use chromascope_core::reflectance::{Normalization, Surface};

@@ -1,6 +1,7 @@
 //! Axes, and where their ticks stand.
 
-use super::{TextSize, text_width};
+use super::mark::TextSize;
+use super::text::text_width;
 
 /// The smallest distance between tick labels, in points.
 pub const MIN_LABEL_SPACING: f64 = 60.0;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Ink;
+use super::ink::Ink;
 
 /// An 8-bit sRGB color of data.
 pub type Rgb = [u8; 3];

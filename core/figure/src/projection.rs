@@ -1,7 +1,11 @@
 //! From data units to points.
 
 use super::axis::proper;
-use super::{Panel, Rect, TextSize, Tick, Ticks, text_width};
+use super::axis::{Tick, Ticks};
+use super::mark::TextSize;
+use super::panel::Panel;
+use super::rect::Rect;
+use super::text::text_width;
 
 /// Enlarges both ranges around their centers until one unit is as long on x as on y in a box of the given size.
 /// Nothing inside the ranges is lost, their directions stay.

@@ -6,10 +6,14 @@
 mod canvas;
 mod marks;
 
-use super::{
-    Anchor, Figure, Image, Ink, InkRole, LegendEntry, LegendPlace, Palette, Panel, Projection, Rect, Stroke, TextSize,
-    annotations, text_width, wrapped,
-};
+use super::annotation::annotations;
+use super::figure::Figure;
+use super::ink::{Ink, InkRole, Palette};
+use super::mark::{Anchor, Image, Stroke, TextSize};
+use super::panel::{LegendEntry, LegendPlace, Panel};
+use super::projection::Projection;
+use super::rect::Rect;
+use super::text::{text_width, wrapped};
 use canvas::{Canvas, escaped};
 
 /// Fonts and images of a written figure, apart from its colors.

@@ -9,7 +9,8 @@ use rayon::prelude::*;
 
 use self::pieces::{Pieces, TERMS};
 use crate::accuracy::RelTolerance;
-use crate::camera::{LocusEvaluator, Rendering};
+use crate::camera::locus::LocusEvaluator;
+use crate::camera::rendering::Rendering;
 use crate::colorimetry::Xy;
 use crate::light::RadiationConstants;
 use crate::spectral::Sensor;

@@ -1,6 +1,6 @@
 //! From one sensor's signals to XYZ, chromaticity and colors on a screen.
 
-use super::WhiteBalanceTarget;
+use super::white_balance::WhiteBalanceTarget;
 use crate::accuracy::Unmet;
 use crate::colorimetry::adaptation::bradford;
 use crate::colorimetry::rgb::{XYZ_FROM_SRGB, srgb_from_xyz, srgb_white};

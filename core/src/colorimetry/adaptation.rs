@@ -1,6 +1,6 @@
 //! Chromatic adaptation: what a color under one white looks like under another.
 
-use super::Xyz;
+use super::tristimulus::Xyz;
 use glam::{DMat3, DVec3};
 
 /// Cone-like responses from tristimulus values, rows L, M, S (Lam 1985, "Bradford").

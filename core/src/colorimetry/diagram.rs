@@ -1,7 +1,7 @@
 //! Contents of a chromaticity diagram besides data: the spectral locus, the daylight locus, the colors of its area.
 
 use super::rgb::{srgb_from_xyz, srgb_transfer};
-use super::{Xy, Xyz};
+use super::tristimulus::{Xy, Xyz};
 use crate::spectral::Sensor;
 use crate::spectral::grid::{COUNT, wavelength_nm};
 

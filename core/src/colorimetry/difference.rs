@@ -4,7 +4,7 @@ mod ciede2000;
 
 use rayon::prelude::*;
 
-use super::Lab;
+use super::lab::Lab;
 
 /// Coordinates beyond this have no color to differ in; they are taken as this, so that squares and products stay finite.
 const LIMIT: f64 = 1e60;

@@ -1,6 +1,6 @@
 //! CIE 1976 L*a*b*.
 
-use super::Xyz;
+use super::tristimulus::Xyz;
 
 /// Coordinates in the CIE 1976 L*a*b* space, relative to a white.
 #[derive(Clone, Copy, Debug, PartialEq)]

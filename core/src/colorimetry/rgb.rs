@@ -1,6 +1,6 @@
 //! RGB spaces: Eq 13's matrix, sRGB encoding, gamut triangles.
 
-use super::{Xy, Xyz};
+use super::tristimulus::{Xy, Xyz};
 use glam::{DMat3, DVec3};
 
 /// XYZ from linear sRGB, the paper's M of Eq 13 (IEC 61966-2-1, four decimals).

@@ -12,6 +12,7 @@ mod lanes;
 mod nearest;
 mod pieces;
 pub mod published;
+mod result;
 mod start;
 pub mod tabulated;
 
@@ -21,66 +22,16 @@ use self::exact::ExactLocus;
 use self::lanes::{LANES, Lanes};
 use self::nearest::Vertices;
 use self::pieces::Pieces;
+pub use self::result::{COLDEST_K, Cct, CctError, HOTTEST_K, LocusError, MAX_DUV};
+use self::result::{COLDEST_MIRED, HOTTEST_MIRED, SLACK, is_in_range};
 use self::start::{Start, between};
 use crate::colorimetry::{Uv60, Xy, Xyz};
-use crate::light::RadiationConstants;
+use crate::light::planckian::RadiationConstants;
 use crate::spectral::{Primaries, Sensor};
 use crate::units::Kelvin;
 
-/// The coldest black body that is looked for, in kelvins.
-pub const COLDEST_K: f64 = 1000.0;
-/// The hottest black body that is looked for, in kelvins.
-pub const HOTTEST_K: f64 = 20_000.0;
-/// The largest distance from the locus at which a color temperature means something (CIE 15:2004).
-pub const MAX_DUV: f64 = 0.05;
-
-const HOTTEST_MIRED: f64 = 1e6 / HOTTEST_K;
-const COLDEST_MIRED: f64 = 1e6 / COLDEST_K;
-/// Rounding must not refuse what was made from a limit itself: so much beyond, relative to it, is let through, unclamped.
-const SLACK: f64 = 1e-11;
-
 /// Colors per piece of work: enough to outweigh handing it over.
 const CHUNK: usize = 4096;
-
-/// A color as the nearest black body and the distance from it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cct {
-    /// The correlated color temperature.
-    pub temperature: Kelvin,
-    /// The distance from the Planckian locus in the 1960 diagram, positive above it.
-    pub duv: f64,
-}
-
-/// Reason that a color has no correlated color temperature.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-pub enum CctError {
-    /// Black, or numbers that are no chromaticity.
-    #[error("the color has no chromaticity")]
-    NoChromaticity,
-    /// Further than 0.05 from every black body, of whatever temperature.
-    #[error("the color is further than 0.05 from the Planckian locus")]
-    TooFar,
-    /// The nearest black body is hotter than the method goes.
-    #[error("the nearest black body is too hot")]
-    TooHot,
-    /// The nearest black body is colder than the method goes.
-    #[error("the nearest black body is too cold")]
-    TooCold,
-}
-
-/// Reason that an observer gives no locus to compare with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-pub enum LocusError {
-    /// The observer's channels are not X, Y and Z, so that its signals have no place in the 1960 diagram.
-    #[error("the observer does not count in XYZ")]
-    NotXyz,
-    /// Some black body has no chromaticity for this observer.
-    #[error("black bodies have no chromaticity for this observer")]
-    NoChromaticity,
-    /// The locus stands still or bends so sharply that colors within 0.05 of it could have two nearest points.
-    #[error("the observer's Planckian locus is too crooked")]
-    Crooked,
-}
 
 /// The Planckian locus of an observer, ready to tell the nearest black body of any color.
 ///
@@ -240,13 +191,6 @@ impl PlanckianLocus {
         let temperature = Kelvin::from_mired(nearest.mired).map_err(|_| CctError::TooHot)?;
         Ok(Cct { temperature, duv })
     }
-}
-
-/// True if a reciprocal temperature is within the domain.
-#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
-#[inline(always)]
-fn is_in_range(mired: f64) -> bool {
-    (HOTTEST_MIRED * (1.0 - SLACK)..=COLDEST_MIRED * (1.0 + SLACK)).contains(&mired)
 }
 
 /// True if the tangent never stops and turns gently enough for one nearest point within [`MAX_DUV`], with a margin.

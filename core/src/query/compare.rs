@@ -1,6 +1,7 @@
 //! Differences between what two sensors see.
 
-use super::{LocusPoint, PatchColor};
+use super::loci::LocusPoint;
+use super::patches::PatchColor;
 use crate::colorimetry::{UvPrime, Xy, delta_e_1976, delta_e_2000};
 use crate::spectral::Primaries;
 

@@ -1,6 +1,8 @@
 //! Questions about black bodies and monochromatic light through a sensor.
 
-use super::{Ask, Query, RenderingQuery, Shared};
+use super::ask::{Ask, Query};
+use super::patches::RenderingQuery;
+use super::shared::Shared;
 use crate::camera::{LocusEvaluator, LocusMethod, RenderingError};
 use crate::colorimetry::diagram::{SpectralPoint, spectral_locus};
 use crate::colorimetry::{UvPrime, Xy, Xyz};

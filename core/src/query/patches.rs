@@ -1,6 +1,7 @@
 //! Questions about reflectances under a light, through a sensor.
 
-use super::{Ask, Query, Shared};
+use super::ask::{Ask, Query};
+use super::shared::Shared;
 use crate::camera::rendering::{raw, under_light};
 use crate::camera::{ColorTransform, FitTargets, Rendering, RenderingError, WhiteBalanceTarget};
 use crate::colorimetry::rgb::{EncodedSrgb, encode_srgb};

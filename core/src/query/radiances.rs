@@ -1,6 +1,9 @@
 //! Questions about measured spectra of radiance, through a sensor.
 
-use super::{Ask, PatchColor, Query, RenderingQuery, Shared, patches};
+use super::ask::{Ask, Query};
+use super::patches;
+use super::patches::{PatchColor, RenderingQuery};
+use super::shared::Shared;
 use crate::camera::RenderingError;
 use crate::camera::rendering::{raw, under_light};
 use crate::spectral::GridSpectrum;

@@ -8,12 +8,10 @@ pub mod picture;
 pub mod plan;
 pub mod returned;
 
-pub use difference::{BrightSamples, Difference, DifferenceQuery};
-pub use picture::{ExposureQuery, PictureQuery, Pictures, PicturesQuery, SourceOf};
-pub use plan::{PlanQuery, ReachQuery};
-pub use returned::{ReturnedLight, ReturnedLightQuery};
+use plan::{PlanQuery, ReachQuery};
 
-use super::{Ask, Query, Shared};
+use super::ask::{Ask, Query};
+use super::shared::Shared;
 use crate::camera::{RenderingError, rendering::white_divisors};
 use crate::reflectance::{Normalization, Specular, Surface, wavelength_power};
 use crate::render::mirror::Reach;

@@ -15,7 +15,8 @@
 //!
 //! This reader is strict, for files we write ourselves; files of instruments go through the crate `spectral-file`.
 
-use super::{DistributionError, Evidence, Response, SpectralDistribution};
+use super::distribution::{DistributionError, SpectralDistribution};
+use super::sensor::{Evidence, Response};
 
 /// The facts at the top of a data file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

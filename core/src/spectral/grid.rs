@@ -5,7 +5,7 @@
 //! (which is the definition of the daylight illuminants). See `Quantity` for what holds beyond the data.
 
 use crate::math::interpolation::{Sprague, linear};
-use crate::spectral::SpectralDistribution;
+use crate::spectral::distribution::SpectralDistribution;
 use std::hash::{Hash, Hasher};
 
 /// The first wavelength of the grid, in nanometers.

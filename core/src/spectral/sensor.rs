@@ -1,7 +1,8 @@
 //! Three sensitivities, ready to integrate: an observer's or a camera's.
 
+use super::dataset::Dataset;
+use super::distribution::{DistributionError, SpectralDistribution};
 use super::grid::{COUNT, FIRST_NM, GridSpectrum, LAST_NM, Quantity, wavelength_nm};
-use super::{Dataset, DistributionError, SpectralDistribution};
 use crate::math::dot::dot_each;
 use std::hash::{Hash, Hasher};
 

@@ -10,7 +10,7 @@ use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 use chromascope_mesh::reading::{MeshReadError, Note, ReadMesh, read_mesh};
 
-use crate::files::reason;
+use crate::format::io_reason;
 
 /// The largest mesh file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1_000_000_000;
@@ -51,7 +51,7 @@ pub enum MeshFailure {
         folder: String,
     },
     /// The system does not give it out.
-    #[error("{file}: {}", reason(.error))]
+    #[error("{file}: {}", io_reason(.error))]
     Io {
         /// The file's name.
         file: String,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use chromascope_core::query::{Ask, Query};
 use spectral_file::{Marker, Preview, ReadError, ReadOptions, Table, Watch};
 
-use super::OpenFile;
+use super::file::OpenFile;
 use crate::catalog::import::Origin;
 use crate::document::own::Fingerprint;
 

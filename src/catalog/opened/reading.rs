@@ -13,7 +13,7 @@ use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::document::session::is_session;
-use crate::files::reason;
+use crate::format::io_reason;
 
 /// How much of a file is looked at to tell a mesh from spectra.
 const LOOK: usize = 1 << 16;
@@ -114,7 +114,7 @@ fn expand(requests: Vec<Request>, harvest: &mut Harvest) -> Vec<Request> {
                 }
                 all.extend(files.into_iter().take(MAX_FILES).map(Request::Path));
             }
-            Err(error) => harvest.failures.push(format!("{}: {}", path.display(), reason(&error))),
+            Err(error) => harvest.failures.push(format!("{}: {}", path.display(), io_reason(&error))),
         }
     }
     all
@@ -348,7 +348,7 @@ pub fn read_file(path: &Path) -> Result<Imported, String> {
 /// A file's bytes; the error is a sentence with its name.
 fn read_bytes(path: &Path) -> Result<Arc<[u8]>, String> {
     let name = name_of(path);
-    let failed = |error: io::Error| format!("{name}: {}", reason(&error));
+    let failed = |error: io::Error| format!("{name}: {}", io_reason(&error));
     let known = fs::metadata(path).map_err(failed)?;
     if !known.is_file() {
         return Err(format!("{name} is no file"));

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::InspectArguments;
 use super::is_standard_input;
-use crate::cli::CliError;
+use crate::cli::error::CliError;
 use crate::cli::outputs::{self, is_standard_output};
 use crate::files::fitting;
 

@@ -5,7 +5,7 @@ use std::fmt::{Display, Write as _};
 use spectral_file::write::Note;
 use spectral_file::{Curve, Reading, Table};
 
-use crate::dropped;
+use crate::format;
 
 /// How many curves are named.
 const NAMED: usize = 20;
@@ -60,7 +60,7 @@ fn facts(text: &mut String, table: &Table) {
 fn rows(reading: &Reading) -> String {
     let first = reading.first_data_line;
     let begin = format!("{}, from line {first}", reading.rows);
-    [vec![begin], dropped::sentences(&reading.dropped_rows, TOLD)].concat().join("; ")
+    [vec![begin], format::dropped_rows(&reading.dropped_rows, TOLD)].concat().join("; ")
 }
 
 fn curves(curves: &[Curve]) -> String {

@@ -13,14 +13,15 @@ use chromascope_mesh::Mesh;
 use clap::ArgMatches;
 
 use super::arguments::{RenderArguments, SpecularName};
-use crate::catalog::{SetKind, meshes};
+use crate::catalog::meshes;
+use crate::cli::error::CliError;
 use crate::cli::request::Request;
-use crate::cli::{CliError, say};
 use crate::document::render::model::SpecularChoice;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, RoughnessChoice, SUN};
-use crate::document::{Compared, Light, WhiteBalanceChoice};
+use crate::document::{Compared, Light, SetKind, WhiteBalanceChoice};
+use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
-use crate::view::render::Orbit;
+use crate::terminal::say;
 use chromascope_core::render::QualityLevel;
 
 /// All that pictures are made of.

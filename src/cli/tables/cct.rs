@@ -3,7 +3,7 @@
 use chromascope_core::query::{LocusPoint, Temperatures};
 use chromascope_core::units::Kelvin;
 
-use crate::catalog::SetKind;
+use crate::document::SetKind;
 use crate::scene::{Scene, SceneError};
 
 /// Temperatures of the reference's locus, in kelvins: well beyond those that a table asks for.

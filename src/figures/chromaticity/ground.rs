@@ -9,9 +9,8 @@ use chromascope_core::light::daylight;
 use chromascope_core::units::Kelvin;
 use chromascope_figure::{Anchor, Dash, Image, Ink, InkRole, Mark, Shape, TextSize};
 
-use super::Drawing;
-use crate::catalog::SetKind;
-use crate::document::{Diagram, FIT_TARGET};
+use super::drawing::Drawing;
+use crate::document::{Diagram, FIT_TARGET, SetKind};
 use crate::plot_item::PickIndex;
 
 /// Pixels along a side of the area's picture.

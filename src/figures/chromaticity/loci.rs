@@ -4,8 +4,8 @@ use chromascope_core::query::{LocusPoint, Temperatures};
 use chromascope_core::units::Kelvin;
 use chromascope_figure::{Anchor, Dash, InkRole, Mark, Marker, Shape};
 
+use super::drawing::{Drawing, id};
 use super::ground::text;
-use super::{Drawing, id};
 use crate::plot_item::PlotItem;
 use crate::scene::locus::split;
 use crate::scene::{ComparedSensor, Scene};

@@ -2,7 +2,7 @@
 
 use chromascope_figure::{InkRole, Mark, Marker, Shape};
 
-use super::{Drawing, id};
+use super::drawing::{Drawing, id};
 use crate::figures::render::pixel_of;
 use crate::plot_item::PlotItem;
 use crate::render_service::pixel::PixelShows;

@@ -5,10 +5,9 @@ use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::units::Kelvin;
 use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, TextSize};
 
-use super::{Drawing, id};
-use crate::catalog::SetKind;
-use crate::document::Diagram;
-use crate::number::number;
+use super::drawing::{Drawing, id};
+use crate::document::{Diagram, SetKind};
+use crate::format::number;
 use crate::plot_item::{PickIndex, PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{LINE_TAIL, MARKER, MARKER_SMALL};
@@ -109,7 +108,7 @@ pub fn patch_xy(scene: &Scene<'_>, source: &SensorId, patch: &str) -> Option<Xy>
 }
 
 fn label(scene: &Scene<'_>, id: &SensorId) -> String {
-    let found = scene.sources().into_iter().find(|source| super::id(source) == *id);
+    let found = scene.sources().into_iter().find(|source| super::drawing::id(source) == *id);
     found.map_or_else(|| id.name.clone(), |source| source.label)
 }
 

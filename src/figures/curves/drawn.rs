@@ -4,10 +4,13 @@ use spectral_file::{Quantity, Role, Table};
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 
-use super::{ImportSelection, places};
+use super::on_show::{ImportSelection, places};
 use crate::catalog::import::taken;
 use crate::document::own::OwnSet;
-use crate::number::number;
+use crate::format::{capitalized, number, sentence};
+
+/// Maximum number of curves drawn.
+pub const DRAWN: usize = 200;
 
 /// A curve to draw.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,7 +110,9 @@ impl Curves {
     ) -> Self {
         let unit = unit.filter(|_| !role.is_fraction());
         let what = match (said, role) {
-            (Some(said), _) if !matches!(said, Quantity::Unknown | Quantity::Relative) => capital(&said.to_string()),
+            (Some(said), _) if !matches!(said, Quantity::Unknown | Quantity::Relative) => {
+                capitalized(&said.to_string())
+            }
             (_, Role::Camera) => "Sensitivity".to_owned(),
             (_, Role::Reflectance) => "Reflectance".to_owned(),
             (_, Role::Transmittance) => "Transmittance".to_owned(),
@@ -180,16 +185,6 @@ fn height([low, high]: [f64; 2]) -> f64 {
 
 fn channel(role: Role, channels: &[usize; 3], place: usize) -> Option<usize> {
     channels.iter().position(|channel| *channel == place).filter(|_| role == Role::Camera)
-}
-
-/// A message of the core as a sentence.
-pub(crate) fn sentence(words: &str) -> String {
-    format!("{}.", capital(words))
-}
-
-fn capital(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// What all say, if they agree.

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Curves, DRAWN, ImportSelection, drawn};
+use super::drawn::{self, Curves, DRAWN};
+use super::on_show::ImportSelection;
 
 /// At most so many points are drawn on screen in all.
 const POINTS: usize = 80_000;

@@ -3,7 +3,7 @@
 use chromascope_figure::{Anchor, Image, Ink, Mark, Shape};
 
 use super::text;
-use crate::number::number;
+use crate::format::number;
 use crate::plot_item::PickIndex;
 use crate::render_service::RenderedFrame;
 use crate::theme::difference_ramp;

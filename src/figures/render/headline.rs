@@ -3,10 +3,10 @@
 //! The headline is the difference of the material facing the light: one flat patch, the same for any mesh, view and exposure. A mean
 //! over all lit samples would say how much of a picture is dark.
 
-use chromascope_core::query::render::Difference;
+use chromascope_core::query::render::difference::Difference;
 
 use crate::document::{DifferenceChoice, Document};
-use crate::widgets::lines::fixed;
+use crate::format::fixed;
 
 /// What the numbers mean, for hints.
 pub const MEANING: &str = "Facing the light: the flat material under this light, as a patch. Median and 95 %: over the lit \
@@ -56,7 +56,7 @@ pub fn words(difference: &Difference, measure: &str, detail: Detail) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chromascope_core::query::render::BrightSamples;
+    use chromascope_core::query::render::difference::BrightSamples;
 
     #[test]
     fn a_picture_without_light_has_no_difference() {

@@ -1,11 +1,11 @@
 //! The share of light that the chosen surface returns, in words: where the reflectance model says its limits.
 
 use chromascope_core::query::Ask as _;
-use chromascope_core::query::render::{ReturnedLight, ReturnedLightQuery};
+use chromascope_core::query::render::returned::{ReturnedLight, ReturnedLightQuery};
 use chromascope_core::reflectance::{Normalization, Surface};
 
 use crate::document::render::{ReadingChoice, RoughnessChoice};
-use crate::number::number;
+use crate::format::number;
 use crate::scene::Scene;
 
 /// A sentence on the share of light returned.
@@ -49,7 +49,7 @@ pub const fn meaning(reading: ReadingChoice) -> &'static str {
 fn sentence(light: ReturnedLight, reading: Normalization) -> Words {
     let share = |value: f64| {
         let decimals = if value < 0.005 && value > 0.0 { return format!("{value:.0e}") } else { 2 };
-        crate::widgets::lines::fixed(value, decimals)
+        crate::format::fixed(value, decimals)
     };
     let (normal, grazing) = (share(light.normal), share(light.grazing));
     let mut text = format!("Returns {normal} of the light at normal incidence ({grazing} at 85°)");

@@ -6,7 +6,7 @@ use chromascope_figure::{Cell, Table};
 
 use crate::catalog::opened::OpenFile;
 use crate::document::own::{OwnSet, Role};
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::view::import::ImportItem;
 
 /// How a file fares.

@@ -7,10 +7,10 @@ use super::entries::{Entry, State};
 use crate::action::{Action, OwnAction};
 use crate::command::Command;
 use crate::figures::curves::ImportSelection;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::{focus_rim, lines};
 use crate::theme::{ROW, Theme, UNIT};
 use crate::view::import::{ImportItem, Stop};
-use crate::widgets::{focus_rim, lines};
 use crate::workspaces::PaneKind;
 
 /// Height of a file's two lines.

@@ -4,10 +4,11 @@ use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
 use spectral_file::{Certainty, Role, Table, Values};
 
 use crate::command::Command;
-use crate::figures::curves::{ImportSelection, sentence};
-use crate::panes::PaneContext;
+use crate::figures::curves::ImportSelection;
+use crate::format::sentence;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::lines;
 use crate::theme::UNIT;
-use crate::widgets::lines;
 
 /// An answer: its words, a hint, and what it chooses.
 type Answer = (&'static str, &'static str, Option<Role>, Values);

@@ -9,10 +9,11 @@ use super::line::{Line, Pen, legend};
 use crate::catalog::opened::FilePreview;
 use crate::command::Command;
 use crate::document::own::{Fingerprint, OwnSet};
-use crate::figures::curves::{ImportSelection, sentence};
-use crate::panes::PaneContext;
+use crate::figures::curves::ImportSelection;
+use crate::format::sentence;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::lines;
 use crate::theme::{MONO, ROW, UNIT};
-use crate::widgets::lines;
 
 /// Height of a line.
 const LINE: f32 = 18.0;

@@ -3,8 +3,8 @@
 use chromascope_core::query::PatchColor;
 use egui::{FontId, Rect, Sense, Ui, Vec2};
 
+use crate::format::fixed;
 use crate::theme::{MONO, SMALL, Theme};
-use crate::widgets::lines::fixed;
 
 /// Height of a row of numbers.
 const LINE: f32 = 15.0;

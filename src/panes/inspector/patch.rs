@@ -9,11 +9,11 @@ use super::{
     assumptions, buttons, copy_text, difference_words, failure, head, held_words, no_difference, note, numbers,
     reference_id, show_assumptions,
 };
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::{focus_rim, lines};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene, SceneError};
 use crate::theme::{HEADING, ROW, TEXT, Theme, UNIT};
-use crate::widgets::{focus_rim, lines};
 
 /// Height of the pair of swatches with its surround.
 const PAIR: f32 = 40.0;

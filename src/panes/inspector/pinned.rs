@@ -4,11 +4,11 @@ use chromascope_core::query::PatchColor;
 use egui::{RichText, ScrollArea, Ui};
 
 use super::{difference_words, note, numbers, patch, radiator, reference_id, source_of};
-use crate::panes::PaneContext;
+use crate::format::fixed;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::{Icon, icon_button};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
-use crate::widgets::lines::fixed;
-use crate::widgets::{Icon, icon_button};
 
 /// Width of a column of numbers.
 const COLUMN: f32 = 56.0;

@@ -5,11 +5,11 @@ use egui::{Grid, RichText, Ui};
 use super::note;
 use crate::figures::chromaticity::id;
 use crate::figures::render::{facts, headline, index_of, pixel_of};
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::lines::key_and_label;
 use crate::render_service::pixel::PixelShows;
 use crate::theme::UNIT;
 use crate::view::render::PixelPlace;
-use crate::widgets::lines::key_and_label;
 use crate::workspaces::PaneKind;
 
 /// The pixel that is kept, if pictures are on show.

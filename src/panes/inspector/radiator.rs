@@ -9,10 +9,10 @@ use super::{
     assumptions, buttons, copy_text, failure, head, no_difference, note, numbers, reference_id, show_assumptions,
 };
 use crate::document::Light;
-use crate::panes::PaneContext;
+use crate::format::fixed;
+use crate::panes::context::PaneContext;
 use crate::plot_item::SensorId;
 use crate::scene::{Scene, SceneError};
-use crate::widgets::lines::fixed;
 
 /// One point of a sensor's locus.
 pub(super) fn point_of(scene: &Scene<'_>, id: &SensorId, kelvin: f64) -> Result<Option<LocusPoint>, SceneError> {

@@ -7,16 +7,16 @@ use super::{
     assumptions, buttons, copy_text, difference_words, failure, head, held_words, measured_words, no_difference, note,
     reference_id, show_assumptions,
 };
-use crate::catalog::{Place, SetKind};
+use crate::catalog::Place;
 use crate::command::Command;
-use crate::document::{Diagram, FIT_TARGET, Light};
-use crate::panes::PaneContext;
+use crate::document::{Diagram, FIT_TARGET, Light, SetKind};
+use crate::format::fixed;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::facts::{self, Fact, range_words};
 use crate::plot_item::SensorId;
 use crate::scene::Scene;
 use crate::theme::UNIT;
 use crate::view::import::ImportItem;
-use crate::widgets::facts::{self, Fact, range_words};
-use crate::widgets::lines::fixed;
 
 /// A camera or an observer.
 pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {

@@ -8,9 +8,9 @@ use crate::action::Action;
 use crate::document::start::Start;
 use crate::document::{TransformChoice, WhiteBalanceChoice};
 use crate::paint;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::{self, WHAT_YOU_SEE};
 use crate::theme::{Theme, UNIT};
-use crate::widgets::{self, WHAT_YOU_SEE};
 
 /// Width of the drawn keys.
 const KEY: f32 = 26.0;
@@ -99,7 +99,7 @@ fn caveat(context: &PaneContext<'_>) -> Option<&'static str> {
         scene.sensor(source.kind, &source.name).is_ok_and(|sensor| sensor.primaries() == Primaries::Xyz)
     };
     let observers =
-        || sources.iter().filter(|source| source.visible && source.kind == crate::catalog::SetKind::Observer);
+        || sources.iter().filter(|source| source.visible && source.kind == crate::document::SetKind::Observer);
     match (&scene.document.transform, &scene.document.white) {
         (TransformChoice::Paper, _) if observers().any(counts_in_xyz) => Some(
             "CIE observers are drawn directly, not through Eq 13: their lines differ from the others by construction.",

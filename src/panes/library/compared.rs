@@ -3,14 +3,14 @@
 use egui::{Id, Key, Rect, Response, Sense, TextEdit, TextStyle, Ui, Vec2};
 
 use crate::action::{Action, CompareAction};
-use crate::catalog::SetKind;
 use crate::command::Command;
-use crate::panes::PaneContext;
+use crate::document::SetKind;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::{focus_rim, lines};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, UNIT};
 use crate::view::import::ImportItem;
-use crate::widgets::{focus_rim, lines};
 use crate::workspaces::PaneKind;
 
 /// A label that is being written.

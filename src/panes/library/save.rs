@@ -3,12 +3,14 @@
 use egui::{Key, Modifiers, Popup, Rect, Response, Sense, Ui};
 
 use crate::action::{Action, OwnAction};
-use crate::catalog::{Entry, SetKind};
+use crate::catalog::Entry;
 use crate::command::Command;
+use crate::document::SetKind;
 use crate::export::spectra::{Form, fits};
-use crate::panes::PaneContext;
+use crate::format::sentence;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::lines;
 use crate::view::import::ImportItem;
-use crate::widgets::lines;
 
 /// The dots at the end of a row and what they open; so do a right click on the row and the menu key. A row of the program's
 /// shows its dots while it is pointed at or has the focus. Returns whether they are on show.
@@ -72,11 +74,4 @@ pub(super) fn save_as(ui: &mut Ui, kind: SetKind, name: &str, context: &mut Pane
             }
         }
     });
-}
-
-/// With a capital at the start and a point at the end.
-fn sentence(words: &str) -> String {
-    let mut letters = words.chars();
-    let first = letters.next().into_iter().flat_map(char::to_uppercase);
-    first.chain(letters).chain(['.']).collect()
 }

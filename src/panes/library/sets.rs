@@ -7,14 +7,14 @@ use egui::{Rect, Response, ScrollArea, Sense, TextStyle, Ui, Vec2};
 
 use super::save;
 use crate::action::{Action, CompareAction, SceneAction};
-use crate::catalog::{Entry, SetKind, names};
+use crate::catalog::{Entry, names};
 use crate::command::Command;
-use crate::document::Light;
 use crate::document::own::OwnSet;
-use crate::panes::PaneContext;
+use crate::document::{Light, SetKind};
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::{facts, focus_rim, lines};
 use crate::theme::{ROW, UNIT};
 use crate::view::import::ImportItem;
-use crate::widgets::{facts, focus_rim, lines};
 
 /// Width that a scroll bar lies over.
 pub(super) const SCROLL_BAR: f32 = 10.0;

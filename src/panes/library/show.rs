@@ -5,10 +5,10 @@ use std::collections::HashSet;
 use egui::{Id, Key, Rect, ScrollArea, TextEdit, Ui, UiBuilder, Vec2};
 
 use super::{compared, sets};
-use crate::catalog::SetKind;
-use crate::panes::PaneContext;
+use crate::document::SetKind;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::mark_all;
 use crate::theme::{ROW, UNIT};
-use crate::widgets::mark_all;
 use crate::workspaces::PaneKind;
 
 /// Share of the pane's height for the compared sensors, and the least and most rows of it.
@@ -73,7 +73,7 @@ fn compared(ui: &mut Ui, height: f32, context: &mut PaneContext<'_>) {
 fn heading(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW - UNIT), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
-    crate::widgets::lines::elided(ui, rect, words, egui::TextStyle::Body, context.theme.text);
+    crate::panes::widgets::lines::elided(ui, rect, words, egui::TextStyle::Body, context.theme.text);
 }
 
 /// The field that the list is searched with. Returns whether the first match was chosen with Enter.

@@ -2,7 +2,7 @@
 
 use egui::{Pos2, Rect, Vec2};
 
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
 use crate::view::render::RenderMode;

@@ -2,7 +2,7 @@
 
 use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Ui, Vec2};
 
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::theme::{SMALL, difference_ramp};
 
 /// The scale: what the ramp's colors stand for.
@@ -22,7 +22,7 @@ pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, end: f32, contex
     for step in 0..=steps {
         let share = f32::from(step) / f32::from(steps);
         let at = Pos2::new(bar.left() + share * bar.width(), bar.bottom() + 2.0);
-        let value = crate::number::number(f64::from((share * end * 100.0).round() / 100.0));
+        let value = crate::format::number(f64::from((share * end * 100.0).round() / 100.0));
         painter.text(at, Align2::CENTER_TOP, value, font.clone(), color);
     }
     let dark = Pos2::new(rect.right() - 8.0, bar.center().y);

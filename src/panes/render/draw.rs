@@ -11,13 +11,13 @@ use crate::figures::chromaticity::id;
 use crate::figures::render::headline::{self, Detail};
 use crate::figures::render::{difference as maps, index_of};
 use crate::paint::{self, PictureQuery};
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::lines;
 use crate::plot_item::PickIndex;
 use crate::render_service::RenderedFrame;
 use crate::scene::ComparedSensor;
 use crate::theme::TEXT;
 use crate::view::render::RenderMode;
-use crate::widgets::lines;
 
 /// From this width of a caption on it states the difference: its number, with its measure, with quantiles, with the largest.
 const WITH_NOTE: f32 = 150.0;

@@ -2,8 +2,8 @@
 
 use egui::{EventFilter, Key, PointerButton, Response, Ui};
 
-use crate::panes::PaneContext;
-use crate::view::render::Orbit;
+use crate::panes::context::PaneContext;
+use crate::scene::orbit::Orbit;
 use crate::workspaces::PaneKind;
 
 /// Degrees for a point of dragging.

@@ -2,7 +2,8 @@
 
 use chromascope_core::colorimetry::rgb::srgb_inverse_transfer;
 use chromascope_core::query::Shared;
-use chromascope_core::query::render::{MeshQuery, PicturesQuery};
+use chromascope_core::query::render::MeshQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_mesh::Mesh;
 use egui::Ui;
@@ -10,9 +11,10 @@ use egui::Ui;
 use super::cells::PictureLayout;
 use crate::catalog::meshes::MeshState;
 use crate::document::render::{MeshChoice, RenderSettings};
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
-use crate::view::render::{Orbit, RenderMode};
+use crate::view::render::RenderMode;
 use chromascope_core::render::QualityLevel;
 
 /// Above so many pixels in all, pictures of something that moves have half the resolution.

@@ -3,10 +3,10 @@
 use egui::Ui;
 
 use crate::action::{Action, RenderAction};
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::view::render::RenderMode;
-use crate::widgets;
 
 /// How pictures stand, and the paper's figures.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {

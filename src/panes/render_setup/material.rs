@@ -3,10 +3,11 @@
 use egui::{ComboBox, ScrollArea, TextEdit, Ui};
 
 use super::set;
-use crate::catalog::{Entry, SetKind, names};
-use crate::panes::PaneContext;
+use crate::catalog::{Entry, names};
+use crate::document::SetKind;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::facts;
 use crate::theme::ROW;
-use crate::widgets::facts;
 
 /// A list of all reflectances, with a field to search it.
 pub(super) fn choice(ui: &mut Ui, now: &str, context: &mut PaneContext<'_>) {

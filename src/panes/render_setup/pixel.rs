@@ -3,7 +3,7 @@
 use egui::{Grid, RichText, Ui};
 
 use crate::figures::render::{facts, headline, index_of, pixel_of};
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::plot_item::SensorId;
 use crate::render_service::pixel::PixelShows;
 use crate::theme::UNIT;

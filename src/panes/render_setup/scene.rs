@@ -7,7 +7,7 @@ use super::{Dial, caption, material, set};
 use crate::catalog::meshes::MeshState;
 use crate::command::Command;
 use crate::document::render::{MeshChoice, NEAR, RenderSettings};
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 
 /// How many triangles can be chosen.
 const TRIANGLES: std::ops::RangeInclusive<f64> = 2e3..=2e6;

@@ -2,9 +2,9 @@
 
 use egui::{Grid, RichText, Ui};
 
-use crate::panes::PaneContext;
+use crate::format::fixed;
+use crate::panes::context::PaneContext;
 use crate::theme::UNIT;
-use crate::widgets::lines::fixed;
 
 /// Stages in the order they follow each other, as counted and as shown.
 const STAGES: [(&str, &str); 8] = [

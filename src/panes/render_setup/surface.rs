@@ -7,7 +7,7 @@ use super::{Dial, set};
 use crate::document::render::model::{AreaChoice, SpecularChoice};
 use crate::document::render::{LEAF, ReadingChoice, RenderSettings, RoughnessChoice, SKIN};
 use crate::figures::render::returned;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {

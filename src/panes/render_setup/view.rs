@@ -3,9 +3,10 @@
 use egui::{ComboBox, RichText, Ui};
 
 use super::{Dial, set};
-use crate::panes::PaneContext;
-use crate::view::render::Orbit;
-use crate::widgets;
+
+use crate::panes::context::PaneContext;
+use crate::panes::widgets;
+use crate::scene::orbit::Orbit;
 use chromascope_core::render::QualityLevel;
 
 /// Shows the group.

@@ -6,7 +6,7 @@ use crate::action::{Action, OwnAction};
 use crate::command::Command;
 use crate::document::own::ImportOverrides;
 use crate::figures::curves::ImportSelection;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::ImportItem;
 

@@ -6,8 +6,8 @@ use spectral_file::{Certainty, Role};
 use super::{Closed, caption, list};
 use crate::document::own::ImportOverrides;
 use crate::figures::curves::ImportSelection;
+use crate::panes::widgets::segmented;
 use crate::theme::{Theme, UNIT};
-use crate::widgets::segmented;
 
 /// So many curves can be chosen from.
 const LISTED: usize = 500;

@@ -5,7 +5,7 @@ use egui::{Id, RichText, ScrollArea, TextEdit, Ui};
 use crate::catalog::import::TAKEN_AT_FIRST;
 use crate::document::own::ImportOverrides;
 use crate::figures::curves::ImportSelection;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::theme::{ROW, UNIT};
 use crate::view::import::Stop;
 

@@ -5,12 +5,12 @@ use spectral_file::Values;
 
 use super::{Closed, caption, list, name, note, switches};
 use crate::action::{Action, OwnAction};
-use crate::catalog::SetKind;
+use crate::document::SetKind;
 use crate::document::own::{OwnSet, Role};
 use crate::figures::curves::places;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::segmented;
 use crate::theme::{Theme, UNIT};
-use crate::widgets::segmented;
 
 /// Shows the set with controls; every change is one step of undo.
 pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {

@@ -5,10 +5,11 @@ use egui::{Id, RichText, TextEdit, Ui};
 
 use super::caption;
 use crate::action::{Action, OwnAction};
-use crate::catalog::{Entry, SetKind};
+use crate::catalog::Entry;
+use crate::document::SetKind;
 use crate::document::own::OwnSet;
 use crate::document::uses::Holder;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::plot_item::PlotItem;
 
 /// Shows the field.

@@ -4,12 +4,12 @@ use egui::{Align, Id, RichText, Ui};
 use spectral_file::Table;
 
 use super::note;
-use crate::dropped;
-use crate::figures::curves::{ImportSelection, sentence};
-use crate::number::number;
-use crate::panes::PaneContext;
+use crate::figures::curves::ImportSelection;
+use crate::format;
+use crate::format::{number, sentence};
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::facts::range_words;
 use crate::theme::UNIT;
-use crate::widgets::facts::range_words;
 
 /// So many dropped rows are told one by one.
 const TOLD: usize = 5;
@@ -91,7 +91,7 @@ fn facts(shown: &ImportSelection, table: &Table) -> Vec<String> {
         format!("Reader: {}; {}", reading.reader.value, reading.encoding),
         format!("{} rows from line {}", reading.rows, reading.first_data_line),
     ];
-    facts.extend(dropped::sentences(&reading.dropped_rows, TOLD));
+    facts.extend(format::dropped_rows(&reading.dropped_rows, TOLD));
     let order = if reading.descending { ", written in descending order" } else { "" };
     facts.push(format!("Range {}{order}", range_words(reading.range_nm)));
     let [min, median, max] = [step.min, step.median, step.max].map(number);

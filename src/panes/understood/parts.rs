@@ -8,7 +8,7 @@ use spectral_file::Part;
 use super::note;
 use crate::command::Command;
 use crate::figures::curves::ImportSelection;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::theme::{ROW, UNIT};
 
 /// So many rows are seen at once.

@@ -1,7 +1,7 @@
 //! What nobody looks at: each is computed here from nothing, so that its time is that of the first time.
 
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::PicturesQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 
 use super::SkippedWork;
 use crate::profiler::stopwatch::once;

@@ -6,7 +6,7 @@ use chromascope_core::reflectance::series_terms;
 use chromascope_core::render::Quality;
 
 use super::{SUMS, SkippedWork, Sources, measured_on, some_of};
-use crate::figures::pareto::duration;
+use crate::format::duration;
 use crate::profiler::stopwatch::shortest;
 
 /// At most so many terms of all sums together are added: the time of a term is known by then.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use chromascope_core::camera::RenderingError;
 use chromascope_core::query::Ask;
-use chromascope_core::query::render::{PicturesQuery, SourceOf};
+use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
 use chromascope_core::render::measure::Node;
 use chromascope_core::render::shading::{DiffuseKind, Shade};
 use chromascope_core::render::{Plan, ShadingImage, SpectralWeights};

@@ -170,6 +170,8 @@ fn closing(tokens: &[(String, usize)], open: usize) -> usize {
 pub(super) struct UsedPath {
     pub(super) names: Vec<String>,
     pub(super) line: usize,
+    /// Whether it stands in a `use`.
+    pub(super) import: bool,
 }
 
 impl UsedPath {
@@ -196,6 +198,11 @@ pub(super) fn paths(module: &[String], code: &Code) -> Vec<UsedPath> {
         }
         let import = word == "use" && tokens.get(at + 1).is_some_and(|(token, _)| token != "<");
         let start = if import { at + 1 } else { at };
+        // `pub(in crate::a)` says who may use something, and uses nothing.
+        if word == "in" && at > 1 && tokens[at - 1].0 == "(" && tokens[at - 2].0 == "pub" {
+            at = closing(tokens, at - 1);
+            continue;
+        }
         if import || (is_word(word) && joined(tokens, at + 1)) {
             let inline: Vec<String> = inline.iter().map(|(name, _)| name.clone()).collect();
             let here = [module, &inline].concat();
@@ -253,7 +260,7 @@ fn tree(
     if tokens.get(at).is_some_and(|(token, _)| import && token == "as") {
         at += 2;
     }
-    found.push(UsedPath { names, line });
+    found.push(UsedPath { names, line, import });
     at
 }
 
@@ -265,16 +272,16 @@ fn resolved(here: &[String], path: UsedPath) -> Option<UsedPath> {
     }
     let mut names = here.to_vec();
     names.insert(0, "crate".to_owned());
-    for name in path.names {
+    for name in &path.names {
         match name.as_str() {
             "self" => {}
             "super" => {
                 names.pop();
             }
-            _ => names.push(name),
+            _ => names.push(name.clone()),
         }
     }
-    Some(UsedPath { names, line: path.line })
+    Some(UsedPath { names, ..path })
 }
 
 /// Name, first line and number of lines of every function with a body.

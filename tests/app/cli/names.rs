@@ -1,7 +1,8 @@
 //! Names as people type them: exact ones, standard designations, whole words, parts.
 
+use chromascope::catalog::Catalog;
 use chromascope::catalog::names::{Found, NameError, find};
-use chromascope::catalog::{Catalog, SetKind};
+use chromascope::document::SetKind;
 
 use super::{column, refused, run, table};
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use chromascope_core::query::render::ReturnedLightQuery;
+use chromascope_core::query::render::returned::ReturnedLightQuery;
 use chromascope_core::query::{Ask, Direct};
 use chromascope_core::reflectance::{
     Geometry, IlluminatedArea, Normalization, Precision, Specular, Surface, diffuse_prefactor, diffuse_sum,

@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chromascope_core::camera::WhiteBalanceTarget;
+use chromascope_core::query::render::MeshQuery;
+use chromascope_core::query::render::picture::{Pictures, PicturesQuery, SourceOf};
 use chromascope_core::query::render::{GeometryQuery, Roughness, ShadingQuery, VisibilityQuery};
-use chromascope_core::query::render::{MeshQuery, Pictures, PicturesQuery, SourceOf};
 use chromascope_core::query::{Ask, ColorTransformSpec, Query, RenderingQuery, Shared};
 use chromascope_core::reflectance::{Normalization, Specular, Surface};
 use chromascope_core::render::{Quality, RasterSize, Shadows};

@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use chromascope_core::camera::{ColorTransform, Rendering, WhiteBalanceTarget};
 use chromascope_core::colorimetry::Xyz;
-use chromascope_core::query::render::BrightSamples;
+use chromascope_core::query::render::difference::BrightSamples;
 use chromascope_core::reflectance::{Normalization, Precision, Surface, wavelength_power};
 use chromascope_core::render::develop::differences;
 use chromascope_core::render::diffuse::{by_moments, by_nodes, by_nodes_into, by_regimes, rough_basis};

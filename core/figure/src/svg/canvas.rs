@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 
 use super::SvgStyle;
-use crate::{Anchor, Ink, Mark, Marker, MarkerOutline, Palette, Rect, Stroke, TextSize};
+use crate::ink::{Ink, Palette};
+use crate::mark::{Anchor, Mark, Marker, MarkerOutline, Stroke, TextSize};
+use crate::rect::Rect;
 
 /// A document being written.
 pub(super) struct Canvas<'a> {

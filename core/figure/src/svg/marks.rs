@@ -1,7 +1,10 @@
 //! Marks as SVG elements.
 
 use super::canvas::Canvas;
-use crate::{Image, Ink, InkRole, Mark, Projection, Rect, Rgb, Shape, Stroke, finite_runs};
+use crate::ink::{Ink, InkRole};
+use crate::mark::{Image, Mark, Rgb, Shape, Stroke, finite_runs};
+use crate::projection::Projection;
+use crate::rect::Rect;
 
 /// Writes one mark, its halo first.
 pub(super) fn write(canvas: &mut Canvas<'_>, mark: &Mark, projection: &Projection) {

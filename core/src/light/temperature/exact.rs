@@ -1,7 +1,7 @@
 //! The locus itself: 1 nm sums of Planck's law over matching functions, with their derivative.
 
 use crate::colorimetry::{Uv60, Xyz};
-use crate::light::RadiationConstants;
+use crate::light::planckian::RadiationConstants;
 use crate::spectral::Sensor;
 use crate::spectral::grid::{COUNT, LAST_NM, wavelength_nm};
 

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::exact::{ExactLocus, Motion};
-use super::{Cct, MAX_DUV, SLACK, is_in_range};
+use super::result::{Cct, MAX_DUV, SLACK, is_in_range};
 use crate::colorimetry::Uv60;
 use crate::math::chebyshev::{coefficients, evaluate, nodes};
 use crate::units::Kelvin;

@@ -1,6 +1,6 @@
 //! Published closed formulas, each within the range it was published for: to compare with, not to compute with.
 
-use super::CctError;
+use super::result::CctError;
 use crate::colorimetry::Xy;
 use crate::units::Kelvin;
 

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::nearest::Vertices;
 use super::pieces::{Pieces, ROUNDER};
-use super::{COLDEST_MIRED, HOTTEST_MIRED, MAX_DUV};
+use super::result::{COLDEST_MIRED, HOTTEST_MIRED, MAX_DUV};
 use crate::colorimetry::Uv60;
 
 /// The grid's spacing in u and v. Halving it costs the nearest cache, doubling it another step of Newton's.

@@ -3,9 +3,9 @@
 //! Their tables are not copied but computed, from the observer's own locus at the published temperatures.
 
 use super::exact::{ExactLocus, Motion};
-use super::{Cct, CctError, LocusError, MAX_DUV};
+use super::result::{Cct, CctError, LocusError, MAX_DUV};
 use crate::colorimetry::Uv60;
-use crate::light::RadiationConstants;
+use crate::light::planckian::RadiationConstants;
 use crate::spectral::{Primaries, Sensor};
 use crate::units::Kelvin;
 

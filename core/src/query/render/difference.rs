@@ -1,10 +1,12 @@
 //! Differences of a camera's picture from the reference's.
 
-use super::{CameraImageQuery, ExposureQuery};
+use super::CameraImageQuery;
+use super::picture::ExposureQuery;
 use crate::camera::RenderingError;
+use crate::query::ask::{Ask, Query};
 use crate::query::compare::{Metric, patch_difference};
+use crate::query::patches::RenderingQuery;
 use crate::query::patches::patch_colors;
-use crate::query::{Ask, Query, RenderingQuery};
 use crate::render::ColorimetricScale;
 use crate::render::develop::differences;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 use super::SpectralWeightsQuery;
 use crate::accuracy::RelTolerance;
 use crate::camera::RenderingError;
-use crate::query::{Ask, Query};
+use crate::query::ask::{Ask, Query};
 use crate::render::mirror::Reach;
 use crate::render::{Against, Demand, Plan, Quality};
 use std::sync::Arc;

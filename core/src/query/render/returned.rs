@@ -1,6 +1,6 @@
 //! Share of light that a surface returns: where the reflectance model loses or makes energy.
 
-use crate::query::{Ask, Query};
+use crate::query::ask::{Ask, Query};
 use crate::reflectance::{Normalization, Surface, directional_hemispherical};
 
 /// The grazing angle of incidence that is stated beside normal incidence, in degrees.

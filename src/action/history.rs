@@ -1,7 +1,7 @@
 //! Undo: the previous documents.
 
-use super::Document;
-use crate::action::Action;
+use super::Action;
+use crate::document::Document;
 
 /// How many steps are kept.
 const DEPTH: usize = 200;

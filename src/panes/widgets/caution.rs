@@ -5,7 +5,7 @@ use egui::{Align, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 use super::lines;
 use crate::action::{Action, SceneAction};
 use crate::document::TransformChoice;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::theme::{ROW, UNIT};
 
 /// Shows the scene's caution, if there is one, with its remedy as a button. Returns the rectangle that remains below.

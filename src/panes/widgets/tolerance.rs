@@ -3,7 +3,7 @@
 use egui::{Id, Key, RichText, Role, Slider, TextEdit, Ui, WidgetInfo};
 
 use crate::document::render::{TOLERANCES, decade};
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 
 /// What can be typed.
 const TAKES: &str = "Any error from 1e−13 to 0.1, such as 5e-10; the slider goes by powers of ten";

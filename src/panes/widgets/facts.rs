@@ -8,7 +8,8 @@ use egui::{TextFormat, Ui};
 
 use super::number;
 use crate::catalog::load::FileQuery;
-use crate::catalog::{Entry, Place, SetKind};
+use crate::catalog::{Entry, Place};
+use crate::document::SetKind;
 use crate::document::own::Role;
 use crate::scene::Scene;
 use crate::theme::{SMALL, Theme, UNIT};

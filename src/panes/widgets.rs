@@ -11,9 +11,9 @@ use egui::{Align, Button, Label, Layout, Rect, Response, RichText, Sense, Ui, Ui
 use egui_extras::{Column, TableBuilder};
 
 use crate::command::{Command, Format};
-use crate::number::number;
+use crate::format::number;
 use crate::paint;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
 use crate::theme::{ROW, Theme, UNIT};

@@ -83,10 +83,3 @@ pub fn warning_mark(painter: &Painter, center: Pos2, color: Color32) {
     painter.line_segment([at(0.0, -2.5), at(0.0, 1.5)], stroke);
     painter.circle_filled(at(0.0, 3.3), 0.8, color);
 }
-
-/// A number with a fixed count of decimals and a true minus sign; no minus before nothing but zeros.
-pub fn fixed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let is_zero = !text.bytes().any(|b| b.is_ascii_digit() && b != b'0');
-    if is_zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
-}

@@ -3,7 +3,7 @@
 use egui::{Align2, Area, CursorIcon, Frame, Id, Key, Order, Rect, Response, Role, Sense, TextEdit, Ui, WidgetInfo};
 
 use super::mark_all;
-use crate::panes::PaneContext;
+use crate::panes::context::PaneContext;
 use crate::theme::UNIT;
 
 /// A number that can be typed or dragged.

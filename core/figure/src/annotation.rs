@@ -1,0 +1,38 @@
+//! Small texts in a plot's corners.
+
+use super::mark::{Anchor, TextSize};
+use super::panel::Panel;
+use super::rect::Rect;
+use super::text::text_width;
+
+/// A small text inside a plot's corner: an axis' label, a panel's note.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Annotation {
+    /// Its place in points.
+    pub at: [f64; 2],
+    /// The text.
+    pub text: String,
+    /// Which point of the text lies there.
+    pub anchor: Anchor,
+}
+
+/// Labels of the axes (y upper left, x lower right) and the note (upper right) of a panel whose plot covers the given
+/// rectangle, for [`TextSize::Small`] drawn `text_scale` times as large as on screen. None covers another.
+pub fn annotations(panel: &Panel, plot: Rect, text_scale: f64) -> Vec<Annotation> {
+    let pad = 5.0 * text_scale;
+    let width = |text: &str| text_scale * text_width(text, TextSize::Small);
+    let beside = width(&panel.y.label) + width(&panel.note) + 4.0 * pad <= plot.width();
+    let below = if beside || panel.y.label.is_empty() { 0.0 } else { 16.0 * text_scale };
+    let left = plot.min[0] + pad;
+    let right = plot.max[0] - pad;
+    let top = plot.min[1] + pad;
+    [
+        ([left, top], &panel.y.label, Anchor::LEFT_TOP),
+        ([right, top + below], &panel.note, Anchor::RIGHT_TOP),
+        ([right, plot.max[1] - pad], &panel.x.label, Anchor::RIGHT_BOTTOM),
+    ]
+    .into_iter()
+    .filter(|(_, text, _)| !text.is_empty())
+    .map(|(at, text, anchor)| Annotation { at, text: text.clone(), anchor })
+    .collect()
+}

@@ -1,0 +1,82 @@
+//! The parts of a figure: panels with axes and marks, and the legend.
+
+use super::axis::Axis;
+use super::ink::{Ink, InkRole};
+use super::mark::{Mark, Marker, Stroke};
+use super::rect::Rect;
+
+/// One rectangle of a figure with its own axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// Name, unique inside the figure.
+    pub name: String,
+    /// Outer box inside the figure in points, tick labels included.
+    pub area: Rect,
+    /// Horizontal axis. A range written from high to low runs leftward.
+    pub x: Axis,
+    /// Vertical axis, upward. A range written from high to low runs downward.
+    pub y: Axis,
+    /// One unit is as long on x as on y. The ranges are enlarged to fill the area, never cropped.
+    pub equal_aspect: bool,
+    /// What lies behind the marks.
+    pub background: Ink,
+    /// Small text in the upper right corner.
+    pub note: String,
+    /// A thin frame around the plot.
+    pub framed: bool,
+    /// What is drawn, from back to front.
+    pub marks: Vec<Mark>,
+}
+
+impl Panel {
+    /// A framed panel with axes and no marks.
+    pub fn new(name: impl Into<String>, area: Rect, x: Axis, y: Axis) -> Self {
+        Self {
+            name: name.into(),
+            area,
+            x,
+            y,
+            equal_aspect: false,
+            background: Ink::new(InkRole::Plot),
+            note: String::new(),
+            framed: true,
+            marks: Vec::new(),
+        }
+    }
+
+    /// A panel without axes, drawn in points: the origin is the upper left corner, y runs downward.
+    pub fn board(name: impl Into<String>, area: Rect, background: Ink) -> Self {
+        let x = Axis::hidden([0.0, area.width()]);
+        let y = Axis::hidden([area.height(), 0.0]);
+        Self { background, framed: false, ..Self::new(name, area, x, y) }
+    }
+}
+
+/// One key of a legend: the line and marker of a source with its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LegendEntry {
+    /// Name of the source.
+    pub name: String,
+    /// Its line; `None` for a key with a marker only.
+    pub stroke: Option<Stroke>,
+    /// Its marker; `None` for a key with a line only.
+    pub marker: Option<Marker>,
+    /// What fills the marker; `None` for a hollow one.
+    pub fill: Option<Ink>,
+}
+
+/// Where a legend stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum LegendPlace {
+    /// Inside the first panel, upper right, below the panel's note.
+    #[default]
+    UpperRight,
+    /// Inside the first panel, upper left.
+    UpperLeft,
+    /// Inside the first panel, lower right.
+    LowerRight,
+    /// Inside the first panel, lower left.
+    LowerLeft,
+    /// In a column right of the figure, which grows by it.
+    Outside,
+}

@@ -1,0 +1,62 @@
+//! Correlated color temperatures, their range, and why there is none.
+
+use crate::units::Kelvin;
+
+/// The coldest black body that is looked for, in kelvins.
+pub const COLDEST_K: f64 = 1000.0;
+/// The hottest black body that is looked for, in kelvins.
+pub const HOTTEST_K: f64 = 20_000.0;
+/// The largest distance from the locus at which a color temperature means something (CIE 15:2004).
+pub const MAX_DUV: f64 = 0.05;
+
+pub(super) const HOTTEST_MIRED: f64 = 1e6 / HOTTEST_K;
+pub(super) const COLDEST_MIRED: f64 = 1e6 / COLDEST_K;
+/// Rounding must not refuse what was made from a limit itself: so much beyond, relative to it, is let through, unclamped.
+pub(super) const SLACK: f64 = 1e-11;
+
+/// A color as the nearest black body and the distance from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cct {
+    /// The correlated color temperature.
+    pub temperature: Kelvin,
+    /// The distance from the Planckian locus in the 1960 diagram, positive above it.
+    pub duv: f64,
+}
+
+/// Why a color has no correlated color temperature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum CctError {
+    /// Black, or numbers that are no chromaticity.
+    #[error("the color has no chromaticity")]
+    NoChromaticity,
+    /// Further than 0.05 from every black body, of whatever temperature.
+    #[error("the color is further than 0.05 from the Planckian locus")]
+    TooFar,
+    /// The nearest black body is hotter than the method goes.
+    #[error("the nearest black body is too hot")]
+    TooHot,
+    /// The nearest black body is colder than the method goes.
+    #[error("the nearest black body is too cold")]
+    TooCold,
+}
+
+/// Why an observer gives no locus to compare with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum LocusError {
+    /// The observer's channels are not X, Y and Z, so that its signals have no place in the 1960 diagram.
+    #[error("the observer does not count in XYZ")]
+    NotXyz,
+    /// Some black body has no chromaticity for this observer.
+    #[error("black bodies have no chromaticity for this observer")]
+    NoChromaticity,
+    /// The locus stands still or bends so sharply that colors within 0.05 of it could have two nearest points.
+    #[error("the observer's Planckian locus is too crooked")]
+    Crooked,
+}
+
+/// Whether a reciprocal temperature is one that is looked for.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+pub(super) fn is_in_range(mired: f64) -> bool {
+    (HOTTEST_MIRED * (1.0 - SLACK)..=COLDEST_MIRED * (1.0 + SLACK)).contains(&mired)
+}

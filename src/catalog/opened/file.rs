@@ -1,0 +1,16 @@
+//! The contents of an opened file.
+
+use std::sync::Arc;
+
+use crate::catalog::import::Origin;
+
+/// A file's contents.
+#[derive(Clone, Debug)]
+pub struct OpenFile {
+    /// Where they are from.
+    pub origin: Origin,
+    /// The bytes.
+    pub bytes: Arc<[u8]>,
+    /// Why it could not be read when it was opened, as a sentence with its name.
+    pub failure: Option<String>,
+}

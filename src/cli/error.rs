@@ -1,0 +1,92 @@
+//! Failures of commands.
+
+use std::io;
+use std::path::PathBuf;
+
+use chromascope_core::camera::RenderingError;
+
+use crate::scene::SceneError;
+
+/// Failure of a command.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum CliError {
+    /// A name means no set.
+    #[error(transparent)]
+    Name(#[from] crate::catalog::names::NameError),
+    /// A file could not be read.
+    #[error("{}", .0)]
+    File(String),
+    /// Some of several files failed; each was told of.
+    #[error("{failed} of {count} files failed")]
+    Failed {
+        /// How many.
+        failed: usize,
+        /// Of how many.
+        count: usize,
+    },
+    /// The scene cannot be computed.
+    #[error(transparent)]
+    Scene(SceneError),
+    /// Cone fundamentals with the paper's matrix.
+    #[error("{0}: Eq 13 takes RGB, not cone signals; add --transform fitted")]
+    Cones(String),
+    /// An argument that means nothing.
+    #[error("{argument}: {reason}")]
+    Argument {
+        /// Which.
+        argument: &'static str,
+        /// Why, with what would do.
+        reason: String,
+    },
+    /// A picture could not be made into a file.
+    #[error("{}: {error}", path.display())]
+    Picture {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        error: crate::export::render::PictureError,
+    },
+    /// Nothing can be measured.
+    #[error(transparent)]
+    Bench(#[from] crate::bench::BenchError),
+    /// What was measured cannot be written down.
+    #[error(transparent)]
+    Report(#[from] crate::bench::ReportError),
+    /// A figure cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] crate::export::ExportError),
+    /// An output that is an input.
+    #[error("{}: this command reads it, so it is not written over; name another file", .0.display())]
+    Input(PathBuf),
+    /// An output that exists.
+    #[error("{}: the file exists; name another, or add --force to replace it", .0.display())]
+    Exists(PathBuf),
+    /// One file for two outputs.
+    #[error("{}: two outputs cannot go to one file; name another", .0.display())]
+    Twice(PathBuf),
+    /// The output could not be written.
+    #[error("cannot write {}: {}", path.display(), crate::format::io_reason(error))]
+    Output {
+        /// Where.
+        path: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+}
+
+impl CliError {
+    /// 2 where the arguments themselves are wrong, as for those that clap refuses; 1 where data, names or disk say no.
+    pub(super) fn code(&self) -> u8 {
+        if matches!(self, Self::Argument { .. }) { 2 } else { 1 }
+    }
+}
+
+impl From<SceneError> for CliError {
+    /// The scene's remedies are the window's; the one that is called otherwise here is put in this one's words.
+    fn from(error: SceneError) -> Self {
+        match error {
+            SceneError::Rendering { name, error: RenderingError::ConesNeedObserver } => Self::Cones(name),
+            other => Self::Scene(other),
+        }
+    }
+}

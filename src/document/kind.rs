@@ -1,0 +1,63 @@
+//! The kinds of data sets.
+
+use serde::{Deserialize, Serialize};
+
+use super::own::{OwnSet, Role};
+
+/// Kind of a data set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SetKind {
+    /// A camera's spectral sensitivities.
+    Camera,
+    /// An observer's color matching functions or cone fundamentals.
+    Observer,
+    /// A set of patches.
+    Chart,
+    /// A light.
+    Illuminant,
+    /// Single reflectances.
+    Material,
+    /// Spectra of the user's of which nobody has said what they are of.
+    Unsorted,
+}
+
+impl SetKind {
+    /// All kinds in the order they are listed.
+    pub const ALL: [Self; 6] =
+        [Self::Camera, Self::Observer, Self::Chart, Self::Illuminant, Self::Material, Self::Unsorted];
+
+    /// The plural, as shown and as the command line takes it.
+    pub const fn plural(self) -> &'static str {
+        match self {
+            Self::Camera => "cameras",
+            Self::Observer => "observers",
+            Self::Chart => "charts",
+            Self::Illuminant => "illuminants",
+            Self::Material => "materials",
+            Self::Unsorted => "unsorted spectra",
+        }
+    }
+
+    /// Kind of one of the user's sets.
+    pub const fn of_own(set: &OwnSet) -> Self {
+        match set.role {
+            Role::Camera => Self::Camera,
+            Role::Reflectance | Role::Transmittance => Self::Chart,
+            Role::Illuminant => Self::Illuminant,
+            Role::Unknown => Self::Unsorted,
+        }
+    }
+
+    /// One of them.
+    pub const fn singular(self) -> &'static str {
+        match self {
+            Self::Camera => "camera",
+            Self::Observer => "observer",
+            Self::Chart => "chart",
+            Self::Illuminant => "illuminant",
+            Self::Material => "material",
+            Self::Unsorted => "unsorted spectrum",
+        }
+    }
+}

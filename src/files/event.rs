@@ -1,0 +1,48 @@
+//! Outcomes of dialogs, reads and writes.
+
+use std::path::PathBuf;
+
+use super::dialogs::Answer;
+use super::prompt::{Completed, PathPrompt};
+use super::save::SaveRequest;
+use crate::document::Document;
+
+/// Outcome of a dialog, a read or a write.
+#[derive(Debug)]
+pub enum FileEvent {
+    /// Files or folders are to be opened.
+    Open(Vec<PathBuf>),
+    /// Files changed on disk.
+    Changed(Vec<PathBuf>),
+    /// Something to know.
+    Said(String),
+    /// A file was written: a sentence, and the description of what is in it.
+    Saved(String, String),
+    /// A document was read, and the one before it kept.
+    Document(Box<OpenedDocument>),
+    /// Something failed; nothing was changed.
+    Failed(String),
+}
+
+/// Message of a thread.
+pub(super) enum Note {
+    Event(FileEvent),
+    Answered(u64, Answer, Option<SaveRequest>),
+    ToSave(SaveRequest),
+    NotMade(String),
+    NotSaved(PathPrompt),
+    Completed(Completed),
+}
+
+/// A document that was opened in place of another one.
+#[derive(Debug)]
+pub struct OpenedDocument {
+    /// Its file.
+    pub path: PathBuf,
+    /// The document.
+    pub document: Document,
+    /// Sets of it that could not be read, in words; may be empty.
+    pub lost: Vec<String>,
+    /// The document that it takes the place of, which is kept in a file of its own if it was changed.
+    pub before: Document,
+}

@@ -1,0 +1,75 @@
+//! The context that every pane and widget works in.
+
+use chromascope_core::accuracy::RelTolerance;
+use chromascope_core::query::NearestBlackBodyQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
+use chromascope_core::render::Quality;
+
+use crate::catalog::meshes::MeshStore;
+use crate::catalog::opened::Opened;
+use crate::command::Command;
+use crate::figures::curves::CurveCache;
+use crate::jobs::Background;
+use crate::profiler::{Profiler, SceneRunQuery};
+use crate::render_service::RenderService;
+use crate::results::Count;
+use crate::scene::Scene;
+use crate::theme::Theme;
+use crate::view::View;
+
+/// Everything a pane is given for a frame.
+pub struct PaneContext<'a> {
+    /// The document, the data sets and the answers.
+    pub scene: Scene<'a>,
+    /// The colors.
+    pub theme: Theme,
+    /// What is looked at and how.
+    pub view: &'a mut View,
+    /// The user's mesh files.
+    pub meshes: &'a MeshStore,
+    /// The spectral files that were opened.
+    pub opened: &'a Opened,
+    /// Tells the nearest black body of a color, once it is asked.
+    pub radiators: &'a Background<NearestBlackBodyQuery>,
+    /// Where pictures are made.
+    pub studio: &'a mut RenderService,
+    /// Where the scene's cost is measured.
+    pub laboratory: &'a mut Profiler,
+    /// The curves that Import drew last.
+    pub curves: &'a mut Option<CurveCache>,
+    /// What is to be done when the frame is over.
+    pub commands: &'a mut Vec<Command>,
+}
+
+impl PaneContext<'_> {
+    /// Has something done when the frame is over.
+    pub fn push(&mut self, command: impl Into<Command>) {
+        self.commands.push(command.into());
+    }
+
+    /// Takes in what was measured since the last frame.
+    pub fn refresh_run(&mut self) {
+        let own = self.meshes.chosen(&self.scene.document.render.mesh);
+        let scene = SceneRunQuery::of(&self.scene, own.as_ref(), self.view.saved.render.orbit);
+        if let Some((run, is_current)) = self.laboratory.shown(&scene) {
+            (self.view.accuracy.run, self.view.accuracy.is_current) = (Some(run), is_current);
+        }
+        if let Some((workload, report)) = self.laboratory.report() {
+            self.view.accuracy.reports.insert(workload, report);
+        }
+    }
+
+    /// The pictures as they would be made within the document's tolerance.
+    pub fn planned_pictures(&self) -> Option<PicturesQuery> {
+        let own = self.meshes.chosen(&self.scene.document.render.mesh);
+        let quality = RelTolerance::new(self.scene.document.render.tolerance).ok().map(Quality::Within)?;
+        SceneRunQuery::pictures_of(&self.scene, own.as_ref(), self.view.saved.render.orbit, quality)
+    }
+
+    /// Hits, misses and times of each kind of question, the window's and the pictures'.
+    pub fn counts(&self) -> Vec<(&'static str, Count)> {
+        let mut counts: Vec<(&'static str, Count)> = self.scene.results.counts().into_iter().collect();
+        counts.extend(self.studio.counts());
+        counts
+    }
+}
