@@ -61,8 +61,8 @@ Examples:
 
 Columns: sensor, patch; r, g, b after white balance (empty for CIE observers); x_tristimulus, y_tristimulus, z_tristimulus (Y = 1
 for a perfect diffuser, under Eq 13 within 5e-5); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
-delta_e_2000, delta_e_1976, delta_uv_prime, delta_xy, the differences from the reference; then the conditions: reference,
-illuminant, white_balance, transform, preset. What is not defined is left empty: with the paper's matrix, Eq 13 takes RGB as sRGB
+delta_…, the differences from the reference, a column for each metric; then the conditions: reference, illuminant,
+white_balance, transform, preset. What is not defined is left empty: with the paper's matrix, Eq 13 takes RGB as sRGB
 whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*, and their L*a*b* is not that of the CIE.
 
 A file's reflectances are fractions or percent, its wavelengths nm or µm; guesses are said on standard error. Numbers above one of

@@ -4,8 +4,8 @@ mod cct;
 
 use std::io::Write;
 
-use chromascope_core::query::compare::{locus_distance_uv, locus_distance_xy, patch_difference};
-use chromascope_core::query::{DifferenceError, LocusPoint, Metric, PatchColor, Temperatures};
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::spectral::Primaries;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
@@ -26,7 +26,7 @@ use crate::scene::{Caution, LOCUS_POINTS, Scene, SceneError};
 
 const LOCUS_HEAD: &str = "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv,cct_error_k,arc_length_xy";
 const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,\
-                            lab_l,lab_a,lab_b,delta_e_2000,delta_e_1976,delta_uv_prime,delta_xy";
+                            lab_l,lab_a,lab_b";
 
 /// Temperatures that are computed at once; a table of millions of them is written as it is made.
 const PART: usize = 1024;
@@ -76,12 +76,10 @@ fn locus_rows(
             // A point without chromaticity is a gap that the length bridges.
             before = if point.xy.is_some() { Some(*point) } else { before };
             let places = [point.xy.map(|p| p.x), point.xy.map(|p| p.y), point.uv.map(|p| p.u), point.uv.map(|p| p.v)];
-            let distance = |measure: fn(&LocusPoint, &LocusPoint) -> Result<f64, DifferenceError>| {
-                comparable.and_then(|()| measure(reference, point)).ok()
-            };
+            let distance = |metric| comparable.and_then(|()| compare::difference(metric, reference, point)).ok();
             let rest = [
-                distance(locus_distance_xy),
-                distance(locus_distance_uv),
+                distance(Metric::XY),
+                distance(Metric::UV_PRIME),
                 comparable.ok().and_then(|()| own.error_k(point)),
                 point.xy.map(|_| length),
             ];
@@ -166,19 +164,19 @@ pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Res
     };
     let conditions = conditions(&scene, &illuminant);
     let reference = colors(SetKind::Observer, &request.document.reference)?;
-    let mut text = head(PATCHES_HEAD);
+    let metrics = Metric::ALL.iter().map(|metric| format!(",{}", metric.column)).collect::<String>();
+    let mut text = head(&format!("{PATCHES_HEAD}{metrics}"));
     for (kind, name) in &request.sources {
         let comparable = scene.comparable(*kind, name)?;
         // Eq 13 takes RGB as sRGB whatever the sensor: distances between its colors are not ΔE*.
         let by_eq_13 = request.document.transform == TransformChoice::Paper
             && scene.sensor(*kind, name)?.primaries() != Primaries::Xyz;
         for ((patch, color), reference) in names.iter().zip(colors(*kind, name)?).zip(&reference) {
-            let difference = |metric: Metric| {
-                let defined = !by_eq_13 || matches!(metric, Metric::UvPrime | Metric::Xy);
-                comparable.ok().filter(|()| defined).and_then(|()| patch_difference(metric, reference, &color).ok())
-            };
-            let differences = [Metric::DeltaE2000, Metric::DeltaE1976, Metric::UvPrime, Metric::Xy].map(difference);
-            let row = [&color_cells(&color)[..], &differences].concat();
+            let mut row = color_cells(&color);
+            row.extend(Metric::ALL.iter().map(|&metric| {
+                let defined = comparable.is_ok() && !(by_eq_13 && metric.needs_adopted_white());
+                compare::difference(metric, reference, &color).ok().filter(|_| defined)
+            }));
             text += &row_of(&[&field(name), &field(patch)], &row, &conditions);
         }
     }

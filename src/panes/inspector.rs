@@ -8,13 +8,14 @@ mod radiator;
 mod source;
 mod welcome;
 
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::DifferenceError;
 use chromascope_core::spectral::{Assumed, Evidence, Sensor};
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
 use crate::command::Command;
-use crate::document::{DifferenceChoice, SetKind};
+use crate::document::SetKind;
 use crate::format::{fixed, number};
 use crate::panes::widgets;
 use crate::panes::widgets::facts::range_words;
@@ -83,9 +84,9 @@ fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
     ui.label(RichText::new(words).color(theme.error));
 }
 
-/// A difference with the decimals that its measure deserves.
-fn difference_words(measure: DifferenceChoice, value: f64) -> String {
-    fixed(value, if measure.is_of_lab() { 2 } else { 4 })
+/// A difference with its metric's decimals.
+fn difference_words(metric: Metric, value: f64) -> String {
+    fixed(value, metric.decimals)
 }
 
 /// Why there is no difference, as a sentence.

@@ -6,7 +6,6 @@ use super::context::PaneContext;
 use crate::action::history::History;
 use crate::action::{Action, SceneAction};
 use crate::command::{Command, Format, shortcut_of};
-use crate::document::DifferenceChoice;
 use crate::document::start::Start;
 use crate::theme::{ROW, Surround, UNIT};
 use crate::view::HelpPage;
@@ -196,9 +195,10 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.menu_button("Difference", |ui| {
         let now = context.scene.document.difference;
         let transform = &context.scene.document.transform;
-        for &difference in DifferenceChoice::offered(transform) {
-            if ui.radio(now == difference, difference.name_under(transform)).clicked() {
-                context.push(Action::Scene(SceneAction::SetDifference(difference)));
+        for metric in transform.metrics() {
+            let name = metric.name(transform.is_eq_13());
+            if ui.radio(now == metric, name).on_hover_text(metric.label).clicked() {
+                context.push(Action::Scene(SceneAction::SetDifference(metric)));
                 ui.close();
             }
         }

@@ -168,8 +168,7 @@ fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
                 .filter(|_| !is_reference)
                 .and_then(|index| scene.differences(id.kind, &id.name).ok()?.get(index).copied().and_then(Result::ok));
             let difference = difference.map_or_else(String::new, |value| {
-                let decimals = if scene.document.difference.is_of_lab() { 2 } else { 4 };
-                format!(", {} {}", scene.difference_name(), fixed(value, decimals))
+                format!(", {} {}", scene.difference_name(), fixed(value, scene.document.difference.decimals))
             });
             format!("{}, {patch}{place}{difference}", label(id))
         }

@@ -12,6 +12,8 @@ mod reference;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use chromascope_core::colorimetry::Metric;
+
 /// Runs the program without a display.
 fn run(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_chromascope"))
@@ -128,7 +130,8 @@ fn patches_of_the_default_chart() {
         rows[0].join(","),
         format!(
             "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,lab_l,lab_a,lab_b,\
-             delta_e_2000,delta_e_1976,delta_uv_prime,delta_xy,{CONDITIONS}"
+             {},{CONDITIONS}",
+            Metric::ALL.iter().map(|metric| metric.column).collect::<Vec<_>>().join(",")
         )
     );
     assert_eq!(rows.len(), 1 + 2 * 24);

@@ -8,7 +8,9 @@ use chromascope_core::colorimetry::rgb::{
     GAMUTS, SRGB_FROM_XYZ_PUBLISHED, XYZ_FROM_SRGB, encode_srgb, srgb_from_xyz, srgb_inverse_transfer, srgb_transfer,
     srgb_white,
 };
-use chromascope_core::colorimetry::{Lab, UvPrime, Xy, Xyz, delta_e_1976, delta_e_2000, delta_e_2000_into};
+use chromascope_core::colorimetry::{
+    Lab, Metric, Stimulus, UvPrime, Xy, Xyz, delta_e_1976, delta_e_2000, delta_e_2000_into,
+};
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 
@@ -207,6 +209,32 @@ fn a_lab() -> impl Strategy<Value = Lab> {
 
 fn any_lab() -> impl Strategy<Value = Lab> {
     (any_finite(), any_finite(), any_finite()).prop_map(|(l, a, b)| Lab { l, a, b })
+}
+
+#[test]
+fn an_entry_of_the_table_is_all_that_a_metric_needs() {
+    let reference = Stimulus::new(Xyz::new(0.2, 0.21, 0.19), D65);
+    let samples = [[0.25, 0.21, 0.19], [0.2, 0.21, 0.3], [0.1, 0.21, 0.1]].map(|[x, y, z]| Xyz::new(x, y, z));
+    for (index, &metric) in Metric::ALL.iter().enumerate() {
+        let unique = |of: fn(&Metric) -> &str| Metric::ALL.iter().filter(|other| of(other) == of(&metric)).count() == 1;
+        assert!(unique(|m| m.id) && unique(|m| m.column) && unique(|m| m.label) && unique(|m| m.symbol), "{metric:?}");
+        assert!(metric.id.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-'), "{metric:?}");
+        assert!(metric.column.starts_with("delta_") && metric.symbol.starts_with('Δ'), "{metric:?}");
+        assert_eq!(Metric::by_id(metric.id), Some(Metric::ALL[index]));
+        assert_eq!(metric.between(&reference, &reference), Some(0.0));
+        for sample in samples {
+            let difference = metric.between(&reference, &Stimulus::new(sample, D65)).unwrap();
+            // Both a plain difference and a step of the last decimal show on the scale.
+            assert!(difference > 0.5 * 0.1_f64.powi(metric.decimals as i32), "{metric:?}: {difference}");
+            assert!(difference > 0.05 * metric.full_scale && difference < 5.0 * metric.full_scale, "{metric:?}");
+        }
+        let dark = Stimulus::new(Xyz::new(0.0, 0.0, 0.0), Xyz::new(0.0, 1.0, 1.0));
+        assert_eq!(metric.between(&dark, &reference), None, "undefined is no difference");
+        let under_eq_13 = metric.name(true);
+        assert_eq!(under_eq_13.contains("ΔE"), false, "Eq 13 has no CIE color difference");
+        assert_eq!(under_eq_13 == metric.name(false), !metric.needs_adopted_white());
+    }
+    assert_eq!(Metric::by_id("delta-e"), None);
 }
 
 proptest! {
