@@ -10,7 +10,9 @@ use chromascope_core::query::Shared;
 use crate::document::own::OwnSet;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
-use crate::document::{Diagram, Document, LOCUS_RANGE_K, Light, Overlays, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::document::{
+    Diagram, Document, LOCUS_RANGE_K, Light, Overlays, SetKind, Subset, TransformChoice, WhiteBalanceChoice,
+};
 
 /// A change of the document.
 #[derive(Clone, Debug, PartialEq)]

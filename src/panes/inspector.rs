@@ -13,7 +13,7 @@ use chromascope_core::query::DifferenceError;
 use chromascope_core::spectral::{Assumed, Evidence, Sensor};
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::format::{fixed, number};
@@ -24,9 +24,13 @@ use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
 
+/// The pane.
+pub const PANE: Pane =
+    Pane { kind: PaneKind::INSPECTOR, title: "Inspector", show, figure: None, under_conditions: false, table: false };
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::Inspector, rect, context, |_, _| {});
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let mut child = ui.new_child(UiBuilder::new().id_salt("inspector").max_rect(inner));
     child.set_clip_rect(body.intersect(ui.clip_rect()));

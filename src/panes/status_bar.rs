@@ -41,7 +41,7 @@ pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut Pa
     let response = ui.interact(right, ui.scope_id().with("facts"), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
     response.on_hover_text(
-        if context.view.render.shot.is_some() && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Render) {
+        if context.view.render.shot.is_some() && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {
             RENDER_FACTS
         } else {
             FACTS
@@ -186,7 +186,7 @@ fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
 /// The right side. What no pane shows is not computed for it.
 fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
     let scene = &context.scene;
-    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Render) {
+    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {
         return render_facts(context);
     }
     let mut facts = Vec::new();
@@ -196,7 +196,7 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
     }
     let sources = scene.sources();
     let shown = || sources.iter().filter(|source| source.visible);
-    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Chromaticity) && scene.document.overlays.loci {
+    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::CHROMATICITY) && scene.document.overlays.loci {
         let loci = shown().filter_map(|source| scene.locus(source.kind, &source.name).ok());
         let methods: Vec<LocusMethod> = loci.map(|locus| locus.method).collect();
         facts.extend(error_words(&methods));

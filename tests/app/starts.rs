@@ -260,7 +260,7 @@ fn light(name: &str) -> WhiteBalanceChoice {
 #[test]
 fn numbers_that_leave_the_window_say_under_what_they_were_made() {
     let mut window = open_with(Document::colorimetry(), SIZE, egui::Theme::Dark);
-    for pane in [PaneKind::Chromaticity, PaneKind::Swatches] {
+    for pane in [PaneKind::CHROMATICITY, PaneKind::SWATCHES] {
         window.state_mut().push(Command::CopyNumbers(pane));
         window.step();
         let commands = &window.output().platform_output.commands;

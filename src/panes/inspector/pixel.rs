@@ -16,7 +16,7 @@ use crate::workspaces::PaneKind;
 /// The pixel that is kept, if pictures are on show.
 pub(super) fn kept<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
     let (saved, render) = (&context.view.saved, &context.view.render);
-    render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::Render))
+    render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::RENDER))
 }
 
 /// Shows it, if pictures are on show.
