@@ -10,8 +10,8 @@ pub mod meshes;
 pub mod names;
 pub mod opened;
 
-use std::collections::HashSet;
-use std::sync::LazyLock;
+use std::collections::{BTreeMap, HashSet};
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::{Dataset, Header};
@@ -93,13 +93,23 @@ pub struct Catalog {
 impl Catalog {
     /// Reads the headers of all built-in files; their figures are not looked at.
     pub fn built_in() -> Self {
+        Self::built_in_with(&[])
+    }
+
+    /// The built-in sets and those of further data files, each a path below `assets` with its text: the catalog of a program that
+    /// was built with these files in `assets`.
+    pub fn built_in_with(further: &[(&'static str, &'static str)]) -> Self {
+        further_files().extend(further.iter().copied());
         let mut entries = Vec::new();
         for kind in SetKind::ALL {
-            for file in ASSETS.get_dir(kind.plural()).into_iter().flat_map(Dir::files) {
-                let Some((path, header)) = file.path().to_str().zip(file.contents_utf8().and_then(header_of)) else {
-                    continue;
-                };
-                add_entries(&mut entries, kind, path, &header);
+            let built_in = ASSETS.get_dir(kind.plural()).into_iter().flat_map(Dir::files);
+            let built_in = built_in.filter_map(|file| file.path().to_str().zip(file.contents_utf8()));
+            let is_of_kind = |path: &str| path.split('/').next() == Some(kind.plural());
+            let further = further.iter().copied().filter(|(path, _)| is_of_kind(path));
+            for (path, text) in built_in.chain(further) {
+                if let Some(header) = header_of(text) {
+                    add_entries(&mut entries, kind, path, &header);
+                }
             }
         }
         entries.sort_by_cached_key(|e| {
@@ -146,7 +156,14 @@ pub fn is_built_in(kind: SetKind, name: &str) -> bool {
 
 /// The text of a built-in file.
 pub fn asset_text(path: &str) -> Option<&'static str> {
-    ASSETS.get_file(path).and_then(|file| file.contents_utf8())
+    let built_in = ASSETS.get_file(path).and_then(|file| file.contents_utf8());
+    built_in.or_else(|| further_files().get(path).copied())
+}
+
+/// Texts of data files that a catalog has beside the built-in ones, by path.
+fn further_files() -> MutexGuard<'static, BTreeMap<&'static str, &'static str>> {
+    static FURTHER: Mutex<BTreeMap<&'static str, &'static str>> = Mutex::new(BTreeMap::new());
+    FURTHER.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The licence texts and notices in the program: file name and text.

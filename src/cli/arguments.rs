@@ -9,6 +9,7 @@ use spectral_file::Values;
 use super::bench::BenchArguments;
 use super::inspect::arguments::InspectArguments;
 use super::render::arguments::RenderArguments;
+use crate::document::SetKind;
 use crate::document::start::Start;
 
 /// See, measure and explain how digital cameras render color, from spectra.
@@ -219,4 +220,17 @@ pub(super) enum ListKind {
     Illuminants,
     /// Single reflectances
     Materials,
+}
+
+impl ListKind {
+    /// The kind of the sets.
+    pub(super) const fn of_sets(self) -> SetKind {
+        match self {
+            Self::Cameras => SetKind::Camera,
+            Self::Observers => SetKind::Observer,
+            Self::Charts => SetKind::Chart,
+            Self::Illuminants => SetKind::Illuminant,
+            Self::Materials => SetKind::Material,
+        }
+    }
 }

@@ -13,7 +13,7 @@ use spectral_file::guarded;
 
 use cct::ReferenceLocus;
 
-use super::arguments::{CommonArguments, ListKind, LocusArguments, PatchesArguments};
+use super::arguments::{CommonArguments, LocusArguments, PatchesArguments};
 use super::outputs::Stop;
 use super::radiance::Radiances;
 use super::request::{FIVE, Request};
@@ -194,25 +194,14 @@ fn color_cells(color: &PatchColor) -> Vec<Option<f64>> {
     [&rgb[..], &xyz, &xy, &uv, &lab].concat()
 }
 
-/// The names of the built-in sets.
-pub(super) fn list(kind: Option<ListKind>) -> String {
-    let catalog = Catalog::built_in();
-    let names = |kind: SetKind| -> String {
-        let mut names: Vec<&str> = catalog.of_kind(kind).map(|entry| entry.name.as_str()).collect();
-        if kind == SetKind::Chart {
-            names.push(FIVE);
-        }
-        names.push("");
-        names.join("\n")
+/// Names of a catalog's sets of a kind, one a line; of all kinds for none.
+pub fn list(catalog: &Catalog, kind: Option<SetKind>) -> String {
+    let names = |kind: SetKind| {
+        let five = (kind == SetKind::Chart).then_some(FIVE);
+        let names = catalog.of_kind(kind).map(|entry| entry.name.as_str()).chain(five);
+        names.map(|name| format!("{name}\n")).collect::<String>()
     };
-    match kind {
-        Some(ListKind::Cameras) => names(SetKind::Camera),
-        Some(ListKind::Observers) => names(SetKind::Observer),
-        Some(ListKind::Charts) => names(SetKind::Chart),
-        Some(ListKind::Illuminants) => names(SetKind::Illuminant),
-        Some(ListKind::Materials) => names(SetKind::Material),
-        None => SetKind::ALL.map(names).concat(),
-    }
+    kind.map_or_else(|| SetKind::ALL.map(names).concat(), names)
 }
 
 fn row_of(heads: &[&str], numbers: &[Option<f64>], conditions: &str) -> String {
