@@ -60,6 +60,15 @@ impl Metric {
             full_scale: 20.0,
             formula: Formula::Lab(delta_e_1976),
         },
+        Self {
+            id: "delta-e1994",
+            column: "delta_e_1994",
+            label: "CIE 1994 formula for graphic arts",
+            symbol: "ΔE*94",
+            decimals: 2,
+            full_scale: 20.0,
+            formula: Formula::Lab(delta_e_1994),
+        },
         Self::UV_PRIME,
         Self::XY,
     ];
@@ -102,7 +111,7 @@ impl Metric {
         Self::ALL.iter().copied().find(|metric| metric.id == id)
     }
 
-    /// Whether it is a formula of L*a*b*, so that it means what it says only where XYZ is the reference observer's own.
+    /// True for a formula of L*a*b*, which is a CIE color difference only where XYZ is the reference observer's own.
     pub const fn needs_adopted_white(self) -> bool {
         matches!(self.formula, Formula::Lab(_))
     }
@@ -198,6 +207,26 @@ pub const DELTA_E_2000_ERROR: f64 = 2e-15;
 pub fn delta_e_1976(a: Lab, b: Lab) -> f64 {
     let (a, b) = (bounded(a), bounded(b));
     (a.l - b.l).hypot(a.a - b.a).hypot(a.b - b.b)
+}
+
+/// CIE 1994 difference ΔE*94 for graphic arts, with unit parametric factors (CIE 116-1995).
+///
+/// ```text
+/// ΔE*94 = √(ΔL*² + (ΔC*ab / S_C)² + (ΔH*ab / S_H)²)
+/// S_C = 1 + 0.045 C*ab,   S_H = 1 + 0.015 C*ab   of the reference, so that it is not symmetric
+/// ```
+pub fn delta_e_1994(reference: Lab, sample: Lab) -> f64 {
+    let (reference, sample) = (bounded(reference), bounded(sample));
+    let [chroma, other] = [reference, sample].map(|lab| lab.a.hypot(lab.b));
+    // Length of the difference of two vectors across their bisector: ΔH*ab without the square root of a difference.
+    let delta_h = if chroma * other > 0.0 {
+        let [a, b] = [reference.a / chroma - sample.a / other, reference.b / chroma - sample.b / other];
+        (chroma * other).sqrt() * a.hypot(b)
+    } else {
+        0.0
+    };
+    let [s_c, s_h] = [1.0 + 0.045 * chroma, 1.0 + 0.015 * chroma];
+    (reference.l - sample.l).hypot((chroma - other) / s_c).hypot(delta_h / s_h)
 }
 
 /// CIEDE2000 difference ΔE*00 with unit parametric factors (CIE 142-2001; Sharma, Wu and Dalal 2005).
