@@ -4,14 +4,14 @@ pub mod history;
 
 use std::path::PathBuf;
 
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 
 use crate::document::own::OwnSet;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
 use crate::document::{
-    Diagram, DifferenceChoice, Document, LOCUS_RANGE_K, Light, Overlays, SetKind, Subset, TransformChoice,
-    WhiteBalanceChoice,
+    Diagram, Document, LOCUS_RANGE_K, Light, Overlays, SetKind, Subset, TransformChoice, WhiteBalanceChoice,
 };
 
 /// A change of the document.
@@ -68,7 +68,7 @@ pub enum SceneAction {
     /// Another way to the diagram.
     SetWay(TransformChoice),
     /// Another measure of difference.
-    SetDifference(DifferenceChoice),
+    SetDifference(Metric),
     /// Other coordinates.
     SetDiagram(Diagram),
     /// Other things on the diagram.

@@ -71,7 +71,14 @@ impl ChromascopeApp {
     }
 
     /// Starts with a document, and has an executor do what is done beside the window.
-    pub fn on(executor: &Executor, ctx: &egui::Context, history: History, saved: SavedView, mut files: Files) -> Self {
+    pub fn on(
+        executor: &Executor,
+        ctx: &egui::Context,
+        history: History,
+        mut saved: SavedView,
+        mut files: Files,
+    ) -> Self {
+        saved.layout.retain(|pane| panes::by_kind(pane).is_some());
         theme::apply(ctx);
         files.wake(ctx);
         let [window, also, third, fourth] = [(); 4].map(|()| ctx.clone());
@@ -109,6 +116,11 @@ impl ChromascopeApp {
     /// The document and its steps.
     pub fn history(&self) -> &History {
         &self.history
+    }
+
+    /// Takes other data sets.
+    pub fn set_catalog(&mut self, catalog: Catalog) {
+        self.catalog = catalog;
     }
 
     /// What is looked at.
@@ -180,7 +192,7 @@ impl ChromascopeApp {
             return self.keep_keys_for_path(ctx);
         }
         let typing = ctx.text_edit_focused();
-        let focused = self.view.focused.unwrap_or(PaneKind::Chromaticity);
+        let focused = self.view.focused.unwrap_or(PaneKind::CHROMATICITY);
         for binding in key_bindings(focused) {
             // An open list closes first.
             if binding.command == Command::Escape && egui::Popup::is_any_open(ctx) {
@@ -260,8 +272,19 @@ impl ChromascopeApp {
             ..
         } = self;
         let scene = Scene { document: history.document(), catalog, results };
-        let mut context =
-            PaneContext { scene, theme, view, meshes, opened, radiators, studio, laboratory, curves, commands };
+        let mut context = PaneContext {
+            panes: panes::ALL,
+            scene,
+            theme,
+            view,
+            meshes,
+            opened,
+            radiators,
+            studio,
+            laboratory,
+            curves,
+            commands,
+        };
         let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
             let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
             let frame = Frame::NONE.fill(theme.panel);

@@ -10,8 +10,8 @@ pub mod meshes;
 pub mod names;
 pub mod opened;
 
-use std::collections::HashSet;
-use std::sync::LazyLock;
+use std::collections::{BTreeMap, HashSet};
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::{Dataset, Header};
@@ -89,9 +89,19 @@ pub struct Catalog {
 impl Catalog {
     /// Reads the headers of all built-in files; their figures are not looked at.
     pub fn built_in() -> Self {
+        Self::built_in_with(&[])
+    }
+
+    /// The built-in sets and those of further data files, each a path below `assets` with its text: the catalog of a program that
+    /// was built with these files in `assets`.
+    pub fn built_in_with(further: &[(&'static str, &'static str)]) -> Self {
+        further_files().extend(further.iter().copied());
         let mut entries = Vec::new();
         for kind in SetKind::ALL {
-            for (path, text) in chromascope_data::files(kind.plural()) {
+            let built_in = chromascope_data::files(kind.plural());
+            let is_of_kind = |path: &str| path.split('/').next() == Some(kind.plural());
+            let further = further.iter().copied().filter(|(path, _)| is_of_kind(path));
+            for (path, text) in built_in.chain(further) {
                 if let Ok(header) = Dataset::read_header(text) {
                     add_entries(&mut entries, kind, path, &header);
                 }
@@ -137,6 +147,17 @@ pub fn is_built_in(kind: SetKind, name: &str) -> bool {
         SetKind::Chart | SetKind::Material => has(SetKind::Chart) || has(SetKind::Material),
         _ => has(kind),
     }
+}
+
+/// The text of a built-in file.
+pub fn asset_text(path: &str) -> Option<&'static str> {
+    chromascope_data::text(path).or_else(|| further_files().get(path).copied())
+}
+
+/// Texts of data files that a catalog has beside the built-in ones, by path.
+fn further_files() -> MutexGuard<'static, BTreeMap<&'static str, &'static str>> {
+    static FURTHER: Mutex<BTreeMap<&'static str, &'static str>> = Mutex::new(BTreeMap::new());
+    FURTHER.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// File name and text of each license and notice.

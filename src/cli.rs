@@ -19,10 +19,12 @@ use std::path::{Path, PathBuf};
 
 use clap::{CommandFactory as _, FromArgMatches as _};
 
-use arguments::{Arguments, Subcommand};
+use arguments::{Arguments, ListKind, Subcommand};
 use outputs::{put, show};
 
-use crate::terminal::say;
+pub use self::tables::list;
+use crate::catalog::Catalog;
+pub use crate::terminal::say;
 
 /// What the command line asks for.
 pub enum Outcome {
@@ -60,7 +62,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         Subcommand::Render(arguments) => render::run(&arguments, matches),
         Subcommand::Inspect(arguments) => inspect::run(&arguments),
         Subcommand::Bench(arguments) => bench::run(&arguments),
-        Subcommand::List { kind } => show(&tables::list(kind)),
+        Subcommand::List { kind } => show(&list(&Catalog::built_in(), kind.map(ListKind::of_sets))),
     };
     Outcome::Done(match result {
         Ok(()) => 0,

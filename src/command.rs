@@ -163,11 +163,8 @@ const fn plain(key: Key) -> KeyboardShortcut {
 const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
 /// The form in which a pane's figure is saved first: pictures are made of pixels.
-const fn export_format(pane: PaneKind) -> Format {
-    match pane {
-        PaneKind::Render => Format::Png,
-        _ => Format::Svg,
-    }
+fn export_format(pane: PaneKind) -> Format {
+    if pane == PaneKind::RENDER { Format::Png } else { Format::Svg }
 }
 
 /// All keys. `focused` is the pane that exports and maximizing mean.
@@ -197,7 +194,7 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
     }
     keys.extend([
         letter(Key::F, Command::Maximize(focused), "Maximize the pane"),
-        letter(Key::L, Command::TogglePane(PaneKind::Library), "Library"),
+        letter(Key::L, Command::TogglePane(PaneKind::LIBRARY), "Library"),
         letter(Key::I, Command::ToggleInspector, "Inspector"),
         letter(Key::T, Command::FocusTemperature, "Type a temperature"),
         letter(Key::P, Command::Pin, "Pin the selection"),

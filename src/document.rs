@@ -12,7 +12,8 @@ pub mod session;
 pub mod start;
 pub mod uses;
 
-use chromascope_core::query::{Metric, Shared};
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::Shared;
 pub use kind::SetKind;
 use own::OwnSet;
 use render::RenderSettings;
@@ -48,8 +49,9 @@ pub struct Document {
     pub white: WhiteBalanceChoice,
     /// The way from signals to the diagram.
     pub transform: TransformChoice,
-    /// The measure of difference.
-    pub difference: DifferenceChoice,
+    /// Metric of the differences from the reference.
+    #[serde(with = "metric_id")]
+    pub difference: Metric,
     /// The diagram's coordinates.
     pub diagram: Diagram,
     /// What the diagram shows besides.
@@ -134,85 +136,49 @@ pub enum TransformChoice {
     Observer(String),
 }
 
-/// The measure of difference.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DifferenceChoice {
-    /// ΔE*00.
-    #[default]
-    DeltaE2000,
-    /// ΔE*ab.
-    DeltaE1976,
-    /// Δu′v′.
-    UvPrime,
-    /// Δxy.
-    Xy,
+impl TransformChoice {
+    /// Whether colors go through Eq 13.
+    pub const fn is_eq_13(&self) -> bool {
+        matches!(self, Self::Paper)
+    }
+
+    /// Metrics that have a meaning under the transform, the preferred ones first.
+    ///
+    /// Eq 13 takes an observer's RGB as sRGB: L*a*b* of its XYZ is no CIE L*a*b*, so distances in the diagram come first there, and
+    /// one formula of L*a*b* last, as a number.
+    pub fn metrics(&self) -> Vec<Metric> {
+        match self {
+            Self::Observer(_) => Metric::ALL.to_vec(),
+            Self::Paper => {
+                let distances = Metric::ALL.iter().rev().copied().filter(|metric| !metric.needs_adopted_white());
+                distances.chain([Metric::DELTA_E_2000]).collect()
+            }
+        }
+    }
+
+    /// Metric that the transform starts with.
+    pub const fn preferred_metric(&self, diagram: Diagram) -> Metric {
+        match (self, diagram) {
+            (Self::Observer(_), _) => Metric::DELTA_E_2000,
+            (Self::Paper, Diagram::Xy) => Metric::XY,
+            (Self::Paper, Diagram::UvPrime) => Metric::UV_PRIME,
+        }
+    }
 }
 
-impl DifferenceChoice {
-    /// All of them, in the order they are listed.
-    pub const ALL: [Self; 4] = [Self::DeltaE2000, Self::DeltaE1976, Self::UvPrime, Self::Xy];
+/// A metric by its id.
+mod metric_id {
+    use chromascope_core::colorimetry::Metric;
+    use serde::{Deserialize as _, Deserializer, Serializer, de::Error as _};
 
-    /// The core's measure.
-    pub const fn metric(self) -> Metric {
-        match self {
-            Self::DeltaE2000 => Metric::DeltaE2000,
-            Self::DeltaE1976 => Metric::DeltaE1976,
-            Self::UvPrime => Metric::UvPrime,
-            Self::Xy => Metric::Xy,
-        }
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+    pub(super) fn serialize<S: Serializer>(metric: &Metric, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(metric.id)
     }
 
-    /// The measures that have a meaning under a color transform, the preferred ones first.
-    ///
-    /// Eq 13 takes an observer's RGB as sRGB: L*a*b* of its XYZ is no CIE L*a*b*, so distances in the diagram come first there.
-    pub const fn offered(transform: &TransformChoice) -> &'static [Self] {
-        match transform {
-            TransformChoice::Paper => &[Self::Xy, Self::UvPrime, Self::DeltaE2000],
-            TransformChoice::Observer(_) => &Self::ALL,
-        }
-    }
-
-    /// The measure that a color transform starts with.
-    pub const fn preferred(transform: &TransformChoice, diagram: Diagram) -> Self {
-        match (transform, diagram) {
-            (TransformChoice::Observer(_), _) => Self::DeltaE2000,
-            (TransformChoice::Paper, Diagram::Xy) => Self::Xy,
-            (TransformChoice::Paper, Diagram::UvPrime) => Self::UvPrime,
-        }
-    }
-
-    /// The name under a color transform: the formulas of ΔE*00 and ΔE*ab give one only where XYZ is the reference's own.
-    pub const fn name_under(self, transform: &TransformChoice) -> &'static str {
-        match (self, transform) {
-            (Self::DeltaE2000, TransformChoice::Paper) => "Δ of Eq 13 colors",
-            (Self::DeltaE1976, TransformChoice::Paper) => "Δ of Eq 13 colors (1976 formula)",
-            _ => self.symbol(),
-        }
-    }
-
-    /// Whether it is a formula of L*a*b*, in which about 1 is just visible.
-    pub const fn is_of_lab(self) -> bool {
-        matches!(self, Self::DeltaE2000 | Self::DeltaE1976)
-    }
-
-    /// The symbol of the formula.
-    pub const fn symbol(self) -> &'static str {
-        match self {
-            Self::DeltaE2000 => "ΔE*00",
-            Self::DeltaE1976 => "ΔE*ab",
-            Self::UvPrime => "Δu′v′",
-            Self::Xy => "Δxy",
-        }
-    }
-
-    /// A difference that fills a bar: one that nobody overlooks.
-    pub const fn full_bar(self) -> f64 {
-        match self {
-            Self::DeltaE2000 | Self::DeltaE1976 => 20.0,
-            Self::UvPrime => 0.1,
-            Self::Xy => 0.15,
-        }
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Metric, D::Error> {
+        let id = String::deserialize(deserializer)?;
+        Metric::by_id(&id).ok_or_else(|| D::Error::custom(format!("no metric is named {id}")))
     }
 }
 
@@ -300,7 +266,7 @@ impl Document {
             subset: Subset::Five,
             white: WhiteBalanceChoice::Unity,
             transform: TransformChoice::Paper,
-            difference: DifferenceChoice::preferred(&TransformChoice::Paper, Diagram::Xy),
+            difference: TransformChoice::Paper.preferred_metric(Diagram::Xy),
             diagram: Diagram::Xy,
             overlays: Overlays::default(),
             render: RenderSettings::default(),
@@ -334,28 +300,25 @@ impl Document {
         self.compared.iter().find(|c| c.kind == kind && c.name == name)
     }
 
-    /// Takes another color transform. The measure of difference changes with it where it was the one that the former starts with,
-    /// and where the new one does not offer it.
+    /// Takes another color transform. The metric changes with it where it was the one that the former starts with, and where it has
+    /// no meaning under the new one.
     pub fn set_transform(&mut self, transform: TransformChoice) {
-        let preferred = |transform: &TransformChoice| DifferenceChoice::preferred(transform, self.diagram);
-        let fitted = |transform: &TransformChoice| matches!(transform, TransformChoice::Observer(_));
-        let was_preferred =
-            fitted(&self.transform) != fitted(&transform) && self.difference == preferred(&self.transform);
+        let (before, after) = (self.transform.is_eq_13(), transform.is_eq_13());
+        let was_preferred = before != after && self.difference == self.transform.preferred_metric(self.diagram);
         // The formula has no meaning under Eq 13 unless it is chosen there.
-        let loses_meaning = fitted(&self.transform) && !fitted(&transform) && self.difference.is_of_lab();
-        if was_preferred || loses_meaning || !DifferenceChoice::offered(&transform).contains(&self.difference) {
-            self.difference = preferred(&transform);
+        let loses_meaning = !before && after && self.difference.needs_adopted_white();
+        if was_preferred || loses_meaning || !transform.metrics().contains(&self.difference) {
+            self.difference = transform.preferred_metric(self.diagram);
         }
         self.transform = transform;
     }
 
     /// Shows other coordinates; a distance in the former diagram becomes that in the new one under Eq 13.
     pub fn set_diagram(&mut self, diagram: Diagram) {
-        let follows = self.transform == TransformChoice::Paper
-            && self.difference == DifferenceChoice::preferred(&self.transform, self.diagram);
+        let follows = self.transform.is_eq_13() && self.difference == self.transform.preferred_metric(self.diagram);
         self.diagram = diagram;
         if follows {
-            self.difference = DifferenceChoice::preferred(&self.transform, diagram);
+            self.difference = self.transform.preferred_metric(diagram);
         }
     }
 

@@ -1,71 +1,108 @@
 //! The panes: each reads the document, asks for answers, and says what is to be done. None knows another.
+//!
+//! A new pane is one file and its line in [`ALL`] (with the `mod` line that Rust wants):
+//!
+//! ```diff
+//! --- /dev/null
+//! +++ b/src/panes/metamers.rs
+//! +//! Pairs of reflectances that a sensor confuses.
+//! +
+//! +use egui::{Rect, Ui};
+//! +
+//! +use super::context::{Pane, PaneContext};
+//! +use crate::panes::widgets;
+//! +use crate::workspaces::PaneKind;
+//! +
+//! +pub const PANE: Pane = Pane {
+//! +    kind: PaneKind::new("Metamers"),
+//! +    title: "Metamers",
+//! +    show,
+//! +    figure: None,
+//! +    under_conditions: false,
+//! +    table: false,
+//! +};
+//! +
+//! +fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+//! +    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
+//! +    …
+//! +}
+//! --- a/src/panes.rs
+//! +++ b/src/panes.rs
+//! +pub mod metamers;
+//!      &tolerance::PANE,
+//! +    &metamers::PANE,
+//! ```
+//!
+//! It is then in View, Panes, in the title menu of every other pane, in saved layouts and in exports. A place that a workspace
+//! starts with is a choice of `workspaces::Layout`.
 
-pub mod accuracy;
 pub mod chromaticity;
 pub mod context;
 pub mod curves;
 pub mod help;
 pub mod import;
 pub mod inspector;
+pub mod interpretation;
 pub mod library;
 pub mod menu;
+pub mod methods;
 pub mod render;
-pub mod render_setup;
+pub mod render_settings;
 pub mod scene_bar;
-pub mod skipped_work;
 pub mod spectra;
 pub mod status_bar;
 pub mod swatches;
 pub mod tolerance;
-pub mod understood;
 pub mod widgets;
+pub mod work_saved;
 
 use chromascope_figure::Figure;
 use egui::{Rect, Ui};
 
-use context::PaneContext;
+use context::{Pane, PaneContext};
 
 use crate::scene::Scene;
 use crate::view::View;
 use crate::workspaces::PaneKind;
 
-/// What is said where something is measured.
+/// All panes, in the order they are listed.
+pub const ALL: &[&Pane] = &[
+    &library::PANE,
+    &chromaticity::PANE,
+    &swatches::PANE,
+    &spectra::PANE,
+    &inspector::PANE,
+    &render::PANE,
+    &render_settings::PANE,
+    &import::PANE,
+    &curves::PANE,
+    &interpretation::PANE,
+    &methods::PANE,
+    &work_saved::PANE,
+    &tolerance::PANE,
+];
+
+/// Note where something is measured.
 const NOT_KEPT: &str = "Measured results are not kept when the program ends: export them.";
 
+/// A pane, if there is one of this id.
+pub fn by_kind(kind: PaneKind) -> Option<&'static Pane> {
+    ALL.iter().copied().find(|pane| pane.kind == kind)
+}
+
+/// Title of a pane.
+pub fn title(kind: PaneKind) -> &'static str {
+    by_kind(kind).map_or("", |pane| pane.title)
+}
+
 /// Shows a pane in exactly its rectangle.
-pub fn show(ui: &mut Ui, pane: PaneKind, rect: Rect, context: &mut PaneContext<'_>) {
-    match pane {
-        PaneKind::Library => library::show(ui, rect, context),
-        PaneKind::Chromaticity => chromaticity::show(ui, rect, context),
-        PaneKind::Swatches => swatches::show(ui, rect, context),
-        PaneKind::Spectra => spectra::show(ui, rect, context),
-        PaneKind::Inspector => inspector::show(ui, rect, context),
-        PaneKind::Render => render::show(ui, rect, context),
-        PaneKind::RenderSetup => render_setup::show(ui, rect, context),
-        PaneKind::Import => import::show(ui, rect, context),
-        PaneKind::Curves => curves::show(ui, rect, context),
-        PaneKind::Understood => understood::show(ui, rect, context),
-        PaneKind::Accuracy => accuracy::show(ui, rect, context),
-        PaneKind::SkippedWork => skipped_work::show(ui, rect, context),
-        PaneKind::Tolerance => tolerance::show(ui, rect, context),
+pub fn show(ui: &mut Ui, kind: PaneKind, rect: Rect, context: &mut PaneContext<'_>) {
+    if let Some(pane) = by_kind(kind) {
+        (pane.show)(ui, rect, context);
     }
 }
 
 /// A pane's figure as it would be saved: the same as on screen, with its numbers. None for panes without one.
-pub fn figure(pane: PaneKind, scene: &Scene<'_>, view: &View) -> Option<Figure> {
-    match pane {
-        PaneKind::Chromaticity => Some(crate::figures::chromaticity::figure(scene, view)),
-        PaneKind::Swatches => Some(crate::figures::swatches::figure(scene, view)),
-        PaneKind::Spectra => Some(crate::figures::spectra::figure(scene, view)),
-        PaneKind::Render => crate::figures::render::figure(scene, view),
-        PaneKind::Curves => crate::figures::curves::figure(scene, view),
-        PaneKind::Accuracy => crate::figures::accuracy::figure(view),
-        PaneKind::SkippedWork => crate::figures::skipped_work::figure(view),
-        PaneKind::Tolerance
-        | PaneKind::Library
-        | PaneKind::Inspector
-        | PaneKind::RenderSetup
-        | PaneKind::Import
-        | PaneKind::Understood => None,
-    }
+pub fn figure(kind: PaneKind, scene: &Scene<'_>, view: &View) -> Option<Figure> {
+    (by_kind(kind)?.figure?)(scene, view)
 }

@@ -362,9 +362,9 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The name of the measure of difference under the color transform.
+    /// Name of the metric under the color transform.
     pub fn difference_name(&self) -> &'static str {
-        self.document.difference.name_under(&self.document.transform)
+        self.document.difference.name(self.document.transform.is_eq_13())
     }
 
     /// The difference of each patch from the reference, by the measure chosen; or why there is none.
@@ -372,9 +372,8 @@ impl<'a> Scene<'a> {
         let comparable = self.comparable(kind, name)?;
         let reference = self.patch_colors(SetKind::Observer, &self.document.reference)?;
         let own = self.patch_colors(kind, name)?;
-        let metric = self.document.difference.metric();
         let pairs = reference.iter().zip(&own);
-        Ok(pairs.map(|(a, b)| comparable.and_then(|()| compare::patch_difference(metric, a, b))).collect())
+        Ok(pairs.map(|(a, b)| comparable.and_then(|()| compare::difference(self.document.difference, a, b))).collect())
     }
 
     /// The compared sensors with how they are drawn, the reference first, hidden ones included.

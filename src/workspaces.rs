@@ -1,77 +1,103 @@
 //! Which panes stand where: tables of splits, no docking.
 
-use egui::{Pos2, Rect, Vec2};
-use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::fmt::{self, Formatter};
+use std::sync::{Mutex, PoisonError};
 
-/// A pane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum PaneKind {
-    /// What is compared, and all data sets.
-    Library,
-    /// The diagram.
-    Chromaticity,
-    /// The patches as colors.
-    Swatches,
-    /// Light, patches, sensitivities.
-    Spectra,
-    /// The key, or the selection.
-    Inspector,
-    /// A mesh through each camera.
-    Render,
-    /// What is rendered: mesh, surface, light's place.
-    RenderSetup,
-    /// The user's files, and the text of one with what was understood of it.
-    Import,
-    /// The curves that a file gives.
-    Curves,
-    /// What a file was understood as, with switches.
-    Understood,
-    /// Run time against error of the scene.
-    Accuracy,
-    /// What the scene did not compute.
-    SkippedWork,
-    /// How large errors may be.
-    Tolerance,
-}
+use egui::{Pos2, Rect, Vec2};
+use serde::de::{DeserializeSeed, EnumAccess, VariantAccess as _, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// A pane, by the id that saved layouts name it by.
+///
+/// The panes themselves are in `panes::ALL`; those that a layout starts with have a name here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct PaneKind(&'static str);
 
 impl PaneKind {
-    /// All panes.
-    pub const ALL: [Self; 13] = [
-        Self::Library,
-        Self::Chromaticity,
-        Self::Swatches,
-        Self::Spectra,
-        Self::Inspector,
-        Self::Render,
-        Self::RenderSetup,
-        Self::Import,
-        Self::Curves,
-        Self::Understood,
-        Self::Accuracy,
-        Self::SkippedWork,
-        Self::Tolerance,
-    ];
-    /// The panes that stand in the workspaces' changeable places: all but the library, which comes first.
-    pub const CHANGEABLE: &[Self] = Self::ALL.split_at(1).1;
+    /// Sensors compared, and all data sets.
+    pub const LIBRARY: Self = Self::new("Library");
+    /// Chromaticity diagram.
+    pub const CHROMATICITY: Self = Self::new("Chromaticity");
+    /// Patches as colors.
+    pub const SWATCHES: Self = Self::new("Swatches");
+    /// Light, patches, sensitivities.
+    pub const SPECTRA: Self = Self::new("Spectra");
+    /// Key, or the selection.
+    pub const INSPECTOR: Self = Self::new("Inspector");
+    /// A mesh through each sensor.
+    pub const RENDER: Self = Self::new("Render");
+    /// Mesh, surface, light and view of what is rendered.
+    pub const RENDER_SETTINGS: Self = Self::new("RenderSetup");
+    /// The user's files, and the text of one with the marks of how it was read.
+    pub const IMPORT: Self = Self::new("Import");
+    /// Curves that a file gives.
+    pub const CURVES: Self = Self::new("Curves");
+    /// How a file was read, with switches.
+    pub const INTERPRETATION: Self = Self::new("Understood");
+    /// Run time against error by method.
+    pub const METHODS: Self = Self::new("Accuracy");
+    /// Skipped work, and the time it saved.
+    pub const WORK_SAVED: Self = Self::new("SkippedWork");
+    /// Allowed error.
+    pub const TOLERANCE: Self = Self::new("Tolerance");
 
-    /// Its title.
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::Library => "Library",
-            Self::Chromaticity => "Chromaticity",
-            Self::Swatches => "Swatches",
-            Self::Spectra => "Spectra",
-            Self::Inspector => "Inspector",
-            Self::Render => "Render",
-            Self::RenderSetup => "Scene",
-            Self::Import => "Import",
-            Self::Curves => "Result",
-            Self::Understood => "Understood as",
-            Self::Accuracy => "Methods",
-            Self::SkippedWork => "Left out",
-            Self::Tolerance => "Tolerance",
-        }
+    /// A pane of this id. Ids stay: layouts of earlier runs name them.
+    pub const fn new(id: &'static str) -> Self {
+        Self(id)
     }
+}
+
+impl Serialize for PaneKind {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_unit_variant("PaneKind", 0, self.0)
+    }
+}
+
+impl<'de> Deserialize<'de> for PaneKind {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_enum("PaneKind", &[], AnyVariant).map(interned)
+    }
+}
+
+/// Reads the name of a unit variant.
+struct AnyVariant;
+
+impl<'de> Visitor<'de> for AnyVariant {
+    type Value = String;
+
+    fn expecting(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        formatter.write_str("the id of a pane")
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<String, A::Error> {
+        let (id, rest) = data.variant_seed(self)?;
+        rest.unit_variant().map(|()| id)
+    }
+
+    fn visit_str<E: serde::de::Error>(self, id: &str) -> Result<String, E> {
+        Ok(id.to_owned())
+    }
+}
+
+impl<'de> DeserializeSeed<'de> for AnyVariant {
+    type Value = String;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<String, D::Error> {
+        deserializer.deserialize_identifier(self)
+    }
+}
+
+/// A pane by an id read from a file. Each id is kept once, however often layouts are read.
+fn interned(id: String) -> PaneKind {
+    static IDS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+    let mut ids = IDS.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = ids.get(id.as_str()).copied();
+    PaneKind(known.unwrap_or_else(|| {
+        let id = id.leak();
+        ids.insert(id);
+        id
+    }))
 }
 
 /// A fixed arrangement of panes.
@@ -159,15 +185,15 @@ impl Default for Layout {
             right_lower_share: 0.5,
             library: true,
             compare: [
-                Some(PaneKind::Chromaticity),
-                Some(PaneKind::Swatches),
-                Some(PaneKind::Inspector),
-                Some(PaneKind::Spectra),
+                Some(PaneKind::CHROMATICITY),
+                Some(PaneKind::SWATCHES),
+                Some(PaneKind::INSPECTOR),
+                Some(PaneKind::SPECTRA),
             ],
-            spectra: [Some(PaneKind::Spectra), None, Some(PaneKind::Inspector), None],
-            render: [Some(PaneKind::Render), None, Some(PaneKind::RenderSetup), None],
-            import: [Some(PaneKind::Import), Some(PaneKind::Curves), Some(PaneKind::Understood), None],
-            accuracy: [Some(PaneKind::Accuracy), Some(PaneKind::SkippedWork), Some(PaneKind::Tolerance), None],
+            spectra: [Some(PaneKind::SPECTRA), None, Some(PaneKind::INSPECTOR), None],
+            render: [Some(PaneKind::RENDER), None, Some(PaneKind::RENDER_SETTINGS), None],
+            import: [Some(PaneKind::IMPORT), Some(PaneKind::CURVES), Some(PaneKind::INTERPRETATION), None],
+            accuracy: [Some(PaneKind::METHODS), Some(PaneKind::WORK_SAVED), Some(PaneKind::TOLERANCE), None],
         }
     }
 }
@@ -195,20 +221,29 @@ impl Layout {
         }
     }
 
+    /// Empties the places of panes that do not exist: a layout may be of another version.
+    pub fn retain(&mut self, exists: impl Fn(PaneKind) -> bool) {
+        for workspace in Workspace::ALL {
+            for place in self.places_mut(workspace) {
+                *place = place.filter(|pane| exists(*pane));
+            }
+        }
+    }
+
     /// Whether a workspace shows a pane.
     pub fn shows(&self, workspace: Workspace, pane: PaneKind) -> bool {
-        if pane == PaneKind::Library { self.library } else { self.places(workspace).contains(&Some(pane)) }
+        if pane == PaneKind::LIBRARY { self.library } else { self.places(workspace).contains(&Some(pane)) }
     }
 
     /// Shows or hides a pane; shown, it takes its own place, else the first free one, else the last.
     pub fn toggle(&mut self, workspace: Workspace, pane: PaneKind) {
-        if pane == PaneKind::Library {
+        if pane == PaneKind::LIBRARY {
             self.library = !self.library;
             return;
         }
         let home = Self::default().places(workspace).iter().position(|p| *p == Some(pane));
         // Where a workspace has no place of its own for it, the inspector stands at the right like everywhere.
-        let home = home.or((pane == PaneKind::Inspector).then_some(3));
+        let home = home.or((pane == PaneKind::INSPECTOR).then_some(3));
         let places = self.places_mut(workspace);
         if let Some(shown) = places.iter_mut().find(|p| **p == Some(pane)) {
             *shown = None;
@@ -274,7 +309,7 @@ pub fn arrange(
     if layout.library && !library_left_out {
         let width = layout.library_width.unwrap_or(if large { 280.0 } else { 216.0 }).clamp(160.0, 360.0);
         let (left, border, right) = cut_x(rest, width);
-        made.panes.push((PaneKind::Library, left));
+        made.panes.push((PaneKind::LIBRARY, left));
         made.splitters.push((Splitter::Library, border));
         rest = right;
     }
@@ -291,12 +326,12 @@ pub fn arrange(
     if library_left_out && column_over {
         let width = 216.0_f32.min(rest.width());
         let max = Pos2::new(rest.left() + width, rest.bottom());
-        made.over = Some((PaneKind::Library, Rect::from_min_max(rest.min, max)));
+        made.over = Some((PaneKind::LIBRARY, Rect::from_min_max(rest.min, max)));
     }
     if right_left_out && column_over {
         let width = 316.0_f32.min(rest.width());
         let min = Pos2::new(rest.right() - width, rest.top());
-        made.over = Some((PaneKind::Inspector, Rect::from_min_max(min, rest.max)));
+        made.over = Some((PaneKind::INSPECTOR, Rect::from_min_max(min, rest.max)));
     }
     made
 }

@@ -7,6 +7,6 @@ pub mod lab;
 pub mod rgb;
 pub mod tristimulus;
 
-pub use difference::{delta_e_1976, delta_e_2000, delta_e_2000_into};
+pub use difference::{Coordinates, Metric, Stimulus, delta_e_1976, delta_e_2000, delta_e_2000_into};
 pub use lab::Lab;
 pub use tristimulus::{Uv60, UvPrime, Xy, Xyz};

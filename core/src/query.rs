@@ -12,7 +12,7 @@ pub mod render;
 pub mod shared;
 
 pub use ask::{Ask, Direct, Query};
-pub use compare::{DifferenceError, Metric};
+pub use compare::DifferenceError;
 pub use loci::{
     Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery, RadiatorSignalsQuery,
     SpectralLocusQuery, Temperatures,

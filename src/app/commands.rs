@@ -113,7 +113,7 @@ impl ChromascopeApp {
             Command::Maximize(pane) => {
                 self.view.maximized = if self.view.maximized == Some(pane) { None } else { Some(pane) };
             }
-            Command::TogglePane(PaneKind::Library) if self.library_left_out() => self.view.inspector_over ^= true,
+            Command::TogglePane(PaneKind::LIBRARY) if self.library_left_out() => self.view.inspector_over ^= true,
             Command::TogglePane(pane) => self.toggle_pane(pane),
             Command::ToggleInspector => self.toggle_inspector(),
             Command::ResetView => self.view.reset_plots = true,
@@ -153,7 +153,7 @@ impl ChromascopeApp {
         if self.arrangement.narrow && !self.view.saved.workspace.keeps_right_column() {
             self.view.inspector_over ^= true;
         } else {
-            self.toggle_pane(PaneKind::Inspector);
+            self.toggle_pane(PaneKind::INSPECTOR);
         }
     }
 
@@ -174,14 +174,14 @@ impl ChromascopeApp {
     fn toggle_difference(&mut self) {
         let mode = &mut self.view.saved.render.mode;
         match (self.view.focused, *mode) {
-            (Some(PaneKind::Render), RenderMode::Difference) => *mode = RenderMode::Grid,
-            (Some(PaneKind::Render), _) => *mode = RenderMode::Difference,
+            (Some(PaneKind::RENDER), RenderMode::Difference) => *mode = RenderMode::Grid,
+            (Some(PaneKind::RENDER), _) => *mode = RenderMode::Difference,
             _ => self.view.saved.difference_bars ^= true,
         }
     }
 
     fn pin(&mut self) {
-        if self.view.focused == Some(PaneKind::Render)
+        if self.view.focused == Some(PaneKind::RENDER)
             && self.view.selected.is_none()
             && let Some(place) = self.view.render.hovered.clone()
         {
@@ -214,7 +214,7 @@ impl ChromascopeApp {
             self.view.say("Measuring was stopped. What was measured before stays.");
             return;
         }
-        let rendering = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Render);
+        let rendering = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER);
         let view = &mut self.view;
         if view.palette.take().is_some() || view.help.take().is_some() {
             return;
@@ -258,7 +258,7 @@ impl ChromascopeApp {
         let shown: Vec<PaneKind> = self.arrangement.panes.iter().map(|(pane, _)| *pane).collect();
         let import = &mut self.view.import;
         let picks = import.look.as_ref().and_then(|look| look.table.as_ref().ok()).is_some_and(|t| t.curves.len() > 1);
-        if self.view.focused == Some(PaneKind::Understood) && import.stop == Some(Stop::Switches) && picks {
+        if self.view.focused == Some(PaneKind::INTERPRETATION) && import.stop == Some(Stop::Switches) && picks {
             (import.stop, import.focus) = (Some(Stop::Picker), Some(Stop::Picker));
             return;
         }
@@ -266,13 +266,13 @@ impl ChromascopeApp {
         let next = now.map_or(0, |index| (index + 1) % shown.len().max(1));
         self.view.focused = shown.get(next).copied();
         import.stop = match self.view.focused {
-            Some(PaneKind::Import) => Some(Stop::Files),
-            Some(PaneKind::Understood) => Some(Stop::Switches),
+            Some(PaneKind::IMPORT) => Some(Stop::Files),
+            Some(PaneKind::INTERPRETATION) => Some(Stop::Switches),
             _ => None,
         };
         import.focus = import.stop;
         if let Some(pane) = self.view.focused {
-            self.view.say(format!("{} (F fills the window, Ctrl+E exports)", pane.title()));
+            self.view.say(format!("{} (F fills the window, Ctrl+E exports)", panes::title(pane)));
         }
         // Keys that are meant for the next pane must not move what the last one had.
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
@@ -283,10 +283,9 @@ impl ChromascopeApp {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let figure = panes::figure(pane, &scene, &self.view);
         if figure.is_none() {
-            self.view.fail(format!(
-                "{} has no figure to export; choose Chromaticity, Swatches, Spectra or Render.",
-                pane.title()
-            ));
+            let others = panes::ALL.iter().filter(|pane| pane.figure.is_some()).map(|pane| pane.title);
+            let others = others.collect::<Vec<_>>().join(", ");
+            self.view.fail(format!("{} has nothing to export now. Panes with figures: {others}.", panes::title(pane)));
         }
         figure
     }
@@ -302,16 +301,16 @@ impl ChromascopeApp {
             FileForm::new(format.extension(), move || file_of(&figure, &numbers, format))
         });
         let name = format!("{}.{}", self.file_stem(pane), format.extension());
-        let what = format!("{} as {}", pane.title(), format.extension().to_uppercase());
+        let what = format!("{} as {}", panes::title(pane), format.extension().to_uppercase());
         self.files.ask_to_save(SaveRequest { what, name, forms: forms.collect(), note: String::new() });
     }
 
     /// What a file of a pane is called, without its ending.
     fn file_stem(&self, pane: PaneKind) -> String {
-        let title = pane.title().to_lowercase();
+        let title = panes::title(pane).to_lowercase();
         match (pane, self.view.accuracy.shows) {
-            (PaneKind::Accuracy, Shows::Bench(workload)) => workload.name().to_owned(),
-            (PaneKind::Accuracy, Shows::Scene(subject)) => format!("{title}-{}", subject.title().to_lowercase()),
+            (PaneKind::METHODS, Shows::Bench(workload)) => workload.name().to_owned(),
+            (PaneKind::METHODS, Shows::Scene(subject)) => format!("{title}-{}", subject.title().to_lowercase()),
             _ => title,
         }
     }
@@ -322,7 +321,7 @@ impl ChromascopeApp {
             Ok(picture) => {
                 let size = [picture.width() as usize, picture.height() as usize];
                 ctx.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, picture.as_raw()));
-                self.view.say(format!("{}: picture copied.", pane.title()));
+                self.view.say(format!("{}: picture copied.", panes::title(pane)));
             }
             Err(error) => self.view.fail(error.to_string()),
         }
@@ -331,13 +330,13 @@ impl ChromascopeApp {
     fn copy_numbers(&mut self, ctx: &egui::Context, pane: PaneKind) {
         if let Some(figure) = self.figure(pane) {
             ctx.copy_text(self.numbers(pane, &figure).to_tsv());
-            self.view.say(format!("{}: {} rows of numbers copied.", pane.title(), figure.table.rows.len()));
+            self.view.say(format!("{}: {} rows of numbers copied.", panes::title(pane), figure.table.rows.len()));
         }
     }
 
     /// The numbers of a pane as they leave the program: with the conditions they were made under, where they depend on them.
     fn numbers(&self, pane: PaneKind, figure: &Figure) -> Table {
-        if !matches!(pane, PaneKind::Chromaticity | PaneKind::Swatches | PaneKind::Render) {
+        if !panes::by_kind(pane).is_some_and(|pane| pane.under_conditions) {
             return figure.table.clone();
         }
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };

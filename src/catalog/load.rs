@@ -9,7 +9,7 @@ use chromascope_core::spectral::{
 };
 use chromascope_core::units::Kelvin;
 
-use super::Place;
+use super::{Place, asset_text};
 
 /// The daylight basis among the built-in files.
 pub const DAYLIGHT_BASIS: &str = "illuminants/cie_daylight_basis.csv";
@@ -51,7 +51,7 @@ impl Query for FileQuery {
     const NAME: &'static str = "data file";
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
-        let text = chromascope_data::text(self.0).ok_or(LoadError::Missing(self.0))?;
+        let text = asset_text(self.0).ok_or(LoadError::Missing(self.0))?;
         Dataset::read(text).map_err(|error| LoadError::Damaged { path: self.0, error })
     }
 }

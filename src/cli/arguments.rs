@@ -9,6 +9,7 @@ use spectral_file::Values;
 use super::bench::BenchArguments;
 use super::inspect::arguments::InspectArguments;
 use super::render::arguments::RenderArguments;
+use crate::document::SetKind;
 use crate::document::start::Start;
 
 /// See, measure and explain how digital cameras render color, from spectra.
@@ -61,8 +62,8 @@ Examples:
 
 Columns: sensor, patch; r, g, b after white balance (empty for CIE observers); x_tristimulus, y_tristimulus, z_tristimulus (Y = 1
 for a perfect diffuser, under Eq 13 within 5e-5); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
-delta_e_2000, delta_e_1976, delta_uv_prime, delta_xy, the differences from the reference; then the conditions: reference,
-illuminant, white_balance, transform, preset. What is not defined is left empty: with the paper's matrix, Eq 13 takes RGB as sRGB
+delta_…, the differences from the reference, a column for each metric; then the conditions: reference, illuminant,
+white_balance, transform, preset. What is not defined is left empty: with the paper's matrix, Eq 13 takes RGB as sRGB
 whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*, and their L*a*b* is not that of the CIE.
 
 A file's reflectances are fractions or percent, its wavelengths nm or µm; guesses are said on standard error. Numbers above one of
@@ -219,4 +220,17 @@ pub(super) enum ListKind {
     Illuminants,
     /// Single reflectances
     Materials,
+}
+
+impl ListKind {
+    /// The kind of the sets.
+    pub(super) const fn of_sets(self) -> SetKind {
+        match self {
+            Self::Cameras => SetKind::Camera,
+            Self::Observers => SetKind::Observer,
+            Self::Charts => SetKind::Chart,
+            Self::Illuminants => SetKind::Illuminant,
+            Self::Materials => SetKind::Material,
+        }
+    }
 }

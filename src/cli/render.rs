@@ -25,7 +25,7 @@ use self::setup::Setup;
 use super::error::CliError;
 use super::outputs::{self, is_standard_output, put, show, write_to};
 use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
-use crate::figures::render::headline::{self, Detail};
+use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::returned;
 use crate::files::fitting;
 use crate::profiler::plans;
@@ -205,12 +205,10 @@ impl<'a> Made<'a> {
     fn difference(&self, index: usize) -> String {
         match (&self.pictures.differences[index], self.not_comparable[index]) {
             _ if self.sources[index].is_reference => "the reference".to_owned(),
-            (_, Some(DifferenceError::Ways)) => "no \u{394}E*00 by Eq 13; add --transform fitted to compare".to_owned(),
-            (_, Some(other)) => format!("no \u{394}E*00: {other}"),
-            (Some(difference), None) => {
-                headline::words(difference, headline::measure(self.scene.document), Detail::Largest)
-            }
-            (None, None) => "no \u{394}E*00".to_owned(),
+            (_, Some(DifferenceError::Ways)) => "no difference by Eq 13; add --transform fitted to compare".to_owned(),
+            (_, Some(other)) => format!("no difference: {other}"),
+            (Some(difference), None) => Measure::of(&self.query).words(difference, Detail::Largest),
+            (None, None) => "no difference".to_owned(),
         }
     }
 }

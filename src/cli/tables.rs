@@ -4,8 +4,8 @@ mod cct;
 
 use std::io::Write;
 
-use chromascope_core::query::compare::{locus_distance_uv, locus_distance_xy, patch_difference};
-use chromascope_core::query::{DifferenceError, LocusPoint, Metric, PatchColor, Temperatures};
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::spectral::Primaries;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
@@ -13,7 +13,7 @@ use spectral_file::guarded;
 
 use cct::ReferenceLocus;
 
-use super::arguments::{CommonArguments, ListKind, LocusArguments, PatchesArguments};
+use super::arguments::{CommonArguments, LocusArguments, PatchesArguments};
 use super::error::CliError;
 use super::outputs;
 use super::outputs::Stop;
@@ -28,7 +28,7 @@ use crate::terminal::say;
 
 const LOCUS_HEAD: &str = "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv,cct_error_k,arc_length_xy";
 const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,\
-                            lab_l,lab_a,lab_b,delta_e_2000,delta_e_1976,delta_uv_prime,delta_xy";
+                            lab_l,lab_a,lab_b";
 
 /// Temperatures that are computed at once; a table of millions of them is written as it is made.
 const PART: usize = 1024;
@@ -78,12 +78,10 @@ fn locus_rows(
             // A point without chromaticity is a gap that the length bridges.
             before = if point.xy.is_some() { Some(*point) } else { before };
             let places = [point.xy.map(|p| p.x), point.xy.map(|p| p.y), point.uv.map(|p| p.u), point.uv.map(|p| p.v)];
-            let distance = |measure: fn(&LocusPoint, &LocusPoint) -> Result<f64, DifferenceError>| {
-                comparable.and_then(|()| measure(reference, point)).ok()
-            };
+            let distance = |metric| comparable.and_then(|()| compare::difference(metric, reference, point)).ok();
             let rest = [
-                distance(locus_distance_xy),
-                distance(locus_distance_uv),
+                distance(Metric::XY),
+                distance(Metric::UV_PRIME),
                 comparable.ok().and_then(|()| own.error_k(point)),
                 point.xy.map(|_| length),
             ];
@@ -168,19 +166,19 @@ pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Res
     };
     let conditions = conditions(&scene, &illuminant);
     let reference = colors(SetKind::Observer, &request.document.reference)?;
-    let mut text = head(PATCHES_HEAD);
+    let metrics = Metric::ALL.iter().map(|metric| format!(",{}", metric.column)).collect::<String>();
+    let mut text = head(&format!("{PATCHES_HEAD}{metrics}"));
     for (kind, name) in &request.sources {
         let comparable = scene.comparable(*kind, name)?;
         // Eq 13 takes RGB as sRGB whatever the sensor: distances between its colors are not ΔE*.
         let by_eq_13 = request.document.transform == TransformChoice::Paper
             && scene.sensor(*kind, name)?.primaries() != Primaries::Xyz;
         for ((patch, color), reference) in names.iter().zip(colors(*kind, name)?).zip(&reference) {
-            let difference = |metric: Metric| {
-                let defined = !by_eq_13 || matches!(metric, Metric::UvPrime | Metric::Xy);
-                comparable.ok().filter(|()| defined).and_then(|()| patch_difference(metric, reference, &color).ok())
-            };
-            let differences = [Metric::DeltaE2000, Metric::DeltaE1976, Metric::UvPrime, Metric::Xy].map(difference);
-            let row = [&color_cells(&color)[..], &differences].concat();
+            let mut row = color_cells(&color);
+            row.extend(Metric::ALL.iter().map(|&metric| {
+                let defined = comparable.is_ok() && !(by_eq_13 && metric.needs_adopted_white());
+                compare::difference(metric, reference, &color).ok().filter(|_| defined)
+            }));
             text += &row_of(&[&field(name), &field(patch)], &row, &conditions);
         }
     }
@@ -198,25 +196,14 @@ fn color_cells(color: &PatchColor) -> Vec<Option<f64>> {
     [&rgb[..], &xyz, &xy, &uv, &lab].concat()
 }
 
-/// The names of the built-in sets.
-pub(super) fn list(kind: Option<ListKind>) -> String {
-    let catalog = Catalog::built_in();
-    let names = |kind: SetKind| -> String {
-        let mut names: Vec<&str> = catalog.of_kind(kind).map(|entry| entry.name.as_str()).collect();
-        if kind == SetKind::Chart {
-            names.push(FIVE);
-        }
-        names.push("");
-        names.join("\n")
+/// Names of a catalog's sets of a kind, one a line; of all kinds for none.
+pub fn list(catalog: &Catalog, kind: Option<SetKind>) -> String {
+    let names = |kind: SetKind| {
+        let five = (kind == SetKind::Chart).then_some(FIVE);
+        let names = catalog.of_kind(kind).map(|entry| entry.name.as_str()).chain(five);
+        names.map(|name| format!("{name}\n")).collect::<String>()
     };
-    match kind {
-        Some(ListKind::Cameras) => names(SetKind::Camera),
-        Some(ListKind::Observers) => names(SetKind::Observer),
-        Some(ListKind::Charts) => names(SetKind::Chart),
-        Some(ListKind::Illuminants) => names(SetKind::Illuminant),
-        Some(ListKind::Materials) => names(SetKind::Material),
-        None => SetKind::ALL.map(names).concat(),
-    }
+    kind.map_or_else(|| SetKind::ALL.map(names).concat(), names)
 }
 
 fn row_of(heads: &[&str], numbers: &[Option<f64>], conditions: &str) -> String {

@@ -1,11 +1,12 @@
 //! The document as JSON: what is kept between runs, and what session files are.
 
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 
 use super::kind::SetKind;
 use super::own::{OwnSet, Role};
 use super::start::Start;
-use super::{DifferenceChoice, Document, MOST_COMPARED, VERSION, kept};
+use super::{Document, MOST_COMPARED, VERSION, kept};
 
 /// Why a saved document cannot be opened.
 #[derive(Debug, thiserror::Error)]
@@ -110,8 +111,8 @@ fn renew(value: &mut serde_json::Value, own: &[OwnSet]) -> Result<(), SessionErr
     if !was_fitted && old.get("difference").and_then(|d| d.as_str()).is_some_and(|d| d.starts_with("delta-e")) {
         old.remove("difference");
         let diagram = old.get("diagram").and_then(|diagram| diagram.as_str());
-        let distance = if diagram == Some("uv-prime") { DifferenceChoice::UvPrime } else { DifferenceChoice::Xy };
-        old.insert("difference".to_owned(), serde_json::to_value(distance)?);
+        let distance = if diagram == Some("uv-prime") { Metric::UV_PRIME } else { Metric::XY };
+        old.insert("difference".to_owned(), distance.id.into());
     }
     let serde_json::Value::Object(defaults) = serde_json::to_value(Start::Paper.document())? else { return Ok(()) };
     for (key, default) in defaults {
@@ -135,6 +136,9 @@ impl Document {
             self.compare(&reference, SetKind::Observer);
         }
         self.part_names();
+        if !self.transform.metrics().contains(&self.difference) {
+            self.difference = self.transform.preferred_metric(self.diagram);
+        }
         let mut seen = std::collections::HashSet::new();
         self.compared.retain(|c| seen.insert((c.kind, c.name.clone())));
         self.render.mend();

@@ -6,7 +6,7 @@ pub mod returned;
 
 use chromascope_figure::{Anchor, Cell, Figure, Image, Ink, Mark, Panel, Rect, Shape, Table, TextSize};
 
-use self::headline::Detail;
+use self::headline::{Detail, Measure};
 use super::chromaticity::viewing_conditions;
 use crate::document::render::RoughnessChoice;
 use crate::format::fixed;
@@ -33,8 +33,9 @@ pub fn index_of(shot: &RenderedFrame, id: &SensorId) -> Option<usize> {
 pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
     let shot = view.render.shot.as_deref()?;
     let made = shot.made()?;
+    let measure = Measure::of(&shot.query);
     let mode = view.saved.render.mode;
-    let maps = (mode == RenderMode::Difference).then(|| difference::scale_end(shot));
+    let maps = (mode == RenderMode::Difference).then(|| difference::Scale::of(shot));
     let only_sources = matches!(mode, RenderMode::One | RenderMode::Difference);
     let first = usize::from(only_sources && shot.sources.len() > 1);
     let shown: Vec<usize> = (first..shot.sources.len()).collect();
@@ -42,7 +43,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
     let size = shot.query.shading.geometry.visibility.size;
     let height = WIDTH * f64::from(size.height) / f64::from(size.width.max(1));
     let rows = shown.len().div_ceil(columns);
-    let scale = if maps.is_some() { difference::SCALE } else { 0.0 };
+    let scale = if maps.is_some() { difference::SCALE_HEIGHT } else { 0.0 };
     let all = [columns as f64 * (WIDTH + GAP) + GAP, rows as f64 * (height + CAPTION + GAP) + GAP + scale];
     let mut figure = Figure::new("Rendered pictures", all);
     // The gray that the pictures were made on, whatever paper they go to.
@@ -58,9 +59,8 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
         let source = &shot.sources[at];
         let label = if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() };
         let difference = made.differences.get(at).and_then(Option::as_ref);
-        let measure = headline::measure(scene.document);
-        let detail = if maps.is_some() { Detail::SpectralWeights } else { Detail::Quantiles };
-        let note = difference.map(|difference| headline::words(difference, measure, detail));
+        let detail = if maps.is_some() { Detail::Metric } else { Detail::Quantiles };
+        let note = difference.map(|difference| measure.words(difference, detail));
         let middle = y + CAPTION / 2.0;
         let marker = Shape::Points { points: vec![[x + 7.0, middle]], marker: source.marker, radius: 5.0 };
         let mark = Mark::new(PickIndex::NONE, label.clone(), marker).with_stroke(ink, 1.5);
@@ -71,7 +71,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
         }
         if let Some(Ok(picture)) = made.pictures.get(at) {
             let ([width, height_in_pixels], rgba) = match maps {
-                Some(end) => difference::map(shot, at, end),
+                Some(scale) => difference::map(shot, at, scale.end),
                 None => ([picture.width, picture.height], picture.rgba.clone()),
             };
             let image = Image { width, height: height_in_pixels, rgba: rgba.into() };
@@ -80,22 +80,19 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
             panel.marks.push(Mark::new(PickIndex::NONE, format!("{label}, picture"), shape));
         }
     }
-    if let Some(end) = maps {
-        let measure = headline::measure(scene.document);
-        panel.marks.extend(difference::scale(end, measure, [GAP, all[1] - difference::SCALE], all[0] - 2.0 * GAP, ink));
+    if let Some(scale) = maps {
+        let corner = [GAP, all[1] - difference::SCALE_HEIGHT];
+        panel.marks.extend(difference::scale(scale, measure.name(), corner, all[0] - 2.0 * GAP, ink));
     }
     figure.panels.push(panel);
     figure.caption = match maps {
-        Some(_) => {
-            let measure = headline::measure(scene.document);
-            format!("Maps of {measure} from the reference; black: no light. {}", caption(scene))
-        }
+        Some(_) => format!("Maps of {} from the reference; black: no light. {}", measure.name(), caption(scene)),
         None => caption(scene),
     };
     if shown.len() > 1 || !shot.sources.iter().all(|source| source.is_reference) {
         figure.caption = format!("{} {}", figure.caption, headline::MEANING);
     }
-    figure.table = table(shot, headline::measure(scene.document));
+    figure.table = table(shot, measure.name());
     Some(figure)
 }
 
@@ -179,7 +176,7 @@ pub fn pixel_line(scene: &Scene<'_>, render: &RenderView, place: &PixelPlace) ->
             return Some(format!("{label}, pixel {x}, {y}: beside the mesh. {hint}"));
         }
         PixelShows::Unlit => "no light reaches it".to_owned(),
-        PixelShows::Lit(lit) => facts(lit, headline::measure(scene.document))
+        PixelShows::Lit(lit) => facts(lit, Measure::of(&shot.query))
             .into_iter()
             .map(|(name, value)| format!("{name} {value}"))
             .collect::<Vec<_>>()
@@ -188,8 +185,8 @@ pub fn pixel_line(scene: &Scene<'_>, render: &RenderView, place: &PixelPlace) ->
     Some(format!("{label}, pixel {x}, {y}: {rest}"))
 }
 
-/// A lit pixel's numbers with their names; `measure` is that of its difference ([`headline::measure`]).
-pub fn facts(lit: &LitPixel, measure: &'static str) -> Vec<(&'static str, String)> {
+/// A lit pixel's numbers with their names; `measure` is that of its difference.
+pub fn facts(lit: &LitPixel, measure: Measure) -> Vec<(&'static str, String)> {
     let three = |values: [f64; 3], decimals: usize| values.map(|v| fixed(v, decimals)).join(" ");
     let mut facts = vec![("RGB", three(lit.linear, 3))];
     if let Some(xy) = lit.xy {
@@ -199,7 +196,7 @@ pub fn facts(lit: &LitPixel, measure: &'static str) -> Vec<(&'static str, String
         facts.push(("Lab", three([lab.l, lab.a, lab.b], 1)));
     }
     if let Some(difference) = lit.difference {
-        facts.push((measure, fixed(difference, 1)));
+        facts.push((measure.name(), measure.number(difference)));
     }
     if let Some((g, _)) = lit.roughness {
         let decimals = if g >= 100.0 { 0 } else { 3 };

@@ -218,7 +218,7 @@ impl Board<'_> {
             self.marks.push(mark.with_fill(InkRole::Surround));
         }
         if let Some(difference) = difference.filter(|_| bars) {
-            let share = (difference / self.scene.document.difference.full_bar()).clamp(0.0, 1.0);
+            let share = (difference / self.scene.document.difference.full_scale).clamp(0.0, 1.0);
             let bar = Shape::Rect { min: [x0, y1 - BAR], max: [x0 + share * (x1 - x0), y1] };
             self.marks.push(Mark::new(tag, "difference", bar).with_fill(InkRole::OnSurround));
         }
@@ -294,7 +294,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
         SwatchStyle::Whole => "",
     };
     let symbol = scene.difference_name();
-    let full = scene.document.difference.full_bar();
+    let full = scene.document.difference.full_scale;
     figure.caption = format!("{how} Bars: {symbol}, full at {full}. Notched corners: clipped. {}", caption(scene));
     figure.table = table(scene);
     figure

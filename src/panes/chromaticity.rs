@@ -5,7 +5,7 @@ use chromascope_core::light::{CctError, RadiationConstants};
 use chromascope_core::query::NearestBlackBodyQuery;
 use egui::{Align2, Id, Pos2, Rect, Ui, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::action::{Action, SceneAction};
 use crate::document::{Diagram, FIT_TARGET, SetKind};
 use crate::figures::chromaticity::{self, Built};
@@ -26,11 +26,21 @@ const WITH_STRIP: f32 = 330.0;
 /// The overview's size in points.
 const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
 
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::CHROMATICITY,
+    title: "Chromaticity",
+    show,
+    figure: Some(|scene, view| Some(crate::figures::chromaticity::figure(scene, view))),
+    under_conditions: true,
+    table: true,
+};
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::Chromaticity, rect, context, switches);
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    if context.view.saved.tables.contains(&PaneKind::Chromaticity) {
+    if context.view.saved.tables.contains(&PaneKind::CHROMATICITY) {
         let figure = chromaticity::figure(&context.scene, context.view);
         widgets::data_table(ui, body, "chromaticity", &figure.table);
         return;

@@ -4,6 +4,8 @@ use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::NearestBlackBodyQuery;
 use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::Quality;
+use chromascope_figure::Figure;
+use egui::{Rect, Ui};
 
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
@@ -16,9 +18,28 @@ use crate::results::Count;
 use crate::scene::Scene;
 use crate::theme::Theme;
 use crate::view::View;
+use crate::workspaces::PaneKind;
+
+/// A pane: what its file says about it, in one constant.
+pub struct Pane {
+    /// Id in layouts.
+    pub kind: PaneKind,
+    /// Title; its file has the same name.
+    pub title: &'static str,
+    /// Draws the pane in exactly its rectangle.
+    pub show: fn(&mut Ui, Rect, &mut PaneContext<'_>),
+    /// Figure as on screen, with its numbers, for exports; none while there is nothing to show. None for a pane without figures.
+    pub figure: Option<fn(&Scene<'_>, &View) -> Option<Figure>>,
+    /// Whether the figure's numbers depend on the document's conditions, and are written with them.
+    pub under_conditions: bool,
+    /// Whether the pane can show its numbers as a table instead.
+    pub table: bool,
+}
 
 /// Everything a pane is given for a frame.
 pub struct PaneContext<'a> {
+    /// All panes.
+    pub panes: &'static [&'static Pane],
     /// The document, the data sets and the answers.
     pub scene: Scene<'a>,
     /// The colors.
@@ -42,6 +63,16 @@ pub struct PaneContext<'a> {
 }
 
 impl PaneContext<'_> {
+    /// A pane, if there is one of this id.
+    pub fn pane(&self, kind: PaneKind) -> Option<&'static Pane> {
+        self.panes.iter().copied().find(|pane| pane.kind == kind)
+    }
+
+    /// Title of a pane.
+    pub fn title(&self, kind: PaneKind) -> &'static str {
+        self.pane(kind).map_or("", |pane| pane.title)
+    }
+
     /// Has something done when the frame is over.
     pub fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());

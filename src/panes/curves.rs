@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use egui::{Align2, Id, Rect, Ui, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::figures::curves::{self, CurveCache, Curves, ImportSelection};
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
@@ -17,9 +17,19 @@ const REACH: f32 = 8.0;
 /// Who waits so long is told that something is going on.
 const PATIENCE: Duration = Duration::from_millis(100);
 
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::CURVES,
+    title: "Curves",
+    show,
+    figure: Some(curves::figure),
+    under_conditions: false,
+    table: true,
+};
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::Curves, rect, context, |_, _| {});
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     let Some(shown) = ImportSelection::refresh(&context.scene, context.view, context.opened) else {
         sentence(ui, body, "Drop files here.", context.theme.weak);
@@ -34,7 +44,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             let color = if shown.error().is_some() { context.theme.error } else { context.theme.weak };
             sentence(ui, body, words, color);
         }
-        Ok(curves) if context.view.saved.tables.contains(&PaneKind::Curves) => {
+        Ok(curves) if context.view.saved.tables.contains(&PaneKind::CURVES) => {
             widgets::data_table(ui, body, "curves", &curves::numbers(curves));
         }
         Ok(curves) => plot(ui, body, &shown.item, [curves, kept.seen().unwrap_or(curves)], context),

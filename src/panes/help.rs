@@ -112,7 +112,7 @@ fn what_you_see(ui: &mut Ui) {
 }
 
 fn keyboard(ui: &mut Ui, context: &PaneContext<'_>) {
-    let focused = context.view.focused.unwrap_or(PaneKind::Chromaticity);
+    let focused = context.view.focused.unwrap_or(PaneKind::CHROMATICITY);
     let mut rows: Vec<(String, String)> = Vec::new();
     for binding in key_bindings(focused) {
         let words = match binding.command {
@@ -329,7 +329,7 @@ fn find(typed: &str, history: &History, context: &PaneContext<'_>) -> Vec<Found>
         let words = names::folded(words);
         wanted.iter().all(|word| words.contains(word))
     };
-    let focused = context.view.focused.unwrap_or(PaneKind::Chromaticity);
+    let focused = context.view.focused.unwrap_or(PaneKind::CHROMATICITY);
     let mut found: Vec<Found> = key_bindings(focused)
         .into_iter()
         .filter(|binding| {

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use egui::{ProgressBar, Rect, RichText, Ui, UiBuilder, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::command::Command;
 use crate::figures::curves::ImportSelection;
 use crate::panes::widgets;
@@ -26,16 +26,20 @@ const NARROW: f32 = 480.0;
 /// Who waits so long is told that something is going on.
 const PATIENCE: Duration = Duration::from_millis(100);
 
+/// The pane.
+pub const PANE: Pane =
+    Pane { kind: PaneKind::IMPORT, title: "Import", show, figure: None, under_conditions: false, table: true };
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::Import, rect, context, switches);
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     let entries = entries::all(context);
     if entries.is_empty() {
         nothing(ui, body, context);
         return;
     }
-    if context.view.saved.tables.contains(&PaneKind::Import) {
+    if context.view.saved.tables.contains(&PaneKind::IMPORT) {
         widgets::data_table(ui, body, "import", &entries::table(&entries));
         return;
     }

@@ -8,13 +8,14 @@ mod radiator;
 mod source;
 mod welcome;
 
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::DifferenceError;
 use chromascope_core::spectral::{Assumed, Evidence, Sensor};
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::command::Command;
-use crate::document::{DifferenceChoice, SetKind};
+use crate::document::SetKind;
 use crate::format::{fixed, number};
 use crate::panes::widgets;
 use crate::panes::widgets::facts::range_words;
@@ -23,9 +24,13 @@ use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{Theme, UNIT};
 use crate::workspaces::{PaneKind, Workspace};
 
+/// The pane.
+pub const PANE: Pane =
+    Pane { kind: PaneKind::INSPECTOR, title: "Inspector", show, figure: None, under_conditions: false, table: false };
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::Inspector, rect, context, |_, _| {});
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let mut child = ui.new_child(UiBuilder::new().id_salt("inspector").max_rect(inner));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
@@ -83,9 +88,9 @@ fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
     ui.label(RichText::new(words).color(theme.error));
 }
 
-/// A difference with the decimals that its measure deserves.
-fn difference_words(measure: DifferenceChoice, value: f64) -> String {
-    fixed(value, if measure.is_of_lab() { 2 } else { 4 })
+/// A difference with its metric's decimals.
+fn difference_words(metric: Metric, value: f64) -> String {
+    fixed(value, metric.decimals)
 }
 
 /// Why there is no difference, as a sentence.

@@ -5,4 +5,4 @@ mod save;
 mod sets;
 mod show;
 
-pub use show::show;
+pub use show::PANE;

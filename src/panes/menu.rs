@@ -6,7 +6,6 @@ use super::context::PaneContext;
 use crate::action::history::History;
 use crate::action::{Action, SceneAction};
 use crate::command::{Command, Format, shortcut_of};
-use crate::document::DifferenceChoice;
 use crate::document::start::Start;
 use crate::theme::{ROW, Surround, UNIT};
 use crate::view::HelpPage;
@@ -97,17 +96,15 @@ fn enabled_item(ui: &mut Ui, enabled: bool, words: &str, command: Command, conte
 }
 
 fn focused(context: &PaneContext<'_>) -> PaneKind {
-    context.view.focused.unwrap_or(PaneKind::Chromaticity)
+    context.view.focused.unwrap_or(PaneKind::CHROMATICITY)
 }
 
-/// The pane whose figure is meant: the focused one if it has a figure.
+/// Pane whose figure is meant: the focused one if it has figures, else the first in sight that has.
 fn pictured(context: &PaneContext<'_>) -> PaneKind {
-    match focused(context) {
-        PaneKind::Library | PaneKind::Inspector => PaneKind::Chromaticity,
-        PaneKind::RenderSetup => PaneKind::Render,
-        PaneKind::Import | PaneKind::Understood => PaneKind::Curves,
-        pane => pane,
-    }
+    let saved = &context.view.saved;
+    let places = saved.layout.places(saved.workspace).iter().flatten().copied();
+    let has_figures = |kind: &PaneKind| context.pane(*kind).is_some_and(|pane| pane.figure.is_some());
+    std::iter::once(focused(context)).chain(places).find(has_figures).unwrap_or(PaneKind::CHROMATICITY)
 }
 
 fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -150,9 +147,9 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     ui.separator();
     let pane = pictured(context);
-    item(ui, &format!("Export {} as SVG…", pane.title()), Command::Export(pane, Format::Svg), context);
-    item(ui, &format!("Export {} as PNG…", pane.title()), Command::Export(pane, Format::Png), context);
-    item(ui, &format!("Export numbers of {}…", pane.title()), Command::Export(pane, Format::Csv), context);
+    item(ui, &format!("Export {} as SVG…", context.title(pane)), Command::Export(pane, Format::Svg), context);
+    item(ui, &format!("Export {} as PNG…", context.title(pane)), Command::Export(pane, Format::Png), context);
+    item(ui, &format!("Export numbers of {}…", context.title(pane)), Command::Export(pane, Format::Csv), context);
     ui.separator();
     if ui.add(Button::new("Quit").shortcut_text("Ctrl+Q")).clicked() {
         context.push(Command::Quit);
@@ -166,11 +163,11 @@ fn edit(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
     enabled_item(ui, history.redo_name().is_some(), &named("Redo", history.redo_name()), Command::Redo, context);
     ui.separator();
     let pane = pictured(context);
-    if ui.add(Button::new(format!("Copy numbers of {}", pane.title())).shortcut_text("Ctrl+C")).clicked() {
+    if ui.add(Button::new(format!("Copy numbers of {}", context.title(pane))).shortcut_text("Ctrl+C")).clicked() {
         context.push(Command::CopyNumbers(pane));
         ui.close();
     }
-    item(ui, &format!("Copy picture of {}", pane.title()), Command::CopyPicture(pane), context);
+    item(ui, &format!("Copy picture of {}", context.title(pane)), Command::CopyPicture(pane), context);
     ui.separator();
     item(ui, "Pin the selection", Command::Pin, context);
     item(ui, "Find anything…", Command::FindAnything, context);
@@ -182,23 +179,24 @@ fn edit(ui: &mut Ui, history: &History, context: &mut PaneContext<'_>) {
 
 fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let workspace = context.view.saved.workspace;
-    for pane in PaneKind::ALL {
-        let shown = context.view.saved.layout.shows(workspace, pane);
-        let words = format!("{} {}", if shown { "✓" } else { " " }, pane.title());
-        item(ui, &words, Command::TogglePane(pane), context);
+    for pane in context.panes {
+        let shown = context.view.saved.layout.shows(workspace, pane.kind);
+        let words = format!("{} {}", if shown { "✓" } else { " " }, pane.title);
+        item(ui, &words, Command::TogglePane(pane.kind), context);
     }
     ui.separator();
     let pane = focused(context);
-    item(ui, &format!("Maximize {}", pane.title()), Command::Maximize(pane), context);
+    item(ui, &format!("Maximize {}", context.title(pane)), Command::Maximize(pane), context);
     item(ui, "Reset view", Command::ResetView, context);
     item(ui, "Reset layout", Command::ResetLayout, context);
     ui.separator();
     ui.menu_button("Difference", |ui| {
         let now = context.scene.document.difference;
         let transform = &context.scene.document.transform;
-        for &difference in DifferenceChoice::offered(transform) {
-            if ui.radio(now == difference, difference.name_under(transform)).clicked() {
-                context.push(Action::Scene(SceneAction::SetDifference(difference)));
+        for metric in transform.metrics() {
+            let name = metric.name(transform.is_eq_13());
+            if ui.radio(now == metric, name).on_hover_text(metric.label).clicked() {
+                context.push(Action::Scene(SceneAction::SetDifference(metric)));
                 ui.close();
             }
         }

@@ -9,16 +9,26 @@ mod switches;
 
 use egui::{Align2, FontId, Rect, Sense, Ui, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::panes::widgets;
 use crate::theme::{HEADING, UNIT};
 use crate::view::render::{PixelPlace, RenderMode, RenderView};
 use crate::workspaces::PaneKind;
 use cells::PictureLayout;
 
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::RENDER,
+    title: "Render",
+    show,
+    figure: Some(crate::figures::render::figure),
+    under_conditions: true,
+    table: true,
+};
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::Render, rect, context, switches::show);
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, switches::show);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     context.view.render.hovered = None;
     if context.view.reset_plots {
@@ -29,7 +39,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let asked = request::ask(ui, &stand, context);
     let busy = context.studio.busy();
     context.view.render.busy = busy;
-    if context.view.saved.tables.contains(&PaneKind::Render) {
+    if context.view.saved.tables.contains(&PaneKind::RENDER) {
         if let Some(figure) = crate::figures::render::figure(&context.scene, context.view) {
             widgets::data_table(ui, body, "render", &figure.table);
         }

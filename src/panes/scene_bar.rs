@@ -4,7 +4,7 @@ use egui::{Align, ComboBox, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder
 
 use super::context::PaneContext;
 use crate::action::{Action, CompareAction, SceneAction};
-use crate::document::{DifferenceChoice, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::document::{Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::panes::widgets::number_field::NumberField;
 use crate::theme::{ROW, UNIT};
 
@@ -234,10 +234,11 @@ fn difference(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
         TransformChoice::Observer(_) => "The measure of difference from the reference.",
     };
-    choice(ui, "Difference", hint, now.name_under(&transform), |ui| {
-        for &difference in DifferenceChoice::offered(&transform) {
-            if ui.selectable_label(now == difference, difference.name_under(&transform)).clicked() {
-                context.push(Action::Scene(SceneAction::SetDifference(difference)));
+    choice(ui, "Difference", hint, now.name(transform.is_eq_13()), |ui| {
+        for metric in transform.metrics() {
+            let name = metric.name(transform.is_eq_13());
+            if ui.selectable_label(now == metric, name).on_hover_text(metric.label).clicked() {
+                context.push(Action::Scene(SceneAction::SetDifference(metric)));
             }
         }
     });

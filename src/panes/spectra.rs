@@ -2,7 +2,7 @@
 
 use egui::{Align2, Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::figures::spectra::{self, Built};
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
@@ -15,9 +15,19 @@ const LEAST: f32 = 64.0;
 /// How near the pointer must be, in points.
 const REACH: f32 = 8.0;
 
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::SPECTRA,
+    title: "Spectra",
+    show,
+    figure: Some(|scene, view| Some(crate::figures::spectra::figure(scene, view))),
+    under_conditions: false,
+    table: true,
+};
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::Spectra, rect, context, |ui, context| {
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, |ui, context| {
         let choices = [
             (SpectraLayout::Overlay, "Overlay", "All sensitivities in one plot"),
             (SpectraLayout::Each, "Each", "A plot for each source"),
@@ -28,7 +38,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
     });
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
-    if context.view.saved.tables.contains(&PaneKind::Spectra) {
+    if context.view.saved.tables.contains(&PaneKind::SPECTRA) {
         let figure = spectra::figure(&context.scene, context.view);
         widgets::data_table(ui, body, "spectra", &figure.table);
         return;

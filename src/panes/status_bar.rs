@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut Pa
     let response = ui.interact(right, ui.scope_id().with("facts"), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
     response.on_hover_text(
-        if context.view.render.shot.is_some() && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Render) {
+        if context.view.render.shot.is_some() && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {
             RENDER_FACTS
         } else {
             FACTS
@@ -167,8 +167,7 @@ fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
                 .filter(|_| !is_reference)
                 .and_then(|index| scene.differences(id.kind, &id.name).ok()?.get(index).copied().and_then(Result::ok));
             let difference = difference.map_or_else(String::new, |value| {
-                let decimals = if scene.document.difference.is_of_lab() { 2 } else { 4 };
-                format!(", {} {}", scene.difference_name(), fixed(value, decimals))
+                format!(", {} {}", scene.difference_name(), fixed(value, scene.document.difference.decimals))
             });
             format!("{}, {patch}{place}{difference}", label(id))
         }
@@ -186,7 +185,7 @@ fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
 /// The right side. What no pane shows is not computed for it.
 fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
     let scene = &context.scene;
-    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Render) {
+    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {
         return render_facts(context);
     }
     let mut facts = Vec::new();
@@ -196,7 +195,7 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
     }
     let sources = scene.sources();
     let shown = || sources.iter().filter(|source| source.visible);
-    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Chromaticity) && scene.document.overlays.loci {
+    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::CHROMATICITY) && scene.document.overlays.loci {
         let loci = shown().filter_map(|source| scene.locus(source.kind, &source.name).ok());
         let methods: Vec<LocusMethod> = loci.map(|locus| locus.method).collect();
         facts.extend(error_words(&methods));

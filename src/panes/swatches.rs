@@ -2,7 +2,7 @@
 
 use egui::{Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::action::{Action, SceneAction};
 use crate::document::Subset;
 use crate::figures::{chromaticity, swatches};
@@ -12,11 +12,21 @@ use crate::theme::UNIT;
 use crate::view::{SwatchLayout, SwatchStyle};
 use crate::workspaces::PaneKind;
 
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::SWATCHES,
+    title: "Swatches",
+    show,
+    figure: Some(|scene, view| Some(crate::figures::swatches::figure(scene, view))),
+    under_conditions: true,
+    table: true,
+};
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::Swatches, rect, context, switches);
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
-    if context.view.saved.tables.contains(&PaneKind::Swatches) {
+    if context.view.saved.tables.contains(&PaneKind::SWATCHES) {
         let figure = swatches::figure(&context.scene, context.view);
         widgets::data_table(ui, body, "swatches", &figure.table);
         return;

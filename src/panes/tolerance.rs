@@ -3,7 +3,7 @@
 use chromascope_core::render::plan::{Candidate, Verdict};
 use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::action::{Action, RenderAction};
 use crate::document::render::RenderSettings;
 use crate::format::{capitalized, duration};
@@ -14,9 +14,13 @@ use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 use chromascope_core::render::QualityLevel;
 
+/// The pane.
+pub const PANE: Pane =
+    Pane { kind: PaneKind::TOLERANCE, title: "Tolerance", show, figure: None, under_conditions: false, table: false };
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::Tolerance, rect, context, |_, _| {});
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let mut child = ui.new_child(UiBuilder::new().id_salt("tolerance").max_rect(inner));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
@@ -41,7 +45,7 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     ui.add_space(UNIT);
     let mut keep = on;
-    let hint = "On, pictures are made within the tolerance. Off, at quality Full; the Scene pane of Render has more qualities.";
+    let hint = "On, pictures are made within the tolerance. Off, at quality Full; Render settings has more qualities.";
     if ui.checkbox(&mut keep, "Pictures keep it").on_hover_text(hint).changed() {
         let quality = if keep { QualityLevel::Tolerance } else { QualityLevel::Full };
         set(context, "Quality", |settings| settings.quality = quality);

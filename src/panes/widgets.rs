@@ -13,7 +13,7 @@ use egui_extras::{Column, TableBuilder};
 use crate::command::{Command, Format};
 use crate::format::number;
 use crate::paint;
-use crate::panes::context::PaneContext;
+use crate::panes::context::{Pane, PaneContext};
 use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
 use crate::theme::{ROW, Theme, UNIT};
@@ -29,7 +29,7 @@ pub const HEADER: f32 = 32.0;
 /// Draws a pane's frame and header and returns the rectangle below it. `switches` adds the pane's own controls.
 pub fn pane(
     ui: &mut Ui,
-    kind: PaneKind,
+    pane: &Pane,
     rect: Rect,
     context: &mut PaneContext<'_>,
     switches: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
@@ -37,34 +37,34 @@ pub fn pane(
     ui.painter().rect_filled(rect, 0.0, context.theme.panel);
     if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at)))
     {
-        context.view.focused = Some(kind);
+        context.view.focused = Some(pane.kind);
     }
     let header = Rect::from_min_size(rect.min, Vec2::new(rect.width(), HEADER)).shrink2(Vec2::new(2.0 * UNIT, UNIT));
     let layout = Layout::left_to_right(Align::Center);
-    let mut bar = ui.new_child(UiBuilder::new().id_salt(("header", kind)).max_rect(header).layout(layout));
+    let mut bar = ui.new_child(UiBuilder::new().id_salt(("header", pane.kind)).max_rect(header).layout(layout));
     bar.set_clip_rect(header.expand(2.0).intersect(ui.clip_rect()));
-    title_menu(&mut bar, kind, context);
+    title_menu(&mut bar, pane, context);
     // The buttons on the right are laid out first, so that a narrow pane cuts switches, never the way to close it.
     let buttons_width = 4.0 * ROW + 3.0 * UNIT;
     let room = Rect::from_min_max(bar.cursor().min, egui::pos2(header.right() - buttons_width, header.bottom()));
-    let mut left = ui.new_child(UiBuilder::new().id_salt(("switches", kind)).max_rect(room).layout(layout));
+    let mut left = ui.new_child(UiBuilder::new().id_salt(("switches", pane.kind)).max_rect(room).layout(layout));
     left.set_clip_rect(room.expand(2.0).intersect(ui.clip_rect()));
     switches(&mut left, context);
     let right = Rect::from_min_max(egui::pos2(header.right() - buttons_width, header.top()), header.max);
     let to_left = Layout::right_to_left(Align::Center);
-    let mut buttons = ui.new_child(UiBuilder::new().id_salt(("buttons", kind)).max_rect(right).layout(to_left));
-    header_buttons(&mut buttons, kind, context);
+    let mut buttons = ui.new_child(UiBuilder::new().id_salt(("buttons", pane.kind)).max_rect(right).layout(to_left));
+    header_buttons(&mut buttons, pane, context);
     Rect::from_min_max(egui::pos2(rect.left(), rect.top() + HEADER), rect.max)
 }
 
 /// The title, which opens a menu of what may stand here instead.
-fn title_menu(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
+fn title_menu(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
     let workspace = context.view.saved.workspace;
-    ui.menu_button(kind.title(), |ui| {
+    ui.menu_button(pane.title, |ui| {
         ui.label(RichText::new("Show here").small().color(context.theme.weak));
-        for &other in PaneKind::CHANGEABLE {
-            if ui.selectable_label(other == kind, other.title()).clicked() {
-                context.view.saved.layout.replace(workspace, kind, other);
+        for other in context.panes.iter().filter(|other| other.kind != PaneKind::LIBRARY) {
+            if ui.selectable_label(other.kind == pane.kind, other.title).clicked() {
+                context.view.saved.layout.replace(workspace, pane.kind, other.kind);
                 ui.close();
             }
         }
@@ -74,32 +74,31 @@ fn title_menu(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
 }
 
 /// Table, export, maximize, close.
-fn header_buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
+fn header_buttons(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
+    let (kind, title) = (pane.kind, pane.title);
     let maximized = context.view.maximized == Some(kind);
-    if icon_button(ui, Icon::Close, &format!("Close {}", kind.title())).clicked() {
+    if icon_button(ui, Icon::Close, &format!("Close {title}")).clicked() {
         context.push(if maximized { Command::Maximize(kind) } else { Command::TogglePane(kind) });
     }
     let words = if maximized { "Restore" } else { "Maximize" };
-    if icon_button(ui, Icon::Maximize, &format!("{words} {} (F)", kind.title())).clicked() {
+    if icon_button(ui, Icon::Maximize, &format!("{words} {title} (F)")).clicked() {
         context.push(Command::Maximize(kind));
     }
-    if matches!(kind, PaneKind::Inspector | PaneKind::RenderSetup | PaneKind::Understood | PaneKind::Tolerance) {
-        return;
+    if pane.figure.is_some() {
+        export_menu(ui, pane, context);
     }
-    export_menu(ui, kind, context);
-    let shown = context.view.saved.tables.contains(&kind);
-    let words = if shown { "Picture instead of numbers" } else { "Numbers instead of the picture" };
-    if icon_button(ui, Icon::Table { on: shown }, &format!("{words}: {}", kind.title())).clicked() {
-        if shown {
-            context.view.saved.tables.remove(&kind);
-        } else {
-            context.view.saved.tables.insert(kind);
+    if pane.table {
+        let tables = &mut context.view.saved.tables;
+        let shown = tables.contains(&kind);
+        let words = if shown { "Picture instead of numbers" } else { "Numbers instead of the picture" };
+        if icon_button(ui, Icon::Table { on: shown }, &format!("{words}: {title}")).clicked() && !tables.remove(&kind) {
+            tables.insert(kind);
         }
     }
 }
 
-fn export_menu(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
-    let response = icon_button(ui, Icon::Export, &format!("Export {}", kind.title()));
+fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut PaneContext<'_>) {
+    let response = icon_button(ui, Icon::Export, &format!("Export {title}"));
     egui::Popup::menu(&response).show(|ui| {
         for (words, command) in [
             ("Figure as SVG…", Command::Export(kind, Format::Svg)),
@@ -113,7 +112,7 @@ fn export_menu(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {
                 ui.close();
             }
         }
-        if let Some(shot) = context.view.render.shot.clone().filter(|_| kind == PaneKind::Render) {
+        if let Some(shot) = context.view.render.shot.clone().filter(|_| kind == PaneKind::RENDER) {
             ui.separator();
             for source in &shot.sources {
                 if ui.button(format!("{} as OpenEXR…", source.label)).clicked() {

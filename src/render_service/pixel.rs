@@ -1,7 +1,6 @@
 //! One pixel of a picture in numbers.
 
-use chromascope_core::colorimetry::difference::delta_e_2000;
-use chromascope_core::colorimetry::{Lab, Xy};
+use chromascope_core::colorimetry::{Lab, Stimulus, Xy};
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::Roughness;
 use chromascope_core::reflectance::{Normalization, Regime, beta, kappa};
@@ -39,7 +38,7 @@ pub struct LitPixel {
     pub xy: Option<Xy>,
     /// L*a*b*, where a white of the same roughness that faces the light has Y = 1.
     pub lab: Option<Lab>,
-    /// ΔE*00 to the reference.
+    /// Difference from the reference, by the pictures' metric.
     pub difference: Option<f64>,
     /// g at 550 nm, with its regime and how the integral was made.
     pub roughness: Option<(f64, String)>,
@@ -84,25 +83,25 @@ fn lit(
     let factor = pictures.facing.factor(f64::from_bits(shot.query.ev));
     let development = Development::new(rendering, factor, None);
     let signal = glam::DVec3::from(samples.signal.map(f64::from));
-    let lab = measurement.lab(samples.signal);
-    let difference = (*of != shot.query.reference).then(|| reference_lab(shot, results, at)).flatten();
+    let color = measurement.color(samples.signal);
+    let reference = (*of != shot.query.reference).then(|| reference_color(shot, results, at)).flatten();
     Some(LitPixel {
         linear: (development.linear_from_signals * signal).to_array(),
-        xy: measurement.xyz(samples.signal).chromaticity(),
-        lab,
-        difference: lab.zip(difference).map(|(lab, reference)| delta_e_2000(lab, reference)),
+        xy: color.xyz.chromaticity(),
+        lab: color.lab,
+        difference: reference.and_then(|reference| shot.query.metric.between(&reference, &color)),
         roughness: roughness(shot, pictures.images.get(index)?.as_ref()?, middle),
     })
 }
 
-/// L*a*b* of the same pixel through the reference, if that is among the pictures.
-fn reference_lab(shot: &RenderedFrame, results: &Results, at: [usize; 2]) -> Option<Lab> {
+/// Color of the same pixel through the reference, if that is among the pictures.
+fn reference_color(shot: &RenderedFrame, results: &Results, at: [usize; 2]) -> Option<Stimulus> {
     let index = shot.query.sources.iter().position(|source| source.rendering == shot.query.reference)?;
     let pictures = shot.made()?;
     let image = pictures.images.get(index)?.as_ref()?;
     let rendering = results.ask(&shot.query.reference);
     let rendering = (*rendering).as_ref().ok()?;
-    ColorimetricScale::new(rendering, pictures.facing.white).lab(samples(image, at).signal)
+    Some(ColorimetricScale::new(rendering, pictures.facing.white).color(samples(image, at).signal))
 }
 
 /// The mean over those samples of a pixel that see the mesh.

@@ -86,6 +86,7 @@ impl Scene<'_> {
             sources: renderings.into_iter().map(|rendering| SourceOf { rendering }).collect(),
             ev: settings.exposure_ev.to_bits(),
             background: background.map(|color| color.map(f32::to_bits)),
+            metric: self.document.difference,
             compared_samples: finish.compared_samples,
         })
     }

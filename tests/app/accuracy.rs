@@ -85,16 +85,16 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
     let remembered = window.state().view().accuracy.remembered.len();
-    let figure = panes::figure(PaneKind::SkippedWork, &scene, window.state().view()).expect("measured");
+    let figure = panes::figure(PaneKind::WORK_SAVED, &scene, window.state().view()).expect("measured");
     assert!(remembered > 0 && figure.table.rows.len() == measured.skipped_work.len() + remembered, "as on screen");
-    for pane in [PaneKind::Accuracy, PaneKind::SkippedWork] {
+    for pane in [PaneKind::METHODS, PaneKind::WORK_SAVED] {
         let figure = panes::figure(pane, &scene, window.state().view()).expect("measured");
         assert!(figure.table.rows.len() >= 6);
         let paper = chromascope::export::Paper::default();
         let svg = chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, paper);
         assert!(svg.contains("</svg>") && !svg.contains("NaN") && !figure.table.to_csv().contains("NaN"));
     }
-    let figure = panes::figure(PaneKind::Accuracy, &scene, window.state().view()).expect("measured");
+    let figure = panes::figure(PaneKind::METHODS, &scene, window.state().view()).expect("measured");
     let (conditions, csv) = (&measured.conditions, figure.table.to_csv());
     assert!(conditions.scene.starts_with("head, Skin Caucasian mean") && conditions.scene.contains("E, equal energy"));
     for part in [&conditions.scene, &conditions.machine, &conditions.program, &conditions.began] {
@@ -106,7 +106,7 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     window.run_steps(3);
     assert!(!window.state().view().accuracy.is_current, "the scene has another light than the run");
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::Accuracy, &scene, window.state().view()).expect("measured");
+    let figure = panes::figure(PaneKind::METHODS, &scene, window.state().view()).expect("measured");
     assert!(!figure.title.contains("on show") && !figure.caption.contains("on show"), "{}", figure.caption);
     assert!(figure.caption.contains("E, equal energy"), "the light that it was measured under");
     assert!(window.state().view().accuracy.run.is_some());
@@ -296,7 +296,7 @@ fn a_report_of_the_bench_is_shown_and_exported() {
     assert!(window.query_by_label("Run again").is_some());
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::Accuracy, &scene, window.state().view()).expect("measured");
+    let figure = panes::figure(PaneKind::METHODS, &scene, window.state().view()).expect("measured");
     assert_eq!(figure.table.rows.len(), report.measurements.len());
     // Each method's mark says which measurement it is.
     for panel in &figure.panels {

@@ -12,6 +12,8 @@ mod reference;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use chromascope_core::colorimetry::Metric;
+
 /// Runs the program without a display.
 fn run(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_chromascope"))
@@ -128,7 +130,8 @@ fn patches_of_the_default_chart() {
         rows[0].join(","),
         format!(
             "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,lab_l,lab_a,lab_b,\
-             delta_e_2000,delta_e_1976,delta_uv_prime,delta_xy,{CONDITIONS}"
+             {},{CONDITIONS}",
+            Metric::ALL.iter().map(|metric| metric.column).collect::<Vec<_>>().join(",")
         )
     );
     assert_eq!(rows.len(), 1 + 2 * 24);
@@ -231,7 +234,11 @@ fn out_is_a_file_or_standard_output() {
 #[test]
 fn lists_are_names_one_a_line() {
     let lines = |kind: &str| String::from_utf8(run(&["list", kind]).stdout).unwrap().lines().count();
-    assert_eq!((lines("cameras"), lines("observers"), lines("charts")), (58, 8, 4));
+    let files = |folder| std::fs::read_dir(std::path::Path::new("assets").join(folder)).unwrap();
+    let data =
+        |folder| files(folder).filter(|f| f.as_ref().unwrap().path().extension().is_some_and(|e| e == "csv")).count();
+    assert_eq!((lines("cameras"), lines("observers")), (data("cameras"), data("observers")));
+    assert_eq!(lines("charts"), data("charts") + 1, "the paper's five patches are a chart too");
     assert!(lines("illuminants") > 40 && lines("materials") > 100);
     assert!(run(&["--version"]).status.success() && run(&["--help"]).status.success());
 }

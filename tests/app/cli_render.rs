@@ -249,7 +249,7 @@ fn statistics_are_json() {
     let smooth = ["--sigma", "3e-7", "--tau", "3e-6", "--patch", "2e-6,2e-6", "--stats", "-"];
     let output = run(&folder, &[&SMALL[..], &D70, &smooth].concat());
     let message = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && message.contains("sphere_nikon-d70-2007.png: Δ of Eq 13 colors "), "{message}");
+    assert!(output.status.success() && message.contains("sphere_nikon-d70-2007.png: Δxy 0.0"), "{message}");
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(json["size"], serde_json::json!({ "width": 40, "height": 30, "samples_per_side": 1 }));
     assert_eq!(json["settings"]["sigma_m"], 3e-7);
@@ -455,4 +455,23 @@ fn head_and_fern_look_as_they_did() {
             crate::cpu_renderer::compare(&now, &kept).unwrap_or_else(|difference| panic!("{difference}"));
         }
     }
+}
+
+#[test]
+fn differences_are_by_the_metric_asked_for() {
+    let folder = folder("metric");
+    let fitted = [&SMALL[..], &D70, &["--transform", "fitted", "--stats", "-"]].concat();
+    for metric in chromascope_core::colorimetry::Metric::ALL {
+        let output = run(&folder, &[&fitted[..], &["--difference", metric.id, "--force"]].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(message.contains(&format!("sphere_nikon-d70-2007.png: {} ", metric.symbol)), "{message}");
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let camera = json["sources"].as_array().unwrap().iter().find(|s| s["is_reference"] == false).unwrap();
+        assert_eq!(camera["difference"]["measure"], metric.symbol);
+        let largest = camera["difference"]["max_of_lit"].as_f64().unwrap();
+        assert!(largest > 0.01 * metric.full_scale && largest < 10.0 * metric.full_scale, "{}: {largest}", metric.id);
+    }
+    let output = run(&folder, &[&SMALL[..], &D70, &["--difference", "delta-e1976"]].concat());
+    assert!(!output.status.success() && String::from_utf8_lossy(&output.stderr).contains("--transform fitted"));
 }

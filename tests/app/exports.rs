@@ -10,7 +10,7 @@ use chromascope::theme::Theme;
 use chromascope::view::View;
 use chromascope::workspaces::PaneKind;
 
-const PICTURED: [PaneKind; 3] = [PaneKind::Chromaticity, PaneKind::Swatches, PaneKind::Spectra];
+const PICTURED: [PaneKind; 3] = [PaneKind::CHROMATICITY, PaneKind::SWATCHES, PaneKind::SPECTRA];
 
 fn documents() -> [Document; 3] {
     let observer = TransformChoice::Observer("CIE 1931 2°".to_owned());
@@ -31,7 +31,8 @@ fn every_figure_becomes_svg_png_and_numbers() {
             let text = svg(&figure, &Theme::LIGHT, Paper::default());
             assert!(!text.contains("NaN") && !text.contains("inf"), "{pane:?}");
             let picture = png(&text, 2.0).expect("the SVG is well formed");
-            let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}_{index}.png", pane.title()));
+            let path =
+                std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}_{index}.png", panes::title(pane)));
             std::fs::write(path, png_file(&picture).unwrap()).unwrap();
             let csv = figure.table.to_csv();
             assert!(!csv.contains("NaN") && !csv.contains("inf"), "{pane:?}");
@@ -46,14 +47,14 @@ fn numbers_are_those_of_the_scene() {
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let view = View::default();
     let rows = |pane| panes::figure(pane, &scene, &view).unwrap().table.rows.len();
-    assert_eq!(rows(PaneKind::Chromaticity), 5 * (LOCUS_POINTS + 5), "five sources, loci and patches");
-    assert_eq!(rows(PaneKind::Swatches), 4 * 5, "CIE 1931 is left out by Paper");
-    assert_eq!(rows(PaneKind::Spectra), 401);
+    assert_eq!(rows(PaneKind::CHROMATICITY), 5 * (LOCUS_POINTS + 5), "five sources, loci and patches");
+    assert_eq!(rows(PaneKind::SWATCHES), 4 * 5, "CIE 1931 is left out by Paper");
+    assert_eq!(rows(PaneKind::SPECTRA), 401);
 }
 
 #[test]
 fn panes_without_a_figure_have_none() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::paper());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    assert!(panes::figure(PaneKind::Inspector, &scene, &View::default()).is_none());
+    assert!(panes::figure(PaneKind::INSPECTOR, &scene, &View::default()).is_none());
 }

@@ -47,7 +47,7 @@ fn files_switches_and_curves_are_reached_and_changed_by_keys_alone() {
     assert_eq!(window.state().view().saved.workspace, Workspace::Import);
 
     go_to(&mut window, Stop::Files);
-    assert_eq!(window.state().view().focused, Some(PaneKind::Import));
+    assert_eq!(window.state().view().focused, Some(PaneKind::IMPORT));
     for _ in 0..3 {
         press(&mut window, Key::ArrowUp);
     }

@@ -203,9 +203,9 @@ fn a_file_that_failed_is_looked_at_and_left_out() {
 #[test]
 fn the_numbers_of_the_result_are_those_that_are_read() {
     let mut window = window("leaf.csv", LEAF);
-    window.state_mut().push(Command::CopyNumbers(PaneKind::Curves));
+    window.state_mut().push(Command::CopyNumbers(PaneKind::CURVES));
     settle(&mut window);
-    assert_eq!(window.state().view().status.text, "Result: 4 rows of numbers copied.");
+    assert_eq!(window.state().view().status.text, "Curves: 4 rows of numbers copied.");
 }
 
 #[test]

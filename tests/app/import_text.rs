@@ -73,7 +73,7 @@ fn a_file_that_failed_shows_the_line_where() {
     window.get_by_label_contains("noisy.csv: line 302").click();
     settle(&mut window);
     assert!(says(&window, "302: 700,oops") && !says(&window, "2: 400;5,0"));
-    window.state_mut().view_mut().focused = Some(PaneKind::Import);
+    window.state_mut().view_mut().focused = Some(PaneKind::IMPORT);
     window.get_by_label_contains("leaf: ").click();
     settle(&mut window);
     assert!(says(&window, "2: 400;5,0"));
@@ -105,7 +105,7 @@ fn of_a_long_file_only_the_lines_in_sight_are_laid_out() {
     let row = |i: u32| format!("{}\t0.{:04}\n", 300.0 + f64::from(i) / 100.0, i % 9999);
     let rows = (0..100_000).map(row).collect::<Vec<_>>().concat();
     let mut window = window([1280.0, 800.0], egui::Theme::Dark, &[("long.txt", rows.into_bytes())]);
-    window.state_mut().view_mut().maximized = Some(PaneKind::Import);
+    window.state_mut().view_mut().maximized = Some(PaneKind::IMPORT);
     settle(&mut window);
     let read = computed(&window);
     for line in (1..100_000).step_by(9_973) {

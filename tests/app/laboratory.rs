@@ -97,7 +97,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     assert!(window.query_by_label(then).is_some() && window.query_by_label(now).is_none());
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::SkippedWork, &scene, window.state().view()).expect("measured");
+    let figure = panes::figure(PaneKind::WORK_SAVED, &scene, window.state().view()).expect("measured");
     assert!(figure.table.to_csv().contains("of the scene as it was"));
     let svg =
         chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, chromascope::export::Paper::default());

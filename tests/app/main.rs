@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that cannot go on has failed")]
 
 mod accuracy;
+mod added_camera;
 mod architecture;
 mod assets;
 mod bench;
@@ -27,6 +28,7 @@ mod library;
 mod meshes;
 mod opened;
 mod own_data;
+mod panes;
 mod path_box;
 mod recompute;
 mod reducer;

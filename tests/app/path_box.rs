@@ -80,7 +80,7 @@ fn open_box(window: &mut Window) {
 }
 
 fn export(window: &mut Window, format: Format) {
-    window.state_mut().push(Command::Export(PaneKind::Spectra, format));
+    window.state_mut().push(Command::Export(PaneKind::SPECTRA, format));
     window.run_steps(2);
 }
 

@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::catalog::Catalog;
 use chromascope::document::render::MeshChoice;
-use chromascope::document::{DifferenceChoice, Document, Light, SetKind, WhiteBalanceChoice};
+use chromascope::document::{Document, Light, SetKind, WhiteBalanceChoice};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::scene::orbit::Orbit;
 use chromascope::scene::render::Finish;
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Ask;
 use chromascope_core::render::{RasterSize, Shadows};
 
@@ -186,7 +187,7 @@ fn a_picture_computes_only_what_an_action_changes() {
             // Nothing: the question is the same.
             &[],
         ),
-        ("a measure of difference", Action::Scene(SceneAction::SetDifference(DifferenceChoice::Xy)), &[]),
+        ("a measure of difference", Action::Scene(SceneAction::SetDifference(Metric::XY)), &[]),
         ("a temperature that only marks", Action::Scene(SceneAction::SetTemperature(4000.0)), &[]),
         (
             "a camera ticked off",

@@ -273,13 +273,13 @@ fn nothing_moves_when_nothing_changes() {
 #[test]
 fn a_narrow_window_keeps_the_scene_pane() {
     let mut window = small();
-    assert!(window.query_by_role_and_label(Role::Button, "Close Scene").is_some());
+    assert!(window.query_by_role_and_label(Role::Button, "Close Render settings").is_some());
     let search = |window: &Window| window.query_by_role_and_label(Role::TextInput, "Search the library").is_some();
     assert!(!search(&window));
     window.key_press(egui::Key::L);
     window.run_steps(2);
     assert!(search(&window), "it lies over the pictures");
-    assert!(window.query_by_role_and_label(Role::Button, "Close Scene").is_some());
+    assert!(window.query_by_role_and_label(Role::Button, "Close Render settings").is_some());
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
     assert!(!search(&window));
@@ -405,7 +405,7 @@ fn the_pictures_are_a_figure_with_numbers() {
     let window = small();
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: document(&window), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::Render, &scene, window.state().view()).expect("there are pictures");
+    let figure = panes::figure(PaneKind::RENDER, &scene, window.state().view()).expect("there are pictures");
     assert_eq!(figure.table.rows.len(), 4);
     let svg =
         chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, chromascope::export::Paper::default());
@@ -447,7 +447,7 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
 #[test]
 fn a_pixel_is_marked_in_the_diagram_beside_the_pictures() {
     let mut window = window([1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().view_mut().saved.layout.render[1] = Some(PaneKind::Chromaticity);
+    window.state_mut().view_mut().saved.layout.render[1] = Some(PaneKind::CHROMATICITY);
     settle(&mut window);
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let document = document(&window).clone();

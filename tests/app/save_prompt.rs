@@ -109,7 +109,7 @@ fn another_kind_of_file_takes_its_own_ending() {
     fs::write(&path, "mine").unwrap();
     let mut window = window();
     let ask = |window: &mut Window, format: Format| {
-        window.state_mut().push(Command::Export(PaneKind::Spectra, format));
+        window.state_mut().push(Command::Export(PaneKind::SPECTRA, format));
         until_asked(window, &format!("Save Spectra as {}", format.extension().to_uppercase()));
     };
     ask(&mut window, Format::Svg);
@@ -134,7 +134,7 @@ fn a_workload_is_offered_by_its_name() {
     let view = window.state_mut().view_mut();
     view.accuracy.shows = Shows::Bench(Workload::Difference);
     view.accuracy.reports.insert(Workload::Difference, std::sync::Arc::new(Ok(report)));
-    window.state_mut().push(Command::Export(PaneKind::Accuracy, Format::Csv));
+    window.state_mut().push(Command::Export(PaneKind::METHODS, Format::Csv));
     window.run_steps(8);
     assert_eq!(typed(&window), "difference.csv");
 }

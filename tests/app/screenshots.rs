@@ -117,7 +117,7 @@ fn whole_diagram() {
         harness.state_mut().push(Action::Scene(action));
     }
     harness.state_mut().view_mut().saved.diagram_fit = DiagramFit::Whole;
-    harness.state_mut().push(Command::Maximize(PaneKind::Chromaticity));
+    harness.state_mut().push(Command::Maximize(PaneKind::CHROMATICITY));
     check(harness, "whole_diagram.png");
 }
 

@@ -6,14 +6,13 @@ use chromascope::catalog::Catalog;
 use chromascope::command::Command;
 use chromascope::document::start::Start;
 use chromascope::document::{
-    CIE_1931, Diagram, DifferenceChoice, Document, Light, PAPER_REFERENCE, SetKind, Subset, TransformChoice,
-    WhiteBalanceChoice, session,
+    CIE_1931, Diagram, Document, Light, PAPER_REFERENCE, SetKind, Subset, TransformChoice, WhiteBalanceChoice, session,
 };
 use chromascope::results::Results;
 use chromascope::scene::{Caution, Scene};
 use chromascope::workspaces::PaneKind;
 use chromascope_core::colorimetry::lab::lab_from_xyz;
-use chromascope_core::colorimetry::{Lab, Xyz, delta_e_2000};
+use chromascope_core::colorimetry::{Lab, Metric, Xyz, delta_e_2000};
 use chromascope_core::query::PatchColor;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -41,13 +40,10 @@ fn colorimetry_is_the_default_and_says_what_it_is() {
     assert_eq!(document, Start::Colorimetry.document());
     assert_eq!((document.reference.as_str(), &document.light), (CIE_1931, &Light::Set("D65".to_owned())));
     assert_eq!(document.transform, TransformChoice::Observer(CIE_1931.to_owned()));
-    assert_eq!((document.subset, document.difference), (Subset::All, DifferenceChoice::DeltaE2000));
+    assert_eq!((document.subset, document.difference), (Subset::All, Metric::DELTA_E_2000));
     let paper = Document::paper();
     assert_eq!((paper.reference.as_str(), &paper.light), (PAPER_REFERENCE, &Light::Set("E".to_owned())));
-    assert_eq!(
-        (&paper.transform, paper.subset, paper.difference),
-        (&TransformChoice::Paper, Subset::Five, DifferenceChoice::Xy)
-    );
+    assert_eq!((&paper.transform, paper.subset, paper.difference), (&TransformChoice::Paper, Subset::Five, Metric::XY));
 }
 
 #[test]
@@ -103,7 +99,7 @@ fn a_document_of_version_1_is_the_papers_with_its_cameras_under_their_present_na
     assert!(document.compared(SetKind::Camera, "Nikon D70 (2007 figure)").is_some());
     let canon = document.compared(SetKind::Camera, "Canon EOS 10D (2007 figure)").unwrap();
     assert_eq!((canon.slot, canon.label.as_deref()), (0, Some("mine")));
-    assert_eq!(document.difference, DifferenceChoice::Xy, "what was called ΔE*00 under Eq 13 was none");
+    assert_eq!(document.difference, Metric::XY, "what was called ΔE*00 under Eq 13 was none");
     assert_eq!(document.unknown.get("kept").and_then(serde_json::Value::as_u64), Some(7));
     let again = session::from_json(&session::to_json(&document).unwrap()).unwrap();
     assert_eq!(again, document);
@@ -112,38 +108,38 @@ fn a_document_of_version_1_is_the_papers_with_its_cameras_under_their_present_na
 #[test]
 fn eq_13_has_no_delta_e() {
     let paper = Document::paper();
-    assert_eq!(DifferenceChoice::DeltaE2000.name_under(&paper.transform), "Δ of Eq 13 colors");
-    assert!(!DifferenceChoice::offered(&paper.transform)[0].is_of_lab());
+    assert_eq!(Metric::DELTA_E_2000.name(paper.transform.is_eq_13()), "Δ of Eq 13 colors");
+    assert!(!paper.transform.metrics()[0].needs_adopted_white());
     let fitted = TransformChoice::Observer(CIE_1931.to_owned());
-    assert_eq!(DifferenceChoice::DeltaE2000.name_under(&fitted), "ΔE*00");
-    assert_eq!(DifferenceChoice::offered(&fitted)[0], DifferenceChoice::DeltaE2000);
+    assert_eq!(Metric::DELTA_E_2000.name(fitted.is_eq_13()), "ΔE*00");
+    assert_eq!(fitted.metrics()[0], Metric::DELTA_E_2000);
 
     let mut document = Document::paper();
     fit_to(CIE_1931).apply(&mut document);
-    assert_eq!(document.difference, DifferenceChoice::DeltaE2000);
-    Action::Scene(SceneAction::SetDifference(DifferenceChoice::UvPrime)).apply(&mut document);
+    assert_eq!(document.difference, Metric::DELTA_E_2000);
+    Action::Scene(SceneAction::SetDifference(Metric::UV_PRIME)).apply(&mut document);
     fit_to("CIE 1964 10°").apply(&mut document);
-    assert_eq!(document.difference, DifferenceChoice::UvPrime, "a choice under one fit holds under the next");
+    assert_eq!(document.difference, Metric::UV_PRIME, "a choice under one fit holds under the next");
     document.diagram = Diagram::UvPrime;
-    document.difference = DifferenceChoice::DeltaE1976;
+    document.difference = Metric::by_id("delta-e1976").unwrap();
     Action::Scene(SceneAction::SetWay(TransformChoice::Paper)).apply(&mut document);
-    assert_eq!(document.difference, DifferenceChoice::UvPrime, "the distance in the diagram that is shown");
+    assert_eq!(document.difference, Metric::UV_PRIME, "the distance in the diagram that is shown");
 }
 
 #[test]
 fn a_measure_that_was_chosen_stays_and_a_distance_follows_the_diagram() {
     let mut document = Document::colorimetry();
-    Action::Scene(SceneAction::SetDifference(DifferenceChoice::UvPrime)).apply(&mut document);
+    Action::Scene(SceneAction::SetDifference(Metric::UV_PRIME)).apply(&mut document);
     Action::Scene(SceneAction::SetWay(TransformChoice::Paper)).apply(&mut document);
-    assert_eq!(document.difference, DifferenceChoice::UvPrime);
+    assert_eq!(document.difference, Metric::UV_PRIME);
     fit_to(CIE_1931).apply(&mut document);
-    assert_eq!(document.difference, DifferenceChoice::UvPrime);
+    assert_eq!(document.difference, Metric::UV_PRIME);
     let mut document = Document::paper();
     Action::Scene(SceneAction::SetDiagram(Diagram::UvPrime)).apply(&mut document);
-    assert_eq!(document.difference, DifferenceChoice::UvPrime);
-    Action::Scene(SceneAction::SetDifference(DifferenceChoice::DeltaE2000)).apply(&mut document);
+    assert_eq!(document.difference, Metric::UV_PRIME);
+    Action::Scene(SceneAction::SetDifference(Metric::DELTA_E_2000)).apply(&mut document);
     Action::Scene(SceneAction::SetDiagram(Diagram::Xy)).apply(&mut document);
-    assert_eq!(document.difference, DifferenceChoice::DeltaE2000, "what was chosen stays");
+    assert_eq!(document.difference, Metric::DELTA_E_2000, "what was chosen stays");
 }
 
 #[test]
@@ -165,7 +161,7 @@ fn says(window: &Harness<'static, ChromascopeApp>, words: &str) -> bool {
 #[test]
 fn under_eq_13_no_figure_says_delta_e_00() {
     let mut document = Document::paper();
-    document.difference = DifferenceChoice::DeltaE2000;
+    document.difference = Metric::DELTA_E_2000;
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let figure = chromascope::figures::swatches::figure(&scene, &chromascope::view::View::default());
@@ -188,7 +184,7 @@ fn a_cie_reference_under_eq_13_offers_the_fit() {
     drop(buttons);
     window.run();
     assert_eq!(document(&window).transform, TransformChoice::Observer(CIE_1931.to_owned()));
-    assert_eq!(document(&window).difference, DifferenceChoice::DeltaE2000);
+    assert_eq!(document(&window).difference, Metric::DELTA_E_2000);
     assert!(!says(&window, "cannot be compared with"));
 }
 
@@ -264,7 +260,7 @@ fn light(name: &str) -> WhiteBalanceChoice {
 #[test]
 fn numbers_that_leave_the_window_say_under_what_they_were_made() {
     let mut window = open_with(Document::colorimetry(), SIZE, egui::Theme::Dark);
-    for pane in [PaneKind::Chromaticity, PaneKind::Swatches] {
+    for pane in [PaneKind::CHROMATICITY, PaneKind::SWATCHES] {
         window.state_mut().push(Command::CopyNumbers(pane));
         window.step();
         let commands = &window.output().platform_output.commands;

@@ -2,13 +2,15 @@
 
 use chromascope_core::colorimetry::adaptation::bradford;
 use chromascope_core::colorimetry::diagram::{area_color, spectral_locus, wavelength_color};
-use chromascope_core::colorimetry::difference::DELTA_E_2000_ERROR;
+use chromascope_core::colorimetry::difference::{DELTA_E_2000_ERROR, delta_e_1994};
 use chromascope_core::colorimetry::lab::lab_from_xyz;
 use chromascope_core::colorimetry::rgb::{
     GAMUTS, SRGB_FROM_XYZ_PUBLISHED, XYZ_FROM_SRGB, encode_srgb, srgb_from_xyz, srgb_inverse_transfer, srgb_transfer,
     srgb_white,
 };
-use chromascope_core::colorimetry::{Lab, UvPrime, Xy, Xyz, delta_e_1976, delta_e_2000, delta_e_2000_into};
+use chromascope_core::colorimetry::{
+    Lab, Metric, Stimulus, UvPrime, Xy, Xyz, delta_e_1976, delta_e_2000, delta_e_2000_into,
+};
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 
@@ -209,6 +211,49 @@ fn any_lab() -> impl Strategy<Value = Lab> {
     (any_finite(), any_finite(), any_finite()).prop_map(|(l, a, b)| Lab { l, a, b })
 }
 
+/// Check values of colour-science 0.4 (`delta_E_CIE1994`, graphic arts), the first color as reference.
+#[test]
+fn delta_e_1994_gives_published_differences_and_weighs_by_the_reference() {
+    let lab = |[l, a, b]: [f64; 3]| Lab { l, a, b };
+    let reference = lab([100.0, 21.57210357, 272.22819350]);
+    for (sample, expected) in [
+        ([100.0, 426.67945353, 72.39590835], 83.779_225_500_887),
+        ([100.0, 74.05216981, 276.45318193], 10.053_931_954_554),
+        ([100.0, 8.32281957, -73.58297716], 57.535_453_706_667),
+    ] {
+        assert_near("ΔE*94", delta_e_1994(reference, lab(sample)), expected, 1e-11);
+    }
+    let (gray, vivid) = (lab([50.0, 0.0, 0.0]), lab([50.0, 100.0, 0.0]));
+    assert_near("chroma of the gray", delta_e_1994(gray, vivid), 100.0, 1e-12);
+    assert_near("chroma of the vivid", delta_e_1994(vivid, gray), 100.0 / 5.5, 1e-12);
+}
+
+#[test]
+fn an_entry_of_the_table_is_all_that_a_metric_needs() {
+    let reference = Stimulus::new(Xyz::new(0.2, 0.21, 0.19), D65);
+    let samples = [[0.25, 0.21, 0.19], [0.2, 0.21, 0.3], [0.1, 0.21, 0.1]].map(|[x, y, z]| Xyz::new(x, y, z));
+    for (index, &metric) in Metric::ALL.iter().enumerate() {
+        let unique = |of: fn(&Metric) -> &str| Metric::ALL.iter().filter(|other| of(other) == of(&metric)).count() == 1;
+        assert!(unique(|m| m.id) && unique(|m| m.column) && unique(|m| m.label) && unique(|m| m.symbol), "{metric:?}");
+        assert!(metric.id.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-'), "{metric:?}");
+        assert!(metric.column.starts_with("delta_") && metric.symbol.starts_with('Δ'), "{metric:?}");
+        assert_eq!(Metric::by_id(metric.id), Some(Metric::ALL[index]));
+        assert_eq!(metric.between(&reference, &reference), Some(0.0));
+        for sample in samples {
+            let difference = metric.between(&reference, &Stimulus::new(sample, D65)).unwrap();
+            // Both a plain difference and a step of the last decimal show on the scale.
+            assert!(difference > 0.5 * 0.1_f64.powi(metric.decimals as i32), "{metric:?}: {difference}");
+            assert!(difference > 0.05 * metric.full_scale && difference < 5.0 * metric.full_scale, "{metric:?}");
+        }
+        let dark = Stimulus::new(Xyz::new(0.0, 0.0, 0.0), Xyz::new(0.0, 1.0, 1.0));
+        assert_eq!(metric.between(&dark, &reference), None, "undefined is no difference");
+        let under_eq_13 = metric.name(true);
+        assert!(!under_eq_13.contains("ΔE"), "Eq 13 has no CIE color difference");
+        assert_eq!(under_eq_13 == metric.name(false), !metric.needs_adopted_white());
+    }
+    assert_eq!(Metric::by_id("delta-e"), None);
+}
+
 proptest! {
     #![proptest_config(cases(512))]
 
@@ -224,7 +269,7 @@ proptest! {
 
     #[test]
     fn differences_are_total(a in any_lab(), b in any_lab()) {
-        for difference in [delta_e_1976, delta_e_2000] {
+        for difference in [delta_e_1976, delta_e_1994, delta_e_2000] {
             prop_assert!(difference(a, b).is_finite());
             prop_assert!(difference(a, b) >= 0.0);
         }

@@ -3,14 +3,14 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use chromascope_core::camera::{ColorTransform, Rendering, RenderingError, WhiteBalanceTarget};
-use chromascope_core::colorimetry::Xyz;
 use chromascope_core::colorimetry::rgb::{XYZ_FROM_SRGB, encode_srgb};
+use chromascope_core::colorimetry::{Metric, Xyz};
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::light::planckian::exitance;
 use chromascope_core::patch_set::PAPER_FIVE;
-use chromascope_core::query::compare::{comparable_by_paper, locus_distance_uv, locus_distance_xy, patch_difference};
+use chromascope_core::query::compare::{comparable_by_paper, difference};
 use chromascope_core::query::{
-    Ask, ColorTransformSpec, DifferenceError, Direct, LocusQuery, Metric, MonochromaticQuery, PatchColorsQuery,
+    Ask, ColorTransformSpec, DifferenceError, Direct, LocusQuery, MonochromaticQuery, PatchColorsQuery,
     RadiatorSignalsQuery, RenderingQuery, Shared, SpectralLocusQuery, Temperatures,
 };
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
@@ -279,25 +279,25 @@ fn differences_are_between_what_is_there() {
     };
     let (a, b) = (ask(CANON_10D)[14], ask(REFERENCE)[14]);
     let distance = a.xy.unwrap().distance(b.xy.unwrap());
-    assert_eq!(patch_difference(Metric::Xy, &a, &b), Ok(distance));
-    assert_eq!(patch_difference(Metric::UvPrime, &a, &b), Ok(a.uv.unwrap().distance(b.uv.unwrap())));
-    for metric in [Metric::DeltaE2000, Metric::DeltaE1976, Metric::UvPrime, Metric::Xy] {
-        assert_eq!(patch_difference(metric, &a, &a), Ok(0.0));
-        assert!(patch_difference(metric, &a, &b).unwrap() > 0.0);
+    assert_eq!(difference(Metric::XY, &a, &b), Ok(distance));
+    assert_eq!(difference(Metric::UV_PRIME, &a, &b), Ok(a.uv.unwrap().distance(b.uv.unwrap())));
+    for &metric in Metric::ALL {
+        assert_eq!(difference(metric, &a, &a), Ok(0.0));
+        assert!(difference(metric, &a, &b).unwrap() > 0.0);
     }
     let mut dark = b;
     (dark.xy, dark.uv, dark.lab) = (None, None, None);
-    assert_eq!(patch_difference(Metric::Xy, &a, &dark), Err(DifferenceError::NoChromaticity));
-    assert_eq!(patch_difference(Metric::DeltaE2000, &a, &dark), Err(DifferenceError::NoLab));
+    assert_eq!(difference(Metric::XY, &a, &dark), Err(DifferenceError::NoChromaticity));
+    assert_eq!(difference(Metric::DELTA_E_2000, &a, &dark), Err(DifferenceError::NoLab));
     let query = LocusQuery {
         rendering: by_paper(&Shared::new(sensor(REFERENCE))),
         temperatures: Temperatures::List(vec![kelvin(2000.0), kelvin(3000.0)]),
         constants: RadiationConstants::Paper,
     };
     let points = (*Direct.ask(&query)).clone().unwrap().points;
-    assert_eq!(locus_distance_xy(&points[0], &points[0]), Ok(0.0));
-    assert!(locus_distance_uv(&points[0], &points[1]).unwrap() > 0.0);
+    assert_eq!(difference(Metric::XY, &points[0], &points[0]), Ok(0.0));
+    assert!(difference(Metric::UV_PRIME, &points[0], &points[1]).unwrap() > 0.0);
     let mut gap = points[1];
     gap.xy = None;
-    assert_eq!(locus_distance_xy(&points[0], &gap), Err(DifferenceError::NoChromaticity));
+    assert_eq!(difference(Metric::XY, &points[0], &gap), Err(DifferenceError::NoChromaticity));
 }

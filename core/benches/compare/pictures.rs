@@ -92,6 +92,7 @@ impl RenderService {
 
     pub(crate) fn pictures(&self) -> PicturesQuery {
         PicturesQuery {
+            metric: chromascope_core::colorimetry::Metric::DELTA_E_2000,
             shading: self.shading(),
             reflectance: self.skin.clone(),
             reference: self.sources[0].clone(),

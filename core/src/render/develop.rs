@@ -6,7 +6,7 @@ use super::signals::CameraImage;
 use super::visibility::RasterSize;
 use crate::camera::Rendering;
 use crate::colorimetry::rgb::srgb_transfer;
-use crate::colorimetry::{Lab, Xyz, lab::lab_from_xyz};
+use crate::colorimetry::{Metric, Stimulus, Xyz};
 use glam::{DMat3, Mat3, Vec3};
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -207,37 +207,33 @@ fn range(list: &[u32], within: &std::ops::Range<usize>) -> std::ops::Range<usize
     list.partition_point(|&s| (s as usize) < within.start)..list.partition_point(|&s| (s as usize) < within.end)
 }
 
-/// How colors of a render are measured: XYZ over the luminance of a white of the same roughness that faces the light.
+/// Scale of a render's colors: XYZ over the luminance of a white of the same roughness that faces the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColorimetricScale {
     /// XYZ from signals, Y = 1 for that white.
     pub xyz_from_signals: DMat3,
-    /// The white of L*a*b*.
+    /// Adopted white of L*a*b*.
     pub lab_white: Xyz,
 }
 
 impl ColorimetricScale {
-    /// For one source; `white_luminance` is the reference's Y of the white, the same for all sources.
+    /// Scale of one sensor; `white_luminance` is the reference's Y of that white, the same for all sensors.
     pub fn new(rendering: &Rendering, white_luminance: f64) -> Self {
         let scale = if white_luminance > 0.0 { 1.0 / white_luminance } else { 0.0 };
         let balanced = rendering.xyz_from_signals * DMat3::from_diagonal(rendering.white * scale);
         Self { xyz_from_signals: balanced, lab_white: rendering.lab_white }
     }
 
-    /// The tristimulus values of a signal.
-    pub fn xyz(&self, signal: [f32; 3]) -> Xyz {
-        Xyz::from_vector(self.xyz_from_signals * Vec3::from_array(signal).as_dvec3())
-    }
-
-    /// L*a*b* of a signal; none only if the white has none.
-    pub fn lab(&self, signal: [f32; 3]) -> Option<Lab> {
-        lab_from_xyz(self.xyz(signal), self.lab_white)
+    /// Color of a signal.
+    pub fn color(&self, signal: [f32; 3]) -> Stimulus {
+        Stimulus::new(Xyz::from_vector(self.xyz_from_signals * Vec3::from_array(signal).as_dvec3()), self.lab_white)
     }
 }
 
-/// ΔE*00 between two pictures of the same geometry, and the reference's L*, at each lit sample or at each `stride`-th of them;
-/// none if stopped.
+/// Differences of a picture from the reference's of the same geometry, and the reference's L*, at every `stride`-th lit sample;
+/// 0 where the coordinates are undefined; none if stopped.
 pub fn differences(
+    metric: Metric,
     image: &CameraImage,
     measured: &ColorimetricScale,
     reference: &CameraImage,
@@ -252,9 +248,9 @@ pub fn differences(
             return (0.0, 0.0);
         }
         let (a, b) = (image.signals()[index * stride], reference.signals()[index * stride]);
-        let labs = measured.lab(a).zip(measured_reference.lab(b));
-        let difference = |(a, b): (Lab, Lab)| (crate::colorimetry::difference::delta_e_2000(a, b) as f32, b.l as f32);
-        labs.map_or((0.0, 0.0), difference)
+        let (sample, reference) = (measured.color(a), measured_reference.color(b));
+        let lightness = reference.lab.map_or(0.0, |lab| lab.l as f32);
+        (metric.between(&reference, &sample).unwrap_or(0.0) as f32, lightness)
     };
     let (mut map, mut lightness) = (Vec::new(), Vec::new());
     (0..count).into_par_iter().with_min_len(512).map(at).unzip_into_vecs(&mut map, &mut lightness);

@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::render::visibility::MAX_SIDE;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
@@ -55,6 +56,9 @@ pub(in crate::cli) struct RenderArguments {
     /// The way to the light in view axes: right, up, towards the eye [default: 25° up, 25° left]
     #[arg(long, value_name = "x,y,z", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) light: Option<[f64; 3]>,
+    /// Metric of the differences from the reference [default: delta-e2000, or xy with the paper's matrix]
+    #[arg(long, value_name = "METRIC", value_parser = metrics(), help_heading = SCENE)]
+    pub(super) difference: Option<String>,
     /// Lets light pass through the mesh
     #[arg(long, help_heading = SCENE)]
     pub(super) no_shadows: bool,
@@ -261,4 +265,9 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(remedy)?;
     let side = |text: &str| text.trim().parse::<u32>().ok().filter(|side| (1..=MAX_SIDE).contains(side));
     Ok([side(width).ok_or_else(remedy)?, side(height).ok_or_else(remedy)?])
+}
+
+/// Ids of the metrics.
+fn metrics() -> PossibleValuesParser {
+    PossibleValuesParser::new(Metric::ALL.iter().map(|metric| PossibleValue::new(metric.id).help(metric.label)))
 }

@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 use chromascope_core::reflectance::SurfaceError;
 use chromascope_core::render::{Quality, RasterSize, Shadows};
@@ -57,6 +58,14 @@ impl Setup {
         match &arguments.white {
             Some(white) => request.set_white(white)?,
             None => request.document.white = WhiteBalanceChoice::Light(BALANCE.to_owned()),
+        }
+        if let Some(metric) = arguments.difference.as_deref().and_then(Metric::by_id) {
+            if !request.document.transform.metrics().contains(&metric) {
+                let reason =
+                    format!("{} has no meaning with the paper's matrix; add --transform fitted", metric.symbol);
+                return Err(CliError::Argument { argument: "--difference", reason });
+            }
+            request.document.difference = metric;
         }
         request.values = arguments.values;
         if let Some(material) = &arguments.material {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use chromascope_core::accuracy::RelTolerance;
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::Roughness;
 use chromascope_core::render::plan::Candidate;
@@ -12,9 +13,9 @@ use serde_json::{Value, json};
 
 use super::accuracy::{self, Cost, Errors, Measured};
 use super::{Made, Times};
-use crate::document::TransformChoice;
 use crate::export::render::reading_name;
-use crate::figures::render::{headline, returned};
+use crate::figures::render::headline::Measure;
+use crate::figures::render::returned;
 use crate::profiler::plans;
 use crate::results::Count;
 
@@ -129,7 +130,8 @@ fn samples(made: &Made<'_>) -> Value {
 fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
     let (source, pictures) = (&made.sources[index], &made.pictures);
     let difference = pictures.differences[index].as_ref().filter(|_| made.not_comparable[index].is_none());
-    let measure = made.scene.results.ask(&made.query.image(&made.query.sources[index].rendering).measure);
+    let measure = Measure::of(&made.query);
+    let weights = made.scene.results.ask(&made.query.image(&made.query.sources[index].rendering).measure);
     let of = |cost: &Cost| cost.errors[index].map(errors);
     json!({
         "name": source.name,
@@ -137,13 +139,13 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
         "file": made.files[index].display().to_string(),
         "is_reference": source.is_reference,
         "is_truth": source.is_reference,
-        // Under Eq 13 the formula gives no ΔE*00; its numbers are under "difference" with the measure's name.
-        "delta_e_2000": difference.filter(|_| made.scene.document.transform != TransformChoice::Paper).filter(|difference| !difference.map.is_empty()).map(|difference| {
+        // Under Eq 13 there is no ΔE*00; numbers by any metric are under "difference".
+        "delta_e_2000": difference.filter(|difference| measure.name() == Metric::DELTA_E_2000.symbol && !difference.map.is_empty()).map(|difference| {
             json!({ "mean": difference.mean, "max": difference.max, "samples": difference.map.len() })
         }),
         "difference": difference.map(|difference| {
             json!({
-                "measure": headline::measure(made.scene.document),
+                "measure": measure.name(),
                 "mean_of_lit": (!difference.map.is_empty()).then_some(difference.mean),
                 "max_of_lit": (!difference.map.is_empty()).then_some(difference.max),
                 "samples_of_lit": difference.map.len(),
@@ -156,7 +158,7 @@ fn source(made: &Made<'_>, index: usize, accuracy: Option<&Measured>) -> Value {
         "clipped_samples": pictures.pictures[index].as_ref().ok().map(|picture| picture.clipped),
         "plan": plan(made, index),
         "peak_signal": pictures.images[index].as_ref().map(accuracy::peak),
-        "wavelengths_with_weight": (*measure).as_ref().ok().map(|measure| measure.dense().len()),
+        "wavelengths_with_weight": (*weights).as_ref().ok().map(|weights| weights.dense().len()),
         "integrals": integrals(made, index),
         "error_to_peak": accuracy.map(|accuracy| of(&accuracy.chosen)),
         "error_to_peak_by_regimes": accuracy.map(|accuracy| of(&accuracy.regimes)),

@@ -1,6 +1,6 @@
 //! Patches as points, with tails from each camera's to the reference's; and what the pointer reads.
 
-use chromascope_core::colorimetry::{UvPrime, Xy};
+use chromascope_core::colorimetry::{Metric, UvPrime, Xy};
 use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
 use chromascope_core::units::Kelvin;
 use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, TextSize};
@@ -160,8 +160,8 @@ pub fn blackbody_distance(scene: &Scene<'_>, source: &SensorId, kelvin: f64) -> 
     scene.comparable(source.kind, &source.name).ok()?.ok()?;
     let point = blackbody(scene, source.kind, &source.name, kelvin)?;
     let reference = blackbody(scene, SetKind::Observer, &scene.document.reference, kelvin)?;
-    let xy = compare::locus_distance_xy(&point, &reference);
-    let uv = compare::locus_distance_uv(&point, &reference);
+    let xy = compare::difference(Metric::XY, &reference, &point);
+    let uv = compare::difference(Metric::UV_PRIME, &reference, &point);
     Some(match (xy, uv) {
         (Ok(xy), Ok(uv)) => format!("Δxy {}   Δu′v′ {}", number(round4(xy)), number(round4(uv))),
         (Err(why), _) | (_, Err(why)) => why.to_string(),

@@ -1,5 +1,6 @@
 //! Maps of differences from the reference.
 
+use chromascope_core::colorimetry::Metric;
 use chromascope_figure::{Anchor, Image, Ink, Mark, Shape};
 
 use super::text;
@@ -8,32 +9,49 @@ use crate::plot_item::PickIndex;
 use crate::render_service::RenderedFrame;
 use crate::theme::difference_ramp;
 
-/// Ends that a scale may have.
-const ENDS: [f32; 9] = [0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0, 50.0];
-
-/// The end of the scale that holds all maps.
-pub fn scale_end(shot: &RenderedFrame) -> f32 {
-    let differences = shot.made().map(|made| made.differences.as_slice()).unwrap_or_default();
-    let largest = differences.iter().flatten().map(|difference| difference.max as f32).fold(0.0, f32::max);
-    ENDS.into_iter().find(|end| *end >= largest).unwrap_or(100.0)
+/// Scale of the maps: from 0 to a round end, with ticks at round values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// End, in the metric's units.
+    pub end: f32,
+    steps: u8,
+    unit: f32,
 }
 
-/// Values between the ends of a scale are marked at so many even steps that they are round.
-pub fn steps(end: f32) -> u8 {
-    if [15.0, 30.0].contains(&end) {
-        3
-    } else if [0.5, 5.0, 10.0, 50.0].contains(&end) {
-        5
-    } else {
-        4
+impl Scale {
+    /// Ends a scale may have for a metric of two decimals, and into how many even steps each is divided.
+    const ENDS: [(f32, u8); 10] =
+        [(0.5, 5), (1.0, 4), (2.0, 4), (5.0, 5), (10.0, 5), (15.0, 3), (20.0, 4), (30.0, 3), (50.0, 5), (100.0, 4)];
+
+    /// Least scale that holds all maps.
+    pub fn of(shot: &RenderedFrame) -> Self {
+        let differences = shot.made().map(|made| made.differences.as_slice()).unwrap_or_default();
+        let largest = differences.iter().flatten().map(|difference| difference.max as f32).fold(0.0, f32::max);
+        Self::holding(largest, shot.query.metric)
+    }
+
+    fn holding(largest: f32, metric: Metric) -> Self {
+        let unit = 0.1_f32.powi(metric.decimals as i32 - 2);
+        let fits = |end: &&(f32, u8)| end.0 * unit >= largest;
+        let &(end, steps) = Self::ENDS.iter().find(fits).unwrap_or(&Self::ENDS[9]);
+        Self { end: end * unit, steps, unit }
+    }
+
+    /// Ticks: share of the scale, and value in words.
+    pub fn ticks(self) -> impl Iterator<Item = (f32, String)> {
+        (0..=self.steps).map(move |step| {
+            let share = f32::from(step) / f32::from(self.steps);
+            let hundredths = (share * self.end / self.unit * 100.0).round();
+            (share, number(f64::from(hundredths) / 100.0 * f64::from(self.unit)))
+        })
     }
 }
 
 /// The height of a scale in a figure.
-pub(super) const SCALE: f64 = 38.0;
+pub(super) const SCALE_HEIGHT: f64 = 38.0;
 
 /// The scale in a figure: the ramp with its values, from an upper left corner on.
-pub(super) fn scale(end: f32, measure: &str, [x, y]: [f64; 2], width: f64, ink: Ink) -> Vec<Mark> {
+pub(super) fn scale(scale: Scale, name: &str, [x, y]: [f64; 2], width: f64, ink: Ink) -> Vec<Mark> {
     let pixels: u16 = 256;
     let ramp = (0..pixels).flat_map(|i| {
         let [r, g, b] = difference_ramp(f32::from(i) / f32::from(pixels - 1));
@@ -44,12 +62,9 @@ pub(super) fn scale(end: f32, measure: &str, [x, y]: [f64; 2], width: f64, ink: 
     let (left, right) = (x + inset, x + width - inset);
     let shape = Shape::Image { min: [left, y + 16.0], max: [right, y + 4.0], image };
     let mut marks = vec![Mark::new(PickIndex::NONE, "scale", shape)];
-    let steps = steps(end);
-    for step in 0..=steps {
-        let share = f64::from(step) / f64::from(steps);
-        let words = number((share * f64::from(end) * 100.0).round() / 100.0);
-        let words = if step == steps { format!("{measure} {words}") } else { words };
-        marks.push(text(&words, [left + share * (right - left), y + 26.0], Anchor::CENTER, ink));
+    for (share, value) in scale.ticks() {
+        let words = if share < 1.0 { value } else { format!("{name} {value}") };
+        marks.push(text(&words, [left + f64::from(share) * (right - left), y + 26.0], Anchor::CENTER, ink));
     }
     marks
 }
@@ -78,4 +93,19 @@ pub fn map(shot: &RenderedFrame, at: usize, end: f32) -> ([usize; 2], Vec<u8>) {
         pixels[pixel(sample)] = [r, g, b, 255];
     }
     ([width, height], rgba)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_in_the_metrics_units() {
+        let ticks =
+            |largest, metric| Scale::holding(largest, metric).ticks().map(|(_, words)| words).collect::<Vec<_>>();
+        assert_eq!(ticks(12.0, Metric::DELTA_E_2000), ["0", "5", "10", "15"]);
+        assert_eq!(ticks(0.9, Metric::DELTA_E_2000), ["0", "0.25", "0.5", "0.75", "1"]);
+        assert_eq!(ticks(0.14, Metric::XY), ["0", "0.05", "0.1", "0.15"]);
+        assert_eq!(ticks(7e9, Metric::UV_PRIME).last().unwrap(), "1");
+    }
 }

@@ -1,55 +1,87 @@
-//! How far a picture is from the reference, in words.
+//! Difference of a picture from the reference, in words.
 //!
 //! The headline is the difference of the material facing the light: one flat patch, the same for any mesh, view and exposure. A mean
 //! over all lit samples would say how much of a picture is dark.
 
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::ColorTransformSpec;
 use chromascope_core::query::render::difference::Difference;
+use chromascope_core::query::render::picture::PicturesQuery;
 
-use crate::document::{DifferenceChoice, Document};
 use crate::format::fixed;
 
-/// What the numbers mean, for hints.
+/// Meaning of the numbers, for hints.
 pub const MEANING: &str = "Facing the light: the flat material under this light, as a patch. Median and 95 %: over the lit \
     samples whose L* in the reference is above 20.";
 
-/// How much is said.
+/// Amount of detail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Detail {
     /// The number of the headline.
     Number,
-    /// With its measure.
-    SpectralWeights,
+    /// With its metric.
+    Metric,
     /// With median and 95th percentile.
     Quantiles,
     /// With the largest as well.
     Largest,
 }
 
-/// The measure of pictures' differences, by the name it has under a document's color transform.
-pub fn measure(document: &Document) -> &'static str {
-    DifferenceChoice::DeltaE2000.name_under(&document.transform)
+/// Metric of pictures' differences, and whether they are of Eq 13 colors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Measure {
+    metric: Metric,
+    by_eq_13: bool,
 }
 
-/// The difference of a picture in words: "no light" where nothing is lit; the quantiles are of samples that are bright enough to judge.
-pub fn words(difference: &Difference, measure: &str, detail: Detail) -> String {
-    if difference.map.is_empty() {
-        return "no light".to_owned();
+impl Measure {
+    /// Metric that pictures were compared by.
+    pub fn of(pictures: &PicturesQuery) -> Self {
+        let by_eq_13 = matches!(pictures.reference.transform, ColorTransformSpec::Paper);
+        Self { metric: pictures.metric, by_eq_13 }
     }
-    let short = measure.split(['E', ' ']).next().unwrap_or(measure);
-    let facing = difference.facing.map_or_else(|| "undefined".to_owned(), |facing| fixed(facing, 1));
-    let quantiles = || {
-        let rest = difference.bright.map_or_else(
-            || "all else too dark to judge".to_owned(),
-            |bright| format!("median {}, 95 % {}", fixed(bright.median, 1), fixed(bright.p95, 1)),
-        );
-        format!("{measure} {facing} facing light, {rest}")
-    };
-    match detail {
-        Detail::Number if measure.starts_with("ΔE") => format!("{short}E {facing}"),
-        Detail::Number => format!("{short} {facing}"),
-        Detail::SpectralWeights => format!("{measure} {facing}"),
-        Detail::Quantiles => quantiles(),
-        Detail::Largest => format!("{}, max {}", quantiles(), fixed(difference.max, 1)),
+
+    /// Metric.
+    pub const fn metric(self) -> Metric {
+        self.metric
+    }
+
+    /// Name of the metric.
+    pub const fn name(self) -> &'static str {
+        self.metric.name(self.by_eq_13)
+    }
+
+    /// Name where room is short.
+    pub const fn short_name(self) -> &'static str {
+        self.metric.short_name(self.by_eq_13)
+    }
+
+    /// A difference in words: pictures' single differences deserve a decimal less than patches'.
+    pub fn number(self, difference: f64) -> String {
+        fixed(difference, self.metric.decimals.saturating_sub(1))
+    }
+
+    /// Difference of a picture in words: "no light" where nothing is lit; the quantiles are of samples that are bright enough to
+    /// judge.
+    pub fn words(self, difference: &Difference, detail: Detail) -> String {
+        if difference.map.is_empty() {
+            return "no light".to_owned();
+        }
+        let name = self.name();
+        let facing = difference.facing.map_or_else(|| "undefined".to_owned(), |facing| self.number(facing));
+        let quantiles = || {
+            let rest = difference.bright.map_or_else(
+                || "all else too dark to judge".to_owned(),
+                |bright| format!("median {}, 95 % {}", self.number(bright.median), self.number(bright.p95)),
+            );
+            format!("{name} {facing} facing light, {rest}")
+        };
+        match detail {
+            Detail::Number => format!("{} {facing}", self.short_name()),
+            Detail::Metric => format!("{name} {facing}"),
+            Detail::Quantiles => quantiles(),
+            Detail::Largest => format!("{}, max {}", quantiles(), self.number(difference.max)),
+        }
     }
 }
 
@@ -60,11 +92,12 @@ mod tests {
 
     #[test]
     fn a_picture_without_light_has_no_difference() {
+        let measure = Measure { metric: Metric::DELTA_E_2000, by_eq_13: false };
         let bright = Some(BrightSamples { count: 2, median: 2.0, p95: 4.0 });
         let some = Difference { stride: 1, map: vec![1.0; 3], mean: 1.0, max: 5.0, facing: Some(3.12), bright };
-        let said = [Detail::Number, Detail::SpectralWeights, Detail::Quantiles, Detail::Largest];
+        let said = [Detail::Number, Detail::Metric, Detail::Quantiles, Detail::Largest];
         assert_eq!(
-            said.map(|detail| words(&some, "ΔE*00", detail)),
+            said.map(|detail| measure.words(&some, detail)),
             [
                 "ΔE 3.1",
                 "ΔE*00 3.1",
@@ -72,18 +105,22 @@ mod tests {
                 "ΔE*00 3.1 facing light, median 2.0, 95 % 4.0, max 5.0"
             ]
         );
-        assert_eq!(words(&some, "Δ of Eq 13 colors", Detail::Number), "Δ 3.1");
         let dark = Difference { bright: None, ..some.clone() };
         let unlit = Difference { map: Vec::new(), mean: 0.0, max: 0.0, ..dark.clone() };
-        assert_eq!(words(&dark, "ΔE*00", Detail::Number), "ΔE 3.1");
-        let whole = words(&dark, "ΔE*00", Detail::Quantiles);
+        assert_eq!(measure.words(&dark, Detail::Number), "ΔE 3.1");
+        let whole = measure.words(&dark, Detail::Quantiles);
         assert_eq!(whole, "ΔE*00 3.1 facing light, all else too dark to judge");
-        assert!(said.iter().all(|&detail| words(&unlit, "ΔE*00", detail) == "no light"));
+        assert!(said.iter().all(|&detail| measure.words(&unlit, detail) == "no light"));
     }
 
     #[test]
-    fn under_eq_13_it_is_no_delta_e() {
-        assert_eq!(measure(&Document::colorimetry()), "ΔE*00");
-        assert_eq!(measure(&Document::paper()), "Δ of Eq 13 colors");
+    fn names_and_decimals_are_the_metrics() {
+        let facing =
+            Difference { stride: 1, map: vec![0.02], mean: 0.02, max: 0.02, facing: Some(0.0213), bright: None };
+        let of = |metric, by_eq_13| Measure { metric, by_eq_13 }.words(&facing, Detail::Metric);
+        assert_eq!(of(Metric::DELTA_E_2000, true), "Δ of Eq 13 colors 0.0");
+        assert_eq!(of(Metric::XY, true), "Δxy 0.021");
+        let number = Measure { metric: Metric::UV_PRIME, by_eq_13: false }.words(&facing, Detail::Number);
+        assert_eq!(number, "Δu′v′ 0.021");
     }
 }

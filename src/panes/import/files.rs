@@ -139,7 +139,7 @@ fn take(context: &mut PaneContext<'_>) {
 fn keys(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) -> Option<usize> {
     let focus = ui.memory(egui::Memory::focused);
     let on_row = focus.is_some_and(|focus| (0..entries.len()).any(|index| id(index) == focus));
-    let mine = on_row || (focus.is_none() && context.view.focused == Some(PaneKind::Import));
+    let mine = on_row || (focus.is_none() && context.view.focused == Some(PaneKind::IMPORT));
     if !mine || egui::Popup::is_any_open(ui.ctx()) {
         return None;
     }

@@ -4,7 +4,8 @@ use egui::{Grid, RichText, Ui};
 
 use super::note;
 use crate::figures::chromaticity::id;
-use crate::figures::render::{facts, headline, index_of, pixel_of};
+use crate::figures::render::headline::{Detail, Measure};
+use crate::figures::render::{facts, index_of, pixel_of};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::lines::key_and_label;
 use crate::render_service::pixel::PixelShows;
@@ -15,7 +16,7 @@ use crate::workspaces::PaneKind;
 /// The pixel that is kept, if pictures are on show.
 pub(super) fn kept<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
     let (saved, render) = (&context.view.saved, &context.view.render);
-    render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::Render))
+    render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::RENDER))
 }
 
 /// Shows it, if pictures are on show.
@@ -24,14 +25,14 @@ pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
     let Some((pinned, shot)) = kept(context).zip(render.shot.clone()) else { return };
     ui.add_space(UNIT);
     ui.label(RichText::new("The pixel that is kept").strong());
+    let measure = Measure::of(&shot.query);
     for source in &shot.sources {
         let place = PixelPlace { source: id(source), ..pinned.clone() };
         let Some(reading) = pixel_of(&context.scene, render, &place) else { continue };
         key_and_label(ui, source, &context.theme);
         let made = shot.made().zip(index_of(&shot, &place.source));
         if let Some(difference) = made.and_then(|(made, at)| made.differences.get(at)?.as_ref()) {
-            let measure = headline::measure(context.scene.document);
-            note(ui, &context.theme, headline::words(difference, measure, headline::Detail::Quantiles));
+            note(ui, &context.theme, measure.words(difference, Detail::Quantiles));
         }
         match reading.shows {
             PixelShows::Nothing => note(ui, &context.theme, "Beside the mesh."),
@@ -39,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
             PixelShows::Lit(lit) => {
                 let grid = Grid::new(("pixel", &source.name)).num_columns(2).min_row_height(0.0);
                 grid.spacing([3.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
-                    for (name, value) in facts(&lit, headline::measure(context.scene.document)) {
+                    for (name, value) in facts(&lit, measure) {
                         ui.monospace(name);
                         ui.monospace(value);
                         ui.end_row();

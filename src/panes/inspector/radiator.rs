@@ -1,5 +1,6 @@
 //! A black body through a sensor.
 
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::{LocusPoint, Temperatures, compare};
 use chromascope_core::units::Kelvin;
 use egui::Ui;
@@ -84,8 +85,8 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
 
 fn distance(ui: &mut Ui, id: &SensorId, own: &LocusPoint, seen: &LocusPoint, context: &PaneContext<'_>) {
     let comparable = context.scene.comparable(id.kind, &id.name).unwrap_or(Ok(()));
-    let xy = comparable.and_then(|()| compare::locus_distance_xy(seen, own));
-    let uv = comparable.and_then(|()| compare::locus_distance_uv(seen, own));
+    let xy = comparable.and_then(|()| compare::difference(Metric::XY, seen, own));
+    let uv = comparable.and_then(|()| compare::difference(Metric::UV_PRIME, seen, own));
     match (xy, uv) {
         (Ok(xy), Ok(uv)) => {
             ui.label(format!("Δxy {}   Δu′v′ {}", fixed(xy, 4), fixed(uv, 4)))

@@ -185,8 +185,8 @@ fn offer(ui: &mut Ui, words: &str, enabled: bool) -> bool {
 /// Brings the inspector on, if the workspace does not show it.
 pub(super) fn show_inspector(context: &mut PaneContext<'_>) {
     let saved = &context.view.saved;
-    if !saved.layout.shows(saved.workspace, PaneKind::Inspector) {
-        context.view.saved.layout.toggle(context.view.saved.workspace, PaneKind::Inspector);
+    if !saved.layout.shows(saved.workspace, PaneKind::INSPECTOR) {
+        context.view.saved.layout.toggle(context.view.saved.workspace, PaneKind::INSPECTOR);
     }
     // Only a narrow window looks at this.
     context.view.inspector_over = true;

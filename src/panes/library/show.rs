@@ -6,7 +6,7 @@ use egui::{Id, Key, Rect, ScrollArea, TextEdit, Ui, UiBuilder, Vec2};
 
 use super::{compared, sets};
 use crate::document::SetKind;
-use crate::panes::context::PaneContext;
+use crate::panes::context::{Pane, PaneContext};
 use crate::panes::widgets::mark_all;
 use crate::theme::{ROW, UNIT};
 use crate::workspaces::PaneKind;
@@ -14,12 +14,16 @@ use crate::workspaces::PaneKind;
 /// Share of the pane's height for the compared sensors, and the least and most rows of it.
 const COMPARED: (f32, [f32; 2]) = (0.36, [3.0, 8.0]);
 
+/// The pane.
+pub const PANE: Pane =
+    Pane { kind: PaneKind::LIBRARY, title: "Library", show, figure: None, under_conditions: false, table: false };
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     ui.painter().rect_filled(rect, 0.0, context.theme.panel);
     if ui.input(|input| input.pointer.any_pressed() && input.pointer.interact_pos().is_some_and(|at| rect.contains(at)))
     {
-        context.view.focused = Some(PaneKind::Library);
+        context.view.focused = Some(PaneKind::LIBRARY);
     }
     context.view.keeps_escape = false;
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));

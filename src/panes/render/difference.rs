@@ -2,15 +2,15 @@
 
 use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Ui, Vec2};
 
+use crate::figures::render::difference::Scale;
 use crate::panes::context::PaneContext;
 use crate::theme::{SMALL, difference_ramp};
 
 /// The scale: what the ramp's colors stand for.
-pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, end: f32, context: &PaneContext<'_>) {
+pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, scale: Scale, name: &str, context: &PaneContext<'_>) {
     let color = context.theme.surround.label();
-    let measure = crate::figures::render::headline::measure(context.scene.document);
     let font = FontId::proportional(SMALL);
-    let words = format!("{measure} from the reference");
+    let words = format!("{name} from the reference");
     let title = painter.text(rect.left_center() + Vec2::new(8.0, 0.0), Align2::LEFT_CENTER, words, font.clone(), color);
     let left = title.right() + 16.0;
     let bar = Rect::from_min_max(
@@ -18,17 +18,14 @@ pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, end: f32, contex
         Pos2::new(left.max(rect.right() - 120.0), rect.top() + 18.0),
     );
     crate::paint::ramp(painter, bar, &difference_ramp);
-    let steps = crate::figures::render::difference::steps(end);
-    for step in 0..=steps {
-        let share = f32::from(step) / f32::from(steps);
+    for (share, value) in scale.ticks() {
         let at = Pos2::new(bar.left() + share * bar.width(), bar.bottom() + 2.0);
-        let value = crate::format::number(f64::from((share * end * 100.0).round() / 100.0));
         painter.text(at, Align2::CENTER_TOP, value, font.clone(), color);
     }
     let dark = Pos2::new(rect.right() - 8.0, bar.center().y);
     painter.text(dark, Align2::RIGHT_CENTER, "black: no light", font, color);
     let response = ui.interact(rect, ui.scope_id().with("difference scale"), Sense::hover());
-    let said = format!("Scale of {measure} from the reference, from 0 to {end}");
+    let said = format!("Scale of {name} from the reference, from 0 to {}", scale.end);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &said));
     response.on_hover_text("Of each lit sample; a white of the same roughness that faces the light has Y = 1.");
 }

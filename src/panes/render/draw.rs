@@ -8,7 +8,7 @@ use egui::{
 use super::cells::{CAPTION, PictureLayout, PictureSlot, chosen};
 use super::difference;
 use crate::figures::chromaticity::id;
-use crate::figures::render::headline::{self, Detail};
+use crate::figures::render::headline::{self, Detail, Measure};
 use crate::figures::render::{difference as maps, index_of};
 use crate::paint::{self, PictureQuery};
 use crate::panes::context::PaneContext;
@@ -30,7 +30,7 @@ const RING: f32 = 7.0;
 /// Draws what stands in the pane, as far as it was made.
 pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, context: &mut PaneContext<'_>) {
     let shot = context.view.render.shot.clone();
-    let scale = shot.as_deref().filter(|_| stand.scale.is_some()).map(maps::scale_end);
+    let scale = shot.as_deref().filter(|_| stand.scale.is_some()).map(maps::Scale::of);
     for (index, cell) in stand.cells.iter().enumerate() {
         let Some(source) = stand.sources.get(cell.source) else { continue };
         let index_in =
@@ -43,13 +43,13 @@ pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, co
             picture(ui, painter, stand, index, (shot, at), scale, context);
         }
         if stand.mode == RenderMode::Grid || stand.mode == RenderMode::Difference {
-            let note = found.and_then(|(shot, at)| note(shot, at, cell.caption.width(), context));
+            let note = found.and_then(|(shot, at)| note(shot, at, cell.caption.width()));
             caption(ui, painter, cell, source, note.as_ref(), context);
         }
         ring(painter, stand, index, context);
     }
-    if let (Some(scale), Some(end)) = (stand.scale, scale) {
-        difference::scale(ui, painter, scale, end, context);
+    if let (Some(rect), Some(scale), Some(shot)) = (stand.scale, scale, shot.as_deref()) {
+        difference::scale(ui, painter, rect, scale, Measure::of(&shot.query).name(), context);
     }
 }
 
@@ -60,7 +60,7 @@ fn picture(
     stand: &PictureLayout,
     cell: usize,
     (shot, at): (&RenderedFrame, usize),
-    scale: Option<f32>,
+    scale: Option<maps::Scale>,
     context: &mut PaneContext<'_>,
 ) {
     let rect = stand.cells[cell].picture;
@@ -79,7 +79,7 @@ fn picture(
                     let of = PictureQuery { name: &name, version: shot.serial, rect, clip, sharp };
                     textures.draw(painter, of, || ([made.width, made.height], made.rgba.clone()));
                 }
-                Some(end) => {
+                Some(maps::Scale { end, .. }) => {
                     let name = format!("{name}, difference");
                     // The same map in another scale is another picture.
                     let version = (shot.serial << 16) ^ u64::from(end.to_bits() >> 8);
@@ -102,13 +102,13 @@ struct Note {
 }
 
 /// The note of a picture's caption.
-fn note(shot: &RenderedFrame, at: usize, width: f32, context: &PaneContext<'_>) -> Option<Note> {
+fn note(shot: &RenderedFrame, at: usize, width: f32) -> Option<Note> {
     let difference = shot.made()?.differences.get(at)?.as_ref()?;
-    let words = |detail| headline::words(difference, headline::measure(context.scene.document), detail);
+    let words = |detail| Measure::of(&shot.query).words(difference, detail);
     let steps = [
         (WITH_LARGEST, Detail::Largest),
         (WITH_QUANTILES, Detail::Quantiles),
-        (WITH_MEASURE, Detail::SpectralWeights),
+        (WITH_MEASURE, Detail::Metric),
         (WITH_NOTE, Detail::Number),
     ];
     let short = steps.into_iter().find(|(least, _)| width >= *least).map(|(_, detail)| words(detail));
@@ -243,7 +243,7 @@ pub(super) fn choosers(ui: &mut Ui, stand: &PictureLayout, sources: &[ComparedSe
     response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
     let made = shot.as_deref().and_then(|shot| index_of(shot, &id(&now)));
     let rest = Rect::from_min_max(Pos2::new(place.right() + 8.0, row.top()), row.max);
-    let made = shot.as_deref().zip(made).and_then(|(shot, at)| note(shot, at, rest.width() + 90.0, context));
+    let made = shot.as_deref().zip(made).and_then(|(shot, at)| note(shot, at, rest.width() + 90.0));
     if let Some(note) = made.and_then(|note| note.short)
         && rest.width() > 90.0
     {

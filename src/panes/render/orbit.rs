@@ -44,7 +44,7 @@ pub(super) fn by_keys(ui: &Ui, response: &Response, context: &mut PaneContext<'_
         let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
     }
-    let idle = context.view.focused == Some(PaneKind::Render) && ui.memory(|memory| memory.focused().is_none());
+    let idle = context.view.focused == Some(PaneKind::RENDER) && ui.memory(|memory| memory.focused().is_none());
     if !response.has_focus() && !idle {
         return;
     }

@@ -5,7 +5,8 @@ use std::sync::atomic::AtomicBool;
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::RenderingError;
-use chromascope_core::query::compare::{Metric, patch_difference};
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::compare;
 use chromascope_core::query::render::difference::BrightSamples;
 use chromascope_core::query::render::picture::Pictures;
 use chromascope_core::query::render::{MeshQuery, MeshRoughnessQuery, Roughness};
@@ -272,14 +273,15 @@ fn the_headline_is_the_patch_that_patches_print() {
         (*colors).as_ref().unwrap()[0]
     };
     // Whatever the roughness, its reading, and where the light stands.
-    for (sigma_m, light_up, reading) in [
-        (5e-6, 25.0, Normalization::Radiometric),
-        (0.1e-6, 80.0, Normalization::Paper),
-        (5e-6, -60.0, Normalization::Lambertian),
+    for (sigma_m, light_up, reading, metric) in [
+        (5e-6, 25.0, Normalization::Radiometric, Metric::DELTA_E_2000),
+        (0.1e-6, 80.0, Normalization::Paper, Metric::XY),
+        (5e-6, -60.0, Normalization::Lambertian, Metric::UV_PRIME),
     ] {
-        let pictures = RenderService { light_up, sigma_m, reading, ..studio.clone() }.take(&Direct);
+        let studio = RenderService { light_up, sigma_m, reading, metric, ..studio.clone() };
+        let pictures = studio.take(&Direct);
         for (source, difference) in studio.sources.iter().zip(&pictures.differences).skip(1) {
-            let expected = patch_difference(Metric::DeltaE2000, &color(source), &color(&studio.sources[0])).unwrap();
+            let expected = compare::difference(studio.metric, &color(&studio.sources[0]), &color(source)).unwrap();
             assert_eq!(difference.as_ref().unwrap().facing, Some(expected));
         }
     }

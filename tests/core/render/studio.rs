@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chromascope_core::camera::WhiteBalanceTarget;
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::render::MeshQuery;
 use chromascope_core::query::render::picture::{Pictures, PicturesQuery, SourceOf};
 use chromascope_core::query::render::{GeometryQuery, Roughness, ShadingQuery, VisibilityQuery};
@@ -34,6 +35,7 @@ pub(super) struct RenderService {
     pub roughness: Roughness,
     pub quality: Quality,
     pub ev: f64,
+    pub metric: Metric,
 }
 
 impl RenderService {
@@ -65,6 +67,7 @@ impl RenderService {
             roughness: Roughness::Surface,
             quality: Quality::Full,
             ev: 0.0,
+            metric: Metric::DELTA_E_2000,
         }
     }
 
@@ -85,6 +88,7 @@ impl RenderService {
             sources: self.sources.iter().map(|rendering| SourceOf { rendering: rendering.clone() }).collect(),
             ev: self.ev.to_bits(),
             background: None,
+            metric: self.metric,
             compared_samples: Some(500),
         }
     }

@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use chromascope_core::camera::{ColorTransform, Rendering, WhiteBalanceTarget};
-use chromascope_core::colorimetry::Xyz;
+use chromascope_core::colorimetry::{Metric, Stimulus, Xyz};
 use chromascope_core::query::render::difference::BrightSamples;
 use chromascope_core::reflectance::{Normalization, Precision, Surface, wavelength_power};
 use chromascope_core::render::develop::differences;
@@ -229,9 +229,9 @@ fn measurement(&[luminance, x, y, ..]: &Case, v: &mut Verdict) {
     let measured =
         ColorimetricScale::new(rendering, if luminance > 0.0 { luminance.clamp(1e-100, 1e100) } else { luminance });
     let signal = [usable(x) as f32, usable(y) as f32, 0.5];
-    let Xyz { x, y, z } = measured.xyz(signal);
+    let Stimulus { xyz: Xyz { x, y, z }, lab } = measured.color(signal);
     v.all_finite([x, y, z]);
-    if let Some(lab) = measured.lab(signal) {
+    if let Some(lab) = lab {
         v.all_finite([lab.l, lab.a, lab.b]);
     }
 }
@@ -303,7 +303,8 @@ fn picture(&[key, sigma, tau, half, index, reading, quality, kind]: &Case, v: &m
     }
     let measured = ColorimetricScale::new(&scene.rendering, 1.0);
     let (map, lightness) =
-        differences(&images[0], &measured, &images[1], &measured, 1, &Stop::NEVER).expect("never stopped");
+        differences(Metric::DELTA_E_2000, &images[0], &measured, &images[1], &measured, 1, &Stop::NEVER)
+            .expect("never stopped");
     v.all_finite(BrightSamples::new(&map, &lightness).into_iter().flat_map(|bright| [bright.median, bright.p95]));
     v.all_finite(map.into_iter().chain(lightness).map(f64::from));
 }

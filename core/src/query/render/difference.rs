@@ -3,8 +3,9 @@
 use super::CameraImageQuery;
 use super::picture::ExposureQuery;
 use crate::camera::RenderingError;
+use crate::colorimetry::Metric;
 use crate::query::ask::{Ask, Query};
-use crate::query::compare::{Metric, patch_difference};
+use crate::query::compare;
 use crate::query::patches::RenderingQuery;
 use crate::query::patches::patch_colors;
 use crate::render::ColorimetricScale;
@@ -17,39 +18,41 @@ pub const BRIGHT_L: f64 = 20.0;
 /// Differences of a camera's picture from the reference's, sample by sample.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct DifferenceQuery {
+    /// Metric of the differences.
+    pub metric: Metric,
     /// The camera's signals.
     pub image: CameraImageQuery,
-    /// How they are balanced.
+    /// Their balance and color transform.
     pub rendering: RenderingQuery,
     /// The reference's signals.
     pub reference: CameraImageQuery,
     /// The material, and the scale of colors, with the reference's balance.
     pub exposure: ExposureQuery,
-    /// Each how many of the lit samples are compared.
+    /// Every how many of the lit samples are compared.
     pub stride: usize,
 }
 
 /// Differences from the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// Each how many of the lit samples were compared.
+    /// Every how many of the lit samples were compared.
     pub stride: usize,
-    /// ΔE*00 at those.
+    /// Differences at those.
     pub map: Vec<f32>,
     /// Mean over all lit samples: as dark samples differ little, it falls with the share of them.
     pub mean: f64,
     /// Largest.
     pub max: f64,
-    /// ΔE*00 of the material as a flat patch that faces the light: [`patch_difference`] of the same reflectance.
+    /// Difference of the material as a flat patch that faces the light: [`compare::difference`] of the same reflectance.
     pub facing: Option<f64>,
     /// Quantiles over the samples that are bright in the reference; none where there is no such sample.
     pub bright: Option<BrightSamples>,
 }
 
-/// Quantiles of ΔE*00 over the lit samples whose L* in the reference is above [`BRIGHT_L`].
+/// Quantiles of the differences over the lit samples whose L* in the reference is above [`BRIGHT_L`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrightSamples {
-    /// How many were compared.
+    /// Number of samples compared.
     pub count: usize,
     /// Median.
     pub median: f64,
@@ -94,15 +97,15 @@ impl Query for DifferenceQuery {
             return Ok(None);
         };
         let Some((map, lightness)) =
-            differences(image, &measured, reference_image, &measured_reference, self.stride, &ask.stop())
+            differences(self.metric, image, &measured, reference_image, &measured_reference, self.stride, &ask.stop())
         else {
             return Ok(None);
         };
         let mean = map.iter().map(|&d| f64::from(d)).sum::<f64>() / map.len().max(1) as f64;
         let max = f64::from(map.iter().copied().fold(0.0, f32::max));
         let flat = |of, rendering| patch_colors(of, rendering, std::iter::once(&*self.exposure.reflectance));
-        let flat = [flat(&self.rendering, rendering), flat(&self.exposure.reference, reference)];
-        let facing = patch_difference(Metric::DeltaE2000, &flat[0][0], &flat[1][0]).ok();
+        let (sample, reference) = (flat(&self.rendering, rendering), flat(&self.exposure.reference, reference));
+        let facing = compare::difference(self.metric, &reference[0], &sample[0]).ok();
         let bright = BrightSamples::new(&map, &lightness);
         Ok(Some(Arc::new(Difference { stride: self.stride, map, mean, max, facing, bright })))
     }

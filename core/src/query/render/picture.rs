@@ -3,7 +3,7 @@
 use super::difference::{Difference, DifferenceQuery};
 use super::{CameraImageQuery, ShadingQuery, SpectralWeightsQuery};
 use crate::camera::RenderingError;
-use crate::colorimetry::Xyz;
+use crate::colorimetry::{Metric, Xyz};
 use crate::query::ask::{Ask, Query};
 use crate::query::patches::RenderingQuery;
 use crate::query::shared::Shared;
@@ -142,6 +142,8 @@ pub struct PicturesQuery {
     pub ev: u64,
     /// What shows beside the mesh, in linear sRGB as bits.
     pub background: Option<[u32; 3]>,
+    /// Metric of the differences from the reference.
+    pub metric: Metric,
     /// About how many samples are compared with the reference; none compares nothing.
     pub compared_samples: Option<usize>,
 }
@@ -202,6 +204,7 @@ impl PicturesQuery {
     /// How far a source is from the reference, looking at each `stride`-th lit sample.
     pub fn difference(&self, rendering: &RenderingQuery, stride: usize) -> DifferenceQuery {
         DifferenceQuery {
+            metric: self.metric,
             image: self.image(rendering),
             rendering: rendering.clone(),
             reference: self.image(&self.reference),

@@ -5,7 +5,7 @@ use std::time::Duration;
 use chromascope_figure::LegendEntry;
 use egui::{Align2, ComboBox, FontId, Id, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::bench::Workload;
 use crate::command::Command;
 use crate::figures::accuracy;
@@ -27,10 +27,20 @@ const MARKS: &str = "Filled marks, joined by the dashed line: no other is both f
 const BENCH: &str = "The program's methods on inputs of its own, whatever the scene, against references computed in another way or \
                      with twice the digits. Point at a mark for its numbers.";
 
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::METHODS,
+    title: "Methods",
+    show,
+    figure: Some(|_, view| accuracy::figure(view)),
+    under_conditions: false,
+    table: true,
+};
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     context.refresh_run();
-    let body = widgets::pane(ui, PaneKind::Accuracy, rect, context, switches);
+    let body = widgets::pane(ui, &PANE, rect, context, switches);
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     if let Some(why) = context.laboratory.failure() {
         failed(ui, body, &why, context);
@@ -56,7 +66,7 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
         nothing(ui, body, words, context);
         return;
     };
-    if context.view.saved.tables.contains(&PaneKind::Accuracy) {
+    if context.view.saved.tables.contains(&PaneKind::METHODS) {
         widgets::data_table(ui, body, "accuracy", &accuracy::table(trial));
         return;
     }
@@ -97,7 +107,7 @@ fn bench(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneContext<
         nothing(ui, body, "Nothing was measured to its end.", context);
         return;
     };
-    if context.view.saved.tables.contains(&PaneKind::Accuracy) {
+    if context.view.saved.tables.contains(&PaneKind::METHODS) {
         widgets::data_table(ui, body, "bench", &figure.table);
         return;
     }

@@ -9,7 +9,7 @@ mod view;
 
 use egui::{CollapsingHeader, Rect, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::action::{Action, RenderAction};
 use crate::document::render::RenderSettings;
 use crate::panes::widgets;
@@ -25,9 +25,19 @@ const NO_PIXEL: f32 = 44.0;
 /// In a lower pane they are a group among the others.
 const WITH_PIXEL: f32 = 480.0;
 
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::RENDER_SETTINGS,
+    title: "Render settings",
+    show,
+    figure: None,
+    under_conditions: false,
+    table: false,
+};
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::RenderSetup, rect, context, |_, _| {});
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let sources = context.view.render.shot.as_deref().map_or(0, |shot| shot.sources.len());
     let kept = context.view.render.pinned.is_some();
     let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 } else { NO_PIXEL };

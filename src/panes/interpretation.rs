@@ -13,7 +13,7 @@ mod switches;
 use egui::text::LayoutJob;
 use egui::{ComboBox, FontId, Rect, Response, RichText, ScrollArea, TextFormat, Ui, UiBuilder, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::command::Command;
 use crate::document::own::ImportOverrides;
 use crate::figures::curves::ImportSelection;
@@ -28,9 +28,19 @@ const CONTENT: &str = "As the content says";
 /// The same where there is little room.
 const CONTENT_SHORT: &str = "By content";
 
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::INTERPRETATION,
+    title: "Interpretation",
+    show,
+    figure: None,
+    under_conditions: false,
+    table: false,
+};
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, PaneKind::Understood, rect, context, notes::button);
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, notes::button);
     let inner = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
     let Some(shown) = ImportSelection::refresh(&context.scene, context.view, context.opened) else {
         let mut child = ui.new_child(UiBuilder::new().id_salt("nothing understood").max_rect(inner));

@@ -3,7 +3,7 @@
 use chromascope_figure::{TextSize, text_width};
 use egui::{Align, Label, Layout, Rect, RichText, ScrollArea, TextStyle, Ui, UiBuilder, Vec2};
 
-use super::context::PaneContext;
+use super::context::{Pane, PaneContext};
 use crate::command::Command;
 use crate::figures::skipped_work::{self, OVERLAP, Section};
 use crate::format::{capitalized, duration};
@@ -12,17 +12,27 @@ use crate::profiler::SkippedWork;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::WORK_SAVED,
+    title: "Work saved",
+    show,
+    figure: Some(|_, view| skipped_work::figure(view)),
+    under_conditions: false,
+    table: true,
+};
+
 /// Shows the pane in its rectangle.
-pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     context.refresh_run();
-    let body = widgets::pane(ui, PaneKind::SkippedWork, rect, context, |_, _| {});
+    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     if !context.view.fixed_clock {
         let run = context.view.accuracy.run.clone();
         let measured = run.as_ref().map_or(&[][..], |run| &run.skipped_work);
         context.view.accuracy.remembered = skipped_work::remembered(&context.counts(), measured);
     }
     let sections = skipped_work::sections(context.view);
-    if context.view.saved.tables.contains(&PaneKind::SkippedWork) {
+    if context.view.saved.tables.contains(&PaneKind::WORK_SAVED) {
         widgets::data_table(ui, body, "left out", &skipped_work::table(&sections));
         return;
     }

@@ -2,7 +2,8 @@
 
 use egui::{Grid, RichText, Ui};
 
-use crate::figures::render::{facts, headline, index_of, pixel_of};
+use crate::figures::render::headline::Measure;
+use crate::figures::render::{facts, index_of, pixel_of};
 use crate::panes::context::PaneContext;
 use crate::plot_item::SensorId;
 use crate::render_service::pixel::PixelShows;
@@ -25,9 +26,9 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ui.label(RichText::new("Nothing was made for this source yet.").small().color(weak));
         return;
     };
-    let label =
-        render.shot.as_deref().and_then(|shot| Some(shot.sources[index_of(shot, &place.source)?].label.clone()));
-    let label = label.unwrap_or_else(|| place.source.name.clone());
+    let Some(shot) = render.shot.as_deref() else { return };
+    let label = index_of(shot, &place.source).map_or(&place.source.name, |index| &shot.sources[index].label);
+    let measure = Measure::of(&shot.query);
     let [x, y] = reading.at;
     ui.label(format!("Pixel {x}, {y}   {label}"));
     match reading.shows {
@@ -39,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
         PixelShows::Lit(lit) => {
             let numbers = Grid::new("pixel").num_columns(2).spacing([3.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
-                for (name, value) in facts(&lit, headline::measure(context.scene.document)) {
+                for (name, value) in facts(&lit, measure) {
                     ui.monospace(name);
                     ui.monospace(value);
                     ui.end_row();
@@ -72,7 +73,7 @@ fn shown(place: PixelPlace, render: &RenderView) -> PixelPlace {
 fn others(ui: &mut Ui, place: &PixelPlace, context: &PaneContext<'_>) {
     let render = &context.view.render;
     let Some(shot) = render.shot.as_deref() else { return };
-    let delta = if headline::measure(context.scene.document).starts_with("ΔE") { "ΔE" } else { "Δ" };
+    let measure = Measure::of(&shot.query);
     Grid::new("pixel through all").num_columns(3).spacing([2.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
         for source in &shot.sources {
             let place = PixelPlace { at: place.at, source: SensorId { kind: source.kind, name: source.name.clone() } };
@@ -81,7 +82,9 @@ fn others(ui: &mut Ui, place: &PixelPlace, context: &PaneContext<'_>) {
                 continue;
             };
             let xy = lit.xy.map_or_else(|| "no xy".to_owned(), |xy| format!("{:.4} {:.4}", xy.x, xy.y));
-            let difference = lit.difference.map_or_else(String::new, |difference| format!("{delta} {difference:.1}"));
+            let difference = lit.difference.map_or_else(String::new, |difference| {
+                format!("{} {}", measure.short_name(), measure.number(difference))
+            });
             ui.label(RichText::new(&source.label).small());
             ui.label(RichText::new(xy).small().monospace());
             ui.label(RichText::new(difference).small().monospace());
