@@ -78,7 +78,8 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     assert_eq!(Some(beside.count + rest + lit), beside.of, "every sample is lit or accounted for");
     let terms = of("terms of S at a lit sample");
     assert!(terms.count > lit * 4 * 9, "several terms at each wavelength, {} of them", terms.count);
-    assert_eq!(Some(terms.count), terms.of, "tables and moments add none");
+    // Moments add none; of the few samples near grazing some are added.
+    assert!(terms.of.is_some_and(|of| terms.count <= of && terms.count / 99 > of / 100), "{terms:?}");
     assert!(measured.skipped_work.iter().all(|row| row.saved.is_finite() && row.saved >= 0.0 && !row.how.is_empty()));
     assert!(window.query_by_label("Run again").is_some());
     assert!(window.state().view().accuracy.is_current);
@@ -134,7 +135,7 @@ fn methods_say_what_was_measured_and_what_marks_stand_for() {
         assert!(window.query_by_label(&run(&window).conditions.scene).is_some());
         let trial = run(&window).trials[0].clone();
         assert_eq!(trial.name(0), "401 wavelengths, S to 1e-13 (reference)");
-        assert_eq!(trial.set.map(|set| trial.name(set)).as_deref(), Some("9 wavelengths, 4 moments (set)"));
+        assert_eq!(trial.set.map(|set| trial.name(set)).as_deref(), Some("Full: moments, table (set)"));
         let panel = chromascope::figures::accuracy::panel(&trial, true, [600.0, 400.0]);
         assert!(panel.marks.iter().any(|mark| mark.name.ends_with(" (set)")));
         let of_a_camera = |ink: Ink| matches!(ink.role, InkRole::Sensor(_) | InkRole::Reference | InkRole::Observer);

@@ -274,9 +274,9 @@ fn statistics_are_json() {
     assert!(of("facing_light") > 0.0 && of("median_above_l20") <= of("p95_above_l20"), "{difference}");
     assert!(of("samples_above_l20") <= json["samples"]["lit"].as_f64().unwrap(), "{difference}");
     assert!(json["settings"]["returned_light"]["normal_incidence"].as_f64().is_some_and(|share| share > 0.3));
-    assert_eq!(source["integrals"]["nodes"]["wavelengths"], 9, "{}", source["integrals"]);
+    assert_eq!(source["integrals"]["nodes"]["wavelengths"], 15, "{}", source["integrals"]);
     assert_eq!(source["integrals"]["nodes"]["samples"], json["samples"]["spectral"]);
-    assert_eq!(source["plan"]["chosen"]["method"], "9 wavelengths for all channels, S to 1e-10");
+    assert_eq!(source["plan"]["chosen"]["method"], "15 wavelengths for all channels, S to 1e-13");
     let accuracy = &json["accuracy"];
     let error = |transform: &str| accuracy[transform]["error_to_peak"]["max"].as_f64().unwrap();
     assert!(error("chosen") <= 1e-5 && error("exact") == 0.0 && error("regimes") > 1e-4, "{accuracy}");
