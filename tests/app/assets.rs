@@ -132,6 +132,21 @@ fn headers_hold_the_required_keys_in_order() {
     }
 }
 
+/// Meshes are OBJ files, in which a header is a comment too.
+#[test]
+fn meshes_have_headers_too() {
+    for entry in fs::read_dir(Path::new(ROOT).join("meshes")).unwrap() {
+        let path = entry.unwrap().path();
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(path.extension().is_some_and(|extension| extension == "obj"), "{}", path.display());
+        assert!(text.len() <= 1_000_000 && !text.contains('\r'), "{}", path.display());
+        let keys: Vec<&str> = text.lines().map_while(|line| line.strip_prefix("# ")?.split(": ").next()).collect();
+        assert!(keys.starts_with(&["title", "quantity", "unit", "source", "license", "note"]), "{keys:?}");
+        let license = text.lines().find_map(|line| line.strip_prefix("# license: ")).unwrap();
+        assert!(license.starts_with("public domain"), "{license}");
+    }
+}
+
 #[test]
 fn sensitivities_say_per_energy_or_per_photon() {
     for file in data_files() {

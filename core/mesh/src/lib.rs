@@ -4,12 +4,14 @@
 //! Lengths in meters. A mesh names no spectrum, roughness or camera.
 
 pub mod fern;
+#[cfg(feature = "data")]
 pub mod head;
-pub mod implicit;
 pub mod mesh;
 pub mod reading;
 pub mod shadow;
 pub mod shapes;
+#[cfg(feature = "data")]
+mod subdivision;
 
 pub use mesh::{Bounds, Mesh, MeshError};
 pub use shadow::ShadowTree;

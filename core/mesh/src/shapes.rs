@@ -8,6 +8,11 @@ const SIZE: f32 = 0.1;
 
 /// A sphere of radius 0.1 m with about this many triangles (at least 128): rings and sectors, exact normals.
 pub fn sphere(triangles: usize) -> Mesh {
+    sphere_of(SIZE, triangles)
+}
+
+/// A sphere of any radius in meters, otherwise as [`sphere`].
+pub(crate) fn sphere_of(radius: f32, triangles: usize) -> Mesh {
     // Rings × sectors with twice as many sectors: 4 r² − 4 r triangles.
     let rings = (((triangles.clamp(128, 2_000_000) as f64) / 4.0).sqrt().ceil() as u32).max(6);
     let sectors = 2 * rings;
@@ -33,7 +38,7 @@ pub fn sphere(triangles: usize) -> Mesh {
         }
         faces.push([at(rings - 1, sector), last, at(rings - 1, sector + 1)]);
     }
-    let positions = normals.iter().map(|n| *n * SIZE).collect();
+    let positions = normals.iter().map(|n| *n * radius).collect();
     built(positions, normals, faces)
 }
 

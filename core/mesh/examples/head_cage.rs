@@ -1,0 +1,300 @@
+//! Writes the head's control cage, `assets/meshes/head.obj`, from a head that ends with a jagged neck.
+//!
+//! ```text
+//! cargo run -p chromascope-mesh --example head_cage -- head.obj > assets/meshes/head.obj
+//! ```
+//!
+//! The given OBJ file is the head of `MakeHuman`'s base mesh with the target `caucasian-male-young`, in meters, y up and z
+//! forward, with the groups `skin` and `eyes`. Taken of it is the skin above the lowest loop of edges around the neck. From
+//! there, rings of quadrilaterals follow curves from the neck over the shoulders to the edge of a base, and a grid closes it.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "an example that writes to the terminal")]
+
+use glam::{Vec3, vec2, vec3};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::f32::consts::PI;
+use std::io::{Error, ErrorKind, Write as _};
+
+/// The height from chin to crown that the source has, and that the head is brought to.
+const CHIN_TO_CROWN: [f32; 2] = [0.225, 0.23];
+
+/// The center of the source's left eyeball, by least squares over all of it but the cornea.
+const EYEBALL: Vec3 = vec3(0.02929, 0.02072, 0.06429);
+
+/// The facts at the top of the file.
+const HEADER: &str = "\
+# title: Head
+# quantity: control cage of a head with neck and shoulders, quadrilaterals for Catmull-Clark subdivision
+# unit: m
+# source: MakeHuman base mesh hm08 with the target caucasian-male-young (makehumancommunity/mpfb2)
+# license: public domain (CC0 1.0: Data Collection AB, Joel Palmius and Jonas Hauquier, 2020)
+# note: The skin above the lowest closed loop of edges around the neck, 0.23 m from chin to crown; shoulders and base are added. \
+Written by the example head_cage of chromascope-mesh.
+# note: The front looks towards +z, the top towards +y. Closed; it has no eyeballs.
+";
+
+/// An outline of the shoulders: half the width, the depths in front of the neck's axis and behind it, and the heights in
+/// front, aside and behind, in the source's meters.
+struct Outline {
+    wide: f32,
+    front: f32,
+    back: f32,
+    heights: [f32; 3],
+}
+
+/// Depth of the neck's axis.
+const AXIS: f32 = -0.040;
+
+/// Outlines from the neck down to the edge of the base, each with the number of rings up to it.
+const OUTLINES: [(usize, Outline); 5] = [
+    (4, Outline { wide: 0.080, front: 0.068, back: 0.057, heights: [-0.168, -0.127, -0.112] }),
+    (3, Outline { wide: 0.118, front: 0.084, back: 0.072, heights: [-0.190, -0.145, -0.155] }),
+    (3, Outline { wide: 0.138, front: 0.096, back: 0.078, heights: [-0.213, -0.175, -0.190] }),
+    (3, Outline { wide: 0.136, front: 0.095, back: 0.074, heights: [-0.232, -0.210, -0.217] }),
+    (1, Outline { wide: 0.127, front: 0.086, back: 0.066, heights: [-0.238, -0.221, -0.226] }),
+];
+
+/// Vertices and quadrilaterals.
+#[derive(Default)]
+struct Cage {
+    positions: Vec<Vec3>,
+    quads: Vec<[usize; 4]>,
+}
+
+impl Cage {
+    /// The skin of an OBJ file.
+    fn skin(text: &str) -> Option<Self> {
+        let (mut cage, mut is_skin) = (Self::default(), false);
+        for line in text.lines() {
+            let (key, rest) = line.split_once(' ').unwrap_or_default();
+            let words = rest.split_ascii_whitespace();
+            match key {
+                "g" => is_skin = rest.trim() == "skin",
+                "v" => {
+                    let numbers: Option<Vec<f32>> = words.map(|word| word.parse().ok()).collect();
+                    cage.positions.push(Vec3::from_array(numbers?.try_into().ok()?));
+                }
+                "f" if is_skin => {
+                    let index = |word: &str| Some(word.split('/').next()?.parse::<usize>().ok()? - 1);
+                    let corners: Option<Vec<usize>> = words.map(index).collect();
+                    cage.quads.push(corners?.try_into().ok()?);
+                }
+                _ => {}
+            }
+        }
+        Some(cage)
+    }
+
+    /// The quadrilaterals on both sides of each edge.
+    fn edges(&self) -> BTreeMap<[usize; 2], Vec<usize>> {
+        let mut edges: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
+        for (face, quad) in self.quads.iter().enumerate() {
+            for k in 0..4 {
+                edges.entry(ends(quad[k], quad[(k + 1) % 4])).or_default().push(face);
+            }
+        }
+        edges
+    }
+
+    /// The lowest loop of edges around the neck, from the front to the left (+x): each next edge shares no quadrilateral with
+    /// the one before.
+    fn neck(&self) -> Option<Vec<usize>> {
+        let edges = self.edges();
+        let straight = |from: usize, at: usize| {
+            let mut ahead = edges.keys().filter(|edge| edge.contains(&at)).map(|edge| edge[usize::from(edge[0] == at)]);
+            let beside: Vec<usize> = edges.get(&ends(from, at))?.iter().flat_map(|&face| self.quads[face]).collect();
+            let four = edges.keys().filter(|edge| edge.contains(&at)).count() == 4;
+            ahead.find(|v| !beside.contains(v)).filter(|_| four)
+        };
+        let around = |first: usize| {
+            let aside = |edge: &&[usize; 2]| edge.contains(&first) && edge.iter().any(|&v| self.positions[v].x > 0.0);
+            let edge = edges.keys().find(aside)?;
+            let mut ring = vec![first, edge[usize::from(edge[0] == first)]];
+            loop {
+                let next = straight(ring[ring.len() - 2], ring[ring.len() - 1])?;
+                if next == first {
+                    return Some(ring);
+                }
+                ring.push(next);
+            }
+        };
+        // In front of the neck: the ears' height and the mouth have loops too.
+        let mut firsts: Vec<usize> = (0..self.positions.len()).collect();
+        firsts.retain(|&v| self.positions[v].x == 0.0 && self.positions[v].z > 0.0);
+        firsts.sort_by(|&a, &b| self.positions[a].y.total_cmp(&self.positions[b].y));
+        firsts.into_iter().find_map(around)
+    }
+
+    /// What is on the crown's side of a loop of edges, and that loop's new indices.
+    fn above(&self, ring: &[usize]) -> Option<(Self, Vec<usize>)> {
+        let cut: BTreeSet<[usize; 2]> = (0..ring.len()).map(|i| ends(ring[i], ring[(i + 1) % ring.len()])).collect();
+        let edges = self.edges();
+        let height = |face: &usize| self.positions[self.quads[*face][0]].y;
+        let crown = (0..self.quads.len()).max_by(|a, b| height(a).total_cmp(&height(b)))?;
+        let (mut kept, mut open) = (BTreeSet::from([crown]), VecDeque::from([crown]));
+        while let Some(face) = open.pop_front() {
+            let quad = self.quads[face];
+            for edge in (0..4).map(|k| ends(quad[k], quad[(k + 1) % 4])).filter(|edge| !cut.contains(edge)) {
+                open.extend(edges[&edge].iter().filter(|&&other| kept.insert(other)));
+            }
+        }
+        let used: BTreeSet<usize> = kept.iter().flat_map(|&face| self.quads[face]).collect();
+        let places: BTreeMap<usize, usize> = used.iter().copied().zip(0..).collect();
+        let quads = kept.iter().map(|&face| self.quads[face].map(|v| places[&v])).collect();
+        let positions = used.iter().map(|&v| self.positions[v]).collect();
+        Some((Self { positions, quads }, ring.iter().map(|v| places[v]).collect()))
+    }
+
+    /// Adds rings from the neck to the edge of the base and returns the last.
+    fn add_shoulders(&mut self, neck: &[usize]) -> Vec<usize> {
+        let count = neck.len();
+        // The right half is the left one's mirror image, to the last bit.
+        let mirrored = |i: usize| self.curve(neck, i).into_iter().map(|p| p * vec3(-1.0, 1.0, 1.0)).collect();
+        let curves: Vec<Vec<Vec3>> =
+            (0..count).map(|i| if 2 * i <= count { self.curve(neck, i) } else { mirrored(count - i) }).collect();
+        let mut last = neck.to_vec();
+        for step in 0..curves[0].len() {
+            let ring: Vec<usize> = (0..count).map(|i| self.positions.len() + i).collect();
+            self.positions.extend(curves.iter().map(|curve| curve[step]));
+            for i in 0..count {
+                let next = (i + 1) % count;
+                self.quads.push([last[i], ring[i], ring[next], last[next]]);
+            }
+            last = ring;
+        }
+        last
+    }
+
+    /// The places of the rings below one vertex of the neck.
+    fn curve(&self, neck: &[usize], index: usize) -> Vec<Vec3> {
+        let start = self.positions[neck[index]];
+        let angle = self.angle(neck, index);
+        let (sin, cos) = angle.sin_cos();
+        let mut knots = vec![start];
+        knots.extend(OUTLINES.iter().map(|(_, outline)| {
+            let depth = if cos > 0.0 { outline.front } else { outline.back } * cos;
+            let [front, side, back] = outline.heights;
+            let height = side * sin * sin + if cos > 0.0 { front } else { back } * cos * cos;
+            vec3(outline.wide * sin, height, AXIS + depth)
+        }));
+        let mut places = Vec::new();
+        for (i, (rings, _)) in OUTLINES.iter().enumerate() {
+            let (from, to) = (knots[i], knots[i + 1]);
+            let chord = from.distance(to);
+            // Slopes of a Catmull–Rom spline over the chords' lengths; the neck's own at its end.
+            let slope = |k: usize| match k {
+                0 => self.way(neck, index),
+                k if k + 1 == knots.len() => (knots[k] - knots[k - 1]).normalize(),
+                k => {
+                    let (a, b) = (knots[k] - knots[k - 1], knots[k + 1] - knots[k]);
+                    (a / a.length() * b.length() + b / b.length() * a.length()) / (a.length() + b.length())
+                }
+            };
+            let (d0, d1) = (slope(i) * chord, slope(i + 1) * chord);
+            places.extend((1..=*rings).map(|k| {
+                let t = k as f32 / *rings as f32;
+                let (t2, t3) = (t * t, t * t * t);
+                let ends = from * (2.0 * t3 - 3.0 * t2 + 1.0) + to * (3.0 * t2 - 2.0 * t3);
+                ends + d0 * (t3 - 2.0 * t2 + t) + d1 * (t3 - t2)
+            }));
+        }
+        places
+    }
+
+    /// The direction in which the surface goes on below a vertex of the neck: the mean over its neighbors on the ring.
+    fn way(&self, neck: &[usize], index: usize) -> Vec3 {
+        let count = neck.len();
+        let below = |index: usize| {
+            let at = neck[index % count];
+            let quads = self.quads.iter().filter(|quad| quad.contains(&at)).flatten();
+            let above: BTreeSet<usize> = quads.copied().filter(|v| !neck.contains(v)).collect();
+            let middle = above.iter().map(|&v| self.positions[v]).sum::<Vec3>() / above.len() as f32;
+            (self.positions[at] - middle).normalize()
+        };
+        (index + count - 3..=index + count + 3).map(below).sum::<Vec3>().normalize()
+    }
+
+    /// The direction of a vertex of the neck seen from its axis: 0 in front, a quarter turn at the left; half as seen, half
+    /// by its place along the ring.
+    fn angle(&self, neck: &[usize], index: usize) -> f32 {
+        let place = self.positions[neck[index]];
+        let even = 2.0 * PI * index as f32 / neck.len() as f32;
+        let seen = vec2(place.z - AXIS, place.x).to_angle().rem_euclid(2.0 * PI);
+        let seen = if index == 0 { 0.0 } else { seen };
+        even + 0.5 * (seen - even)
+    }
+
+    /// Closes a ring with a grid whose columns run from front to back.
+    fn close(&mut self, ring: &[usize]) {
+        let count = ring.len();
+        // An even number of columns, with the middle in front.
+        let columns = count / 4 / 2 * 2 + 2;
+        let rows = count / 2 - columns;
+        let ahead = |k: isize| ring[k.rem_euclid(count as isize) as usize];
+        let (columns_i, rows_i) = (columns as isize, rows as isize);
+        let mut grid = vec![vec![0; columns + 1]; rows + 1];
+        for (row, line) in (0_isize..).zip(&mut grid) {
+            for (column, vertex) in (0_isize..).zip(line) {
+                // From +x to −x and from front to back.
+                let from_middle = columns_i / 2 - column;
+                *vertex = if row == 0 {
+                    ahead(from_middle)
+                } else if row == rows_i {
+                    ahead(columns_i / 2 + rows_i + column)
+                } else if column == 0 {
+                    ahead(columns_i / 2 + row)
+                } else if column == columns_i {
+                    ahead(-columns_i / 2 - row)
+                } else {
+                    usize::MAX
+                };
+            }
+        }
+        let border = grid.clone();
+        for row in 1..rows {
+            for column in 1..columns {
+                let (u, v) = (column as f32 / columns as f32, row as f32 / rows as f32);
+                let at = |r: usize, c: usize| self.positions[border[r][c]];
+                let across = at(row, 0).lerp(at(row, columns), u) + at(0, column).lerp(at(rows, column), v);
+                let corners = at(0, 0).lerp(at(0, columns), u).lerp(at(rows, 0).lerp(at(rows, columns), u), v);
+                grid[row][column] = self.positions.len();
+                self.positions.push(across - corners);
+            }
+        }
+        for row in 0..rows {
+            for column in 0..columns {
+                let [a, b] = [row, row + 1].map(|r| [grid[r][column], grid[r][column + 1]]);
+                self.quads.push([a[0], a[1], b[1], b[0]]);
+            }
+        }
+    }
+}
+
+fn ends(a: usize, b: usize) -> [usize; 2] {
+    [a.min(b), a.max(b)]
+}
+
+fn main() -> Result<(), Error> {
+    let invalid = |what: &'static str| Error::new(ErrorKind::InvalidData, what);
+    let path = std::env::args().nth(1).ok_or_else(|| invalid("the path of an OBJ file is missing"))?;
+    let skin = Cage::skin(&std::fs::read_to_string(path)?).ok_or_else(|| invalid("not of quadrilaterals"))?;
+    let ring = skin.neck().ok_or_else(|| invalid("no loop of edges around the neck"))?;
+    let (mut cage, neck) = skin.above(&ring).ok_or_else(|| invalid("nothing above the neck"))?;
+    let base = cage.add_shoulders(&neck);
+    cage.close(&base);
+    let scale = CHIN_TO_CROWN[1] / CHIN_TO_CROWN[0];
+    let low = cage.positions.iter().copied().reduce(Vec3::min).unwrap_or_default();
+    let high = cage.positions.iter().copied().reduce(Vec3::max).unwrap_or_default();
+    let middle = low.midpoint(high) * vec3(0.0, 1.0, 1.0);
+    eprintln!("center of an eyeball: {:.5}", (EYEBALL - middle) * scale);
+    let mut out = std::io::stdout().lock();
+    out.write_all(HEADER.as_bytes())?;
+    for p in &cage.positions {
+        let p = ((*p - middle) * scale * 1e5).round() / 1e5 + 0.0;
+        writeln!(out, "v {:.5} {:.5} {:.5}", p.x, p.y, p.z)?;
+    }
+    for quad in &cage.quads {
+        let [a, b, c, d] = quad.map(|v| v + 1);
+        writeln!(out, "f {a} {b} {c} {d}")?;
+    }
+    Ok(())
+}
