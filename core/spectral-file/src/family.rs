@@ -29,6 +29,9 @@ impl fmt::Display for Family {
 /// How much of the text is looked at for the marks of a family.
 const LOOK: usize = 64 << 10;
 
+/// The line that begins the names of fields in CGATS.
+const CGATS_FORMAT: &str = "BEGIN_DATA_FORMAT";
+
 /// The family of a text, from its beginning.
 pub(super) fn recognize(text: &str) -> Option<Family> {
     let start = text.trim_start();
@@ -42,7 +45,8 @@ pub(super) fn recognize(text: &str) -> Option<Family> {
     if start.starts_with('{') || list || commented_json(start) {
         return Some(Family::Json);
     }
-    let cgats = text[..floor(text)].lines().any(|line| line.trim() == "BEGIN_DATA_FORMAT");
+    let head = &text[..floor(text)];
+    let cgats = head.contains(CGATS_FORMAT) && head.lines().any(|line| line.trim() == CGATS_FORMAT);
     cgats.then_some(Family::Cgats)
 }
 

@@ -6,9 +6,6 @@ use super::watch::Log;
 use super::{Curve, Decided, Dropped, DroppedRow, Part, Quantity, ReadError, Role, WavelengthUnit};
 use chromascope_text::on_one_line;
 
-/// How many dropped rows are listed; nobody reads more.
-const MAX_DROPPED: usize = 1000;
-
 /// Numbers as they stand in the file, before units, order and scale are settled.
 #[derive(Debug, Default)]
 pub(super) struct Grid {
@@ -39,6 +36,10 @@ pub(super) struct Grid {
     pub(super) own_wavelengths: bool,
     /// A number that stands for missing values, to be told with the gaps.
     pub(super) sentinel: Option<Sentinel>,
+    /// More columns of wavelengths, from 0, with units of their own.
+    pub(super) axes: Vec<(usize, Option<WavelengthUnit>)>,
+    /// The lines of a table whose curves have wavelengths of their own.
+    pub(super) row_lines: Vec<usize>,
     /// Rows left out.
     pub(super) dropped: Vec<DroppedRow>,
 }
@@ -51,6 +52,8 @@ pub(super) struct RawCurve {
     pub(super) named: bool,
     /// The column it stands in, from 1, where wavelengths run down one.
     pub(super) column: Option<usize>,
+    /// Its column from 0, its line, or its number among the curves of the file: the name of its places.
+    pub(super) origin: usize,
     /// All that the header says about this curve: its name and its unit.
     pub(super) label: String,
     /// The unit of the values as the file names it.
@@ -127,9 +130,7 @@ impl Grid {
 
     /// Notes a row as left out.
     pub(super) fn drop_row(&mut self, line: usize, why: Dropped) {
-        if self.dropped.len() < MAX_DROPPED {
-            self.dropped.push(DroppedRow { line, why });
-        }
+        self.dropped.push(DroppedRow { line, why });
     }
 
     /// Removes the marked samples.
@@ -143,11 +144,11 @@ impl Grid {
         }
     }
 
-    /// The curves without their gaps. A curve of fewer than two values is left
+    /// The curves without their gaps, and their origins. A curve of fewer than two values is left
     /// out; it is worth a warning only if it has a name or a value.
-    pub(super) fn into_curves(mut self, log: &mut Log<'_>) -> Vec<Curve> {
+    pub(super) fn into_curves(mut self, log: &mut Log<'_>) -> (Vec<Curve>, Vec<usize>) {
         let mut gaps = vec![0_u32; self.wavelengths.len()];
-        let mut curves = Vec::new();
+        let (mut curves, mut origins) = (Vec::new(), Vec::new());
         let (mut empty, mut first_empty) = (0, None);
         for raw in std::mem::take(&mut self.curves) {
             let missing = raw.values.iter().filter(|value| value.is_nan()).count();
@@ -162,6 +163,7 @@ impl Grid {
             for (count, value) in gaps.iter_mut().zip(&raw.values) {
                 *count += u32::from(value.is_nan());
             }
+            origins.push(raw.origin);
             curves.push(curve(raw, &self.wavelengths, missing));
         }
         if self.own_wavelengths {
@@ -174,7 +176,7 @@ impl Grid {
         if let Some(first) = first_empty {
             log.push(Warning::EmptyCurves { count: empty, first });
         }
-        curves
+        (curves, origins)
     }
 }
 

@@ -21,12 +21,17 @@ const NEAR: usize = 6;
 #[derive(Debug, Default)]
 pub(super) struct Header {
     pub(super) comments: Vec<(String, String)>,
+    /// The lines of the comments, where they are known.
+    pub(super) noted: Vec<u32>,
     /// The line that names the columns.
     pub(super) line: Option<usize>,
     /// The cells of that line.
     pub(super) names: Vec<String>,
     /// The cells of a line of units below the names.
     pub(super) units: Vec<String>,
+    pub(super) units_line: Option<usize>,
+    /// Whether the line of names leaves out that of the wavelengths.
+    pub(super) shifted: bool,
     /// The unit of the wavelengths and the line that gives it.
     pub(super) x_unit: Option<(usize, XUnit)>,
     /// What all values stand for, as a line says, and that line.
@@ -74,10 +79,11 @@ impl Header {
         cell.or_else(|| self.name(column).and_then(quantity::unit)).or_else(|| self.unit.clone())
     }
 
-    /// Keeps a comment.
-    pub(super) fn note(&mut self, key: &str, value: &str) {
+    /// Keeps a comment; line 0 stands for none.
+    pub(super) fn note(&mut self, line: usize, key: &str, value: &str) {
         if self.comments.len() < MAX_COMMENTS && !value.is_empty() {
             self.comments.push((key.to_owned(), value.to_owned()));
+            self.noted.push(line as u32);
         }
     }
 
@@ -134,6 +140,7 @@ impl Header {
         }
         if self.comments.len() < MAX_COMMENTS {
             self.comments.push((key.to_owned(), value.to_owned()));
+            self.noted.push(line as u32);
         }
     }
 
@@ -211,6 +218,7 @@ impl Header {
                 let unit_alone = cells.len() == 1 && self.units.is_empty() && is_unit(&cells[0]);
                 if unit_alone {
                     self.x_unit = words::x_unit(&cells[0]).map(|unit| (number, unit));
+                    self.units_line = Some(number);
                 }
                 // Rows that are named themselves go on above one of units, or one left empty.
                 if unit_alone && is_keyed(layout, rows.clone()) || cells.len() == 1 && row_key(&cells[0]).is_some() {
@@ -231,6 +239,7 @@ impl Header {
             if self.units.is_empty() && is_unit_row(&cells) {
                 self.take_unit_cell(number, &cells, layout);
                 self.units = cells;
+                self.units_line = Some(number);
                 continue;
             }
             if is_measured(layout, &cells) {
@@ -246,6 +255,7 @@ impl Header {
                 row_key(&self.names[0]).is_some() || self.names.iter().any(|name| words::names_wavelengths(name));
             if self.names.len() + 1 == layout.width && !headed {
                 self.names.insert(0, String::new());
+                self.shifted = true;
             }
             return;
         }

@@ -60,8 +60,8 @@ pub(super) fn recognize(text: &str, grid: &mut Grid) -> Option<Decision> {
         grid.role
             .get_or_insert_with(|| Decided::guess(Role::Illuminant, format!("Line {line} is of an analyzer of light")));
     }
-    if let Some(name) = lines().find_map(|(_, line)| library_name(line)) {
-        grid.header.note("title", name);
+    if let Some((at, name)) = lines().find_map(|(at, line)| Some((at, library_name(line)?))) {
+        grid.header.note(at, "title", name);
         if let [only] = grid.curves.as_mut_slice()
             && !only.named
         {

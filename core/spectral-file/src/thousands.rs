@@ -59,6 +59,9 @@ pub(super) fn beside_fractions(
     let content = Lines::of(section).skip_while(|(number, _)| *number < from);
     // Commas that separate stand in every line; one within a cell is quoted.
     let sign = if delimiter == Delimiter::Comma && other == ',' { '"' } else { other };
+    if !section.text.contains(sign) {
+        return false;
+    }
     let mut marked = content.filter(|(_, line)| line.contains(sign) && comment(line).is_none());
     let grouped = |cell: &str| cell.contains(other) && may_be_thousands(cell);
     marked.any(|(_, line)| dialect.cells(line).take(MAX_CURVES + 1).any(grouped))

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 use std::mem::discriminant;
 
+use super::places::Places;
 use super::{ReadError, Warning};
 
 /// What a caller sees of a reading, and its way to stop it.
@@ -27,6 +28,8 @@ impl<'a> Watch<'a> {
 /// What a reader says on its way: warnings, and how far it is.
 pub(super) struct Log<'a> {
     pub(super) warnings: Vec<Warning>,
+    /// Where samples stand, if that is to be recorded.
+    pub(super) places: Option<Places<'a>>,
     watch: Watch<'a>,
     /// How much there is to read, in bytes.
     whole: usize,
@@ -44,7 +47,7 @@ impl<'a> Log<'a> {
     const STRIDE: usize = 1 << 18;
 
     pub(super) fn new(watch: Watch<'a>, whole: usize) -> Self {
-        Self { warnings: Vec::new(), watch, whole, next: Self::STRIDE, worked: Cell::new(0) }
+        Self { warnings: Vec::new(), places: None, watch, whole, next: Self::STRIDE, worked: Cell::new(0) }
     }
 
     /// Adds a warning, or counts it where there are many of its kind.

@@ -135,7 +135,7 @@ pub(super) fn listed(all: &[String]) -> String {
 }
 
 /// The leading column that best names a row: one headed so, else the first.
-fn name_column(leading: &[&str]) -> usize {
+pub(super) fn name_column(leading: &[&str]) -> usize {
     const NAMES: [&str; 7] = ["name", "sample", "label", "patch", "color", "tag", "id"];
     let headed = |wanted: &&str| leading.iter().position(|cell| cell.to_lowercase().contains(*wanted));
     NAMES.iter().find_map(headed).unwrap_or(0)
@@ -284,7 +284,7 @@ impl<'a> Rows<'a> {
         let name = if names.0.is_empty() { names.1 } else { names.0 };
         let named = !name.is_empty();
         let name = if named { name.replace("\"\"", "\"") } else { format!("Row {}", self.curves.len() + 1) };
-        Ok(Some(RawCurve { name, named, values, ..RawCurve::default() }))
+        Ok(Some(RawCurve { name, named, values, origin: number, ..RawCurve::default() }))
     }
 
     /// Whether a line has as many cells as a row.

@@ -42,26 +42,27 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
         log.at(cell.as_ptr() as usize - text.as_ptr() as usize)?;
         if let Some(title) = cell.strip_prefix('#') {
             if title.trim() != "No Title" {
-                header.note("title", title.trim());
+                header.note(line, "title", title.trim());
             }
             continue;
         }
         if let Some(date) = cell.strip_prefix('@') {
-            header.note("date", date.trim());
+            header.note(line, "date", date.trim());
             continue;
         }
         let broken = || ReadError::NotANumber { line, column: 1, text: excerpt(cell) };
         let found = number(cell).ok_or_else(broken)?;
         comma |= cell.contains(',');
         match wavelength.take() {
-            None => wavelength = Some((line, found)),
-            Some((line, wavelength)) if found.is_finite() && f64::is_finite(wavelength) => {
-                samples.push(Sample { wavelength, value: found, line });
+            None => wavelength = Some((line, cell, found)),
+            Some((line, written, wavelength)) if found.is_finite() && f64::is_finite(wavelength) => {
+                let place = log.places.as_mut().map(|places| places.pair(written, cell)).unwrap_or_default();
+                samples.push(Sample { wavelength, value: found, line, place });
             }
             Some(_) => {}
         }
     }
-    if let Some((line, _)) = wavelength {
+    if let Some((line, ..)) = wavelength {
         return Err(ReadError::UnevenRow { line, found: 1, expected: 2 });
     }
     let first_line = samples.first().map(|sample| sample.line).ok_or(ReadError::NoNumbers)?;

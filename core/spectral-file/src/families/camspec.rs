@@ -4,6 +4,7 @@
 use super::super::dialect::{Cell, Dialect};
 use super::super::grid::{Grid, RawCurve};
 use super::super::header::Header;
+use super::super::places::PlaceKind;
 use super::super::sniff::Layout;
 use super::super::text::Lines;
 use super::super::watch::Log;
@@ -39,6 +40,19 @@ fn values(line: &str) -> Option<Vec<f64>> {
     (all.len() == BANDS).then_some(all)
 }
 
+fn wavelength(band: usize) -> f64 {
+    400.0 + 10.0 * band as f64
+}
+
+/// Records the values of a line as those of a curve.
+fn record(line: &str, origin: usize, log: &mut Log<'_>) {
+    let Some(places) = &mut log.places else { return };
+    for (band, cell) in line.split_ascii_whitespace().enumerate() {
+        let place = places.add(PlaceKind::Value, cell);
+        places.assign(place, origin, wavelength(band));
+    }
+}
+
 /// Reads three curves for each camera.
 pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut lines = Lines::new(text).filter(|(_, line)| !line.trim().is_empty()).peekable();
@@ -46,8 +60,11 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut cameras: Vec<(String, [Vec<f64>; 3])> = Vec::new();
     while let Some((_, name)) = lines.next() {
         log.at(name.as_ptr() as usize - text.as_ptr() as usize)?;
+        let mut origin = CHANNELS.len() * cameras.len();
         let mut channel = || {
             let (line, text) = lines.next().unwrap_or_default();
+            record(text, origin, log);
+            origin += 1;
             let found = text.split_ascii_whitespace().count();
             values(text).ok_or(ReadError::UnevenRow { line: line.max(1), found, expected: BANDS })
         };
@@ -58,7 +75,7 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
     }
     let mut header = Header::default();
     if let [(only, _)] = cameras.as_slice() {
-        header.note("title", only);
+        header.note(0, "title", only);
     }
     let (alone, rows) = (cameras.len() == 1, cameras.len() * CHANNELS.len());
     let curves = cameras.into_iter().flat_map(|(camera, channels)| {
@@ -67,9 +84,10 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
             RawCurve { name, named: true, values, ..RawCurve::default() }
         })
     });
+    let curves = curves.enumerate().map(|(origin, curve)| RawCurve { origin, ..curve });
     let why = "Three lines of 33 values under each name";
     let grid = Grid {
-        wavelengths: (0..BANDS).map(|i| 400.0 + 10.0 * i as f64).collect(),
+        wavelengths: (0..BANDS).map(wavelength).collect(),
         lines: vec![first_line],
         curves: curves.collect(),
         header,

@@ -9,6 +9,7 @@ use tokens::Token;
 use super::super::dialect::{Cell, Dialect};
 use super::super::grid::{Grid, RawCurve};
 use super::super::header::Header;
+use super::super::places::{PlaceId, PlaceKind};
 use super::super::reading::MAX_PARTS;
 use super::super::sniff::Layout;
 use super::super::text::{Lines, comment, excerpt};
@@ -36,7 +37,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
             Place::Keywords | Place::Data => tokens::of(line).collect(),
         };
         for token in tokens {
-            log.at(token.start() as usize - text.as_ptr() as usize)?;
+            log.at(token.written().as_ptr() as usize - text.as_ptr() as usize)?;
             place = match (place, token.bare().unwrap_or_default()) {
                 (_, "BEGIN_DATA_FORMAT") => {
                     file.begin_format(number);
@@ -55,8 +56,8 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
                     file.keyword(number, &token, tokens::value(line, &token));
                     break;
                 }
-                (Place::Format, _) => file.field(number, &token)?,
-                (Place::Data, _) => file.value(number, &token)?,
+                (Place::Format, _) => file.field(number, &token, log)?,
+                (Place::Data, _) => file.value(number, &token, log)?,
             };
         }
     }
@@ -86,6 +87,9 @@ struct File {
     /// The sets of the first table with spectral fields, value by value.
     names: Vec<String>,
     values: Vec<f64>,
+    /// The places of the fields and of the values, if they are recorded.
+    field_places: Vec<PlaceId>,
+    places: Vec<PlaceId>,
     /// The field that the next value belongs to.
     at: usize,
     name_fields: Vec<usize>,
@@ -135,23 +139,29 @@ impl File {
             "MEAS_TYPE" => self.header.role = measured(&value).map(|role| (line, role)).or(self.header.role),
             "DESCRIPTOR" => {
                 self.header.mentioned = words::role(&value).map(|role| (line, role)).or(self.header.mentioned);
-                self.header.note("title", &value);
+                self.header.note(line, "title", &value);
             }
             _ => {}
         }
-        self.header.note(&key, &value);
+        self.header.note(line, &key, &value);
     }
 
     fn begin_format(&mut self, line: usize) {
         self.end_data();
         self.fields.clear();
         if !self.done {
+            self.field_places.clear();
             self.format_line = line;
         }
     }
 
-    fn field(&mut self, line: usize, token: &Token) -> Result<Place, ReadError> {
+    fn field(&mut self, line: usize, token: &Token, log: &mut Log<'_>) -> Result<Place, ReadError> {
         self.fields.push(token.text().into_owned());
+        if let Some(places) = log.places.as_mut().filter(|_| !self.done) {
+            let digits = bands::digits(token.written());
+            let place = (!digits.is_empty()).then(|| places.add(PlaceKind::Wavelength, digits));
+            self.field_places.push(place.unwrap_or_default());
+        }
         if self.fields.len() > MAX_CURVES {
             return Err(ReadError::TooManyCurves { line });
         }
@@ -191,7 +201,7 @@ impl File {
         }
     }
 
-    fn value(&mut self, line: usize, token: &Token) -> Result<Place, ReadError> {
+    fn value(&mut self, line: usize, token: &Token, log: &mut Log<'_>) -> Result<Place, ReadError> {
         if let Some(values) = &mut self.counted {
             *values += 1;
         }
@@ -204,8 +214,12 @@ impl File {
         }
         if bands.is_value(self.at) {
             self.values.push(number(token, line, self.at)?);
+            self.places.extend(log.places.as_mut().map(|places| places.add(PlaceKind::Value, token.written())));
         } else if bands.is_wavelength(self.at) {
             self.row_wavelengths.push(number(token, line, self.at)?);
+            if let Some(places) = &mut log.places {
+                places.add(PlaceKind::Wavelength, token.written());
+            }
         }
         self.at += 1;
         if self.at == self.width {
@@ -237,6 +251,16 @@ impl File {
             return Err(ReadError::UnevenRow { line: self.last_line, found, expected });
         }
         warn_announced(&self.announced, &bands.wavelengths, self.names.len(), log);
+        if let Some(places) = &mut log.places {
+            let fields = self.field_places.iter().enumerate().filter(|(field, _)| bands.is_value(*field));
+            let named = fields.zip(&bands.wavelengths).filter(|_| !bands.in_rows);
+            named.for_each(|((_, place), nm)| places.assign(*place, 0, *nm));
+            let width = bands.wavelengths.len().max(1);
+            for (index, place) in self.places.iter().enumerate() {
+                let nm = bands.wavelengths.get(index % width).copied().unwrap_or(f64::NAN);
+                places.assign(*place, index / width, nm);
+            }
+        }
         let mut header = self.header;
         header.line = Some(self.format_line);
         if bands.percent {
@@ -258,7 +282,7 @@ impl File {
             let named = given.is_some();
             let name = given.unwrap_or_else(|| format!("Set {}", i + 1));
             let values = values.iter().map(|value| decimal::divided(*value, scale)).collect();
-            RawCurve { name, named, values, unit: header.unit.clone(), ..RawCurve::default() }
+            RawCurve { name, named, values, origin: i, unit: header.unit.clone(), ..RawCurve::default() }
         });
         let curves: Vec<RawCurve> = curves.collect();
         warn_gaps(&curves, self.data_line, log);

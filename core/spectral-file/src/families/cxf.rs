@@ -97,7 +97,7 @@ impl Content {
 
     fn close(&mut self, element: &Element<'_>, inside: &str, log: &mut Log<'_>) -> Result<(), ReadError> {
         if inside == "FileInformation" {
-            self.header.note(element.name(), element.content());
+            self.header.note(element.line, element.name(), element.content());
         }
         match element.name() {
             "Object" => {
@@ -112,7 +112,8 @@ impl Content {
             }
             "SpectralPoint" => {
                 let wavelength = element.number_attribute("WL")?.unwrap_or(f64::NAN);
-                let sample = Sample { wavelength, value: element.number()?, line: element.line };
+                let place = element.pair("WL", log);
+                let sample = Sample { wavelength, value: element.number()?, line: element.line, place };
                 push(&mut self.points, &mut self.total, sample)?;
             }
             name if is_spectrum(name) => self.spectrum(element, log)?,
@@ -134,9 +135,9 @@ impl Content {
             let (range, line) = (Range::of(element)?, element.line);
             self.lists.push(List { spectrum: self.spectra.len(), range, specification, line });
             let mut places = 0..;
-            element.numbers(log, |value| {
+            element.numbers(log, |value, place| {
                 let wavelength = places.next().map_or(f64::NAN, |place: u32| f64::from(place));
-                push(&mut samples, &mut self.total, Sample { wavelength, value, line })
+                push(&mut samples, &mut self.total, Sample { wavelength, value, line, place })
             })?;
         }
         samples.shrink_to_fit();

@@ -126,7 +126,8 @@ impl Form {
 #[derive(Debug, Default)]
 struct Block {
     title: String,
-    records: Vec<(String, String)>,
+    /// Each with its line.
+    records: Vec<(usize, String, String)>,
     x_units: (usize, String),
     y_units: (usize, String),
     points: (usize, Option<usize>),
@@ -179,7 +180,7 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
         }
         if let Some(block) = all.last_mut().filter(|block| block.form.is_some()) {
             let before = block.samples.len() + block.ordinates.len();
-            block.data(number, line)?;
+            block.data(number, line, log)?;
             total += block.samples.len() + block.ordinates.len() - before;
             if total > most {
                 return Err(ReadError::TooManySamples { line: number });
@@ -224,16 +225,19 @@ impl Block {
             }
         }
         if self.records.len() < MAX_RECORDS {
-            self.records.push((key.to_owned(), value.to_owned()));
+            self.records.push((line, key.to_owned(), value.to_owned()));
         }
     }
 
-    fn data(&mut self, line: usize, text: &str) -> Result<(), ReadError> {
+    fn data(&mut self, line: usize, text: &str, log: &mut Log<'_>) -> Result<(), ReadError> {
         let broken = |text: &str| ReadError::NotANumber { line, column: 1, text: excerpt(text) };
         if self.form == Some(Form::Ordinates) {
             let Some(found) = asdf::decode(text).map_err(broken)? else { return Ok(()) };
             let head = Written { value: found.head.0, digit: found.head.1 };
-            self.rows.push(Row { line, head, from: self.ordinates.len(), repeats: self.difference });
+            let places =
+                log.places.as_mut().map(|places| ordinates::record(text, found.values.len(), self.difference, places));
+            let (place, block) = places.unwrap_or_default();
+            self.rows.push(Row { line, head, from: self.ordinates.len(), repeats: self.difference, place, block });
             self.difference = found.ends_in_difference;
             self.ordinates.extend(found.values);
             return Ok(());
@@ -244,8 +248,10 @@ impl Block {
             if numbers.len() % 2 != 0 {
                 return Err(broken(pair.trim()));
             }
-            for xy in numbers.chunks_exact(2).filter(|xy| xy.iter().all(|number| !number.is_nan())) {
-                self.samples.push(Sample { wavelength: xy[0], value: xy[1], line });
+            for xy in numbers.chunks_exact(2).filter(|xy| xy.iter().all(|(number, _)| !number.is_nan())) {
+                let [(wavelength, x), (value, y)] = [xy[0], xy[1]];
+                let place = log.places.as_mut().map(|places| places.pair(x, y)).unwrap_or_default();
+                self.samples.push(Sample { wavelength, value, line, place });
             }
         }
         Ok(())
@@ -320,8 +326,8 @@ impl Block {
             medium: words::medium(&self.x_units.1).map(|medium| (self.x_units.0, medium)),
             ..Header::default()
         };
-        for (key, value) in &self.records {
-            header.note(&key.to_ascii_lowercase(), value);
+        for (line, key, value) in &self.records {
+            header.note(*line, &key.to_ascii_lowercase(), value);
         }
         header
     }
@@ -332,8 +338,8 @@ impl Block {
     }
 }
 
-/// The numbers of a piece of a line, NaN for a gap, and whether commas mark their fractions.
-fn numbers(text: &str) -> Option<(Vec<f64>, bool)> {
+/// The numbers of a piece of a line, NaN for a gap, with their texts, and whether commas mark their fractions.
+fn numbers(text: &str) -> Option<(Vec<(f64, &str)>, bool)> {
     let text = text.trim();
     let parse = |cell: &str| match cell {
         "?" => Some(f64::NAN),
@@ -342,9 +348,9 @@ fn numbers(text: &str) -> Option<(Vec<f64>, bool)> {
     // Where a comma has a space after it in one place and none in another, the latter marks a fraction.
     let spaced = text.contains(", ") && !text.contains('.');
     if spaced && text.replace(", ", " ").contains(',') {
-        let cells = text.split(", ").map(|cell| parse(&cell.trim().replace(',', ".")));
+        let cells = text.split(", ").map(str::trim).map(|cell| Some((parse(&cell.replace(',', "."))?, cell)));
         return Some((cells.collect::<Option<_>>()?, true));
     }
-    let cells = text.split([',', ' ', '\t']).filter(|cell| !cell.is_empty()).map(parse);
+    let cells = text.split([',', ' ', '\t']).filter(|cell| !cell.is_empty()).map(|cell| Some((parse(cell)?, cell)));
     Some((cells.collect::<Option<_>>()?, false))
 }

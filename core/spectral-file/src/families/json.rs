@@ -4,6 +4,7 @@ mod comments;
 mod document;
 mod enlighten;
 mod rows;
+mod spans;
 mod watched;
 
 use document::{Aces, File, Shape};
@@ -13,6 +14,7 @@ use watched::Watched;
 use super::super::family::Family;
 use super::super::grid::{Grid, RawCurve};
 use super::super::header::Header;
+use super::super::places::PlaceId;
 use super::super::reading::{MAX_PARTS, clean};
 use super::super::sniff::Layout;
 use super::super::watch::Log;
@@ -32,7 +34,8 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     if text.bytes().filter(|byte| *byte == b'"').count() > text.len() / FEWEST_BYTES + 1000 {
         return Err(ReadError::Unsupported { family: Family::Json });
     }
-    let file = parse(text, log)?;
+    let bare = comments::blank(text, log)?;
+    let file = parse(text, &bare, log)?;
     let content = match file {
         File { spectral_data: Some(data), header, .. } => aces(text, data, &header.unwrap_or_default().0, options),
         File {
@@ -49,13 +52,19 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
         }
         File { bands: Some(bands), spectrum: Some(Shape::Values(values)), scale, comments, name, .. } => {
             spectrum(text, &bands, values, scale, &comments.0).map(|mut content| {
-                content.header.note("title", name.0.first().map_or("", String::as_str));
+                content.header.note(0, "title", name.0.first().map_or("", String::as_str));
                 content
             })
         }
         _ => return Err(ReadError::Unsupported { family: Family::Json }),
     };
-    let Content { curves, header, reader, role, notes, parts, part } = content.map_err(|error| placed(text, error))?;
+    let Content { curves, mut header, reader, role, notes, parts, part } =
+        content.map_err(|error| placed(text, error))?;
+    if let Some(places) = &mut log.places {
+        let group = part.as_ref().map_or(0, |part| part.value.saturating_sub(1));
+        spans::record(&bare, group, places);
+        spans::note_lines(text, &mut header);
+    }
     let mut grid = match curves {
         Curves::Spectra(spectra) => spectra::grid(spectra, header, log)?,
         Curves::Rows { rows, names } => on_one_grid(rows, &names, header, log).map_err(|error| placed(text, error))?,
@@ -74,8 +83,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     Ok(Found { grid, layout, reader, notes })
 }
 
-fn parse(text: &str, log: &Log<'_>) -> Result<File, ReadError> {
-    let bare = comments::blank(text, log)?;
+fn parse(text: &str, bare: &str, log: &Log<'_>) -> Result<File, ReadError> {
     log.look(0)?;
     serde_json::from_reader(Watched::new(bare.as_bytes(), log)).map_err(|error| {
         // Nothing else fails in a reader of bytes that are there.
@@ -142,14 +150,14 @@ fn has_marks(text: &str) -> bool {
 fn aces(text: &str, data: Aces, comments: &[(String, String)], options: &ReadOptions) -> Result<Content, ReadError> {
     let (mut header, mut notes) = (Header::default(), Vec::new());
     for (key, value) in comments {
-        header.note(key, value);
+        header.note(0, key, value);
     }
     if let Some((_, remarks)) = comments.iter().find(|(key, _)| key == "comments") {
         note_remarks(text, &mut header, remarks.split("; "));
     }
     title(text, &mut header, &mut notes);
     if let Some(units) = data.units.as_deref().filter(|units| !units.is_empty()) {
-        header.note("unit", units);
+        header.note(0, "unit", units);
         header.unit = quantity::unit_cell(units);
         header.values = words::values(units).map(|values| (line_of(text, "units").unwrap_or(1), values));
         header.quantity = words::quantity(units).map(|quantity| (line_of(text, "units").unwrap_or(1), quantity));
@@ -202,7 +210,7 @@ fn title(text: &str, header: &mut Header, notes: &mut Vec<Decision>) {
         },
     };
     notes.push(Decision::new(what, &Decided::certain(title.clone(), says(text, key))));
-    header.note("title", &title);
+    header.note(0, "title", &title);
 }
 
 /// Rows as the grid they are; wavelengths at which no curve has a value are left out.
@@ -232,7 +240,7 @@ fn on_one_grid(rows: Rows, names: &[String], header: Header, log: &Log<'_>) -> R
         let given = names.get(column).filter(|_| !single).cloned().or_else(|| title.clone());
         let name = given.clone().unwrap_or_else(|| format!("Spectrum {}", column + 1));
         let label = names.get(column).cloned().unwrap_or_default();
-        curves.push(RawCurve { name, named: given.is_some(), label, values, ..RawCurve::default() });
+        curves.push(RawCurve { name, named: given.is_some(), label, values, origin: column, ..RawCurve::default() });
     }
     drop(all);
     let mut grid = Grid { wavelengths, lines: vec![1], curves, header, own_wavelengths: true, ..Grid::default() };
@@ -255,7 +263,7 @@ fn camera(
     if let Some(name) = name {
         notes.push(Decision::new("Camera", &Decided::certain(name.to_owned(), says(text, "camera_name"))));
     }
-    header.note("title", name.unwrap_or_default());
+    header.note(0, "title", name.unwrap_or_default());
     note_remarks(text, &mut header, remarks.iter().map(String::as_str));
     let names = [("R", "red_ssf"), ("G", "green_ssf"), ("B", "blue_ssf")];
     let mut all = Vec::with_capacity(3);
@@ -301,7 +309,12 @@ fn on(wavelengths: &[f64], values: &[f64], name: &str) -> Result<Spectrum, ReadE
         let (found, expected) = (values.len(), wavelengths.len());
         return Err(ReadError::WrongCount { line: 1, name: name.to_owned(), found, expected });
     }
-    let samples = wavelengths.iter().zip(values).map(|(&wavelength, &value)| Sample { wavelength, value, line: 1 });
+    let samples = wavelengths.iter().zip(values).map(|(&wavelength, &value)| Sample {
+        wavelength,
+        value,
+        line: 1,
+        place: PlaceId::default(),
+    });
     Ok(Spectrum { samples: samples.collect(), ..Spectrum::default() })
 }
 
@@ -315,14 +328,18 @@ fn wavelengths(text: &str, bands: &[f64], key: &str) -> Result<(Vec<f64>, Decisi
     if step > last || step <= 0.0 {
         return listed(bands);
     }
-    let steps = ((last - first) / step).round();
-    if !(1.0..=MAX_SAMPLES as f64).contains(&steps) {
-        return Err(ReadError::NoWavelengths { line: 1 });
-    }
-    let grid = (0..=steps as usize).map(|i| clean(first + step * i as f64)).collect();
+    let grid = range(bands).ok_or(ReadError::NoWavelengths { line: 1 })?;
     let range = Decided::certain(
         format!("{first} to {last} nm in steps of {step}"),
         format!("{}, and three numbers are a range", says(text, key)),
     );
     Ok((grid, Decision::new("Grid", &range)))
+}
+
+/// The wavelengths of a range, given by its ends and its step.
+fn range(bands: &[f64]) -> Option<Vec<f64>> {
+    let &[first, last, step] = bands else { return None };
+    let steps = ((last - first) / step).round();
+    let some = (1.0..=MAX_SAMPLES as f64).contains(&steps);
+    some.then(|| (0..=steps as usize).map(|i| clean(first + step * i as f64)).collect())
 }

@@ -2,6 +2,7 @@
 
 use super::super::grid::{Grid, RawCurve};
 use super::super::header::Header;
+use super::super::places::{PlaceId, PlaceKind};
 use super::super::warning::LineList;
 use super::super::watch::Log;
 use super::super::{MAX_CURVES, MAX_SAMPLES, ReadError, Warning};
@@ -12,6 +13,7 @@ pub(in super::super) struct Sample {
     pub(in super::super) wavelength: f64,
     pub(in super::super) value: f64,
     pub(in super::super) line: usize,
+    pub(in super::super) place: PlaceId,
 }
 
 /// A spectrum as it stands in the file.
@@ -35,7 +37,7 @@ impl Spectrum {
     }
 
     /// Brings the samples into ascending order, one for each wavelength.
-    fn settle(&mut self, name: &str, log: &mut Log<'_>) {
+    fn settle(&mut self, index: usize, name: &str, log: &mut Log<'_>) {
         let back = |pair: &[Sample]| pair[1].wavelength < pair[0].wavelength;
         if !self.falls()
             && let Some(at) = self.samples.windows(2).position(back)
@@ -50,6 +52,7 @@ impl Spectrum {
             if next.wavelength == self.samples[kept].wavelength {
                 count += 1.0;
                 lines.push(next.line);
+                self.merge(kept, &next, index, log);
                 let mean = &mut self.samples[kept].value;
                 *mean += (next.value - *mean) / count;
                 continue;
@@ -66,6 +69,21 @@ impl Spectrum {
                 list.add(line);
             }
             log.push(Warning::Averaged { name: name.to_owned(), lines: list });
+        }
+        if let Some(places) = &mut log.places {
+            self.samples.iter().for_each(|sample| places.assign(sample.place, index, sample.wavelength));
+        }
+    }
+
+    /// Records that a sample is at the wavelength of an earlier one.
+    fn merge(&mut self, kept: usize, next: &Sample, index: usize, log: &mut Log<'_>) {
+        let Some(places) = &mut log.places else { return };
+        let kept = &mut self.samples[kept];
+        let same = kept.value == next.value;
+        let kind = if same { PlaceKind::Repeated } else { PlaceKind::Averaged };
+        places.merge(next.place, kind, index, next.wavelength);
+        if !same {
+            places.merge(std::mem::take(&mut kept.place), kind, index, next.wavelength);
         }
     }
 }
@@ -84,7 +102,7 @@ pub(in super::super) fn grid(mut spectra: Vec<Spectrum>, header: Header, log: &m
         log.look(usize::MAX)?;
         let given = spectrum.name.take().or_else(|| title.clone());
         let name = given.clone().unwrap_or_else(|| format!("Spectrum {}", index + 1));
-        spectrum.settle(&name, log);
+        spectrum.settle(index, &name, log);
         names.push((name, given.is_some()));
     }
     log.look(usize::MAX)?;
@@ -100,7 +118,8 @@ pub(in super::super) fn grid(mut spectra: Vec<Spectrum>, header: Header, log: &m
     if let [only] = spectra.as_slice() {
         lines = only.samples.iter().map(|sample| sample.line).collect();
     }
-    let curves = spectra.into_iter().zip(names).map(|(spectrum, (name, named))| RawCurve {
+    let curves = spectra.into_iter().zip(names).enumerate().map(|(origin, (spectrum, (name, named)))| RawCurve {
+        origin,
         name,
         named,
         label: spectrum.label,

@@ -21,7 +21,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
         match step {
             Step::Open if inside == "SpectralDistribution" => content.current = Some(Spectrum::default()),
             Step::Open => {}
-            Step::Close(element) => content.take(&element, inside)?,
+            Step::Close(element) => content.take(&element, inside, log)?,
         }
     }
     let parts = content.parts();
@@ -61,19 +61,19 @@ struct Content {
 
 impl Content {
     /// Takes an element that is complete, and the name of the one around it.
-    fn take(&mut self, element: &Element<'_>, inside: &str) -> Result<(), ReadError> {
+    fn take(&mut self, element: &Element<'_>, inside: &str, log: &mut Log<'_>) -> Result<(), ReadError> {
         if inside == "Header" {
-            self.header.note(element.name(), element.content());
+            self.header.note(element.line, element.name(), element.content());
         }
         match element.name() {
             // The description is the title, whatever else the header says.
             "Header" => {
                 if let Some(description) = self.header.comment("Description").map(str::to_owned) {
-                    self.header.note("title", &description);
+                    self.header.note(0, "title", &description);
                 }
             }
             "SpectralQuantity" => self.quantity(element),
-            "SpectralData" => self.sample(element)?,
+            "SpectralData" => self.sample(element, log)?,
             "SpectralDistribution" => {
                 let quantity = self.quantity.take();
                 if let Some(spectrum) = self.current.take().filter(|spectrum| !spectrum.samples.is_empty()) {
@@ -93,7 +93,7 @@ impl Content {
         let quantity = element.content();
         if let Some(spectrum) = self.current.as_mut().filter(|spectrum| spectrum.label.is_empty()) {
             quantity.clone_into(&mut spectrum.label);
-            self.header.note("quantity", quantity);
+            self.header.note(element.line, "quantity", quantity);
             let why = format!("Line {} says {quantity}", element.line);
             self.quantity = named(quantity).map(|quantity| Decided::certain(quantity, why));
         }
@@ -137,14 +137,15 @@ impl Content {
         Ok(std::mem::take(&mut self.quantities).into_iter().nth(first).flatten())
     }
 
-    fn sample(&mut self, element: &Element<'_>) -> Result<(), ReadError> {
+    fn sample(&mut self, element: &Element<'_>, log: &mut Log<'_>) -> Result<(), ReadError> {
         let Some(spectrum) = &mut self.current else { return Ok(()) };
         let line = element.line;
         let missing = || ReadError::NotANumber { line, column: 1, text: String::new() };
         let wavelength = element.number_attribute("wavelength")?.ok_or_else(missing)?;
         let value = element.number()?;
         if !wavelength.is_nan() && !value.is_nan() {
-            spectrum.samples.push(Sample { wavelength, value, line });
+            let place = element.pair("wavelength", log);
+            spectrum.samples.push(Sample { wavelength, value, line, place });
         }
         Ok(())
     }

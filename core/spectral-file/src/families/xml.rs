@@ -13,6 +13,7 @@ use quick_xml::reader::Reader as Parser;
 
 use super::super::dialect::{Cell, Dialect};
 use super::super::family::Family;
+use super::super::places::PlaceId;
 use super::super::text::excerpt;
 use super::super::watch::Log;
 use super::super::{DecimalMark, Delimiter, ReadError, Reader};
@@ -88,14 +89,23 @@ impl Element<'_> {
         number(&self.text, self.line)
     }
 
+    /// Records the number in an attribute and the one that is the text, as a sample.
+    pub(super) fn pair(&self, name: &str, log: &mut Log<'_>) -> PlaceId {
+        let Some(places) = &mut log.places else { return PlaceId::default() };
+        match self.attribute(name) {
+            Ok(Some(Cow::Borrowed(wavelength))) => places.pair(wavelength.trim(), self.content()),
+            _ => PlaceId::default(),
+        }
+    }
+
     /// The numbers in the text, separated by white space; NaN for gaps.
     pub(super) fn numbers(
         &self,
         log: &mut Log<'_>,
-        mut take: impl FnMut(f64) -> Result<(), ReadError>,
+        mut take: impl FnMut(f64, PlaceId) -> Result<(), ReadError>,
     ) -> Result<(), ReadError> {
         let (from, first_line) = self.text_from;
-        let mut done = 0;
+        let (mut done, mut found) = (0, from);
         for cell in self.text.split_ascii_whitespace() {
             done += cell.len() + 1;
             log.at(from + done)?;
@@ -103,7 +113,8 @@ impl Element<'_> {
                 let before = cell.as_ptr() as usize - self.text.as_ptr() as usize;
                 not_a_number(cell, first_line + line_ends(&self.text[..before]))
             })?;
-            take(value)?;
+            let place = log.places.as_mut().map(|places| places.find(&mut found, cell)).unwrap_or_default();
+            take(value, place)?;
         }
         Ok(())
     }

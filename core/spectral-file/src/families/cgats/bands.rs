@@ -20,7 +20,7 @@ pub(super) struct Bands {
     /// What each field holds.
     kinds: Vec<Kind>,
     why: String,
-    in_rows: bool,
+    pub(super) in_rows: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,6 +99,12 @@ impl Bands {
         };
         Decision::new("Bands", &Decided::certain(value, self.why.clone()))
     }
+}
+
+/// The digits that the name of a spectral field ends with.
+pub(super) fn digits(field: &str) -> &str {
+    let number = |c: char| c.is_ascii_digit() || c == '.';
+    &field[field.len() - field.chars().rev().take_while(|c| number(*c)).count()..]
 }
 
 /// The wavelength in the name of a spectral field.

@@ -27,10 +27,10 @@ impl<'a> Token<'a> {
         }
     }
 
-    /// Where the word stands in memory.
-    pub(super) fn start(&self) -> *const u8 {
+    /// The word as it is written, without the quotes around it.
+    pub(super) fn written(&self) -> &'a str {
         match self {
-            Self::Bare(text) | Self::Quoted(text) => text.as_ptr(),
+            Self::Bare(text) | Self::Quoted(text) => text,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Blocks of what a detector counted with a sample, with a reference, and in the dark.
 
+use super::super::super::places::PlaceId;
 use super::super::super::warning::{LineList, Warning};
 use super::super::super::watch::Log;
 use super::super::super::words;
@@ -74,7 +75,9 @@ pub(super) fn settle(blocks: &mut [Block], options: &ReadOptions, log: &mut Log<
         })
         .collect();
     let block = &mut blocks[sample];
-    block.samples.iter_mut().zip(values).for_each(|(sample, value)| sample.value = value);
+    for (sample, value) in block.samples.iter_mut().zip(values) {
+        (sample.value, sample.place) = (value, PlaceId::default());
+    }
     // Where reference and dark are equal, such as at a saturated pixel, there is no ratio.
     let mut lines = LineList::default();
     let undefined = block.samples.iter().filter(|sample| !sample.value.is_finite());

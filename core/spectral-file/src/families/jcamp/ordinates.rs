@@ -3,6 +3,7 @@
 //! A line that stands elsewhere than its abscissa says is placed by the abscissa, if that leaves no two values for one place. What
 //! contradicts itself beyond the rounding of the digits written is refused.
 
+use super::super::super::places::{PlaceId, PlaceKind, Places};
 use super::super::super::reading::clean;
 use super::super::super::warning::LineList;
 use super::super::super::{ReadError, Warning};
@@ -41,6 +42,31 @@ pub(super) struct Row {
     pub(super) from: usize,
     /// Whether the line before ended with a difference, so that this one begins by repeating its last ordinate.
     pub(super) repeats: bool,
+    /// The place of its first ordinate, or of all of them.
+    pub(super) place: PlaceId,
+    pub(super) block: bool,
+}
+
+impl Row {
+    /// The place of an ordinate of the line.
+    fn place(&self, index: usize) -> PlaceId {
+        if self.block { self.place } else { self.place.after(index) }
+    }
+}
+
+/// Records a line of ordinates, and tells whether they are compressed, so that only the line has a place.
+pub(super) fn record(line: &str, values: usize, repeats: bool, places: &mut Places<'_>) -> (PlaceId, bool) {
+    let mut entries = line.split(|c: char| c.is_whitespace() || c == ',').filter(|entry| !entry.is_empty());
+    let is_plain = |entry: &str| entry == "?" || entry.parse::<f64>().is_ok();
+    if entries.clone().count() != values + 1 || !entries.clone().all(is_plain) {
+        let kind = if repeats && values == 1 { PlaceKind::Check } else { PlaceKind::Block };
+        return (places.add(kind, line.trim()), true);
+    }
+    places.add(PlaceKind::Wavelength, entries.next().unwrap_or_default());
+    let mut ids = entries.map(|entry| places.add(PlaceKind::Value, entry));
+    let first = ids.next().unwrap_or_default();
+    ids.for_each(drop);
+    (first, false)
 }
 
 /// What a header says about the abscissas.
@@ -173,6 +199,7 @@ impl Data<'_> {
             wavelength: clean(row.head.value * axis.factor),
             value,
             line: row.line,
+            place: row.place(0),
         });
         Some(Placed { samples: samples.collect(), ..Placed::default() })
     }
@@ -294,9 +321,10 @@ impl Grid<'_> {
                 }
                 named
             };
+            let skipped = data.values(at).len() - values.len();
             let samples = values.iter().enumerate().map(|(offset, &value)| {
-                let index = index + offset;
-                (index, Sample { wavelength: clean(self.abscissa(index as f64)), value, line: row.line })
+                let (index, place) = (index + offset, row.place(offset + skipped));
+                (index, Sample { wavelength: clean(self.abscissa(index as f64)), value, line: row.line, place })
             });
             all.extend(samples);
             next = index + values.len();

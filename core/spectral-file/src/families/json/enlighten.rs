@@ -1,6 +1,7 @@
 //! A measurement of Wasatch ENLIGHTEN: curves by name, wavelengths among the settings of the spectrometer.
 
 use super::super::super::header::Header;
+use super::super::super::places::PlaceId;
 use super::super::super::{Decided, Decision, ReadError, ReadOptions, Reader, Role, Values, words};
 use super::super::spectra::{Sample, Spectrum};
 use super::document::{InOrder, Settings};
@@ -23,14 +24,14 @@ pub(super) fn read(
     let wavelengths = wavelengths.filter(|all| !all.is_empty()).ok_or(ReadError::NoWavelengths { line })?;
     let mut header = Header::default();
     for (key, value) in metadata {
-        header.note(key, value);
+        header.note(0, key, value);
     }
     let mut notes = vec![Decision::new(
         "Program",
         &Decided::certain("a file of Wasatch ENLIGHTEN".to_owned(), says(text, "spectrum")),
     )];
     let label = header.comment("Label").map(str::to_owned);
-    header.note("title", label.as_deref().unwrap_or_default());
+    header.note(0, "title", label.as_deref().unwrap_or_default());
     let role = technique(text, &mut header);
     let processed = curves.iter().position(|(name, _)| name.eq_ignore_ascii_case("processed"));
     if let Some(processed) = processed.filter(|_| options.raw != Some(true)) {
@@ -81,7 +82,8 @@ fn spectrum(
     }
     let present = wavelengths.iter().zip(values).filter_map(|(&wavelength, value)| Some((wavelength, value?)));
     let samples = present.filter(|(wavelength, _)| wavelength.is_finite());
-    let samples = samples.map(|(wavelength, value)| Sample { wavelength, value, line: 1 }).collect();
+    let samples =
+        samples.map(|(wavelength, value)| Sample { wavelength, value, line: 1, place: PlaceId::default() }).collect();
     let shown = label.filter(|_| only).unwrap_or(name);
     Ok(Spectrum { name: Some(shown.to_owned()), label: String::new(), samples })
 }
