@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use spectral_file::{Certainty, Dropped, Preview, ReadOptions, Table, Watch, What, read, read_marked};
+use spectral_file::{Certainty, Dropped, Preview, ReadOptions, SpectralFile, Watch, What, read, read_marked};
 
 /// Relative distance between a value and its truth: the truth is written in decimals.
 const CLOSE: f64 = 1e-12;
@@ -68,7 +68,7 @@ fn faults(file: &Path, truth: &str) -> Vec<String> {
     }
 }
 
-fn against(table: &Table, claims: &[(&str, &str)]) -> Vec<String> {
+fn against(table: &SpectralFile, claims: &[(&str, &str)]) -> Vec<String> {
     let decisions = table.decisions();
     let mut said: Vec<String> = table.warnings.iter().map(ToString::to_string).collect();
     let warnings = said.len();

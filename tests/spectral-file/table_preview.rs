@@ -6,11 +6,11 @@ mod lines;
 
 use std::collections::BTreeMap;
 
-use spectral_file::{Mark, Marker, Preview, ReadOptions, Table, Watch, What, read_marked};
+use spectral_file::{Mark, Marker, Preview, ReadOptions, SpectralFile, Watch, What, read_marked};
 
 /// A file, what it was read as, and its marks.
 struct Seen {
-    table: Table,
+    table: SpectralFile,
     preview: Preview,
     marker: Marker,
 }

@@ -1,8 +1,9 @@
 //! Wavelengths across a header: `400`, `400nm`, or in the names of columns: `SCI 360nm`, `SPEC_380`, `R380`, `380 nm [%]`.
 
-use super::dialect::{Cell, Dialect};
-use super::wavelengths::{WavelengthUnit, plausible};
-use super::{MAX_CURVES, words};
+use crate::dialect::{Cell, Dialect};
+use crate::header_terms;
+use crate::limits::MAX_CURVES;
+use crate::wavelength_unit::{WavelengthUnit, plausible};
 
 /// The fewest bands that are taken for a spectrum.
 pub(super) const FEWEST: usize = 5;
@@ -107,7 +108,7 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     for (column, cell) in dialect.cells(line).take(MAX_CURVES + 2).enumerate() {
         match head(dialect, cell) {
             Some(band) => bands.push((column, band)),
-            None => named |= bands.is_empty() && words::names_wavelengths(cell),
+            None => named |= bands.is_empty() && header_terms::names_wavelengths(cell),
         }
     }
     let mut all = Vec::new();

@@ -1,6 +1,12 @@
 //! Why a file could not be read.
 
-use super::{BinaryKind, Family, MAX_CURVES, MAX_SAMPLES, Nearly, Reader, Switch};
+use std::fmt;
+
+use crate::binary::BinaryKind;
+use crate::limits::{MAX_CURVES, MAX_SAMPLES};
+use crate::markup::Family;
+use crate::report::Reader;
+use crate::switch::Switch;
 
 /// Why a file could not be read: where, what, and what helps. Lines and columns count from 1.
 ///
@@ -8,7 +14,7 @@ use super::{BinaryKind, Family, MAX_CURVES, MAX_SAMPLES, Nearly, Reader, Switch}
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// The file is over [`MAX_BYTES`](super::MAX_BYTES).
+    /// The file is over [`MAX_BYTES`](crate::MAX_BYTES).
     #[error("the file has {megabytes} MB, the limit is {limit} MB: split it into smaller files")]
     TooLarge {
         /// Size of the file, rounded up.
@@ -136,7 +142,7 @@ pub enum ReadError {
         /// The line, shortened.
         text: String,
         /// Why it is none.
-        why: Nearly,
+        why: NearMiss,
     },
     /// An error that was none before a setting was chosen.
     #[error("{error} (as chosen: {switch})")]
@@ -297,6 +303,36 @@ impl ReadError {
             | Self::Malformed { column, .. }
             | Self::NotWavelengthColumn { column, .. } => Some(column),
             _ => None,
+        }
+    }
+}
+
+/// Why a line with numbers is no row of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum NearMiss {
+    /// What stands between the numbers separates no columns.
+    Between(char),
+    /// It would be a row with other separators than were chosen.
+    Separators,
+    /// A number is followed by text only.
+    TextAfter,
+    /// Texts and numbers, of which the first are no wavelengths in order.
+    Order,
+}
+
+impl fmt::Display for NearMiss {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Between(c) => {
+                write!(f, "has “{c}” between its numbers: separate them by commas, semicolons, tabs or spaces")
+            }
+            Self::Separators => f.write_str("does not split as chosen: choose other separators"),
+            Self::TextAfter => {
+                f.write_str("has text where a value is expected: write a number there, or leave it empty")
+            }
+            Self::Order => f.write_str(
+                "has text beside numbers that are no wavelengths in order: choose the column of wavelengths",
+            ),
         }
     }
 }

@@ -3,9 +3,9 @@
 //! Such a number is taken for a gap only where it stands out: ten times as large as all other values of its curve, or as far
 //! below them.
 
-use super::grid::{Grid, RawCurve};
-use super::warning::{LineList, Sentinel, Warning};
-use super::watch::Log;
+use crate::grid::{Grid, RawCurve};
+use crate::warning::{LineList, Sentinel, Warning};
+use crate::watch::Log;
 
 /// Numbers that programs write for missing values, as sizes; each with either sign. (−9999 is one wherever it stands.)
 const SIZES: [f64; 17] = [

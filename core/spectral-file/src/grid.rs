@@ -1,10 +1,15 @@
 //! What every reader fills: wavelengths as written, and the values of each curve beside them.
 
-use super::header::Header;
-use super::warning::{LineList, Sentinel, Warning};
-use super::watch::Log;
-use super::{Curve, Decided, Dropped, DroppedRow, Part, Quantity, ReadError, Role, WavelengthUnit};
 use chromascope_text::on_one_line;
+
+use crate::error::ReadError;
+use crate::file::Curve;
+use crate::header::Header;
+use crate::report::{Decided, Dropped, DroppedRow, Part};
+use crate::role::{Quantity, Role};
+use crate::warning::{LineList, Sentinel, Warning};
+use crate::watch::Log;
+use crate::wavelength_unit::WavelengthUnit;
 
 /// Numbers as they stand in the file, before units, order and scale are settled.
 #[derive(Debug, Default)]

@@ -1,15 +1,18 @@
 //! What stands above the numbers: comments, names of columns, units.
 
-use super::clues::Clues;
-use super::dialect::{Cell, Delimiter, Dialect};
-use super::quantity::{self, Quantity};
-use super::reading::{Medium, Orientation};
-use super::scale::{Role, Values};
-use super::sniff::Layout;
-use super::text::{Lines, Section, comment};
-use super::words::{self, XUnit};
-use super::{MAX_CURVES, WavelengthUnit, photons};
 use chromascope_text::unguarded;
+
+use crate::clues::Clues;
+use crate::dialect::{Cell, Dialect};
+use crate::header_terms::XUnit;
+use crate::limits::MAX_CURVES;
+use crate::report::{Medium, Orientation};
+use crate::role::{Quantity, Role, Values};
+use crate::separators::Delimiter;
+use crate::sniff::Layout;
+use crate::text::{Lines, Section, comment};
+use crate::wavelength_unit::WavelengthUnit;
+use crate::{header_terms, unit_text};
 
 /// How many comments are kept; more is not a header.
 const MAX_COMMENTS: usize = 1000;
@@ -58,7 +61,7 @@ impl Header {
     /// The name of a column, if the header gives one.
     pub(super) fn name(&self, column: usize) -> Option<&str> {
         // A line of units such as `nm,R%` may be all there is.
-        let unit = || self.units.get(column).filter(|unit| quantity::percent_name(unit).is_some());
+        let unit = || self.units.get(column).filter(|unit| unit_text::percent_name(unit).is_some());
         let name = self.names.get(column).or_else(|| unit().filter(|_| self.names.is_empty()));
         name.map(String::as_str).filter(|name| !name.is_empty())
     }
@@ -74,9 +77,9 @@ impl Header {
         let whole = |cell: &&String| cell.starts_with(['[', '(']);
         let cell = self.units.get(column);
         let cell = cell.and_then(|cell| {
-            quantity::unit(cell).or_else(|| Some(cell).filter(whole).and_then(|cell| quantity::unit_cell(cell)))
+            unit_text::unit(cell).or_else(|| Some(cell).filter(whole).and_then(|cell| unit_text::unit_cell(cell)))
         });
-        cell.or_else(|| self.name(column).and_then(quantity::unit)).or_else(|| self.unit.clone())
+        cell.or_else(|| self.name(column).and_then(unit_text::unit)).or_else(|| self.unit.clone())
     }
 
     /// Keeps a comment; line 0 stands for none.
@@ -125,16 +128,16 @@ impl Header {
         if matches!(lower.as_str(), "unit" | "units" | "quantity" | "y unit" | "y units" | "yunit" | "yunits") {
             self.take_value_unit(line, value);
             if lower != "quantity" {
-                self.unit = quantity::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
+                self.unit = unit_text::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
             }
         }
         if matches!(lower.as_str(), "response" | "title" | "description") {
-            self.mentioned = self.mentioned.or_else(|| words::role(value).map(|role| (line, role)));
+            self.mentioned = self.mentioned.or_else(|| header_terms::role(value).map(|role| (line, role)));
             self.take_photons(line, value);
             self.clues.mention(line, value);
         }
         // `wavelength_unit`, `x unit` and the like; a plain `unit` is that of the values.
-        let about_x = words::x_unit_in_prose(&format!("{} {value}", lower.replace('_', " ")));
+        let about_x = header_terms::x_unit_in_prose(&format!("{} {value}", lower.replace('_', " ")));
         if let Some(unit) = about_x.filter(|_| lower.starts_with(['w', 'x'])) {
             self.x_unit = Some((line, unit));
         }
@@ -146,29 +149,29 @@ impl Header {
 
     /// Takes what a title or free text says of responses per photon.
     fn take_photons(&mut self, line: usize, text: &str) {
-        self.per_photon = self.per_photon.or_else(|| photons::says_per_photon(text).then_some(line));
-        self.photons = self.photons.or_else(|| photons::said_in_prose(text).then_some(line));
+        self.per_photon = self.per_photon.or_else(|| unit_text::says_per_photon(text).then_some(line));
+        self.photons = self.photons.or_else(|| unit_text::said_in_prose(text).then_some(line));
     }
 
     fn take_value_unit(&mut self, line: usize, text: &str) {
         self.take_photons(line, text);
-        self.photons = self.photons.or_else(|| photons::names_photons(text).then_some(line));
+        self.photons = self.photons.or_else(|| unit_text::names_photons(text).then_some(line));
         let plain_after_other = |values: &Values| *values == Values::Plain && self.values.is_some();
-        if let Some(values) = words::values(text).filter(|values| !plain_after_other(values)) {
+        if let Some(values) = header_terms::values(text).filter(|values| !plain_after_other(values)) {
             self.values = Some((line, values));
         }
-        self.role = words::role(text).map(|role| (line, role)).or(self.role);
-        self.quantity = match (words::quantity(text), self.quantity) {
+        self.role = header_terms::role(text).map(|role| (line, role)).or(self.role);
+        self.quantity = match (header_terms::quantity(text), self.quantity) {
             (Some(Quantity::Relative), Some(known)) => Some(known),
             (found, known) => found.map(|quantity| (line, quantity)).or(known),
         };
     }
 
     fn take_prose(&mut self, line: usize, text: &str) {
-        if let Some(unit) = words::x_unit_in_prose(text) {
+        if let Some(unit) = header_terms::x_unit_in_prose(text) {
             self.x_unit = Some((line, unit));
         }
-        self.medium = words::medium(text).map(|medium| (line, medium)).or(self.medium);
+        self.medium = header_terms::medium(text).map(|medium| (line, medium)).or(self.medium);
         self.take_photons(line, text);
         let start = text.trim_start().as_bytes();
         let begins =
@@ -190,11 +193,11 @@ impl Header {
         .any(|word| begins(word));
         if about_y || is_title_with_unit(text) {
             self.take_value_unit(line, text);
-            let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| quantity::unit(value));
-            self.unit = unit.or_else(|| quantity::unit(bare_title(text))).or(self.unit.take());
+            let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| unit_text::unit(value));
+            self.unit = unit.or_else(|| unit_text::unit(bare_title(text))).or(self.unit.take());
         }
         self.take_mode(line, text);
-        self.mentioned = words::role_in_prose(text).map(|role| (line, role)).or(self.mentioned);
+        self.mentioned = header_terms::role_in_prose(text).map(|role| (line, role)).or(self.mentioned);
         self.clues.take(line, text);
     }
 
@@ -203,7 +206,7 @@ impl Header {
         if let Some((_, value)) = text.split_once("Unit-->") {
             let value = value.trim_start_matches([',', ';', '\t', ' ']);
             self.take_value_unit(line, value);
-            self.unit = quantity::unit(value).or(self.unit.take());
+            self.unit = unit_text::unit(value).or(self.unit.take());
         }
     }
 
@@ -217,7 +220,7 @@ impl Header {
             if cells.len() < 2 || (exact && cells.len() != layout.width) {
                 let unit_alone = cells.len() == 1 && self.units.is_empty() && is_unit(&cells[0]);
                 if unit_alone {
-                    self.x_unit = words::x_unit(&cells[0]).map(|unit| (number, unit));
+                    self.x_unit = header_terms::x_unit(&cells[0]).map(|unit| (number, unit));
                     self.units_line = Some(number);
                 }
                 // Rows that are named themselves go on above one of units, or one left empty.
@@ -251,8 +254,8 @@ impl Header {
             self.names = cells;
             self.line = Some(number);
             // Some programs name only the curves.
-            let headed =
-                row_key(&self.names[0]).is_some() || self.names.iter().any(|name| words::names_wavelengths(name));
+            let headed = row_key(&self.names[0]).is_some()
+                || self.names.iter().any(|name| header_terms::names_wavelengths(name));
             if self.names.len() + 1 == layout.width && !headed {
                 self.names.insert(0, String::new());
                 self.shifted = true;
@@ -263,20 +266,20 @@ impl Header {
 
     /// Names that do not split into the columns of the table still say something about it as a whole.
     fn take_joined(&mut self, number: usize, line: &str) {
-        if words::names_wavelengths(line) && self.values.is_none() {
+        if header_terms::names_wavelengths(line) && self.values.is_none() {
             self.line = self.line.or(Some(number));
-            if let Some(values) = words::values(line).filter(|values| *values != Values::Plain) {
+            if let Some(values) = header_terms::values(line).filter(|values| *values != Values::Plain) {
                 self.values = Some((number, values));
             }
-            self.role = words::role(line).map(|role| (number, role)).or(self.role);
-            self.quantity = words::quantity(line).map(|quantity| (number, quantity)).or(self.quantity);
+            self.role = header_terms::role(line).map(|role| (number, role)).or(self.role);
+            self.quantity = header_terms::quantity(line).map(|quantity| (number, quantity)).or(self.quantity);
         }
     }
 
     fn take_unit_cell(&mut self, number: usize, cells: &[String], layout: &Layout) {
         let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
-        let column = chosen.or_else(|| words::axis(cells)).unwrap_or(0);
-        if let Some(unit) = cells.get(column).and_then(|cell| words::x_unit(cell)) {
+        let column = chosen.or_else(|| header_terms::axis(cells)).unwrap_or(0);
+        if let Some(unit) = cells.get(column).and_then(|cell| header_terms::x_unit(cell)) {
             self.x_unit = Some((number, unit));
         }
     }
@@ -324,8 +327,8 @@ fn is_title_with_unit(text: &str) -> bool {
     title.len() <= LONGEST
         && !title.contains([',', ';'])
         && title.ends_with([']', ')'])
-        && quantity::without_unit(title) != title
-        && words::quantity(title).is_some()
+        && unit_text::without_unit(title) != title
+        && header_terms::quantity(title).is_some()
 }
 
 /// Whether a line above two columns is a setting of the instrument, such as `LUX 695`, and no pair of names.
@@ -336,7 +339,7 @@ fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
     let key = cells[0].to_ascii_lowercase();
     let numeric = matches!(layout.dialect().parse(&cells[1]), Cell::Number(_));
     ["xaxis", "yaxis", "x unit", "y unit"].iter().any(|start| key.starts_with(start))
-        || (numeric && !words::names_wavelengths(&cells[0]))
+        || (numeric && !header_terms::names_wavelengths(&cells[0]))
 }
 
 /// Whether a line above several curves gives a number of each, such as a chromaticity, and no names: names have no fractions.
@@ -348,7 +351,7 @@ fn is_measured(layout: &Layout, cells: &[String]) -> bool {
     };
     let mut numbers = values.iter().map(number);
     layout.width > 2
-        && !words::names_wavelengths(key)
+        && !header_terms::names_wavelengths(key)
         && number(key).is_none()
         && numbers.all(|value| value.is_some())
         && values.iter().filter_map(number).any(|value| value.fract() != 0.0)
@@ -366,7 +369,7 @@ pub(super) fn split(dialect: Dialect, line: &str) -> Vec<String> {
 
 fn is_unit(cell: &str) -> bool {
     let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
-    WavelengthUnit::from_symbol(bare).is_some() || words::x_unit(bare) == Some(XUnit::Other)
+    WavelengthUnit::from_symbol(bare).is_some() || header_terms::x_unit(bare) == Some(XUnit::Other)
 }
 
 fn is_unit_row(cells: &[String]) -> bool {

@@ -1,8 +1,9 @@
 //! Which program wrote a table, and what it says about the values in its own words.
 
-use super::grid::Grid;
-use super::text::Lines;
-use super::{Decided, Decision, Quantity, Role, Values};
+use crate::grid::Grid;
+use crate::report::{Decided, Decision};
+use crate::role::{Quantity, Role, Values};
+use crate::text::Lines;
 
 /// Lines that are looked at for marks.
 const LOOK: usize = 60;

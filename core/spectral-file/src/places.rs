@@ -1,6 +1,6 @@
 //! Places of samples in the text, recorded by the readers for a preview and else not at all.
 
-use super::text::Lines;
+use crate::text::Lines;
 
 /// A recorded place, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

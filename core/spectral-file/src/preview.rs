@@ -26,14 +26,17 @@ mod mark;
 mod marker;
 mod shown;
 
-use std::ops::Range;
-
-use super::text::{self, Lines};
-use super::{Encoding, ReadError, Table};
-
 pub use mark::{LeftOut, Mark, What};
 pub use marker::Marker;
 pub use shown::Shown;
+
+use std::ops::Range;
+
+use crate::error::ReadError;
+use crate::file::SpectralFile;
+use crate::report::Encoding;
+use crate::text;
+use crate::text::Lines;
 
 /// The most characters that [`Preview::longest`] counts of a line.
 pub const LONGEST_LINE: usize = 1_000_000;
@@ -101,13 +104,21 @@ impl Preview {
     ///
     /// Empty for a line that does not exist. A marker of a file with another number of curves
     /// gives none.
-    pub fn marks(&self, number: usize, table: &Table, marker: &Marker) -> Vec<Mark> {
+    pub fn marks(&self, number: usize, table: &SpectralFile, marker: &Marker) -> Vec<Mark> {
         self.marks_within(number, 0..usize::MAX, table, marker)
     }
 
     /// [`marks`](Self::marks), but only those that touch a range of bytes: quick also in lines of many megabytes.
-    pub fn marks_within(&self, number: usize, window: Range<usize>, table: &Table, marker: &Marker) -> Vec<Mark> {
-        self.line(number).map(|line| marker.marks(number, line, &window, table, self)).unwrap_or_default()
+    pub fn marks_within(
+        &self,
+        number: usize,
+        window: Range<usize>,
+        table: &SpectralFile,
+        marker: &Marker,
+    ) -> Vec<Mark> {
+        self.line(number)
+            .map(|line| marker.marks((number, self.start(number).unwrap_or(0)), line, &window, table))
+            .unwrap_or_default()
     }
 
     /// Where a reading failed: the line, and the bytes in it, which are the whole line where nothing closer is known.

@@ -1,12 +1,16 @@
 //! Decides how a text is laid out: separators, decimal mark, orientation, and the line where the numbers begin.
 
-use super::dialect::{Cell, DecimalMark, Delimiter, Dialect};
-use super::text::{Lines, Section, comment};
-use super::trial::{Across, Shape, Trial};
-use super::warning::Warning;
-use super::watch::Log;
-use super::wavelengths::plausible;
-use super::{Decided, Orientation, ReadError, ReadOptions, bands, nearly, thousands};
+use crate::dialect::{Cell, Dialect};
+use crate::dialect_trial::{Across, Shape, Trial};
+use crate::error::ReadError;
+use crate::options::ReadOptions;
+use crate::report::{Decided, Orientation};
+use crate::separators::{DecimalMark, Delimiter};
+use crate::text::{Lines, Section, comment};
+use crate::warning::Warning;
+use crate::watch::Log;
+use crate::wavelength_unit::plausible;
+use crate::{bands, near_miss, thousands};
 
 /// How a text is laid out.
 #[derive(Debug)]
@@ -124,7 +128,7 @@ pub(super) fn sniff(
     let Some(best) = best else {
         let single = trials.iter().find(|trial| trial.single >= 2);
         return Err(single.map_or_else(
-            || nearly::error(section, options),
+            || near_miss::error(section, options),
             |trial| ReadError::OneColumn { line: trial.single_line },
         ));
     };
@@ -133,7 +137,7 @@ pub(super) fn sniff(
         return lay_across(section, options, best, orientation);
     }
     if best.best.rows == 0 {
-        return Err(nearly::error(section, options));
+        return Err(near_miss::error(section, options));
     }
     lay_down(section, options, best, orientation)
 }

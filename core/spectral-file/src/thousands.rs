@@ -1,8 +1,10 @@
 //! Whether marks group thousands, `1,000` beside `980`, or stand before fractions.
 
-use super::dialect::{DecimalMark, Delimiter, Dialect, may_be_thousands};
-use super::text::{Lines, Section, comment};
-use super::{MAX_CURVES, Orientation};
+use crate::dialect::{Dialect, may_be_thousands};
+use crate::limits::MAX_CURVES;
+use crate::report::Orientation;
+use crate::separators::{DecimalMark, Delimiter};
+use crate::text::{Lines, Section, comment};
 
 /// Whether a mark groups thousands in the rows from a line on: each number that has it could be a whole one, and the
 /// whole numbers of three digits next to them are nearer to that than to a fraction.

@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use super::{DecimalMark, Quantity, ReadError, Role};
+use crate::error::ReadError;
+use crate::role::{Quantity, Role};
+use crate::separators::DecimalMark;
 
 /// Line numbers, of which the first few are kept.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -3,8 +3,9 @@
 use std::cell::Cell;
 use std::mem::discriminant;
 
-use super::places::Places;
-use super::{ReadError, Warning};
+use crate::error::ReadError;
+use crate::places::Places;
+use crate::warning::Warning;
 
 /// What a caller sees of a reading, and its way to stop it.
 ///

@@ -4,7 +4,7 @@ use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use chromascope_core::query::{Ask, Query};
-use spectral_file::{Marker, Preview, ReadError, ReadOptions, Table, Watch};
+use spectral_file::{Marker, Preview, ReadError, ReadOptions, SpectralFile, Watch};
 
 use super::OpenFile;
 use crate::catalog::import::Origin;
@@ -56,7 +56,7 @@ pub struct FilePreview {
     /// Its text, where it is text.
     pub preview: Result<Arc<Preview>, ReadError>,
     /// What was understood.
-    pub table: Result<Arc<Table>, ReadError>,
+    pub table: Result<Arc<SpectralFile>, ReadError>,
     /// Where that stands in the text.
     pub marker: Option<Marker>,
 }
@@ -79,7 +79,7 @@ impl Query for FilePreviewQuery {
     }
 
     fn bytes(look: &FilePreview) -> usize {
-        let samples = |table: &Table| table.curves.iter().map(|curve| 2 * size_of_val(&*curve.values)).sum();
+        let samples = |table: &SpectralFile| table.curves.iter().map(|curve| 2 * size_of_val(&*curve.values)).sum();
         look.table.as_ref().map_or(0, |table| samples(table))
     }
 }

@@ -1,14 +1,18 @@
 //! Columns in groups, each with wavelengths of its own before its values.
 
-use super::super::families::spectra::{self, Sample, Spectrum};
-use super::super::grid::Grid;
-use super::super::header::Header;
-use super::super::places::PlaceId;
-use super::super::watch::Log;
-use super::super::words::XUnit;
-use super::super::{Decided, Decision, ReadError, WavelengthUnit};
-use super::axes::{self, Axes};
-use super::raw_curve;
+use crate::columns::axes::Axes;
+use crate::columns::{axes, raw_curve};
+use crate::error::ReadError;
+use crate::formats::spectra;
+use crate::formats::spectra::{Sample, Spectrum};
+use crate::grid::Grid;
+use crate::header::Header;
+use crate::header_terms::XUnit;
+use crate::no_curve::is_empty;
+use crate::places::PlaceId;
+use crate::report::{Decided, Decision};
+use crate::watch::Log;
+use crate::wavelength_unit::WavelengthUnit;
 
 /// The unit of a column of wavelengths and that of the first, where they differ.
 fn units(header: &Header, first: usize, column: usize) -> Option<(WavelengthUnit, WavelengthUnit)> {
@@ -29,10 +33,9 @@ pub(super) fn read(
     log: &mut Log<'_>,
 ) -> Result<(Grid, Option<Decision>), ReadError> {
     let more = &found.more;
-    let empty = |values: &[f64]| values.iter().all(|value| value.is_nan());
     let is_curve = |index: usize, values: &[f64]| {
         let column = at + 1 + index;
-        !more.contains(&index) && !found.left.contains(&column) && (header.name(column).is_some() || !empty(values))
+        !more.contains(&index) && !found.left.contains(&column) && (header.name(column).is_some() || !is_empty(values))
     };
     let count = columns.iter().enumerate().filter(|(index, values)| is_curve(*index, values)).count();
     let decided = |value: String| {

@@ -1,7 +1,7 @@
 //! Columns of text in a table: left out, unless each cell is a number with the same unit.
 
-use super::super::dialect::{Cell, Dialect};
-use super::super::grid::RawCurve;
+use crate::dialect::{Cell, Dialect};
+use crate::grid::RawCurve;
 
 /// The columns of text of a table.
 #[derive(Debug)]

@@ -3,13 +3,14 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use super::super::dialect::{Cell, Dialect};
-use super::super::sniff::Layout;
-use super::super::trial;
-use super::super::{Table, WavelengthUnit, wide, words};
-use super::cells;
-use super::down::{value, whole};
-use super::mark::{LeftOut, Mark, What};
+use crate::dialect::{Cell, Dialect};
+use crate::file::SpectralFile;
+use crate::preview::cells;
+use crate::preview::down::{value, whole};
+use crate::preview::mark::{LeftOut, Mark, What};
+use crate::sniff::Layout;
+use crate::wavelength_unit::WavelengthUnit;
+use crate::{dialect_trial, header_terms, wide};
 
 /// The columns and rows of a table that became curves.
 #[derive(Debug, Clone)]
@@ -28,7 +29,7 @@ pub(super) struct Across {
 }
 
 impl Across {
-    pub(super) fn new(layout: &Layout, across: &trial::Across, header: &str, unit: WavelengthUnit) -> Self {
+    pub(super) fn new(layout: &Layout, across: &dialect_trial::Across, header: &str, unit: WavelengthUnit) -> Self {
         let (group, dialect) = (across.group(), layout.dialect());
         let heads: Vec<&str> = dialect.cells(header).take(group.start).collect();
         let mut seen = BTreeSet::new();
@@ -43,7 +44,7 @@ impl Across {
         }
     }
 
-    pub(super) fn marks(&self, number: usize, line: &str, window: &Range<usize>, file: &Table) -> Vec<Mark> {
+    pub(super) fn marks(&self, number: usize, line: &str, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
         if number == self.line {
             return self.header(line, window);
         }
@@ -57,7 +58,7 @@ impl Across {
     fn header(&self, line: &str, window: &Range<usize>) -> Vec<Mark> {
         let marks = cells::within(self.dialect, line, window).filter_map(|(column, range, cell)| {
             let what = match column.checked_sub(self.start) {
-                None => What::Unit { curve: words::x_unit(cell).map(|_| None)? },
+                None => What::Unit { curve: header_terms::x_unit(cell).map(|_| None)? },
                 Some(index) => match self.wavelengths.get(index)? {
                     Some(nm) => What::Wavelength { nm: *nm },
                     None => What::LeftOut { why: LeftOut::Column },
@@ -68,7 +69,7 @@ impl Across {
         marks.collect()
     }
 
-    fn row(&self, line: &str, curve: usize, window: &Range<usize>, file: &Table) -> Vec<Mark> {
+    fn row(&self, line: &str, curve: usize, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
         let mut leading = self.dialect.cells(line).take(self.start);
         let named = leading.clone().nth(self.names).is_some_and(|cell| !cell.is_empty());
         let name = if named { Some(self.names) } else { leading.position(|cell| !cell.is_empty()) };

@@ -2,8 +2,11 @@
 
 use std::ops::Range;
 
-use super::super::dialect::{Cell, Dialect};
-use super::super::{Curve, DecimalMark, Delimiter, WavelengthUnit, text};
+use crate::dialect::{Cell, Dialect};
+use crate::file::Curve;
+use crate::separators::{DecimalMark, Delimiter};
+use crate::text;
+use crate::wavelength_unit::WavelengthUnit;
 
 /// Offset of a piece of a text in it.
 pub(super) fn offset(text: &str, piece: &str) -> usize {

@@ -2,12 +2,15 @@
 
 use std::ops::Range;
 
-use super::super::dialect::{Cell, Dialect};
-use super::super::grid::Grid;
-use super::super::sniff::Layout;
-use super::super::{Dropped, Table, WavelengthUnit, text, words};
-use super::cells;
-use super::mark::{LeftOut, Mark, What};
+use crate::dialect::{Cell, Dialect};
+use crate::file::SpectralFile;
+use crate::grid::Grid;
+use crate::preview::cells;
+use crate::preview::mark::{LeftOut, Mark, What};
+use crate::report::Dropped;
+use crate::sniff::Layout;
+use crate::wavelength_unit::WavelengthUnit;
+use crate::{header_terms, text};
 
 /// The columns and rows of a table that became curves.
 #[derive(Debug, Clone)]
@@ -58,7 +61,7 @@ impl Down {
         self.axes.iter().find(|(axis, _)| *axis == column).map(|(_, unit)| *unit)
     }
 
-    pub(super) fn marks(&self, number: usize, line: &str, window: &Range<usize>, file: &Table) -> Vec<Mark> {
+    pub(super) fn marks(&self, number: usize, line: &str, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
         if self.names == Some(number) {
             return self.header(line, window);
         }
@@ -80,7 +83,7 @@ impl Down {
     }
 
     /// The numbers of a row.
-    fn values(&self, line: &str, shared: f64, window: &Range<usize>, file: &Table) -> Vec<Mark> {
+    fn values(&self, line: &str, shared: f64, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
         let mut nm = shared;
         let mut marks = Vec::new();
         for (column, cell) in self.dialect.cells(line).enumerate() {
@@ -112,7 +115,7 @@ impl Down {
         let body = text::comment(line).unwrap_or(line);
         self.pieces(line, body, self.shift, window, |column, cell| match self.curves.get(column) {
             _ if self.axis(column).is_some() => {
-                let unit = words::x_unit(cell).is_some() || words::names_wavelengths(cell);
+                let unit = header_terms::x_unit(cell).is_some() || header_terms::names_wavelengths(cell);
                 unit.then_some(What::Unit { curve: None })
             }
             Some(Some(curve)) => Some(What::Name { curve: *curve }),
@@ -155,7 +158,7 @@ pub(super) fn whole(line: &str, window: &Range<usize>, why: LeftOut) -> Vec<Mark
 }
 
 /// A number of a curve; a gap where the curve has no value, such as at a number that stands for a missing one.
-pub(super) fn value(written: f64, curve: usize, nm: f64, file: &Table) -> What {
+pub(super) fn value(written: f64, curve: usize, nm: f64, file: &SpectralFile) -> What {
     match file.curves.get(curve).and_then(|curve| cells::sample(curve, nm)) {
         Some((nm, value)) => What::Value { curve, nm, value, written },
         None => What::Gap { curve },

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::ops::Range;
 
-use super::super::{Curve, Table, Values};
+use crate::decimal::short;
+use crate::file::{Curve, SpectralFile};
+use crate::role::Values;
 
 /// A piece of a line that was understood.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,14 +112,14 @@ impl What {
     }
 
     /// A short text for hovering: "Canon EOS 10D: 0.431 at 500 nm (written 43.1, percent)".
-    pub fn describe(&self, table: &Table) -> String {
+    pub fn describe(&self, table: &SpectralFile) -> String {
         let curve = |index: usize| table.curves.get(index);
         let name = |index: usize| curve(index).map_or("a curve", |curve: &Curve| curve.name.as_str());
         match *self {
-            Self::Wavelength { nm } => format!("{} nm", plain(nm)),
+            Self::Wavelength { nm } => format!("{} nm", short(nm, 6)),
             Self::Value { curve, nm, value, written } => {
-                let place = format!("{}: {} at {} nm", name(curve), plain(value), plain(nm));
-                if written == value { place } else { format!("{place} (written {}{})", plain(written), how(table)) }
+                let place = format!("{}: {} at {} nm", name(curve), short(value, 6), short(nm, 6));
+                if written == value { place } else { format!("{place} (written {}{})", short(written, 6), how(table)) }
             }
             Self::Name { curve } => format!("name of curve {}", curve + 1),
             Self::Unit { curve: None } => format!("unit of the wavelengths: {}", table.reading.wavelength_unit.value),
@@ -134,26 +136,11 @@ impl What {
 }
 
 /// What was done to a number that is not the value.
-fn how(table: &Table) -> &'static str {
+fn how(table: &SpectralFile) -> &'static str {
     match table.reading.values.value {
         Values::Plain => "",
         Values::Percent => ", percent",
         Values::Absorbance => ", absorbance",
         Values::Decibels => ", decibels",
-    }
-}
-
-/// A number with at most six significant digits.
-fn plain(value: f64) -> String {
-    const DIGITS: i32 = 6;
-    if value == 0.0 || !value.is_finite() {
-        return "0".to_owned();
-    }
-    let digits = DIGITS - 1 - value.abs().log10().floor() as i32;
-    if (-6..=12).contains(&digits) {
-        let scale = 10_f64.powi(digits.max(0));
-        format!("{}", (value * scale).round() / scale)
-    } else {
-        format!("{value:.5e}")
     }
 }

@@ -2,15 +2,16 @@
 
 use std::ops::Range;
 
-use super::super::grid::Grid;
-use super::super::places::{Place, PlaceKind, Places};
-use super::super::sniff::Layout;
-use super::super::{Orientation, Reader, Table, WavelengthUnit};
-use super::Preview;
-use super::across::Across;
-use super::cells;
-use super::down::{self, Down};
-use super::mark::{LeftOut, Mark, What};
+use crate::file::SpectralFile;
+use crate::grid::Grid;
+use crate::places::{Place, PlaceKind, Places};
+use crate::preview::across::Across;
+use crate::preview::down::Down;
+use crate::preview::mark::{LeftOut, Mark, What};
+use crate::preview::{cells, down};
+use crate::report::{Orientation, Reader};
+use crate::sniff::Layout;
+use crate::wavelength_unit::WavelengthUnit;
 
 /// Line, column or bytes of each sample, name and setting, recorded while a file was read. Made by
 /// [`read_marked`](crate::read_marked).
@@ -36,13 +37,7 @@ enum Plan {
 
 impl Marker {
     /// Takes over what was recorded; [`take_curves`](Self::take_curves) completes it.
-    pub(in super::super) fn new(
-        places: Places<'_>,
-        grid: &Grid,
-        layout: &Layout,
-        reader: Reader,
-        unit: WavelengthUnit,
-    ) -> Self {
+    pub(crate) fn new(places: Places<'_>, grid: &Grid, layout: &Layout, reader: Reader, unit: WavelengthUnit) -> Self {
         let plan = match (&layout.across, reader, layout.orientation.value) {
             (Some(across), Reader::Table, Orientation::Across) => {
                 Plan::Across(Across::new(layout, across, places.line(across.line), unit))
@@ -56,7 +51,7 @@ impl Marker {
     }
 
     /// Completes it with the origins of the curves.
-    pub(in super::super) fn take_curves(&mut self, origins: &[usize]) {
+    pub(crate) fn take_curves(&mut self, origins: &[usize]) {
         self.curves = origins.len();
         let by_curve = origins.iter().enumerate().map(|(curve, origin)| (*origin, curve));
         if let Plan::Across(across) = &mut self.plan {
@@ -79,11 +74,10 @@ impl Marker {
 
     pub(super) fn marks(
         &self,
-        number: usize,
+        (number, start): (usize, usize),
         line: &str,
         window: &Range<usize>,
-        file: &Table,
-        preview: &Preview,
+        file: &SpectralFile,
     ) -> Vec<Mark> {
         if file.curves.len() != self.curves {
             return Vec::new();
@@ -91,7 +85,7 @@ impl Marker {
         let marks = match &self.plan {
             Plan::Down(down) => down.marks(number, line, window, file),
             Plan::Across(across) => across.marks(number, line, window, file),
-            Plan::Placed(all) => placed(all, preview.start(number).unwrap_or(0), line, window, file),
+            Plan::Placed(all) => placed(all, start, line, window, file),
         };
         let above = number < self.first_line || matches!(self.plan, Plan::Placed(_));
         if !marks.is_empty() || !above || self.settings.binary_search(&(number as u32)).is_err() {
@@ -103,7 +97,7 @@ impl Marker {
 }
 
 /// The recorded pieces of one line.
-fn placed(all: &[Place], start: usize, line: &str, window: &Range<usize>, file: &Table) -> Vec<Mark> {
+fn placed(all: &[Place], start: usize, line: &str, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
     let first = all.partition_point(|piece| (piece.end as usize) < start.saturating_add(window.start));
     let last = start + line.len().min(window.end);
     let pieces = all[first..].iter().take_while(|piece| (piece.start as usize) < last);
@@ -115,7 +109,7 @@ fn placed(all: &[Place], start: usize, line: &str, window: &Range<usize>, file: 
     marks.collect()
 }
 
-fn what(place: &Place, written: &str, file: &Table) -> Option<What> {
+fn what(place: &Place, written: &str, file: &SpectralFile) -> Option<What> {
     let curve = place.origin as usize;
     Some(match place.kind {
         PlaceKind::Wavelength => What::Wavelength { nm: place.wavelength },

@@ -1,9 +1,10 @@
 //! The channels of a camera: by their names, and by the shapes of their curves.
 
-use super::super::Curve;
-use super::super::grid::Grid;
-use super::super::words::{self, Channel};
-use super::Role;
+use crate::file::Curve;
+use crate::grid::Grid;
+use crate::header_terms;
+use crate::header_terms::Channel;
+use crate::role::Role;
 
 /// Channels that a camera may have.
 pub(super) const MOST_CHANNELS: usize = 4;
@@ -23,7 +24,7 @@ pub(super) fn channels(names: &[&str]) -> Option<([usize; 3], bool)> {
             found[1] = Some(first.min(second));
             continue;
         }
-        let channel = match words::channel(name) {
+        let channel = match header_terms::channel(name) {
             Some(Channel::Letter(channel)) => channel,
             Some(Channel::Word(channel)) => {
                 letters = false;

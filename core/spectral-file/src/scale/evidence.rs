@@ -1,6 +1,7 @@
 //! What the numbers of each curve look like.
 
-use super::super::grid::Grid;
+use crate::decimal::short;
+use crate::grid::Grid;
 
 /// Where reflectances are judged: outside, instruments are noisy.
 pub(super) const VISIBLE_NM: std::ops::RangeInclusive<f64> = 400.0..=700.0;
@@ -102,20 +103,6 @@ impl Evidence {
 
     /// How far the values reach, in words.
     pub(super) fn words(&self) -> String {
-        format!("Values reach {}", short(self.range().1))
-    }
-}
-
-/// A number with at most four significant digits, for people.
-pub(super) fn short(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return "0".to_owned();
-    }
-    let digits = 3 - value.abs().log10().floor() as i32;
-    if (-8..=12).contains(&digits) {
-        let scale = 10_f64.powi(digits.max(0));
-        format!("{}", (value * scale).round() / scale)
-    } else {
-        format!("{value:.3e}")
+        format!("Values reach {}", short(self.range().1, 4))
     }
 }

@@ -1,9 +1,10 @@
 //! CGATS and the two formats that Argyll makes of it.
 
-use super::common::{Common, Limits, common, even_bands};
-use super::sheet::Piece;
-use super::text::{one_line, push, push_quoted, push_real};
-use super::{Content, Format, Grid, Note, Sheet, WriteError};
+use crate::write::common::{Common, Limits, common, even_bands};
+use crate::write::format::{Format, Grid};
+use crate::write::note::{Note, WriteError};
+use crate::write::sheet::{Content, Piece, Sheet};
+use crate::write::text::{one_line, push, push_quoted, push_real};
 
 /// How many bands Argyll has room for.
 const ARGYLL_BANDS: usize = 601;

@@ -1,9 +1,10 @@
 //! One grid for all curves, as most formats want it.
 
-use super::super::MAX_SAMPLES;
-use super::resample::{Changes, SAME_NM, Sampling, even_step, mean_step, multiples};
-use super::sheet::Piece;
-use super::{Content, Format, Grid, Note, WriteError};
+use crate::limits::MAX_SAMPLES;
+use crate::write::format::{Format, Grid};
+use crate::write::note::{Note, WriteError};
+use crate::write::resample::{Changes, SAME_NM, Sampling, even_step, mean_step, multiples};
+use crate::write::sheet::{Content, Piece};
 
 /// What a format, or the program it is for, can hold.
 pub(super) struct Limits {

@@ -1,14 +1,16 @@
 //! Comma-separated values, with or without comments above them, and samples at the wavelengths they are written at: a part at a
 //! time, so that memory does not grow with what is written.
 
+use chromascope_text::guarded;
 use std::borrow::Cow;
 
-use super::super::MAX_SAMPLES;
-use super::resample::{self, Changes, SAME_NM, Sampling, multiples};
-use super::sheet::Piece;
-use super::text::{push_number, push_quoted};
-use super::{Content, Format, Grid, Note, Sheet, WriteError};
-use chromascope_text::guarded;
+use crate::limits::MAX_SAMPLES;
+use crate::write::format::{Format, Grid};
+use crate::write::note::{Note, WriteError};
+use crate::write::resample;
+use crate::write::resample::{Changes, SAME_NM, Sampling, multiples};
+use crate::write::sheet::{Content, Piece, Sheet};
+use crate::write::text::{push_number, push_quoted};
 
 /// Bytes of text that are passed on at once; a longer row is passed on alone.
 const CHUNK: usize = 1 << 16;
@@ -176,14 +178,14 @@ fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) 
         push("quantity", quantity);
     }
     if let Some(unit) = sheet.unit() {
-        push("unit", &super::text::one_line(unit));
+        push("unit", &crate::write::text::one_line(unit));
     }
     if let Content::Camera { per_photon: Some(per_photon), .. } = sheet.content {
         push("response", if per_photon { "per photon" } else { "per energy" });
     }
     if let Content::Camera { manufacturer, model, .. } = sheet.content {
         for (key, value) in [("manufacturer", manufacturer), ("model", model)] {
-            if let Some(value) = value.map(super::text::one_line).filter(|value| !value.is_empty()) {
+            if let Some(value) = value.map(crate::write::text::one_line).filter(|value| !value.is_empty()) {
                 push(key, &value);
             }
         }

@@ -1,10 +1,11 @@
 //! JSON as rawtoaces and dcamprof read it.
 
-use super::common::{Common, Limits, common};
-use super::resample::even_step;
-use super::sheet::Piece;
-use super::text::{one_line, push, push_number};
-use super::{Content, Format, Grid, Note, Sheet, WriteError};
+use crate::write::common::{Common, Limits, common};
+use crate::write::format::{Format, Grid};
+use crate::write::note::{Note, WriteError};
+use crate::write::resample::even_step;
+use crate::write::sheet::{Content, Piece, Sheet};
+use crate::write::text::{one_line, push, push_number};
 
 /// Writes a document of rawtoaces, whose schema wants all of these members.
 pub(super) fn rawtoaces(sheet: &Sheet<'_>, grid: Grid, notes: &mut Vec<Note>) -> Result<String, WriteError> {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Format;
+use crate::write::format::Format;
 
 /// Something in the text that is not as it was in the curves.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,12 @@
 //! Values at other wavelengths than those of a curve.
 
-use super::super::MAX_SAMPLES;
-use super::super::reading::clean;
-use super::sheet::Piece;
-use super::{Content, Grid, Note, WriteError};
 use chromascope_math::interpolation::{Sprague, linear};
+
+use crate::decimal::clean;
+use crate::limits::MAX_SAMPLES;
+use crate::write::format::Grid;
+use crate::write::note::{Note, WriteError};
+use crate::write::sheet::{Content, Piece};
 
 /// How near a wavelength must be to a sample to be that sample, in nanometers.
 pub(super) const SAME_NM: f64 = 1e-6;

@@ -2,8 +2,10 @@
 
 use std::borrow::Cow;
 
-use super::super::{Curve, MAX_CURVES, MAX_SAMPLES};
-use super::{Note, WriteError, text};
+use crate::file::Curve;
+use crate::limits::{MAX_CURVES, MAX_SAMPLES};
+use crate::write::note::{Note, WriteError};
+use crate::write::text;
 
 /// A curve to be written: values over wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
