@@ -99,8 +99,8 @@ impl fmt::Display for BinaryKind {
 }
 
 impl BinaryKind {
-    /// What helps: the second half of a sentence.
-    pub fn remedy(self) -> &'static str {
+    /// Remedy, as the second half of a sentence.
+    pub(super) fn remedy(self) -> &'static str {
         match self {
             Self::Zip | Self::Ole2 => "save the sheet with the spectra as CSV",
             Self::Gzip | Self::Archive => "unpack it and open the text files in it",
@@ -174,7 +174,7 @@ pub(super) fn binary(bytes: &[u8]) -> Option<BinaryKind> {
     magic.or_else(icc).or_else(spc).or_else(unknown)
 }
 
-/// Whether bytes begin as a GRAMS `.spc` does: flags, a version, a type, an exponent, and the number of points.
+/// Returns whether bytes begin as a GRAMS `.spc` does: flags, a version, a type, an exponent, and the number of points.
 fn is_grams(bytes: &[u8]) -> bool {
     const MOST_POINTS: u32 = 100_000_000;
     const HEADER: usize = 256;
@@ -191,7 +191,7 @@ fn is_grams(bytes: &[u8]) -> bool {
         }
 }
 
-/// Whether one byte in ten of the beginning is a control character that text has no use for. NUL is left out of it:
+/// Returns whether one byte in ten of the beginning is a control character that text has no use for. NUL is left out of it:
 /// instruments pad with it, and half of UTF-16 is made of it.
 fn looks_binary(bytes: &[u8]) -> bool {
     const LOOK: usize = 4096;

@@ -6,18 +6,18 @@ use crate::role::{Role, Values};
 /// Longer lines are no settings.
 const LONGEST: usize = 400;
 
-/// What the settings say, each with its line.
+/// Statements of the settings, each with its line.
 #[derive(Debug, Default)]
 pub(super) struct Clues {
-    /// Whether the values are ratios to a reference measurement.
+    /// True if the values are ratios to a reference measurement.
     pub(super) ratio: Option<(usize, bool)>,
     /// A cosine receptor was attached: the values are irradiances.
     pub(super) cosine_receptor: Option<usize>,
     /// The program writes ratios in percent.
     pub(super) ratios_in_percent: Option<(usize, &'static str)>,
-    /// What a setting such as `Technique` says is measured.
+    /// Role that a setting such as `Technique` gives.
     pub(super) role: Option<(usize, Role)>,
-    /// What a setting says that the values stand for.
+    /// Scale of the values that a setting gives.
     pub(super) values: Option<(usize, Values)>,
     /// A title or a name of data mentions absorbances.
     pub(super) absorbance: Option<usize>,

@@ -19,14 +19,14 @@ use crate::watch::Log;
 use crate::wavelength_unit::WavelengthUnit;
 use crate::{header, header_terms, unit_text, wavelengths};
 
-/// What was read: the first table of a section.
+/// First table of a section.
 pub(super) struct Read {
     pub(super) grid: Grid,
     /// The line after it, if another table follows.
     pub(super) next: Option<usize>,
     /// Bytes that were looked at.
     pub(super) bytes: usize,
-    /// What its columns are, if that was to decide.
+    /// Decision on its columns, if there was one.
     pub(super) note: Option<Decision>,
 }
 
@@ -86,7 +86,7 @@ struct Broken {
     line: usize,
     begins_with_number: bool,
     has_numbers: bool,
-    /// Whether it is the line of names again.
+    /// True if it is the line of names again.
     is_header: bool,
     /// Rows of numbers below it that do not fit this table.
     others: usize,
@@ -113,7 +113,7 @@ struct Columns {
     next: Option<usize>,
 }
 
-/// What a line turned out to be.
+/// Kind of a line.
 enum Row {
     Blank,
     Numbers { cells: usize, filled: usize },
@@ -181,7 +181,7 @@ impl Columns {
         });
     }
 
-    /// Whether a comment is a row that somebody took out, or one that begins with `#` for another reason.
+    /// Returns whether a comment is a row that somebody took out, or one that begins with `#` for another reason.
     fn is_marked_row(&self, line: &str) -> bool {
         let cells = self.dialect.cells(line.trim_start().trim_start_matches('#')).take(MAX_CURVES + 2);
         let (mut count, mut numbers) = (0, 0);
@@ -230,7 +230,7 @@ impl Columns {
         Broken { line, begins_with_number, has_numbers, is_header: false, others: 0, error }
     }
 
-    /// Whether the row just parsed goes back over wavelengths that were there before.
+    /// Returns whether the row just parsed goes back over wavelengths that were there before.
     fn restarts(&self) -> bool {
         let wavelengths = &self.cells[self.named.unwrap_or(0).min(self.cells.len() - 1)];
         let (Some(&first), Some(&last)) = (wavelengths.first(), wavelengths.last()) else { return false };

@@ -10,7 +10,7 @@ use crate::wavelength_unit::plausible;
 /// Lines that may not fit below such a header before it is taken for none: the reader then tells what is wrong with them.
 const MISSES: usize = 3;
 
-/// What a line looks like when split in one way.
+/// Shape of a line, split in one way.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Shape {
     /// All cells, and all but empty ones at the end.
@@ -19,9 +19,9 @@ pub(super) struct Shape {
     pub(super) numbers: usize,
     /// The first number.
     pub(super) first: Option<f64>,
-    /// Whether that is the first cell.
+    /// True if that is the first cell.
     pub(super) leads: bool,
-    /// Whether any cell is text (a wavelength with its unit in the first cell is a number).
+    /// True if any cell is text (a wavelength with its unit in the first cell is a number).
     pub(super) text: bool,
     /// Which of the first columns are text, a bit for each; all bits where a later one is.
     pub(super) texts: u128,
@@ -34,7 +34,7 @@ pub(super) struct Shape {
     grouped: usize,
     /// Those with a mark that can only stand before a fraction, `0.390`.
     fractions: usize,
-    /// Whether a cell after the first is written like `05`, as only digits after a decimal mark are.
+    /// True if a cell after the first is written like `05`, as only digits after a decimal mark are.
     padded: bool,
 }
 
@@ -77,7 +77,7 @@ impl Shape {
         self.padded |= index > 0 && bytes.len() > 1 && bytes[0] == b'0' && bytes.iter().all(u8::is_ascii_digit);
     }
 
-    /// Whether the line is a row of numbers, or of numbers with columns of text among them.
+    /// Returns whether the line is a row of numbers, or of numbers with columns of text among them.
     pub(super) fn is_row(&self, mixed: bool) -> bool {
         let enough = if mixed {
             self.numbers > 0 && self.numbers + self.united.count_ones() as usize > 1
@@ -117,17 +117,17 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// How many rows go on in the main direction.
+    /// Number of rows that continue in the main direction.
     pub(super) fn steady(&self) -> usize {
         self.rises.max(self.falls)
     }
 
-    /// Whether the first numbers look like wavelengths down a column.
+    /// Returns whether the first numbers look like wavelengths down a column.
     pub(super) fn looks_like_wavelengths(&self) -> bool {
         self.rows >= 3 && self.steady() + 1 == self.rows && self.is_plausible()
     }
 
-    /// The same for several spectra below one another, which each begin with the same wavelength.
+    /// Also true for several spectra below one another that each begin with the same wavelength.
     pub(super) fn looks_like_passes(&self) -> bool {
         let (rows, back) = (self.rows, self.rises.min(self.falls));
         self.looks_like_wavelengths()
@@ -139,7 +139,7 @@ impl Run {
         plausible(self.min, self.max, self.fractions)
     }
 
-    /// Whether a row can stand in the table: one with as many cells, and text in the same columns or nothing. Of numbers
+    /// Returns whether a row can stand in the table: one with as many cells, and text in the same columns or nothing. Of numbers
     /// with units, some may have none.
     pub(super) fn takes(&self, shape: &Shape) -> bool {
         let other = self.texts & !(shape.texts | shape.gaps) | shape.texts & !(self.texts | self.gaps);
@@ -212,7 +212,7 @@ impl Across {
 #[derive(Debug, Clone)]
 pub(super) struct Trial {
     pub(super) dialect: Dialect,
-    /// Whether rows may have columns of text.
+    /// True if rows may have columns of text.
     pub(super) mixed: bool,
     run: Run,
     pub(super) best: Run,
@@ -311,18 +311,18 @@ impl Trial {
         }
     }
 
-    /// Whether every mark may group thousands: three digits after it, one to three before.
+    /// Returns whether every mark may group thousands: three digits after it, one to three before.
     pub(super) fn may_be_thousands(&self) -> bool {
         const FEWEST: usize = 4;
         self.grouped >= FEWEST && self.grouped == self.marks
     }
 
-    /// Whether a mark is seen that can only stand before a fraction.
+    /// Returns whether a mark is seen that can only stand before a fraction.
     pub(super) fn has_fractions(&self) -> bool {
         self.fractions > 0
     }
 
-    /// The same for a single mark.
+    /// Also true for a single mark.
     pub(super) fn only_grouped(&self) -> bool {
         self.grouped > 0 && self.grouped == self.marks
     }

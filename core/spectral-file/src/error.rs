@@ -25,19 +25,19 @@ pub enum ReadError {
     /// The file is binary.
     #[error("this is {kind}, not text: {}", kind.remedy())]
     Binary {
-        /// What it is.
+        /// Its meaning.
         kind: BinaryKind,
     },
     /// The file is of a known family, but of a layout that no reader takes.
     #[error("line 1: this is {family}, but of no layout that holds spectra: export the measurement as text or CSV")]
     Unsupported {
-        /// What it is.
+        /// Its meaning.
         family: Family,
     },
     /// The file breaks the rules of its family.
     #[error("line {line}: from column {column} on this breaks the rules of {family}: is the file cut short or edited?")]
     Malformed {
-        /// What it is.
+        /// Its meaning.
         family: Family,
         /// The line.
         line: usize,
@@ -147,10 +147,18 @@ pub enum ReadError {
     /// An error that was none before a setting was chosen.
     #[error("{error} (as chosen: {switch})")]
     AsChosen {
-        /// What was chosen.
+        /// The chosen setting.
         switch: Switch,
-        /// What that led to.
+        /// The error that it led to.
         error: Box<ReadError>,
+    },
+    /// The crate was compiled without the feature that reads such files.
+    #[error("this is {what}, which this program was built without: compile it with the feature {feature}")]
+    NotBuilt {
+        /// The format or encoding.
+        what: &'static str,
+        /// The feature of the crate.
+        feature: &'static str,
     },
     /// Every line holds one number only.
     #[error("line {line}: only one number in each line: expected a wavelength and at least one value")]
@@ -165,7 +173,7 @@ pub enum ReadError {
         line: usize,
         /// The column.
         column: usize,
-        /// What stands there, shortened.
+        /// The text there, shortened.
         text: String,
     },
     /// A row has another number of columns than the rows before it.
@@ -189,7 +197,7 @@ pub enum ReadError {
     NoSuchPart {
         /// The part that was chosen, from 1.
         part: usize,
-        /// How many there are.
+        /// Number found.
         parts: usize,
     },
     /// The file is not of the family that the chosen reader is for.
@@ -203,7 +211,7 @@ pub enum ReadError {
     NotWavelengthColumn {
         /// The column, from 1.
         column: usize,
-        /// How many there are.
+        /// Number found.
         columns: usize,
     },
     /// Numbers that may be wavelengths in ångströms as well as wave numbers.
@@ -265,6 +273,7 @@ impl ReadError {
             Self::TooLarge { .. }
             | Self::Binary { .. }
             | Self::Empty
+            | Self::NotBuilt { .. }
             | Self::Stopped
             | Self::NoNumbers
             | Self::NoSuchPart { .. }
@@ -310,7 +319,7 @@ impl ReadError {
 /// Why a line with numbers is no row of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum NearMiss {
-    /// What stands between the numbers separates no columns.
+    /// The character between the numbers separates no columns.
     Between(char),
     /// It would be a row with other separators than were chosen.
     Separators,

@@ -9,28 +9,28 @@ use crate::warning::Warning;
 pub struct Curve {
     /// The name from the header, the title of the file, or `Column 2` and `Row 1`.
     pub name: String,
-    /// Whether the name is from the file; where it is not, the name of the file may say more.
+    /// True if the name is from the file; where it is not, the name of the file may say more.
     pub named: bool,
     /// Wavelengths in nanometers: finite, strictly ascending, at least two.
     pub wavelengths_nm: Vec<f64>,
     /// Values, one for each wavelength: finite; percent are already divided by 100.
     pub values: Vec<f64>,
-    /// How many wavelengths of the table have no value in this curve. They are left out, not filled.
+    /// Number of wavelengths of the table without a value in this curve. They are left out, not filled.
     pub missing: usize,
     /// The unit of the values as the file names it, such as `W/m²/nm` or `counts`.
     pub unit: Option<String>,
 }
 
-/// What a file was understood to hold.
+/// Curves of a file, with the report of how it was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpectralFile {
     /// The curves, in the order of the file; at least one.
     pub curves: Vec<Curve>,
-    /// What the curves are.
+    /// Role of the curves.
     pub role: Decided<Role>,
-    /// How the bytes were understood.
+    /// Decisions made while reading.
     pub reading: ReadReport,
-    /// What should be looked at before the curves are trusted.
+    /// Doubts to check before the curves are trusted.
     pub warnings: Vec<Warning>,
 }
 

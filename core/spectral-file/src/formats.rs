@@ -2,15 +2,19 @@
 
 mod camspec;
 mod cgats;
+#[cfg(feature = "xml")]
 mod cxf;
 pub(super) mod found;
 mod jcamp;
 mod jcamp_asdf;
+#[cfg(feature = "json")]
 mod json;
 mod lamp_meter;
 mod macam;
 pub(super) mod spectra;
+#[cfg(feature = "xml")]
 mod tm27;
+#[cfg(feature = "xml")]
 mod xml;
 
 use crate::error::ReadError;
@@ -37,9 +41,18 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
         Reader::Table => table(text, options, log),
         Reader::Cgats => cgats::read(text, options, log),
         Reader::Jcamp => jcamp::read(text, options, log),
+        #[cfg(feature = "xml")]
         Reader::Tm27 => tm27::read(text, options, log),
+        #[cfg(feature = "xml")]
         Reader::Cxf => cxf::read(text, log),
+        #[cfg(not(feature = "xml"))]
+        Reader::Tm27 | Reader::Cxf => Err(ReadError::NotBuilt { what: "XML", feature: "xml" }),
+        #[cfg(feature = "json")]
         Reader::Rawtoaces | Reader::Dcamprof | Reader::Enlighten => json::read(text, options, log),
+        #[cfg(not(feature = "json"))]
+        Reader::Rawtoaces | Reader::Dcamprof | Reader::Enlighten => {
+            Err(ReadError::NotBuilt { what: "JSON", feature: "json" })
+        }
         Reader::Labels => lamp_meter::read(text, options, log),
         Reader::Alternate => macam::read(text, log),
         Reader::Camspec => camspec::read(text, log),
@@ -52,7 +65,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     Ok(found)
 }
 
-/// Whether a text can be of the layout that a reader was chosen for.
+/// Returns whether a text can be of the layout that a reader was chosen for.
 fn fits(reader: Reader, text: &str) -> bool {
     let has_line = |start: &str| Lines::new(text).any(|(_, line)| line.trim_start().starts_with(start));
     match reader {
@@ -60,7 +73,7 @@ fn fits(reader: Reader, text: &str) -> bool {
         Reader::Cgats => has_line("BEGIN_DATA_FORMAT"),
         Reader::Jcamp => has_line("##"),
         Reader::Tm27 | Reader::Cxf => {
-            markup::recognize(text) == Some(Family::Xml) && xml::recognize(text).is_none_or(|found| found == reader)
+            markup::recognize(text) == Some(Family::Xml) && xml_reader(text).is_none_or(|found| found == reader)
         }
         Reader::Rawtoaces | Reader::Dcamprof | Reader::Enlighten => markup::recognize(text) == Some(Family::Json),
         Reader::Labels => lamp_meter::recognize(text),
@@ -75,12 +88,20 @@ fn recognize(text: &str) -> Result<Reader, ReadError> {
         Some(Family::Cgats) => Ok(Reader::Cgats),
         Some(Family::Jcamp) => Ok(Reader::Jcamp),
         Some(Family::Json) => Ok(Reader::Rawtoaces),
-        Some(Family::Xml) => xml::recognize(text).ok_or(ReadError::Unsupported { family: Family::Xml }),
+        Some(Family::Xml) => xml_reader(text).ok_or(ReadError::Unsupported { family: Family::Xml }),
         None if macam::recognize(text) => Ok(Reader::Alternate),
         None if camspec::recognize(text) => Ok(Reader::Camspec),
         None if lamp_meter::recognize(text) => Ok(Reader::Labels),
         None => Ok(Reader::Table),
     }
+}
+
+/// The reader for the root element of a text; any reader of XML where none is built, so that its error names the feature.
+fn xml_reader(text: &str) -> Option<Reader> {
+    #[cfg(feature = "xml")]
+    return xml::recognize(text);
+    #[cfg(not(feature = "xml"))]
+    return Some(Reader::Tm27).filter(|_| !text.is_empty());
 }
 
 /// Bytes that are read to list tables below the one that is taken. Where wavelengths just begin anew, only reading on shows

@@ -1,4 +1,4 @@
-//! What every reader fills: wavelengths as written, and the values of each curve beside them.
+//! Grid that every reader fills: wavelengths as written, and the values of each curve beside them.
 
 use chromascope_text::on_one_line;
 
@@ -20,15 +20,15 @@ pub(super) struct Grid {
     pub(super) lines: Vec<usize>,
     /// The curves; each has one value (NaN for a gap) for each wavelength.
     pub(super) curves: Vec<RawCurve>,
-    /// What stands above the numbers.
+    /// Content above the numbers.
     pub(super) header: Header,
     /// The unit, if it stands beside each wavelength.
     pub(super) label_unit: Option<WavelengthUnit>,
     /// The unit, if the format prescribes it.
     pub(super) unit: Option<Decided<WavelengthUnit>>,
-    /// What the curves are, if the format says or suggests it.
+    /// Role of the curves, if the format gives or suggests it.
     pub(super) role: Option<Decided<Role>>,
-    /// What the values are, if the format says so.
+    /// Quantity of the values, if the format gives it.
     pub(super) quantity: Option<Decided<Quantity>>,
     /// The parts of the file, if it can have several, and which one this is.
     pub(super) parts: Vec<Part>,
@@ -37,7 +37,7 @@ pub(super) struct Grid {
     pub(super) rows: usize,
     /// The column of the wavelengths, from 1, where they run down one.
     pub(super) wavelength_column: Option<usize>,
-    /// Whether each curve has wavelengths of its own, so that one it lacks is no gap.
+    /// True if each curve has wavelengths of its own, so that one it lacks is no gap.
     pub(super) own_wavelengths: bool,
     /// A number that stands for missing values, to be told with the gaps.
     pub(super) sentinel: Option<Sentinel>,
@@ -53,7 +53,7 @@ pub(super) struct Grid {
 #[derive(Debug, Default)]
 pub(super) struct RawCurve {
     pub(super) name: String,
-    /// Whether the name is from the file.
+    /// True if the name is from the file.
     pub(super) named: bool,
     /// The column it stands in, from 1, where wavelengths run down one.
     pub(super) column: Option<usize>,
@@ -93,7 +93,7 @@ impl Grid {
         }
     }
 
-    /// Whether two samples hold the same values in every curve, gaps counting as equal.
+    /// Returns whether two samples hold the same values in every curve, gaps counting as equal.
     pub(super) fn same_values(&self, a: usize, b: usize) -> bool {
         self.curves.iter().all(|curve| {
             let (a, b) = (curve.values[a], curve.values[b]);

@@ -1,4 +1,4 @@
-//! What stands above the numbers: comments, names of columns, units.
+//! Header above the numbers: comments, names of columns, units.
 
 use chromascope_text::unguarded;
 
@@ -14,13 +14,13 @@ use crate::text::{Lines, Section, comment};
 use crate::wavelength_unit::WavelengthUnit;
 use crate::{header_terms, unit_text};
 
-/// How many comments are kept; more is not a header.
+/// Most comments that are kept; more is not a header.
 const MAX_COMMENTS: usize = 1000;
 
-/// How far above the numbers the names and the units may stand, in lines with text.
+/// Most lines with text between the names or units and the numbers.
 const NEAR: usize = 6;
 
-/// What was found above the numbers.
+/// Header above the numbers.
 #[derive(Debug, Default)]
 pub(super) struct Header {
     pub(super) comments: Vec<(String, String)>,
@@ -33,11 +33,11 @@ pub(super) struct Header {
     /// The cells of a line of units below the names.
     pub(super) units: Vec<String>,
     pub(super) units_line: Option<usize>,
-    /// Whether the line of names leaves out that of the wavelengths.
+    /// True if the line of names leaves out that of the wavelengths.
     pub(super) shifted: bool,
     /// The unit of the wavelengths and the line that gives it.
     pub(super) x_unit: Option<(usize, XUnit)>,
-    /// What all values stand for, as a line says, and that line.
+    /// Scale of all values, and the line that gives it.
     pub(super) values: Option<(usize, Values)>,
     /// The physical quantity of all values, as a line says, and that line.
     pub(super) quantity: Option<(usize, Quantity)>,
@@ -49,11 +49,11 @@ pub(super) struct Header {
     pub(super) per_photon: Option<usize>,
     /// In what the wavelengths are measured, and the line that says so.
     pub(super) medium: Option<(usize, Medium)>,
-    /// What a comment or a unit line says the values are.
+    /// Role that a comment or a unit line gives, and that line.
     pub(super) role: Option<(usize, Role)>,
-    /// What free text mentions; only good for a guess.
+    /// Role that free text mentions; only good for a guess.
     pub(super) mentioned: Option<(usize, Role)>,
-    /// What the settings of the instrument tell.
+    /// Clues in the settings of the instrument.
     pub(super) clues: Clues,
 }
 
@@ -285,7 +285,7 @@ impl Header {
     }
 }
 
-/// What a row above several curves gives of each, as its first cell says.
+/// Content of a row above several curves, by its first cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum RowKey {
     Name,
@@ -302,7 +302,7 @@ fn row_key(cell: &str) -> Option<RowKey> {
     }
 }
 
-/// Whether the next row above is one of names, numbers or times.
+/// Returns whether the next row above is one of names, numbers or times.
 fn is_keyed<'a>(layout: &Layout, mut rows: impl Iterator<Item = &'a (usize, &'a str)>) -> bool {
     let cells = rows.next().map(|(_, line)| split(layout.dialect(), line));
     cells.is_some_and(|cells| cells.first().is_some_and(|cell| row_key(cell).is_some()))
@@ -320,7 +320,7 @@ fn bare_title(text: &str) -> &str {
     text.trim_matches([' ', '\t', ',', ';', '"'])
 }
 
-/// Whether a line stands alone and names a quantity with its unit in brackets: `Irradiance [µW/cm2/nm],`.
+/// Returns whether a line stands alone and names a quantity with its unit in brackets: `Irradiance [µW/cm2/nm],`.
 fn is_title_with_unit(text: &str) -> bool {
     const LONGEST: usize = 80;
     let title = bare_title(text);
@@ -331,7 +331,7 @@ fn is_title_with_unit(text: &str) -> bool {
         && header_terms::quantity(title).is_some()
 }
 
-/// Whether a line above two columns is a setting of the instrument, such as `LUX 695`, and no pair of names.
+/// Returns whether a line above two columns is a setting of the instrument, such as `LUX 695`, and no pair of names.
 fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
     if layout.width != 2 || cells.len() != 2 {
         return false;
@@ -342,7 +342,7 @@ fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
         || (numeric && !header_terms::names_wavelengths(&cells[0]))
 }
 
-/// Whether a line above several curves gives a number of each, such as a chromaticity, and no names: names have no fractions.
+/// Returns whether a line above several curves gives a number of each, such as a chromaticity, and no names: names have no fractions.
 fn is_measured(layout: &Layout, cells: &[String]) -> bool {
     let Some((key, values)) = cells.split_first().filter(|(key, _)| !key.is_empty()) else { return false };
     let number = |cell: &String| match layout.dialect().parse(cell) {
@@ -377,7 +377,7 @@ fn is_unit_row(cells: &[String]) -> bool {
     bracketed * 2 >= cells.len() || (is_unit(&cells[0]) && cells[1..].iter().all(|cell| looks_like_unit(cell)))
 }
 
-/// Whether a cell begins with a number that no unit begins with, as names do: `10% gray`, `5R 4/14`.
+/// Returns whether a cell begins with a number that no unit begins with, as names do: `10% gray`, `5R 4/14`.
 fn begins_with_figure(cell: &str) -> bool {
     let inverse = cell.strip_prefix('1').is_some_and(|rest| rest.trim_start().starts_with('/'));
     cell.starts_with(|c: char| c.is_ascii_digit()) && !inverse && !cell.contains("10^")

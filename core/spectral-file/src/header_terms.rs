@@ -1,4 +1,4 @@
-//! What the words of a header say about units and quantities.
+//! Units, quantities and roles in the words of a header.
 
 use crate::report::Medium;
 use crate::role::{Quantity, Role, Values};
@@ -7,7 +7,7 @@ use crate::wavelength_unit::WavelengthUnit;
 /// Longer header lines are prose, or hostile.
 const LONGEST: usize = 2000;
 
-/// What stands on the x axis, as a header may name it.
+/// Quantity on the x axis, as a header may name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum XUnit {
     Wavelength(WavelengthUnit),
@@ -58,7 +58,7 @@ fn bracketed_letter(lower: &str) -> Option<XUnit> {
     }
 }
 
-/// Whether a text says that wavelengths are those in air or in vacuum.
+/// Medium of the wavelengths that a text names: air or vacuum.
 pub(super) fn medium(text: &str) -> Option<Medium> {
     let text = lower(text);
     if text.contains("nm_air") || text.contains("nm (air)") {
@@ -93,7 +93,7 @@ fn without_argument(lower: &str) -> String {
     text
 }
 
-/// Whether a column's header is about wavelengths before all: it begins or ends with their name, units aside.
+/// Returns whether a column's header is about wavelengths before all: it begins or ends with their name, units aside.
 pub(super) fn begins_with_wavelengths(text: &str) -> bool {
     const NAMES: [&str; 6] = ["wavelength", "wavelengths", "wl", "λ", "lambda", "wavenumber"];
     let text = without_argument(&lower(text));
@@ -103,7 +103,7 @@ pub(super) fn begins_with_wavelengths(text: &str) -> bool {
     first.is_some_and(|word| NAMES.contains(&word)) || last.is_some_and(|word| NAMES.contains(&word))
 }
 
-/// Whether a column's header names wavelengths, wave numbers or frequencies of light.
+/// Returns whether a column's header names wavelengths, wave numbers or frequencies of light.
 pub(super) fn names_wavelengths(text: &str) -> bool {
     // As other languages call them, and as their unit alone does.
     const CALLED: [&str; 7] =
@@ -128,7 +128,7 @@ pub(super) fn names_wavelengths(text: &str) -> bool {
             .is_some_and(|word| matches!(word, "wave" | "wl" | "nm" | "um" | "µm" | "μm" | "cm-1" | "1/cm" | "thz"))
 }
 
-/// Whether a column's header names a scale of the spectrum, which is no curve: wavelengths, wave numbers, energies of photons.
+/// Returns whether a column's header names a scale of the spectrum, which is no curve: wavelengths, wave numbers, energies of photons.
 pub(super) fn names_axis(text: &str) -> bool {
     let energies = x_unit(text) == Some(XUnit::Other);
     // A unit of values may hold one of wavelengths, such as `W/(cm-1)`.
@@ -136,7 +136,7 @@ pub(super) fn names_axis(text: &str) -> bool {
     (names_wavelengths(text) || energies) && !of_values
 }
 
-/// Whether a column's header names times and nothing else, such as `Time (s)` or `Integration time [ms]`.
+/// Returns whether a column's header names times and nothing else, such as `Time (s)` or `Integration time [ms]`.
 pub(super) fn names_time(text: &str) -> bool {
     const TIMES: [&str; 6] = ["time", "timestamp", "date", "datetime", "date/time", "zeit"];
     const BESIDE: [&str; 17] = [
@@ -175,7 +175,7 @@ pub(super) fn axis(names: &[String]) -> Option<usize> {
     named.min_by_key(|(_, name)| rank(name)).map(|(column, _)| column)
 }
 
-/// Whether a header says percent.
+/// Returns whether a header says percent.
 pub(super) fn says_percent(text: &str) -> bool {
     let text = lower(text);
     // `50% gray` is a name: only a sign that follows no figure is a unit.
@@ -183,7 +183,7 @@ pub(super) fn says_percent(text: &str) -> bool {
     sign || upper_end(&text) == Some(100) || words(&text).any(|word| matches!(word, "percent" | "pct" | "percentage"))
 }
 
-/// Whether a header says that values are fractions of one.
+/// Returns whether a header says that values are fractions of one.
 pub(super) fn says_fraction(text: &str) -> bool {
     let text = lower(text);
     upper_end(&text) == Some(1) || words(&text).any(|word| matches!(word, "fraction" | "0-1" | "1"))
@@ -207,7 +207,7 @@ fn upper_end(lower: &str) -> Option<u32> {
     })
 }
 
-/// What the argument of a decadic logarithm in a header is the inverse of: `log(1/R)`, `-log10 T`.
+/// Letter of the quantity whose inverse a decadic logarithm in a header takes: `log(1/R)`, `-log10 T`.
 fn inverse_log(lower: &str) -> Option<char> {
     const STARTS: [&str; 10] =
         ["log(1/", "log10(1/", "log1/", "log101/", "lg(1/", "lg1/", "-log(", "-log10(", "-log10", "-log"];
@@ -240,7 +240,7 @@ fn percent_letter(lower: &str) -> Option<char> {
     })
 }
 
-/// Whether a header says decadic absorbance. `Abs. irradiance` is absolute.
+/// Returns whether a header says decadic absorbance. `Abs. irradiance` is absolute.
 fn says_absorbance(lower: &str) -> bool {
     const OTHERS: [&str; 7] = ["radian", "power", "flux", "energ", "reflect", "transmi", "sensiti"];
     let short = || {
@@ -262,7 +262,7 @@ fn says_absorbance(lower: &str) -> bool {
         || ((short() || abs()) && !says_percent(lower))
 }
 
-/// What a header says that is not converted, with its remedy.
+/// Scale in a header that is not converted, with its remedy.
 pub(super) fn not_converted(text: &str) -> Option<&'static str> {
     let text = lower(text);
     let word = |wanted: &[&str]| words(&text).any(|word| wanted.contains(&word));
@@ -275,7 +275,7 @@ pub(super) fn not_converted(text: &str) -> Option<&'static str> {
     }
 }
 
-/// Whether a line of prose says that values are absorbances, and names no other quantity.
+/// Returns whether a line of prose says that values are absorbances, and names no other quantity.
 pub(super) fn mentions_absorbance(text: &str) -> bool {
     const MOST_WORDS: usize = 15;
     let short = lower(text);
@@ -287,25 +287,25 @@ pub(super) fn mentions_absorbance(text: &str) -> bool {
         && not_converted(text).is_none()
 }
 
-/// Whether a header names light on a scale of its own: `Relative power`, `Intensity (a.u.)`, `mW`.
+/// Returns whether a header names light on a scale of its own: `Relative power`, `Intensity (a.u.)`, `mW`.
 pub(super) fn names_light_scale(text: &str) -> bool {
     const WORDS: [&str; 10] = ["power", "intensity", "emission", "energy", "luminance", "mw", "µw", "uw", "nw", "w"];
     let text = lower(text);
     text.trim() == "a.u." || words(&text).any(|word| WORDS.contains(&word) || word.starts_with("erg/"))
 }
 
-/// Whether a header names a response, which is neither a light nor a fraction of one.
+/// Returns whether a header names a response, which is neither a light nor a fraction of one.
 pub(super) fn names_response(text: &str) -> bool {
     words(&lower(text)).any(|word| word == "response")
 }
 
-/// Whether the unit of a header is AU, which is of absorbance or arbitrary.
+/// Returns whether the unit of a header is AU, which is of absorbance or arbitrary.
 pub(super) fn says_au(text: &str) -> bool {
     let text = lower(text);
     text.ends_with("(au)") || text.ends_with("[au]")
 }
 
-/// What a header says that the values stand for.
+/// Scale of the values that a header gives.
 pub(super) fn values(text: &str) -> Option<Values> {
     let short = lower(text);
     if not_converted(text).is_some() {
@@ -323,7 +323,7 @@ pub(super) fn values(text: &str) -> Option<Values> {
     }
 }
 
-/// Whether a header says that values are what a detector counted.
+/// Returns whether a header says that values are what a detector counted.
 pub(super) fn says_counts(text: &str) -> bool {
     words(&lower(text)).any(|word| matches!(word, "count" | "counts" | "adc" | "dn"))
 }
@@ -369,7 +369,7 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
     Some(found)
 }
 
-/// What a header says the values are.
+/// Role that a header gives to the values.
 pub(super) fn role(text: &str) -> Option<Role> {
     let light = || {
         let text = lower(text);
@@ -384,7 +384,7 @@ pub(super) fn role(text: &str) -> Option<Role> {
     }
 }
 
-/// What a line of prose says the values are. `Illuminant: D65` is a condition of colors, as `Observer: 2°` is.
+/// Role that a line of prose gives to the values. `Illuminant: D65` is a condition of colors, as `Observer: 2°` is.
 pub(super) fn role_in_prose(text: &str) -> Option<Role> {
     let key = text.split([':', ',', ';', '=', '\t']).next().unwrap_or_default();
     let condition = key.len() < text.len() && matches!(lower(key.trim()).as_str(), "illuminant" | "illuminants");
@@ -393,7 +393,7 @@ pub(super) fn role_in_prose(text: &str) -> Option<Role> {
     if light { Some(Role::Illuminant) } else { role(text).filter(|_| !condition) }
 }
 
-/// Whether a name is that of a standard illuminant: `D65`, `FL2`, `Illuminant A`. `A`, `E` and `F2` alone are fields of charts too.
+/// Returns whether a name is that of a standard illuminant: `D65`, `FL2`, `Illuminant A`. `A`, `E` and `F2` alone are fields of charts too.
 pub(super) fn names_illuminant(name: &str) -> bool {
     let name = lower(name);
     let mut told = false;
@@ -414,7 +414,7 @@ pub(super) fn names_illuminant(name: &str) -> bool {
             && (matches!(first, "a" | "b" | "c" | "e") || first.strip_prefix('f').is_some_and(|rest| number(rest, 12))))
 }
 
-/// What a name calls a light by its kind; only good for a guess.
+/// Kind of a light in a name; only good for a guess.
 pub(super) fn names_lamp(name: &str) -> bool {
     const LAMPS: [&str; 12] = [
         "lamp",
@@ -433,7 +433,7 @@ pub(super) fn names_lamp(name: &str) -> bool {
     words(&lower(name)).any(|word| LAMPS.contains(&word))
 }
 
-/// What bands named by a letter are: `R400`, `T_380`.
+/// Role of bands named by a letter: `R400`, `T_380`.
 pub(super) fn role_of_bands(prefix: &str) -> Option<Role> {
     let prefix = lower(prefix);
     match prefix.trim_matches(|c: char| !c.is_alphanumeric()) {
@@ -443,13 +443,13 @@ pub(super) fn role_of_bands(prefix: &str) -> Option<Role> {
     }
 }
 
-/// Whether a text is the word for what is measured and nothing else.
+/// Returns whether a text is the word for what is measured and nothing else.
 pub(super) fn is_quantity(text: &str) -> bool {
     let word = !text.trim().contains(|c: char| !c.is_alphabetic());
     word && (quantity(text).is_some() || matches!(lower(text).as_str(), "value" | "values" | "intensity" | "signal"))
 }
 
-/// Whether a column's header names what only counts its rows.
+/// Returns whether a column's header names what only counts its rows.
 pub(super) fn is_count(name: &str) -> bool {
     let name = lower(name);
     let mut words = words(&name);
@@ -462,7 +462,7 @@ pub(super) fn is_count(name: &str) -> bool {
         })
 }
 
-/// Whether a column's header names what tells rows apart and nothing else: samples, channels, scans, flags.
+/// Returns whether a column's header names what tells rows apart and nothing else: samples, channels, scans, flags.
 pub(super) fn is_label(name: &str) -> bool {
     const LABELS: [&str; 13] = [
         "sample_id",
@@ -482,12 +482,12 @@ pub(super) fn is_label(name: &str) -> bool {
     LABELS.contains(&lower(name).trim())
 }
 
-/// Whether the name of bands says how specular reflection was treated: included (SCI) or excluded (SCE).
+/// Returns whether the name of bands says how specular reflection was treated: included (SCI) or excluded (SCE).
 pub(super) fn says_specular(text: &str) -> bool {
     words(&lower(text)).any(|word| matches!(word, "sci" | "sce" | "spin" | "spex"))
 }
 
-/// How a name points to a channel of a camera.
+/// Channel of a camera, by the form of its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Channel {
     /// By a letter alone, `R`.

@@ -13,7 +13,7 @@ const LONGEST: usize = 400;
 
 const THORLABS: &str = "Thorlabs (read as described, no real file was at hand)";
 
-/// What a line begins with, or holds, and who writes it.
+/// Beginnings or contents of lines, and the programs that write them.
 const MARKS: [(Mark, &str); 14] = [
     (Mark::Start("SpectraSuite Data File"), "Ocean SpectraSuite"),
     (Mark::Start("OOIBase32 Version"), "Ocean OOIBase32"),

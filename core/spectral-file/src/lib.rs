@@ -4,7 +4,7 @@
 //! seem to play, and a [`ReadReport`] that tells what was decided on the way and how sure each decision is. Anything
 //! decided can be overruled through [`ReadOptions`] by reading again.
 //!
-//! What is read: numbers in columns (wavelengths down the first column, or across a header row), separated by commas,
+//! Input: numbers in columns (wavelengths down the first column, or across a header row), separated by commas,
 //! semicolons, tabs or spaces; points or commas as decimal marks; UTF-8, UTF-16, Shift-JIS or Windows-1252; any line ends;
 //! comments (`# key: value`), headers, units in headers, gaps (`NaN`, `---`, empty, −999 and its kin where they stand out), any
 //! order of wavelengths.
@@ -16,7 +16,7 @@
 //! (TM-27, `CxF`), JSON (rawtoaces, dcamprof with comments, Wasatch ENLIGHTEN), lamp meters that write wavelengths into labels, and files
 //! that put wavelengths and values on alternate lines.
 //!
-//! What is not read: binary files, and XML or JSON of other layouts. They are named in the error, with what helps.
+//! Not read: binary files, and XML or JSON of other layouts. The error names them, with a remedy.
 //!
 //! Reading is total: it does not panic, takes time proportional to the input, and needs a few times its memory, most of it
 //! the samples themselves (16 bytes each). The limits are [`MAX_BYTES`], [`MAX_CURVES`] and [`MAX_SAMPLES`].
@@ -35,6 +35,11 @@
 //! (separators, first row of numbers), `header` (names, units, comments), `columns` or `wide` (text to numbers), then
 //! `wavelengths` (unit, order, repeats), `gaps`, `no_curve`, `scale` (role, percent), `quantity`, `photons`, and in `read` the
 //! curves. A reader for another format is one file in `formats`: it fills the same `Grid`, and all after it is shared.
+
+#![cfg_attr(
+    not(all(feature = "encodings", feature = "json", feature = "xml")),
+    allow(dead_code, reason = "some items serve one format only")
+)]
 
 mod bands;
 mod binary;
@@ -97,3 +102,8 @@ pub use switch::Switch;
 pub use warning::{LineList, Sentinel, Warning};
 pub use watch::Watch;
 pub use wavelength_unit::WavelengthUnit;
+
+/// The example of the README, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

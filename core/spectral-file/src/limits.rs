@@ -1,6 +1,6 @@
 //! Limits of what is read.
 
-/// How many parts of a file are listed and can be chosen.
+/// Most parts of a file that are listed and can be chosen.
 pub(super) const MAX_PARTS: usize = 1000;
 
 /// The most bytes a file may have: 64 MiB. Spectra of a whole session of measurements are far below.

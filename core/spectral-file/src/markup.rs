@@ -26,7 +26,7 @@ impl fmt::Display for Family {
     }
 }
 
-/// How much of the text is looked at for the marks of a family.
+/// Bytes of the text that are searched for the marks of a family.
 const LOOK: usize = 64 << 10;
 
 /// The line that begins the names of fields in CGATS.

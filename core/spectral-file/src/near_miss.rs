@@ -6,7 +6,7 @@ use crate::options::ReadOptions;
 use crate::separators::{DecimalMark, Delimiter};
 use crate::text::{Lines, Section, comment, excerpt};
 
-/// How much of a text is searched.
+/// Bytes of a text that are searched.
 const LOOK: usize = 1 << 18;
 
 /// A line of more bytes is not looked at as a whole.

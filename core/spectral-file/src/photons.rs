@@ -35,7 +35,7 @@ const PLANCK_LIGHT_EV_NM: f64 = PLANCK_LIGHT_J_NM / 1.602_176_634e-19;
 /// The wavelength in nanometers where relative photons and relative energies have the same value.
 const SAME_AT_NM: f64 = 550.0;
 
-/// What is done to the values of a curve.
+/// Conversion of the values of a curve.
 #[derive(Debug, Clone)]
 struct Conversion {
     /// Photons for each unit of the values; infinite for a relative scale of photons; none for energies.
@@ -47,12 +47,12 @@ struct Conversion {
     size: f64,
     /// The unit of the result, if it has one.
     unit: Option<String>,
-    /// What says so.
+    /// Evidence.
     why: String,
 }
 
 impl Conversion {
-    /// What a unit asks for, if it asks for anything.
+    /// Conversion that a unit requires, if it requires one.
     fn of_unit(text: &str, why: String) -> Option<Self> {
         let unit = units::parse(text)?;
         let photons = match unit.amount {
@@ -130,7 +130,7 @@ pub(super) fn quantity(unit: &str) -> Option<Quantity> {
     })
 }
 
-/// What a file says about whether sensitivities are responses per photon.
+/// Decision on responses per photon or per energy, as far as the file states it.
 pub(super) fn response(grid: &Grid) -> Option<Decided<bool>> {
     for curve in &grid.curves {
         let unit = curve.unit.as_deref().unwrap_or_default();
@@ -148,7 +148,7 @@ pub(super) fn response(grid: &Grid) -> Option<Decided<bool>> {
     Some(Decided::certain(true, format!("Line {line} says so")))
 }
 
-/// What a curve needs, by its own header or by what the file says of all.
+/// Conversion of a curve, by its own header or by a line about all.
 fn of_curve(grid: &Grid, curve: &RawCurve) -> Option<Conversion> {
     if let Some(unit) = curve.unit.as_deref().filter(|unit| units::parse(unit).is_some()) {
         return Conversion::of_unit(unit, format!("The unit is {unit}"));
@@ -216,7 +216,7 @@ pub(super) fn to_energy(
     Some(decision)
 }
 
-/// What the decision on the unit of lights is listed as.
+/// Name of the decision on the unit of lights.
 pub(super) const DECISION: &str = "Spectral unit";
 
 /// The guess that lights over frequencies or wave numbers are per nanometer, where no unit says otherwise.
@@ -260,7 +260,7 @@ fn renamed(name: &str) -> String {
     }
 }
 
-/// Whether a column of such a name would be converted when it is read.
+/// Returns whether a column of such a name would be converted when it is read.
 pub(super) fn converts(name: &str) -> bool {
     names_photons(name) || Conversion::of_unit(name, String::new()).is_some()
 }

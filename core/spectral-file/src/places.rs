@@ -13,7 +13,7 @@ impl PlaceId {
     }
 }
 
-/// What stands at a place.
+/// Content of a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PlaceKind {
     Wavelength,

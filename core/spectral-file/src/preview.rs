@@ -56,7 +56,8 @@ pub struct Preview {
 impl Preview {
     /// Decodes the bytes of a file as the readers do, in a time proportional to their number.
     ///
-    /// Fails as they do on binary, empty and too large files, and on no other.
+    /// # Errors
+    /// Those of the readers for binary, empty and too large files, and no others.
     pub fn new(bytes: &[u8]) -> Result<Self, ReadError> {
         let (text, encoding) = text::decode(bytes)?;
         let mut starts = Vec::new();
@@ -77,7 +78,7 @@ impl Preview {
         self.encoding
     }
 
-    /// How many lines there are; at least one.
+    /// Number of lines; at least one.
     pub fn line_count(&self) -> usize {
         self.starts.len()
     }
@@ -100,7 +101,7 @@ impl Preview {
         self.line(number).map(|line| Shown::new(line, from, count))
     }
 
-    /// What was understood of a line: in the order of the line, without overlaps, in bytes of [`line`](Self::line).
+    /// Marks of a line: in the order of the line, without overlaps, in bytes of [`line`](Self::line).
     ///
     /// Empty for a line that does not exist. A marker of a file with another number of curves
     /// gives none.
@@ -121,7 +122,7 @@ impl Preview {
             .unwrap_or_default()
     }
 
-    /// Where a reading failed: the line, and the bytes in it, which are the whole line where nothing closer is known.
+    /// Place where reading failed: the line, and the bytes in it, which are the whole line where nothing closer is known.
     ///
     /// `None` where the error is about the file as a whole.
     pub fn error_range(&self, error: &ReadError) -> Option<(usize, Range<usize>)> {

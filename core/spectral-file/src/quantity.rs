@@ -1,4 +1,4 @@
-//! What physical quantity the values of a table are, and in which unit.
+//! Physical quantity of the values of a table, and their unit.
 
 use crate::grid::Grid;
 use crate::report::{Certainty, Decided};
@@ -47,7 +47,7 @@ fn said(grid: &Grid, role: &Decided<Role>) -> Option<Decided<Quantity>> {
     Some(Decided::certain(quantity, format!("The unit is {unit}")))
 }
 
-/// Whether sensitivities are responses per photon. Quantum efficiencies are, by their definition.
+/// Returns whether sensitivities are responses per photon. Quantum efficiencies are, by their definition.
 pub(super) fn per_photon(grid: &Grid, role: Role, quantity: &Decided<Quantity>) -> Option<Decided<bool>> {
     if role != Role::Camera {
         return None;

@@ -38,7 +38,7 @@ fn mark(curves: &[RawCurve]) -> Option<Vec<bool>> {
     (marks.contains(&true) && marks.contains(&false)).then_some(marks)
 }
 
-/// Whether a header says that a column was made of others.
+/// Returns whether a header says that a column was made of others.
 fn is_processed(curve: &RawCurve) -> bool {
     let counts = curve.label.to_lowercase().contains("count");
     let said = header_terms::role(&curve.label).is_some() || header_terms::says_percent(&curve.label);

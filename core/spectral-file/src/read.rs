@@ -42,7 +42,7 @@ pub(super) fn blame(bytes: &[u8], options: &ReadOptions, error: ReadError, watch
     error
 }
 
-/// What was chosen, each with the options without it.
+/// Chosen settings, each with the options without it.
 fn switches(options: &ReadOptions) -> Vec<(Switch, ReadOptions)> {
     let all = options;
     let without = |change: fn(&mut ReadOptions)| {
@@ -67,7 +67,10 @@ fn switches(options: &ReadOptions) -> Vec<(Switch, ReadOptions)> {
 
 /// Reads the bytes of a file as spectral curves.
 ///
-/// The same bytes and options always give the same table. Nothing is decided by a file name.
+/// Deterministic: equal bytes and options give equal results. File names decide nothing.
+///
+/// # Errors
+/// The reason why the file could not be read, with line, column and remedy.
 pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<SpectralFile, ReadError> {
     read_watched(bytes, options, Watch::none())
 }
@@ -75,6 +78,9 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<SpectralFile, ReadErr
 /// [`read`], with somebody who sees how far it is and can stop it.
 ///
 /// A reading that was stopped ends in [`ReadError::Stopped`], within some milliseconds.
+///
+/// # Errors
+/// Those of [`read`], and [`ReadError::Stopped`].
 pub fn read_watched(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Result<SpectralFile, ReadError> {
     read_once(bytes, options, watch).map_err(|error| blame(bytes, options, error, watch))
 }
@@ -111,7 +117,7 @@ fn read_text(
     finish(found, encoding, options, log)
 }
 
-/// What all readers share: units, order, role, scale, curves.
+/// Stages that all readers share: units, order, role, scale, curves.
 fn finish(
     found: Found,
     encoding: Encoding,

@@ -8,7 +8,7 @@ use crate::role::{Quantity, Values};
 use crate::separators::{DecimalMark, Delimiter};
 use crate::wavelength_unit::WavelengthUnit;
 
-/// How sure a decision is.
+/// Certainty of a decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Certainty {
     /// The file says so, or leaves no other way to read it.
@@ -22,7 +22,7 @@ pub enum Certainty {
 }
 
 impl Certainty {
-    /// Whether a person should look: a guess, or something that is not decided.
+    /// Returns whether a person should look: a guess, or something that is not decided.
     pub fn is_doubtful(self) -> bool {
         matches!(self, Self::Guess | Self::Open)
     }
@@ -42,9 +42,9 @@ impl fmt::Display for Certainty {
 /// A value with how sure it is and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decided<T> {
-    /// What was decided.
+    /// The decided value.
     pub value: T,
-    /// How sure it is.
+    /// Its certainty.
     pub certainty: Certainty,
     /// The evidence, as the first half of a sentence: "Values reach 98".
     pub why: String,
@@ -67,7 +67,7 @@ impl<T> Decided<T> {
         Self { value, certainty: Certainty::Chosen, why: "Chosen by hand".to_owned() }
     }
 
-    /// The same decision with its value told in words.
+    /// This decision with its value in words.
     pub(super) fn told(&self, value: &str) -> Decided<String> {
         Decided { value: value.to_owned(), certainty: self.certainty, why: self.why.clone() }
     }
@@ -81,11 +81,11 @@ impl<T> Decided<T> {
 /// One decision as text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Decision {
-    /// What it is about: "Decimal mark".
+    /// Subject: "Decimal mark".
     pub what: &'static str,
-    /// What was decided: "decimal commas".
+    /// Value: "decimal commas".
     pub value: String,
-    /// How sure it is.
+    /// Its certainty.
     pub certainty: Certainty,
     /// The evidence: "Cells such as 0,05".
     pub why: String,
@@ -134,7 +134,7 @@ impl fmt::Display for Encoding {
     }
 }
 
-/// Where the wavelengths stand.
+/// Direction of the wavelengths: down a column or across a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Orientation {
@@ -282,26 +282,26 @@ impl Steps {
     }
 }
 
-/// How a file was understood, from its bytes to its units.
+/// Decisions made while reading a file, from its bytes to its units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadReport {
     /// Which reader took the file.
     pub reader: Decided<Reader>,
     /// The encoding of the bytes.
     pub encoding: Encoding,
-    /// What stands between cells.
+    /// Separator of cells.
     pub delimiter: Decided<Delimiter>,
-    /// What stands before fractions.
+    /// Decimal mark.
     pub decimal_mark: Decided<DecimalMark>,
-    /// Whether the other mark, where it stands before three digits, was taken to group thousands.
+    /// True if the other mark, where it stands before three digits, was taken to group thousands.
     pub thousands: bool,
-    /// Where the wavelengths stand.
+    /// Direction of the wavelengths: down a column or across a row.
     pub orientation: Decided<Orientation>,
     /// The unit of the wavelengths as written.
     pub wavelength_unit: Decided<WavelengthUnit>,
     /// The column of the wavelengths, from 1, where they run down one.
     pub wavelength_column: Option<usize>,
-    /// What the values (or those of the columns that the header marks) stood for.
+    /// Scale of the values, or of those of the columns that the header marks.
     pub values: Decided<Values>,
     /// The physical quantity of the values.
     pub quantity: Decided<Quantity>,
@@ -323,7 +323,7 @@ pub struct ReadReport {
     pub rows: usize,
     /// Rows that are in no curve; the first thousand.
     pub dropped_rows: Vec<DroppedRow>,
-    /// Whether the wavelengths came in descending order.
+    /// True if the wavelengths came in descending order.
     pub descending: bool,
     /// The first and the last wavelength, in nanometers.
     pub range_nm: [f64; 2],

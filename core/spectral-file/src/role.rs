@@ -28,7 +28,7 @@ pub enum Quantity {
     RadiantIntensity,
     /// Spectral power of a light, without a word on its geometry.
     SpectralPower,
-    /// What a detector counted: its own sensitivity is still in it.
+    /// Counts of a detector: its own sensitivity is still in it.
     Counts,
     /// A relative scale, without a word on what is compared.
     Relative,
@@ -37,7 +37,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// What curves of this quantity are, if they are only one thing.
+    /// Role of curves of this quantity, if they have only one.
     pub fn role(self) -> Option<Role> {
         match self {
             Self::Reflectance => Some(Role::Reflectance),
@@ -73,7 +73,7 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// What the curves of a table are.
+/// Role of the curves of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Role {
@@ -90,7 +90,7 @@ pub enum Role {
 }
 
 impl Role {
-    /// Whether the curves are fractions of the light that falls on something.
+    /// Returns whether the curves are fractions of the light that falls on something.
     pub fn is_fraction(self) -> bool {
         matches!(self, Self::Reflectance | Self::Transmittance)
     }
@@ -108,7 +108,7 @@ impl fmt::Display for Role {
     }
 }
 
-/// What the values stand for as written, and so what is done to them.
+/// Scale of the values as written, which decides their conversion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Values {

@@ -1,4 +1,4 @@
-//! What curves are, and what their values stand for.
+//! Role of the curves and scale of their values.
 //!
 //! `role` decides what the curves are: what the file says, else what its settings suggest, else what the numbers look like.
 //! `values` decides for each curve what its numbers stand for, by the header, else by `evidence` of its own. `convert` makes plain

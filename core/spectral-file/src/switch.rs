@@ -10,21 +10,21 @@ use crate::wavelength_unit::WavelengthUnit;
 /// A setting that was chosen, not left to the content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Switch {
-    /// What stands between cells.
+    /// Separator of cells.
     Delimiter(Delimiter),
-    /// What stands before fractions.
+    /// Decimal mark.
     DecimalMark(DecimalMark),
-    /// Where the wavelengths stand.
+    /// Direction of the wavelengths: down a column or across a row.
     Orientation(Orientation),
     /// Their unit.
     WavelengthUnit(WavelengthUnit),
     /// Their column, from 1.
     WavelengthColumn(usize),
-    /// What the values stand for.
+    /// Scale of the values.
     Values(Values),
     /// The part of the file, from 1.
     Part(usize),
-    /// What the curves are.
+    /// Role of the curves.
     Role(Role),
     /// The reader.
     Reader(Reader),

@@ -1,5 +1,6 @@
 //! Bytes to text: limits, binary files, encodings, line ends.
 
+#[cfg(feature = "encodings")]
 use encoding_rs::{SHIFT_JIS, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use std::borrow::Cow;
 
@@ -16,7 +17,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError
     if let Some(kind) = binary(bytes) {
         return Err(ReadError::Binary { kind });
     }
-    let (text, encoding) = decode_any(bytes);
+    let (text, encoding) = decode_any(bytes)?;
     let text = if text.contains('\0') { Cow::Owned(text.replace('\0', "")) } else { text };
     if text.trim().is_empty() {
         return Err(ReadError::Empty);
@@ -24,7 +25,24 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError
     Ok((text, encoding))
 }
 
-fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
+/// Decodes UTF-8 alone.
+#[cfg(not(feature = "encodings"))]
+fn decode_any(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
+    let rest = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let other = |_| ReadError::NotBuilt { what: "text in another encoding than UTF-8", feature: "encodings" };
+    if bare_utf16(bytes).is_some() {
+        return Err(ReadError::NotBuilt { what: "text in UTF-16", feature: "encodings" });
+    }
+    std::str::from_utf8(rest).map(|text| (Cow::Borrowed(text), Encoding::Utf8)).map_err(other)
+}
+
+#[cfg(feature = "encodings")]
+fn decode_any(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
+    Ok(decode_encoded(bytes))
+}
+
+#[cfg(feature = "encodings")]
+fn decode_encoded(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
     if let Some(rest) = bytes.strip_prefix(b"\xFF\xFE") {
         return (UTF_16LE.decode_without_bom_handling(rest).0, Encoding::Utf16Le);
     }
@@ -47,6 +65,7 @@ fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
 }
 
 /// Bytes that are sound Shift-JIS and hold more of its common characters than of what accented letters look like in it.
+#[cfg(feature = "encodings")]
 fn shift_jis(bytes: &[u8]) -> Option<Cow<'_, str>> {
     const FEWEST: usize = 2;
     let (mut common, mut rare) = (0, 0);
@@ -102,7 +121,7 @@ impl<'a> Section<'a> {
         Self { text, line: 1, byte: 0 }
     }
 
-    /// What is left of it from a line on.
+    /// Rest of the section from a line on.
     pub(super) fn after(self, line: usize) -> Self {
         let mut lines = Lines::of(self);
         for _ in self.line..line {

@@ -34,7 +34,7 @@ pub(super) fn without_unit(name: &str) -> &str {
     ends.or_else(|| percent_name(name)).unwrap_or(name)
 }
 
-/// What stands in the last pair of brackets, which may hold others.
+/// Content of the last pair of brackets, which may hold others.
 fn last_bracket(text: &str, open: char, close: char) -> Option<&str> {
     let end = text.rfind(close)?;
     let mut depth = 1;
@@ -73,7 +73,7 @@ fn is_unit(text: &str) -> bool {
             .any(|part| lower.contains(part))
 }
 
-/// Whether a text can be the unit beside a single value: also one of power, which no header needs a list for.
+/// Returns whether a text can be the unit beside a single value: also one of power, which no header needs a list for.
 pub(super) fn is_value_unit(text: &str) -> bool {
     const BASES: [&str; 13] = ["w", "watt", "watts", "j", "a", "v", "lm", "lx", "lux", "cd", "mol", "count", "cts"];
     let lower = text.to_lowercase();
@@ -116,12 +116,12 @@ pub(super) fn tidy(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").trim_end_matches([',', ':', ';']).to_owned()
 }
 
-/// Whether a text is a unit of light, or of a response to photons.
+/// Returns whether a text is a unit of light, or of a response to photons.
 pub(super) fn is_light_unit(text: &str) -> bool {
     units::parse(text).is_some() || is_per_photon(text) || is_per_energy(text) || is_photons(text)
 }
 
-/// Whether a unit is one of a response to power or energy.
+/// Returns whether a unit is one of a response to power or energy.
 pub(super) fn is_per_energy(unit: &str) -> bool {
     const LONGEST: usize = 8;
     unit.len() <= LONGEST && matches!(unit.to_lowercase().as_str(), "a/w" | "ma/w" | "v/w" | "mv/w" | "1/w" | "1/j")
@@ -140,7 +140,7 @@ pub(super) fn is_per_photon(unit: &str) -> bool {
     ["/photon", "/photons", "/quantum", "photon-1", "photon^-1", "photon⁻¹"].iter().any(|end| lower.ends_with(end))
 }
 
-/// Whether a text names a quantity of photons, and not just somebody's lamp.
+/// Returns whether a text names a quantity of photons, and not just somebody's lamp.
 pub(super) fn names_photons(text: &str) -> bool {
     const LONGEST: usize = 400;
     const PHRASES: [&str; 10] = [
@@ -164,7 +164,7 @@ pub(super) fn names_photons(text: &str) -> bool {
         || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
 }
 
-/// Whether a line of free text says that all values are photons: LI-COR's `(QNTM)`, or a sentence on all values.
+/// Returns whether a line of free text says that all values are photons: LI-COR's `(QNTM)`, or a sentence on all values.
 pub(super) fn said_in_prose(line: &str) -> bool {
     const LONGEST: usize = 400;
     if line.len() > LONGEST {
@@ -176,7 +176,7 @@ pub(super) fn said_in_prose(line: &str) -> bool {
     line.contains("(QNTM)") || values && photons && !header_terms::says_counts(&lower)
 }
 
-/// Whether a title or a line of free text says that sensitivities are quantum efficiencies or responses per photon.
+/// Returns whether a title or a line of free text says that sensitivities are quantum efficiencies or responses per photon.
 pub(super) fn says_per_photon(text: &str) -> bool {
     const LONGEST: usize = 400;
     if text.len() > LONGEST {

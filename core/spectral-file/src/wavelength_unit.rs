@@ -83,10 +83,10 @@ impl WavelengthUnit {
 /// The speed of light in vacuum in nm THz, exact.
 pub(super) const SPEED_OF_LIGHT_NM_THZ: f64 = 299_792.458;
 
-/// What the wavelengths may be, in nanometers: beyond what any instrument for light measures.
+/// Accepted wavelengths in nanometers: beyond what any instrument for light measures.
 pub(super) const RANGE_NM: std::ops::RangeInclusive<f64> = 100.0..=25_000.0;
 
-/// Whether numbers can be wavelengths at all: in range as nanometers, or as micrometers with fractions.
+/// Returns whether numbers can be wavelengths at all: in range as nanometers, or as micrometers with fractions.
 pub(super) fn plausible(min: f64, max: f64, fractions: bool) -> bool {
     (RANGE_NM.contains(&min) && RANGE_NM.contains(&max)) || (fractions && min >= 0.2 && max <= 20.0)
 }

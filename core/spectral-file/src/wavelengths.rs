@@ -47,7 +47,7 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     Ok(Decided::guess(unit, format!("Wavelengths run from {min} to {max}")))
 }
 
-/// Whether a table is a single curve about which nothing is said.
+/// Returns whether a table is a single curve about which nothing is said.
 fn is_bare(grid: &Grid) -> bool {
     let named = !grid.header.names.is_empty() || !grid.header.comments.is_empty() || grid.header.mentioned.is_some();
     grid.curves.len() == 1 && !named
@@ -150,7 +150,7 @@ fn merge_repeats(grid: &mut Grid, log: &mut Log<'_>) {
     }
 }
 
-/// Where a second pass over the wavelengths of a first one begins, if rows do: that is another table, not disorder.
+/// Start of a second pass over the wavelengths of a first one, if rows do: that is another table, not disorder.
 pub(super) fn second_pass(wavelengths: &[f64]) -> Option<usize> {
     // What begins with the very same wavelength is no disorder, however short.
     const FEWEST_AGAIN: usize = 3;

@@ -154,7 +154,7 @@ struct Rows<'a> {
     broken: Option<(usize, ReadError, bool)>,
     /// Columns without a wavelength at their heads, and whether they hold numbers.
     suspects: Vec<(usize, bool)>,
-    /// What each curve is, as a cell before its values says, and the column of those cells.
+    /// Quantity of each curve, by a cell before its values, and the column of those cells.
     labels: Vec<Option<Label>>,
     kind_column: Option<usize>,
     /// Rows that hold no spectrum but another scale, in words.
@@ -274,7 +274,7 @@ impl<'a> Rows<'a> {
         Ok(Some(RawCurve { name, named, values, origin: number, ..RawCurve::default() }))
     }
 
-    /// Whether a line has as many cells as a row.
+    /// Returns whether a line has as many cells as a row.
     fn is_long(&self, line: &str) -> bool {
         let width = self.across.group().end();
         self.dialect.cells(line).take(width).count() == width

@@ -6,7 +6,7 @@
 //!
 //! Numbers are the shortest decimals that read back as the same double. Reflectances and transmittances are fractions.
 //!
-//! Resampling follows the convention that the program computes with (CIE 167:2005; see [`crate::spectral::Quantity`]):
+//! Resampling follows the convention that the program computes with (CIE 167:2005; CIE 15:2018):
 //! Sprague's interpolation in even tables with steps of 5 nm or more of anything but a light, linear in all others. The
 //! new wavelengths are whole multiples of the step; where one falls on a sample (to 1e-6 nm), the sample is kept to the last
 //! bit, and nothing is ever written beyond a curve's own range. A step coarser than that of the curve picks samples without
@@ -79,7 +79,10 @@ impl Format {
         }
     }
 
-    /// Whether curves of this kind and number can be written in this format, whatever their wavelengths.
+    /// Returns whether curves of this kind and number can be written in this format, whatever their wavelengths.
+    ///
+    /// # Errors
+    /// [`WriteError`] for curves that are none, of other kinds or in another number than the format holds.
     pub fn fits(self, sheet: &Sheet<'_>) -> Result<(), WriteError> {
         sheet.check()?;
         let found = sheet.curves.len();
@@ -105,14 +108,17 @@ impl Format {
 pub struct Written {
     /// The text, with a line feed after each line.
     pub text: String,
-    /// What is not as it was in the curves.
+    /// Differences from the curves as they were given.
     pub notes: Vec<Note>,
 }
 
 /// Writes curves in a format, at their own wavelengths or resampled.
 ///
-/// The same curves always give the same text. Limits are those of reading: [`crate::MAX_CURVES`] and
+/// Deterministic: equal curves give equal text. Limits are those of reading: [`crate::MAX_CURVES`] and
 /// [`crate::MAX_SAMPLES`].
+///
+/// # Errors
+/// [`WriteError`] for curves that are none, or that the format cannot hold on such a grid.
 pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, WriteError> {
     format.fits(sheet)?;
     resample::check(grid)?;
@@ -134,6 +140,9 @@ pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, W
 /// The table of the command line: `wavelength_nm,<curve>…` and nothing above it.
 ///
 /// Has a row for every wavelength of any curve; a cell is blank where its curve has no sample.
+///
+/// # Errors
+/// [`WriteError`] for curves that are none, or over the limits on such a grid.
 pub fn canonical_csv(sheet: &Sheet<'_>, grid: Grid) -> Result<Written, WriteError> {
     let mut prepared = Prepared::new(sheet, grid)?;
     let text = collected(|put| prepared.table(put));

@@ -6,14 +6,14 @@ use crate::header_terms::XUnit;
 use crate::no_curve::{FEWEST_ROWS, counts, is_empty, is_other_scale, tells_rows_apart};
 use crate::text::listed;
 
-/// What the columns beside the first wavelengths are.
+/// Roles of the columns beside the first wavelengths.
 #[derive(Debug, Default)]
 pub(super) struct Axes {
     /// Columns, counted from the one right of the wavelengths, that hold the wavelengths of those behind them.
     pub(super) more: Vec<usize>,
     /// Columns of the table that are left out.
     pub(super) left: Vec<usize>,
-    /// Whether only the numbers suggest that there are several columns of wavelengths.
+    /// True if only the numbers suggest that there are several columns of wavelengths.
     pub(super) guessed: bool,
 }
 
@@ -104,7 +104,7 @@ fn ends(values: &[f64]) -> Option<(f64, f64)> {
     (a.is_finite() && b.is_finite() && (ordered(1.0) || ordered(-1.0))).then_some((a.min(b), a.max(b)))
 }
 
-/// Whether the numbers of a column whose name mentions wavelengths run as those in the first of two columns do: names such as
+/// Returns whether the numbers of a column whose name mentions wavelengths run as those in the first of two columns do: names such as
 /// `LED, wavelength shifted` do so too.
 fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f64], values: &[f64]) -> bool {
     let name = header.name(column);
@@ -132,7 +132,7 @@ fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f
     plausible && (name.is_some_and(header_terms::begins_with_wavelengths) || overlaps())
 }
 
-/// Whether nothing names a column, or its name is that of the first wavelengths, or only says x.
+/// Returns whether nothing names a column, or its name is that of the first wavelengths, or only says x.
 fn is_open(header: &Header, at: usize, column: usize) -> bool {
     let unit = |column: usize| header.units.get(column).map(String::as_str).filter(|unit| !unit.is_empty());
     let name = header.name(column);

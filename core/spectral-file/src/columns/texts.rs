@@ -15,7 +15,7 @@ struct Text {
     column: usize,
     /// The unit of all cells until now.
     unit: Option<String>,
-    /// Whether a cell was no number with that unit.
+    /// True if a cell was no number with that unit.
     other: bool,
 }
 
@@ -26,7 +26,7 @@ impl Texts {
         Self { mask, columns: columns.map(|column| Text { column, unit: None, other: false }).collect() }
     }
 
-    /// Whether a column holds text, or numbers with units.
+    /// Returns whether a column holds text, or numbers with units.
     #[inline]
     pub(super) fn contains(&self, column: usize) -> bool {
         column < 128 && self.mask >> column & 1 == 1

@@ -21,7 +21,7 @@ const BANDS: usize = 33;
 
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
-/// Whether the text begins with a name and three lines of 33 numbers.
+/// Returns whether the text begins with a name and three lines of 33 numbers.
 pub(super) fn recognize(text: &str) -> bool {
     let mut lines = Lines::new(text).map(|(_, line)| line).filter(|line| !line.trim().is_empty());
     lines.next().is_some_and(is_name) && (0..CHANNELS.len()).all(|_| lines.next().and_then(values).is_some())

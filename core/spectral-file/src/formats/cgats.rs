@@ -74,7 +74,7 @@ enum Place {
     Data,
 }
 
-/// What has been read so far.
+/// State of the reader.
 #[derive(Default)]
 struct File {
     header: Header,
@@ -102,12 +102,12 @@ struct File {
     width: usize,
     /// Which of the tables with spectral fields is kept, from 1.
     wanted: usize,
-    /// Whether the table that is kept has begun, and whether it is the one being read.
+    /// True if the table that is kept has begun, and whether it is the one being read.
     done: bool,
     open: bool,
     /// All tables with spectral fields.
     parts: Vec<Part>,
-    /// What the keywords call the table to come.
+    /// Title that keywords give the next table.
     title: String,
     /// The values of one that is not kept, which are only counted.
     counted: Option<usize>,
@@ -317,7 +317,7 @@ impl File {
     }
 }
 
-/// What a kind of measurement, as Argyll calls them, makes of the curves.
+/// Role of the curves of a kind of measurement, as Argyll names it.
 fn measured(kind: &str) -> Option<Role> {
     match kind.split('_').next() {
         Some("EMISSION" | "AMBIENT") => Some(Role::Illuminant),

@@ -43,7 +43,7 @@ fn is_spectrum(name: &str) -> bool {
     name.ends_with("Spectrum")
 }
 
-/// Where the values of a list begin and how far apart they are, as far as is said.
+/// First wavelength and step of a list of values, as far as they are given.
 #[derive(Debug, Clone, Default)]
 struct Range {
     start: Option<f64>,
@@ -65,7 +65,7 @@ struct List {
     line: usize,
 }
 
-/// What was read until now.
+/// State of the reader.
 #[derive(Default)]
 struct Content {
     header: Header,
@@ -80,7 +80,7 @@ struct Content {
     lists: Vec<List>,
     /// The specification that is open.
     specification: Option<String>,
-    /// What the specifications declare.
+    /// Ranges that the specifications declare.
     ranges: Vec<(String, Range)>,
 }
 

@@ -4,7 +4,7 @@ use crate::grid::Grid;
 use crate::report::{Decided, Decision, Reader};
 use crate::sniff::Layout;
 
-/// What a reader makes of a text, before units, order and scale are settled.
+/// Result of a reader, before units, order and scale are settled.
 pub(crate) struct Found {
     pub(crate) grid: Grid,
     pub(crate) layout: Layout,

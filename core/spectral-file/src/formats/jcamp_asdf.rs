@@ -2,25 +2,25 @@
 
 use crate::decimal::last_digit;
 
-/// What a line holds.
+/// Content of a line.
 #[derive(Debug, PartialEq)]
 pub(super) struct Ordinates {
     /// The abscissa at its head, and the unit of its last digit.
     pub(super) head: (f64, f64),
     /// The values of the line, with one that only repeats the last of the line before.
     pub(super) values: Vec<f64>,
-    /// Whether the last value was written as a difference: the next line then begins by repeating it.
+    /// True if the last value was written as a difference: the next line then begins by repeating it.
     pub(super) ends_in_difference: bool,
 }
 
-/// How a number was written.
+/// Kind of an entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kind {
     /// The abscissa or a value, with an ordinary sign or none, or the sign in its first letter.
     Value,
     /// The difference from the value before.
     Difference,
-    /// How many times the entry before stands.
+    /// Number of repetitions of the entry before.
     Repeat,
 }
 
@@ -91,7 +91,7 @@ fn separates(c: char) -> bool {
     c.is_whitespace() || c == ','
 }
 
-/// Where the digits after the first character end.
+/// End of the digits after the first character.
 fn end(body: &str) -> usize {
     let bytes = body.as_bytes();
     let mut at = 0;
@@ -122,7 +122,7 @@ fn number(lead: (bool, Option<u8>), digits: &str) -> Option<f64> {
     std::str::from_utf8(&buffer[..length]).ok()?.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// What the first character of an entry says: its kind, its sign and its first digit.
+/// Meaning of the first character of an entry: its kind, its sign and its first digit.
 fn lead(first: char) -> Option<(Kind, (bool, Option<u8>))> {
     let digit = |from: u8| Some((first as u8).wrapping_sub(from) + b'1');
     Some(match first {

@@ -19,7 +19,7 @@ use crate::wavelength_unit::WavelengthUnit;
 /// The fewest lines of one label that make a spectrum.
 const FEWEST: usize = 5;
 
-/// How much of the text is looked at.
+/// Bytes of the text that are looked at.
 const LOOK: usize = 1 << 20;
 
 /// A line that is a sample.
@@ -32,7 +32,7 @@ struct Labeled<'a> {
     value: &'a str,
 }
 
-/// Whether enough lines hold a label, a wavelength in nanometers and a value.
+/// Returns whether enough lines hold a label, a wavelength in nanometers and a value.
 pub(super) fn recognize(text: &str) -> bool {
     let start = &text[..text.floor_char_boundary(LOOK)];
     // Most files have no `nm` in their rows; counting letters is many times faster than splitting lines.

@@ -13,10 +13,10 @@ use crate::sniff::Layout;
 use crate::text::{Lines, excerpt};
 use crate::watch::Log;
 
-/// How many lines of numbers are looked at.
+/// Lines of numbers that are looked at.
 const LOOK: usize = 4;
 
-/// Whether the first lines begin with `@` and the next ones are single numbers.
+/// Returns whether the first lines begin with `@` and the next ones are single numbers.
 pub(super) fn recognize(text: &str) -> bool {
     let mut lines = Lines::new(text).map(|(_, line)| line.trim()).filter(|line| !line.is_empty());
     let marked = |line: &str| line.starts_with(['@', '#']);

@@ -21,7 +21,7 @@ pub(crate) struct Sample {
 #[derive(Debug, Default)]
 pub(crate) struct Spectrum {
     pub(crate) name: Option<String>,
-    /// What the file says the values are.
+    /// Role that the file gives to the values, in its words.
     pub(crate) label: String,
     pub(crate) samples: Vec<Sample>,
 }
@@ -32,7 +32,7 @@ impl Spectrum {
         self.samples.first().map_or(1, |sample| sample.line)
     }
 
-    /// Whether wavelengths fall from first to last.
+    /// Returns whether wavelengths fall from first to last.
     fn falls(&self) -> bool {
         self.samples.windows(2).all(|pair| pair[1].wavelength < pair[0].wavelength)
     }

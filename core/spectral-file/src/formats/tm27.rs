@@ -50,14 +50,14 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     Ok(Found { grid, layout, reader: Decided::certain(Reader::Tm27, why), notes: Vec::new() })
 }
 
-/// What was read until now.
+/// State of the reader.
 #[derive(Default)]
 struct Content {
     header: Header,
     spectra: Vec<Spectrum>,
-    /// What each spectrum is of.
+    /// Quantity of each spectrum.
     quantities: Vec<Option<Decided<Quantity>>>,
-    /// What the open spectrum is of.
+    /// Quantity of the open spectrum.
     quantity: Option<Decided<Quantity>>,
     /// The spectrum that is open.
     current: Option<Spectrum>,

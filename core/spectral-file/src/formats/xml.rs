@@ -1,4 +1,4 @@
-//! What the readers of XML share: which one takes a text, its elements one after the other, places in the text.
+//! Base of the readers of XML: choice of the reader, elements one after the other, places in the text.
 //!
 //! The text is pulled through `quick-xml`, so that a file needs no memory beyond the elements that are open. What an encoding
 //! declaration says is of no interest, because the text is decoded already. Entities are the five of XML and characters by
@@ -51,7 +51,7 @@ fn local(name: &str) -> &str {
 /// An element: its tag, and once it is closed, the text that stands in it beside other elements.
 pub(super) struct Element<'a> {
     tag: BytesStart<'a>,
-    /// Where the name without its namespace begins in the tag.
+    /// Offset in the tag of the name without its namespace.
     local: usize,
     /// The line of the tag, from 1.
     pub(super) line: usize,
@@ -139,14 +139,14 @@ fn not_a_number(text: &str, line: usize) -> ReadError {
     ReadError::NotANumber { line, column: 1, text: excerpt(text) }
 }
 
-/// How many lines end in a text.
+/// Number of line ends in a text.
 fn line_ends(text: &str) -> usize {
     let either = text.bytes().filter(|byte| matches!(byte, b'\n' | b'\r')).count();
     let pairs = text.as_bytes().windows(2).filter(|pair| *pair == b"\r\n").count();
     either - pairs
 }
 
-/// What a walk meets.
+/// Step of a walk.
 pub(super) enum Step<'a> {
     /// An element begins: [`Walk::innermost`].
     Open,
@@ -231,7 +231,7 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// Whether a text only stands between elements.
+    /// Returns whether a text only stands between elements.
     fn is_indent(&self, text: &str) -> bool {
         self.innermost().is_none_or(|element| element.text.is_empty()) && text.trim_ascii().is_empty()
     }
@@ -263,7 +263,7 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// What a reference in a text stands for.
+/// Text that a reference stands for.
 fn resolve(reference: &BytesRef<'_>) -> Option<String> {
     match reference.resolve_char_ref() {
         Ok(Some(character)) => Some(character.into()),

@@ -1,4 +1,4 @@
-//! Where in a line a reading failed.
+//! Place in a line at which reading failed.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! What a piece of a line is, and how that is said.
+//! Meaning of a piece of a line, and its description.
 
 use std::fmt;
 use std::ops::Range;
@@ -12,7 +12,7 @@ use crate::role::Values;
 pub struct Mark {
     /// Its bytes in the line, on the borders of characters. Empty where an empty cell stands for a gap.
     pub range: Range<usize>,
-    /// What it is.
+    /// Its meaning.
     pub what: What,
 }
 
@@ -22,7 +22,7 @@ impl Mark {
     }
 }
 
-/// What a piece of a line is.
+/// Meaning of a piece of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum What {
@@ -35,7 +35,7 @@ pub enum What {
     Value {
         /// Which of the table's curves, from 0.
         curve: usize,
-        /// Where, in nanometers.
+        /// Wavelength in nanometers.
         nm: f64,
         /// The value as the table has it.
         value: f64,
@@ -77,7 +77,7 @@ pub enum What {
 pub enum LeftOut {
     /// A column that is no curve: pixel numbers, raw counts, an empty column.
     Column,
-    /// The same as an earlier row.
+    /// A row equal to an earlier one.
     Repeated,
     /// A row at a wavelength at which another row has other values.
     Averaged,
@@ -135,7 +135,7 @@ impl What {
     }
 }
 
-/// What was done to a number that is not the value.
+/// Conversion of a written number, in words.
 fn how(table: &SpectralFile) -> &'static str {
     match table.reading.values.value {
         Values::Plain => "",

@@ -7,14 +7,14 @@ use crate::role::{Role, Values};
 #[derive(Debug)]
 pub(crate) struct Scale {
     pub(crate) role: Decided<Role>,
-    /// What the values of most curves stand for.
+    /// Scale of most curves.
     pub(crate) values: Decided<Values>,
-    /// What those of each curve stand for.
+    /// Scale of each curve.
     pub(super) columns: Vec<Values>,
 }
 
 impl Scale {
-    /// Whether values above a thousand are out of question: percent, and fractions of light.
+    /// Returns whether values above a thousand are out of question: percent, and fractions of light.
     pub(crate) fn denies_thousands(&self) -> bool {
         let sure = |certainty| matches!(certainty, Certainty::Certain | Certainty::Chosen);
         (self.values.value == Values::Percent && sure(self.values.certainty))

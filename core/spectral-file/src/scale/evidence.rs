@@ -1,9 +1,9 @@
-//! What the numbers of each curve look like.
+//! Statistics of the numbers of each curve.
 
 use crate::decimal::short;
 use crate::grid::Grid;
 
-/// Where reflectances are judged: outside, instruments are noisy.
+/// Wavelengths at which reflectances are judged: outside, instruments are noisy.
 pub(super) const VISIBLE_NM: std::ops::RangeInclusive<f64> = 400.0..=700.0;
 
 /// Values of one curve that are enough for its quantiles.
@@ -31,7 +31,7 @@ pub(super) struct Evidence {
     pub(super) curves: Vec<Option<Span>>,
 }
 
-/// What a curve of fractions of light is written in, by its numbers.
+/// Scale of a curve of fractions of light, by its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Looks {
     /// Fractions, but dark samples in percent look the same.
@@ -63,7 +63,7 @@ impl Span {
         Some(Self { min, max, median: sample[sample.len() / 2], high: sample[last * 9 / 10], run })
     }
 
-    /// What fractions of light are written in that look so. `largest` is what percent may reach: glossy and fluorescent samples
+    /// Scale of fractions of light with such numbers. `largest` is what percent may reach: glossy and fluorescent samples
     /// pass 100.
     pub(super) fn looks(&self, largest: f64) -> Looks {
         // Percent of a filter that lets only a band pass: dark elsewhere, and far above one in the band.
@@ -101,7 +101,7 @@ impl Evidence {
         self.curves.iter().flatten().map(|span| span.high).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// How far the values reach, in words.
+    /// Largest value, in words.
     pub(super) fn words(&self) -> String {
         format!("Values reach {}", short(self.range().1, 4))
     }

@@ -1,4 +1,4 @@
-//! What the curves are: what the file says, what its settings suggest, what its numbers look like.
+//! Role of the curves: what the file says, what its settings suggest, what its numbers look like.
 
 use crate::grid::{Grid, RawCurve};
 use crate::options::ReadOptions;
@@ -10,12 +10,12 @@ use crate::scale::values::LARGEST_PERCENT;
 use crate::text::excerpt;
 use crate::{header_terms, quantity, unit_text};
 
-/// What words in the file say, for certain or as a mention.
+/// Role that words in the file state or mention.
 pub(super) fn said(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
     stated(grid).or_else(|| hinted(grid, options))
 }
 
-/// What the format, the header, the names of columns or a setting state.
+/// Role that the format, the header, the names of columns or a setting state.
 fn stated(grid: &Grid) -> Option<Decided<Role>> {
     if let Some(role) = grid.role.as_ref().filter(|role| role.certainty == Certainty::Certain) {
         return Some(role.clone());
@@ -128,7 +128,7 @@ fn of_illuminants(grid: &Grid) -> Option<Decided<Role>> {
     Some(Decided::certain(Role::Illuminant, format!("“{}” is the name of a standard illuminant", excerpt(name))))
 }
 
-/// What is mentioned, what settings imply, and what goes with a scale that the file states.
+/// Role that is mentioned, that settings imply, or that suits a scale that the file states.
 fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
     let (values, why) = match (options.values, grid.header.values.or(grid.header.clues.values)) {
         (Some(values), _) => (Some(values), "It was chosen what the values stand for".to_owned()),
@@ -167,7 +167,7 @@ fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
     }
 }
 
-/// Whether curves of a role may be written so. Lights in percent are not told from reflectances by a mere mention.
+/// Returns whether curves of a role may be written so. Lights in percent are not told from reflectances by a mere mention.
 fn suits(role: Role, values: Option<Values>) -> bool {
     match values {
         Some(Values::Percent | Values::Absorbance) => role.is_fraction(),
@@ -184,7 +184,7 @@ fn lamp(grid: &Grid) -> Option<Decided<Role>> {
     Some(Decided::guess(Role::Illuminant, format!("“{}” is the name of a light", excerpt(name))))
 }
 
-/// What settings and numbers suggest where no word says what the curves are. Where lights and reflectances in percent look the
+/// Role that settings and numbers suggest where no word gives one. Where lights and reflectances in percent look the
 /// same, it stays open.
 pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     // Lights scaled the usual way are exactly 100 at 560 nm.
@@ -222,7 +222,7 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     )
 }
 
-/// What follows from whether the values are ratios to a reference.
+/// Role that follows from a measured reference, or from its absence.
 fn by_reference(grid: &Grid, evidence: &Evidence) -> Option<Decided<Role>> {
     /// Counts of detectors are larger, irradiances and radiances in the usual units smaller.
     const COUNTS: f64 = 1000.0;

@@ -1,4 +1,4 @@
-//! What the values of each curve stand for.
+//! Scale of the values of each curve.
 
 use crate::decimal::short;
 use crate::grid::{Grid, RawCurve};
@@ -10,7 +10,7 @@ use crate::scale::evidence::{Evidence, Looks};
 use crate::warning::Warning;
 use crate::watch::Log;
 
-/// What percent of reflectances may reach, and what they may where the program is known to write percent.
+/// Largest reflectance in percent, and the largest where the program is known to write percent.
 pub(super) const LARGEST_PERCENT: (f64, f64) = (130.0, 1000.0);
 
 /// Decides for all curves, and for each: by choice, by a line, by the headers, by the numbers.
@@ -75,13 +75,13 @@ fn by_headers(grid: &Grid, role: Role) -> Option<(Decided<Values>, Vec<Values>)>
     Some((Decided::certain(first, why), columns))
 }
 
-/// What the header of a curve says that its values stand for, as far as that goes with its role.
+/// Scale that the header of a curve gives, as far as it suits the role.
 fn headed(curve: &RawCurve, role: Role) -> Option<Values> {
     let said = header_terms::values(&curve.label);
     said.filter(|values| *values != Values::Plain && (role.is_fraction() || is_power(*values)))
 }
 
-/// Whether values are powers of ten of any quantity, not only of fractions.
+/// Returns whether values are powers of ten of any quantity, not only of fractions.
 fn is_power(values: Values) -> bool {
     values == Values::Decibels
 }

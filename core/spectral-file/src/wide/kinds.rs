@@ -6,14 +6,14 @@ use crate::header_terms;
 use crate::report::Part;
 use crate::role::{Quantity, Values};
 
-/// What a row is.
+/// Quantity of a row.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Label {
     /// As written.
     text: String,
     line: usize,
     quantity: Option<Quantity>,
-    /// Whether it is an absorbance, which is no quantity of its own.
+    /// True if it is an absorbance, which is no quantity of its own.
     absorbance: bool,
 }
 

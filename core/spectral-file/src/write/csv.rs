@@ -34,6 +34,9 @@ pub struct Prepared<'a> {
 
 impl<'a> Prepared<'a> {
     /// Checks the curves and finds the wavelengths they are written at.
+    ///
+    /// # Errors
+    /// [`WriteError`] for curves that are none, or over the limits on such a grid.
     pub fn new(sheet: &Sheet<'a>, grid: Grid) -> Result<Self, WriteError> {
         Format::Csv.fits(sheet)?;
         resample::check(grid)?;
@@ -141,7 +144,7 @@ fn within(rows: &[f64], [first, last]: [f64; 2]) -> &[f64] {
     rows.get(from..to).unwrap_or_default()
 }
 
-/// What a curve has at some of the wavelengths that are written.
+/// Values of a curve at some of the written wavelengths.
 fn part<'p>(
     piece: &'p Piece<'_>,
     rows: &[f64],

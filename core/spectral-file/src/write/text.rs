@@ -21,7 +21,7 @@ pub(super) fn push_number(out: &mut String, value: f64) {
     if plain { push(out, format_args!("{value}")) } else { push(out, format_args!("{value:e}")) }
 }
 
-/// The same with a point in it: readers of CGATS take whole numbers for integers.
+/// A number with a point in it: readers of CGATS take whole numbers for integers.
 pub(super) fn push_real(out: &mut String, value: f64) {
     let start = out.len();
     push_number(out, value);
@@ -41,7 +41,7 @@ pub(super) fn name<'a>(text: &'a str, index: usize, content: Content<'_>) -> Cow
     if bad { Cow::Owned(format!("Curve {}", index + 1)) } else { name }
 }
 
-/// Whether a reader would convert the values under such a name. What responds to light is never scaled down from percent.
+/// Returns whether a reader would convert the values under such a name. What responds to light is never scaled down from percent.
 fn misleads(name: &str, content: Content<'_>) -> bool {
     match header_terms::values(name) {
         // Energies are not photons or powers per frequency.
@@ -52,7 +52,7 @@ fn misleads(name: &str, content: Content<'_>) -> bool {
     }
 }
 
-/// Whether a reader would take a column of such a name for one of wavelengths.
+/// Returns whether a reader would take a column of such a name for one of wavelengths.
 fn heads_wavelengths(name: &str) -> bool {
     const LONGEST_UNIT: usize = 4;
     header_terms::names_wavelengths(name) || (name.len() <= LONGEST_UNIT && header_terms::x_unit(name).is_some())

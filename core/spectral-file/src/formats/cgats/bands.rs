@@ -3,7 +3,7 @@
 use crate::decimal::clean;
 use crate::report::{Decided, Decision};
 
-/// What keywords say about the bands, in nanometers.
+/// Bands that keywords declare, in nanometers.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Declared {
     pub(super) bands: Option<f64>,
@@ -15,9 +15,9 @@ pub(super) struct Declared {
 #[derive(Debug)]
 pub(super) struct Bands {
     pub(super) wavelengths: Vec<f64>,
-    /// Whether the name of the fields says percent.
+    /// True if the name of the fields says percent.
     pub(super) percent: bool,
-    /// What each field holds.
+    /// Content of each field.
     kinds: Vec<Kind>,
     why: String,
     pub(super) in_rows: bool,
@@ -30,7 +30,7 @@ enum Kind {
     Value,
 }
 
-/// What may stand before the wavelength in the name of a spectral field, in capitals.
+/// Prefixes of the wavelength in the name of a spectral field, in capitals.
 const PREFIXES: [&str; 6] = ["SPECTRAL_NM", "SPECTRAL_", "SPEC_", "NM", "R_", "S_"];
 
 impl Bands {
@@ -67,7 +67,7 @@ impl Bands {
         kinds.contains(&Kind::Value).then_some(Self { wavelengths: Vec::new(), percent, kinds, why, in_rows: true })
     }
 
-    /// How many bands there are.
+    /// Number of bands.
     pub(super) fn count(&self) -> usize {
         self.kinds.iter().filter(|kind| **kind == Kind::Value).count()
     }

@@ -123,7 +123,7 @@ fn unquoted(piece: &str) -> Token<'_> {
     }
 }
 
-/// Where the closing quote stands, or the end.
+/// Offset of the closing quote, or of the end.
 fn closing(text: &str) -> usize {
     let bytes = text.as_bytes();
     let mut at = 0;

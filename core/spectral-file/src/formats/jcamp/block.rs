@@ -16,7 +16,7 @@ use crate::text::excerpt;
 use crate::warning::Warning;
 use crate::watch::Log;
 
-/// How the data of a block is written.
+/// Form of the data of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) enum Form {
     /// `x, y` pairs.
@@ -46,20 +46,20 @@ pub(super) struct Block {
     pub(super) points: (usize, Option<usize>),
     /// Numbers that the header announces, by label, with their lines.
     pub(super) announced: Vec<(&'static str, usize, Written)>,
-    /// What the values are, if that is not for the units to say.
+    /// Scale of the values, where the units do not decide it.
     pub(super) values: Option<(usize, Values)>,
-    /// How the data that the reader is in is written.
+    /// Form of the data that is being read.
     pub(super) form: Option<Form>,
-    /// How the data of the block is written, and what its label says of that.
+    /// Form of the block's data, and the label that gives it.
     pub(super) written: Form,
     pub(super) form_label: String,
     pub(super) data_line: usize,
     pub(super) rows: Vec<Row>,
     pub(super) ordinates: Vec<f64>,
-    /// Whether the last line ended with a difference.
+    /// True if the last line ended with a difference.
     pub(super) difference: bool,
     pub(super) samples: Vec<Sample>,
-    /// How many values there were.
+    /// Number of values.
     pub(super) found: usize,
     pub(super) warnings: Vec<Warning>,
     pub(super) comma: bool,
@@ -161,7 +161,7 @@ impl Block {
         self.check()
     }
 
-    /// Whether this is a dark or a reference spectrum.
+    /// Returns whether this is a dark or a reference spectrum.
     pub(super) fn is_raw(&self) -> bool {
         Source::of(&self.title) != Source::Other
     }

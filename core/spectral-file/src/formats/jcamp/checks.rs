@@ -1,4 +1,4 @@
-//! What a header announces about the values, held against them.
+//! Comparison of the values with what the header announces.
 
 use crate::error::ReadError;
 use crate::formats::jcamp::block::{Block, Form};

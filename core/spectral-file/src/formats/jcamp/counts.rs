@@ -15,7 +15,7 @@ const MOST_PERCENT: f64 = 200.0;
 /// A reference this much above the sample is not in the same unit.
 const MOST_TIMES: f64 = 4.0;
 
-/// What a block was measured from, by the end of its title.
+/// Measured object of a block, by the end of its title.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Source {
     Dark,
@@ -38,7 +38,7 @@ impl Source {
     }
 }
 
-/// What the counts of several blocks together give.
+/// Ratio formed from the counts of several blocks.
 pub(super) struct Ratio {
     pub(super) role: Decided<Role>,
     pub(super) quantity: Decided<Quantity>,
@@ -101,7 +101,7 @@ pub(super) fn settle(blocks: &mut [Block], options: &ReadOptions, log: &mut Log<
     })
 }
 
-/// Whether the values of a block are counts: too large for percentages, or of the size of the raw ones.
+/// Returns whether the values of a block are counts: too large for percentages, or of the size of the raw ones.
 fn is_counts(blocks: &[Block], sample: usize, dark: Option<usize>, reference: Option<usize>) -> bool {
     let median = |block: usize| {
         let mut values: Vec<f64> = blocks[block].samples.iter().map(|sample| sample.value).collect();

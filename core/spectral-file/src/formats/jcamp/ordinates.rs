@@ -32,7 +32,7 @@ pub(super) struct Row {
     pub(super) head: Written,
     /// The first of its ordinates among all of the block.
     pub(super) from: usize,
-    /// Whether the line before ended with a difference, so that this one begins by repeating its last ordinate.
+    /// True if the line before ended with a difference, so that this one begins by repeating its last ordinate.
     pub(super) repeats: bool,
     /// The place of its first ordinate, or of all of them.
     pub(super) place: PlaceId,
@@ -61,7 +61,7 @@ pub(super) fn record(line: &str, values: usize, repeats: bool, places: &mut Plac
     (first, false)
 }
 
-/// What a header says about the abscissas.
+/// Abscissas that a header gives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Axis {
     pub(super) first: Written,
@@ -72,7 +72,7 @@ pub(super) struct Axis {
     pub(super) factor: f64,
 }
 
-/// How the abscissas at the heads of lines were made from more digits.
+/// Rounding of the abscissas at the heads of lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Digits {
     Rounded,
@@ -104,7 +104,7 @@ impl Data<'_> {
         &self.ordinates[self.rows[index].from..end]
     }
 
-    /// Whether every line after a difference begins with the last ordinate of the line before it.
+    /// Returns whether every line after a difference begins with the last ordinate of the line before it.
     fn always_repeats(&self) -> bool {
         let mut pairs = self.rows.windows(2).filter(|pair| pair[1].repeats && pair[1].from < self.ordinates.len());
         pairs.all(|pair| pair[1].from == 0 || same(self.ordinates[pair[1].from], self.ordinates[pair[1].from - 1]))
@@ -168,7 +168,7 @@ impl Data<'_> {
         })
     }
 
-    /// Whether a line lacks values by where the next line begins: less than would make it a full line.
+    /// Returns whether a line lacks values by where the next line begins: less than would make it a full line.
     fn is_short(&self, index: usize, lacking: usize, longest: usize) -> bool {
         let sums = self.rows[index].repeats || self.rows.get(index + 1).is_some_and(|next| next.repeats);
         !sums && lacking > 0 && self.values(index).len() + lacking <= longest
@@ -221,7 +221,7 @@ impl Axis {
         (from_ends.into_iter().chain(second).collect(), contradicted)
     }
 
-    /// How many values there can be.
+    /// Largest possible number of values.
     fn most(&self, step: f64) -> Option<f64> {
         let from_ends = || self.last.map(|last| ((last.value - self.first.value) / step).round() + 1.0);
         self.points.map(|points| points as f64).or_else(from_ends)
@@ -240,7 +240,7 @@ impl Grid<'_> {
         self.axis.first.value + self.step * index
     }
 
-    /// Whether the head of a line can be the abscissa of an index.
+    /// Returns whether the head of a line can be the abscissa of an index.
     fn fits(&self, head: Written, index: f64) -> bool {
         let (digit, step) = (head.digit * self.axis.factor.abs(), self.step.abs());
         let noise = 1e-6 * (digit + step);
@@ -375,7 +375,7 @@ fn merge(all: &mut Vec<(usize, Sample)>) -> Result<LineList, ReadError> {
     error.map_or(Ok(lines), Err)
 }
 
-/// Whether two ordinates are the same number; one that is missing fits any.
+/// Returns whether two ordinates are the same number; one that is missing fits any.
 fn same(a: f64, b: f64) -> bool {
     a.is_nan() || b.is_nan() || (a - b).abs() <= 1e-9 * a.abs().max(b.abs())
 }

@@ -8,7 +8,7 @@ use crate::watch::Log;
 /// Bytes between two looks at the watch: some milliseconds.
 const STRIDE: usize = 1 << 20;
 
-/// Where in a document a byte stands.
+/// Context of a byte in a document.
 #[derive(Clone, Copy, PartialEq)]
 enum In {
     Code,

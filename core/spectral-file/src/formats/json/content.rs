@@ -29,7 +29,7 @@ pub(super) enum Curves {
     },
 }
 
-/// What the layouts have in common.
+/// Content that all layouts share.
 pub(super) struct Content {
     pub(super) curves: Curves,
     pub(super) header: Header,

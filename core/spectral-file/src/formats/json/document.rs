@@ -8,7 +8,7 @@ use std::marker::PhantomData;
 
 use crate::formats::json::rows::Rows;
 
-/// How many entries of a header are kept.
+/// Most entries of a header that are kept.
 const MAX_ENTRIES: usize = 1000;
 
 /// A document of either layout.
@@ -18,9 +18,9 @@ pub(super) struct File {
     pub(super) spectral_data: Option<Aces>,
     pub(super) camera_name: Option<String>,
     #[serde(default)]
-    pub(super) comments: Remarks,
+    pub(super) comments: TextsOf<true>,
     #[serde(default)]
-    pub(super) name: Remarks,
+    pub(super) name: TextsOf<true>,
     pub(super) ssf_bands: Option<Vec<f64>>,
     pub(super) red_ssf: Option<Vec<f64>>,
     pub(super) green_ssf: Option<Vec<f64>>,
@@ -58,7 +58,7 @@ impl<'de> Deserialize<'de> for Shape {
     }
 }
 
-/// What ENLIGHTEN knows of a spectrometer.
+/// Settings of a spectrometer, as ENLIGHTEN writes them.
 #[derive(Deserialize)]
 pub(super) struct Settings {
     #[serde(default)]
@@ -117,8 +117,8 @@ impl<'de> Deserialize<'de> for Texts {
             }
             fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Texts, M::Error> {
                 let mut kept = Vec::new();
-                while let Some((key, entry)) = map.next_entry::<String, MaybeText>()? {
-                    if let Some(text) = entry.0.filter(|_| kept.len() < MAX_ENTRIES) {
+                while let Some((key, entry)) = map.next_entry::<String, TextsOf<false>>()? {
+                    if let Some(text) = entry.0.into_iter().next().filter(|_| kept.len() < MAX_ENTRIES) {
                         kept.push((key, text));
                     }
                 }
@@ -129,90 +129,53 @@ impl<'de> Deserialize<'de> for Texts {
     }
 }
 
-/// A list of texts, or one; what is no text is left out.
+/// Texts of a value: the value itself, or the members of a list where `LIST` is set. All others are passed over.
 #[derive(Default)]
-pub(super) struct Remarks(pub(super) Vec<String>);
+pub(super) struct TextsOf<const LIST: bool>(pub(super) Vec<String>);
 
-impl<'de> Deserialize<'de> for Remarks {
+impl<'de, const LIST: bool> Deserialize<'de> for TextsOf<LIST> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Any;
-        impl<'de> Visitor<'de> for Any {
-            type Value = Vec<String>;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("any value")
-            }
-            fn visit_str<E: Error>(self, text: &str) -> Result<Vec<String>, E> {
-                Ok(vec![text.to_owned()])
-            }
-            fn visit_bool<E: Error>(self, _: bool) -> Result<Vec<String>, E> {
-                Ok(Vec::new())
-            }
-            fn visit_i64<E: Error>(self, _: i64) -> Result<Vec<String>, E> {
-                Ok(Vec::new())
-            }
-            fn visit_u64<E: Error>(self, _: u64) -> Result<Vec<String>, E> {
-                Ok(Vec::new())
-            }
-            fn visit_f64<E: Error>(self, _: f64) -> Result<Vec<String>, E> {
-                Ok(Vec::new())
-            }
-            fn visit_unit<E: Error>(self) -> Result<Vec<String>, E> {
-                Ok(Vec::new())
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<String>, A::Error> {
-                let mut kept = Vec::new();
-                while let Some(entry) = list.next_element::<MaybeText>()? {
-                    kept.extend(entry.0.filter(|_| kept.len() < MAX_ENTRIES));
-                }
-                Ok(kept)
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Vec<String>, A::Error> {
-                while map.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
-                Ok(Vec::new())
-            }
-        }
-        deserializer.deserialize_any(Any).map(Self)
+        deserializer.deserialize_any(AnyValue::<LIST>).map(Self)
     }
 }
 
-/// A text, or a value of any other kind, which is not kept.
-struct MaybeText(Option<String>);
+struct AnyValue<const LIST: bool>;
 
-impl<'de> Deserialize<'de> for MaybeText {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Any;
-        impl<'de> Visitor<'de> for Any {
-            type Value = Option<String>;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("any value")
-            }
-            fn visit_str<E: Error>(self, text: &str) -> Result<Option<String>, E> {
-                Ok(Some(text.to_owned()))
-            }
-            fn visit_bool<E: Error>(self, _: bool) -> Result<Option<String>, E> {
-                Ok(None)
-            }
-            fn visit_i64<E: Error>(self, _: i64) -> Result<Option<String>, E> {
-                Ok(None)
-            }
-            fn visit_u64<E: Error>(self, _: u64) -> Result<Option<String>, E> {
-                Ok(None)
-            }
-            fn visit_f64<E: Error>(self, _: f64) -> Result<Option<String>, E> {
-                Ok(None)
-            }
-            fn visit_unit<E: Error>(self) -> Result<Option<String>, E> {
-                Ok(None)
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Option<String>, A::Error> {
-                while list.next_element::<IgnoredAny>()?.is_some() {}
-                Ok(None)
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Option<String>, A::Error> {
-                while map.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
-                Ok(None)
+impl<'de, const LIST: bool> Visitor<'de> for AnyValue<LIST> {
+    type Value = Vec<String>;
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("any value")
+    }
+    fn visit_str<E: Error>(self, text: &str) -> Result<Vec<String>, E> {
+        Ok(vec![text.to_owned()])
+    }
+    fn visit_bool<E: Error>(self, _: bool) -> Result<Vec<String>, E> {
+        Ok(Vec::new())
+    }
+    fn visit_i64<E: Error>(self, _: i64) -> Result<Vec<String>, E> {
+        Ok(Vec::new())
+    }
+    fn visit_u64<E: Error>(self, _: u64) -> Result<Vec<String>, E> {
+        Ok(Vec::new())
+    }
+    fn visit_f64<E: Error>(self, _: f64) -> Result<Vec<String>, E> {
+        Ok(Vec::new())
+    }
+    fn visit_unit<E: Error>(self) -> Result<Vec<String>, E> {
+        Ok(Vec::new())
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<String>, A::Error> {
+        let mut kept = Vec::new();
+        while LIST && let Some(entry) = list.next_element::<TextsOf<false>>()? {
+            if kept.len() < MAX_ENTRIES {
+                kept.extend(entry.0);
             }
         }
-        deserializer.deserialize_any(Any).map(Self)
+        while list.next_element::<IgnoredAny>()?.is_some() {}
+        Ok(kept)
+    }
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Vec<String>, A::Error> {
+        while map.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
+        Ok(Vec::new())
     }
 }

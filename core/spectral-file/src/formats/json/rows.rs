@@ -12,7 +12,7 @@ pub(super) struct Rows {
     pub(super) wavelengths: Vec<f64>,
     /// The values of one wavelength after those of the other, NaN for a gap.
     pub(super) values: Vec<f64>,
-    /// How many values the first wavelength has.
+    /// Number of values at the first wavelength.
     pub(super) width: usize,
     /// The first row that does not go with the others.
     pub(super) fault: Option<Fault>,
