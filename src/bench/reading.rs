@@ -4,7 +4,7 @@ mod files;
 
 use std::hint::black_box;
 
-use spectral_file::{ReadOptions, Table, read};
+use spectral_file::{ReadOptions, SpectralFile, read};
 
 use self::files::{File, files};
 use super::Workload;
@@ -38,7 +38,7 @@ fn one(bench: &mut Bench<'_>, file: &File) {
 /// The curves of a file, one after the other.
 type Curves = Vec<Vec<f64>>;
 
-fn of_table(table: &Table) -> Curves {
+fn of_table(table: &SpectralFile) -> Curves {
     table.curves.iter().map(|curve| curve.values.clone()).collect()
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use spectral_file::{Certainty, ReadError, Role, Table, Values, Warning, Watch};
+use spectral_file::{Certainty, ReadError, Role, SpectralFile, Values, Warning, Watch};
 
 use crate::document::own::{Fingerprint, ImportOverrides, OwnCurve, OwnSet, ReadAs};
 
@@ -62,7 +62,7 @@ pub fn import_as(
 }
 
 /// What is made of a table that was read with the options of these wishes.
-pub fn imported(origin: &Origin, table: &Table, wishes: &ImportOverrides) -> Imported {
+pub fn imported(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides) -> Imported {
     let guesses: Vec<_> = weighty_guesses(table);
     let file = &origin.name;
     let mut message = format!("{file}: {}", summary(table));
@@ -84,7 +84,7 @@ pub fn imported(origin: &Origin, table: &Table, wishes: &ImportOverrides) -> Imp
 }
 
 /// The guesses, and what is not decided, that change numbers or what a set is used as.
-pub fn weighty_guesses(table: &Table) -> Vec<spectral_file::Decision> {
+pub fn weighty_guesses(table: &SpectralFile) -> Vec<spectral_file::Decision> {
     let weighty =
         |what: &str| matches!(what, "Role" | "Wavelengths" | "Values" | "Separator" | "Part" | "Spectral unit");
     let decisions = table.decisions().into_iter();
@@ -92,7 +92,7 @@ pub fn weighty_guesses(table: &Table) -> Vec<spectral_file::Decision> {
 }
 
 /// Which curves of a table are taken: those wished for, which may be none, else the first of them.
-pub fn taken(table: &Table, wishes: &ImportOverrides) -> Vec<usize> {
+pub fn taken(table: &SpectralFile, wishes: &ImportOverrides) -> Vec<usize> {
     let count = table.curves.len();
     if let Some(wished) = &wishes.taken {
         let taken: Vec<usize> = wished.iter().copied().filter(|index| *index < count).collect();
@@ -105,14 +105,14 @@ pub fn taken(table: &Table, wishes: &ImportOverrides) -> Vec<usize> {
 }
 
 /// How many curves of what, over which range.
-fn summary(table: &Table) -> String {
+fn summary(table: &SpectralFile) -> String {
     let [first, last] = table.reading.range_nm;
     let count = table.curves.len();
     let curves = if count == 1 { "1 curve".to_owned() } else { format!("{count} curves") };
     format!("{curves}, {}, {first}–{last} nm.", table.role.value)
 }
 
-fn own_set(origin: &Origin, table: &Table, wishes: &ImportOverrides, taken: &[usize]) -> OwnSet {
+fn own_set(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides, taken: &[usize]) -> OwnSet {
     let title = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty());
     let stem = || Path::new(&origin.name).file_stem().map_or(origin.name.clone(), |s| s.to_string_lossy().into_owned());
     let mut name = spectral_file::on_one_line(&title.map_or_else(stem, str::to_owned)).into_owned();
@@ -151,14 +151,14 @@ fn own_set(origin: &Origin, table: &Table, wishes: &ImportOverrides, taken: &[us
 }
 
 /// What the part of a file is called that a person chose of several.
-fn part_name(table: &Table, wishes: &ImportOverrides) -> Option<String> {
+fn part_name(table: &SpectralFile, wishes: &ImportOverrides) -> Option<String> {
     let part = wishes.options.part.filter(|_| table.reading.parts.len() > 1)?;
     let known = table.reading.parts.get(part.checked_sub(1)?)?;
     Some(if known.name.is_empty() { format!("part {part}") } else { known.name.clone() })
 }
 
 /// Which of the curves taken are red, green and blue.
-fn channels(table: &Table, wishes: &ImportOverrides, taken: &[usize]) -> [usize; 3] {
+fn channels(table: &SpectralFile, wishes: &ImportOverrides, taken: &[usize]) -> [usize; 3] {
     let wanted = wishes.channels.or(table.reading.camera_columns).unwrap_or([0, 1, 2]);
     let place = |index: usize| taken.iter().position(|taken| *taken == index);
     match wanted.map(place) {

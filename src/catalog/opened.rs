@@ -268,7 +268,7 @@ impl Opened {
 
     /// What is understood of a file when it is read with these switches; the last answer while it is being read.
     pub fn look(&self, file: &OpenFile, options: &spectral_file::ReadOptions) -> Option<Arc<FilePreview>> {
-        self.look.ask(FilePreviewQuery::stages(file, options));
+        self.look.ask(vec![FilePreviewQuery::new(file, options)]);
         let shown = self.look.shown()?;
         (shown.answer.fingerprint == file.origin.fingerprint).then_some(shown.answer)
     }

@@ -1,13 +1,13 @@
 //! Whether a file holds what the option asks for that names it.
 
-use spectral_file::{Certainty, ReadOptions, Table, Warning};
+use spectral_file::{Certainty, ReadOptions, SpectralFile, Warning};
 
 use super::error::CliError;
 use crate::document::own::{OwnSet, Role};
 use crate::terminal::say;
 
 /// Refuses as reflectances what the file says is something else, and numbers whose scale nobody said.
-pub(super) fn reflectances(path: &str, role: Role, table: &Table) -> Result<(), CliError> {
+pub(super) fn reflectances(path: &str, role: Role, table: &SpectralFile) -> Result<(), CliError> {
     if !role.is_fraction() {
         return Ok(());
     }
@@ -31,7 +31,7 @@ pub(super) fn reflectances(path: &str, role: Role, table: &Table) -> Result<(), 
 }
 
 /// Says what a file is taken as that does not say what it holds.
-pub(super) fn say_role(path: &str, role: Role, table: &Table, bytes: &[u8]) {
+pub(super) fn say_role(path: &str, role: Role, table: &SpectralFile, bytes: &[u8]) {
     // Only a file that names no quantity can be open.
     let unnamed = table.reading.quantity.certainty == Certainty::Chosen;
     let open = || {
@@ -45,7 +45,7 @@ pub(super) fn say_role(path: &str, role: Role, table: &Table, bytes: &[u8]) {
 }
 
 /// Refuses sensitivities of which nothing says which are red, green and blue.
-pub(super) fn channels(path: &str, role: Role, table: &Table) -> Result<(), CliError> {
+pub(super) fn channels(path: &str, role: Role, table: &SpectralFile) -> Result<(), CliError> {
     let count = table.curves.len();
     if role != Role::Camera || count <= 3 || table.reading.camera_columns.is_some() {
         return Ok(());

@@ -15,7 +15,7 @@ use std::thread;
 use std::time::Duration;
 
 use spectral_file::write::{Prepared, Sheet, Trace};
-use spectral_file::{Certainty, Decided, ReadError, Role, Table};
+use spectral_file::{Certainty, Decided, ReadError, Role, SpectralFile};
 
 use self::arguments::InspectArguments;
 use self::out::Out;
@@ -141,7 +141,7 @@ fn answer(
     })
 }
 
-fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<Table, Failure> {
+fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<SpectralFile, Failure> {
     let bytes = contents(file).map_err(|error| Failure::Disk(io_reason(&error)))?;
     let mut table = spectral_file::read(&bytes, &arguments.options()).map_err(Failure::Read)?;
     name_the_only_curve(&mut table, name);
@@ -152,7 +152,7 @@ fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<Tabl
 }
 
 /// What a table leaves open, with the options that decide it.
-fn question(table: &Table) -> Option<String> {
+fn question(table: &SpectralFile) -> Option<String> {
     let (role, values) = (&table.role, &table.reading.values);
     if role.certainty == Certainty::Open {
         let remedy = "add --role reflectance --values percent, --role illuminant or --role unknown";
@@ -162,7 +162,7 @@ fn question(table: &Table) -> Option<String> {
 }
 
 /// Takes sensitivities as responses per photon or per energy, whatever the file says.
-fn respond(table: &mut Table, per_photon: bool) -> Result<(), Failure> {
+fn respond(table: &mut SpectralFile, per_photon: bool) -> Result<(), Failure> {
     if table.role.value != Role::Camera {
         return Err(Failure::NoCamera(table.role.value));
     }
@@ -212,7 +212,7 @@ fn say_if_waiting(patience: impl FnOnce(), has_ended: impl FnOnce() -> bool, say
 }
 
 /// A title, or the file's name, says more about a curve than "Column 2" does.
-fn name_the_only_curve(table: &mut Table, file: &str) {
+fn name_the_only_curve(table: &mut SpectralFile, file: &str) {
     let title = table.reading.comment("title").map(str::trim).filter(|title| !title.is_empty()).map(str::to_owned);
     if let [curve] = table.curves.as_mut_slice()
         && !curve.named

@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "the tests read files")]
 
 mod corpus;
+mod features;
 mod table;
 mod table_families;
 mod table_preview;

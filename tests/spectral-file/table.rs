@@ -14,14 +14,14 @@ mod said;
 
 use spectral_file::{
     BinaryKind, Certainty, Curve, DecimalMark, Delimiter, Dropped, Encoding, Family, MAX_BYTES, Orientation, ReadError,
-    ReadOptions, Role, Table, Values, Warning, WavelengthUnit, read,
+    ReadOptions, Role, SpectralFile, Values, Warning, WavelengthUnit, read,
 };
 
-fn ok(text: &str) -> Table {
+fn ok(text: &str) -> SpectralFile {
     ok_bytes(text.as_bytes())
 }
 
-fn ok_bytes(bytes: &[u8]) -> Table {
+fn ok_bytes(bytes: &[u8]) -> SpectralFile {
     read(bytes, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -36,7 +36,7 @@ fn samples(curve: &Curve) -> Vec<(f64, f64)> {
     curve.wavelengths_nm.iter().copied().zip(curve.values.iter().copied()).collect()
 }
 
-fn names(table: &Table) -> Vec<&str> {
+fn names(table: &SpectralFile) -> Vec<&str> {
     table.curves.iter().map(|curve| curve.name.as_str()).collect()
 }
 

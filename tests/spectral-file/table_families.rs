@@ -8,11 +8,11 @@ mod layouts;
 mod xml;
 
 use spectral_file::{
-    Certainty, DecimalMark, Delimiter, Encoding, Family, Orientation, ReadError, ReadOptions, Reader, Role, Table,
-    Values, Warning, read,
+    Certainty, DecimalMark, Delimiter, Encoding, Family, Orientation, ReadError, ReadOptions, Reader, Role,
+    SpectralFile, Values, Warning, read,
 };
 
-fn ok(text: &str) -> Table {
+fn ok(text: &str) -> SpectralFile {
     read(text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
@@ -23,16 +23,16 @@ fn error(text: &str) -> ReadError {
     }
 }
 
-fn names(table: &Table) -> Vec<&str> {
+fn names(table: &SpectralFile) -> Vec<&str> {
     table.curves.iter().map(|curve| curve.name.as_str()).collect()
 }
 
-fn samples(table: &Table, curve: usize) -> Vec<(f64, f64)> {
+fn samples(table: &SpectralFile, curve: usize) -> Vec<(f64, f64)> {
     let curve = &table.curves[curve];
     curve.wavelengths_nm.iter().copied().zip(curve.values.iter().copied()).collect()
 }
 
-fn note<'a>(table: &'a Table, what: &str) -> Option<&'a str> {
+fn note<'a>(table: &'a SpectralFile, what: &str) -> Option<&'a str> {
     table.reading.notes.iter().find(|note| note.what == what).map(|note| note.value.as_str())
 }
 

@@ -6,11 +6,11 @@ mod lines;
 
 use std::collections::BTreeMap;
 
-use spectral_file::{Mark, Marker, Preview, ReadOptions, Table, What, read};
+use spectral_file::{Mark, Marker, Preview, ReadOptions, SpectralFile, Watch, What, read_marked};
 
 /// A file, what it was read as, and its marks.
 struct Seen {
-    table: Table,
+    table: SpectralFile,
     preview: Preview,
     marker: Marker,
 }
@@ -21,9 +21,8 @@ impl Seen {
     }
 
     fn with(bytes: &[u8], options: &ReadOptions) -> Self {
-        let table = read(bytes, options).unwrap_or_else(|error| panic!("{error}"));
+        let (table, marker) = read_marked(bytes, options, Watch::none()).unwrap_or_else(|error| panic!("{error}"));
         let preview = Preview::new(bytes).unwrap();
-        let marker = preview.marker(&table);
         Self { table, preview, marker }
     }
 

@@ -8,7 +8,7 @@ mod round_trip;
 mod streamed;
 
 use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, Written, write};
-use spectral_file::{ReadOptions, Table, read};
+use spectral_file::{ReadOptions, SpectralFile, read};
 
 const CAMERA: Content<'static> =
     Content::Camera { channels: [0, 1, 2], per_photon: Some(false), manufacturer: Some("Nobody"), model: Some("N1") };
@@ -49,7 +49,7 @@ fn written(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Written {
     write(sheet, format, grid).unwrap_or_else(|error| panic!("{format}: {error}"))
 }
 
-fn back(text: &str) -> Table {
+fn back(text: &str) -> SpectralFile {
     let start: String = text.chars().take(2000).collect();
     read(text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}\n{start}"))
 }

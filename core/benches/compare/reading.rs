@@ -4,7 +4,7 @@
 use std::cell::Cell;
 use std::time::Instant;
 
-use spectral_file::{ReadError, ReadOptions, Table, Watch, read, read_watched};
+use spectral_file::{ReadError, ReadOptions, SpectralFile, Watch, read, read_watched};
 
 use crate::files::{File, digits, files};
 use crate::memory::peak;
@@ -40,7 +40,7 @@ fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
 }
 
 /// What is read, and the longest time in seconds between two looks at the wish to stop: no stop takes longer.
-fn watched(bytes: &[u8]) -> (Result<Table, ReadError>, f64) {
+fn watched(bytes: &[u8]) -> (Result<SpectralFile, ReadError>, f64) {
     let (last, longest) = (Cell::new(Instant::now()), Cell::new(0.0_f64));
     let look = |_| {
         longest.set(longest.get().max(last.replace(Instant::now()).elapsed().as_secs_f64()));

@@ -1,28 +1,27 @@
 //! What the preview marks in any bytes under any choices: parts of lines, in order, that it can name.
 #![no_main]
 
-use spectral_file::{Preview, read};
 use chromascope_core_fuzz::options;
 use libfuzzer_sys::fuzz_target;
+use spectral_file::{Preview, Watch, read_marked};
 
 /// Lines that are looked at.
 const LINES: usize = 300;
 
 fuzz_target!(|input: &[u8]| {
     let Some((options, bytes)) = options::split(input) else { return };
-    let table = read(bytes, &options);
+    let table = read_marked(bytes, &options, Watch::none());
     let Ok(preview) = Preview::new(bytes) else {
         assert!(table.is_err());
         return;
     };
     assert!(preview.line_count() > 0);
     match &table {
-        Ok(table) => {
-            let marker = preview.marker(table);
+        Ok((table, marker)) => {
             for number in 0..=preview.line_count().min(LINES) + 1 {
                 let line = preview.line(number).unwrap_or_default();
                 let mut end = 0;
-                for mark in preview.marks(number, table, &marker) {
+                for mark in preview.marks(number, table, marker) {
                     assert!(
                         mark.range.start >= end && line.get(mark.range.clone()).is_some(),
                         "line {number}: {mark:?}"

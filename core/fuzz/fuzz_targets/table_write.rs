@@ -3,7 +3,7 @@
 
 use spectral_file::write::{Content, Format, Grid, Sheet, Trace, write};
 use spectral_file::{
-    DecimalMark, Delimiter, Orientation, ReadError, ReadOptions, Reader, Role, Table, Values, WavelengthUnit, read,
+    DecimalMark, Delimiter, Orientation, ReadError, ReadOptions, Reader, Role, SpectralFile, Values, WavelengthUnit, read,
 };
 use chromascope_core_fuzz::check;
 use libfuzzer_sys::fuzz_target;
@@ -27,7 +27,7 @@ fuzz_target!(|input: &[u8]| {
     }
 });
 
-fn content(table: &Table) -> Content<'_> {
+fn content(table: &SpectralFile) -> Content<'_> {
     match (table.role.value, table.reading.camera_columns) {
         (Role::Camera, Some(channels)) => {
             Content::Camera { channels, per_photon: None, manufacturer: None, model: None }
@@ -55,7 +55,7 @@ fn as_written(role: Role) -> ReadOptions {
     }
 }
 
-fn same(table: &Table, again: &Result<Table, ReadError>, text: &str) {
+fn same(table: &SpectralFile, again: &Result<SpectralFile, ReadError>, text: &str) {
     let again = match again {
         Ok(again) => again,
         Err(error) => panic!("{error}\n{text}"),

@@ -3,10 +3,10 @@
 pub mod files;
 pub mod options;
 
-use spectral_file::Table;
+use spectral_file::SpectralFile;
 
 /// What must hold of whatever is read.
-pub fn check(table: &Table) {
+pub fn check(table: &SpectralFile) {
     assert!(!table.curves.is_empty());
     for curve in &table.curves {
         assert!(curve.wavelengths_nm.len() >= 2 && curve.wavelengths_nm.len() == curve.values.len());

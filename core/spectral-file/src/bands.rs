@@ -1,16 +1,17 @@
 //! Wavelengths across a header: `400`, `400nm`, or in the names of columns: `SCI 360nm`, `SPEC_380`, `R380`, `380 nm [%]`.
 
-use super::dialect::{Cell, Dialect};
-use super::wavelengths::{WavelengthUnit, plausible};
-use super::{MAX_CURVES, words};
+use crate::dialect::{Cell, Dialect};
+use crate::header_terms;
+use crate::limits::MAX_CURVES;
+use crate::wavelength_unit::{WavelengthUnit, plausible};
 
 /// The fewest bands that are taken for a spectrum.
 pub(super) const FEWEST: usize = 5;
 
-/// What one name holds.
+/// Parts of the name of a band.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Band<'a> {
-    /// What stands before the wavelength, and what stands behind it and its unit.
+    /// Text before the wavelength, and text behind it and its unit.
     prefix: &'a str,
     suffix: &'a str,
     wavelength: f64,
@@ -22,7 +23,7 @@ impl Band<'_> {
         (self.prefix, self.suffix, self.unit) == (other.prefix, other.suffix, other.unit)
     }
 
-    /// Whether nothing but a wavelength stands there.
+    /// Returns whether nothing but a wavelength stands there.
     fn is_plain(&self) -> bool {
         self.prefix.is_empty() && self.suffix.is_empty()
     }
@@ -37,7 +38,7 @@ pub(super) struct Group {
     pub(super) wavelengths: Vec<f64>,
     /// The unit beside the wavelengths.
     pub(super) unit: Option<WavelengthUnit>,
-    /// What stands before and behind the wavelengths.
+    /// Text before and behind the wavelengths.
     pub(super) prefix: String,
     pub(super) suffix: String,
 }
@@ -48,7 +49,7 @@ impl Group {
         self.start + self.wavelengths.len()
     }
 
-    /// How many wavelengths there are.
+    /// Number of wavelengths.
     pub(super) fn count(&self) -> usize {
         self.wavelengths.iter().filter(|wavelength| !wavelength.is_nan()).count()
     }
@@ -91,7 +92,7 @@ fn unit(text: &str) -> (Option<WavelengthUnit>, &str) {
     }
 }
 
-/// Whether a text before a number without unit makes it a wavelength, and no name of a sample.
+/// Returns whether a text before a number without unit makes it a wavelength, and no name of a sample.
 fn is_band_prefix(prefix: &str) -> bool {
     const WHOLE: [&str; 14] =
         ["r", "t", "s", "x", "w", "wl", "refl", "ref", "trans", "sci", "sce", "lambda", "λ", "%r"];
@@ -107,7 +108,7 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     for (column, cell) in dialect.cells(line).take(MAX_CURVES + 2).enumerate() {
         match head(dialect, cell) {
             Some(band) => bands.push((column, band)),
-            None => named |= bands.is_empty() && words::names_wavelengths(cell),
+            None => named |= bands.is_empty() && header_terms::names_wavelengths(cell),
         }
     }
     let mut all = Vec::new();
@@ -146,7 +147,7 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     all
 }
 
-/// What a band is to those before it.
+/// Relation of a band to those before it.
 enum Step {
     On,
     /// Out of order among those around it.
@@ -178,7 +179,7 @@ fn ends_at(run: &[(usize, Band<'_>)], column: usize) -> bool {
     run.last().is_some_and(|(last, _)| last + 1 == column)
 }
 
-/// Whether a number that is set apart is none of the wavelengths that follow.
+/// Returns whether a number that is set apart is none of the wavelengths that follow.
 fn is_far(first: f64, second: f64) -> bool {
     const TIMES: f64 = 3.0;
     first > TIMES * second || second > TIMES * first

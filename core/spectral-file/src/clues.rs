@@ -1,23 +1,23 @@
 //! Settings of instruments above the numbers that tell what was measured, and in which scale it is written.
 
-use super::scale::{Role, Values};
-use super::words;
+use crate::header_terms;
+use crate::role::{Role, Values};
 
 /// Longer lines are no settings.
 const LONGEST: usize = 400;
 
-/// What the settings say, each with its line.
+/// Statements of the settings, each with its line.
 #[derive(Debug, Default)]
 pub(super) struct Clues {
-    /// Whether the values are ratios to a reference measurement.
+    /// True if the values are ratios to a reference measurement.
     pub(super) ratio: Option<(usize, bool)>,
     /// A cosine receptor was attached: the values are irradiances.
     pub(super) cosine_receptor: Option<usize>,
     /// The program writes ratios in percent.
     pub(super) ratios_in_percent: Option<(usize, &'static str)>,
-    /// What a setting such as `Technique` says is measured.
+    /// Role that a setting such as `Technique` gives.
     pub(super) role: Option<(usize, Role)>,
-    /// What a setting says that the values stand for.
+    /// Scale of the values that a setting gives.
     pub(super) values: Option<(usize, Values)>,
     /// A title or a name of data mentions absorbances.
     pub(super) absorbance: Option<usize>,
@@ -60,7 +60,7 @@ impl Clues {
     pub(super) fn mention(&mut self, line: usize, text: &str) {
         // The name of a file may join its words.
         let spaced = text.replace('_', " ");
-        self.absorbance = self.absorbance.or_else(|| words::mentions_absorbance(&spaced).then_some(line));
+        self.absorbance = self.absorbance.or_else(|| header_terms::mentions_absorbance(&spaced).then_some(line));
     }
 
     /// Takes what a line above the numbers says.
@@ -96,8 +96,8 @@ impl Clues {
             self.ratio = said.map(|said| (line, said)).or(self.ratio);
         }
         if MEASURED.contains(&key) {
-            self.role = words::role(value).map(|role| (line, role)).or(self.role);
-            let values = words::values(value).filter(|values| *values != Values::Plain);
+            self.role = header_terms::role(value).map(|role| (line, role)).or(self.role);
+            let values = header_terms::values(value).filter(|values| *values != Values::Plain);
             self.values = values.map(|values| (line, values)).or(self.values);
         }
     }

@@ -4,25 +4,29 @@ pub(super) mod axes;
 mod pairs;
 mod texts;
 
-use texts::Texts;
+use crate::columns::texts::Texts;
+use crate::dialect::{Cell, Dialect};
+use crate::error::ReadError;
+use crate::grid::{Grid, RawCurve};
+use crate::header::Header;
+use crate::limits::{MAX_CURVES, MAX_SAMPLES};
+use crate::no_curve::is_empty;
+use crate::report::{Decision, Dropped};
+use crate::sniff::Layout;
+use crate::text::{Lines, Section, comment, excerpt};
+use crate::warning::{LineList, Warning};
+use crate::watch::Log;
+use crate::wavelength_unit::WavelengthUnit;
+use crate::{header, header_terms, unit_text, wavelengths};
 
-use super::dialect::{Cell, Dialect};
-use super::grid::{Grid, RawCurve};
-use super::header::{self, Header};
-use super::sniff::Layout;
-use super::text::{Lines, Section, comment, excerpt};
-use super::warning::{LineList, Warning};
-use super::watch::Log;
-use super::{Decision, Dropped, MAX_CURVES, MAX_SAMPLES, ReadError, WavelengthUnit, quantity, wavelengths, words};
-
-/// What was read: the first table of a section.
+/// First table of a section.
 pub(super) struct Read {
     pub(super) grid: Grid,
     /// The line after it, if another table follows.
     pub(super) next: Option<usize>,
     /// Bytes that were looked at.
     pub(super) bytes: usize,
-    /// What its columns are, if that was to decide.
+    /// Decision on its columns, if there was one.
     pub(super) note: Option<Decision>,
 }
 
@@ -74,7 +78,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
 
 /// The column that the header names as that of the wavelengths, if it names one.
 fn wavelength_column(header: &Header) -> Option<usize> {
-    words::axis(&header.names)
+    header_terms::axis(&header.names)
 }
 
 /// A line inside the table that is no row.
@@ -82,7 +86,7 @@ struct Broken {
     line: usize,
     begins_with_number: bool,
     has_numbers: bool,
-    /// Whether it is the line of names again.
+    /// True if it is the line of names again.
     is_header: bool,
     /// Rows of numbers below it that do not fit this table.
     others: usize,
@@ -109,7 +113,7 @@ struct Columns {
     next: Option<usize>,
 }
 
-/// What a line turned out to be.
+/// Kind of a line.
 enum Row {
     Blank,
     Numbers { cells: usize, filled: usize },
@@ -177,7 +181,7 @@ impl Columns {
         });
     }
 
-    /// Whether a comment is a row that somebody took out, or one that begins with `#` for another reason.
+    /// Returns whether a comment is a row that somebody took out, or one that begins with `#` for another reason.
     fn is_marked_row(&self, line: &str) -> bool {
         let cells = self.dialect.cells(line.trim_start().trim_start_matches('#')).take(MAX_CURVES + 2);
         let (mut count, mut numbers) = (0, 0);
@@ -226,7 +230,7 @@ impl Columns {
         Broken { line, begins_with_number, has_numbers, is_header: false, others: 0, error }
     }
 
-    /// Whether the row just parsed goes back over wavelengths that were there before.
+    /// Returns whether the row just parsed goes back over wavelengths that were there before.
     fn restarts(&self) -> bool {
         let wavelengths = &self.cells[self.named.unwrap_or(0).min(self.cells.len() - 1)];
         let (Some(&first), Some(&last)) = (wavelengths.first(), wavelengths.last()) else { return false };
@@ -274,17 +278,16 @@ impl Columns {
     }
 
     fn finish(mut self, header: Header, layout: &Layout, log: &mut Log<'_>) -> Result<Read, ReadError> {
-        let empty = |column: &Vec<f64>| column.iter().all(|value| value.is_nan());
         let columns = self.cells.len();
         if let Some(column) = layout.wavelength_column
-            && column.checked_sub(1).and_then(|at| self.cells.get(at)).is_none_or(empty)
+            && column.checked_sub(1).and_then(|at| self.cells.get(at)).is_none_or(|column| is_empty(column))
         {
             return Err(ReadError::NotWavelengthColumn { column, columns });
         }
         let at = self.named.filter(|&at| at < columns);
         let bare = header.names.is_empty() && header.units.is_empty() && !layout.every_column;
         let at = at.or_else(|| axes::after_count(&self.cells).filter(|_| bare));
-        let at = at.or_else(|| self.cells.iter().position(|column| !empty(column))).unwrap_or(0);
+        let at = at.or_else(|| self.cells.iter().position(|column| !is_empty(column))).unwrap_or(0);
         self.cut_second_pass(at);
         warn_of_names_without_columns(&header, columns, log);
         let (next, rows, label_unit) = (self.next, self.lines.len(), self.label_unit);
@@ -294,12 +297,14 @@ impl Columns {
         let axes = if layout.every_column { axes::Axes::default() } else { find() };
         let texts: Vec<usize> = self.texts.left_out().filter(|&column| column < columns && column != at).collect();
         let is_left = |(column, values): &(usize, Vec<f64>)| {
-            axes.more.is_empty() && !empty(values) && header.name(*column).is_some_and(|name| !words::is_count(name))
+            axes.more.is_empty()
+                && !is_empty(values)
+                && header.name(*column).is_some_and(|name| !header_terms::is_count(name))
         };
         let before = std::mem::take(&mut self.cells).into_iter().enumerate();
         let (left, skipped): (Vec<_>, Vec<_>) =
             before.filter(|(column, _)| !(texts.contains(column) || axes.left.contains(column))).partition(is_left);
-        if skipped.iter().any(|(_, column)| !empty(column)) {
+        if skipped.iter().any(|(_, column)| !is_empty(column)) {
             log.push(Warning::SkippedColumns { wavelength_column: at + 1 });
         }
         if !axes.left.is_empty() {
@@ -339,11 +344,12 @@ impl Columns {
 fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> RawCurve {
     let title = header.comment("title").filter(|_| only);
     // What is measured names no sample, where there is only one.
-    let named = header.name(column).map(quantity::without_unit).filter(|name| !(only && words::is_quantity(name)));
+    let named =
+        header.name(column).map(unit_text::without_unit).filter(|name| !(only && header_terms::is_quantity(name)));
     let given = named.or(title);
     let name = given.map_or_else(|| format!("Column {}", column + 1), str::to_owned);
     let (named, label, unit) = (given.is_some(), header.label(column), header.unit(column));
-    RawCurve { name, named, column: Some(column + 1), label, unit, values }
+    RawCurve { name, named, column: Some(column + 1), origin: column, label, unit, values }
 }
 
 /// Names the columns of text, which are in no curve.

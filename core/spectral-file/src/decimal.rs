@@ -46,3 +46,34 @@ pub(super) fn power_of_ten(number: f64) -> Option<i32> {
 pub(super) fn divided(value: f64, divisor: f64) -> f64 {
     power_of_ten(divisor).map_or(value / divisor, |power| shifted(value, -power))
 }
+
+/// A number with at most so many significant digits, for people.
+pub(super) fn short(value: f64, digits: i32) -> String {
+    const LONGEST: i32 = 12;
+    if value == 0.0 || !value.is_finite() {
+        return "0".to_owned();
+    }
+    let decimals = digits - 1 - value.abs().log10().floor() as i32;
+    if (digits - LONGEST..=LONGEST).contains(&decimals) {
+        let scale = 10_f64.powi(decimals.max(0));
+        format!("{}", (value * scale).round() / scale)
+    } else {
+        let decimals = usize::try_from(digits - 1).unwrap_or(0);
+        format!("{value:.decimals$e}")
+    }
+}
+
+/// A length in nanometers rounded to 1e-9: the noise of decimal fractions goes, nothing measurable does.
+pub(super) fn clean(nm: f64) -> f64 {
+    const PER_NM: f64 = 1e9;
+    let rounded = (nm * PER_NM).round() / PER_NM;
+    if rounded.is_finite() { rounded } else { nm }
+}
+
+/// The unit of the last digit of a number: 0.01 for `4.25`, 10 for `4.25E+3`.
+pub(super) fn last_digit(number: &str) -> f64 {
+    let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+    let decimals = mantissa.split_once('.').map_or(0, |(_, fraction)| fraction.len());
+    let exponent = exponent.parse::<i32>().unwrap_or(0).clamp(-300, 300);
+    10_f64.powi(exponent - i32::try_from(decimals).unwrap_or(300).min(300))
+}

@@ -1,63 +1,10 @@
-//! How a line of numbers is written: what separates cells, what marks fractions, what stands for a gap.
+//! Notation of a line of numbers: what separates cells, what marks fractions, what stands for a gap.
 
-use std::fmt;
+use crate::separators::{DecimalMark, Delimiter};
+use crate::unit_text;
+use crate::wavelength_unit::WavelengthUnit;
 
-use serde::{Deserialize, Serialize};
-
-use super::quantity;
-use super::wavelengths::WavelengthUnit;
-
-/// What stands between two cells.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Delimiter {
-    /// `380,0.05`
-    Comma,
-    /// `380,5, 0,05`: a comma with a space after it, where commas alone mark fractions.
-    CommaSpace,
-    /// `380;0.05`
-    Semicolon,
-    /// One tab character.
-    Tab,
-    /// Any run of spaces and tabs.
-    Spaces,
-    /// None: each value stands in an element of its own, as in XML.
-    Elements,
-}
-
-impl fmt::Display for Delimiter {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Comma => "comma separated",
-            Self::CommaSpace => "separated by comma and space",
-            Self::Semicolon => "semicolon separated",
-            Self::Tab => "tab separated",
-            Self::Spaces => "separated by spaces",
-            Self::Elements => "one value in each element",
-        })
-    }
-}
-
-/// What stands before the fraction of a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DecimalMark {
-    /// `0.05`
-    Point,
-    /// `0,05`
-    Comma,
-}
-
-impl fmt::Display for DecimalMark {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Point => "decimal points",
-            Self::Comma => "decimal commas",
-        })
-    }
-}
-
-/// What one cell holds.
+/// Content of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Cell {
     Number(f64),
@@ -70,11 +17,11 @@ pub(super) enum Cell {
 pub(super) struct Dialect {
     pub(super) delimiter: Delimiter,
     pub(super) mark: DecimalMark,
-    /// Whether the other mark groups thousands even where it stands once and without a fraction, `1,000`.
+    /// True if the other mark groups thousands even where it stands once and without a fraction, `1,000`.
     pub(super) thousands: bool,
 }
 
-/// Whether a number with one mark may be a whole one with a mark between its thousands: `4.800`, `1,000`.
+/// Returns whether a number with one mark may be a whole one with a mark between its thousands: `4.800`, `1,000`.
 pub(super) fn may_be_thousands(cell: &str) -> bool {
     let Some((whole, fraction)) = cell.trim_start_matches('-').split_once(['.', ',']) else { return false };
     let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
@@ -105,7 +52,7 @@ impl Dialect {
         Cells { rest: (!spaces_only).then_some(rest), delimiter: self.delimiter, quotes: true, joined, at: 0 }
     }
 
-    /// What a cell holds.
+    /// Content of a cell.
     #[inline]
     pub(super) fn parse(self, cell: &str) -> Cell {
         match self.number(cell) {
@@ -208,10 +155,10 @@ impl Dialect {
         let value = self.number(number).filter(|value| value.is_finite())?;
         // `10% gray` is a name.
         let sole = |unit: &str| !unit.starts_with('%') || unit == "%";
-        Some((value, unit.trim())).filter(|(_, unit)| quantity::is_value_unit(unit) && sole(unit))
+        Some((value, unit.trim())).filter(|(_, unit)| unit_text::is_value_unit(unit) && sole(unit))
     }
 
-    /// Whether a number is written with this dialect's decimal mark.
+    /// Returns whether a number is written with this dialect's decimal mark.
     pub(super) fn has_mark(self, cell: &str) -> bool {
         cell.contains(match self.mark {
             DecimalMark::Point => '.',
@@ -281,7 +228,7 @@ fn is_gap(cell: &str) -> bool {
     GAPS.contains(&lower.as_str()) || lower.trim_start_matches(['-', '+']).starts_with("1.#")
 }
 
-/// Where commas both separate whole numbers and mark fractions, `400,0,060` or `400,5,0,060`: how the pieces belong
+/// Grouping of commas that both separate whole numbers and mark fractions, `400,0,060` or `400,5,0,060`: how the pieces belong
 /// together, a bit for each comma that marks a fraction. Each value has a fraction then, or all but the first number.
 fn joined(line: &str) -> u64 {
     const MOST: usize = 32;
@@ -376,7 +323,7 @@ impl<'a> Cells<'a> {
 }
 
 impl Delimiter {
-    /// Where the next delimiter begins and how many bytes it takes.
+    /// Start and length, in bytes, of the next delimiter.
     #[inline]
     fn find(self, text: &str) -> Option<(usize, usize)> {
         let wanted = match self {

@@ -1,6 +1,12 @@
 //! Why a file could not be read.
 
-use super::{BinaryKind, Family, MAX_CURVES, MAX_SAMPLES, Nearly, Reader, Switch};
+use std::fmt;
+
+use crate::binary::BinaryKind;
+use crate::limits::{MAX_CURVES, MAX_SAMPLES};
+use crate::markup::Family;
+use crate::report::Reader;
+use crate::switch::Switch;
 
 /// Why a file could not be read: where, what, and what helps. Lines and columns count from 1.
 ///
@@ -8,7 +14,7 @@ use super::{BinaryKind, Family, MAX_CURVES, MAX_SAMPLES, Nearly, Reader, Switch}
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// The file is over [`MAX_BYTES`](super::MAX_BYTES).
+    /// The file is over [`MAX_BYTES`](crate::MAX_BYTES).
     #[error("the file has {megabytes} MB, the limit is {limit} MB: split it into smaller files")]
     TooLarge {
         /// Size of the file, rounded up.
@@ -19,19 +25,19 @@ pub enum ReadError {
     /// The file is binary.
     #[error("this is {kind}, not text: {}", kind.remedy())]
     Binary {
-        /// What it is.
+        /// Its meaning.
         kind: BinaryKind,
     },
     /// The file is of a known family, but of a layout that no reader takes.
     #[error("line 1: this is {family}, but of no layout that holds spectra: export the measurement as text or CSV")]
     Unsupported {
-        /// What it is.
+        /// Its meaning.
         family: Family,
     },
     /// The file breaks the rules of its family.
     #[error("line {line}: from column {column} on this breaks the rules of {family}: is the file cut short or edited?")]
     Malformed {
-        /// What it is.
+        /// Its meaning.
         family: Family,
         /// The line.
         line: usize,
@@ -136,15 +142,23 @@ pub enum ReadError {
         /// The line, shortened.
         text: String,
         /// Why it is none.
-        why: Nearly,
+        why: NearMiss,
     },
     /// An error that was none before a setting was chosen.
     #[error("{error} (as chosen: {switch})")]
     AsChosen {
-        /// What was chosen.
+        /// The chosen setting.
         switch: Switch,
-        /// What that led to.
+        /// The error that it led to.
         error: Box<ReadError>,
+    },
+    /// The crate was compiled without the feature that reads such files.
+    #[error("this is {what}, which this program was built without: compile it with the feature {feature}")]
+    NotBuilt {
+        /// The format or encoding.
+        what: &'static str,
+        /// The feature of the crate.
+        feature: &'static str,
     },
     /// Every line holds one number only.
     #[error("line {line}: only one number in each line: expected a wavelength and at least one value")]
@@ -159,7 +173,7 @@ pub enum ReadError {
         line: usize,
         /// The column.
         column: usize,
-        /// What stands there, shortened.
+        /// The text there, shortened.
         text: String,
     },
     /// A row has another number of columns than the rows before it.
@@ -183,7 +197,7 @@ pub enum ReadError {
     NoSuchPart {
         /// The part that was chosen, from 1.
         part: usize,
-        /// How many there are.
+        /// Number found.
         parts: usize,
     },
     /// The file is not of the family that the chosen reader is for.
@@ -197,7 +211,7 @@ pub enum ReadError {
     NotWavelengthColumn {
         /// The column, from 1.
         column: usize,
-        /// How many there are.
+        /// Number found.
         columns: usize,
     },
     /// Numbers that may be wavelengths in ångströms as well as wave numbers.
@@ -259,6 +273,7 @@ impl ReadError {
             Self::TooLarge { .. }
             | Self::Binary { .. }
             | Self::Empty
+            | Self::NotBuilt { .. }
             | Self::Stopped
             | Self::NoNumbers
             | Self::NoSuchPart { .. }
@@ -297,6 +312,36 @@ impl ReadError {
             | Self::Malformed { column, .. }
             | Self::NotWavelengthColumn { column, .. } => Some(column),
             _ => None,
+        }
+    }
+}
+
+/// Why a line with numbers is no row of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum NearMiss {
+    /// The character between the numbers separates no columns.
+    Between(char),
+    /// It would be a row with other separators than were chosen.
+    Separators,
+    /// A number is followed by text only.
+    TextAfter,
+    /// Texts and numbers, of which the first are no wavelengths in order.
+    Order,
+}
+
+impl fmt::Display for NearMiss {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Between(c) => {
+                write!(f, "has “{c}” between its numbers: separate them by commas, semicolons, tabs or spaces")
+            }
+            Self::Separators => f.write_str("does not split as chosen: choose other separators"),
+            Self::TextAfter => {
+                f.write_str("has text where a value is expected: write a number there, or leave it empty")
+            }
+            Self::Order => f.write_str(
+                "has text beside numbers that are no wavelengths in order: choose the column of wavelengths",
+            ),
         }
     }
 }

@@ -3,9 +3,9 @@
 //! Such a number is taken for a gap only where it stands out: ten times as large as all other values of its curve, or as far
 //! below them.
 
-use super::grid::{Grid, RawCurve};
-use super::warning::{LineList, Sentinel, Warning};
-use super::watch::Log;
+use crate::grid::{Grid, RawCurve};
+use crate::warning::{LineList, Sentinel, Warning};
+use crate::watch::Log;
 
 /// Numbers that programs write for missing values, as sizes; each with either sign. (−9999 is one wherever it stands.)
 const SIZES: [f64; 17] = [
@@ -34,14 +34,14 @@ const HUGE: [f64; 13] =
     [1e30, 1e31, 1e32, 1e33, 1e34, 1.23e34, 1e35, 1e36, 9.969_21e36, 1e37, 9.9e37, 9.91e37, 3.402_823e38];
 const WRITTEN: f64 = 1e-6;
 
-/// What is measured beside them is smaller.
+/// Largest size of measured values beside them.
 const COMMON: f64 = 1e19;
 
 fn is_huge(size: f64) -> bool {
     size >= HUGE[0] * (1.0 - WRITTEN) && HUGE.iter().any(|known| (size - known).abs() <= WRITTEN * known)
 }
 
-/// How far a number must stand out.
+/// Factor by which a number must stand out.
 const TIMES: f64 = 10.0;
 
 fn is_candidate(value: f64) -> bool {
@@ -68,7 +68,7 @@ impl Others {
         })
     }
 
-    /// Whether a number stands for a missing value beside these.
+    /// Returns whether a number stands for a missing value beside these.
     fn leave_out(&self, value: f64) -> bool {
         if !is_candidate(value) {
             return false;

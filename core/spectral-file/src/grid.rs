@@ -1,13 +1,15 @@
-//! What every reader fills: wavelengths as written, and the values of each curve beside them.
+//! Grid that every reader fills: wavelengths as written, and the values of each curve beside them.
 
-use super::header::Header;
-use super::warning::{LineList, Sentinel, Warning};
-use super::watch::Log;
-use super::{Curve, Decided, Dropped, DroppedRow, Part, Quantity, ReadError, Role, WavelengthUnit};
 use chromascope_text::on_one_line;
 
-/// How many dropped rows are listed; nobody reads more.
-const MAX_DROPPED: usize = 1000;
+use crate::error::ReadError;
+use crate::file::Curve;
+use crate::header::Header;
+use crate::report::{Decided, Dropped, DroppedRow, Part};
+use crate::role::{Quantity, Role};
+use crate::warning::{LineList, Sentinel, Warning};
+use crate::watch::Log;
+use crate::wavelength_unit::WavelengthUnit;
 
 /// Numbers as they stand in the file, before units, order and scale are settled.
 #[derive(Debug, Default)]
@@ -18,15 +20,15 @@ pub(super) struct Grid {
     pub(super) lines: Vec<usize>,
     /// The curves; each has one value (NaN for a gap) for each wavelength.
     pub(super) curves: Vec<RawCurve>,
-    /// What stands above the numbers.
+    /// Content above the numbers.
     pub(super) header: Header,
     /// The unit, if it stands beside each wavelength.
     pub(super) label_unit: Option<WavelengthUnit>,
     /// The unit, if the format prescribes it.
     pub(super) unit: Option<Decided<WavelengthUnit>>,
-    /// What the curves are, if the format says or suggests it.
+    /// Role of the curves, if the format gives or suggests it.
     pub(super) role: Option<Decided<Role>>,
-    /// What the values are, if the format says so.
+    /// Quantity of the values, if the format gives it.
     pub(super) quantity: Option<Decided<Quantity>>,
     /// The parts of the file, if it can have several, and which one this is.
     pub(super) parts: Vec<Part>,
@@ -35,10 +37,14 @@ pub(super) struct Grid {
     pub(super) rows: usize,
     /// The column of the wavelengths, from 1, where they run down one.
     pub(super) wavelength_column: Option<usize>,
-    /// Whether each curve has wavelengths of its own, so that one it lacks is no gap.
+    /// True if each curve has wavelengths of its own, so that one it lacks is no gap.
     pub(super) own_wavelengths: bool,
     /// A number that stands for missing values, to be told with the gaps.
     pub(super) sentinel: Option<Sentinel>,
+    /// More columns of wavelengths, from 0, with units of their own.
+    pub(super) axes: Vec<(usize, Option<WavelengthUnit>)>,
+    /// The lines of a table whose curves have wavelengths of their own.
+    pub(super) row_lines: Vec<usize>,
     /// Rows left out.
     pub(super) dropped: Vec<DroppedRow>,
 }
@@ -47,10 +53,12 @@ pub(super) struct Grid {
 #[derive(Debug, Default)]
 pub(super) struct RawCurve {
     pub(super) name: String,
-    /// Whether the name is from the file.
+    /// True if the name is from the file.
     pub(super) named: bool,
     /// The column it stands in, from 1, where wavelengths run down one.
     pub(super) column: Option<usize>,
+    /// Its column from 0, its line, or its number among the curves of the file: the name of its places.
+    pub(super) origin: usize,
     /// All that the header says about this curve: its name and its unit.
     pub(super) label: String,
     /// The unit of the values as the file names it.
@@ -85,7 +93,7 @@ impl Grid {
         }
     }
 
-    /// Whether two samples hold the same values in every curve, gaps counting as equal.
+    /// Returns whether two samples hold the same values in every curve, gaps counting as equal.
     pub(super) fn same_values(&self, a: usize, b: usize) -> bool {
         self.curves.iter().all(|curve| {
             let (a, b) = (curve.values[a], curve.values[b]);
@@ -127,9 +135,7 @@ impl Grid {
 
     /// Notes a row as left out.
     pub(super) fn drop_row(&mut self, line: usize, why: Dropped) {
-        if self.dropped.len() < MAX_DROPPED {
-            self.dropped.push(DroppedRow { line, why });
-        }
+        self.dropped.push(DroppedRow { line, why });
     }
 
     /// Removes the marked samples.
@@ -143,11 +149,11 @@ impl Grid {
         }
     }
 
-    /// The curves without their gaps. A curve of fewer than two values is left
+    /// The curves without their gaps, and their origins. A curve of fewer than two values is left
     /// out; it is worth a warning only if it has a name or a value.
-    pub(super) fn into_curves(mut self, log: &mut Log<'_>) -> Vec<Curve> {
+    pub(super) fn into_curves(mut self, log: &mut Log<'_>) -> (Vec<Curve>, Vec<usize>) {
         let mut gaps = vec![0_u32; self.wavelengths.len()];
-        let mut curves = Vec::new();
+        let (mut curves, mut origins) = (Vec::new(), Vec::new());
         let (mut empty, mut first_empty) = (0, None);
         for raw in std::mem::take(&mut self.curves) {
             let missing = raw.values.iter().filter(|value| value.is_nan()).count();
@@ -162,6 +168,7 @@ impl Grid {
             for (count, value) in gaps.iter_mut().zip(&raw.values) {
                 *count += u32::from(value.is_nan());
             }
+            origins.push(raw.origin);
             curves.push(curve(raw, &self.wavelengths, missing));
         }
         if self.own_wavelengths {
@@ -174,7 +181,7 @@ impl Grid {
         if let Some(first) = first_empty {
             log.push(Warning::EmptyCurves { count: empty, first });
         }
-        curves
+        (curves, origins)
     }
 }
 

@@ -1,35 +1,43 @@
-//! What stands above the numbers: comments, names of columns, units.
+//! Header above the numbers: comments, names of columns, units.
 
-use super::clues::Clues;
-use super::dialect::{Cell, Delimiter, Dialect};
-use super::quantity::{self, Quantity};
-use super::reading::{Medium, Orientation};
-use super::scale::{Role, Values};
-use super::sniff::Layout;
-use super::text::{Lines, Section, comment};
-use super::words::{self, XUnit};
-use super::{MAX_CURVES, WavelengthUnit, photons};
 use chromascope_text::unguarded;
 
-/// How many comments are kept; more is not a header.
+use crate::clues::Clues;
+use crate::dialect::{Cell, Dialect};
+use crate::header_terms::XUnit;
+use crate::limits::MAX_CURVES;
+use crate::report::{Medium, Orientation};
+use crate::role::{Quantity, Role, Values};
+use crate::separators::Delimiter;
+use crate::sniff::Layout;
+use crate::text::{Lines, Section, comment};
+use crate::wavelength_unit::WavelengthUnit;
+use crate::{header_terms, unit_text};
+
+/// Most comments that are kept; more is not a header.
 const MAX_COMMENTS: usize = 1000;
 
-/// How far above the numbers the names and the units may stand, in lines with text.
+/// Most lines with text between the names or units and the numbers.
 const NEAR: usize = 6;
 
-/// What was found above the numbers.
+/// Header above the numbers.
 #[derive(Debug, Default)]
 pub(super) struct Header {
     pub(super) comments: Vec<(String, String)>,
+    /// The lines of the comments, where they are known.
+    pub(super) noted: Vec<u32>,
     /// The line that names the columns.
     pub(super) line: Option<usize>,
     /// The cells of that line.
     pub(super) names: Vec<String>,
     /// The cells of a line of units below the names.
     pub(super) units: Vec<String>,
+    pub(super) units_line: Option<usize>,
+    /// True if the line of names leaves out that of the wavelengths.
+    pub(super) shifted: bool,
     /// The unit of the wavelengths and the line that gives it.
     pub(super) x_unit: Option<(usize, XUnit)>,
-    /// What all values stand for, as a line says, and that line.
+    /// Scale of all values, and the line that gives it.
     pub(super) values: Option<(usize, Values)>,
     /// The physical quantity of all values, as a line says, and that line.
     pub(super) quantity: Option<(usize, Quantity)>,
@@ -41,11 +49,11 @@ pub(super) struct Header {
     pub(super) per_photon: Option<usize>,
     /// In what the wavelengths are measured, and the line that says so.
     pub(super) medium: Option<(usize, Medium)>,
-    /// What a comment or a unit line says the values are.
+    /// Role that a comment or a unit line gives, and that line.
     pub(super) role: Option<(usize, Role)>,
-    /// What free text mentions; only good for a guess.
+    /// Role that free text mentions; only good for a guess.
     pub(super) mentioned: Option<(usize, Role)>,
-    /// What the settings of the instrument tell.
+    /// Clues in the settings of the instrument.
     pub(super) clues: Clues,
 }
 
@@ -53,7 +61,7 @@ impl Header {
     /// The name of a column, if the header gives one.
     pub(super) fn name(&self, column: usize) -> Option<&str> {
         // A line of units such as `nm,R%` may be all there is.
-        let unit = || self.units.get(column).filter(|unit| quantity::percent_name(unit).is_some());
+        let unit = || self.units.get(column).filter(|unit| unit_text::percent_name(unit).is_some());
         let name = self.names.get(column).or_else(|| unit().filter(|_| self.names.is_empty()));
         name.map(String::as_str).filter(|name| !name.is_empty())
     }
@@ -69,15 +77,16 @@ impl Header {
         let whole = |cell: &&String| cell.starts_with(['[', '(']);
         let cell = self.units.get(column);
         let cell = cell.and_then(|cell| {
-            quantity::unit(cell).or_else(|| Some(cell).filter(whole).and_then(|cell| quantity::unit_cell(cell)))
+            unit_text::unit(cell).or_else(|| Some(cell).filter(whole).and_then(|cell| unit_text::unit_cell(cell)))
         });
-        cell.or_else(|| self.name(column).and_then(quantity::unit)).or_else(|| self.unit.clone())
+        cell.or_else(|| self.name(column).and_then(unit_text::unit)).or_else(|| self.unit.clone())
     }
 
-    /// Keeps a comment.
-    pub(super) fn note(&mut self, key: &str, value: &str) {
+    /// Keeps a comment; line 0 stands for none.
+    pub(super) fn note(&mut self, line: usize, key: &str, value: &str) {
         if self.comments.len() < MAX_COMMENTS && !value.is_empty() {
             self.comments.push((key.to_owned(), value.to_owned()));
+            self.noted.push(line as u32);
         }
     }
 
@@ -119,49 +128,50 @@ impl Header {
         if matches!(lower.as_str(), "unit" | "units" | "quantity" | "y unit" | "y units" | "yunit" | "yunits") {
             self.take_value_unit(line, value);
             if lower != "quantity" {
-                self.unit = quantity::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
+                self.unit = unit_text::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
             }
         }
         if matches!(lower.as_str(), "response" | "title" | "description") {
-            self.mentioned = self.mentioned.or_else(|| words::role(value).map(|role| (line, role)));
+            self.mentioned = self.mentioned.or_else(|| header_terms::role(value).map(|role| (line, role)));
             self.take_photons(line, value);
             self.clues.mention(line, value);
         }
         // `wavelength_unit`, `x unit` and the like; a plain `unit` is that of the values.
-        let about_x = words::x_unit_in_prose(&format!("{} {value}", lower.replace('_', " ")));
+        let about_x = header_terms::x_unit_in_prose(&format!("{} {value}", lower.replace('_', " ")));
         if let Some(unit) = about_x.filter(|_| lower.starts_with(['w', 'x'])) {
             self.x_unit = Some((line, unit));
         }
         if self.comments.len() < MAX_COMMENTS {
             self.comments.push((key.to_owned(), value.to_owned()));
+            self.noted.push(line as u32);
         }
     }
 
     /// Takes what a title or free text says of responses per photon.
     fn take_photons(&mut self, line: usize, text: &str) {
-        self.per_photon = self.per_photon.or_else(|| photons::says_per_photon(text).then_some(line));
-        self.photons = self.photons.or_else(|| photons::said_in_prose(text).then_some(line));
+        self.per_photon = self.per_photon.or_else(|| unit_text::says_per_photon(text).then_some(line));
+        self.photons = self.photons.or_else(|| unit_text::said_in_prose(text).then_some(line));
     }
 
     fn take_value_unit(&mut self, line: usize, text: &str) {
         self.take_photons(line, text);
-        self.photons = self.photons.or_else(|| photons::names_photons(text).then_some(line));
+        self.photons = self.photons.or_else(|| unit_text::names_photons(text).then_some(line));
         let plain_after_other = |values: &Values| *values == Values::Plain && self.values.is_some();
-        if let Some(values) = words::values(text).filter(|values| !plain_after_other(values)) {
+        if let Some(values) = header_terms::values(text).filter(|values| !plain_after_other(values)) {
             self.values = Some((line, values));
         }
-        self.role = words::role(text).map(|role| (line, role)).or(self.role);
-        self.quantity = match (words::quantity(text), self.quantity) {
+        self.role = header_terms::role(text).map(|role| (line, role)).or(self.role);
+        self.quantity = match (header_terms::quantity(text), self.quantity) {
             (Some(Quantity::Relative), Some(known)) => Some(known),
             (found, known) => found.map(|quantity| (line, quantity)).or(known),
         };
     }
 
     fn take_prose(&mut self, line: usize, text: &str) {
-        if let Some(unit) = words::x_unit_in_prose(text) {
+        if let Some(unit) = header_terms::x_unit_in_prose(text) {
             self.x_unit = Some((line, unit));
         }
-        self.medium = words::medium(text).map(|medium| (line, medium)).or(self.medium);
+        self.medium = header_terms::medium(text).map(|medium| (line, medium)).or(self.medium);
         self.take_photons(line, text);
         let start = text.trim_start().as_bytes();
         let begins =
@@ -183,11 +193,11 @@ impl Header {
         .any(|word| begins(word));
         if about_y || is_title_with_unit(text) {
             self.take_value_unit(line, text);
-            let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| quantity::unit(value));
-            self.unit = unit.or_else(|| quantity::unit(bare_title(text))).or(self.unit.take());
+            let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| unit_text::unit(value));
+            self.unit = unit.or_else(|| unit_text::unit(bare_title(text))).or(self.unit.take());
         }
         self.take_mode(line, text);
-        self.mentioned = words::role_in_prose(text).map(|role| (line, role)).or(self.mentioned);
+        self.mentioned = header_terms::role_in_prose(text).map(|role| (line, role)).or(self.mentioned);
         self.clues.take(line, text);
     }
 
@@ -196,7 +206,7 @@ impl Header {
         if let Some((_, value)) = text.split_once("Unit-->") {
             let value = value.trim_start_matches([',', ';', '\t', ' ']);
             self.take_value_unit(line, value);
-            self.unit = quantity::unit(value).or(self.unit.take());
+            self.unit = unit_text::unit(value).or(self.unit.take());
         }
     }
 
@@ -210,7 +220,8 @@ impl Header {
             if cells.len() < 2 || (exact && cells.len() != layout.width) {
                 let unit_alone = cells.len() == 1 && self.units.is_empty() && is_unit(&cells[0]);
                 if unit_alone {
-                    self.x_unit = words::x_unit(&cells[0]).map(|unit| (number, unit));
+                    self.x_unit = header_terms::x_unit(&cells[0]).map(|unit| (number, unit));
+                    self.units_line = Some(number);
                 }
                 // Rows that are named themselves go on above one of units, or one left empty.
                 if unit_alone && is_keyed(layout, rows.clone()) || cells.len() == 1 && row_key(&cells[0]).is_some() {
@@ -231,6 +242,7 @@ impl Header {
             if self.units.is_empty() && is_unit_row(&cells) {
                 self.take_unit_cell(number, &cells, layout);
                 self.units = cells;
+                self.units_line = Some(number);
                 continue;
             }
             if is_measured(layout, &cells) {
@@ -242,10 +254,11 @@ impl Header {
             self.names = cells;
             self.line = Some(number);
             // Some programs name only the curves.
-            let headed =
-                row_key(&self.names[0]).is_some() || self.names.iter().any(|name| words::names_wavelengths(name));
+            let headed = row_key(&self.names[0]).is_some()
+                || self.names.iter().any(|name| header_terms::names_wavelengths(name));
             if self.names.len() + 1 == layout.width && !headed {
                 self.names.insert(0, String::new());
+                self.shifted = true;
             }
             return;
         }
@@ -253,26 +266,26 @@ impl Header {
 
     /// Names that do not split into the columns of the table still say something about it as a whole.
     fn take_joined(&mut self, number: usize, line: &str) {
-        if words::names_wavelengths(line) && self.values.is_none() {
+        if header_terms::names_wavelengths(line) && self.values.is_none() {
             self.line = self.line.or(Some(number));
-            if let Some(values) = words::values(line).filter(|values| *values != Values::Plain) {
+            if let Some(values) = header_terms::values(line).filter(|values| *values != Values::Plain) {
                 self.values = Some((number, values));
             }
-            self.role = words::role(line).map(|role| (number, role)).or(self.role);
-            self.quantity = words::quantity(line).map(|quantity| (number, quantity)).or(self.quantity);
+            self.role = header_terms::role(line).map(|role| (number, role)).or(self.role);
+            self.quantity = header_terms::quantity(line).map(|quantity| (number, quantity)).or(self.quantity);
         }
     }
 
     fn take_unit_cell(&mut self, number: usize, cells: &[String], layout: &Layout) {
         let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
-        let column = chosen.or_else(|| words::axis(cells)).unwrap_or(0);
-        if let Some(unit) = cells.get(column).and_then(|cell| words::x_unit(cell)) {
+        let column = chosen.or_else(|| header_terms::axis(cells)).unwrap_or(0);
+        if let Some(unit) = cells.get(column).and_then(|cell| header_terms::x_unit(cell)) {
             self.x_unit = Some((number, unit));
         }
     }
 }
 
-/// What a row above several curves gives of each, as its first cell says.
+/// Content of a row above several curves, by its first cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum RowKey {
     Name,
@@ -289,7 +302,7 @@ fn row_key(cell: &str) -> Option<RowKey> {
     }
 }
 
-/// Whether the next row above is one of names, numbers or times.
+/// Returns whether the next row above is one of names, numbers or times.
 fn is_keyed<'a>(layout: &Layout, mut rows: impl Iterator<Item = &'a (usize, &'a str)>) -> bool {
     let cells = rows.next().map(|(_, line)| split(layout.dialect(), line));
     cells.is_some_and(|cells| cells.first().is_some_and(|cell| row_key(cell).is_some()))
@@ -307,18 +320,18 @@ fn bare_title(text: &str) -> &str {
     text.trim_matches([' ', '\t', ',', ';', '"'])
 }
 
-/// Whether a line stands alone and names a quantity with its unit in brackets: `Irradiance [µW/cm2/nm],`.
+/// Returns whether a line stands alone and names a quantity with its unit in brackets: `Irradiance [µW/cm2/nm],`.
 fn is_title_with_unit(text: &str) -> bool {
     const LONGEST: usize = 80;
     let title = bare_title(text);
     title.len() <= LONGEST
         && !title.contains([',', ';'])
         && title.ends_with([']', ')'])
-        && quantity::without_unit(title) != title
-        && words::quantity(title).is_some()
+        && unit_text::without_unit(title) != title
+        && header_terms::quantity(title).is_some()
 }
 
-/// Whether a line above two columns is a setting of the instrument, such as `LUX 695`, and no pair of names.
+/// Returns whether a line above two columns is a setting of the instrument, such as `LUX 695`, and no pair of names.
 fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
     if layout.width != 2 || cells.len() != 2 {
         return false;
@@ -326,10 +339,10 @@ fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
     let key = cells[0].to_ascii_lowercase();
     let numeric = matches!(layout.dialect().parse(&cells[1]), Cell::Number(_));
     ["xaxis", "yaxis", "x unit", "y unit"].iter().any(|start| key.starts_with(start))
-        || (numeric && !words::names_wavelengths(&cells[0]))
+        || (numeric && !header_terms::names_wavelengths(&cells[0]))
 }
 
-/// Whether a line above several curves gives a number of each, such as a chromaticity, and no names: names have no fractions.
+/// Returns whether a line above several curves gives a number of each, such as a chromaticity, and no names: names have no fractions.
 fn is_measured(layout: &Layout, cells: &[String]) -> bool {
     let Some((key, values)) = cells.split_first().filter(|(key, _)| !key.is_empty()) else { return false };
     let number = |cell: &String| match layout.dialect().parse(cell) {
@@ -338,7 +351,7 @@ fn is_measured(layout: &Layout, cells: &[String]) -> bool {
     };
     let mut numbers = values.iter().map(number);
     layout.width > 2
-        && !words::names_wavelengths(key)
+        && !header_terms::names_wavelengths(key)
         && number(key).is_none()
         && numbers.all(|value| value.is_some())
         && values.iter().filter_map(number).any(|value| value.fract() != 0.0)
@@ -356,7 +369,7 @@ pub(super) fn split(dialect: Dialect, line: &str) -> Vec<String> {
 
 fn is_unit(cell: &str) -> bool {
     let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
-    WavelengthUnit::from_symbol(bare).is_some() || words::x_unit(bare) == Some(XUnit::Other)
+    WavelengthUnit::from_symbol(bare).is_some() || header_terms::x_unit(bare) == Some(XUnit::Other)
 }
 
 fn is_unit_row(cells: &[String]) -> bool {
@@ -364,7 +377,7 @@ fn is_unit_row(cells: &[String]) -> bool {
     bracketed * 2 >= cells.len() || (is_unit(&cells[0]) && cells[1..].iter().all(|cell| looks_like_unit(cell)))
 }
 
-/// Whether a cell begins with a number that no unit begins with, as names do: `10% gray`, `5R 4/14`.
+/// Returns whether a cell begins with a number that no unit begins with, as names do: `10% gray`, `5R 4/14`.
 fn begins_with_figure(cell: &str) -> bool {
     let inverse = cell.strip_prefix('1').is_some_and(|rest| rest.trim_start().starts_with('/'));
     cell.starts_with(|c: char| c.is_ascii_digit()) && !inverse && !cell.contains("10^")

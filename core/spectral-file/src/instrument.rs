@@ -1,8 +1,9 @@
 //! Which program wrote a table, and what it says about the values in its own words.
 
-use super::grid::Grid;
-use super::text::Lines;
-use super::{Decided, Decision, Quantity, Role, Values};
+use crate::grid::Grid;
+use crate::report::{Decided, Decision};
+use crate::role::{Quantity, Role, Values};
+use crate::text::Lines;
 
 /// Lines that are looked at for marks.
 const LOOK: usize = 60;
@@ -12,7 +13,7 @@ const LONGEST: usize = 400;
 
 const THORLABS: &str = "Thorlabs (read as described, no real file was at hand)";
 
-/// What a line begins with, or holds, and who writes it.
+/// Beginnings or contents of lines, and the programs that write them.
 const MARKS: [(Mark, &str); 14] = [
     (Mark::Start("SpectraSuite Data File"), "Ocean SpectraSuite"),
     (Mark::Start("OOIBase32 Version"), "Ocean OOIBase32"),
@@ -60,8 +61,8 @@ pub(super) fn recognize(text: &str, grid: &mut Grid) -> Option<Decision> {
         grid.role
             .get_or_insert_with(|| Decided::guess(Role::Illuminant, format!("Line {line} is of an analyzer of light")));
     }
-    if let Some(name) = lines().find_map(|(_, line)| library_name(line)) {
-        grid.header.note("title", name);
+    if let Some((at, name)) = lines().find_map(|(at, line)| Some((at, library_name(line)?))) {
+        grid.header.note(at, "title", name);
         if let [only] = grid.curves.as_mut_slice()
             && !only.named
         {

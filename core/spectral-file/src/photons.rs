@@ -16,10 +16,15 @@
 //! in vacuum; of those in air the photons' energies are 0.03 % too high. Where nothing but "photons" is said, the scale is
 //! relative, and values are kept at 550 nm.
 
-use super::grid::{Grid, RawCurve};
-use super::text::excerpt;
-use super::units::{self, Amount, Per};
-use super::{Certainty, Decided, Decision, Quantity, ReadOptions, Role, Values, WavelengthUnit, decimal, words};
+use crate::grid::{Grid, RawCurve};
+use crate::options::ReadOptions;
+use crate::report::{Certainty, Decided, Decision};
+use crate::role::{Quantity, Role, Values};
+use crate::text::excerpt;
+use crate::unit_text::{is_per_energy, is_per_photon, is_photons, names_photons, says_per_photon};
+use crate::units::{Amount, Per};
+use crate::wavelength_unit::{SPEED_OF_LIGHT_NM_THZ, WavelengthUnit};
+use crate::{decimal, header_terms, units};
 
 /// The Planck constant times the speed of light, in J nm.
 const PLANCK_LIGHT_J_NM: f64 = 6.626_070_15e-34 * 299_792_458e9;
@@ -27,13 +32,10 @@ const PLANCK_LIGHT_J_NM: f64 = 6.626_070_15e-34 * 299_792_458e9;
 /// The Planck constant times the speed of light, in eV nm.
 const PLANCK_LIGHT_EV_NM: f64 = PLANCK_LIGHT_J_NM / 1.602_176_634e-19;
 
-/// The speed of light in nm THz.
-const LIGHT_NM_THZ: f64 = 299_792.458;
-
 /// The wavelength in nanometers where relative photons and relative energies have the same value.
 const SAME_AT_NM: f64 = 550.0;
 
-/// What is done to the values of a curve.
+/// Conversion of the values of a curve.
 #[derive(Debug, Clone)]
 struct Conversion {
     /// Photons for each unit of the values; infinite for a relative scale of photons; none for energies.
@@ -45,12 +47,12 @@ struct Conversion {
     size: f64,
     /// The unit of the result, if it has one.
     unit: Option<String>,
-    /// What says so.
+    /// Evidence.
     why: String,
 }
 
 impl Conversion {
-    /// What a unit asks for, if it asks for anything.
+    /// Conversion that a unit requires, if it requires one.
     fn of_unit(text: &str, why: String) -> Option<Self> {
         let unit = units::parse(text)?;
         let photons = match unit.amount {
@@ -85,7 +87,7 @@ impl Conversion {
         let density = match self.per {
             Per::None | Per::Nanometer => 1.0,
             Per::Length(length_nm) => 1.0 / length_nm,
-            Per::Frequency(thz) => LIGHT_NM_THZ / thz / (nm * nm),
+            Per::Frequency(thz) => SPEED_OF_LIGHT_NM_THZ / thz / (nm * nm),
             Per::Wavenumber => 1e7 / (nm * nm),
             Per::Electronvolt => PLANCK_LIGHT_EV_NM / (nm * nm),
         };
@@ -128,80 +130,7 @@ pub(super) fn quantity(unit: &str) -> Option<Quantity> {
     })
 }
 
-/// Whether a text is a unit of light, or of a response to photons.
-pub(super) fn is_unit(text: &str) -> bool {
-    units::parse(text).is_some() || is_per_photon(text) || is_per_energy(text) || is_photons(text)
-}
-
-/// Whether a unit is one of a response to power or energy.
-fn is_per_energy(unit: &str) -> bool {
-    const LONGEST: usize = 8;
-    unit.len() <= LONGEST && matches!(unit.to_lowercase().as_str(), "a/w" | "ma/w" | "v/w" | "mv/w" | "1/w" | "1/j")
-}
-
-fn is_photons(text: &str) -> bool {
-    matches!(text.trim().to_lowercase().as_str(), "photon" | "photons" | "quanta" | "qntm")
-}
-
-fn is_per_photon(unit: &str) -> bool {
-    const LONGEST: usize = 40;
-    if unit.len() > LONGEST {
-        return false;
-    }
-    let lower = unit.to_lowercase().replace(" per ", "/").replace(' ', "");
-    ["/photon", "/photons", "/quantum", "photon-1", "photon^-1", "photon⁻¹"].iter().any(|end| lower.ends_with(end))
-}
-
-/// Whether a text names a quantity of photons, and not just somebody's lamp.
-pub(super) fn names_photons(text: &str) -> bool {
-    const LONGEST: usize = 400;
-    const PHRASES: [&str; 10] = [
-        "photon flux",
-        "photon irradian",
-        "photon radian",
-        "photon exitan",
-        "photon fluence",
-        "photon intensity",
-        "quantum flux",
-        "quantum irradian",
-        "(qntm)",
-        "s.q.irrad",
-    ];
-    if text.len() > LONGEST || words::says_counts(text) {
-        return false;
-    }
-    let lower = text.to_lowercase().replace('_', " ");
-    let word = |word: &str| matches!(word, "ppfd" | "pfd" | "spfd" | "photons" | "quanta" | "qntm");
-    PHRASES.iter().any(|phrase| lower.contains(phrase))
-        || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
-}
-
-/// Whether a line of free text says that all values are photons: LI-COR's `(QNTM)`, or a sentence on all values.
-pub(super) fn said_in_prose(line: &str) -> bool {
-    const LONGEST: usize = 400;
-    if line.len() > LONGEST {
-        return false;
-    }
-    let lower = line.to_lowercase();
-    let values = ["values are in ", "values in ", "units are "].iter().any(|start| lower.contains(start));
-    let photons = ["photons per ", "moles of photons", "mol of photons"].iter().any(|part| lower.contains(part));
-    line.contains("(QNTM)") || values && photons && !words::says_counts(&lower)
-}
-
-/// Whether a title or a line of free text says that sensitivities are quantum efficiencies or responses per photon.
-pub(super) fn says_per_photon(text: &str) -> bool {
-    const LONGEST: usize = 400;
-    if text.len() > LONGEST {
-        return false;
-    }
-    let lower = text.to_lowercase();
-    let qe = lower.split(|c: char| !c.is_alphanumeric()).any(|word| word == "qe");
-    let said = qe
-        || ["quantum eff", "quantal", "per photon", "/photon", "per quantum"].iter().any(|part| lower.contains(part));
-    said && !lower.contains("energ")
-}
-
-/// What a file says about whether sensitivities are responses per photon.
+/// Decision on responses per photon or per energy, as far as the file states it.
 pub(super) fn response(grid: &Grid) -> Option<Decided<bool>> {
     for curve in &grid.curves {
         let unit = curve.unit.as_deref().unwrap_or_default();
@@ -219,7 +148,7 @@ pub(super) fn response(grid: &Grid) -> Option<Decided<bool>> {
     Some(Decided::certain(true, format!("Line {line} says so")))
 }
 
-/// What a curve needs, by its own header or by what the file says of all.
+/// Conversion of a curve, by its own header or by a line about all.
 fn of_curve(grid: &Grid, curve: &RawCurve) -> Option<Conversion> {
     if let Some(unit) = curve.unit.as_deref().filter(|unit| units::parse(unit).is_some()) {
         return Conversion::of_unit(unit, format!("The unit is {unit}"));
@@ -248,7 +177,7 @@ pub(super) fn suggest_role(grid: &mut Grid) {
     }
     let found = grid.curves.iter().find_map(|curve| of_curve(grid, curve).map(|found| (found, curve)));
     if let Some((found, curve)) = found.filter(|(found, _)| found.photons.is_some()) {
-        let named = names_photons(&curve.label) && words::role(&curve.label).is_none();
+        let named = names_photons(&curve.label) && header_terms::role(&curve.label).is_none();
         grid.role = Some(if named {
             Decided::certain(Role::Illuminant, found.why)
         } else {
@@ -287,7 +216,7 @@ pub(super) fn to_energy(
     Some(decision)
 }
 
-/// What the decision on the unit of lights is listed as.
+/// Name of the decision on the unit of lights.
 pub(super) const DECISION: &str = "Spectral unit";
 
 /// The guess that lights over frequencies or wave numbers are per nanometer, where no unit says otherwise.
@@ -331,7 +260,7 @@ fn renamed(name: &str) -> String {
     }
 }
 
-/// Whether a column of such a name would be converted when it is read.
+/// Returns whether a column of such a name would be converted when it is read.
 pub(super) fn converts(name: &str) -> bool {
     names_photons(name) || Conversion::of_unit(name, String::new()).is_some()
 }

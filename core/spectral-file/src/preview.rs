@@ -1,20 +1,16 @@
-//! The text of a file as a person reads it, line by line, with what was understood of each line.
+//! The text of a file as a person reads it, line by line, with the meaning of its parts.
 //!
 //! [`Preview`] holds the decoded text and where its lines begin, for files up to the limit of the readers. Lines are numbered as
-//! in every message of the readers. A [`Marker`] knows how one [`Table`] was read from the text; with both,
-//! [`Preview::marks`] says for a single line which wavelength, value, name or gap stands where.
-//!
-//! A number is marked only if it is the number of the table: what stands in the file, converted as the reading says, must
-//! equal the value of the curve at that wavelength exactly. So a date or an integration time is never marked because it
-//! stands near the data, and what the marks leave plain is plain because no curve has it.
+//! in every message of the readers. A [`Marker`] holds what [`read_marked`](crate::read_marked) recorded while it read: with it,
+//! [`Preview::marks`] tells for a single line which wavelength, value, name or gap stands where. A number that no curve has, such
+//! as a date or an integration time, is not marked.
 //!
 //! ```
-//! use spectral_file::{Preview, ReadOptions, What, read};
+//! use spectral_file::{Preview, ReadOptions, Watch, What, read_marked};
 //!
 //! let bytes = "nm;Leaf (%)\n400;5,5\n410;6,0\n".as_bytes();
-//! let table = read(bytes, &ReadOptions::default())?;
+//! let (table, marker) = read_marked(bytes, &ReadOptions::default(), Watch::none())?;
 //! let preview = Preview::new(bytes)?;
-//! let marker = preview.marker(&table);
 //! let marks = preview.marks(2, &table, &marker);
 //! assert_eq!(&preview.line(2).unwrap()[marks[1].range.clone()], "5,5");
 //! assert_eq!(marks[0].what.describe(&table), "400 nm");
@@ -26,23 +22,21 @@ mod across;
 mod cells;
 mod down;
 mod fault;
-mod lists;
 mod mark;
 mod marker;
-mod pairs;
-mod settings;
 mod shown;
-mod squeezed;
-mod stream;
-
-use std::ops::Range;
-
-use super::text::{self, Lines};
-use super::{Encoding, ReadError, Table};
 
 pub use mark::{LeftOut, Mark, What};
 pub use marker::Marker;
 pub use shown::Shown;
+
+use std::ops::Range;
+
+use crate::error::ReadError;
+use crate::file::SpectralFile;
+use crate::report::Encoding;
+use crate::text;
+use crate::text::Lines;
 
 /// The most characters that [`Preview::longest`] counts of a line.
 pub const LONGEST_LINE: usize = 1_000_000;
@@ -62,7 +56,8 @@ pub struct Preview {
 impl Preview {
     /// Decodes the bytes of a file as the readers do, in a time proportional to their number.
     ///
-    /// Fails as they do on binary, empty and too large files, and on no other.
+    /// # Errors
+    /// Those of the readers for binary, empty and too large files, and no others.
     pub fn new(bytes: &[u8]) -> Result<Self, ReadError> {
         let (text, encoding) = text::decode(bytes)?;
         let mut starts = Vec::new();
@@ -83,7 +78,7 @@ impl Preview {
         self.encoding
     }
 
-    /// How many lines there are; at least one.
+    /// Number of lines; at least one.
     pub fn line_count(&self) -> usize {
         self.starts.len()
     }
@@ -106,26 +101,28 @@ impl Preview {
         self.line(number).map(|line| Shown::new(line, from, count))
     }
 
-    /// How a table was read from this text: made once for a table, then good for every line.
+    /// Marks of a line: in the order of the line, without overlaps, in bytes of [`line`](Self::line).
     ///
-    /// Takes a part of the time of reading: next to none for numbers in columns, one pass over the text for most others.
-    pub fn marker(&self, table: &Table) -> Marker {
-        Marker::new(self, table)
-    }
-
-    /// What was understood of a line: in the order of the line, without overlaps, in bytes of [`line`](Self::line).
-    ///
-    /// Empty for a line that does not exist. A marker of another text or table gives fewer marks, never wrong numbers.
-    pub fn marks(&self, number: usize, table: &Table, marker: &Marker) -> Vec<Mark> {
+    /// Empty for a line that does not exist. A marker of a file with another number of curves
+    /// gives none.
+    pub fn marks(&self, number: usize, table: &SpectralFile, marker: &Marker) -> Vec<Mark> {
         self.marks_within(number, 0..usize::MAX, table, marker)
     }
 
     /// [`marks`](Self::marks), but only those that touch a range of bytes: quick also in lines of many megabytes.
-    pub fn marks_within(&self, number: usize, window: Range<usize>, table: &Table, marker: &Marker) -> Vec<Mark> {
-        self.line(number).map(|line| marker.marks(number, line, window, table, self)).unwrap_or_default()
+    pub fn marks_within(
+        &self,
+        number: usize,
+        window: Range<usize>,
+        table: &SpectralFile,
+        marker: &Marker,
+    ) -> Vec<Mark> {
+        self.line(number)
+            .map(|line| marker.marks((number, self.start(number).unwrap_or(0)), line, &window, table))
+            .unwrap_or_default()
     }
 
-    /// Where a reading failed: the line, and the bytes in it, which are the whole line where nothing closer is known.
+    /// Place where reading failed: the line, and the bytes in it, which are the whole line where nothing closer is known.
     ///
     /// `None` where the error is about the file as a whole.
     pub fn error_range(&self, error: &ReadError) -> Option<(usize, Range<usize>)> {
@@ -136,12 +133,5 @@ impl Preview {
     /// The byte of the text at which a line begins.
     fn start(&self, number: usize) -> Option<usize> {
         self.starts.get(number.checked_sub(1)?).map(|start| *start as usize)
-    }
-
-    /// The lines from one on, with their numbers.
-    fn lines_from(&self, number: usize) -> impl Iterator<Item = (usize, &str)> {
-        let first = number.max(1);
-        let rest = self.start(first).and_then(|start| self.text.get(start..)).unwrap_or("");
-        Lines::new(rest).map(move |(index, line)| (first + index - 1, line))
     }
 }

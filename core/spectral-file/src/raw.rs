@@ -1,8 +1,9 @@
 //! Raw columns: the counts that some instruments write beside the curve they made of them.
 
-use super::grid::{Grid, RawCurve};
-use super::words;
-use super::{Decided, Decision, ReadOptions};
+use crate::grid::{Grid, RawCurve};
+use crate::header_terms;
+use crate::options::ReadOptions;
+use crate::report::{Decided, Decision};
 
 /// Leaves out raw columns where a processed one stands beside them, unless they are asked for.
 pub(super) fn leave_out(grid: &mut Grid, options: &ReadOptions) -> Option<Decision> {
@@ -37,10 +38,10 @@ fn mark(curves: &[RawCurve]) -> Option<Vec<bool>> {
     (marks.contains(&true) && marks.contains(&false)).then_some(marks)
 }
 
-/// Whether a header says that a column was made of others.
+/// Returns whether a header says that a column was made of others.
 fn is_processed(curve: &RawCurve) -> bool {
     let counts = curve.label.to_lowercase().contains("count");
-    let said = words::role(&curve.label).is_some() || words::says_percent(&curve.label);
+    let said = header_terms::role(&curve.label).is_some() || header_terms::says_percent(&curve.label);
     !counts && (said || curve.name.eq_ignore_ascii_case("processed"))
 }
 

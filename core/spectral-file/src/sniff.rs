@@ -1,19 +1,23 @@
 //! Decides how a text is laid out: separators, decimal mark, orientation, and the line where the numbers begin.
 
-use super::dialect::{Cell, DecimalMark, Delimiter, Dialect};
-use super::text::{Lines, Section, comment};
-use super::trial::{Across, Shape, Trial};
-use super::warning::Warning;
-use super::watch::Log;
-use super::wavelengths::plausible;
-use super::{Decided, Orientation, ReadError, ReadOptions, bands, nearly, thousands};
+use crate::dialect::{Cell, Dialect};
+use crate::dialect_trial::{Across, Shape, Trial};
+use crate::error::ReadError;
+use crate::options::ReadOptions;
+use crate::report::{Decided, Orientation};
+use crate::separators::{DecimalMark, Delimiter};
+use crate::text::{Lines, Section, comment};
+use crate::warning::Warning;
+use crate::watch::Log;
+use crate::wavelength_unit::plausible;
+use crate::{bands, near_miss, thousands};
 
-/// How a text is laid out.
+/// Layout of a text.
 #[derive(Debug)]
 pub(super) struct Layout {
     pub(super) delimiter: Decided<Delimiter>,
     pub(super) decimal_mark: Decided<DecimalMark>,
-    /// Whether the other mark groups thousands even where it stands once.
+    /// True if the other mark groups thousands even where it stands once.
     pub(super) thousands: bool,
     pub(super) orientation: Decided<Orientation>,
     /// The first line of values.
@@ -26,7 +30,7 @@ pub(super) struct Layout {
     pub(super) across: Option<Across>,
     /// The column of the wavelengths, from 1, if the caller chose one.
     pub(super) wavelength_column: Option<usize>,
-    /// Whether all other columns are curves, whatever they look like.
+    /// True if all other columns are curves, whatever they look like.
     pub(super) every_column: bool,
     pub(super) warnings: Vec<Warning>,
 }
@@ -67,20 +71,20 @@ impl Layout {
 /// Lines that are tried before deciding, if enough of them are rows of numbers.
 const SAMPLE_LINES: usize = 200;
 const SAMPLE_ROWS: usize = 8;
-/// The same for very long lines, in bytes.
+/// Bytes that are tried where lines are very long, and rows that are then enough.
 const SAMPLE_BYTES: usize = 1 << 20;
 const SAMPLE_ROWS_LONG: usize = 3;
 
 /// Fewer rows of numbers alone are what is left of a table with texts in it, if one is there.
 const FEW_ROWS: usize = SAMPLE_ROWS;
 
-/// What stands above the numbers must end before this many bytes, so that hostile text is given up soon.
+/// Most bytes above the first numbers, so that hostile text is given up soon.
 const LONGEST_HEADER: usize = 4 << 20;
 
-/// The same between one table and the next, of which there may be a thousand.
+/// Most bytes between one table and the next, of which there may be a thousand.
 const LONGEST_HEADER_LATER: usize = 16 << 10;
 
-/// What all tables but the first may take together before each has to do with little.
+/// Bytes that all tables after the first may take together before each is tried on few.
 pub(super) const SAMPLE_BUDGET: usize = 1 << 20;
 const LEAST_LATER: usize = 512;
 
@@ -124,7 +128,7 @@ pub(super) fn sniff(
     let Some(best) = best else {
         let single = trials.iter().find(|trial| trial.single >= 2);
         return Err(single.map_or_else(
-            || nearly::error(section, options),
+            || near_miss::error(section, options),
             |trial| ReadError::OneColumn { line: trial.single_line },
         ));
     };
@@ -133,7 +137,7 @@ pub(super) fn sniff(
         return lay_across(section, options, best, orientation);
     }
     if best.best.rows == 0 {
-        return Err(nearly::error(section, options));
+        return Err(near_miss::error(section, options));
     }
     lay_down(section, options, best, orientation)
 }
@@ -412,7 +416,7 @@ fn first_line(section: Section<'_>, trial: &Trial, warnings: &mut Vec<Warning>) 
     run.line
 }
 
-/// Whether a line would be a row of the table but for cells such as `0.2x`, which begin as numbers do.
+/// Returns whether a line would be a row of the table but for cells such as `0.2x`, which begin as numbers do.
 fn is_spoiled(trial: &Trial, shape: &Shape, line: &str) -> bool {
     let (run, dialect) = (&trial.best, trial.dialect);
     let before = shape.first.is_some_and(|first| {

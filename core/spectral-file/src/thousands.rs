@@ -1,10 +1,12 @@
-//! Whether marks group thousands, `1,000` beside `980`, or stand before fractions.
+//! Detection of marks that group thousands: `1,000` beside `980`.
 
-use super::dialect::{DecimalMark, Delimiter, Dialect, may_be_thousands};
-use super::text::{Lines, Section, comment};
-use super::{MAX_CURVES, Orientation};
+use crate::dialect::{Dialect, may_be_thousands};
+use crate::limits::MAX_CURVES;
+use crate::report::Orientation;
+use crate::separators::{DecimalMark, Delimiter};
+use crate::text::{Lines, Section, comment};
 
-/// Whether a mark groups thousands in the rows from a line on: each number that has it could be a whole one, and the
+/// Returns whether a mark groups thousands in the rows from a line on: each number that has it could be a whole one, and the
 /// whole numbers of three digits next to them are nearer to that than to a fraction.
 ///
 /// ```text
@@ -46,7 +48,7 @@ pub(super) fn groups(
     score > 0.0
 }
 
-/// Whether a mark that stands before no fraction groups thousands in the rows from a line on, `1,000` beside `0.390`: where
+/// Returns whether a mark that stands before no fraction groups thousands in the rows from a line on, `1,000` beside `0.390`: where
 /// fractions are seen to stand after the other mark, it can mean nothing else.
 pub(super) fn beside_fractions(
     section: Section<'_>,
@@ -59,12 +61,15 @@ pub(super) fn beside_fractions(
     let content = Lines::of(section).skip_while(|(number, _)| *number < from);
     // Commas that separate stand in every line; one within a cell is quoted.
     let sign = if delimiter == Delimiter::Comma && other == ',' { '"' } else { other };
+    if !section.text.contains(sign) {
+        return false;
+    }
     let mut marked = content.filter(|(_, line)| line.contains(sign) && comment(line).is_none());
     let grouped = |cell: &str| cell.contains(other) && may_be_thousands(cell);
     marked.any(|(_, line)| dialect.cells(line).take(MAX_CURVES + 1).any(grouped))
 }
 
-/// Whether a text has a number such as `1,000` or `1.000` in it that no comma of a list makes.
+/// Returns whether a text has a number such as `1,000` or `1.000` in it that no comma of a list makes.
 pub(super) fn has_grouped(text: &str) -> bool {
     let bytes = text.as_bytes();
     let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
@@ -75,7 +80,7 @@ pub(super) fn has_grouped(text: &str) -> bool {
             .any(|(at, _)| at > 0 && digit(at - 1) && digit(at + 1) && digit(at + 2) && digit(at + 3) && !digit(at + 4))
 }
 
-/// How a number is written.
+/// Form of a written number.
 enum Written {
     /// Digits alone.
     Whole(f64),
@@ -101,7 +106,7 @@ impl Written {
     }
 }
 
-/// How much nearer two neighbors are with thousands than with fractions, in powers of e.
+/// Natural logarithm of how much nearer two neighbors are with thousands than with fractions.
 fn votes(a: &str, b: &str, mark: char) -> f64 {
     let both = (Written::of(a, mark), Written::of(b, mark));
     let ((Some(Written::Whole(plain)), Some(Written::Either(fraction)))

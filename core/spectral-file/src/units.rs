@@ -25,7 +25,7 @@ pub(super) struct Unit {
     pub(super) start: usize,
 }
 
-/// What is measured.
+/// Measured amount.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Amount {
     /// Energy or power, as its symbol.

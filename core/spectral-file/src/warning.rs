@@ -1,8 +1,10 @@
-//! What should be looked at before the curves of a file are trusted.
+//! Warnings: doubts to check before the curves of a file are trusted.
 
 use std::fmt;
 
-use super::{DecimalMark, Quantity, ReadError, Role};
+use crate::error::ReadError;
+use crate::role::{Quantity, Role};
+use crate::separators::DecimalMark;
 
 /// Line numbers, of which the first few are kept.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -12,7 +14,7 @@ pub struct LineList {
 }
 
 impl LineList {
-    /// How many line numbers are kept; a message with more is not read anyway.
+    /// Most line numbers that are kept; nobody reads more.
     const KEPT: usize = 6;
 
     /// Adds a line; a line added twice in a row counts once.
@@ -31,12 +33,12 @@ impl LineList {
         &self.first
     }
 
-    /// How many lines there are in all.
+    /// Number of lines in all.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Whether there is no line.
+    /// Returns whether there is no line.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
@@ -70,16 +72,16 @@ pub struct Sentinel {
 pub enum Warning {
     /// Cells without a value: left out of their curves.
     Gaps {
-        /// How many cells.
+        /// Number of cells.
         cells: usize,
-        /// Where; empty where the rows of the file are curves, or not known.
+        /// Lines; empty where the rows of the file are curves, or unknown.
         lines: LineList,
         /// A number that was taken for a missing value.
         sentinel: Option<Sentinel>,
     },
     /// Curves with fewer than two values: left out.
     EmptyCurves {
-        /// How many.
+        /// Number.
         count: usize,
         /// The first: its name in quotes, and its column if it has one.
         first: String,
@@ -91,7 +93,7 @@ pub enum Warning {
     },
     /// Columns that hold text: left out.
     TextColumns {
-        /// How many.
+        /// Number.
         count: usize,
         /// The first, from 1.
         column: usize,
@@ -105,22 +107,22 @@ pub enum Warning {
     },
     /// Rows that repeat an earlier row exactly: counted once.
     RepeatedRows {
-        /// Where.
+        /// Line.
         lines: LineList,
     },
     /// Rows with different values at one wavelength: their mean was taken.
     AveragedRows {
-        /// Where.
+        /// Line.
         lines: LineList,
     },
     /// Comments inside the table that look like rows: left out.
     CommentedRows {
-        /// Where.
+        /// Line.
         lines: LineList,
     },
     /// The line of names again, inside the table: left out.
     RepeatedHeader {
-        /// Where.
+        /// Line.
         lines: LineList,
     },
     /// All fractions have three digits, so that their marks may group thousands.
@@ -143,12 +145,12 @@ pub enum Warning {
     },
     /// Rows without a wavelength: left out.
     NoWavelength {
-        /// Where.
+        /// Line.
         lines: LineList,
     },
     /// Numbers above the table that belong to no row.
     NumbersAbove {
-        /// Where.
+        /// Line.
         line: usize,
     },
     /// Text after the table: left out.
@@ -162,26 +164,26 @@ pub enum Warning {
     Averaged {
         /// The curve.
         name: String,
-        /// Where the repeated values stand.
+        /// Lines of the repeated values.
         lines: LineList,
     },
     /// Another table with spectra follows the one that was read.
     MoreTables {
-        /// Where it begins.
+        /// Line where it begins.
         line: usize,
     },
     /// Other spectra of the same samples stand beside those that were read.
     MoreGroups {
-        /// How many groups of columns there are.
+        /// Number of groups of columns.
         count: usize,
-        /// What the second is named.
+        /// Name of the second.
         second: String,
     },
     /// Numbers without a unit were read as wave numbers.
     MaybeWavelengths,
     /// A reflectance or a sensitivity is far below zero.
     BelowZero {
-        /// How many curves are.
+        /// Number of such curves.
         count: usize,
         /// The first of them: its name in quotes, and its column if it has one.
         first: String,
@@ -192,31 +194,31 @@ pub enum Warning {
     },
     /// The curves were chosen to be something that the file says they are not.
     OtherQuantity {
-        /// What the file says they are.
+        /// Quantity that the file gives.
         quantity: Quantity,
-        /// What they were chosen to be.
+        /// Chosen role.
         role: Role,
     },
     /// Rows of numbers below the table make no table that can be read.
     BrokenTable {
-        /// Where they begin.
+        /// Line where they begin.
         line: usize,
         /// Why.
         error: Box<ReadError>,
     },
     /// Lines out of place: their values are at the abscissas at their heads.
     PlacedByAbscissa {
-        /// Where.
+        /// Line.
         lines: LineList,
     },
     /// Lines with fewer values than there are places before the next line: left out.
     ShortLines {
-        /// Where.
+        /// Line.
         lines: LineList,
     },
     /// A header announces another value than the data hold.
     HeaderDiffers {
-        /// Where it is announced.
+        /// Line of the announcement.
         line: usize,
         /// The label.
         label: &'static str,
@@ -234,7 +236,7 @@ pub enum Warning {
     },
     /// Rows of other quantities than those that were read.
     MoreQuantities {
-        /// What was read.
+        /// Value that was read.
         taken: String,
         /// The others, the first few.
         others: String,
@@ -248,7 +250,7 @@ pub enum Warning {
     },
     /// The file announces another number of values than it holds.
     CountDiffers {
-        /// Where it is announced.
+        /// Line of the announcement.
         line: usize,
         /// As announced.
         expected: usize,
@@ -257,7 +259,7 @@ pub enum Warning {
     },
     /// Curves read as fractions of light that reach values no such fraction has.
     NotReflectances {
-        /// How many.
+        /// Number.
         count: usize,
         /// The first: its name in quotes, and its column if it has one.
         first: String,
@@ -266,14 +268,14 @@ pub enum Warning {
     },
     /// Columns of something else than spectra, such as temperatures: left out.
     NotSpectra {
-        /// How many.
+        /// Number.
         count: usize,
         /// The first: its name in quotes, and its column if it has one.
         first: String,
     },
     /// Some curves were read as percent, others as written, each by its own numbers.
     ScalesDiffer {
-        /// How many are percent.
+        /// Number in percent.
         percent: usize,
         /// The first of them: its name in quotes, and its column if it has one.
         first: String,
@@ -287,7 +289,7 @@ pub enum Warning {
     },
     /// Warnings of kinds that are listed often enough: only counted. Stands last.
     More {
-        /// How many.
+        /// Number.
         count: usize,
     },
 }
@@ -356,7 +358,7 @@ impl Warning {
         }
     }
 
-    /// What concerns single curves, in words; nothing for the others.
+    /// Part that concerns single curves, in words; empty for other warnings.
     fn of_curves(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::EmptyCurves { count: 1, first } => write!(f, "{first} has fewer than two values: left out"),

@@ -3,9 +3,11 @@
 use std::cell::Cell;
 use std::mem::discriminant;
 
-use super::{ReadError, Warning};
+use crate::error::ReadError;
+use crate::places::Places;
+use crate::warning::Warning;
 
-/// What a caller sees of a reading, and its way to stop it.
+/// Progress of a reading, and a way to stop it.
 ///
 /// The function is told how far the reading is, as a fraction of one, some hundred times a second, always on the thread that
 /// reads; it returns whether to go on.
@@ -24,11 +26,13 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// What a reader says on its way: warnings, and how far it is.
+/// Warnings and progress of a reader.
 pub(super) struct Log<'a> {
     pub(super) warnings: Vec<Warning>,
+    /// Places of samples, if they are recorded.
+    pub(super) places: Option<Places<'a>>,
     watch: Watch<'a>,
-    /// How much there is to read, in bytes.
+    /// Number of bytes to read.
     whole: usize,
     /// The watch is looked at again from this byte on.
     next: usize,
@@ -44,7 +48,7 @@ impl<'a> Log<'a> {
     const STRIDE: usize = 1 << 18;
 
     pub(super) fn new(watch: Watch<'a>, whole: usize) -> Self {
-        Self { warnings: Vec::new(), watch, whole, next: Self::STRIDE, worked: Cell::new(0) }
+        Self { warnings: Vec::new(), places: None, watch, whole, next: Self::STRIDE, worked: Cell::new(0) }
     }
 
     /// Adds a warning, or counts it where there are many of its kind.
@@ -89,7 +93,7 @@ impl<'a> Log<'a> {
         self.look(at)
     }
 
-    /// The same at once: before and after long steps.
+    /// Looks at the watch at once: before and after long steps.
     pub(super) fn look(&self, byte: usize) -> Result<(), ReadError> {
         let share = byte.min(self.whole) as f32 / self.whole.max(1) as f32;
         if (self.watch.0)(share) { Ok(()) } else { Err(ReadError::Stopped) }

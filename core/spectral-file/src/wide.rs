@@ -2,20 +2,20 @@
 
 mod kinds;
 
-use kinds::Label;
-
-use super::bands::Group;
-use super::columns::axes;
-use super::dialect::{Cell, Dialect};
-use super::grid::{Grid, RawCurve};
-use super::header;
-use super::reading::MAX_PARTS;
-use super::sniff::Layout;
-use super::text::{Lines, Section, comment, excerpt};
-use super::trial::Across;
-use super::warning::{LineList, Warning};
-use super::watch::Log;
-use super::{Decided, MAX_CURVES, MAX_SAMPLES, Orientation, Part, ReadError, Role, quantity, words};
+use crate::bands::Group;
+use crate::dialect::{Cell, Dialect};
+use crate::dialect_trial::Across;
+use crate::error::ReadError;
+use crate::grid::{Grid, RawCurve};
+use crate::limits::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES};
+use crate::report::{Decided, Orientation, Part};
+use crate::role::Role;
+use crate::sniff::Layout;
+use crate::text::{Lines, Section, comment, excerpt, listed};
+use crate::warning::{LineList, Warning};
+use crate::watch::Log;
+use crate::wide::kinds::Label;
+use crate::{header, header_terms, no_curve, unit_text};
 
 /// Reads the header row and the rows of a layout.
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Grid, ReadError> {
@@ -28,7 +28,8 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let heads: Vec<&str> = dialect.cells(header_line).collect();
     let leading = &heads[..group.start.min(heads.len())];
     let mut header = header::read(section, layout);
-    let named_unit = leading.iter().filter(|cell| words::names_wavelengths(cell)).find_map(|cell| words::x_unit(cell));
+    let named_unit =
+        leading.iter().filter(|cell| header_terms::names_wavelengths(cell)).find_map(|cell| header_terms::x_unit(cell));
     header.x_unit = named_unit.map(|unit| (across.line, unit)).or(header.x_unit);
     header.line = Some(across.line);
     header.clues.take(across.line, header_line);
@@ -48,10 +49,10 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let count = rows.curves.len();
     for curve in &mut rows.curves {
         group.suffix.clone_into(&mut curve.label);
-        curve.unit = quantity::unit_cell(&group.suffix).or_else(|| header.unit.clone());
+        curve.unit = unit_text::unit_cell(&group.suffix).or_else(|| header.unit.clone());
     }
-    let specular = words::says_specular(&group.prefix).then_some(Role::Reflectance);
-    let role = specular.or_else(|| words::role_of_bands(&group.prefix));
+    let specular = header_terms::says_specular(&group.prefix).then_some(Role::Reflectance);
+    let role = specular.or_else(|| header_terms::role_of_bands(&group.prefix));
     let role = role.map(|role| Decided::guess(role, format!("The bands are named {}", group.prefix)));
     let parts = across.groups.iter().filter(|_| across.groups.len() > 1).map(|group| Part {
         line: across.first_row,
@@ -127,15 +128,8 @@ fn told(heads: &[&str], at: usize) -> String {
     }
 }
 
-/// The first few of several.
-pub(super) fn listed(all: &[String]) -> String {
-    const MOST: usize = 4;
-    let first = all[..all.len().min(MOST)].join(", ");
-    if all.len() > MOST { format!("{first} and {} more", all.len() - MOST) } else { first }
-}
-
 /// The leading column that best names a row: one headed so, else the first.
-fn name_column(leading: &[&str]) -> usize {
+pub(super) fn name_column(leading: &[&str]) -> usize {
     const NAMES: [&str; 7] = ["name", "sample", "label", "patch", "color", "tag", "id"];
     let headed = |wanted: &&str| leading.iter().position(|cell| cell.to_lowercase().contains(*wanted));
     NAMES.iter().find_map(headed).unwrap_or(0)
@@ -147,13 +141,6 @@ pub(super) fn other_names(parts: &[Part], but: usize) -> String {
     listed(&others.map(|(_, part)| format!("“{}”", part.name)).collect::<Vec<_>>())
 }
 
-/// Whether a row holds no spectrum: wave numbers, times, or numbers that count the columns.
-fn is_scale<'a>(leading: impl Iterator<Item = &'a str>, curve: &RawCurve) -> bool {
-    let mut names = leading.filter(|cell| !cell.is_empty());
-    let Some(name) = names.next().filter(|_| curve.named) else { return false };
-    words::names_axis(name) || words::names_time(name) || words::is_count(name) && axes::counts(&curve.values)
-}
-
 /// The curves so far.
 struct Rows<'a> {
     dialect: Dialect,
@@ -162,12 +149,12 @@ struct Rows<'a> {
     curves: Vec<RawCurve>,
     gaps: usize,
     gap_lines: LineList,
-    mentioned: Option<(usize, super::Role)>,
+    mentioned: Option<(usize, crate::role::Role)>,
     /// A line that is no row: its number, the error it makes if rows follow, and whether it is an error by itself.
     broken: Option<(usize, ReadError, bool)>,
     /// Columns without a wavelength at their heads, and whether they hold numbers.
     suspects: Vec<(usize, bool)>,
-    /// What each curve is, as a cell before its values says, and the column of those cells.
+    /// Quantity of each curve, by a cell before its values, and the column of those cells.
     labels: Vec<Option<Label>>,
     kind_column: Option<usize>,
     /// Rows that hold no spectrum but another scale, in words.
@@ -227,11 +214,11 @@ impl<'a> Rows<'a> {
                     return Err(error);
                 }
                 let leading = || self.dialect.cells(line).take(self.across.group().start);
-                if is_scale(leading(), &curve) || axes::is_scale(&self.across.group().wavelengths, &curve.values) {
+                if no_curve::is_scale_row(leading(), &self.across.group().wavelengths, &curve) {
                     self.scales.push(format!("line {number} (“{}”)", excerpt(&curve.name)));
                     return Ok(());
                 }
-                let role = leading().find_map(words::role).map(|role| (number, role));
+                let role = leading().find_map(header_terms::role).map(|role| (number, role));
                 let label = match self.kind_column {
                     Some(column) => leading().nth(column).map(|cell| Label::of(cell, number)),
                     None => leading().map(|cell| Label::of(cell, number)).find(Label::is_said),
@@ -284,10 +271,10 @@ impl<'a> Rows<'a> {
         let name = if names.0.is_empty() { names.1 } else { names.0 };
         let named = !name.is_empty();
         let name = if named { name.replace("\"\"", "\"") } else { format!("Row {}", self.curves.len() + 1) };
-        Ok(Some(RawCurve { name, named, values, ..RawCurve::default() }))
+        Ok(Some(RawCurve { name, named, values, origin: number, ..RawCurve::default() }))
     }
 
-    /// Whether a line has as many cells as a row.
+    /// Returns whether a line has as many cells as a row.
     fn is_long(&self, line: &str) -> bool {
         let width = self.across.group().end();
         self.dialect.cells(line).take(width).count() == width

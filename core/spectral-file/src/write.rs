@@ -6,7 +6,7 @@
 //!
 //! Numbers are the shortest decimals that read back as the same double. Reflectances and transmittances are fractions.
 //!
-//! Resampling follows the convention that the program computes with (CIE 167:2005; see [`crate::spectral::Quantity`]):
+//! Resampling follows the convention that the program computes with (CIE 167:2005; CIE 15:2018):
 //! Sprague's interpolation in even tables with steps of 5 nm or more of anything but a light, linear in all others. The
 //! new wavelengths are whole multiples of the step; where one falls on a sample (to 1e-6 nm), the sample is kept to the last
 //! bit, and nothing is ever written beyond a curve's own range. A step coarser than that of the curve picks samples without
@@ -39,61 +39,17 @@
 mod cgats;
 mod common;
 mod csv;
+mod format;
 mod json;
 mod note;
 mod resample;
 mod sheet;
 mod text;
 
-use std::fmt;
-
 pub use csv::Prepared;
+pub use format::{Format, Grid};
 pub use note::{Note, WriteError};
 pub use sheet::{Content, Sheet, Trace};
-
-/// At which wavelengths curves are written.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Grid {
-    /// Those of the curves. Formats with one even grid for all get it where the curves have one; else multiples of the
-    /// largest of 1, 5 and 10 nm that is not above the curves' own step, over the range that all share.
-    #[default]
-    Native,
-    /// Whole multiples of a step in nanometers, at least 0.001 nm: the values there.
-    Step(f64),
-    /// Whole multiples of a step in nanometers, at least 0.001 nm: the means over the band of one step around each.
-    Average(f64),
-}
-
-impl Grid {
-    /// The step in nanometers, if one was asked for.
-    pub fn step_nm(self) -> Option<f64> {
-        match self {
-            Self::Native => None,
-            Self::Step(step) | Self::Average(step) => Some(step),
-        }
-    }
-}
-
-/// A format that curves can be written in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Format {
-    /// Wavelengths down the first column, curves beside it, comments `# key: value` above. Curves keep their own
-    /// wavelengths; a cell is blank where a curve has no sample. Names are quoted as in RFC 4180.
-    Csv,
-    /// JSON of rawtoaces (schema 1.0.0 of rawtoaces-data): wavelengths as keys, a value for each curve.
-    ///
-    /// rawtoaces takes the keys in the order of their text and compares their distances in single precision, so that they
-    /// must stay below 1000 nm, and be even to the last bit.
-    RawtoacesJson,
-    /// JSON of dcamprof: the sensitivities of a camera, or one spectrum of any other kind. The grid may be uneven.
-    DcamprofJson,
-    /// `.sp` of Argyll: one or several spectra. At most 601 bands, evenly spaced, at least 1 nm apart.
-    ArgyllSp,
-    /// `.cmf` of Argyll: three curves for the place of an observer, on a grid like that of `.sp`. Has no names.
-    ArgyllCmf,
-    /// CGATS.17, one row for each curve, evenly spaced, at least 1 nm apart.
-    Cgats,
-}
 
 impl Format {
     /// Every format, in the order of a menu.
@@ -123,7 +79,10 @@ impl Format {
         }
     }
 
-    /// Whether curves of this kind and number can be written in this format, whatever their wavelengths.
+    /// Returns whether curves of this kind and number can be written in this format, whatever their wavelengths.
+    ///
+    /// # Errors
+    /// [`WriteError`] for curves that are none, of other kinds or in another number than the format holds.
     pub fn fits(self, sheet: &Sheet<'_>) -> Result<(), WriteError> {
         sheet.check()?;
         let found = sheet.curves.len();
@@ -144,25 +103,22 @@ impl Format {
     }
 }
 
-impl fmt::Display for Format {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} (.{})", self.name(), self.ending())
-    }
-}
-
 /// The text of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Written {
     /// The text, with a line feed after each line.
     pub text: String,
-    /// What is not as it was in the curves.
+    /// Differences from the curves as they were given.
     pub notes: Vec<Note>,
 }
 
 /// Writes curves in a format, at their own wavelengths or resampled.
 ///
-/// The same curves always give the same text. Limits are those of reading: [`super::MAX_CURVES`] and
-/// [`super::MAX_SAMPLES`].
+/// Deterministic: equal curves give equal text. Limits are those of reading: [`crate::MAX_CURVES`] and
+/// [`crate::MAX_SAMPLES`].
+///
+/// # Errors
+/// [`WriteError`] for curves that are none, or that the format cannot hold on such a grid.
 pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, WriteError> {
     format.fits(sheet)?;
     resample::check(grid)?;
@@ -184,6 +140,9 @@ pub fn write(sheet: &Sheet<'_>, format: Format, grid: Grid) -> Result<Written, W
 /// The table of the command line: `wavelength_nm,<curve>…` and nothing above it.
 ///
 /// Has a row for every wavelength of any curve; a cell is blank where its curve has no sample.
+///
+/// # Errors
+/// [`WriteError`] for curves that are none, or over the limits on such a grid.
 pub fn canonical_csv(sheet: &Sheet<'_>, grid: Grid) -> Result<Written, WriteError> {
     let mut prepared = Prepared::new(sheet, grid)?;
     let text = collected(|put| prepared.table(put));

@@ -4,7 +4,7 @@ use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use chromascope_core::query::{Ask, Query};
-use spectral_file::{Marker, Preview, ReadError, ReadOptions, Table, Watch};
+use spectral_file::{Marker, Preview, ReadError, ReadOptions, SpectralFile, Watch};
 
 use super::file::OpenFile;
 use crate::catalog::import::Origin;
@@ -34,16 +34,15 @@ impl Hash for Contents {
 /// What is a file understood as with these switches?
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FilePreviewQuery {
-    table: TableQuery,
-    marked: bool,
+    contents: Contents,
+    options: ReadOptions,
 }
 
 impl FilePreviewQuery {
-    /// Of a file: first what was understood, then also where it stands in the text.
-    pub fn stages(file: &OpenFile, options: &ReadOptions) -> Vec<Self> {
+    /// Of a file, read with switches.
+    pub fn new(file: &OpenFile, options: &ReadOptions) -> Self {
         let contents = Contents { origin: file.origin.clone(), bytes: Arc::clone(&file.bytes) };
-        let table = TableQuery { contents, options: options.clone() };
-        [false, true].map(|marked| Self { table: table.clone(), marked }).into()
+        Self { contents, options: options.clone() }
     }
 }
 
@@ -57,8 +56,8 @@ pub struct FilePreview {
     /// Its text, where it is text.
     pub preview: Result<Arc<Preview>, ReadError>,
     /// What was understood.
-    pub table: Result<Arc<Table>, ReadError>,
-    /// Where that stands in the text; none until it is found out.
+    pub table: Result<Arc<SpectralFile>, ReadError>,
+    /// Where that stands in the text.
     pub marker: Option<Marker>,
 }
 
@@ -68,38 +67,20 @@ impl Query for FilePreviewQuery {
     const KEPT: usize = 4;
 
     fn answer(&self, ask: &impl Ask) -> FilePreview {
-        let TableQuery { contents, options } = &self.table;
+        let Self { contents, options } = self;
         let preview = (*ask.ask(&PreviewQuery { contents: contents.clone() })).clone();
-        let table = (*ask.ask(&self.table)).clone();
-        let marker = match (&preview, &table) {
-            (Ok(preview), Ok(table)) if self.marked => Some(preview.marker(table)),
-            _ => None,
+        let stop = ask.stop();
+        let go_on = |_: f32| !stop.is_set();
+        let (table, marker) = match spectral_file::read_marked(&contents.bytes, options, Watch::new(&go_on)) {
+            Ok((table, marker)) => (Ok(Arc::new(table)), Some(marker)),
+            Err(error) => (Err(error), None),
         };
         FilePreview { fingerprint: contents.origin.fingerprint, options: options.clone(), preview, table, marker }
     }
-}
 
-/// What curves does a file hold?
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct TableQuery {
-    contents: Contents,
-    options: ReadOptions,
-}
-
-impl Query for TableQuery {
-    type Answer = Result<Arc<Table>, ReadError>;
-    const NAME: &'static str = "curves of a file";
-    const KEPT: usize = 4;
-
-    fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let stop = ask.stop();
-        let go_on = |_: f32| !stop.is_set();
-        spectral_file::read_watched(&self.contents.bytes, &self.options, Watch::new(&go_on)).map(Arc::new)
-    }
-
-    fn bytes(table: &Self::Answer) -> usize {
-        let samples = |table: &Table| table.curves.iter().map(|curve| 2 * size_of_val(&*curve.values)).sum();
-        table.as_ref().map_or(0, |table| samples(table))
+    fn bytes(look: &FilePreview) -> usize {
+        let samples = |table: &SpectralFile| table.curves.iter().map(|curve| 2 * size_of_val(&*curve.values)).sum();
+        look.table.as_ref().map_or(0, |table| samples(table))
     }
 }
 

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde_json::{Value, json};
 use spectral_file::write::Prepared;
-use spectral_file::{Certainty, Curve, ReadError, Reading, Table};
+use spectral_file::{Certainty, Curve, ReadError, ReadReport, SpectralFile};
 
 use super::Failure;
 
@@ -17,7 +17,7 @@ pub(super) fn failure(name: &str, failure: &Failure) -> Value {
 pub(super) fn write(
     out: &mut dyn Write,
     name: &str,
-    table: &Table,
+    table: &SpectralFile,
     prepared: Option<&mut Prepared<'_>>,
 ) -> io::Result<()> {
     write!(out, "{{\"file\":{},\"kind\":{},\"curves\":[", json!(name), json!(table.role.value))?;
@@ -55,7 +55,7 @@ pub(super) fn write(
 fn curve(
     out: &mut dyn Write,
     (index, curve): (usize, &Curve),
-    table: &Table,
+    table: &SpectralFile,
     (wavelengths, values): (&[f64], &[f64]),
 ) -> io::Result<()> {
     let unit = if table.role.value.is_fraction() { Some("1") } else { curve.unit.as_deref() };
@@ -82,7 +82,7 @@ const fn certainty(certainty: Certainty) -> &'static str {
     }
 }
 
-fn reading(reading: &Reading) -> Value {
+fn reading(reading: &ReadReport) -> Value {
     let dropped = reading.dropped_rows.iter().map(|row| json!({ "line": row.line, "why": row.why.to_string() }));
     let comments = reading.header.iter().map(|(key, value)| json!({ "key": key, "value": value }));
     let parts = reading

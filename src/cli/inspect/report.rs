@@ -3,7 +3,7 @@
 use std::fmt::{Display, Write as _};
 
 use spectral_file::write::Note;
-use spectral_file::{Curve, Reading, Table};
+use spectral_file::{Curve, ReadReport, SpectralFile};
 
 use crate::format;
 
@@ -13,7 +13,7 @@ const NAMED: usize = 20;
 const TOLD: usize = 6;
 
 /// The name of the file, and below it a line for each decision, fact and warning.
-pub(super) fn of(name: &str, table: &Table, notes: &[Note]) -> String {
+pub(super) fn of(name: &str, table: &SpectralFile, notes: &[Note]) -> String {
     let mut text = format!("{name}\n");
     for decision in table.decisions() {
         line(&mut text, decision.what, format_args!("{} ({}): {}", decision.value, decision.certainty, decision.why));
@@ -33,7 +33,7 @@ fn line(text: &mut String, what: &str, words: impl Display) {
     let _infallible = writeln!(text, "  {what}: {words}");
 }
 
-fn facts(text: &mut String, table: &Table) {
+fn facts(text: &mut String, table: &SpectralFile) {
     let reading = &table.reading;
     line(text, "Rows", rows(reading));
     let [first, last] = reading.range_nm;
@@ -57,7 +57,7 @@ fn facts(text: &mut String, table: &Table) {
     }
 }
 
-fn rows(reading: &Reading) -> String {
+fn rows(reading: &ReadReport) -> String {
     let first = reading.first_data_line;
     let begin = format!("{}, from line {first}", reading.rows);
     [vec![begin], format::dropped_rows(&reading.dropped_rows, TOLD)].concat().join("; ")

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use spectral_file::write::{Content, Note, Prepared};
-use spectral_file::{Role, Table};
+use spectral_file::{Role, SpectralFile};
 
 use super::Stop;
 
@@ -24,7 +24,7 @@ pub(super) fn write(prepared: &mut Prepared<'_>, out: &mut dyn Write) -> Result<
 }
 
 /// Kind of the curves for those who write them.
-pub(super) fn content(table: &Table) -> Content<'_> {
+pub(super) fn content(table: &SpectralFile) -> Content<'_> {
     match table.role.value {
         Role::Camera => table.reading.camera_columns.map_or(Content::Observer, |channels| Content::Camera {
             channels,

@@ -1,6 +1,6 @@
 //! From what was read to the lines that are drawn.
 
-use spectral_file::{Quantity, Role, Table};
+use spectral_file::{Quantity, Role, SpectralFile};
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 
@@ -60,7 +60,7 @@ impl Curves {
         }
     }
 
-    fn of_table(shown: &ImportSelection, table: &Table, most: usize) -> Self {
+    fn of_table(shown: &ImportSelection, table: &SpectralFile, most: usize) -> Self {
         let all = taken(table, &shown.wishes);
         let role = table.role.value;
         let channels = shown.wishes.channels.or(table.reading.camera_columns).unwrap_or([0, 1, 2]);

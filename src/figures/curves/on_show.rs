@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use chromascope_core::query::Shared;
-use spectral_file::{ReadError, Table};
+use spectral_file::{ReadError, SpectralFile};
 
 use crate::catalog::import::taken;
 use crate::catalog::opened::{FilePreview, OpenFile, Opened};
@@ -90,7 +90,7 @@ impl ImportSelection {
     }
 
     /// What the contents were understood as.
-    pub fn table(&self) -> Option<&Table> {
+    pub fn table(&self) -> Option<&SpectralFile> {
         self.look.as_ref()?.table.as_deref().ok()
     }
 

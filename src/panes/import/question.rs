@@ -1,7 +1,7 @@
 //! The question that a file leaves open, with its answers: nothing is scaled before one is chosen.
 
 use egui::{Rect, RichText, Sense, Ui, UiBuilder, Vec2};
-use spectral_file::{Certainty, Role, Table, Values};
+use spectral_file::{Certainty, Role, SpectralFile, Values};
 
 use crate::command::Command;
 use crate::figures::curves::ImportSelection;
@@ -37,7 +37,7 @@ const SCALES: [Answer; 2] = [
 ];
 
 /// What the file on show leaves open, and the answers.
-fn question(table: &Table) -> Option<(&str, &'static [Answer])> {
+fn question(table: &SpectralFile) -> Option<(&str, &'static [Answer])> {
     let open = |certainty| certainty == Certainty::Open;
     match (&table.role, &table.reading.values) {
         (role, _) if open(role.certainty) => Some((&role.why, &KINDS)),

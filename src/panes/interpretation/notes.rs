@@ -1,7 +1,7 @@
 //! What should be looked at, what was decided, and where the numbers are from.
 
 use egui::{Align, Id, RichText, Ui};
-use spectral_file::Table;
+use spectral_file::SpectralFile;
 
 use super::note;
 use crate::figures::curves::ImportSelection;
@@ -84,7 +84,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
 }
 
 /// Where the numbers are from, a line each.
-fn facts(shown: &ImportSelection, table: &Table) -> Vec<String> {
+fn facts(shown: &ImportSelection, table: &SpectralFile) -> Vec<String> {
     let reading = &table.reading;
     let step = reading.step_nm;
     let mut facts = vec![
@@ -104,7 +104,7 @@ fn facts(shown: &ImportSelection, table: &Table) -> Vec<String> {
 }
 
 /// All of it as text.
-fn text(shown: &ImportSelection, table: &Table) -> String {
+fn text(shown: &ImportSelection, table: &SpectralFile) -> String {
     let mut lines: Vec<String> = table.warnings.iter().map(ToString::to_string).collect();
     let decisions = table.decisions();
     lines.extend(decisions.iter().map(|d| format!("{}: {} ({}). {}.", d.what, d.value, d.certainty, d.why)));

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 use spectral_file::{
-    Certainty, Decided, DecimalMark, Delimiter, Orientation, Reader, Role, Table, Values, WavelengthUnit,
+    Certainty, Decided, DecimalMark, Delimiter, Orientation, Reader, Role, SpectralFile, Values, WavelengthUnit,
 };
 
 use super::{CONTENT, CONTENT_SHORT, Closed, list, parts};
@@ -188,7 +188,7 @@ fn pair(ui: &mut Ui, gap: f32, add: impl FnOnce(&mut Ui)) {
 }
 
 /// Whether the file is, or is to be read as, numbers in columns.
-fn columns(table: Option<&Table>, wish: Option<Reader>) -> bool {
+fn columns(table: Option<&SpectralFile>, wish: Option<Reader>) -> bool {
     let known = table.map(|table| table.reading.reader.value);
     wish.or(known).is_none_or(|reader| reader == Reader::Table)
 }
@@ -240,7 +240,7 @@ fn header(shown: &ImportSelection) -> Vec<String> {
 }
 
 /// Which of several tables in one file.
-fn part(ui: &mut Ui, table: Option<&Table>, wish: &mut Option<usize>, theme: &Theme, width: f32) {
+fn part(ui: &mut Ui, table: Option<&SpectralFile>, wish: &mut Option<usize>, theme: &Theme, width: f32) {
     let known = table.map_or(&[][..], |table| &table.reading.parts);
     if known.len() < 2 && wish.is_none() {
         return;

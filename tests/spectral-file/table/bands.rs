@@ -1,6 +1,8 @@
 //! Wavelengths in the names of columns, and rows that name the channels of a camera.
 
-use spectral_file::{Certainty, Preview, ReadError, ReadOptions, Role, Values, Warning, WavelengthUnit, What, read};
+use spectral_file::{
+    Certainty, Preview, ReadError, ReadOptions, Role, Values, Warning, Watch, WavelengthUnit, What, read, read_marked,
+};
 
 use super::{error, names, ok};
 
@@ -47,18 +49,19 @@ fn other_columns_stand_on_both_sides() {
 #[test]
 fn groups_with_different_names_are_parts() {
     let text = wide(&["SCI #nm", "SCE #nm"], ",");
+    let choice = |part| ReadOptions { part: Some(part), ..ReadOptions::default() };
     let first = ok(&text);
     let parts: Vec<&str> = first.reading.parts.iter().map(|part| part.name.as_str()).collect();
     assert_eq!((parts, first.reading.part.value), (vec!["SCI", "SCE"], 1));
     assert_eq!(first.warnings, [Warning::MoreGroups { count: 2, second: "SCE".to_owned() }]);
-    let part = |part| read(text.as_bytes(), &ReadOptions { part: Some(part), ..ReadOptions::default() });
+    let part = |part| read(text.as_bytes(), &choice(part));
     let second = part(2).unwrap();
     assert_eq!((second.curves[0].values[0], second.curves[0].wavelengths_nm[0]), (0.15, 360.0));
     assert_eq!((second.warnings.len(), second.reading.part.certainty), (0, Certainty::Chosen));
     assert_eq!(part(3), Err(ReadError::NoSuchPart { part: 3, parts: 2 }));
-    for table in [&first, &second] {
+    for (part, table) in [(1, &first), (2, &second)] {
         let preview = Preview::new(text.as_bytes()).unwrap();
-        let marker = preview.marker(table);
+        let (_, marker) = read_marked(text.as_bytes(), &choice(part), Watch::none()).unwrap();
         let values = preview.marks(3, table, &marker).into_iter().filter_map(|mark| match mark.what {
             What::Value { value, curve: 1, .. } => Some(value),
             _ => None,

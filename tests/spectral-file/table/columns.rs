@@ -1,7 +1,7 @@
 //! Columns of text, columns before the wavelengths, lines that begin with `#`, names that come again, thousands.
 
 use spectral_file::{
-    Certainty, DecimalMark, Delimiter, Nearly, ReadError, ReadOptions, Switch, Warning, Watch, WavelengthUnit, read,
+    Certainty, DecimalMark, Delimiter, NearMiss, ReadError, ReadOptions, Switch, Warning, Watch, WavelengthUnit, read,
     read_watched,
 };
 
@@ -177,16 +177,16 @@ fn columns_of_text_are_left_out() {
         assert_eq!(table.warnings.len(), warnings, "{:?}", table.warnings);
     }
     let disorder = error("one;2;x;3\ntwo;1;y;3\nthree;2;z;4\n");
-    assert!(matches!(disorder, ReadError::NearlyRow { line: 1, why: Nearly::Order, .. }), "{disorder}");
+    assert!(matches!(disorder, ReadError::NearlyRow { line: 1, why: NearMiss::Order, .. }), "{disorder}");
 }
 
 #[test]
 fn what_is_nearly_a_row_is_cited() {
     for (text, line, why) in [
-        ("hello\nnm;R\n400: 0.1\n410: 0.2\n", 3, Nearly::Between(':')),
-        ("400|0.1\n410|0.2\n420|0.3\n", 1, Nearly::Between('|')),
-        ("nm R\n400 abc\n410 def\n420 x\n", 2, Nearly::TextAfter),
-        ("nm;R\n400;\"\n", 2, Nearly::TextAfter),
+        ("hello\nnm;R\n400: 0.1\n410: 0.2\n", 3, NearMiss::Between(':')),
+        ("400|0.1\n410|0.2\n420|0.3\n", 1, NearMiss::Between('|')),
+        ("nm R\n400 abc\n410 def\n420 x\n", 2, NearMiss::TextAfter),
+        ("nm;R\n400;\"\n", 2, NearMiss::TextAfter),
     ] {
         let found = error(text);
         assert_eq!(found.line(), Some(line), "{found}");

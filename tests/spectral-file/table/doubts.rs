@@ -1,6 +1,8 @@
 //! What is read with a doubt that is told: encodings, commas, values below zero, quantities that were chosen.
 
-use spectral_file::{Certainty, DecimalMark, Encoding, Quantity, ReadError, ReadOptions, Role, Table, Warning, read};
+use spectral_file::{
+    Certainty, DecimalMark, Encoding, Quantity, ReadError, ReadOptions, Role, SpectralFile, Warning, read,
+};
 
 use super::{names, ok, ok_bytes, samples};
 
@@ -47,7 +49,7 @@ fn two_bytes_a_character_need_no_mark() {
     assert_eq!(ok_bytes(&padded).reading.encoding, Encoding::Utf8);
 }
 
-fn with_commas(text: &str) -> Result<Table, ReadError> {
+fn with_commas(text: &str) -> Result<SpectralFile, ReadError> {
     read(text.as_bytes(), &ReadOptions { decimal_mark: Some(DecimalMark::Comma), ..ReadOptions::default() })
 }
 

@@ -1,7 +1,7 @@
 //! Lights in photons and per frequency, digits that are kept, thousands far down, and marks that stay right.
 
 use spectral_file::write::{Content, Format, Grid, Sheet, Trace, write};
-use spectral_file::{Certainty, Preview, ReadOptions, Role, Values, read};
+use spectral_file::{Certainty, Preview, ReadOptions, Role, Values, Watch, read, read_marked};
 
 use super::{ok, samples};
 
@@ -120,20 +120,22 @@ fn thousands_that_begin_far_down_end_no_table() {
 }
 
 #[test]
-fn marks_of_converted_and_missing_values_are_right_or_absent() {
+fn converted_and_missing_values_are_marked() {
     let photons = "nm,Lamp (umol/m2/s/nm)\n400,1\n500,2\n";
     let gap = "nm,Reflectance\n400,0.1\n450,-999\n500,0.2\n";
     let percent = "nm,Reflectance (%)\n400,23.333\n450,33.3\n";
     let tell = |text: &str| {
-        let table = ok(text);
+        let (table, marker) = read_marked(text.as_bytes(), &ReadOptions::default(), Watch::none()).unwrap();
         let preview = Preview::new(text.as_bytes()).unwrap();
-        let marker = preview.marker(&table);
         (1..=preview.line_count())
             .flat_map(|line| preview.marks(line, &table, &marker))
             .map(|mark| format!("{:?}", mark.what))
             .collect::<Vec<_>>()
     };
-    assert_eq!(tell(photons), Vec::<String>::new());
+    let written = tell(photons).into_iter().filter(|mark| mark.contains("Value"));
+    let written: Vec<bool> =
+        written.zip(["written: 1.0", "written: 2.0"]).map(|(mark, said)| mark.contains(said)).collect();
+    assert_eq!(written, [true, true]);
     let gap = tell(gap);
     assert!(gap.iter().any(|mark| mark.contains("Gap")), "{gap:?}");
     let values = tell(percent).into_iter().filter(|mark| mark.contains("Value")).count();

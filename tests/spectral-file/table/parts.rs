@@ -3,15 +3,17 @@
 use std::cell::Cell;
 
 use proptest::prelude::*;
-use spectral_file::{Certainty, ReadError, ReadOptions, Reader, Switch, Table, Warning, Watch, read, read_watched};
+use spectral_file::{
+    Certainty, ReadError, ReadOptions, Reader, SpectralFile, Switch, Warning, Watch, read, read_watched,
+};
 
 use super::{names, ok, samples};
 
-fn with(text: &str, options: &ReadOptions) -> Result<Table, ReadError> {
+fn with(text: &str, options: &ReadOptions) -> Result<SpectralFile, ReadError> {
     read(text.as_bytes(), options)
 }
 
-fn part(text: &str, part: usize) -> Result<Table, ReadError> {
+fn part(text: &str, part: usize) -> Result<SpectralFile, ReadError> {
     with(text, &ReadOptions { part: Some(part), ..ReadOptions::default() })
 }
 

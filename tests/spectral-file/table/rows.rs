@@ -1,6 +1,6 @@
 //! Rows with units in their cells, with text among them, and rows that come again.
 
-use spectral_file::{Dropped, LeftOut, Preview, ReadOptions, Role, Warning, What, read};
+use spectral_file::{Dropped, LeftOut, Mark, Preview, ReadOptions, Role, Warning, Watch, What, read, read_marked};
 
 use super::{names, ok, samples};
 
@@ -42,11 +42,14 @@ fn remarks_in_some_rows_are_left_out() {
     assert!(matches!(table.warnings.as_slice(), [Warning::TextColumns { column: 3, .. }]), "{:?}", table.warnings);
 }
 
+fn marks(text: &str, line: usize) -> Vec<Mark> {
+    let (table, marker) = read_marked(text.as_bytes(), &ReadOptions::default(), Watch::none()).unwrap();
+    Preview::new(text.as_bytes()).unwrap().marks(line, &table, &marker)
+}
+
 #[test]
 fn values_with_units_are_marked_in_the_text() {
-    let text = "nm,A\n400,4.0%\n410,5.0%\n420,6.5%\n";
-    let (table, preview) = (ok(text), Preview::new(text.as_bytes()).unwrap());
-    let marks = preview.marks(2, &table, &preview.marker(&table));
+    let marks = marks("nm,A\n400,4.0%\n410,5.0%\n420,6.5%\n", 2);
     assert_eq!(marks[1].what, What::Value { curve: 0, nm: 400.0, value: 0.04, written: 4.0 });
 }
 
@@ -59,9 +62,7 @@ fn one_wavelength_with_several_values_has_their_mean() {
     let [Warning::AveragedRows { lines }] = table.warnings.as_slice() else { panic!("{:?}", table.warnings) };
     assert_eq!(lines.first(), [3, 4]);
     assert!(table.reading.dropped_rows.iter().all(|row| row.why == Dropped::Averaged));
-    let preview = Preview::new(text.as_bytes()).unwrap();
-    let marks = preview.marks(4, &table, &preview.marker(&table));
-    assert_eq!(marks[0].what, What::LeftOut { why: LeftOut::Averaged });
+    assert_eq!(marks(text, 4)[0].what, What::LeftOut { why: LeftOut::Averaged });
     assert_eq!(ok("nm,a\n400,2\n390,2\n390,3\n380,1\n").curves[0].values, [1.0, 2.5, 2.0]);
     let pairs = ok("nm,a\n400,1\n400,2\n410,2\n410,3\n420,3\n420,4\n");
     assert_eq!(pairs.curves[0].values, [1.5, 2.5, 3.5]);

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use spectral_file::{
-    Encoding, Family, MAX_CURVES, Quantity, ReadError, ReadOptions, Reader, Role, Table, Warning, Watch, read,
+    Encoding, Family, MAX_CURVES, Quantity, ReadError, ReadOptions, Reader, Role, SpectralFile, Warning, Watch, read,
     read_watched,
 };
 
@@ -233,7 +233,7 @@ fn nesting_is_bounded() {
 }
 
 /// How often a reading looks whether to go on, and the last share it tells.
-fn looks(text: &str) -> (usize, f32, Result<Table, ReadError>) {
+fn looks(text: &str) -> (usize, f32, Result<SpectralFile, ReadError>) {
     let (count, last) = (Cell::new(0), Cell::new(0.0_f32));
     let look = |share: f32| {
         assert!(share >= last.get() && share <= 1.0, "{share} after {}", last.get());

@@ -3,7 +3,7 @@
 #![allow(clippy::format_push_string, clippy::format_collect, reason = "files are written as they read")]
 
 use proptest::prelude::*;
-use spectral_file::{Preview, ReadOptions, What, read};
+use spectral_file::{Preview, ReadOptions, Watch, What, read, read_marked};
 
 use super::{LEAF, Seen, families, sound};
 
@@ -12,14 +12,15 @@ fn look(bytes: &[u8]) {
         assert!(read(bytes, &ReadOptions::default()).is_err());
         return;
     };
-    match read(bytes, &ReadOptions::default()) {
+    match read_marked(bytes, &ReadOptions::default(), Watch::none()) {
         Err(error) => {
+            assert_eq!(read(bytes, &ReadOptions::default()), Err(error.clone()));
             if let Some((number, range)) = preview.error_range(&error) {
                 assert!(preview.line(number).unwrap().get(range).is_some());
             }
         }
-        Ok(table) => {
-            let marker = preview.marker(&table);
+        Ok((table, marker)) => {
+            assert_eq!(read(bytes, &ReadOptions::default()).as_ref(), Ok(&table), "recording changes nothing");
             for number in 1..=preview.line_count() {
                 let marks = preview.marks(number, &table, &marker);
                 sound(preview.line(number).unwrap(), &marks);
@@ -109,15 +110,12 @@ fn a_table_that_no_reader_made_is_survived() {
             table.curves[0].values.pop();
             table.curves[0].wavelengths_nm.remove(0);
             table.curves[0].wavelengths_nm.push(f64::NAN);
-            let marker = seen.preview.marker(&table);
             for number in 0..=seen.preview.line_count() {
-                seen.preview.marks(number, &table, &marker);
                 seen.preview.marks(number, &table, &seen.marker);
             }
         }
         table.curves.clear();
-        let marker = seen.preview.marker(&table);
-        (1..=seen.preview.line_count()).for_each(|number| drop(seen.preview.marks(number, &table, &marker)));
+        (1..=seen.preview.line_count()).for_each(|number| drop(seen.preview.marks(number, &table, &seen.marker)));
     }
 }
 
@@ -126,17 +124,15 @@ fn what_was_moved_or_left_out_is_never_marked_as_something_else() {
     let head = "##TITLE=t\n##XUNITS=NANOMETERS\n##YUNITS=REFLECTANCE\n##FIRSTX=400\n##LASTX=450\n##NPOINTS=6\n##XYDATA=(X++(Y..Y))\n";
     let blocks = "id,400,410,420,430,440,,400,410,420,430,440\na,.1,.2,.3,.4,.5,,.2,.3,.4,.5,.6\n";
     for (text, values) in [
-        // Lines in another order than their abscissas: no marks are better than wrong ones.
-        (format!("{head}400 .1 .2\n440 .5 .6\n420 .3 .4\n"), 0),
+        (format!("{head}400 .1 .2\n440 .5 .6\n420 .3 .4\n"), 6),
         (format!("{head}400 .1 .2\n440 .5 .6\n"), 4),
         ("id,400,410,420,430,440,450\na,.1,.2,.3,.4,.5,.6\n".replace("420", "4x0"), 5),
         (blocks.to_owned(), 5),
         ("nm;1/cm;A\n400;25000;.1\n500;20000;.2\n625;16000;.3\n".to_owned(), 3),
         ("id,Mode,400,410,420,430,440\na,Reflectance,.1,.2,.3,.4,.5\nb,Transmittance,.2,.3,.4,.5,.6\n".to_owned(), 5),
     ] {
-        let table = read(text.as_bytes(), &ReadOptions::default()).unwrap();
+        let (table, marker) = read_marked(text.as_bytes(), &ReadOptions::default(), Watch::none()).unwrap();
         let preview = Preview::new(text.as_bytes()).unwrap();
-        let marker = preview.marker(&table);
         let all = (1..=preview.line_count()).flat_map(|line| {
             let marks = preview.marks(line, &table, &marker);
             marks.into_iter().map(move |mark| (line, mark.what)).collect::<Vec<_>>()

@@ -1,17 +1,19 @@
 //! Columns that are no curves: wavelengths again, in another unit, at the other edges of intervals, or counts and times of rows.
 
-use super::super::header::Header;
-use super::super::wide::listed;
-use super::super::words::{self, XUnit};
+use crate::header::Header;
+use crate::header_terms;
+use crate::header_terms::XUnit;
+use crate::no_curve::{FEWEST_ROWS, counts, is_empty, is_other_scale, tells_rows_apart};
+use crate::text::listed;
 
-/// What the columns beside the first wavelengths are.
+/// Roles of the columns beside the first wavelengths.
 #[derive(Debug, Default)]
 pub(super) struct Axes {
     /// Columns, counted from the one right of the wavelengths, that hold the wavelengths of those behind them.
     pub(super) more: Vec<usize>,
     /// Columns of the table that are left out.
     pub(super) left: Vec<usize>,
-    /// Whether only the numbers suggest that there are several columns of wavelengths.
+    /// True if only the numbers suggest that there are several columns of wavelengths.
     pub(super) guessed: bool,
 }
 
@@ -29,8 +31,11 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
     let mut axes = Axes::default();
     for (column, values) in before.iter().enumerate() {
         let name = header.name(column).unwrap_or_default();
-        let named = words::names_axis(name) && runs_like_axis(header, [at, column], wavelengths, values);
-        let scale = named || words::is_label(name) || words::names_time(name) || is_scale(wavelengths, values);
+        let named = header_terms::names_axis(name) && runs_like_axis(header, [at, column], wavelengths, values);
+        let scale = named
+            || header_terms::is_label(name)
+            || header_terms::names_time(name)
+            || is_other_scale(wavelengths, values);
         axes.left.extend((scale && !is_empty(values)).then_some(column));
     }
     let kind = |(index, column): (usize, &Vec<f64>)| kind(header, at, index, wavelengths, column);
@@ -61,23 +66,20 @@ pub(super) fn told(header: &Header, columns: &[usize]) -> String {
     listed(&columns.iter().map(told).collect::<Vec<_>>())
 }
 
-fn is_empty(column: &[f64]) -> bool {
-    column.iter().all(|value| value.is_nan())
-}
-
 fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &[f64]) -> Kind {
     let name = header.name(at + 1 + index);
     // A column with a name of its own is a curve, even if it happens to hold the same numbers.
     let alike = name.is_none_or(|name| header.name(at) == Some(name));
     let scale = || {
-        let label = |name| words::is_label(name) && tells_rows_apart(column);
-        name.is_some_and(|name| words::names_time(name) || (words::is_count(name) && counts(column)) || label(name))
-            || is_scale(wavelengths, column)
+        let label = |name| header_terms::is_label(name) && tells_rows_apart(column);
+        name.is_some_and(|name| {
+            header_terms::names_time(name) || (header_terms::is_count(name) && counts(column)) || label(name)
+        }) || is_other_scale(wavelengths, column)
     };
     match () {
         () if is_empty(column) => Kind::Empty,
         () if scale() => Kind::Scale,
-        () if name.is_some_and(words::names_axis)
+        () if name.is_some_and(header_terms::names_axis)
             && runs_like_axis(header, [at, at + 1 + index], wavelengths, column) =>
         {
             Kind::Wavelengths
@@ -89,8 +91,8 @@ fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &
 
 /// The unit that the header gives for a column of wavelengths.
 pub(super) fn unit(header: &Header, column: usize) -> Option<XUnit> {
-    let unit = header.units.get(column).and_then(|unit| words::x_unit(unit));
-    unit.or_else(|| words::x_unit(header.name(column)?))
+    let unit = header.units.get(column).and_then(|unit| header_terms::x_unit(unit));
+    unit.or_else(|| header_terms::x_unit(header.name(column)?))
 }
 
 /// The ends of numbers that rise or fall all the way, up to the last one.
@@ -102,7 +104,7 @@ fn ends(values: &[f64]) -> Option<(f64, f64)> {
     (a.is_finite() && b.is_finite() && (ordered(1.0) || ordered(-1.0))).then_some((a.min(b), a.max(b)))
 }
 
-/// Whether the numbers of a column whose name mentions wavelengths run as those in the first of two columns do: names such as
+/// Returns whether the numbers of a column whose name mentions wavelengths run as those in the first of two columns do: names such as
 /// `LED, wavelength shifted` do so too.
 fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f64], values: &[f64]) -> bool {
     let name = header.name(column);
@@ -118,7 +120,7 @@ fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f
     };
     let (from, to) = (from.min(to), from.max(to));
     let known = own.or(shared).is_some();
-    let plausible = super::super::wavelengths::plausible(from, to, !known);
+    let plausible = crate::wavelength_unit::plausible(from, to, !known);
     let overlaps = || match (ends(wavelengths), shared) {
         (Some((a, b)), Some(XUnit::Wavelength(unit))) => {
             let (a, b) = (unit.nanometers(a), unit.nanometers(b));
@@ -127,42 +129,10 @@ fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f
         (Some((a, b)), None) if own.is_none() => from < b && to > a,
         _ => true,
     };
-    plausible && (name.is_some_and(words::begins_with_wavelengths) || overlaps())
+    plausible && (name.is_some_and(header_terms::begins_with_wavelengths) || overlaps())
 }
 
-/// Whether numbers can tell rows apart or mark them: all the same, or flags, or a count of the rows.
-fn tells_rows_apart(column: &[f64]) -> bool {
-    let whole = column.iter().all(|value| value.fract() == 0.0);
-    let flags = || column.iter().all(|value| matches!(value, 0.0 | 1.0));
-    whole && (counts(column) || flags() || column.iter().all(|value| *value == column[0]))
-}
-
-/// Whether numbers count their rows.
-pub(in super::super) fn counts(column: &[f64]) -> bool {
-    column.len() > 1
-        && column.windows(2).all(|pair| (pair[1] - pair[0]).abs() == 1.0 && pair[1] - pair[0] == column[1] - column[0])
-}
-
-/// The fewest rows that show how two columns belong together.
-const FEWEST: usize = 3;
-
-/// Whether a column holds the wavelengths of another in a unit that is inverse to theirs, or the upper edges of their intervals.
-pub(in super::super) fn is_scale(wavelengths: &[f64], column: &[f64]) -> bool {
-    /// Wave numbers in 1/cm, energies in eV and frequencies in THz, times nanometers.
-    const PRODUCTS: [f64; 3] = [1e7, 1_239.841_984, 299_792.458];
-    const CLOSE: f64 = 1e-3;
-    if wavelengths.len() < FEWEST {
-        return false;
-    }
-    let pairs = || wavelengths.iter().zip(column);
-    let inverse = PRODUCTS.iter().any(|product| {
-        // Also of micrometers and of ångströms.
-        [1.0, 1e-3, 10.0].iter().any(|unit| pairs().all(|(w, c)| (w * c / (product * unit) - 1.0).abs() < CLOSE))
-    });
-    inverse || wavelengths[1..] == column[..column.len() - 1]
-}
-
-/// Whether nothing names a column, or its name is that of the first wavelengths, or only says x.
+/// Returns whether nothing names a column, or its name is that of the first wavelengths, or only says x.
 fn is_open(header: &Header, at: usize, column: usize) -> bool {
     let unit = |column: usize| header.units.get(column).map(String::as_str).filter(|unit| !unit.is_empty());
     let name = header.name(column);
@@ -177,10 +147,10 @@ fn guess_pairs(header: &Header, at: usize, first: &[f64], columns: &[Vec<f64>], 
     let named = !header.names.is_empty();
     let sound = |values: &[f64]| -> Option<(f64, f64)> {
         let (low, high) = ends(values)?;
-        let enough = values.iter().filter(|value| !value.is_nan()).nth(FEWEST).is_some();
-        (enough && super::super::wavelengths::plausible(low, high, named)).then_some((low, high))
+        let enough = values.iter().filter(|value| !value.is_nan()).nth(FEWEST_ROWS).is_some();
+        (enough && crate::wavelength_unit::plausible(low, high, named)).then_some((low, high))
     };
-    let Some((low, high)) = sound(first).filter(|_| filled.len() >= FEWEST && filled.len() % 2 == 1) else {
+    let Some((low, high)) = sound(first).filter(|_| filled.len() >= FEWEST_ROWS && filled.len() % 2 == 1) else {
         return false;
     };
     let is_like = |index: usize| {
@@ -203,7 +173,7 @@ fn guess_pairs(header: &Header, at: usize, first: &[f64], columns: &[Vec<f64>], 
 /// The column of wavelengths in a table without names whose first column counts its rows.
 pub(super) fn after_count(cells: &[Vec<f64>]) -> Option<usize> {
     let [count, wavelengths, _, ..] = cells else { return None };
-    let from_start = count.len() > FEWEST && counts(count) && matches!(count[0], 0.0 | 1.0);
+    let from_start = count.len() > FEWEST_ROWS && counts(count) && matches!(count[0], 0.0 | 1.0);
     let (low, high) = ends(wavelengths).filter(|_| from_start)?;
-    super::super::wavelengths::plausible(low, high, false).then_some(1)
+    crate::wavelength_unit::plausible(low, high, false).then_some(1)
 }

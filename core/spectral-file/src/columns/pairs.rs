@@ -1,13 +1,18 @@
 //! Columns in groups, each with wavelengths of its own before its values.
 
-use super::super::families::spectra::{self, Sample, Spectrum};
-use super::super::grid::Grid;
-use super::super::header::Header;
-use super::super::watch::Log;
-use super::super::words::XUnit;
-use super::super::{Decided, Decision, ReadError, WavelengthUnit};
-use super::axes::{self, Axes};
-use super::raw_curve;
+use crate::columns::axes::Axes;
+use crate::columns::{axes, raw_curve};
+use crate::error::ReadError;
+use crate::formats::spectra;
+use crate::formats::spectra::{Sample, Spectrum};
+use crate::grid::Grid;
+use crate::header::Header;
+use crate::header_terms::XUnit;
+use crate::no_curve::is_empty;
+use crate::places::PlaceId;
+use crate::report::{Decided, Decision};
+use crate::watch::Log;
+use crate::wavelength_unit::WavelengthUnit;
 
 /// The unit of a column of wavelengths and that of the first, where they differ.
 fn units(header: &Header, first: usize, column: usize) -> Option<(WavelengthUnit, WavelengthUnit)> {
@@ -28,10 +33,9 @@ pub(super) fn read(
     log: &mut Log<'_>,
 ) -> Result<(Grid, Option<Decision>), ReadError> {
     let more = &found.more;
-    let empty = |values: &[f64]| values.iter().all(|value| value.is_nan());
     let is_curve = |index: usize, values: &[f64]| {
         let column = at + 1 + index;
-        !more.contains(&index) && !found.left.contains(&column) && (header.name(column).is_some() || !empty(values))
+        !more.contains(&index) && !found.left.contains(&column) && (header.name(column).is_some() || !is_empty(values))
     };
     let count = columns.iter().enumerate().filter(|(index, values)| is_curve(*index, values)).count();
     let decided = |value: String| {
@@ -42,10 +46,13 @@ pub(super) fn read(
     if more.iter().all(|&index| columns[index] == first) {
         let values = columns.into_iter().enumerate().filter(|(index, values)| is_curve(*index, values));
         let curves = values.map(|(index, values)| raw_curve(&header, at + 1 + index, count == 1, values)).collect();
-        let grid = Grid { wavelengths: first, lines: lines.to_vec(), curves, header, ..Grid::default() };
+        let axes = more.iter().map(|index| (at + 1 + index, None)).collect();
+        let grid = Grid { wavelengths: first, lines: lines.to_vec(), curves, header, axes, ..Grid::default() };
         return Ok((grid, decided(format!("{count} curves over the same wavelengths"))));
     }
+    let mut axes = Vec::with_capacity(more.len());
     for &index in more {
+        axes.push((at + 1 + index, units(&header, at, at + 1 + index).map(|(own, _)| own)));
         if let Some((own, shared)) = units(&header, at, at + 1 + index) {
             columns[index].iter_mut().for_each(|value| *value = shared.from_nanometers(own.nanometers(*value)));
         }
@@ -66,14 +73,16 @@ pub(super) fn read(
             .zip(values)
             .zip(lines)
             .filter(|((wavelength, value), _)| !(wavelength.is_nan() || value.is_nan()));
-        let samples = rows.map(|((&wavelength, &value), &line)| Sample { wavelength, value, line }).collect();
+        let samples = rows
+            .map(|((&wavelength, &value), &line)| Sample { wavelength, value, line, place: PlaceId::default() })
+            .collect();
         all.push(Spectrum { name: Some(curve.name), label: curve.label, samples });
-        units.push((curve.unit, curve.named));
+        units.push((curve.unit, curve.named, curve.origin));
     }
     let mut grid = spectra::grid(all, header, log)?;
-    for (curve, (unit, named)) in grid.curves.iter_mut().zip(units) {
-        curve.unit = unit;
-        curve.named = named;
+    for (curve, (unit, named, origin)) in grid.curves.iter_mut().zip(units) {
+        (curve.unit, curve.named, curve.origin) = (unit, named, origin);
     }
+    (grid.axes, grid.row_lines) = (axes, lines.to_vec());
     Ok((grid, decided(format!("{count} curves with wavelengths of their own"))))
 }

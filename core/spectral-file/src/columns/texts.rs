@@ -1,7 +1,7 @@
 //! Columns of text in a table: left out, unless each cell is a number with the same unit.
 
-use super::super::dialect::{Cell, Dialect};
-use super::super::grid::RawCurve;
+use crate::dialect::{Cell, Dialect};
+use crate::grid::RawCurve;
 
 /// The columns of text of a table.
 #[derive(Debug)]
@@ -15,7 +15,7 @@ struct Text {
     column: usize,
     /// The unit of all cells until now.
     unit: Option<String>,
-    /// Whether a cell was no number with that unit.
+    /// True if a cell was no number with that unit.
     other: bool,
 }
 
@@ -26,7 +26,7 @@ impl Texts {
         Self { mask, columns: columns.map(|column| Text { column, unit: None, other: false }).collect() }
     }
 
-    /// Whether a column holds text, or numbers with units.
+    /// Returns whether a column holds text, or numbers with units.
     #[inline]
     pub(super) fn contains(&self, column: usize) -> bool {
         column < 128 && self.mask >> column & 1 == 1

@@ -1,13 +1,14 @@
-//! Cells with their places, and what all numbers of a table have in common.
+//! Cells of a line with their places.
 
 use std::ops::Range;
 
-use super::super::decimal;
-use super::super::dialect::{Cell, Dialect};
-use super::super::text;
-use super::super::{Curve, Reading, Table, Values, WavelengthUnit};
+use crate::dialect::{Cell, Dialect};
+use crate::file::Curve;
+use crate::separators::{DecimalMark, Delimiter};
+use crate::text;
+use crate::wavelength_unit::WavelengthUnit;
 
-/// Where a piece of a text begins in it.
+/// Offset of a piece of a text in it.
 pub(super) fn offset(text: &str, piece: &str) -> usize {
     piece.as_ptr().addr().saturating_sub(text.as_ptr().addr()).min(text.len())
 }
@@ -23,19 +24,24 @@ pub(super) fn trimmed(line: &str) -> Range<usize> {
     range(line, line.trim())
 }
 
-/// Whether a line can be a row: neither blank nor a comment.
+/// True for a line that can be a row: neither blank nor a comment.
 pub(super) fn is_content(line: &str) -> bool {
     !line.trim_ascii().is_empty() && text::comment(line).is_none()
 }
 
-/// Whether a range touches a window. An empty one does where it stands.
+/// True for a range that touches a window; an empty range touches where it stands.
 pub(super) fn touches(range: &Range<usize>, window: &Range<usize>) -> bool {
     range.start < window.end && range.end >= window.start
 }
 
-/// The dialect of a reading.
-pub(super) fn dialect(reading: &Reading) -> Dialect {
-    Dialect { delimiter: reading.delimiter.value, mark: reading.decimal_mark.value, thousands: reading.thousands }
+/// The cells of a line that touch a window, with their columns.
+pub(super) fn within<'a>(
+    dialect: Dialect,
+    line: &'a str,
+    window: &Range<usize>,
+) -> impl Iterator<Item = (usize, Range<usize>, &'a str)> {
+    let cells = dialect.cells(line).enumerate().map(move |(column, cell)| (column, range(line, cell), cell));
+    cells.take_while(|(_, range, _)| range.start < window.end).filter(|(_, range, _)| range.end >= window.start)
 }
 
 /// The wavelength that a cell holds, in nanometers.
@@ -48,7 +54,7 @@ pub(super) fn wavelength(dialect: Dialect, unit: WavelengthUnit, cell: &str) -> 
     Some(unit.nanometers(written)).filter(|nm| nm.is_finite())
 }
 
-/// What a cell holds, with its unit or without.
+/// The content of a cell, a unit beside its number aside.
 pub(super) fn parse(dialect: Dialect, cell: &str) -> Cell {
     match dialect.parse(cell) {
         Cell::Text => dialect.parse_united(cell).map_or(Cell::Text, |(value, _)| Cell::Number(value)),
@@ -56,38 +62,19 @@ pub(super) fn parse(dialect: Dialect, cell: &str) -> Cell {
     }
 }
 
-/// The value of a curve at one of its wavelengths.
-pub(super) fn at(curve: &Curve, nm: f64) -> Option<f64> {
-    let index = curve.wavelengths_nm.binary_search_by(|probe| probe.total_cmp(&nm)).ok()?;
-    curve.values.get(index).copied()
+/// A number as written, with either decimal mark.
+pub(super) fn number(text: &str) -> Option<f64> {
+    let mark = if text.contains(',') { DecimalMark::Comma } else { DecimalMark::Point };
+    match Dialect::new(Delimiter::Spaces, mark).parse(text) {
+        Cell::Number(value) => Some(value),
+        Cell::Gap | Cell::Text => None,
+    }
 }
 
-/// What is done to the numbers of a file before they are values.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Conversion {
-    values: Values,
-    /// What the file itself multiplies and divides by.
-    pub(super) factor: f64,
-    divisor: f64,
-}
-
-impl Conversion {
-    pub(super) fn of(table: &Table) -> Self {
-        let scale = table.reading.notes.iter().find(|note| note.what == "Scale");
-        let divisor = scale.and_then(|note| note.value.strip_prefix("divided by ")?.parse().ok());
-        let divisor = divisor.filter(|divisor: &f64| *divisor > 0.0).unwrap_or(1.0);
-        Self { values: table.reading.values.value, factor: 1.0, divisor }
-    }
-
-    /// Whether a number as written is a value of the table. Not all curves of a table need be converted.
-    pub(super) fn gives(self, written: f64, value: f64) -> bool {
-        let scaled = decimal::divided(written * self.factor, self.divisor);
-        let converted = match self.values {
-            Values::Plain => scaled,
-            Values::Percent => decimal::shifted(scaled, -2),
-            Values::Absorbance => 10_f64.powf(-scaled),
-            Values::Decibels => 10_f64.powf(scaled / 10.0),
-        };
-        scaled == value || converted == value
-    }
+/// The wavelength and the value of the sample nearest to a wavelength, if it is at that wavelength but for rounding.
+pub(super) fn sample(curve: &Curve, nm: f64) -> Option<(f64, f64)> {
+    const ROUNDING_NM: f64 = 1e-6;
+    let at = curve.wavelengths_nm.partition_point(|wavelength| *wavelength < nm - ROUNDING_NM);
+    let found = curve.wavelengths_nm.get(at).filter(|found| (**found - nm).abs() <= ROUNDING_NM)?;
+    Some((*found, *curve.values.get(at)?))
 }

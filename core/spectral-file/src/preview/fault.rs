@@ -1,11 +1,12 @@
-//! Where in a line a reading failed.
+//! Place in a line at which reading failed.
 
 use std::ops::Range;
 
-use super::super::dialect::Dialect;
-use super::super::text::excerpt;
-use super::super::{DecimalMark, Delimiter, ReadError};
-use super::cells;
+use crate::dialect::Dialect;
+use crate::error::ReadError;
+use crate::preview::cells;
+use crate::separators::{DecimalMark, Delimiter};
+use crate::text::excerpt;
 
 /// The bytes of a line that an error is about; the whole line where nothing closer is known.
 pub(super) fn range(line: &str, error: &ReadError) -> Range<usize> {

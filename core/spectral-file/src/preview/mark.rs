@@ -1,16 +1,18 @@
-//! What a piece of a line is, and how that is said.
+//! Meaning of a piece of a line, and its description.
 
 use std::fmt;
 use std::ops::Range;
 
-use super::super::{Curve, Table, Values};
+use crate::decimal::short;
+use crate::file::{Curve, SpectralFile};
+use crate::role::Values;
 
 /// A piece of a line that was understood.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
     /// Its bytes in the line, on the borders of characters. Empty where an empty cell stands for a gap.
     pub range: Range<usize>,
-    /// What it is.
+    /// Its meaning.
     pub what: What,
 }
 
@@ -20,7 +22,7 @@ impl Mark {
     }
 }
 
-/// What a piece of a line is.
+/// Meaning of a piece of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum What {
@@ -33,7 +35,7 @@ pub enum What {
     Value {
         /// Which of the table's curves, from 0.
         curve: usize,
-        /// Where, in nanometers.
+        /// Wavelength in nanometers.
         nm: f64,
         /// The value as the table has it.
         value: f64,
@@ -75,7 +77,7 @@ pub enum What {
 pub enum LeftOut {
     /// A column that is no curve: pixel numbers, raw counts, an empty column.
     Column,
-    /// The same as an earlier row.
+    /// A row equal to an earlier one.
     Repeated,
     /// A row at a wavelength at which another row has other values.
     Averaged,
@@ -110,14 +112,14 @@ impl What {
     }
 
     /// A short text for hovering: "Canon EOS 10D: 0.431 at 500 nm (written 43.1, percent)".
-    pub fn describe(&self, table: &Table) -> String {
+    pub fn describe(&self, table: &SpectralFile) -> String {
         let curve = |index: usize| table.curves.get(index);
         let name = |index: usize| curve(index).map_or("a curve", |curve: &Curve| curve.name.as_str());
         match *self {
-            Self::Wavelength { nm } => format!("{} nm", plain(nm)),
+            Self::Wavelength { nm } => format!("{} nm", short(nm, 6)),
             Self::Value { curve, nm, value, written } => {
-                let place = format!("{}: {} at {} nm", name(curve), plain(value), plain(nm));
-                if written == value { place } else { format!("{place} (written {}{})", plain(written), how(table)) }
+                let place = format!("{}: {} at {} nm", name(curve), short(value, 6), short(nm, 6));
+                if written == value { place } else { format!("{place} (written {}{})", short(written, 6), how(table)) }
             }
             Self::Name { curve } => format!("name of curve {}", curve + 1),
             Self::Unit { curve: None } => format!("unit of the wavelengths: {}", table.reading.wavelength_unit.value),
@@ -133,27 +135,12 @@ impl What {
     }
 }
 
-/// What was done to a number that is not the value.
-fn how(table: &Table) -> &'static str {
+/// Conversion of a written number, in words.
+fn how(table: &SpectralFile) -> &'static str {
     match table.reading.values.value {
         Values::Plain => "",
         Values::Percent => ", percent",
         Values::Absorbance => ", absorbance",
         Values::Decibels => ", decibels",
-    }
-}
-
-/// A number with at most six significant digits.
-fn plain(value: f64) -> String {
-    const DIGITS: i32 = 6;
-    if value == 0.0 || !value.is_finite() {
-        return "0".to_owned();
-    }
-    let digits = DIGITS - 1 - value.abs().log10().floor() as i32;
-    if (-6..=12).contains(&digits) {
-        let scale = 10_f64.powi(digits.max(0));
-        format!("{}", (value * scale).round() / scale)
-    } else {
-        format!("{value:.5e}")
     }
 }

@@ -1,20 +1,29 @@
-//! How one table was read from a text.
+//! Places of one file's curves in its text.
 
 use std::ops::Range;
 
-use super::super::{Decision, Orientation, Reader, Table, photons};
-use super::Preview;
-use super::across::Across;
-use super::down::Down;
-use super::mark::Mark;
-use super::settings::Settings;
-use super::stream::Placed;
-use super::{cells, lists, pairs, squeezed};
+use crate::file::SpectralFile;
+use crate::grid::Grid;
+use crate::places::{Place, PlaceKind, Places};
+use crate::preview::across::Across;
+use crate::preview::down::Down;
+use crate::preview::mark::{LeftOut, Mark, What};
+use crate::preview::{cells, down};
+use crate::report::{Orientation, Reader};
+use crate::sniff::Layout;
+use crate::wavelength_unit::WavelengthUnit;
 
-/// How one table was read from a text: which line, column or number belongs to which curve. Made by [`Preview::marker`].
+/// Line, column or bytes of each sample, name and setting, recorded while a file was read. Made by
+/// [`read_marked`](crate::read_marked).
 #[derive(Debug, Clone)]
 pub struct Marker {
-    settings: Settings,
+    /// The lines of settings, in ascending order.
+    settings: Vec<u32>,
+    /// The first line of values.
+    first_line: usize,
+    /// The curves that were read, by which a marker of another file is known.
+    curves: usize,
+    unit: WavelengthUnit,
     plan: Plan,
 }
 
@@ -22,66 +31,91 @@ pub struct Marker {
 enum Plan {
     Down(Down),
     Across(Across),
-    /// Every piece that was understood, in the order of the text.
-    Placed(Vec<Placed>),
+    /// Each sample by its bytes, in the order of the text.
+    Placed(Vec<Place>),
 }
 
 impl Marker {
-    pub(super) fn new(preview: &Preview, table: &Table) -> Self {
-        let reading = &table.reading;
-        // Photons and powers per frequency are other numbers than those written.
-        let converted = |note: &Decision| note.what == photons::DECISION && note.value.contains("converted");
-        let plan = match (reading.reader.value, reading.orientation.value) {
-            _ if reading.notes.iter().any(converted) => Plan::Placed(Vec::new()),
-            (Reader::Table, Orientation::Down) => Plan::Down(Down::new(preview, table)),
-            (Reader::Table, Orientation::Across) => Plan::Across(Across::new(preview, table)),
-            (Reader::Jcamp, _) => Plan::Placed(squeezed::jcamp(preview, table)),
-            (Reader::Cgats | Reader::Camspec | Reader::Dcamprof, _) => Plan::Placed(lists::place(preview, table)),
-            (Reader::Cxf, _) => {
-                let points = pairs::place(preview, table);
-                Plan::Placed(if points.is_empty() { lists::place(preview, table) } else { points })
+    /// Takes over what was recorded; [`take_curves`](Self::take_curves) completes it.
+    pub(crate) fn new(places: Places<'_>, grid: &Grid, layout: &Layout, reader: Reader, unit: WavelengthUnit) -> Self {
+        let plan = match (&layout.across, reader, layout.orientation.value) {
+            (Some(across), Reader::Table, Orientation::Across) => {
+                Plan::Across(Across::new(layout, across, places.line(across.line), unit))
             }
-            (Reader::Enlighten, _) => Plan::Placed(Vec::new()),
-            (Reader::Labels | Reader::Alternate | Reader::Tm27 | Reader::Rawtoaces, _) => {
-                Plan::Placed(pairs::place(preview, table))
-            }
+            (_, Reader::Table, _) => Plan::Down(Down::new(grid, layout, unit)),
+            _ => Plan::Placed(places.used()),
         };
-        Self { settings: Settings::of(reading), plan }
+        let mut settings = grid.header.noted.clone();
+        settings.sort_unstable();
+        Self { settings, first_line: layout.first_line, curves: 0, unit, plan }
+    }
+
+    /// Completes it with the origins of the curves.
+    pub(crate) fn take_curves(&mut self, origins: &[usize]) {
+        self.curves = origins.len();
+        let by_curve = origins.iter().enumerate().map(|(curve, origin)| (*origin, curve));
+        if let Plan::Across(across) = &mut self.plan {
+            across.rows = by_curve.collect();
+            return;
+        }
+        let mut curves = vec![None; origins.iter().max().map_or(0, |last| last + 1)];
+        by_curve.for_each(|(origin, curve)| curves[origin] = Some(curve));
+        match &mut self.plan {
+            Plan::Down(down) => down.curves = curves,
+            Plan::Placed(all) => all.retain_mut(|place| {
+                let curve = curves.get(place.origin as usize).copied().flatten();
+                place.origin = curve.unwrap_or_default() as u32;
+                place.wavelength = self.unit.nanometers(place.wavelength);
+                curve.is_some()
+            }),
+            Plan::Across(_) => {}
+        }
     }
 
     pub(super) fn marks(
         &self,
-        number: usize,
+        (number, start): (usize, usize),
         line: &str,
-        window: Range<usize>,
-        table: &Table,
-        preview: &Preview,
+        window: &Range<usize>,
+        file: &SpectralFile,
     ) -> Vec<Mark> {
+        if file.curves.len() != self.curves {
+            return Vec::new();
+        }
         let marks = match &self.plan {
-            Plan::Down(down) => down.marks(number, line, &window, table),
-            Plan::Across(across) => across.marks(number, line, &window, table),
-            Plan::Placed(all) => placed(all, preview.start(number).unwrap_or(0), line, &window, table),
+            Plan::Down(down) => down.marks(number, line, window, file),
+            Plan::Across(across) => across.marks(number, line, window, file),
+            Plan::Placed(all) => placed(all, start, line, window, file),
         };
-        let above = match &self.plan {
-            Plan::Down(_) | Plan::Across(_) => number < table.reading.first_data_line,
-            Plan::Placed(_) => true,
-        };
-        if !marks.is_empty() || !above {
+        let above = number < self.first_line || matches!(self.plan, Plan::Placed(_));
+        if !marks.is_empty() || !above || self.settings.binary_search(&(number as u32)).is_err() {
             return marks;
         }
-        let setting = self.settings.mark(line, &table.reading);
-        setting.filter(|mark| cells::touches(&mark.range, &window)).into_iter().collect()
+        let setting = Mark::new(cells::trimmed(line), What::Setting);
+        Some(setting).filter(|mark| cells::touches(&mark.range, window)).into_iter().collect()
     }
 }
 
-/// The placed pieces of one line.
-fn placed(all: &[Placed], start: usize, line: &str, window: &Range<usize>, table: &Table) -> Vec<Mark> {
+/// The recorded pieces of one line.
+fn placed(all: &[Place], start: usize, line: &str, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
     let first = all.partition_point(|piece| (piece.end as usize) < start.saturating_add(window.start));
     let last = start + line.len().min(window.end);
     let pieces = all[first..].iter().take_while(|piece| (piece.start as usize) < last);
-    let inside = pieces.filter(|piece| piece.start as usize >= start && piece.end as usize <= start + line.len());
-    inside
-        .filter_map(|piece| piece.mark(start, line, table))
-        .filter(|mark| line.get(mark.range.clone()).is_some())
-        .collect()
+    let marks = pieces.filter_map(|piece| {
+        let range = (piece.start as usize).checked_sub(start)?..piece.end as usize - start;
+        let written = line.get(range.clone())?;
+        Some(Mark::new(range, what(piece, written, file)?))
+    });
+    marks.collect()
+}
+
+fn what(place: &Place, written: &str, file: &SpectralFile) -> Option<What> {
+    let curve = place.origin as usize;
+    Some(match place.kind {
+        PlaceKind::Wavelength => What::Wavelength { nm: place.wavelength },
+        PlaceKind::Value => down::value(cells::number(written)?, curve, place.wavelength, file),
+        PlaceKind::Block | PlaceKind::Check => What::Block { curve },
+        PlaceKind::Repeated => What::LeftOut { why: LeftOut::Repeated },
+        PlaceKind::Averaged => What::LeftOut { why: LeftOut::Averaged },
+    })
 }

@@ -5,11 +5,11 @@ use std::ops::Range;
 /// A part of a line as it is drawn: one visible character for each character, whatever it was.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Shown {
-    /// What is drawn. Tabs are arrows, other control characters are dots.
+    /// Text as drawn. Tabs are arrows, other control characters are dots.
     pub text: String,
-    /// Whether the line has more before.
+    /// True if the line has more before.
     pub more_before: bool,
-    /// Whether the line has more after.
+    /// True if the line has more after.
     pub more_after: bool,
     /// The bytes of the line that are drawn.
     pub window: Range<usize>,

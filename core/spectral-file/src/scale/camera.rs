@@ -1,9 +1,10 @@
 //! The channels of a camera: by their names, and by the shapes of their curves.
 
-use super::super::Curve;
-use super::super::grid::Grid;
-use super::super::words::{self, Channel};
-use super::Role;
+use crate::file::Curve;
+use crate::grid::Grid;
+use crate::header_terms;
+use crate::header_terms::Channel;
+use crate::role::Role;
 
 /// Channels that a camera may have.
 pub(super) const MOST_CHANNELS: usize = 4;
@@ -23,7 +24,7 @@ pub(super) fn channels(names: &[&str]) -> Option<([usize; 3], bool)> {
             found[1] = Some(first.min(second));
             continue;
         }
-        let channel = match words::channel(name) {
+        let channel = match header_terms::channel(name) {
             Some(Channel::Letter(channel)) => channel,
             Some(Channel::Word(channel)) => {
                 letters = false;
@@ -57,13 +58,13 @@ fn by_peak(curves: &[Curve]) -> Option<[usize; 3]> {
     Some([order[0].1, order[1].1, order[2].1])
 }
 
-/// Where a curve is largest, and how large.
+/// Wavelength and height of a curve's maximum.
 fn peak(wavelengths: &[f64], values: &[f64]) -> (f64, f64) {
     let start = (f64::NAN, f64::NEG_INFINITY);
     wavelengths.iter().zip(values).fold(start, |best, (&w, &value)| if value > best.1 { (w, value) } else { best })
 }
 
-/// Whether exactly three curves look like the channels of a camera: small at both ends, with peaks in order.
+/// Returns whether exactly three curves look like the channels of a camera: small at both ends, with peaks in order.
 pub(super) fn bells(grid: &Grid) -> Option<()> {
     const ENDS: f64 = 0.3;
     const PEAKS_NM: [std::ops::RangeInclusive<f64>; 3] = [410.0..=500.0, 500.0..=580.0, 570.0..=680.0];

@@ -1,10 +1,11 @@
 //! Values that fractions of light and sensitivities cannot have.
 
-use super::super::grid::Grid;
-use super::super::warning::Warning;
-use super::super::watch::Log;
-use super::evidence::VISIBLE_NM;
-use super::{Role, Scale};
+use crate::grid::Grid;
+use crate::role::Role;
+use crate::scale::decision::Scale;
+use crate::scale::evidence::VISIBLE_NM;
+use crate::warning::Warning;
+use crate::watch::Log;
 
 /// Warns of reflectances that cannot be, and of values further below zero than noise, also of lights.
 pub(crate) fn warn(scale: &Scale, grid: &Grid, log: &mut Log<'_>) {

@@ -1,15 +1,17 @@
 //! From what is written to plain numbers.
 
-use super::super::grid::{Grid, RawCurve};
-use super::super::{Certainty, decimal, quantity, words};
-use super::{Role, Scale, Values};
+use crate::grid::{Grid, RawCurve};
+use crate::report::Certainty;
+use crate::role::{Role, Values};
+use crate::scale::decision::Scale;
+use crate::{decimal, header_terms, unit_text};
 
 /// Makes plain numbers of what is written.
 pub(crate) fn convert(grid: &mut Grid, scale: &Scale) {
     let plain_by_choice = scale.values.certainty == Certainty::Chosen && scale.values.value == Values::Plain;
     for (curve, &values) in grid.curves.iter_mut().zip(&scale.columns) {
         if values == Values::Plain {
-            let denied = |unit: &String| words::values(unit).is_some_and(|said| said != Values::Plain);
+            let denied = |unit: &String| header_terms::values(unit).is_some_and(|said| said != Values::Plain);
             curve.unit = curve.unit.take().filter(|unit| !(plain_by_choice && denied(unit)));
             continue;
         }
@@ -52,7 +54,7 @@ fn relabel(curve: &mut RawCurve, values: Values, role: Role) {
             replaced(&curve.name, word(""))
         }
     };
-    let misleads = renamed.is_empty() || words::values(&renamed).is_some_and(|said| said != Values::Plain);
+    let misleads = renamed.is_empty() || header_terms::values(&renamed).is_some_and(|said| said != Values::Plain);
     let whole = if role.is_fraction() { fraction } else { "Power" };
     curve.name = if misleads { whole.to_owned() } else { renamed };
 }
@@ -65,5 +67,5 @@ fn replaced<'a>(text: &str, by: impl Fn(&str) -> Option<&'a str>) -> String {
         out.push_str(by(&word.to_lowercase()).unwrap_or(word));
         out.push_str(&piece[word.len()..]);
     }
-    quantity::tidy(&out)
+    unit_text::tidy(&out)
 }

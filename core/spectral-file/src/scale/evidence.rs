@@ -1,8 +1,9 @@
-//! What the numbers of each curve look like.
+//! Statistics of the numbers of each curve.
 
-use super::super::grid::Grid;
+use crate::decimal::short;
+use crate::grid::Grid;
 
-/// Where reflectances are judged: outside, instruments are noisy.
+/// Wavelengths at which reflectances are judged: outside, instruments are noisy.
 pub(super) const VISIBLE_NM: std::ops::RangeInclusive<f64> = 400.0..=700.0;
 
 /// Values of one curve that are enough for its quantiles.
@@ -30,7 +31,7 @@ pub(super) struct Evidence {
     pub(super) curves: Vec<Option<Span>>,
 }
 
-/// What a curve of fractions of light is written in, by its numbers.
+/// Scale of a curve of fractions of light, by its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Looks {
     /// Fractions, but dark samples in percent look the same.
@@ -62,7 +63,7 @@ impl Span {
         Some(Self { min, max, median: sample[sample.len() / 2], high: sample[last * 9 / 10], run })
     }
 
-    /// What fractions of light are written in that look so. `largest` is what percent may reach: glossy and fluorescent samples
+    /// Scale of fractions of light with such numbers. `largest` is what percent may reach: glossy and fluorescent samples
     /// pass 100.
     pub(super) fn looks(&self, largest: f64) -> Looks {
         // Percent of a filter that lets only a band pass: dark elsewhere, and far above one in the band.
@@ -100,22 +101,8 @@ impl Evidence {
         self.curves.iter().flatten().map(|span| span.high).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// How far the values reach, in words.
+    /// Largest value, in words.
     pub(super) fn words(&self) -> String {
-        format!("Values reach {}", short(self.range().1))
-    }
-}
-
-/// A number with at most four significant digits, for people.
-pub(super) fn short(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return "0".to_owned();
-    }
-    let digits = 3 - value.abs().log10().floor() as i32;
-    if (-8..=12).contains(&digits) {
-        let scale = 10_f64.powi(digits.max(0));
-        format!("{}", (value * scale).round() / scale)
-    } else {
-        format!("{value:.3e}")
+        format!("Values reach {}", short(self.range().1, 4))
     }
 }

@@ -1,20 +1,21 @@
-//! What the curves are: what the file says, what its settings suggest, what its numbers look like.
+//! Role of the curves: what the file says, what its settings suggest, what its numbers look like.
 
-use super::super::grid::{Grid, RawCurve};
-use super::super::text::excerpt;
-use super::super::words;
-use super::super::{Certainty, Decided, ReadOptions, quantity};
-use super::camera::{MOST_CHANNELS, bells, channels};
-use super::evidence::{Evidence, Looks};
-use super::values::LARGEST_PERCENT;
-use super::{Role, Values};
+use crate::grid::{Grid, RawCurve};
+use crate::options::ReadOptions;
+use crate::report::{Certainty, Decided};
+use crate::role::{Role, Values};
+use crate::scale::camera::{MOST_CHANNELS, bells, channels};
+use crate::scale::evidence::{Evidence, Looks};
+use crate::scale::values::LARGEST_PERCENT;
+use crate::text::excerpt;
+use crate::{header_terms, quantity, unit_text};
 
-/// What words in the file say, for certain or as a mention.
+/// Role that words in the file state or mention.
 pub(super) fn said(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
     stated(grid).or_else(|| hinted(grid, options))
 }
 
-/// What the format, the header, the names of columns or a setting state.
+/// Role that the format, the header, the names of columns or a setting state.
 fn stated(grid: &Grid) -> Option<Decided<Role>> {
     if let Some(role) = grid.role.as_ref().filter(|role| role.certainty == Certainty::Certain) {
         return Some(role.clone());
@@ -62,7 +63,7 @@ fn mixed(grid: &Grid) -> Option<Decided<Role>> {
     }
     let named = |letter: &str| {
         grid.curves.iter().any(|curve| {
-            let name = quantity::without_unit(&curve.label).trim_start_matches('%').trim().to_lowercase();
+            let name = unit_text::without_unit(&curve.label).trim_start_matches('%').trim().to_lowercase();
             name == letter
         })
     };
@@ -72,7 +73,7 @@ fn mixed(grid: &Grid) -> Option<Decided<Role>> {
 
 /// The role that the columns name.
 fn named(grid: &Grid) -> Option<Decided<Role>> {
-    let mut named = grid.curves.iter().filter_map(|curve| Some((words::role(&curve.label)?, &curve.label)));
+    let mut named = grid.curves.iter().filter_map(|curve| Some((header_terms::role(&curve.label)?, &curve.label)));
     let (role, name) = named.next()?;
     let why = format!("A column is named “{}”", excerpt(name));
     let agree = named.all(|(other, _)| other == role);
@@ -86,7 +87,7 @@ fn of_settings(grid: &Grid) -> Option<Decided<Role>> {
         return Some(Decided::certain(role, format!("Line {line} says so")));
     }
     let quantity = header.comment("quantity").or_else(|| header.comment("measurement"));
-    if let Some(role) = quantity.and_then(words::role) {
+    if let Some(role) = quantity.and_then(header_terms::role) {
         return Some(Decided::certain(role, "The comment on the quantity says so"));
     }
     let camera = ["camera", "camera_name", "camera model"].iter().find(|key| header.comment(key).is_some())?;
@@ -109,7 +110,8 @@ fn of_quantity(grid: &Grid) -> Option<Decided<Role>> {
         return Some(Decided::certain(role, format!("The unit is {unit}")));
     }
     let says_counts = |curve: &RawCurve| {
-        words::says_counts(&curve.label) || curve.unit.as_ref().is_some_and(|unit| words::says_counts(unit))
+        header_terms::says_counts(&curve.label)
+            || curve.unit.as_ref().is_some_and(|unit| header_terms::says_counts(unit))
     };
     let counts = !grid.curves.is_empty() && grid.curves.iter().all(says_counts);
     counts.then(|| {
@@ -120,19 +122,19 @@ fn of_quantity(grid: &Grid) -> Option<Decided<Role>> {
 /// Curves that are all named as standard illuminants, or a title that is such a name.
 fn of_illuminants(grid: &Grid) -> Option<Decided<Role>> {
     let title = grid.header.comment("title").into_iter().chain(grid.header.comment("name"));
-    let curves = grid.curves.iter().all(|curve| words::names_illuminant(&curve.name));
+    let curves = grid.curves.iter().all(|curve| header_terms::names_illuminant(&curve.name));
     let first = grid.curves.first().filter(|_| curves).map(|curve| curve.name.as_str());
-    let name = first.or_else(|| title.into_iter().find(|title| words::names_illuminant(title)))?;
+    let name = first.or_else(|| title.into_iter().find(|title| header_terms::names_illuminant(title)))?;
     Some(Decided::certain(Role::Illuminant, format!("“{}” is the name of a standard illuminant", excerpt(name))))
 }
 
-/// What is mentioned, what settings imply, and what goes with a scale that the file states.
+/// Role that is mentioned, that settings imply, or that suits a scale that the file states.
 fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
     let (values, why) = match (options.values, grid.header.values.or(grid.header.clues.values)) {
         (Some(values), _) => (Some(values), "It was chosen what the values stand for".to_owned()),
         (None, Some((line, values))) => (Some(values), format!("Line {line} says {values}")),
         (None, None) => {
-            let headed = grid.curves.iter().find_map(|curve| words::values(&curve.label));
+            let headed = grid.curves.iter().find_map(|curve| header_terms::values(&curve.label));
             (headed.filter(|values| *values != Values::Plain), "The header says what the values stand for".to_owned())
         }
     };
@@ -145,10 +147,10 @@ fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
     }
     let label = |is: fn(&str) -> bool| grid.curves.iter().map(|curve| &*curve.label).find(|label| is(label));
     if options.values.is_none() && values == Some(Values::Percent) {
-        if let Some(label) = label(words::names_response) {
+        if let Some(label) = label(header_terms::names_response) {
             return Some(Decided::open(Role::Unknown, format!("“{}” is of a sensor or of a light", excerpt(label))));
         }
-        if let Some(label) = label(words::names_light_scale).or_else(|| label(words::names_lamp)) {
+        if let Some(label) = label(header_terms::names_light_scale).or_else(|| label(header_terms::names_lamp)) {
             return Some(Decided::guess(Role::Illuminant, format!("“{}” names light", excerpt(label))));
         }
     }
@@ -165,7 +167,7 @@ fn hinted(grid: &Grid, options: &ReadOptions) -> Option<Decided<Role>> {
     }
 }
 
-/// Whether curves of a role may be written so. Lights in percent are not told from reflectances by a mere mention.
+/// Returns whether curves of a role may be written so. Lights in percent are not told from reflectances by a mere mention.
 fn suits(role: Role, values: Option<Values>) -> bool {
     match values {
         Some(Values::Percent | Values::Absorbance) => role.is_fraction(),
@@ -176,19 +178,19 @@ fn suits(role: Role, values: Option<Values>) -> bool {
 /// A light that the only curve or the title is named after.
 fn lamp(grid: &Grid) -> Option<Decided<Role>> {
     let title = grid.header.comment("title");
-    let curves = grid.curves.iter().all(|curve| words::names_lamp(&curve.name));
+    let curves = grid.curves.iter().all(|curve| header_terms::names_lamp(&curve.name));
     let first = grid.curves.first().filter(|_| curves).map(|curve| curve.name.as_str());
-    let name = first.or(title.filter(|title| words::names_lamp(title)))?;
+    let name = first.or(title.filter(|title| header_terms::names_lamp(title)))?;
     Some(Decided::guess(Role::Illuminant, format!("“{}” is the name of a light", excerpt(name))))
 }
 
-/// What settings and numbers suggest where no word says what the curves are. Where lights and reflectances in percent look the
+/// Role that settings and numbers suggest where no word gives one. Where lights and reflectances in percent look the
 /// same, it stays open.
 pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     // Lights scaled the usual way are exactly 100 at 560 nm.
     const ANCHOR: (f64, f64) = (560.0, 100.0);
     let labels = || grid.curves.iter().map(|curve| &*curve.label);
-    if let Some(why) = labels().find_map(words::not_converted) {
+    if let Some(why) = labels().find_map(header_terms::not_converted) {
         return Decided::open(Role::Unknown, why);
     }
     if bells(grid).is_some() {
@@ -203,10 +205,10 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     }
     let (min, max) = evidence.range();
     if min >= -0.2 && max <= 1.2 && max > 0.0 {
-        if let Some(label) = labels().find(|label| words::names_light_scale(label)) {
+        if let Some(label) = labels().find(|label| header_terms::names_light_scale(label)) {
             return Decided::guess(Role::Illuminant, format!("“{}” names light", excerpt(label)));
         }
-        if labels().any(words::says_au) {
+        if labels().any(header_terms::says_au) {
             return Decided::open(Role::Unknown, "AU may be absorbance units or arbitrary units");
         }
         return Decided::guess(Role::Reflectance, evidence.words());
@@ -220,7 +222,7 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     )
 }
 
-/// What follows from whether the values are ratios to a reference.
+/// Role that follows from a measured reference, or from its absence.
 fn by_reference(grid: &Grid, evidence: &Evidence) -> Option<Decided<Role>> {
     /// Counts of detectors are larger, irradiances and radiances in the usual units smaller.
     const COUNTS: f64 = 1000.0;

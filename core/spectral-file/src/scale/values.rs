@@ -1,13 +1,16 @@
-//! What the values of each curve stand for.
+//! Scale of the values of each curve.
 
-use super::super::grid::{Grid, RawCurve};
-use super::super::warning::Warning;
-use super::super::watch::Log;
-use super::super::{Certainty, Decided, ReadOptions, words};
-use super::evidence::{Evidence, Looks, short};
-use super::{Role, Values};
+use crate::decimal::short;
+use crate::grid::{Grid, RawCurve};
+use crate::header_terms;
+use crate::options::ReadOptions;
+use crate::report::{Certainty, Decided};
+use crate::role::{Role, Values};
+use crate::scale::evidence::{Evidence, Looks};
+use crate::warning::Warning;
+use crate::watch::Log;
 
-/// What percent of reflectances may reach, and what they may where the program is known to write percent.
+/// Largest reflectance in percent, and the largest where the program is known to write percent.
 pub(super) const LARGEST_PERCENT: (f64, f64) = (130.0, 1000.0);
 
 /// Decides for all curves, and for each: by choice, by a line, by the headers, by the numbers.
@@ -72,13 +75,13 @@ fn by_headers(grid: &Grid, role: Role) -> Option<(Decided<Values>, Vec<Values>)>
     Some((Decided::certain(first, why), columns))
 }
 
-/// What the header of a curve says that its values stand for, as far as that goes with its role.
+/// Scale that the header of a curve gives, as far as it suits the role.
 fn headed(curve: &RawCurve, role: Role) -> Option<Values> {
-    let said = words::values(&curve.label);
+    let said = header_terms::values(&curve.label);
     said.filter(|values| *values != Values::Plain && (role.is_fraction() || is_power(*values)))
 }
 
-/// Whether values are powers of ten of any quantity, not only of fractions.
+/// Returns whether values are powers of ten of any quantity, not only of fractions.
 fn is_power(values: Values) -> bool {
     values == Values::Decibels
 }
@@ -89,7 +92,7 @@ fn by_numbers(grid: &Grid, trusted: bool, evidence: &Evidence, log: &mut Log<'_>
     let clues = &grid.header.clues;
     let writer = clues.ratios_in_percent;
     let largest = if writer.is_some() { LARGEST_PERCENT.1 } else { LARGEST_PERCENT.0 };
-    let names_role = |curve: &RawCurve| words::role(&curve.label).is_some_and(Role::is_fraction);
+    let names_role = |curve: &RawCurve| header_terms::role(&curve.label).is_some_and(Role::is_fraction);
     let some_named = grid.curves.iter().any(names_role);
     let looks: Vec<Option<Looks>> = evidence.curves.iter().map(|span| Some(span.as_ref()?.looks(largest))).collect();
     let main = || {
@@ -138,6 +141,6 @@ fn doubt_percent(values: Values, evidence: &Evidence, log: &mut Log<'_>) {
     const LARGEST_FRACTION: f64 = 1.2;
     let (_, max) = evidence.range();
     if values == Values::Percent && max <= LARGEST_FRACTION && max > 0.0 {
-        log.push(Warning::SmallPercent { max: short(max) });
+        log.push(Warning::SmallPercent { max: short(max, 4) });
     }
 }

@@ -1,26 +1,28 @@
 //! Rows of several quantities in one table: each row is what its own label says.
 
-use super::super::grid::RawCurve;
-use super::super::header::Header;
-use super::super::{Part, Quantity, Values, words};
+use crate::grid::RawCurve;
+use crate::header::Header;
+use crate::header_terms;
+use crate::report::Part;
+use crate::role::{Quantity, Values};
 
-/// What a row is.
+/// Quantity of a row.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Label {
     /// As written.
     text: String,
     line: usize,
     quantity: Option<Quantity>,
-    /// Whether it is an absorbance, which is no quantity of its own.
+    /// True if it is an absorbance, which is no quantity of its own.
     absorbance: bool,
 }
 
 impl Label {
     pub(super) fn of(cell: &str, line: usize) -> Self {
         let alone = !cell.trim().contains(|c: char| !c.is_alphabetic());
-        let absorbance = alone && words::values(cell) == Some(Values::Absorbance);
-        let quantity = words::quantity(cell).filter(|_| alone && !absorbance);
-        Self { text: super::excerpt(cell), line, quantity, absorbance }
+        let absorbance = alone && header_terms::values(cell) == Some(Values::Absorbance);
+        let quantity = header_terms::quantity(cell).filter(|_| alone && !absorbance);
+        Self { text: crate::text::excerpt(cell), line, quantity, absorbance }
     }
 
     pub(super) fn is_said(&self) -> bool {

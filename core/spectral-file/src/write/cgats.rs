@@ -1,11 +1,12 @@
 //! CGATS and the two formats that Argyll makes of it.
 
-use super::common::{Common, Limits, common, even_bands};
-use super::sheet::Piece;
-use super::text::{one_line, push, push_quoted, push_real};
-use super::{Content, Format, Grid, Note, Sheet, WriteError};
+use crate::write::common::{Common, Limits, common, even_bands};
+use crate::write::format::{Format, Grid};
+use crate::write::note::{Note, WriteError};
+use crate::write::sheet::{Content, Piece, Sheet};
+use crate::write::text::{one_line, push, push_quoted, push_real};
 
-/// How many bands Argyll has room for.
+/// Most bands that Argyll has room for.
 const ARGYLL_BANDS: usize = 601;
 
 /// Writes a table with one set for each curve.
@@ -71,7 +72,7 @@ fn push_keywords(out: &mut String, sheet: &Sheet<'_>, format: Format, common: &C
     push_own(out, "SPECTRAL_NORM", "1.0");
 }
 
-/// What Argyll calls a measurement of this kind. It refuses an observer that does not say it is one.
+/// Argyll's name for a measurement of this kind. It refuses an observer that does not say it is one.
 fn measurement(content: Content<'_>) -> Option<&'static str> {
     match content {
         Content::Camera { .. } | Content::Observer => Some("SENSITIVITY"),

@@ -1,17 +1,18 @@
 //! One grid for all curves, as most formats want it.
 
-use super::super::MAX_SAMPLES;
-use super::resample::{Changes, SAME_NM, Sampling, even_step, mean_step, multiples};
-use super::sheet::Piece;
-use super::{Content, Format, Grid, Note, WriteError};
+use crate::limits::MAX_SAMPLES;
+use crate::write::format::{Format, Grid};
+use crate::write::note::{Note, WriteError};
+use crate::write::resample::{Changes, SAME_NM, Sampling, even_step, mean_step, multiples};
+use crate::write::sheet::{Content, Piece};
 
-/// What a format, or the program it is for, can hold.
+/// Limits of a format, or of the program that reads it.
 pub(super) struct Limits {
     pub(super) format: Format,
     /// The wavelengths in nanometers.
     pub(super) range_nm: [f64; 2],
     pub(super) bands: usize,
-    /// Whether wavelengths are ones that the program reads.
+    /// True if wavelengths are ones that the program reads.
     pub(super) reads: fn(&[f64]) -> bool,
 }
 
@@ -21,7 +22,7 @@ pub(super) struct Common {
     pub(super) wavelengths: Vec<f64>,
     /// The values of each curve at those wavelengths.
     pub(super) values: Vec<Vec<f64>>,
-    /// How they were resampled, if they were.
+    /// Resampling, if there was any.
     pub(super) resampling: Option<String>,
 }
 
@@ -107,7 +108,7 @@ fn sensible(pieces: &[Piece<'_>], range: [f64; 2], limits: &Limits) -> Result<(V
     Err(error)
 }
 
-/// Whether wavelengths are evenly spaced and, rounded to whole nanometers as in the names of fields, all different.
+/// Returns whether wavelengths are evenly spaced and, rounded to whole nanometers as in the names of fields, all different.
 pub(super) fn even_bands(wavelengths: &[f64]) -> bool {
     let rounded = |w: f64| (w + 0.5).floor();
     even_step(wavelengths).is_some() && wavelengths.windows(2).all(|pair| rounded(pair[0]) < rounded(pair[1]))

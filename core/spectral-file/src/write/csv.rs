@@ -1,14 +1,16 @@
 //! Comma-separated values, with or without comments above them, and samples at the wavelengths they are written at: a part at a
 //! time, so that memory does not grow with what is written.
 
+use chromascope_text::guarded;
 use std::borrow::Cow;
 
-use super::super::MAX_SAMPLES;
-use super::resample::{self, Changes, SAME_NM, Sampling, multiples};
-use super::sheet::Piece;
-use super::text::{push_number, push_quoted};
-use super::{Content, Format, Grid, Note, Sheet, WriteError};
-use chromascope_text::guarded;
+use crate::limits::MAX_SAMPLES;
+use crate::write::format::{Format, Grid};
+use crate::write::note::{Note, WriteError};
+use crate::write::resample;
+use crate::write::resample::{Changes, SAME_NM, Sampling, multiples};
+use crate::write::sheet::{Content, Piece, Sheet};
+use crate::write::text::{push_number, push_quoted};
 
 /// Bytes of text that are passed on at once; a longer row is passed on alone.
 const CHUNK: usize = 1 << 16;
@@ -32,6 +34,9 @@ pub struct Prepared<'a> {
 
 impl<'a> Prepared<'a> {
     /// Checks the curves and finds the wavelengths they are written at.
+    ///
+    /// # Errors
+    /// [`WriteError`] for curves that are none, or over the limits on such a grid.
     pub fn new(sheet: &Sheet<'a>, grid: Grid) -> Result<Self, WriteError> {
         Format::Csv.fits(sheet)?;
         resample::check(grid)?;
@@ -139,7 +144,7 @@ fn within(rows: &[f64], [first, last]: [f64; 2]) -> &[f64] {
     rows.get(from..to).unwrap_or_default()
 }
 
-/// What a curve has at some of the wavelengths that are written.
+/// Values of a curve at some of the written wavelengths.
 fn part<'p>(
     piece: &'p Piece<'_>,
     rows: &[f64],
@@ -176,14 +181,14 @@ fn push_comments(out: &mut String, sheet: &Sheet<'_>, resampling: Option<&str>) 
         push("quantity", quantity);
     }
     if let Some(unit) = sheet.unit() {
-        push("unit", &super::text::one_line(unit));
+        push("unit", &crate::write::text::one_line(unit));
     }
     if let Content::Camera { per_photon: Some(per_photon), .. } = sheet.content {
         push("response", if per_photon { "per photon" } else { "per energy" });
     }
     if let Content::Camera { manufacturer, model, .. } = sheet.content {
         for (key, value) in [("manufacturer", manufacturer), ("model", model)] {
-            if let Some(value) = value.map(super::text::one_line).filter(|value| !value.is_empty()) {
+            if let Some(value) = value.map(crate::write::text::one_line).filter(|value| !value.is_empty()) {
                 push(key, &value);
             }
         }

@@ -1,10 +1,11 @@
 //! JSON as rawtoaces and dcamprof read it.
 
-use super::common::{Common, Limits, common};
-use super::resample::even_step;
-use super::sheet::Piece;
-use super::text::{one_line, push, push_number};
-use super::{Content, Format, Grid, Note, Sheet, WriteError};
+use crate::write::common::{Common, Limits, common};
+use crate::write::format::{Format, Grid};
+use crate::write::note::{Note, WriteError};
+use crate::write::resample::even_step;
+use crate::write::sheet::{Content, Piece, Sheet};
+use crate::write::text::{one_line, push, push_number};
 
 /// Writes a document of rawtoaces, whose schema wants all of these members.
 pub(super) fn rawtoaces(sheet: &Sheet<'_>, grid: Grid, notes: &mut Vec<Note>) -> Result<String, WriteError> {
@@ -40,7 +41,7 @@ pub(super) fn rawtoaces(sheet: &Sheet<'_>, grid: Grid, notes: &mut Vec<Note>) ->
 /// Keys of three digits before the point: those alone are in the order of wavelengths when sorted as text.
 const RAWTOACES_NM: [f64; 2] = [100.0, 999.999];
 
-/// Whether wavelengths are evenly spaced for a program that takes them in single precision and compares exactly.
+/// Returns whether wavelengths are evenly spaced for a program that takes them in single precision and compares exactly.
 fn even_in_single(wavelengths: &[f64]) -> bool {
     let single: Vec<f32> = wavelengths.iter().map(|&w| w as f32).collect();
     let mut steps = single.windows(2).map(|pair| pair[1] - pair[0]);
@@ -108,7 +109,7 @@ fn push_keyed_rows(out: &mut String, common: &Common) {
 
 /// Writes a document of dcamprof: `ssf_bands` and three lists for a camera, `bands` and one list for anything else.
 ///
-/// What dcamprof has no member for stands in `comments`, which it passes over.
+/// Members that dcamprof lacks stand in `comments`, which it passes over.
 pub(super) fn dcamprof(sheet: &Sheet<'_>, grid: Grid, notes: &mut Vec<Note>) -> Result<String, WriteError> {
     let pieces = sheet.channel_pieces(notes);
     let any = |_: &[f64]| true;
@@ -158,8 +159,24 @@ fn push_bands(out: &mut String, wavelengths: &[f64]) {
     }
 }
 
+/// A text between quotes, escaped as in RFC 8259.
 fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
+    let mut out = String::with_capacity(text.len() + 2);
+    out.push('"');
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            '\n' => out.push_str("\\n"),
+            '\r' => out.push_str("\\r"),
+            '\t' => out.push_str("\\t"),
+            '\u{8}' => out.push_str("\\b"),
+            '\u{c}' => out.push_str("\\f"),
+            '\0'..='\u{1f}' => push(&mut out, format_args!("\\u{:04x}", u32::from(c))),
+            _ => out.push(c),
+        }
+    }
+    out.push('"');
+    out
 }
 
 fn push_member(out: &mut String, indent: usize, key: &str, value: Option<&str>) {

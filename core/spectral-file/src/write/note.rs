@@ -1,8 +1,8 @@
-//! What happened to curves on their way out, and why some cannot go.
+//! Notes on changes to written curves, and errors of writing.
 
 use std::fmt;
 
-use super::Format;
+use crate::write::format::Format;
 
 /// Something in the text that is not as it was in the curves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,7 +11,7 @@ pub enum Note {
     Resampled {
         /// The step in nanometers.
         step_nm: f64,
-        /// Whether some of them by Sprague's polynomials, not linearly.
+        /// True if some of them by Sprague's polynomials, not linearly.
         smooth: bool,
     },
     /// The step is coarser than that of a curve: samples were picked, not averaged, and narrow lines may be lost.
@@ -37,17 +37,17 @@ pub enum Note {
     PerEnergy,
     /// Curves other than red, green and blue are not in the file.
     LeftOut {
-        /// How many.
+        /// Number.
         count: usize,
     },
     /// Curves have no sample at any multiple of the step; their columns are blank.
     Blank {
-        /// How many.
+        /// Number.
         count: usize,
     },
     /// Names of curves were blank, did not fit on a line, or would have been read as another quantity.
     Renamed {
-        /// How many.
+        /// Number.
         count: usize,
     },
     /// The format has no place for the names of curves, or for one beside the title.
@@ -130,9 +130,9 @@ pub enum WriteError {
     Count {
         /// The format.
         format: Format,
-        /// How many there are.
+        /// Number found.
         found: usize,
-        /// How many it takes.
+        /// Number that the format takes.
         wanted: usize,
     },
     /// A format is for something else.
@@ -154,9 +154,9 @@ pub enum WriteError {
     Bands {
         /// The format.
         format: Format,
-        /// How many there would be.
+        /// Number there would be.
         found: usize,
-        /// How many there may be.
+        /// Largest number allowed.
         most: usize,
     },
     /// There are not two wavelengths of the grid that every curve reaches and the format can hold.

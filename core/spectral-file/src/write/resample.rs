@@ -1,17 +1,19 @@
 //! Values at other wavelengths than those of a curve.
 
-use super::super::MAX_SAMPLES;
-use super::super::reading::clean;
-use super::sheet::Piece;
-use super::{Content, Grid, Note, WriteError};
 use chromascope_math::interpolation::{Sprague, linear};
 
-/// How near a wavelength must be to a sample to be that sample, in nanometers.
+use crate::decimal::clean;
+use crate::limits::MAX_SAMPLES;
+use crate::write::format::Grid;
+use crate::write::note::{Note, WriteError};
+use crate::write::sheet::{Content, Piece};
+
+/// Largest distance in nanometers at which a wavelength is that of a sample.
 pub(super) const SAME_NM: f64 = 1e-6;
 
 const SMALLEST_STEP_NM: f64 = 1e-3;
 
-/// Whether a grid can be asked for.
+/// Returns whether a grid can be asked for.
 pub(super) fn check(grid: Grid) -> Result<(), WriteError> {
     match grid {
         Grid::Step(step) | Grid::Average(step) if !(step.is_finite() && step >= SMALLEST_STEP_NM) => {
@@ -21,7 +23,7 @@ pub(super) fn check(grid: Grid) -> Result<(), WriteError> {
     }
 }
 
-/// How a value at a new wavelength is found.
+/// Method for values at new wavelengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Sampling {
     /// The value there.
@@ -130,7 +132,7 @@ impl<'a> Between<'a> {
         Self { wavelengths, values, sprague, clamps: content != Content::Observer }
     }
 
-    /// Whether it is interpolated by polynomials.
+    /// Returns whether it is interpolated by polynomials.
     pub(super) fn is_smooth(&self) -> bool {
         self.sprague.is_some()
     }
@@ -164,7 +166,7 @@ fn finite_or(value: f64, other: impl FnOnce() -> f64) -> f64 {
     if value.is_finite() { value } else { other() }
 }
 
-/// What resampling did, over all curves.
+/// Changes by resampling, over all curves.
 #[derive(Debug, Default)]
 pub(super) struct Changes {
     sampling: Option<Sampling>,
@@ -202,7 +204,7 @@ impl Changes {
         values
     }
 
-    /// How the values were found, for the head of a file; nothing for a curve's own wavelengths.
+    /// Description of the method, for the head of a file; none at a curve's own wavelengths.
     pub(super) fn told(&self, step: Option<f64>) -> Option<String> {
         let step = step?;
         Some(match self.sampling {
@@ -216,7 +218,7 @@ impl Changes {
         })
     }
 
-    /// What is to be said about it, for a step (none for the curves' own wavelengths) and the range that was written.
+    /// Notes for a step (none for the curves' own wavelengths) and the range that was written.
     pub(super) fn note(&self, step: Option<f64>, [from_nm, to_nm]: [f64; 2], notes: &mut Vec<Note>) {
         if let Some(Sampling::Bands(step_nm)) = self.sampling {
             notes.push(Note::Averaged { step_nm });

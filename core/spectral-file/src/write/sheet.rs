@@ -1,9 +1,11 @@
-//! What is to be written: borrowed curves, and what is known about them.
+//! Input of the writers: borrowed curves, and what is known about them.
 
 use std::borrow::Cow;
 
-use super::super::{Curve, MAX_CURVES, MAX_SAMPLES};
-use super::{Note, WriteError, text};
+use crate::file::Curve;
+use crate::limits::{MAX_CURVES, MAX_SAMPLES};
+use crate::write::note::{Note, WriteError};
+use crate::write::text;
 
 /// A curve to be written: values over wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,14 +25,14 @@ impl<'a> From<&'a Curve> for Trace<'a> {
     }
 }
 
-/// What the curves are.
+/// Role of the curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Content<'a> {
     /// Sensitivities of a camera.
     Camera {
         /// Which curves are red, green and blue; there may be others, which only CSV, `.sp` and CGATS can hold.
         channels: [usize; 3],
-        /// Whether they are a response to equal numbers of photons (else to equal power); `None` if nobody knows.
+        /// True if they are a response to equal numbers of photons (else to equal power); `None` if nobody knows.
         per_photon: Option<bool>,
         /// Who made the camera, by which rawtoaces finds it.
         manufacturer: Option<&'a str>,
@@ -56,7 +58,7 @@ impl Content<'_> {
         (!matches!(self, Self::Illuminant | Self::Other)).then_some("1")
     }
 
-    /// Whether values are fractions of one, whatever else is said.
+    /// Returns whether values are fractions of one, whatever else is said.
     pub(super) fn is_fraction(self) -> bool {
         matches!(self, Self::Reflectance | Self::Transmittance)
     }
@@ -67,7 +69,7 @@ impl Content<'_> {
 pub struct Sheet<'a> {
     /// A title for all; may be empty.
     pub title: &'a str,
-    /// What the curves are.
+    /// Role of the curves.
     pub content: Content<'a>,
     /// The curves, in the order in which they are written.
     pub curves: &'a [Trace<'a>],
@@ -87,7 +89,7 @@ impl<'a> Sheet<'a> {
         said.or(self.content.unit())
     }
 
-    /// What the values are of, as the program's own files say it.
+    /// Quantity of the values, as the program's own files name it.
     pub(super) fn quantity(&self) -> Option<&'static str> {
         let relative = self.unit().is_none_or(|unit| unit.trim() == "1");
         match self.content {
@@ -126,7 +128,7 @@ impl<'a> Sheet<'a> {
         own.chain(response).chain(rest).collect()
     }
 
-    /// What the sensitivities of formats for responses per energy are, if that is known of those they were made of.
+    /// Remark on sensitivities in formats for responses per energy, if it is known what they were made of.
     pub(super) fn energy_response(&self) -> Option<&'static str> {
         matches!(self.content, Content::Camera { per_photon: Some(_), .. }).then_some("per energy")
     }
@@ -147,7 +149,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Whether the curves are curves.
+    /// Returns whether the curves are curves.
     pub(super) fn check(&self) -> Result<(), WriteError> {
         if self.curves.is_empty() {
             return Err(WriteError::NoCurves);

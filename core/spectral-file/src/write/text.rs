@@ -3,8 +3,10 @@
 use std::borrow::Cow;
 use std::fmt::{Arguments, Write};
 
-use super::super::{Values, photons, quantity, words};
-use super::Content;
+use crate::role::Values;
+use crate::write::sheet::Content;
+use crate::{header_terms, photons, unit_text};
+
 pub(super) use chromascope_text::on_one_line as one_line;
 
 /// Appends what a format string makes.
@@ -19,7 +21,7 @@ pub(super) fn push_number(out: &mut String, value: f64) {
     if plain { push(out, format_args!("{value}")) } else { push(out, format_args!("{value:e}")) }
 }
 
-/// The same with a point in it: readers of CGATS take whole numbers for integers.
+/// A number with a point in it: readers of CGATS take whole numbers for integers.
 pub(super) fn push_real(out: &mut String, value: f64) {
     let start = out.len();
     push_number(out, value);
@@ -33,15 +35,15 @@ pub(super) fn push_real(out: &mut String, value: f64) {
 pub(super) fn name<'a>(text: &'a str, index: usize, content: Content<'_>) -> Cow<'a, str> {
     let mut name = one_line(text);
     if misleads(&name, content) {
-        name = Cow::Owned(quantity::without_percent_signs(&name));
+        name = Cow::Owned(unit_text::without_percent_signs(&name));
     }
     let bad = name.is_empty() || heads_wavelengths(&name) || misleads(&name, content);
     if bad { Cow::Owned(format!("Curve {}", index + 1)) } else { name }
 }
 
-/// Whether a reader would convert the values under such a name. What responds to light is never scaled down from percent.
+/// Returns whether a reader would convert the values under such a name. What responds to light is never scaled down from percent.
 fn misleads(name: &str, content: Content<'_>) -> bool {
-    match words::values(name) {
+    match header_terms::values(name) {
         // Energies are not photons or powers per frequency.
         _ if matches!(content, Content::Illuminant | Content::Other) && photons::converts(name) => true,
         None | Some(Values::Plain) => false,
@@ -50,10 +52,10 @@ fn misleads(name: &str, content: Content<'_>) -> bool {
     }
 }
 
-/// Whether a reader would take a column of such a name for one of wavelengths.
+/// Returns whether a reader would take a column of such a name for one of wavelengths.
 fn heads_wavelengths(name: &str) -> bool {
     const LONGEST_UNIT: usize = 4;
-    words::names_wavelengths(name) || (name.len() <= LONGEST_UNIT && words::x_unit(name).is_some())
+    header_terms::names_wavelengths(name) || (name.len() <= LONGEST_UNIT && header_terms::x_unit(name).is_some())
 }
 
 /// Appends a text between quotation marks, those inside doubled, as CSV and CGATS have it.

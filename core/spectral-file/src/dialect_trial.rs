@@ -1,0 +1,343 @@
+//! One way to split lines into cells, tried on the beginning of a file.
+
+use crate::bands;
+use crate::bands::Group;
+use crate::dialect::{Cell, Dialect, may_be_thousands};
+use crate::limits::MAX_CURVES;
+use crate::report::Orientation;
+use crate::wavelength_unit::plausible;
+
+/// Lines that may not fit below such a header before it is taken for none: the reader then tells what is wrong with them.
+const MISSES: usize = 3;
+
+/// Shape of a line, split in one way.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Shape {
+    /// All cells, and all but empty ones at the end.
+    pub(super) cells: usize,
+    pub(super) filled: usize,
+    pub(super) numbers: usize,
+    /// The first number.
+    pub(super) first: Option<f64>,
+    /// True if that is the first cell.
+    pub(super) leads: bool,
+    /// True if any cell is text (a wavelength with its unit in the first cell is a number).
+    pub(super) text: bool,
+    /// Which of the first columns are text, a bit for each; all bits where a later one is.
+    pub(super) texts: u128,
+    /// Which of the first columns are empty.
+    gaps: u128,
+    /// Texts that are a number with a unit.
+    united: u128,
+    /// Cells with this dialect's decimal mark, and those that may be thousands, such as `4.800`.
+    marks: usize,
+    grouped: usize,
+    /// Those with a mark that can only stand before a fraction, `0.390`.
+    fractions: usize,
+    /// True if a cell after the first is written like `05`, as only digits after a decimal mark are.
+    padded: bool,
+}
+
+impl Shape {
+    pub(super) fn of(dialect: Dialect, line: &str) -> Self {
+        let mut shape = Self::default();
+        for (index, cell) in dialect.cells(line).take(MAX_CURVES + 2).enumerate() {
+            shape.cells += 1;
+            if !cell.is_empty() {
+                shape.filled = index + 1;
+            }
+            match dialect.parse(cell) {
+                Cell::Number(value) => shape.number(index, value, dialect.has_mark(cell), cell),
+                Cell::Gap => shape.gaps |= bit(index).unwrap_or(0),
+                Cell::Text => shape.label_or_text(index, dialect, cell),
+            }
+        }
+        shape
+    }
+
+    fn label_or_text(&mut self, index: usize, dialect: Dialect, cell: &str) {
+        self.text |= index > 0;
+        if let Some((value, _)) = dialect.parse_label(cell) {
+            self.number(index, value, dialect.has_mark(cell), "");
+            return;
+        }
+        self.text = true;
+        self.texts |= bit(index).unwrap_or(u128::MAX);
+        self.united |= bit(index).filter(|_| dialect.parse_united(cell).is_some()).unwrap_or(0);
+    }
+
+    fn number(&mut self, index: usize, value: f64, marked: bool, cell: &str) {
+        self.numbers += 1;
+        self.first = self.first.or(Some(value));
+        self.leads |= index == 0;
+        self.marks += usize::from(marked);
+        self.grouped += usize::from(marked && index > 0 && may_be_thousands(cell));
+        self.fractions += usize::from(marked && !may_be_thousands(cell));
+        let bytes = cell.as_bytes();
+        self.padded |= index > 0 && bytes.len() > 1 && bytes[0] == b'0' && bytes.iter().all(u8::is_ascii_digit);
+    }
+
+    /// Returns whether the line is a row of numbers, or of numbers with columns of text among them.
+    pub(super) fn is_row(&self, mixed: bool) -> bool {
+        let enough = if mixed {
+            self.numbers > 0 && self.numbers + self.united.count_ones() as usize > 1
+        } else {
+            self.numbers > 0
+        };
+        (mixed || !self.text) && self.texts != u128::MAX && enough && self.cells > 1
+    }
+}
+
+/// The bit that stands for a column, if there is one.
+fn bit(column: usize) -> Option<u128> {
+    u32::try_from(column).ok().and_then(|column| 1_u128.checked_shl(column))
+}
+
+/// Rows of numbers in one block.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Run {
+    pub(super) line: usize,
+    pub(super) rows: usize,
+    pub(super) cells: usize,
+    pub(super) filled: usize,
+    /// Which columns are text, and which are empty in all rows.
+    pub(super) texts: u128,
+    gaps: u128,
+    united: u128,
+    /// Rows that begin anew with the first wavelength.
+    restarts: usize,
+    /// The first numbers of the first and the last row.
+    pub(super) first: f64,
+    pub(super) last: f64,
+    rises: usize,
+    falls: usize,
+    min: f64,
+    max: f64,
+    fractions: bool,
+}
+
+impl Run {
+    /// Number of rows that continue in the main direction.
+    pub(super) fn steady(&self) -> usize {
+        self.rises.max(self.falls)
+    }
+
+    /// Returns whether the first numbers look like wavelengths down a column.
+    pub(super) fn looks_like_wavelengths(&self) -> bool {
+        self.rows >= 3 && self.steady() + 1 == self.rows && self.is_plausible()
+    }
+
+    /// Also true for several spectra below one another that each begin with the same wavelength.
+    pub(super) fn looks_like_passes(&self) -> bool {
+        let (rows, back) = (self.rows, self.rises.min(self.falls));
+        self.looks_like_wavelengths()
+            || (back > 0 && back == self.restarts && self.steady() + back + 1 == rows && rows > 3 * back)
+                && self.is_plausible()
+    }
+
+    fn is_plausible(&self) -> bool {
+        plausible(self.min, self.max, self.fractions)
+    }
+
+    /// Returns whether a row can stand in the table: one with as many cells, and text in the same columns or nothing. Of numbers
+    /// with units, some may have none.
+    pub(super) fn takes(&self, shape: &Shape) -> bool {
+        let other = self.texts & !(shape.texts | shape.gaps) | shape.texts & !(self.texts | self.gaps);
+        let united = self.united | shape.united;
+        (shape.cells == self.cells || shape.filled == self.filled) && other & !united == 0
+    }
+
+    fn push(&mut self, line: usize, shape: &Shape) {
+        let value = shape.first.unwrap_or(self.last);
+        if self.rows == 0 {
+            let gaps = u128::MAX;
+            *self = Self { line, first: value, last: value, min: value, max: value, gaps, ..Self::default() };
+        } else if value == self.first {
+            self.restarts += 1;
+        }
+        self.rises += usize::from(value > self.last);
+        self.falls += usize::from(value < self.last);
+        self.min = self.min.min(value);
+        self.max = self.max.max(value);
+        self.fractions |= value.fract() != 0.0;
+        self.rows += 1;
+        self.last = value;
+        self.cells = shape.cells;
+        self.texts |= shape.texts;
+        self.gaps &= shape.gaps;
+        self.united |= shape.united;
+        self.filled = self.filled.max(shape.filled);
+    }
+}
+
+/// A header of wavelengths across a line, and the rows that fit below it.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Across {
+    pub(super) line: usize,
+    pub(super) first_row: usize,
+    pub(super) rows: usize,
+    misses: usize,
+    /// Cells of the header.
+    pub(super) cells: usize,
+    /// Its groups of wavelengths, at least one.
+    pub(super) groups: Vec<Group>,
+    /// The part that is read, from 0: one of several groups, else of the quantities of the rows.
+    pub(super) part: usize,
+}
+
+impl Across {
+    /// The group of wavelengths that is read.
+    pub(super) fn group(&self) -> &Group {
+        self.groups.get(self.part).unwrap_or(&self.groups[0])
+    }
+
+    fn is_row(&self, dialect: Dialect, shape: &Shape, line: &str) -> bool {
+        let Group { start, wavelengths, .. } = self.group();
+        let mut numbers = 0;
+        let numeric = dialect.cells(line).skip(*start).zip(wavelengths).all(|(cell, wavelength)| {
+            let cell = dialect.parse(cell);
+            numbers += usize::from(matches!(cell, Cell::Number(_)));
+            cell != Cell::Text || wavelength.is_nan()
+        });
+        numeric && numbers > 0 && shape.filled <= self.cells
+    }
+
+    fn push(&mut self, line: usize) {
+        self.first_row = if self.rows == 0 { line } else { self.first_row };
+        self.rows += 1;
+    }
+}
+
+/// A dialect and what it makes of the lines so far.
+#[derive(Debug, Clone)]
+pub(super) struct Trial {
+    pub(super) dialect: Dialect,
+    /// True if rows may have columns of text.
+    pub(super) mixed: bool,
+    run: Run,
+    pub(super) best: Run,
+    pub(super) across: Option<Across>,
+    across_tested: bool,
+    /// Cells with the decimal mark, in rows of numbers.
+    pub(super) marks: usize,
+    /// Those between quotes, which cannot separate.
+    pub(super) quoted: usize,
+    /// Those of them that may be thousands.
+    grouped: usize,
+    fractions: usize,
+    /// The first row with a cell like `05`.
+    pub(super) padded_line: Option<usize>,
+    /// Lines of a single number: how many, and the first.
+    pub(super) single: usize,
+    pub(super) single_line: usize,
+}
+
+impl Trial {
+    pub(super) fn new(dialect: Dialect, mixed: bool) -> Self {
+        Self {
+            dialect,
+            mixed,
+            run: Run::default(),
+            best: Run::default(),
+            across: None,
+            across_tested: false,
+            marks: 0,
+            quoted: 0,
+            grouped: 0,
+            fractions: 0,
+            padded_line: None,
+            single: 0,
+            single_line: 0,
+        }
+    }
+
+    /// Takes in one line that is neither blank nor a comment.
+    pub(super) fn take(&mut self, number: usize, line: &str) {
+        let shape = Shape::of(self.dialect, line);
+        self.take_across(number, &shape, line);
+        if shape.is_row(self.mixed) {
+            if self.run.rows > 0 && !self.run.takes(&shape) {
+                self.run = Run::default();
+            }
+            self.run.push(number, &shape);
+            self.marks += shape.marks;
+            self.quoted += if shape.marks > 0 && line.contains('"') { shape.marks } else { 0 };
+            self.grouped += shape.grouped;
+            self.fractions += shape.fractions;
+            if shape.padded {
+                self.padded_line = self.padded_line.or(Some(number));
+            }
+            if (self.run.rows, self.run.steady()) > (self.best.rows, self.best.steady()) {
+                self.best = self.run.clone();
+            }
+            return;
+        }
+        self.run = Run::default();
+        if shape.numbers == 1 && shape.filled == 1 {
+            self.single += 1;
+            self.single_line = if self.single == 1 { number } else { self.single_line };
+        }
+    }
+
+    /// Takes in a line that begins with `#`: below a header of wavelengths that can be the name of a sample.
+    pub(super) fn take_marked(&mut self, number: usize, line: &str) {
+        let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) else { return };
+        let shape = Shape::of(self.dialect, line);
+        if across.is_row(self.dialect, &shape, line) {
+            across.push(number);
+            self.marks += shape.marks;
+            self.grouped += shape.grouped;
+            self.fractions += shape.fractions;
+        }
+    }
+
+    fn take_across(&mut self, number: usize, shape: &Shape, line: &str) {
+        if !self.across_tested && shape.cells >= bands::FEWEST {
+            let groups = bands::groups(self.dialect, line);
+            self.across_tested = shape.numbers >= bands::FEWEST || !groups.is_empty();
+            if !groups.is_empty() {
+                self.across = Some(Across { line: number, cells: shape.cells, groups, ..Across::default() });
+            }
+        } else if let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) {
+            if across.is_row(self.dialect, shape, line) {
+                across.push(number);
+                self.marks += shape.marks;
+                self.quoted += if line.contains('"') { shape.marks } else { 0 };
+                self.grouped += shape.grouped;
+                self.fractions += shape.fractions;
+            } else {
+                across.misses += 1;
+            }
+        }
+    }
+
+    /// Returns whether every mark may group thousands: three digits after it, one to three before.
+    pub(super) fn may_be_thousands(&self) -> bool {
+        const FEWEST: usize = 4;
+        self.grouped >= FEWEST && self.grouped == self.marks
+    }
+
+    /// Returns whether a mark is seen that can only stand before a fraction.
+    pub(super) fn has_fractions(&self) -> bool {
+        self.fractions > 0
+    }
+
+    /// Also true for a single mark.
+    pub(super) fn only_grouped(&self) -> bool {
+        self.grouped > 0 && self.grouped == self.marks
+    }
+
+    /// Rows that this dialect understands in an orientation, or in the better; a header of wavelengths counts as one.
+    pub(super) fn rows(&self, orientation: Option<Orientation>) -> usize {
+        match orientation {
+            Some(Orientation::Down) => self.best.rows,
+            Some(Orientation::Across) => self.across_rows(),
+            None => self.best.rows.max(self.across_rows()),
+        }
+    }
+
+    /// Rows below a header of wavelengths and the header itself, or none.
+    pub(super) fn across_rows(&self) -> usize {
+        self.across.as_ref().filter(|across| across.rows > 0).map_or(0, |across| across.rows + 1)
+    }
+}

@@ -1,0 +1,44 @@
+//! Result of reading: curves with their report.
+
+use crate::report::{Decided, Decision, ReadReport};
+use crate::role::Role;
+use crate::warning::Warning;
+
+/// One curve: values over wavelength, in the order of wavelength.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// The name from the header, the title of the file, or `Column 2` and `Row 1`.
+    pub name: String,
+    /// True if the name is from the file; where it is not, the name of the file may say more.
+    pub named: bool,
+    /// Wavelengths in nanometers: finite, strictly ascending, at least two.
+    pub wavelengths_nm: Vec<f64>,
+    /// Values, one for each wavelength: finite; percent are already divided by 100.
+    pub values: Vec<f64>,
+    /// Number of wavelengths of the table without a value in this curve. They are left out, not filled.
+    pub missing: usize,
+    /// The unit of the values as the file names it, such as `W/m²/nm` or `counts`.
+    pub unit: Option<String>,
+}
+
+/// Curves of a file, with the report of how it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectralFile {
+    /// The curves, in the order of the file; at least one.
+    pub curves: Vec<Curve>,
+    /// Role of the curves.
+    pub role: Decided<Role>,
+    /// Decisions made while reading.
+    pub reading: ReadReport,
+    /// Doubts to check before the curves are trusted.
+    pub warnings: Vec<Warning>,
+}
+
+impl SpectralFile {
+    /// Every decision made on reading, the role first, ready to be listed for a person.
+    pub fn decisions(&self) -> Vec<Decision> {
+        let mut all = vec![Decision::new("Role", &self.role)];
+        all.extend(self.reading.decisions());
+        all
+    }
+}

@@ -1,0 +1,105 @@
+//! A database of cameras: a line with the name of each, then a line of 33 values for red, green and blue, without wavelengths
+//! (J. Jiang et al. 2013: 400 to 720 nm by 10). Read as its users describe it; no real file was at hand.
+
+use crate::dialect::{Cell, Dialect};
+use crate::error::ReadError;
+use crate::formats::found::Found;
+use crate::grid::{Grid, RawCurve};
+use crate::header::Header;
+use crate::limits::MAX_CURVES;
+use crate::places::PlaceKind;
+use crate::report::{Decided, Decision, Orientation, Reader};
+use crate::role::Role;
+use crate::separators::{DecimalMark, Delimiter};
+use crate::sniff::Layout;
+use crate::text::Lines;
+use crate::watch::Log;
+use crate::wavelength_unit::WavelengthUnit;
+
+/// Values in a line, one every 10 nm from 400 nm.
+const BANDS: usize = 33;
+
+const CHANNELS: [&str; 3] = ["R", "G", "B"];
+
+/// Returns whether the text begins with a name and three lines of 33 numbers.
+pub(super) fn recognize(text: &str) -> bool {
+    let mut lines = Lines::new(text).map(|(_, line)| line).filter(|line| !line.trim().is_empty());
+    lines.next().is_some_and(is_name) && (0..CHANNELS.len()).all(|_| lines.next().and_then(values).is_some())
+}
+
+fn is_name(line: &str) -> bool {
+    const LONGEST: usize = 100;
+    line.len() <= LONGEST && line.contains(char::is_alphabetic)
+}
+
+/// The values of a line, if it has as many as it must.
+fn values(line: &str) -> Option<Vec<f64>> {
+    let dialect = Dialect::new(Delimiter::Spaces, DecimalMark::Point);
+    let number = |cell| match dialect.parse(cell) {
+        Cell::Number(value) => Some(value),
+        Cell::Gap | Cell::Text => None,
+    };
+    let all: Vec<f64> = dialect.cells(line).take(BANDS + 1).map(number).collect::<Option<_>>()?;
+    (all.len() == BANDS).then_some(all)
+}
+
+fn wavelength(band: usize) -> f64 {
+    400.0 + 10.0 * band as f64
+}
+
+/// Records the values of a line as those of a curve.
+fn record(line: &str, origin: usize, log: &mut Log<'_>) {
+    let Some(places) = &mut log.places else { return };
+    for (band, cell) in line.split_ascii_whitespace().enumerate() {
+        let place = places.add(PlaceKind::Value, cell);
+        places.assign(place, origin, wavelength(band));
+    }
+}
+
+/// Reads three curves for each camera.
+pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
+    let mut lines = Lines::new(text).filter(|(_, line)| !line.trim().is_empty()).peekable();
+    let first_line = lines.peek().map_or(1, |(line, _)| line + 1);
+    let mut cameras: Vec<(String, [Vec<f64>; 3])> = Vec::new();
+    while let Some((_, name)) = lines.next() {
+        log.at(name.as_ptr() as usize - text.as_ptr() as usize)?;
+        let mut origin = CHANNELS.len() * cameras.len();
+        let mut channel = || {
+            let (line, text) = lines.next().unwrap_or_default();
+            record(text, origin, log);
+            origin += 1;
+            let found = text.split_ascii_whitespace().count();
+            values(text).ok_or(ReadError::UnevenRow { line: line.max(1), found, expected: BANDS })
+        };
+        cameras.push((name.trim().to_owned(), [channel()?, channel()?, channel()?]));
+        if cameras.len() > MAX_CURVES / CHANNELS.len() {
+            return Err(ReadError::TooManyCurves { line: first_line });
+        }
+    }
+    let mut header = Header::default();
+    if let [(only, _)] = cameras.as_slice() {
+        header.note(0, "title", only);
+    }
+    let (alone, rows) = (cameras.len() == 1, cameras.len() * CHANNELS.len());
+    let curves = cameras.into_iter().flat_map(|(camera, channels)| {
+        channels.into_iter().zip(CHANNELS).map(move |(values, channel)| {
+            let name = if alone { channel.to_owned() } else { format!("{camera} {channel}") };
+            RawCurve { name, named: true, values, ..RawCurve::default() }
+        })
+    });
+    let curves = curves.enumerate().map(|(origin, curve)| RawCurve { origin, ..curve });
+    let why = "Three lines of 33 values under each name";
+    let grid = Grid {
+        wavelengths: (0..BANDS).map(wavelength).collect(),
+        lines: vec![first_line],
+        curves: curves.collect(),
+        header,
+        unit: Some(Decided::guess(WavelengthUnit::Nanometer, why)),
+        role: Some(Decided::certain(Role::Camera, why)),
+        rows,
+        ..Grid::default()
+    };
+    let notes = vec![Decision::new("Grid", &Decided::guess("400 to 720 nm in steps of 10".to_owned(), why))];
+    let layout = Layout::fixed((Delimiter::Spaces, DecimalMark::Point), Orientation::Across, first_line, why);
+    Ok(Found { grid, layout, reader: Decided::guess(Reader::Camspec, why), notes })
+}

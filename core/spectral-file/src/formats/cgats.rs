@@ -1,0 +1,364 @@
+//! CGATS and its relatives (Argyll `.sp`, `.cmf`, `.ti3`, `.ccss`, X-Rite, `BabelColor`): keywords, named fields, sets.
+
+mod bands;
+mod tokens;
+
+use crate::dialect::{Cell, Dialect};
+use crate::error::ReadError;
+use crate::formats::cgats::bands::{Bands, Declared};
+use crate::formats::cgats::tokens::Token;
+use crate::formats::found::Found;
+use crate::grid::{Grid, RawCurve};
+use crate::header::Header;
+use crate::limits::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES};
+use crate::options::ReadOptions;
+use crate::places::{PlaceId, PlaceKind};
+use crate::report::{Decided, Decision, Orientation, Part, Reader};
+use crate::role::{Role, Values};
+use crate::separators::{DecimalMark, Delimiter};
+use crate::sniff::Layout;
+use crate::text::{Lines, comment, excerpt};
+use crate::warning::Warning;
+use crate::watch::Log;
+use crate::wavelength_unit::WavelengthUnit;
+use crate::{decimal, header_terms};
+
+/// Reads the table with spectral fields that was chosen, else the first.
+pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+    let mut file = File { wanted: options.part.unwrap_or(1), ..File::default() };
+    let mut place = Place::Keywords;
+    for (number, line) in Lines::new(text) {
+        if let Some((key, value)) = comment(line).and_then(|comment| comment.split_once(':'))
+            && !file.done
+        {
+            file.header.take_comment(number, key.trim(), value.trim());
+        }
+        let tokens = match place {
+            Place::Format => tokens::fields(line),
+            Place::Data if file.at == 0 => tokens::set(line, file.fields.len()),
+            Place::Keywords | Place::Data => tokens::of(line).collect(),
+        };
+        for token in tokens {
+            log.at(token.written().as_ptr() as usize - text.as_ptr() as usize)?;
+            place = match (place, token.bare().unwrap_or_default()) {
+                (_, "BEGIN_DATA_FORMAT") => {
+                    file.begin_format(number);
+                    Place::Format
+                }
+                (_, "BEGIN_DATA") => {
+                    file.begin_data(number);
+                    Place::Data
+                }
+                (Place::Format, "END_DATA_FORMAT") => Place::Keywords,
+                (Place::Data, "END_DATA") => {
+                    file.end_data();
+                    Place::Keywords
+                }
+                (Place::Keywords, _) => {
+                    file.keyword(number, &token, tokens::value(line, &token));
+                    break;
+                }
+                (Place::Format, _) => file.field(number, &token, log)?,
+                (Place::Data, _) => file.value(number, &token, log)?,
+            };
+        }
+    }
+    file.finish(options, log)
+}
+
+/// Which part of a file a token stands in.
+#[derive(Clone, Copy)]
+enum Place {
+    Keywords,
+    Format,
+    Data,
+}
+
+/// State of the reader.
+#[derive(Default)]
+struct File {
+    header: Header,
+    declared: Declared,
+    scale: Option<(usize, f64)>,
+    /// Keywords that the data are held against, with their lines and numbers.
+    announced: Vec<(&'static str, usize, f64)>,
+    fields: Vec<String>,
+    format_line: usize,
+    bands: Option<Bands>,
+    data_line: usize,
+    /// The sets of the first table with spectral fields, value by value.
+    names: Vec<String>,
+    values: Vec<f64>,
+    /// The places of the fields and of the values, if they are recorded.
+    field_places: Vec<PlaceId>,
+    places: Vec<PlaceId>,
+    /// The field that the next value belongs to.
+    at: usize,
+    name_fields: Vec<usize>,
+    row_name: String,
+    row_wavelengths: Vec<f64>,
+    last_line: usize,
+    /// Fields in a set of the table that is kept.
+    width: usize,
+    /// Which of the tables with spectral fields is kept, from 1.
+    wanted: usize,
+    /// True if the table that is kept has begun, and whether it is the one being read.
+    done: bool,
+    open: bool,
+    /// All tables with spectral fields.
+    parts: Vec<Part>,
+    /// Title that keywords give the next table.
+    title: String,
+    /// The values of one that is not kept, which are only counted.
+    counted: Option<usize>,
+}
+
+impl File {
+    fn keyword(&mut self, line: usize, key: &Token, value: Option<Token>) {
+        if key.bare() == Some("DESCRIPTOR") {
+            self.title = value.as_ref().map_or_else(String::new, |value| value.text().into_owned());
+        }
+        let (key, value) = (key.text(), value.map_or_else(String::new, |value| value.text().into_owned()));
+        if self.done || key == "KEYWORD" {
+            return;
+        }
+        let number = value.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+        let held = ["NUMBER_OF_SETS", "SPECTRAL_START_NM", "SPECTRAL_END_NM"].into_iter().find(|held| key == *held);
+        if let Some((held, number)) = held.zip(number) {
+            self.announced.retain(|(other, ..)| *other != held);
+            self.announced.push((held, line, number));
+        }
+        match &*key {
+            "SPECTRAL_BANDS" => self.declared.bands = number,
+            "SPECTRAL_START_NM" => self.declared.start = number,
+            "SPECTRAL_END_NM" => self.declared.end = number,
+            "SPECTRAL_NORM" | "SPEC_SCALE" => self.scale = number.filter(|n| *n > 0.0).map(|n| (line, n)),
+            "DEVICE_CLASS" => {
+                let role = if value == "DISPLAY" { Role::Illuminant } else { Role::Reflectance };
+                self.header.mentioned = self.header.mentioned.or(Some((line, role)));
+            }
+            "CCSS" => self.header.role = Some((line, Role::Illuminant)),
+            "MEAS_TYPE" => self.header.role = measured(&value).map(|role| (line, role)).or(self.header.role),
+            "DESCRIPTOR" => {
+                self.header.mentioned = header_terms::role(&value).map(|role| (line, role)).or(self.header.mentioned);
+                self.header.note(line, "title", &value);
+            }
+            _ => {}
+        }
+        self.header.note(line, &key, &value);
+    }
+
+    fn begin_format(&mut self, line: usize) {
+        self.end_data();
+        self.fields.clear();
+        if !self.done {
+            self.field_places.clear();
+            self.format_line = line;
+        }
+    }
+
+    fn field(&mut self, line: usize, token: &Token, log: &mut Log<'_>) -> Result<Place, ReadError> {
+        self.fields.push(token.text().into_owned());
+        if let Some(places) = log.places.as_mut().filter(|_| !self.done) {
+            let digits = bands::digits(token.written());
+            let place = (!digits.is_empty()).then(|| places.add(PlaceKind::Wavelength, digits));
+            self.field_places.push(place.unwrap_or_default());
+        }
+        if self.fields.len() > MAX_CURVES {
+            return Err(ReadError::TooManyCurves { line });
+        }
+        Ok(Place::Format)
+    }
+
+    fn begin_data(&mut self, line: usize) {
+        self.end_data();
+        let Some(bands) = Bands::of(&self.fields, self.declared).filter(|_| self.parts.len() < MAX_PARTS) else {
+            if !self.done {
+                self.announced.clear();
+            }
+            return;
+        };
+        let name = std::mem::take(&mut self.title);
+        self.parts.push(Part { line: line + 1, name, curves: 0, rows: bands.count() });
+        if self.parts.len() != self.wanted {
+            self.counted = Some(0);
+            return;
+        }
+        (self.done, self.open, self.width, self.data_line) = (true, true, self.fields.len(), line);
+        self.bands = Some(bands);
+        let named = |wanted: &&str| self.fields.iter().position(|field| field.eq_ignore_ascii_case(wanted));
+        self.name_fields = ["SAMPLE_NAME", "SAMPLE_LOC", "SAMPLE_ID", "SampleID"].iter().filter_map(named).collect();
+    }
+
+    /// Ends a table, whether or not the file says so.
+    fn end_data(&mut self) {
+        self.open = false;
+        if let (Some(values), Some(part)) = (self.counted.take(), self.parts.last_mut()) {
+            part.curves = values / self.fields.len().max(1);
+            // What the keywords say of one table is not said of the next.
+            if !self.done {
+                (self.declared, self.scale, self.header) = Default::default();
+                self.announced.clear();
+            }
+        }
+    }
+
+    fn value(&mut self, line: usize, token: &Token, log: &mut Log<'_>) -> Result<Place, ReadError> {
+        if let Some(values) = &mut self.counted {
+            *values += 1;
+        }
+        let Some(bands) = self.bands.as_ref().filter(|_| self.open && self.width > self.at) else {
+            return Ok(Place::Data);
+        };
+        self.last_line = line;
+        if self.name_fields.first() == Some(&self.at) {
+            self.row_name = token.text().into_owned();
+        }
+        if bands.is_value(self.at) {
+            self.values.push(number(token, line, self.at)?);
+            self.places.extend(log.places.as_mut().map(|places| places.add(PlaceKind::Value, token.written())));
+        } else if bands.is_wavelength(self.at) {
+            self.row_wavelengths.push(number(token, line, self.at)?);
+            if let Some(places) = &mut log.places {
+                places.add(PlaceKind::Wavelength, token.written());
+            }
+        }
+        self.at += 1;
+        if self.at == self.width {
+            self.end_row(line)?;
+        }
+        Ok(Place::Data)
+    }
+
+    fn end_row(&mut self, line: usize) -> Result<(), ReadError> {
+        self.at = 0;
+        self.names.push(std::mem::take(&mut self.row_name));
+        if self.values.len() > MAX_SAMPLES {
+            return Err(ReadError::TooManySamples { line });
+        }
+        if self.names.len() > MAX_CURVES {
+            return Err(ReadError::TooManyCurves { line });
+        }
+        let row = std::mem::take(&mut self.row_wavelengths);
+        let agrees = self.bands.as_mut().is_none_or(|bands| bands.agrees(row));
+        if agrees { Ok(()) } else { Err(ReadError::SecondTable { line }) }
+    }
+
+    fn finish(mut self, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+        self.end_data();
+        let parts = self.settle_parts(options, log)?;
+        let bands = self.bands.ok_or(ReadError::NoWavelengths { line: self.format_line.max(1) })?;
+        if self.at > 0 {
+            let (found, expected) = (self.at, self.width);
+            return Err(ReadError::UnevenRow { line: self.last_line, found, expected });
+        }
+        warn_announced(&self.announced, &bands.wavelengths, self.names.len(), log);
+        if let Some(places) = &mut log.places {
+            let fields = self.field_places.iter().enumerate().filter(|(field, _)| bands.is_value(*field));
+            let named = fields.zip(&bands.wavelengths).filter(|_| !bands.in_rows);
+            named.for_each(|((_, place), nm)| places.assign(*place, 0, *nm));
+            let width = bands.wavelengths.len().max(1);
+            for (index, place) in self.places.iter().enumerate() {
+                let nm = bands.wavelengths.get(index % width).copied().unwrap_or(f64::NAN);
+                places.assign(*place, index / width, nm);
+            }
+        }
+        let mut header = self.header;
+        header.line = Some(self.format_line);
+        if bands.percent {
+            header.values = Some((self.format_line, Values::Percent));
+        }
+        let mut notes = vec![bands.decision()];
+        let mut scale = 1.0;
+        if let Some((line, norm)) = self.scale {
+            scale = norm;
+            header.values = Some((line, Values::Plain));
+            let divided = Decided::certain(format!("divided by {norm}"), format!("Line {line} gives the scale"));
+            notes.push(Decision::new("Scale", &divided));
+        }
+        let title = header.comment("title").filter(|_| self.names.len() == 1).map(str::to_owned);
+        let width = bands.wavelengths.len().max(1);
+        let rows = self.names.len();
+        let curves = self.names.into_iter().zip(self.values.chunks(width)).enumerate().map(|(i, (name, values))| {
+            let given = Some(name).filter(|name| !name.is_empty()).or_else(|| title.clone());
+            let named = given.is_some();
+            let name = given.unwrap_or_else(|| format!("Set {}", i + 1));
+            let values = values.iter().map(|value| decimal::divided(*value, scale)).collect();
+            RawCurve { name, named, values, origin: i, unit: header.unit.clone(), ..RawCurve::default() }
+        });
+        let curves: Vec<RawCurve> = curves.collect();
+        warn_gaps(&curves, self.data_line, log);
+        let lines = vec![self.format_line];
+        let unit = Some(Decided::certain(WavelengthUnit::Nanometer, "CGATS prescribes it"));
+        let part = Some(Decided::guess(self.wanted, format!("{} tables have spectral fields", parts.len())));
+        let wavelengths = bands.wavelengths;
+        let grid = Grid { wavelengths, lines, curves, header, unit, parts, part, rows, ..Grid::default() };
+        let dialect = (Delimiter::Spaces, DecimalMark::Point);
+        let layout = Layout::fixed(dialect, Orientation::Across, self.data_line + 1, "CGATS prescribes it");
+        let why = format!("Line {} begins a data format", self.format_line);
+        Ok(Found { grid, layout, reader: Decided::certain(Reader::Cgats, why), notes })
+    }
+}
+
+impl File {
+    /// The list of tables, with a word on those that are left out.
+    fn settle_parts(&mut self, options: &ReadOptions, log: &mut Log<'_>) -> Result<Vec<Part>, ReadError> {
+        let mut parts = std::mem::take(&mut self.parts);
+        if let Some(part) = options.part.filter(|part| !parts.is_empty() && !(1..=parts.len()).contains(part)) {
+            return Err(ReadError::NoSuchPart { part, parts: parts.len() });
+        }
+        if let Some(kept) = self.wanted.checked_sub(1).and_then(|index| parts.get_mut(index)) {
+            kept.curves = self.names.len();
+        }
+        if let Some(second) = parts.get(1).filter(|_| options.part.is_none()) {
+            log.push(Warning::MoreTables { line: second.line });
+        }
+        Ok(parts)
+    }
+}
+
+/// Role of the curves of a kind of measurement, as Argyll names it.
+fn measured(kind: &str) -> Option<Role> {
+    match kind.split('_').next() {
+        Some("EMISSION" | "AMBIENT") => Some(Role::Illuminant),
+        Some("REFLECTIVE") => Some(Role::Reflectance),
+        Some("TRANSMISSIVE") => Some(Role::Transmittance),
+        Some("SENSITIVITY") => Some(Role::Camera),
+        _ => None,
+    }
+}
+
+/// Warns where keywords announce another number of sets, or other ends of the spectrum, than the data have.
+fn warn_announced(announced: &[(&'static str, usize, f64)], wavelengths: &[f64], sets: usize, log: &mut Log<'_>) {
+    const ROUNDING_NM: f64 = 1.0;
+    for &(label, line, announced) in announced {
+        let (found, slack) = match label {
+            "NUMBER_OF_SETS" => (Some(sets as f64), 0.0),
+            "SPECTRAL_START_NM" => (wavelengths.first().copied(), ROUNDING_NM),
+            _ => (wavelengths.last().copied(), ROUNDING_NM),
+        };
+        if let Some(found) = found.filter(|found| (found - announced).abs() > slack) {
+            log.push(Warning::HeaderDiffers { line, label, announced, found });
+        }
+    }
+}
+
+fn warn_gaps(curves: &[RawCurve], line: usize, log: &mut Log<'_>) {
+    let cells = curves.iter().flat_map(|curve| &curve.values).filter(|value| value.is_nan()).count();
+    if cells > 0 {
+        let mut lines = crate::warning::LineList::default();
+        lines.add(line);
+        log.push(Warning::Gaps { cells, lines, sentinel: None });
+    }
+}
+
+/// A value; NaN for a gap. A comma can only be a decimal mark here.
+fn number(token: &Token, line: usize, field: usize) -> Result<f64, ReadError> {
+    let text = token.text();
+    let mark = if text.contains(',') { DecimalMark::Comma } else { DecimalMark::Point };
+    match Dialect::new(Delimiter::Spaces, mark).parse(&text) {
+        Cell::Number(value) => Ok(value),
+        Cell::Gap => Ok(f64::NAN),
+        Cell::Text => Err(ReadError::NotANumber { line, column: field + 1, text: excerpt(&text) }),
+    }
+}

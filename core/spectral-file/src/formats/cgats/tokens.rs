@@ -1,0 +1,138 @@
+//! The words of a line: bare, or quoted with `""` for a quote, up to a comment. Between tabs, bare words may have blanks.
+
+use std::borrow::Cow;
+
+/// One word of a line.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Token<'a> {
+    Bare(&'a str),
+    /// Between quotes, doubled quotes still in it.
+    Quoted(&'a str),
+}
+
+impl<'a> Token<'a> {
+    /// The word, if it was not quoted: only such a word can be a keyword of the format.
+    pub(super) fn bare(&self) -> Option<&'a str> {
+        match self {
+            Self::Bare(text) => Some(text),
+            Self::Quoted(_) => None,
+        }
+    }
+
+    /// The word as it is meant.
+    pub(super) fn text(&self) -> Cow<'a, str> {
+        match self {
+            Self::Quoted(text) if text.contains("\"\"") => Cow::Owned(text.replace("\"\"", "\"")),
+            Self::Bare(text) | Self::Quoted(text) => Cow::Borrowed(text),
+        }
+    }
+
+    /// The word as it is written, without the quotes around it.
+    pub(super) fn written(&self) -> &'a str {
+        match self {
+            Self::Bare(text) | Self::Quoted(text) => text,
+        }
+    }
+}
+
+/// The words of a line. Quotes that are never closed end with the line.
+pub(super) fn of(line: &str) -> impl Iterator<Item = Token<'_>> {
+    let mut rest = line;
+    std::iter::from_fn(move || {
+        rest = rest.trim_start();
+        if rest.is_empty() || rest.starts_with('#') {
+            return None;
+        }
+        let (token, after) = if let Some(inner) = rest.strip_prefix('"') {
+            let end = closing(inner);
+            (Token::Quoted(&inner[..end]), inner.get(end + 1..).unwrap_or_default())
+        } else {
+            let end = rest.find(char::is_whitespace).unwrap_or(rest.len());
+            (Token::Bare(&rest[..end]), &rest[end..])
+        };
+        rest = after;
+        Some(token)
+    })
+}
+
+/// The value behind a keyword: a word in quotes, or all that follows up to a comment.
+pub(super) fn value<'a>(line: &'a str, key: &Token<'a>) -> Option<Token<'a>> {
+    let second = of(line).nth(1)?;
+    let Token::Bare(first) = second else { return Some(second) };
+    let start = first.as_ptr().addr().saturating_sub(line.as_ptr().addr());
+    let rest = line.get(start..).filter(|_| key.bare().is_some())?;
+    let end = rest.find([' ', '\t']).and_then(|_| rest.match_indices('#').find(|(at, _)| follows_blank(rest, *at)));
+    Some(Token::Bare(rest[..end.map_or(rest.len(), |(at, _)| at)].trim()))
+}
+
+fn follows_blank(text: &str, at: usize) -> bool {
+    text[..at].ends_with(char::is_whitespace)
+}
+
+/// The names of fields in a line of a data format.
+pub(super) fn fields(line: &str) -> Vec<Token<'_>> {
+    if !line.contains('\t') {
+        return of(line).collect();
+    }
+    // Names with an underscore, or of wavelengths, have no blanks: several of them may stand between two tabs.
+    let several =
+        |cell: &str| cell.contains('_') || cell.split_whitespace().any(|word| word.len() > 2 && ends_with_digits(word));
+    let cells = between_tabs(line);
+    let names = cells.into_iter().filter(|cell| !cell.is_empty()).flat_map(|cell| match unquoted(cell) {
+        Token::Bare(bare) if !bare.starts_with('#') && bare.contains(' ') && !several(bare) => vec![Token::Bare(bare)],
+        _ => of(cell).collect(),
+    });
+    names.collect()
+}
+
+fn ends_with_digits(word: &str) -> bool {
+    word.bytes().rev().take_while(u8::is_ascii_digit).count() >= 3
+}
+
+/// The values of a set that takes a whole line: cells between tabs if there are as many as fields, else words.
+pub(super) fn set(line: &str, fields: usize) -> Vec<Token<'_>> {
+    if line.contains('\t') && !line.trim_start().starts_with('#') {
+        let mut cells = between_tabs(line);
+        while cells.len() > fields && cells.last().is_some_and(|cell| cell.is_empty()) {
+            cells.pop();
+        }
+        if cells.len() == fields && fields > 1 {
+            return cells.into_iter().map(unquoted).collect();
+        }
+    }
+    of(line).collect()
+}
+
+/// The pieces of a line between tabs that are not in quotes, without blanks around them.
+fn between_tabs(line: &str) -> Vec<&str> {
+    let mut quoted = false;
+    let pieces = line.split(move |c: char| {
+        quoted ^= c == '"';
+        c == '\t' && !quoted
+    });
+    pieces.map(str::trim).collect()
+}
+
+/// A piece as a word; an empty one counts as quoted, so that it is no keyword.
+fn unquoted(piece: &str) -> Token<'_> {
+    let inner = piece.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+    match inner {
+        Some(inner) => Token::Quoted(inner),
+        None if piece.is_empty() => Token::Quoted(piece),
+        None => Token::Bare(piece),
+    }
+}
+
+/// Offset of the closing quote, or of the end.
+fn closing(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let mut at = 0;
+    while at < bytes.len() {
+        match (bytes[at], bytes.get(at + 1)) {
+            (b'"', Some(b'"')) => at += 2,
+            (b'"', _) => return at,
+            _ => at += 1,
+        }
+    }
+    bytes.len()
+}

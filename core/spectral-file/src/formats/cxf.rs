@@ -1,0 +1,186 @@
+//! `CxF3`: spectra of named objects in XML, as lists of values or as single points.
+
+use std::borrow::Cow;
+
+use crate::decimal::clean;
+use crate::error::ReadError;
+use crate::formats::found::Found;
+use crate::formats::spectra;
+use crate::formats::spectra::{Sample, Spectrum};
+use crate::formats::xml::{Element, Step, Walk};
+use crate::header::Header;
+use crate::limits::{MAX_CURVES, MAX_SAMPLES};
+use crate::report::{Decided, Orientation, Reader};
+use crate::separators::{DecimalMark, Delimiter};
+use crate::sniff::Layout;
+use crate::watch::Log;
+use crate::wavelength_unit::WavelengthUnit;
+
+/// Reads the spectra of all objects of a document.
+pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
+    let mut walk = Walk::new(text);
+    let mut content = Content::default();
+    while let Some(step) = walk.next(log)? {
+        match (step, walk.innermost()) {
+            (Step::Open, Some(element)) => content.open(element)?,
+            (Step::Open, None) => {}
+            (Step::Close(element), inside) => content.close(&element, inside.map_or("", Element::name), log)?,
+        }
+    }
+    content.place_lists(log)?;
+    let Content { header, spectra: all, .. } = content;
+    let first_line = all.iter().find_map(|spectrum| spectrum.samples.first()).map(|sample| sample.line);
+    let first_line = first_line.ok_or(ReadError::NoNumbers)?;
+    let mut grid = spectra::grid(all, header, log)?;
+    grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "CxF prescribes it"));
+    let dialect = (Delimiter::Elements, DecimalMark::Point);
+    let layout = Layout::fixed(dialect, Orientation::Down, first_line, "CxF prescribes it");
+    let reader = Decided::certain(Reader::Cxf, "The root element is “CxF”");
+    Ok(Found { grid, layout, reader, notes: Vec::new() })
+}
+
+fn is_spectrum(name: &str) -> bool {
+    name.ends_with("Spectrum")
+}
+
+/// First wavelength and step of a list of values, as far as they are given.
+#[derive(Debug, Clone, Default)]
+struct Range {
+    start: Option<f64>,
+    step: Option<f64>,
+}
+
+impl Range {
+    fn of(element: &Element<'_>) -> Result<Self, ReadError> {
+        Ok(Self { start: element.number_attribute("StartWL")?, step: element.number_attribute("Increment")? })
+    }
+}
+
+/// A spectrum whose samples have the numbers of their places in a list for wavelengths.
+struct List {
+    spectrum: usize,
+    range: Range,
+    /// The specification that says what `range` does not.
+    specification: Option<String>,
+    line: usize,
+}
+
+/// State of the reader.
+#[derive(Default)]
+struct Content {
+    header: Header,
+    spectra: Vec<Spectrum>,
+    /// Samples of all spectra.
+    total: usize,
+    /// The names of the objects that are open.
+    objects: Vec<Option<String>>,
+    /// The points of the spectrum that is open.
+    points: Vec<Sample>,
+    /// Lists wait for the end: the specifications may stand below them.
+    lists: Vec<List>,
+    /// The specification that is open.
+    specification: Option<String>,
+    /// Ranges that the specifications declare.
+    ranges: Vec<(String, Range)>,
+}
+
+impl Content {
+    fn open(&mut self, element: &Element<'_>) -> Result<(), ReadError> {
+        match element.name() {
+            "Object" => {
+                let name = element.attribute("Name")?.or(element.attribute("Id")?);
+                self.objects.push(name.map(Cow::into_owned));
+            }
+            "ColorSpecification" => self.specification = element.attribute("Id")?.map(Cow::into_owned),
+            name if is_spectrum(name) => self.points = Vec::new(),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn close(&mut self, element: &Element<'_>, inside: &str, log: &mut Log<'_>) -> Result<(), ReadError> {
+        if inside == "FileInformation" {
+            self.header.note(element.line, element.name(), element.content());
+        }
+        match element.name() {
+            "Object" => {
+                self.objects.pop();
+            }
+            "ColorSpecification" => self.specification = None,
+            "WavelengthRange" => {
+                // The first one of a specification counts.
+                if let Some(id) = self.specification.take() {
+                    self.ranges.push((id, Range::of(element)?));
+                }
+            }
+            "SpectralPoint" => {
+                let wavelength = element.number_attribute("WL")?.unwrap_or(f64::NAN);
+                let place = element.pair("WL", log);
+                let sample = Sample { wavelength, value: element.number()?, line: element.line, place };
+                push(&mut self.points, &mut self.total, sample)?;
+            }
+            name if is_spectrum(name) => self.spectrum(element, log)?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn spectrum(&mut self, element: &Element<'_>, log: &mut Log<'_>) -> Result<(), ReadError> {
+        let Some(name) = self.objects.last().cloned() else { return Ok(()) };
+        if self.spectra.len() >= MAX_CURVES {
+            return Err(ReadError::TooManyCurves { line: element.line });
+        }
+        let kind = element.name().trim_end_matches("Spectrum");
+        let label = if kind == "Emissive" { "Emission" } else { kind.trim_start_matches("Custom") }.to_owned();
+        let mut samples = std::mem::take(&mut self.points);
+        if samples.is_empty() && !element.content().is_empty() {
+            let specification = element.attribute("ColorSpecification")?.map(Cow::into_owned);
+            let (range, line) = (Range::of(element)?, element.line);
+            self.lists.push(List { spectrum: self.spectra.len(), range, specification, line });
+            let mut places = 0..;
+            element.numbers(log, |value, place| {
+                let wavelength = places.next().map_or(f64::NAN, |place: u32| f64::from(place));
+                push(&mut samples, &mut self.total, Sample { wavelength, value, line, place })
+            })?;
+        }
+        samples.shrink_to_fit();
+        self.spectra.push(Spectrum { name, label, samples });
+        Ok(())
+    }
+
+    /// Gives the values of lists their wavelengths.
+    fn place_lists(&mut self, log: &Log<'_>) -> Result<(), ReadError> {
+        self.ranges.sort_by(|a, b| a.0.cmp(&b.0));
+        for list in &self.lists {
+            log.look(usize::MAX)?;
+            let declared = list.specification.as_ref().and_then(|id| {
+                let first = self.ranges.partition_point(|(other, _)| other < id);
+                self.ranges.get(first).filter(|(other, _)| other == id)
+            });
+            let start = list.range.start.or(declared.and_then(|(_, range)| range.start));
+            let step = list.range.step.or(declared.and_then(|(_, range)| range.step));
+            let (Some(start), Some(step)) = (start, step) else {
+                return Err(ReadError::NoWavelengths { line: list.line });
+            };
+            let samples = &mut self.spectra[list.spectrum].samples;
+            for sample in &mut *samples {
+                sample.wavelength = clean(start + step * sample.wavelength);
+            }
+            samples.retain(|sample| sample.wavelength.is_finite());
+        }
+        Ok(())
+    }
+}
+
+/// Adds a sample that is none of a gap.
+fn push(samples: &mut Vec<Sample>, total: &mut usize, sample: Sample) -> Result<(), ReadError> {
+    if !sample.wavelength.is_finite() || !sample.value.is_finite() {
+        return Ok(());
+    }
+    *total += 1;
+    if *total > MAX_SAMPLES {
+        return Err(ReadError::TooManySamples { line: sample.line });
+    }
+    samples.push(sample);
+    Ok(())
+}

@@ -1,0 +1,141 @@
+//! JCAMP-DX: labeled records, blocks of blocks, points or compressed ordinates.
+
+mod block;
+mod checks;
+mod counts;
+mod ordinates;
+
+use crate::error::ReadError;
+use crate::formats::found::Found;
+use crate::formats::jcamp::block::{Block, label};
+use crate::formats::spectra;
+use crate::limits::{MAX_CURVES, MAX_PARTS, MAX_SAMPLES};
+use crate::options::ReadOptions;
+use crate::report::{Decided, Decision, Orientation, Part, Reader};
+use crate::separators::{DecimalMark, Delimiter};
+use crate::sniff::Layout;
+use crate::text::{Lines, excerpt};
+use crate::unit_text;
+use crate::warning::Warning;
+use crate::watch::Log;
+
+/// Reads the processed spectrum, or all spectra if none is a raw one beside it.
+pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+    let mut blocks = blocks(text, log)?;
+    blocks.retain(|block| !block.samples.is_empty());
+    let parts: Vec<Part> = blocks.iter().take(MAX_PARTS).map(Block::part).collect();
+    let mut notes = Vec::new();
+    let ratio = counts::settle(&mut blocks, options, log);
+    let part = choose(&mut blocks, options, &mut notes)?;
+    let part = leave_other_units(&mut blocks, part, &parts, log);
+    let first_line = blocks.first().map(|block| block.data_line + 1).ok_or(ReadError::NoNumbers)?;
+    for block in &blocks {
+        block.warn(log);
+    }
+    let comma = blocks.iter().any(|block| block.comma);
+    let form =
+        (blocks[0].written, format!("Line {} gives the form {}", blocks[0].data_line, excerpt(&blocks[0].form_label)));
+    let header = blocks[0].header();
+    let units: Vec<Option<String>> = blocks.iter().map(|block| unit_text::unit(&block.y_units.1)).collect();
+    let spectra = blocks.into_iter().map(Block::spectrum).collect();
+    let mut grid = spectra::grid(spectra, header, log)?;
+    grid.curves.iter_mut().zip(units).for_each(|(curve, unit)| curve.unit = unit);
+    (grid.parts, grid.part) = (parts, Some(part));
+    if let Some(ratio) = ratio {
+        (grid.role, grid.quantity) = (Some(ratio.role), Some(ratio.quantity));
+        notes.retain(|note: &Decision| note.what != ratio.note.what);
+        notes.push(ratio.note);
+    }
+    let dialect =
+        if comma { (Delimiter::CommaSpace, DecimalMark::Comma) } else { (Delimiter::Comma, DecimalMark::Point) };
+    let layout = Layout::fixed(dialect, Orientation::Down, first_line, &form.1);
+    notes.insert(0, Decision::new("Form", &Decided::certain(form.0.told(), form.1)));
+    let reader = Decided::certain(Reader::Jcamp, "The file begins with ## labels");
+    Ok(Found { grid, layout, reader, notes })
+}
+
+/// Leaves the block that was chosen, else those that are not raw; 0 stands for several.
+fn choose(
+    blocks: &mut Vec<Block>,
+    options: &ReadOptions,
+    notes: &mut Vec<Decision>,
+) -> Result<Decided<usize>, ReadError> {
+    let count = blocks.len();
+    if let Some(part) = options.part {
+        if !(1..=count.min(MAX_PARTS)).contains(&part) && count > 0 {
+            return Err(ReadError::NoSuchPart { part, parts: count.min(MAX_PARTS) });
+        }
+        *blocks = blocks.drain(..).skip(part.saturating_sub(1)).take(1).collect();
+        return Ok(Decided::chosen(part));
+    }
+    let raw = blocks.iter().filter(|block| block.is_raw()).count();
+    let all = usize::from(count == 1);
+    if raw == 0 || raw == count || options.raw == Some(true) {
+        return Ok(Decided::certain(all, format!("{count} blocks hold spectra")));
+    }
+    let first = blocks.iter().position(|block| !block.is_raw()).map_or(0, |index| index + 1);
+    let why = format!("{count} blocks, of which {raw} are dark or reference spectra");
+    blocks.retain(|block| !block.is_raw());
+    let taken = format!("“{}” alone", blocks[0].title);
+    notes.push(Decision::new(
+        "Blocks",
+        &Decided::or_chosen(options.raw, || Decided::certain(false, why.clone())).told(&taken),
+    ));
+    Ok(Decided::certain(if count - raw == 1 { first } else { 0 }, why))
+}
+
+/// Leaves the blocks that are in the units of the first: those of others are parts that must be chosen.
+fn leave_other_units(
+    blocks: &mut Vec<Block>,
+    part: Decided<usize>,
+    parts: &[Part],
+    log: &mut Log<'_>,
+) -> Decided<usize> {
+    let Some(units) = blocks.first().map(Block::units) else { return part };
+    let Some(other) = blocks.iter().find(|block| block.units() != units) else { return part };
+    log.push(Warning::MoreTables { line: other.data_line + 1 });
+    blocks.retain(|block| block.units() == units);
+    let why = format!("{}, not all in the same units", part.why);
+    let alone = parts.iter().position(|listed| listed.line == blocks[0].data_line + 1).map_or(0, |at| at + 1);
+    Decided { value: if blocks.len() == 1 { alone } else { 0 }, why, ..part }
+}
+
+/// All blocks that have a title of their own, in the order of the file.
+fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
+    let mut all: Vec<Block> = Vec::new();
+    let mut total = 0;
+    // Repetitions make more of a file than it is long, but no sound file makes this much of little.
+    let most = MAX_SAMPLES.min(1_000_000 + 10 * text.len());
+    for (number, line) in Lines::new(text) {
+        log.at(line.as_ptr() as usize - text.as_ptr() as usize)?;
+        let line = line.split_once("$$").map_or(line, |(before, _)| before);
+        if let Some((key, value)) = line.trim_start().strip_prefix("##").and_then(|record| record.split_once('=')) {
+            let key = label(key);
+            if key == "TITLE" || all.is_empty() {
+                close(&mut all)?;
+                if all.len() >= MAX_CURVES {
+                    return Err(ReadError::TooManyCurves { line: number });
+                }
+                all.push(Block::default());
+            }
+            if let Some(block) = all.last_mut() {
+                block.record(number, &key, value.trim());
+            }
+            continue;
+        }
+        if let Some(block) = all.last_mut().filter(|block| block.form.is_some()) {
+            let before = block.samples.len() + block.ordinates.len();
+            block.data(number, line, log)?;
+            total += block.samples.len() + block.ordinates.len() - before;
+            if total > most {
+                return Err(ReadError::TooManySamples { line: number });
+            }
+        }
+    }
+    close(&mut all)?;
+    Ok(all)
+}
+
+fn close(all: &mut [Block]) -> Result<(), ReadError> {
+    all.last_mut().map_or(Ok(()), Block::close)
+}

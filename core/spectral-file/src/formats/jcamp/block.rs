@@ -1,0 +1,229 @@
+//! Blocks of JCAMP-DX: records and data.
+
+use crate::decimal::clean;
+use crate::error::ReadError;
+use crate::formats::jcamp::counts::Source;
+use crate::formats::jcamp::ordinates;
+use crate::formats::jcamp::ordinates::{Axis, Data, Row, Written};
+use crate::formats::jcamp_asdf;
+use crate::formats::spectra::{Sample, Spectrum};
+use crate::header::Header;
+use crate::header_terms;
+use crate::header_terms::XUnit;
+use crate::report::Part;
+use crate::role::Values;
+use crate::text::excerpt;
+use crate::warning::Warning;
+use crate::watch::Log;
+
+/// Form of the data of a block.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) enum Form {
+    /// `x, y` pairs.
+    #[default]
+    Pairs,
+    /// `x y y y`, the steps of x being equal.
+    Ordinates,
+}
+
+impl Form {
+    pub(super) fn told(self) -> &'static str {
+        match self {
+            Self::Pairs => "pairs of wavelength and value",
+            Self::Ordinates => "a wavelength and the values that follow it in equal steps, in each line",
+        }
+    }
+}
+
+/// A block with, or without, data.
+#[derive(Debug, Default)]
+pub(super) struct Block {
+    pub(super) title: String,
+    /// Each with its line.
+    pub(super) records: Vec<(usize, String, String)>,
+    pub(super) x_units: (usize, String),
+    pub(super) y_units: (usize, String),
+    pub(super) points: (usize, Option<usize>),
+    /// Numbers that the header announces, by label, with their lines.
+    pub(super) announced: Vec<(&'static str, usize, Written)>,
+    /// Scale of the values, where the units do not decide it.
+    pub(super) values: Option<(usize, Values)>,
+    /// Form of the data that is being read.
+    pub(super) form: Option<Form>,
+    /// Form of the block's data, and the label that gives it.
+    pub(super) written: Form,
+    pub(super) form_label: String,
+    pub(super) data_line: usize,
+    pub(super) rows: Vec<Row>,
+    pub(super) ordinates: Vec<f64>,
+    /// True if the last line ended with a difference.
+    pub(super) difference: bool,
+    pub(super) samples: Vec<Sample>,
+    /// Number of values.
+    pub(super) found: usize,
+    pub(super) warnings: Vec<Warning>,
+    pub(super) comma: bool,
+}
+
+/// Labels of numbers.
+const NUMBERS: [&str; 8] = ["FIRSTX", "LASTX", "DELTAX", "XFACTOR", "YFACTOR", "FIRSTY", "MINY", "MAXY"];
+
+/// A label as labels are compared: capitals and digits only.
+pub(super) fn label(written: &str) -> String {
+    written.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_uppercase()).take(64).collect()
+}
+
+impl Block {
+    pub(super) fn record(&mut self, line: usize, key: &str, value: &str) {
+        const MAX_RECORDS: usize = 1000;
+        self.form = None;
+        match key {
+            "TITLE" => value.clone_into(&mut self.title),
+            "XUNITS" => self.x_units = (line, value.to_owned()),
+            "YUNITS" => self.y_units = (line, value.to_owned()),
+            "NPOINTS" => self.points = (line, value.parse().ok()),
+            "XYDATA" | "XYPOINTS" | "PEAKTABLE" if self.samples.is_empty() && self.rows.is_empty() => {
+                let ordinates = value.contains("++") || label(value).starts_with("XYY");
+                self.written = if ordinates { Form::Ordinates } else { Form::Pairs };
+                self.form = Some(self.written);
+                value.clone_into(&mut self.form_label);
+                self.data_line = line;
+            }
+            _ => {
+                let known = NUMBERS.iter().find(|label| **label == key);
+                if let Some((label, number)) = known.and_then(|label| Some((*label, Written::parse(value)?))) {
+                    self.announced.retain(|(other, ..)| *other != label);
+                    self.announced.push((label, line, number));
+                }
+            }
+        }
+        if self.records.len() < MAX_RECORDS {
+            self.records.push((line, key.to_owned(), value.to_owned()));
+        }
+    }
+
+    pub(super) fn data(&mut self, line: usize, text: &str, log: &mut Log<'_>) -> Result<(), ReadError> {
+        let broken = |text: &str| ReadError::NotANumber { line, column: 1, text: excerpt(text) };
+        if self.form == Some(Form::Ordinates) {
+            let Some(found) = jcamp_asdf::decode(text).map_err(broken)? else { return Ok(()) };
+            let head = Written { value: found.head.0, digit: found.head.1 };
+            let places =
+                log.places.as_mut().map(|places| ordinates::record(text, found.values.len(), self.difference, places));
+            let (place, block) = places.unwrap_or_default();
+            self.rows.push(Row { line, head, from: self.ordinates.len(), repeats: self.difference, place, block });
+            self.difference = found.ends_in_difference;
+            self.ordinates.extend(found.values);
+            return Ok(());
+        }
+        for pair in text.split(';').filter(|pair| !pair.trim().is_empty()) {
+            let (numbers, comma) = numbers(pair).ok_or_else(|| broken(pair.trim()))?;
+            self.comma |= comma;
+            if numbers.len() % 2 != 0 {
+                return Err(broken(pair.trim()));
+            }
+            for xy in numbers.chunks_exact(2).filter(|xy| xy.iter().all(|(number, _)| !number.is_nan())) {
+                let [(wavelength, x), (value, y)] = [xy[0], xy[1]];
+                let place = log.places.as_mut().map(|places| places.pair(x, y)).unwrap_or_default();
+                self.samples.push(Sample { wavelength, value, line, place });
+            }
+        }
+        Ok(())
+    }
+
+    /// A number that the header announces, with its line.
+    pub(super) fn number(&self, label: &str) -> Option<(usize, Written)> {
+        self.announced.iter().find(|(other, ..)| *other == label).map(|&(_, line, number)| (line, number))
+    }
+
+    pub(super) fn factor(&self, label: &str) -> f64 {
+        self.number(label).map(|(_, factor)| factor.value).filter(|factor| *factor != 0.0).unwrap_or(1.0)
+    }
+
+    /// Gives the samples their wavelengths and factors.
+    pub(super) fn close(&mut self) -> Result<(), ReadError> {
+        let (x_factor, y_factor) = (self.factor("XFACTOR"), self.factor("YFACTOR"));
+        for sample in &mut self.samples {
+            sample.wavelength = clean(sample.wavelength * x_factor);
+        }
+        if !self.rows.is_empty() {
+            let value = |label| self.number(label).map(|(_, number)| number);
+            let first = value("FIRSTX").ok_or(ReadError::NoWavelengths { line: self.data_line })?;
+            let (last, delta, points) = (value("LASTX"), self.number("DELTAX"), self.points.1);
+            let axis = Axis { first, last, delta, points, factor: x_factor };
+            let data = Data { rows: &self.rows, ordinates: &self.ordinates };
+            let placed = data.place(&axis)?;
+            (self.samples, self.warnings) = (placed.samples, placed.warnings);
+            (self.rows, self.ordinates) = (Vec::new(), Vec::new());
+        }
+        for sample in &mut self.samples {
+            sample.value *= y_factor;
+        }
+        self.check()
+    }
+
+    /// Returns whether this is a dark or a reference spectrum.
+    pub(super) fn is_raw(&self) -> bool {
+        Source::of(&self.title) != Source::Other
+    }
+
+    /// The units of both axes, such that blocks in the same units have the same.
+    pub(super) fn units(&self) -> (Result<XUnit, String>, String) {
+        let plain = |units: &str| units.trim().to_lowercase();
+        let x = &self.x_units.1;
+        (header_terms::x_unit(x).ok_or_else(|| plain(x)), plain(&self.y_units.1))
+    }
+
+    pub(super) fn warn(&self, log: &mut Log<'_>) {
+        log.extend(self.warnings.iter().cloned());
+        let found = self.found;
+        if let (line, Some(expected)) = self.points
+            && expected != found
+        {
+            log.push(Warning::CountDiffers { line, expected, found });
+        }
+    }
+
+    pub(super) fn part(&self) -> Part {
+        Part { line: self.data_line + 1, name: self.title.clone(), curves: 1, rows: self.samples.len() }
+    }
+
+    pub(super) fn header(&self) -> Header {
+        let (line, units) = &self.y_units;
+        let mut header = Header {
+            x_unit: header_terms::x_unit(&self.x_units.1).map(|unit| (self.x_units.0, unit)),
+            role: header_terms::role(units).map(|role| (*line, role)),
+            values: self
+                .values
+                .or_else(|| Some((*line, header_terms::values(units).filter(|values| *values != Values::Plain)?))),
+            quantity: header_terms::quantity(units).map(|quantity| (*line, quantity)),
+            medium: header_terms::medium(&self.x_units.1).map(|medium| (self.x_units.0, medium)),
+            ..Header::default()
+        };
+        for (line, key, value) in &self.records {
+            header.note(*line, &key.to_ascii_lowercase(), value);
+        }
+        header
+    }
+
+    pub(super) fn spectrum(self) -> Spectrum {
+        let name = Some(self.title).filter(|title| !title.is_empty());
+        Spectrum { name, label: String::new(), samples: self.samples }
+    }
+}
+
+/// The numbers of a piece of a line, NaN for a gap, with their texts, and whether commas mark their fractions.
+fn numbers(text: &str) -> Option<(Vec<(f64, &str)>, bool)> {
+    let text = text.trim();
+    let parse = |cell: &str| match cell {
+        "?" => Some(f64::NAN),
+        _ => cell.parse::<f64>().ok().filter(|number| number.is_finite()),
+    };
+    // Where a comma has a space after it in one place and none in another, the latter marks a fraction.
+    let spaced = text.contains(", ") && !text.contains('.');
+    if spaced && text.replace(", ", " ").contains(',') {
+        let cells = text.split(", ").map(str::trim).map(|cell| Some((parse(&cell.replace(',', "."))?, cell)));
+        return Some((cells.collect::<Option<_>>()?, true));
+    }
+    let cells = text.split([',', ' ', '\t']).filter(|cell| !cell.is_empty()).map(|cell| Some((parse(cell)?, cell)));
+    Some((cells.collect::<Option<_>>()?, false))
+}

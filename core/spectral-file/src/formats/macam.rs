@@ -1,0 +1,79 @@
+//! Wavelengths and values on alternate lines below `@date`, `@time` and `#title`, as Macam writes.
+
+use crate::dialect::{Cell, Dialect};
+use crate::error::ReadError;
+use crate::formats::found::Found;
+use crate::formats::spectra;
+use crate::formats::spectra::{Sample, Spectrum};
+use crate::header::Header;
+use crate::report::{Decided, Orientation, Reader};
+use crate::role::Role;
+use crate::separators::{DecimalMark, Delimiter};
+use crate::sniff::Layout;
+use crate::text::{Lines, excerpt};
+use crate::watch::Log;
+
+/// Lines of numbers that are looked at.
+const LOOK: usize = 4;
+
+/// Returns whether the first lines begin with `@` and the next ones are single numbers.
+pub(super) fn recognize(text: &str) -> bool {
+    let mut lines = Lines::new(text).map(|(_, line)| line.trim()).filter(|line| !line.is_empty());
+    let marked = |line: &str| line.starts_with(['@', '#']);
+    if !lines.next().is_some_and(|line| line.starts_with('@')) {
+        return false;
+    }
+    let mut numbers = lines.skip_while(|line| marked(line)).take(LOOK);
+    numbers.by_ref().all(|line| number(line).is_some())
+}
+
+fn number(cell: &str) -> Option<f64> {
+    let mark = if cell.contains(',') { DecimalMark::Comma } else { DecimalMark::Point };
+    match Dialect::new(Delimiter::Spaces, mark).parse(cell) {
+        Cell::Number(value) => Some(value),
+        Cell::Gap => Some(f64::NAN),
+        Cell::Text => None,
+    }
+}
+
+/// Reads the pairs of lines.
+pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
+    let mut header = Header::default();
+    let mut samples = Vec::new();
+    let mut wavelength = None;
+    let mut comma = false;
+    for (line, cell) in Lines::new(text).map(|(line, text)| (line, text.trim())).filter(|(_, cell)| !cell.is_empty()) {
+        log.at(cell.as_ptr() as usize - text.as_ptr() as usize)?;
+        if let Some(title) = cell.strip_prefix('#') {
+            if title.trim() != "No Title" {
+                header.note(line, "title", title.trim());
+            }
+            continue;
+        }
+        if let Some(date) = cell.strip_prefix('@') {
+            header.note(line, "date", date.trim());
+            continue;
+        }
+        let broken = || ReadError::NotANumber { line, column: 1, text: excerpt(cell) };
+        let found = number(cell).ok_or_else(broken)?;
+        comma |= cell.contains(',');
+        match wavelength.take() {
+            None => wavelength = Some((line, cell, found)),
+            Some((line, written, wavelength)) if found.is_finite() && f64::is_finite(wavelength) => {
+                let place = log.places.as_mut().map(|places| places.pair(written, cell)).unwrap_or_default();
+                samples.push(Sample { wavelength, value: found, line, place });
+            }
+            Some(_) => {}
+        }
+    }
+    if let Some((line, ..)) = wavelength {
+        return Err(ReadError::UnevenRow { line, found: 1, expected: 2 });
+    }
+    let first_line = samples.first().map(|sample| sample.line).ok_or(ReadError::NoNumbers)?;
+    let mut grid = spectra::grid(vec![Spectrum { samples, ..Spectrum::default() }], header, log)?;
+    grid.role = Some(Decided::guess(Role::Illuminant, "Meters that write such files measure light"));
+    let mark = if comma { DecimalMark::Comma } else { DecimalMark::Point };
+    let why = "The first line begins with @, and single numbers follow";
+    let layout = Layout::fixed((Delimiter::Elements, mark), Orientation::Down, first_line, why);
+    Ok(Found { grid, layout, reader: Decided::certain(Reader::Alternate, why), notes: Vec::new() })
+}

@@ -1,0 +1,171 @@
+//! IES TM-27: spectra of light sources in XML, one element for each sample.
+
+use crate::error::ReadError;
+use crate::formats::found::Found;
+use crate::formats::spectra;
+use crate::formats::spectra::{Sample, Spectrum};
+use crate::formats::xml::{Element, Step, Walk};
+use crate::header::Header;
+use crate::limits::{MAX_CURVES, MAX_PARTS};
+use crate::options::ReadOptions;
+use crate::report::{Decided, Orientation, Part, Reader};
+use crate::role::{Quantity, Role};
+use crate::separators::{DecimalMark, Delimiter};
+use crate::sniff::Layout;
+use crate::warning::Warning;
+use crate::watch::Log;
+use crate::wavelength_unit::WavelengthUnit;
+
+/// Reads all spectra of a document. Only local names are compared: the namespace differs between editions.
+pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
+    let mut walk = Walk::new(text);
+    let mut content = Content::default();
+    while let Some(step) = walk.next(log)? {
+        let inside = walk.innermost().map_or("", Element::name);
+        match step {
+            Step::Open if inside == "SpectralDistribution" => content.current = Some(Spectrum::default()),
+            Step::Open => {}
+            Step::Close(element) => content.take(&element, inside, log)?,
+        }
+    }
+    let parts = content.parts();
+    let quantity = content.take_part(&parts, options.part, log)?;
+    let Content { header, spectra: all, .. } = content;
+    let first_line = all.first().and_then(|spectrum| spectrum.samples.first()).map(|sample| sample.line);
+    let first_line = first_line.ok_or(ReadError::NoNumbers)?;
+    let mut grid = spectra::grid(all, header, log)?;
+    let said = quantity.as_ref().and_then(|quantity| Some((quantity.value.role()?, quantity.why.clone())));
+    // Most such files are of lamps, but "relative" and "other" do not say so.
+    let guess = || Decided::guess(Role::Illuminant, "TM-27 is mostly used for lamps");
+    grid.role = Some(said.map_or_else(guess, |(role, why)| Decided::certain(role, why)));
+    grid.quantity = quantity;
+    if parts.len() > 1 {
+        grid.part = Some(Decided::guess(1, format!("The spectra are of {} quantities", parts.len())));
+        grid.parts = parts;
+    }
+    grid.unit = Some(Decided::certain(WavelengthUnit::Nanometer, "TM-27 prescribes it"));
+    let dialect = (Delimiter::Elements, DecimalMark::Point);
+    let layout = Layout::fixed(dialect, Orientation::Down, first_line, "TM-27 prescribes it");
+    let why = format!("The root element is “{}”", walk.root());
+    Ok(Found { grid, layout, reader: Decided::certain(Reader::Tm27, why), notes: Vec::new() })
+}
+
+/// State of the reader.
+#[derive(Default)]
+struct Content {
+    header: Header,
+    spectra: Vec<Spectrum>,
+    /// Quantity of each spectrum.
+    quantities: Vec<Option<Decided<Quantity>>>,
+    /// Quantity of the open spectrum.
+    quantity: Option<Decided<Quantity>>,
+    /// The spectrum that is open.
+    current: Option<Spectrum>,
+}
+
+impl Content {
+    /// Takes an element that is complete, and the name of the one around it.
+    fn take(&mut self, element: &Element<'_>, inside: &str, log: &mut Log<'_>) -> Result<(), ReadError> {
+        if inside == "Header" {
+            self.header.note(element.line, element.name(), element.content());
+        }
+        match element.name() {
+            // The description is the title, whatever else the header says.
+            "Header" => {
+                if let Some(description) = self.header.comment("Description").map(str::to_owned) {
+                    self.header.note(0, "title", &description);
+                }
+            }
+            "SpectralQuantity" => self.quantity(element),
+            "SpectralData" => self.sample(element, log)?,
+            "SpectralDistribution" => {
+                let quantity = self.quantity.take();
+                if let Some(spectrum) = self.current.take().filter(|spectrum| !spectrum.samples.is_empty()) {
+                    self.spectra.push(spectrum);
+                    self.quantities.push(quantity);
+                }
+                if self.spectra.len() > MAX_CURVES {
+                    return Err(ReadError::TooManyCurves { line: element.line });
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn quantity(&mut self, element: &Element<'_>) {
+        let quantity = element.content();
+        if let Some(spectrum) = self.current.as_mut().filter(|spectrum| spectrum.label.is_empty()) {
+            quantity.clone_into(&mut spectrum.label);
+            self.header.note(element.line, "quantity", quantity);
+            let why = format!("Line {} says {quantity}", element.line);
+            self.quantity = named(quantity).map(|quantity| Decided::certain(quantity, why));
+        }
+    }
+
+    /// The quantities that spectra are of, in the order of the file, each a part of it.
+    fn parts(&self) -> Vec<Part> {
+        let mut parts: Vec<Part> = Vec::new();
+        for spectrum in &self.spectra {
+            let name = spectrum.label.to_lowercase();
+            let rows = spectrum.samples.len();
+            let line = spectrum.samples.first().map_or(1, |sample| sample.line);
+            if let Some(part) = parts.iter_mut().find(|part| part.name == name) {
+                (part.curves, part.rows) = (part.curves + 1, part.rows + rows);
+            } else if parts.len() < MAX_PARTS {
+                parts.push(Part { line, name, curves: 1, rows });
+            }
+        }
+        parts
+    }
+
+    /// Leaves the spectra of one quantity, the first if none was chosen, and returns it.
+    fn take_part(
+        &mut self,
+        parts: &[Part],
+        chosen: Option<usize>,
+        log: &mut Log<'_>,
+    ) -> Result<Option<Decided<Quantity>>, ReadError> {
+        if parts.is_empty() {
+            return Ok(None);
+        }
+        let part = chosen.unwrap_or(1);
+        let wanted = part.checked_sub(1).and_then(|at| parts.get(at));
+        let wanted = wanted.ok_or(ReadError::NoSuchPart { part, parts: parts.len() })?;
+        if let Some(other) = parts.get(1).filter(|_| chosen.is_none()) {
+            log.push(Warning::MoreTables { line: other.line });
+        }
+        let is_wanted = |spectrum: &Spectrum| spectrum.label.to_lowercase() == wanted.name;
+        let first = self.spectra.iter().position(is_wanted).unwrap_or(0);
+        self.spectra.retain(is_wanted);
+        Ok(std::mem::take(&mut self.quantities).into_iter().nth(first).flatten())
+    }
+
+    fn sample(&mut self, element: &Element<'_>, log: &mut Log<'_>) -> Result<(), ReadError> {
+        let Some(spectrum) = &mut self.current else { return Ok(()) };
+        let line = element.line;
+        let missing = || ReadError::NotANumber { line, column: 1, text: String::new() };
+        let wavelength = element.number_attribute("wavelength")?.ok_or_else(missing)?;
+        let value = element.number()?;
+        if !wavelength.is_nan() && !value.is_nan() {
+            let place = element.pair("wavelength", log);
+            spectrum.samples.push(Sample { wavelength, value, line, place });
+        }
+        Ok(())
+    }
+}
+
+/// A quantity of the standard's list, if it is only one thing.
+fn named(quantity: &str) -> Option<Quantity> {
+    match quantity.to_ascii_lowercase().as_str() {
+        "flux" => Some(Quantity::RadiantFlux),
+        "intensity" => Some(Quantity::RadiantIntensity),
+        "irradiance" | "exitance" => Some(Quantity::Irradiance),
+        "radiance" => Some(Quantity::Radiance),
+        "reflectance" | "r-factor" => Some(Quantity::Reflectance),
+        "transmittance" | "t-factor" => Some(Quantity::Transmittance),
+        "absorptance" => Some(Quantity::Absorptance),
+        "relative" => Some(Quantity::Relative),
+        _ => None,
+    }
+}

@@ -1,0 +1,512 @@
+//! Units, quantities and roles in the words of a header.
+
+use crate::report::Medium;
+use crate::role::{Quantity, Role, Values};
+use crate::wavelength_unit::WavelengthUnit;
+
+/// Longer header lines are prose, or hostile.
+const LONGEST: usize = 2000;
+
+/// Quantity on the x axis, as a header may name it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum XUnit {
+    Wavelength(WavelengthUnit),
+    /// Something that is not converted, such as photon energies.
+    Other,
+}
+
+/// Lower case, without what no header needs; empty if the text is too long to be a header.
+fn lower(text: &str) -> String {
+    if text.len() > LONGEST { String::new() } else { text.to_lowercase() }
+}
+
+fn words(lower: &str) -> impl Iterator<Item = &str> {
+    lower.split(|c: char| !c.is_alphanumeric() && c != '-' && c != '^' && c != '/').filter(|word| !word.is_empty())
+}
+
+/// The first unit of length, of wave number or of frequency in a piece of text.
+pub(super) fn x_unit(text: &str) -> Option<XUnit> {
+    let text = lower(text).replace('⁻', "-").replace('¹', "1");
+    if let Some(unit) = bracketed_letter(&text) {
+        return Some(unit);
+    }
+    let energies = text.contains("energ") || words(&text).count() == 1;
+    let unit = words(&text).find_map(|word| match word {
+        "ev" | "kev" | "mev" if energies => Some(XUnit::Other),
+        "hz" | "ghz" | "phz" | "1/nm" | "1/m" | "m-1" => Some(XUnit::Other),
+        _ => WavelengthUnit::from_symbol(word).map(XUnit::Wavelength),
+    });
+    let wave_numbers = text.contains("wavenumber") || text.contains("wave number");
+    unit.or_else(|| wave_numbers.then_some(XUnit::Wavelength(WavelengthUnit::Wavenumber)))
+}
+
+/// A unit of one letter, or a multiple of one, in brackets right after the word for wavelengths: `Wavelength (A)`, `wave(m)`,
+/// `Wavenumber (10^3 cm-1)`.
+fn bracketed_letter(lower: &str) -> Option<XUnit> {
+    const NAMES: [&str; 7] = ["wavelength", "wavelengths", "wave", "wl", "lambda", "wavenumber", "wave number"];
+    let (name, rest) = lower.split_once(['(', '['])?;
+    let unit = rest[..rest.find([')', ']'])?].trim();
+    if !NAMES.contains(&name.trim_matches(|c: char| !c.is_alphanumeric())) {
+        return None;
+    }
+    let multiple = ["10^3", "10^4", "10³", "1000", "k"].iter().any(|start| unit.starts_with(start));
+    match unit {
+        "a" => Some(XUnit::Wavelength(WavelengthUnit::Angstrom)),
+        "m" | "meter" | "meters" | "metre" | "metres" => Some(XUnit::Other),
+        _ if multiple && unit.contains("cm") => Some(XUnit::Other),
+        _ => None,
+    }
+}
+
+/// Medium of the wavelengths that a text names: air or vacuum.
+pub(super) fn medium(text: &str) -> Option<Medium> {
+    let text = lower(text);
+    if text.contains("nm_air") || text.contains("nm (air)") {
+        Some(Medium::Air)
+    } else if text.contains("nm_vac") || text.contains("nm (vac") {
+        Some(Medium::Vacuum)
+    } else {
+        None
+    }
+}
+
+/// The unit that a line of free text gives for wavelengths: the first unit after the word.
+pub(super) fn x_unit_in_prose(text: &str) -> Option<XUnit> {
+    let text = lower(text);
+    let start = ["wavelength", "wavenumber", "wave number", "x unit", "xunit", "x axis", "xaxis"]
+        .iter()
+        .find_map(|word| text.find(word))?;
+    x_unit(&text[start..])
+}
+
+/// A name in lower case without the argument of a function of wavelength: `S(λ)` and `V(lambda)` are values.
+fn without_argument(lower: &str) -> String {
+    const ARGUMENTS: [&str; 3] = ["(λ)", "(lambda)", "(wavelength)"];
+    let mut text = lower.to_owned();
+    for argument in ARGUMENTS {
+        if let Some(at) = text.find(argument)
+            && !text[..at].trim().is_empty()
+        {
+            text = text.replace(argument, "");
+        }
+    }
+    text
+}
+
+/// Returns whether a column's header is about wavelengths before all: it begins or ends with their name, units aside.
+pub(super) fn begins_with_wavelengths(text: &str) -> bool {
+    const NAMES: [&str; 6] = ["wavelength", "wavelengths", "wl", "λ", "lambda", "wavenumber"];
+    let text = without_argument(&lower(text));
+    let mut words = words(&text).filter(|word| WavelengthUnit::from_symbol(word).is_none());
+    let first = words.next();
+    let last = words.last().or(first);
+    first.is_some_and(|word| NAMES.contains(&word)) || last.is_some_and(|word| NAMES.contains(&word))
+}
+
+/// Returns whether a column's header names wavelengths, wave numbers or frequencies of light.
+pub(super) fn names_wavelengths(text: &str) -> bool {
+    // As other languages call them, and as their unit alone does.
+    const CALLED: [&str; 7] =
+        ["wellenl", "longueur d", "longitud de onda", "lunghezza d", "comprimento de onda", "波長", "波长"];
+    const UNITS: [&str; 10] = ["[nm]", "(nm)", "[µm]", "(µm)", "[μm]", "(μm)", "[um]", "(um)", "[cm-1]", "(cm-1)"];
+    let text = without_argument(&lower(text));
+    if CALLED.iter().chain(&UNITS).any(|part| text.contains(part)) {
+        return true;
+    }
+    // As an index, such as in `E_λ`, it names no wavelengths.
+    let symbol = |symbol| {
+        text.match_indices(symbol).any(|(at, _)| !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
+    };
+    text.contains("wavelength")
+        || text.contains("wavenumber")
+        || text.contains("wave number")
+        || (text.contains("frequency") && words(&text).any(|word| word == "thz"))
+        || symbol("lambda")
+        || symbol("λ")
+        || words(&text)
+            .next()
+            .is_some_and(|word| matches!(word, "wave" | "wl" | "nm" | "um" | "µm" | "μm" | "cm-1" | "1/cm" | "thz"))
+}
+
+/// Returns whether a column's header names a scale of the spectrum, which is no curve: wavelengths, wave numbers, energies of photons.
+pub(super) fn names_axis(text: &str) -> bool {
+    let energies = x_unit(text) == Some(XUnit::Other);
+    // A unit of values may hold one of wavelengths, such as `W/(cm-1)`.
+    let of_values = quantity(text).is_some() || role(text).is_some() || crate::unit_text::unit(text).is_some();
+    (names_wavelengths(text) || energies) && !of_values
+}
+
+/// Returns whether a column's header names times and nothing else, such as `Time (s)` or `Integration time [ms]`.
+pub(super) fn names_time(text: &str) -> bool {
+    const TIMES: [&str; 6] = ["time", "timestamp", "date", "datetime", "date/time", "zeit"];
+    const BESIDE: [&str; 17] = [
+        "s",
+        "sec",
+        "seconds",
+        "ms",
+        "us",
+        "µs",
+        "min",
+        "h",
+        "hours",
+        "utc",
+        "local",
+        "stamp",
+        "integration",
+        "exposure",
+        "acquisition",
+        "elapsed",
+        "measurement",
+    ];
+    let text = lower(text);
+    words(&text).any(|word| TIMES.contains(&word))
+        && words(&text).all(|word| TIMES.contains(&word) || BESIDE.contains(&word))
+}
+
+/// Which of several column headers names the wavelengths: those in nanometers before those in other units.
+pub(super) fn axis(names: &[String]) -> Option<usize> {
+    let rank = |name: &str| match x_unit(name) {
+        Some(XUnit::Wavelength(WavelengthUnit::Nanometer)) => 0,
+        Some(XUnit::Wavelength(WavelengthUnit::Micrometer | WavelengthUnit::Angstrom)) => 1,
+        None => 2,
+        Some(_) => 3,
+    };
+    let named = names.iter().enumerate().filter(|(_, name)| names_wavelengths(name));
+    named.min_by_key(|(_, name)| rank(name)).map(|(column, _)| column)
+}
+
+/// Returns whether a header says percent.
+pub(super) fn says_percent(text: &str) -> bool {
+    let text = lower(text);
+    // `50% gray` is a name: only a sign that follows no figure is a unit.
+    let sign = text.match_indices('%').any(|(at, _)| !text[..at].trim_end().ends_with(|c: char| c.is_ascii_digit()));
+    sign || upper_end(&text) == Some(100) || words(&text).any(|word| matches!(word, "percent" | "pct" | "percentage"))
+}
+
+/// Returns whether a header says that values are fractions of one.
+pub(super) fn says_fraction(text: &str) -> bool {
+    let text = lower(text);
+    upper_end(&text) == Some(1) || words(&text).any(|word| matches!(word, "fraction" | "0-1" | "1"))
+}
+
+/// The upper end of the range of values that a header gives from 0: `(0-100)`, `[0, 1]`, `(range 0 to 100)`. Only what stands in
+/// brackets is one: `soil 0-100 cm` is a name.
+fn upper_end(lower: &str) -> Option<u32> {
+    lower.match_indices(['(', '[']).find_map(|(at, _)| {
+        let inner = &lower[at + 1..];
+        let inner = inner[..inner.find([')', ']'])?].trim().trim_start_matches(|c: char| c.is_alphabetic() || c == ' ');
+        let inner = inner.trim_end_matches(['%', ' ']);
+        let (from, to) =
+            ["to", "..", "…", "–", "—", "−", "-", ",", ";"].iter().find_map(|sign| inner.split_once(sign))?;
+        let number = |text: &str| text.trim().parse::<f64>().ok();
+        match (number(from)?, number(to)?) {
+            (0.0, 1.0) => Some(1),
+            (0.0, 100.0) => Some(100),
+            _ => None,
+        }
+    })
+}
+
+/// Letter of the quantity whose inverse a decadic logarithm in a header takes: `log(1/R)`, `-log10 T`.
+fn inverse_log(lower: &str) -> Option<char> {
+    const STARTS: [&str; 10] =
+        ["log(1/", "log10(1/", "log1/", "log101/", "lg(1/", "lg1/", "-log(", "-log10(", "-log10", "-log"];
+    if !lower.contains("log") && !lower.contains("lg") {
+        return None;
+    }
+    let bare: String = lower.chars().filter(|c| !c.is_whitespace() && !matches!(c, '_' | '₁' | '₀')).collect();
+    STARTS.iter().find_map(|start| {
+        let rest = &bare[bare.find(start)? + start.len()..];
+        let mut letters = rest.chars();
+        let letter = letters.next().filter(|c| matches!(c, 'r' | 't'))?;
+        let alone = !letters.next().is_some_and(char::is_alphabetic);
+        let spelled = ["refl", "trans"].iter().any(|word| rest.starts_with(word));
+        (alone || spelled).then_some(letter)
+    })
+}
+
+/// The letter that a sign of percent goes with: `%R`, `%T leaf`, `R (%)`.
+fn percent_letter(lower: &str) -> Option<char> {
+    let bare: String = lower.chars().filter(|c| !matches!(c, ' ' | '(' | ')' | '[' | ']')).collect();
+    match &*bare {
+        "r%" => return Some('r'),
+        "t%" => return Some('t'),
+        _ => {}
+    }
+    lower.match_indices('%').find_map(|(at, _)| {
+        let mut after = lower[at + 1..].chars();
+        let letter = after.next().filter(|c| matches!(c, 'r' | 't'))?;
+        (!after.next().is_some_and(char::is_alphanumeric)).then_some(letter)
+    })
+}
+
+/// Returns whether a header says decadic absorbance. `Abs. irradiance` is absolute.
+fn says_absorbance(lower: &str) -> bool {
+    const OTHERS: [&str; 7] = ["radian", "power", "flux", "energ", "reflect", "transmi", "sensiti"];
+    let short = || {
+        let name = crate::unit_text::without_unit(lower);
+        matches!(name, "abs" | "abs." | "od" | "o.d." | "a.u. (abs)")
+            || lower.ends_with("(od)")
+            || lower.ends_with("[od]")
+    };
+    let abs = || words(lower).any(|word| word == "abs") && !OTHERS.iter().any(|other| lower.contains(other));
+    let culture = |word: &str| {
+        word.strip_prefix("od").is_some_and(|nm| nm.len() == 3 && nm.bytes().all(|digit| digit.is_ascii_digit()))
+    };
+    lower.contains("absorban")
+        || lower.trim() == "extinktion"
+        || matches!(lower.trim(), "a (au)" | "a [au]" | "a(au)")
+        || words(lower).any(culture)
+        || lower.contains("optical density")
+        || inverse_log(lower).is_some()
+        || ((short() || abs()) && !says_percent(lower))
+}
+
+/// Scale in a header that is not converted, with its remedy.
+pub(super) fn not_converted(text: &str) -> Option<&'static str> {
+    let text = lower(text);
+    let word = |wanted: &[&str]| words(&text).any(|word| wanted.contains(&word));
+    if word(&["mau", "mabs", "milliabsorbance"]) || text.contains("(mod)") || text.contains("[mod]") {
+        Some("mAU, thousandths of absorbances, are not converted: divide them by 1000 first")
+    } else if word(&["db"]) && ["attenuation", "loss", "dämpfung"].iter().any(|part| text.contains(part)) {
+        Some("losses in dB are not converted: negate them first")
+    } else {
+        None
+    }
+}
+
+/// Returns whether a line of prose says that values are absorbances, and names no other quantity.
+pub(super) fn mentions_absorbance(text: &str) -> bool {
+    const MOST_WORDS: usize = 15;
+    let short = lower(text);
+    let about = |start: &str| short.match_indices(start).any(|(at, _)| !short[..at].ends_with(char::is_alphabetic));
+    ["absorban", "extinktion", "optical density"].iter().any(|start| about(start))
+        && words(&short).count() <= MOST_WORDS
+        && quantity(text).is_none()
+        && !says_percent(text)
+        && not_converted(text).is_none()
+}
+
+/// Returns whether a header names light on a scale of its own: `Relative power`, `Intensity (a.u.)`, `mW`.
+pub(super) fn names_light_scale(text: &str) -> bool {
+    const WORDS: [&str; 10] = ["power", "intensity", "emission", "energy", "luminance", "mw", "µw", "uw", "nw", "w"];
+    let text = lower(text);
+    text.trim() == "a.u." || words(&text).any(|word| WORDS.contains(&word) || word.starts_with("erg/"))
+}
+
+/// Returns whether a header names a response, which is neither a light nor a fraction of one.
+pub(super) fn names_response(text: &str) -> bool {
+    words(&lower(text)).any(|word| word == "response")
+}
+
+/// Returns whether the unit of a header is AU, which is of absorbance or arbitrary.
+pub(super) fn says_au(text: &str) -> bool {
+    let text = lower(text);
+    text.ends_with("(au)") || text.ends_with("[au]")
+}
+
+/// Scale of the values that a header gives.
+pub(super) fn values(text: &str) -> Option<Values> {
+    let short = lower(text);
+    if not_converted(text).is_some() {
+        None
+    } else if says_absorbance(&short) {
+        Some(Values::Absorbance)
+    } else if words(&short).any(|word| matches!(word, "dbm" | "db")) {
+        Some(Values::Decibels)
+    } else if says_percent(text) {
+        Some(Values::Percent)
+    } else if says_fraction(text) {
+        Some(Values::Plain)
+    } else {
+        None
+    }
+}
+
+/// Returns whether a header says that values are what a detector counted.
+pub(super) fn says_counts(text: &str) -> bool {
+    words(&lower(text)).any(|word| matches!(word, "count" | "counts" | "adc" | "dn"))
+}
+
+/// The physical quantity that a header names.
+pub(super) fn quantity(text: &str) -> Option<Quantity> {
+    let text = lower(text);
+    let any = |parts: &[&str]| parts.iter().any(|part| text.contains(part));
+    let word = |wanted: &[&str]| words(&text).any(|word| wanted.contains(&word));
+    // Light that something reflects or transmits is light.
+    let passed = any(&["reflected", "transmitted"]) && any(&["radian", "spectral flux", "power"]);
+    let letter = percent_letter(&text).or_else(|| inverse_log(&text));
+    let found = if any(&["quantum eff"]) || word(&["qe"]) {
+        Quantity::QuantumEfficiency
+    } else if any(&["sensitiv", "responsiv", "color match", "colour match", "color-match", "cone fund"]) {
+        Quantity::Sensitivity
+    } else if any(&["absorptan"]) {
+        Quantity::Absorptance
+    } else if any(&["ln(1/", "ln 1/", "-ln("]) {
+        // A natural logarithm, which is not converted.
+        Quantity::Unknown
+    } else if !passed && (any(&["reflect", "r-factor", "反射率"]) || letter == Some('r')) {
+        Quantity::Reflectance
+    } else if !passed && (any(&["transmit", "transmiss", "t-factor", "透過率"]) || letter == Some('t')) {
+        Quantity::Transmittance
+    } else if any(&["irradian", "exitance", "bestrahlungsst", "éclairement énerg"]) {
+        Quantity::Irradiance
+    } else if any(&["radiance"]) {
+        Quantity::Radiance
+    } else if any(&["radiant intensity"]) {
+        Quantity::RadiantIntensity
+    } else if any(&["radiant flux", "spectral flux"]) {
+        Quantity::RadiantFlux
+    } else if any(&["spectral power", "emission"]) || word(&["spd"]) {
+        Quantity::SpectralPower
+    } else if says_counts(&text) {
+        Quantity::Counts
+    } else if word(&["relative"]) {
+        Quantity::Relative
+    } else {
+        return None;
+    };
+    Some(found)
+}
+
+/// Role that a header gives to the values.
+pub(super) fn role(text: &str) -> Option<Role> {
+    let light = || {
+        let text = lower(text);
+        let any = |parts: &[&str]| parts.iter().any(|part| text.contains(part));
+        let word = || words(&text).any(|word| matches!(word, "lux" | "cct"));
+        any(&["radian", "illuminan", "light source"]) || word()
+    };
+    match quantity(text) {
+        Some(Quantity::Counts | Quantity::Relative) | None => light().then_some(Role::Illuminant),
+        Some(Quantity::Unknown) => Some(Role::Unknown),
+        Some(quantity) => quantity.role(),
+    }
+}
+
+/// Role that a line of prose gives to the values. `Illuminant: D65` is a condition of colors, as `Observer: 2°` is.
+pub(super) fn role_in_prose(text: &str) -> Option<Role> {
+    let key = text.split([':', ',', ';', '=', '\t']).next().unwrap_or_default();
+    let condition = key.len() < text.len() && matches!(lower(key.trim()).as_str(), "illuminant" | "illuminants");
+    // A luminance is measured of lights.
+    let light = key.len() < text.len() && lower(key.trim()) == "luminance";
+    if light { Some(Role::Illuminant) } else { role(text).filter(|_| !condition) }
+}
+
+/// Returns whether a name is that of a standard illuminant: `D65`, `FL2`, `Illuminant A`. `A`, `E` and `F2` alone are fields of charts too.
+pub(super) fn names_illuminant(name: &str) -> bool {
+    let name = lower(name);
+    let mut told = false;
+    let mut rest = words(&name).filter(|word| {
+        let about =
+            matches!(*word, "cie" | "iso" | "standard" | "std" | "illuminant" | "ill" | "illum" | "light" | "series");
+        told |= about;
+        !about
+    });
+    let (Some(first), None) = (rest.next(), rest.next()) else { return false };
+    let number = |text: &str, most: u32| text.parse::<u32>().is_ok_and(|number| (1..=most).contains(&number));
+    matches!(first, "d50" | "d55" | "d60" | "d65" | "d75" | "d93" | "id50" | "id65" | "iso7589")
+        || first.strip_prefix("fl").is_some_and(|rest| number(rest, 12))
+        || ["led-b", "led-rgb", "led-v"]
+            .iter()
+            .any(|start| first.strip_prefix(start).is_some_and(|rest| number(rest, 5)))
+        || (told
+            && (matches!(first, "a" | "b" | "c" | "e") || first.strip_prefix('f').is_some_and(|rest| number(rest, 12))))
+}
+
+/// Kind of a light in a name; only good for a guess.
+pub(super) fn names_lamp(name: &str) -> bool {
+    const LAMPS: [&str; 12] = [
+        "lamp",
+        "lamps",
+        "led",
+        "leds",
+        "halogen",
+        "xenon",
+        "daylight",
+        "sunlight",
+        "skylight",
+        "tungsten",
+        "lightbulb",
+        "luminaire",
+    ];
+    words(&lower(name)).any(|word| LAMPS.contains(&word))
+}
+
+/// Role of bands named by a letter: `R400`, `T_380`.
+pub(super) fn role_of_bands(prefix: &str) -> Option<Role> {
+    let prefix = lower(prefix);
+    match prefix.trim_matches(|c: char| !c.is_alphanumeric()) {
+        "r" | "refl" | "rfl" => Some(Role::Reflectance),
+        "t" | "trans" => Some(Role::Transmittance),
+        _ => role(&prefix),
+    }
+}
+
+/// Returns whether a text is the word for what is measured and nothing else.
+pub(super) fn is_quantity(text: &str) -> bool {
+    let word = !text.trim().contains(|c: char| !c.is_alphabetic());
+    word && (quantity(text).is_some() || matches!(lower(text).as_str(), "value" | "values" | "intensity" | "signal"))
+}
+
+/// Returns whether a column's header names what only counts its rows.
+pub(super) fn is_count(name: &str) -> bool {
+    let name = lower(name);
+    let mut words = words(&name);
+    name == "#"
+        || words.next().is_some_and(|word| {
+            matches!(
+                word,
+                "pixel" | "pixels" | "px" | "index" | "no" | "nr" | "number" | "row" | "line" | "id" | "n" | "i"
+            )
+        })
+}
+
+/// Returns whether a column's header names what tells rows apart and nothing else: samples, channels, scans, flags.
+pub(super) fn is_label(name: &str) -> bool {
+    const LABELS: [&str; 13] = [
+        "sample_id",
+        "sample id",
+        "sampleid",
+        "id",
+        "flag",
+        "quality",
+        "channel",
+        "scan",
+        "band",
+        "n",
+        "no",
+        "no.",
+        "#",
+    ];
+    LABELS.contains(&lower(name).trim())
+}
+
+/// Returns whether the name of bands says how specular reflection was treated: included (SCI) or excluded (SCE).
+pub(super) fn says_specular(text: &str) -> bool {
+    words(&lower(text)).any(|word| matches!(word, "sci" | "sce" | "spin" | "spex"))
+}
+
+/// Channel of a camera, by the form of its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Channel {
+    /// By a letter alone, `R`.
+    Letter(usize),
+    /// By a word, `red`, which can also be the color of a thing, or by a part of the name.
+    Word(usize),
+}
+
+/// The channel (0, 1, 2) that a name stands for.
+pub(super) fn channel(name: &str) -> Option<Channel> {
+    let name = lower(name);
+    let position = |word: &str, list: &[&str]| list.iter().position(|entry| *entry == word);
+    let parts = || name.split(|c: char| !c.is_alphanumeric()).filter(|part| !part.is_empty());
+    let alone = parts().count() == 1;
+    let kind = if alone { Channel::Letter } else { Channel::Word };
+    parts().find_map(|part| {
+        let letters = ["r", "g", "b", "x", "y", "z", "l", "m", "s", "xbar", "ybar", "zbar", "rbar", "gbar", "bbar"];
+        let letter = position(part, &letters).map(|i| kind(i % 3));
+        let colors = ["red", "green", "blue", "rot", "grün", "blau", "rouge", "vert", "bleu"];
+        letter.or_else(|| position(part, &colors).map(|i| Channel::Word(i % 3)))
+    })
+}

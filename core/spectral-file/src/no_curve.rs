@@ -1,0 +1,132 @@
+//! Numbers that are no curve: temperatures, times, counts of rows, and other scales of the same samples.
+
+use crate::grid::{Grid, RawCurve};
+use crate::warning::Warning;
+use crate::watch::Log;
+use crate::{header_terms, unit_text};
+
+/// The fewest rows that show how two columns belong together.
+pub(super) const FEWEST_ROWS: usize = 3;
+
+/// Names of what is recorded beside spectra, without their units.
+const NAMES: [&str; 36] = [
+    "temperature",
+    "temp",
+    "temp.",
+    "t_amb",
+    "ambient temperature",
+    "detector temperature",
+    "ccd temperature",
+    "temperatur",
+    "température",
+    "temperatura",
+    "time",
+    "elapsed time",
+    "elapsed",
+    "timestamp",
+    "time stamp",
+    "date",
+    "day",
+    "hour",
+    "zeit",
+    "temps",
+    "tiempo",
+    "integration time",
+    "exposure",
+    "exposure time",
+    "humidity",
+    "relative humidity",
+    "rel. humidity",
+    "rh",
+    "pressure",
+    "air pressure",
+    "voltage",
+    "battery",
+    "battery voltage",
+    "altitude",
+    "latitude",
+    "longitude",
+];
+
+/// Units that no spectrum has.
+const UNITS: [&str; 17] = [
+    "°c", "℃", "deg c", "degc", "°f", "℉", "° c", "celsius", "kelvin", "seconds", "ms", "hpa", "mbar", "kpa", "%rh",
+    "% rh", "rh",
+];
+
+/// Leaves out curves that are no spectra, unless nothing else is there.
+pub(super) fn leave_out(grid: &mut Grid, log: &mut Log<'_>) {
+    let marks: Vec<bool> = grid.curves.iter().map(is_companion).collect();
+    let count = marks.iter().filter(|mark| **mark).count();
+    if count == grid.curves.len() {
+        return;
+    }
+    let Some(first) = marks.iter().position(|mark| *mark) else { return };
+    log.push(Warning::NotSpectra { count, first: grid.curves[first].told() });
+    let mut marks = marks.into_iter();
+    grid.curves.retain(|_| !marks.next().unwrap_or(false));
+}
+
+fn is_companion(curve: &RawCurve) -> bool {
+    const LONGEST: usize = 60;
+    if !curve.named || curve.name.len() > LONGEST || curve.label.len() > 2 * LONGEST {
+        return false;
+    }
+    let name = unit_text::without_unit(&curve.name).trim().to_lowercase();
+    let label = curve.label.to_lowercase();
+    let bracketed = UNITS.iter().any(|unit| {
+        let inside = |open: char, close: char| label.ends_with(&format!("{open}{unit}{close}"));
+        inside('(', ')') || inside('[', ']')
+    });
+    let bare = name.split(['(', '[']).next().unwrap_or_default().trim().replace('_', " ");
+    let named = NAMES.contains(&&*bare) || NAMES.contains(&&*name);
+    let counts =
+        header_terms::is_count(&bare) && !bare.contains(' ') && curve.values.len() > 2 && counts(&curve.values);
+    // What names a quantity of light is a spectrum, whatever stands in brackets.
+    (named || bracketed || counts) && header_terms::role(&curve.label).is_none()
+}
+
+/// True for a column without numbers.
+pub(super) fn is_empty(column: &[f64]) -> bool {
+    column.iter().all(|value| value.is_nan())
+}
+
+/// True for numbers that count their rows, up or down.
+pub(super) fn counts(column: &[f64]) -> bool {
+    column.len() > 1
+        && column.windows(2).all(|pair| (pair[1] - pair[0]).abs() == 1.0 && pair[1] - pair[0] == column[1] - column[0])
+}
+
+/// True for numbers that can tell rows apart or mark them: all equal, or flags, or a count of the rows.
+pub(super) fn tells_rows_apart(column: &[f64]) -> bool {
+    let whole = column.iter().all(|value| value.fract() == 0.0);
+    let flags = || column.iter().all(|value| matches!(value, 0.0 | 1.0));
+    whole && (counts(column) || flags() || column.iter().all(|value| *value == column[0]))
+}
+
+/// True for a column that holds the wavelengths of another in a unit that is inverse to theirs, or the upper edges of their
+/// intervals.
+pub(super) fn is_other_scale(wavelengths: &[f64], column: &[f64]) -> bool {
+    /// Wave numbers in 1/cm, energies in eV and frequencies in THz, times nanometers.
+    const PRODUCTS: [f64; 3] = [1e7, 1_239.841_984, 299_792.458];
+    /// Of micrometers and of ångströms too.
+    const UNITS: [f64; 3] = [1.0, 1e-3, 10.0];
+    const CLOSE: f64 = 1e-3;
+    if wavelengths.len() < FEWEST_ROWS {
+        return false;
+    }
+    let inverse = |product: f64| wavelengths.iter().zip(column).all(|(w, c)| (w * c / product - 1.0).abs() < CLOSE);
+    PRODUCTS.iter().any(|product| UNITS.iter().any(|unit| inverse(product * unit)))
+        || wavelengths[1..] == column[..column.len() - 1]
+}
+
+/// True for a row of a table across that holds no spectrum: wave numbers, times, or numbers that count the columns.
+pub(super) fn is_scale_row<'a>(leading: impl Iterator<Item = &'a str>, wavelengths: &[f64], curve: &RawCurve) -> bool {
+    let name = leading.filter(|cell| !cell.is_empty()).take(usize::from(curve.named)).next();
+    let named = name.is_some_and(|name| {
+        header_terms::names_axis(name)
+            || header_terms::names_time(name)
+            || header_terms::is_count(name) && counts(&curve.values)
+    });
+    named || is_other_scale(wavelengths, &curve.values)
+}

@@ -1,0 +1,38 @@
+//! Choices of the caller.
+
+use serde::{Deserialize, Serialize};
+
+use crate::report::{Orientation, Reader};
+use crate::role::{Role, Values};
+use crate::separators::{DecimalMark, Delimiter};
+use crate::wavelength_unit::WavelengthUnit;
+
+/// Settings that the caller fixes before reading; `None` leaves the decision to the content.
+///
+/// The default decides everything from the content.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ReadOptions {
+    /// Separator of cells.
+    pub delimiter: Option<Delimiter>,
+    /// Decimal mark.
+    pub decimal_mark: Option<DecimalMark>,
+    /// True if wavelengths run down a column or across a row.
+    pub orientation: Option<Orientation>,
+    /// The unit of the wavelengths as written.
+    pub wavelength_unit: Option<WavelengthUnit>,
+    /// The column of the wavelengths, from 1, where they run down one.
+    pub wavelength_column: Option<usize>,
+    /// Scale of the values. Left open, only reflectances and transmittances are scaled. [`Values::Plain`] keeps lights in
+    /// photons or per frequency as they are written, too.
+    pub values: Option<Values>,
+    /// Which of several tables, blocks or groups in one file is taken, from 1 in the order of the file.
+    pub part: Option<usize>,
+    /// Role of the curves.
+    pub role: Option<Role>,
+    /// Which reader takes the file; [`Reader::Table`] reads numbers in columns whatever stands around them.
+    pub reader: Option<Reader>,
+    /// True if raw curves (dark, reference and sample counts) and what is recorded beside spectra (temperatures, times) are
+    /// kept; together with a chosen wavelength column, every other column.
+    pub raw: Option<bool>,
+}

@@ -1,0 +1,203 @@
+//! Reading of a file, from its bytes to its curves.
+
+use crate::error::ReadError;
+use crate::file::SpectralFile;
+use crate::formats::found::Found;
+use crate::limits::MAX_DROPPED;
+use crate::options::ReadOptions;
+use crate::places::Places;
+use crate::preview::Marker;
+use crate::report::{Certainty, Decided, Decision, Encoding, ReadReport, Steps};
+use crate::switch::Switch;
+use crate::warning::Warning;
+use crate::watch::{Log, Watch};
+use crate::wavelength_unit::WavelengthUnit;
+use crate::{formats, gaps, no_curve, photons, quantity, scale, text, wavelengths};
+
+/// Files up to this size are read again to find what an error is due to.
+const LONGEST: usize = 1 << 20;
+
+/// The error, with the chosen setting without which there would be none, if there is one.
+pub(super) fn blame(bytes: &[u8], options: &ReadOptions, error: ReadError, watch: Watch<'_>) -> ReadError {
+    let own = matches!(
+        error,
+        ReadError::Stopped
+            | ReadError::TooLarge { .. }
+            | ReadError::Binary { .. }
+            | ReadError::Empty
+            | ReadError::NoSuchPart { .. }
+            | ReadError::OtherLayout { .. }
+            | ReadError::NotWavelengthColumn { .. }
+    );
+    if own || bytes.len() > LONGEST {
+        return error;
+    }
+    for (switch, without) in switches(options) {
+        match read_once(bytes, &without, watch) {
+            Ok(_) => return ReadError::AsChosen { switch, error: Box::new(error) },
+            Err(ReadError::Stopped) => return ReadError::Stopped,
+            Err(_) => {}
+        }
+    }
+    error
+}
+
+/// Chosen settings, each with the options without it.
+fn switches(options: &ReadOptions) -> Vec<(Switch, ReadOptions)> {
+    let all = options;
+    let without = |change: fn(&mut ReadOptions)| {
+        let mut less = all.clone();
+        change(&mut less);
+        less
+    };
+    let found = [
+        all.delimiter.map(|chosen| (Switch::Delimiter(chosen), without(|less| less.delimiter = None))),
+        all.decimal_mark.map(|chosen| (Switch::DecimalMark(chosen), without(|less| less.decimal_mark = None))),
+        all.orientation.map(|chosen| (Switch::Orientation(chosen), without(|less| less.orientation = None))),
+        all.wavelength_unit.map(|chosen| (Switch::WavelengthUnit(chosen), without(|less| less.wavelength_unit = None))),
+        all.wavelength_column
+            .map(|chosen| (Switch::WavelengthColumn(chosen), without(|less| less.wavelength_column = None))),
+        all.values.map(|chosen| (Switch::Values(chosen), without(|less| less.values = None))),
+        all.part.map(|chosen| (Switch::Part(chosen), without(|less| less.part = None))),
+        all.role.map(|chosen| (Switch::Role(chosen), without(|less| less.role = None))),
+        all.reader.map(|chosen| (Switch::Reader(chosen), without(|less| less.reader = None))),
+    ];
+    found.into_iter().flatten().collect()
+}
+
+/// Reads the bytes of a file as spectral curves.
+///
+/// Deterministic: equal bytes and options give equal results. File names decide nothing.
+///
+/// # Errors
+/// The reason why the file could not be read, with line, column and remedy.
+pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<SpectralFile, ReadError> {
+    read_watched(bytes, options, Watch::none())
+}
+
+/// [`read`], with somebody who sees how far it is and can stop it.
+///
+/// A reading that was stopped ends in [`ReadError::Stopped`], within some milliseconds.
+///
+/// # Errors
+/// Those of [`read`], and [`ReadError::Stopped`].
+pub fn read_watched(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Result<SpectralFile, ReadError> {
+    read_once(bytes, options, watch).map_err(|error| blame(bytes, options, error, watch))
+}
+
+/// [`read_watched`], with a record of where in the text each sample stands, for a [`Preview`].
+///
+/// Takes somewhat longer, and up to 24 bytes for each sample of formats other than tables.
+///
+/// # Errors
+/// Those of [`read_watched`].
+pub fn read_marked(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Result<(SpectralFile, Marker), ReadError> {
+    let found =
+        read_text(bytes, options, watch, true).and_then(|(file, marker)| Ok((file, marker.ok_or(ReadError::Empty)?)));
+    found.map_err(|error| blame(bytes, options, error, watch))
+}
+
+/// [`read_watched`], without a second look at what an error is due to.
+fn read_once(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Result<SpectralFile, ReadError> {
+    read_text(bytes, options, watch, false).map(|(file, _)| file)
+}
+
+fn read_text(
+    bytes: &[u8],
+    options: &ReadOptions,
+    watch: Watch<'_>,
+    marked: bool,
+) -> Result<(SpectralFile, Option<Marker>), ReadError> {
+    let (text, encoding) = text::decode(bytes)?;
+    let mut log = Log::new(watch, text.len());
+    log.places = marked.then(|| Places::new(&text));
+    log.look(0)?;
+    let found = formats::read(&text, options, &mut log)?;
+    log.look(text.len())?;
+    finish(found, encoding, options, log)
+}
+
+/// Stages that all readers share: units, order, role, scale, curves.
+fn finish(
+    found: Found,
+    encoding: Encoding,
+    options: &ReadOptions,
+    mut warnings: Log<'_>,
+) -> Result<(SpectralFile, Option<Marker>), ReadError> {
+    let Found { mut grid, layout, reader, mut notes } = found;
+    if grid.wavelengths.len() < 2 {
+        return Err(ReadError::TooFewSamples { line: grid.line(0).max(layout.first_line) });
+    }
+    let (parts, part) = grid.settle_parts(options.part, layout.first_line)?;
+    let wavelength_unit = wavelengths::unit(&grid, options)?;
+    wavelengths::to_nanometers(&mut grid, wavelength_unit.value)?;
+    if (wavelength_unit.value, wavelength_unit.certainty) == (WavelengthUnit::Wavenumber, Certainty::Guess) {
+        warnings.push(Warning::MaybeWavelengths);
+    }
+    warnings.look(usize::MAX)?;
+    let descending = wavelengths::sort(&mut grid, &mut warnings);
+    let range_nm = [grid.wavelengths[0], grid.wavelengths[grid.wavelengths.len() - 1]];
+    let step_nm = Steps::of(&grid.wavelengths);
+    wavelengths::warn(&grid, step_nm, &mut warnings);
+    warnings.look(usize::MAX)?;
+    gaps::take(&mut grid, &mut warnings);
+    photons::suggest_role(&mut grid);
+    if options.raw != Some(true) {
+        no_curve::leave_out(&mut grid, &mut warnings);
+    }
+    let scale = scale::decide(&grid, options, &mut warnings);
+    let quantity = quantity::decide(&grid, &scale.role, &mut warnings);
+    let per_photon = quantity::per_photon(&grid, scale.role.value, &quantity);
+    scale::convert(&mut grid, &scale);
+    notes.extend(photons::to_energy(&mut grid, scale.role.value, &wavelength_unit, options));
+    scale::warn(&scale, &grid, &mut warnings);
+    let places = warnings.places.take();
+    let mut marker = places.map(|places| Marker::new(places, &grid, &layout, reader.value, wavelength_unit.value));
+    let mut decimal_mark = layout.decimal_mark;
+    if scale.denies_thousands() && warnings.warnings.contains(&Warning::MaybeThousands) {
+        warnings.warnings.retain(|warning| *warning != Warning::MaybeThousands);
+        decimal_mark.certainty = Certainty::Certain;
+    }
+    warnings.look(usize::MAX)?;
+    if let Some((line, medium)) = grid.header.medium {
+        notes.push(Decision::new("Medium", &Decided::certain(medium, format!("Line {line} says so"))));
+    }
+    let (rows, grid_column) = (grid.rows, grid.wavelength_column);
+    let header = std::mem::take(&mut grid.header);
+    let mut dropped_rows = std::mem::take(&mut grid.dropped);
+    dropped_rows.truncate(MAX_DROPPED);
+    let (curves, origins) = grid.into_curves(&mut warnings);
+    if curves.is_empty() {
+        return Err(ReadError::TooFewSamples { line: layout.first_line });
+    }
+    if let Some(marker) = &mut marker {
+        marker.take_curves(&origins);
+    }
+    let camera_columns = scale::camera_columns(scale.role.value, &curves);
+    let reading = ReadReport {
+        reader,
+        encoding,
+        delimiter: layout.delimiter,
+        decimal_mark,
+        thousands: layout.thousands,
+        orientation: layout.orientation,
+        wavelength_unit,
+        values: scale.values,
+        wavelength_column: grid_column,
+        quantity,
+        per_photon,
+        parts,
+        part,
+        notes,
+        header: header.comments,
+        header_line: header.line,
+        first_data_line: layout.first_line,
+        rows,
+        dropped_rows,
+        descending,
+        range_nm,
+        step_nm,
+        camera_columns,
+    };
+    Ok((SpectralFile { curves, role: scale.role, reading, warnings: warnings.warnings }, marker))
+}

@@ -1,0 +1,190 @@
+//! Units, and mentions of photons, in the words of a header.
+
+use crate::{header_terms, units};
+
+/// The unit in a piece of a header, if it holds one: in brackets, or alone.
+pub(super) fn unit(text: &str) -> Option<String> {
+    const LONGEST: usize = 200;
+    let text = text.trim();
+    if text.is_empty() || text.len() > LONGEST {
+        return None;
+    }
+    let pairs = [('[', ']'), ('(', ')')];
+    let bracketed =
+        pairs.iter().find_map(|&(open, close)| last_bracket(text, open, close).filter(|inner| is_unit(inner)));
+    // `R%` is a name with its sign.
+    let signed = || Some("%").filter(|_| text.contains('%') && percent_name(text).is_some());
+    bracketed.or_else(signed).or_else(|| Some(text).filter(|text| is_unit(text))).map(repaired)
+}
+
+/// The name before a sign of percent that ends it, unless a figure stands there: `R%`, `leaf %`.
+pub(super) fn percent_name(text: &str) -> Option<&str> {
+    let name = text.trim().strip_suffix('%')?.trim_end();
+    name.ends_with(char::is_alphabetic).then_some(name)
+}
+
+/// A column's name without the unit in brackets at its end.
+pub(super) fn without_unit(name: &str) -> &str {
+    let name = name.trim();
+    let ends = [('[', ']'), ('(', ')')].into_iter().find_map(|(open, close)| {
+        let inner = name.ends_with(close).then(|| last_bracket(name, open, close))?.filter(|inner| is_unit(inner))?;
+        let bare = name[..inner.as_ptr() as usize - name.as_ptr() as usize].trim_end().strip_suffix(open)?.trim_end();
+        Some(bare).filter(|bare| !bare.is_empty())
+    });
+    ends.or_else(|| percent_name(name)).unwrap_or(name)
+}
+
+/// Content of the last pair of brackets, which may hold others.
+fn last_bracket(text: &str, open: char, close: char) -> Option<&str> {
+    let end = text.rfind(close)?;
+    let mut depth = 1;
+    let start = text[..end].char_indices().rev().find(|(_, c)| {
+        depth += i32::from(*c == close) - i32::from(*c == open);
+        depth == 0
+    });
+    start.map(|(at, _)| text[at + 1..end].trim())
+}
+
+/// The unit in a cell of a row of units, whatever it is.
+pub(super) fn unit_cell(cell: &str) -> Option<String> {
+    let bare = cell.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim();
+    let usable = !bare.is_empty() && bare.chars().count() <= LONGEST_UNIT;
+    usable.then(|| repaired(bare))
+}
+
+/// Longer texts are no units.
+const LONGEST_UNIT: usize = 40;
+
+fn is_unit(text: &str) -> bool {
+    if text.is_empty() || text.chars().count() > LONGEST_UNIT {
+        return false;
+    }
+    let lower = text.to_lowercase();
+    let whole =
+        ["a.u.", "au", "a. u.", "arb. units", "arb.u.", "relative", "rel.", "fraction", "dbm", "db", "dn", "dl"];
+    // `10%` is a figure, `%` a unit.
+    (text.contains('%') && header_terms::says_percent(text))
+        || is_light_unit(text)
+        || whole.contains(&lower.as_str())
+        || header_terms::says_counts(&lower)
+        || (header_terms::says_percent(&lower) && !lower.contains(['(', '[']))
+        || ["w/", "watt", "w m", "w·", "w.m", "mol/", "mol m", "photons/", "j/", "/nm"]
+            .iter()
+            .any(|part| lower.contains(part))
+}
+
+/// Returns whether a text can be the unit beside a single value: also one of power, which no header needs a list for.
+pub(super) fn is_value_unit(text: &str) -> bool {
+    const BASES: [&str; 13] = ["w", "watt", "watts", "j", "a", "v", "lm", "lx", "lux", "cd", "mol", "count", "cts"];
+    let lower = text.to_lowercase();
+    let base = lower.split(['/', '·', '*', '.', ' ', '^']).next().unwrap_or_default();
+    let bare = base.strip_prefix(['m', 'µ', 'μ', 'u', 'n', 'p', 'k']).unwrap_or(base);
+    is_unit(text) || (text.chars().count() <= LONGEST_UNIT && (BASES.contains(&base) || BASES.contains(&bare)))
+}
+
+/// A unit whose µ and ² were lost or doubled on the way through encodings, with them restored.
+fn repaired(unit: &str) -> String {
+    let lost = |c: char| matches!(c, '?' | '\u{FFFD}');
+    let mut text = unit.replace("Â", "");
+    if let Some(rest) = text.strip_prefix(lost).filter(|rest| rest.starts_with(['W', 'w', 'J', 'm'])) {
+        text = format!("µ{rest}");
+    }
+    for area in ["cm", "m"] {
+        if let Some(at) = text.find(&format!("/{area}")).map(|at| at + 1 + area.len())
+            && let Some(rest) = text[at..].strip_prefix(lost)
+        {
+            text = format!("{}²{rest}", &text[..at]);
+        }
+    }
+    text
+}
+
+/// A name without the signs that are units, not part of a figure such as `50 %`.
+pub(super) fn without_percent_signs(name: &str) -> String {
+    let mut figure = false;
+    let kept = name.chars().filter(|c| {
+        let keep = *c != '%' || figure;
+        figure = c.is_ascii_digit() || (figure && c.is_whitespace());
+        keep
+    });
+    tidy(&kept.collect::<String>())
+}
+
+/// A text without what blanks and brackets the removal of words leaves.
+pub(super) fn tidy(text: &str) -> String {
+    let text = text.replace("()", "").replace("[]", "");
+    text.split_whitespace().collect::<Vec<_>>().join(" ").trim_end_matches([',', ':', ';']).to_owned()
+}
+
+/// Returns whether a text is a unit of light, or of a response to photons.
+pub(super) fn is_light_unit(text: &str) -> bool {
+    units::parse(text).is_some() || is_per_photon(text) || is_per_energy(text) || is_photons(text)
+}
+
+/// Returns whether a unit is one of a response to power or energy.
+pub(super) fn is_per_energy(unit: &str) -> bool {
+    const LONGEST: usize = 8;
+    unit.len() <= LONGEST && matches!(unit.to_lowercase().as_str(), "a/w" | "ma/w" | "v/w" | "mv/w" | "1/w" | "1/j")
+}
+
+pub(super) fn is_photons(text: &str) -> bool {
+    matches!(text.trim().to_lowercase().as_str(), "photon" | "photons" | "quanta" | "qntm")
+}
+
+pub(super) fn is_per_photon(unit: &str) -> bool {
+    const LONGEST: usize = 40;
+    if unit.len() > LONGEST {
+        return false;
+    }
+    let lower = unit.to_lowercase().replace(" per ", "/").replace(' ', "");
+    ["/photon", "/photons", "/quantum", "photon-1", "photon^-1", "photon⁻¹"].iter().any(|end| lower.ends_with(end))
+}
+
+/// Returns whether a text names a quantity of photons, and not just somebody's lamp.
+pub(super) fn names_photons(text: &str) -> bool {
+    const LONGEST: usize = 400;
+    const PHRASES: [&str; 10] = [
+        "photon flux",
+        "photon irradian",
+        "photon radian",
+        "photon exitan",
+        "photon fluence",
+        "photon intensity",
+        "quantum flux",
+        "quantum irradian",
+        "(qntm)",
+        "s.q.irrad",
+    ];
+    if text.len() > LONGEST || header_terms::says_counts(text) {
+        return false;
+    }
+    let lower = text.to_lowercase().replace('_', " ");
+    let word = |word: &str| matches!(word, "ppfd" | "pfd" | "spfd" | "photons" | "quanta" | "qntm");
+    PHRASES.iter().any(|phrase| lower.contains(phrase))
+        || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")
+}
+
+/// Returns whether a line of free text says that all values are photons: LI-COR's `(QNTM)`, or a sentence on all values.
+pub(super) fn said_in_prose(line: &str) -> bool {
+    const LONGEST: usize = 400;
+    if line.len() > LONGEST {
+        return false;
+    }
+    let lower = line.to_lowercase();
+    let values = ["values are in ", "values in ", "units are "].iter().any(|start| lower.contains(start));
+    let photons = ["photons per ", "moles of photons", "mol of photons"].iter().any(|part| lower.contains(part));
+    line.contains("(QNTM)") || values && photons && !header_terms::says_counts(&lower)
+}
+
+/// Returns whether a title or a line of free text says that sensitivities are quantum efficiencies or responses per photon.
+pub(super) fn says_per_photon(text: &str) -> bool {
+    const LONGEST: usize = 400;
+    if text.len() > LONGEST {
+        return false;
+    }
+    let lower = text.to_lowercase();
+    let qe = lower.split(|c: char| !c.is_alphanumeric()).any(|word| word == "qe");
+    let said = qe
+        || ["quantum eff", "quantal", "per photon", "/photon", "per quantum"].iter().any(|part| lower.contains(part));
+    said && !lower.contains("energ")
+}
