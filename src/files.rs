@@ -222,13 +222,6 @@ pub fn fitting(stem: &str, ending: &str) -> String {
     format!("{}{ending}", &stem[..stem.floor_char_boundary(room)])
 }
 
-/// The processor's name, where the system keeps it in a file.
-pub fn processor() -> Option<String> {
-    let facts = fs::read_to_string("/proc/cpuinfo").ok()?;
-    let line = facts.lines().find(|line| line.starts_with("model name"))?;
-    Some(line.split_once(": ")?.1.trim().to_owned())
-}
-
 /// Writes a file whole or not at all: beside it first, then moved into its place. It is flushed to the disk before it takes its
 /// name, and its folder after it.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {

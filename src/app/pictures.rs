@@ -4,7 +4,7 @@ use chromascope_core::query::Ask as _;
 
 use super::ChromascopeApp;
 use crate::export::render::{Provenance, exr_bytes};
-use crate::figures::render::{index_of, mesh_name};
+use crate::figures::render::index_of;
 use crate::files::{FileForm, SaveRequest};
 use crate::plot_item::SensorId;
 use crate::scene::Scene;
@@ -45,7 +45,7 @@ impl ChromascopeApp {
             balance: if rendering.is_rgb { &white } else { "none" },
             illuminant: &scene.light_name(),
             material: &document.render.material,
-            mesh: &mesh_name(&document.render.mesh),
+            mesh: &document.render.mesh.name(),
             quality: shading.quality,
             lighting: shading.geometry.lighting,
             viewpoint: shading.geometry.visibility.viewpoint,

@@ -197,6 +197,19 @@ pub enum MeshChoice {
     File(#[serde(with = "super::paths")] PathBuf),
 }
 
+impl MeshChoice {
+    /// Its name; a file's without its folder.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Head => "head".to_owned(),
+            Self::Fern => "fern".to_owned(),
+            Self::Sphere => "sphere".to_owned(),
+            Self::Plane => "plane".to_owned(),
+            Self::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+        }
+    }
+}
+
 /// Where σ and τ are from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -8,7 +8,7 @@ use chromascope_figure::{Anchor, Cell, Figure, Image, Ink, Mark, Panel, Rect, Sh
 
 use self::headline::Detail;
 use super::chromaticity::viewing_conditions;
-use crate::document::render::{MeshChoice, RoughnessChoice};
+use crate::document::render::RoughnessChoice;
 use crate::plot_item::{PickIndex, SensorId};
 use crate::render_service::RenderedFrame;
 use crate::render_service::pixel::{self, LitPixel, PixelReading, PixelShows};
@@ -104,21 +104,10 @@ fn text(words: &str, at: [f64; 2], anchor: Anchor, ink: Ink) -> Mark {
     Mark::new(PickIndex::NONE, words, shape)
 }
 
-/// What a mesh is called.
-pub fn mesh_name(mesh: &MeshChoice) -> String {
-    match mesh {
-        MeshChoice::Head => "head".to_owned(),
-        MeshChoice::Fern => "fern".to_owned(),
-        MeshChoice::Sphere => "sphere".to_owned(),
-        MeshChoice::Plane => "plane".to_owned(),
-        MeshChoice::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
-    }
-}
-
 /// The conditions in sentences.
 fn caption(scene: &Scene<'_>) -> String {
     let settings = &scene.document.render;
-    let mesh = mesh_name(&settings.mesh);
+    let mesh = settings.mesh.name();
     let roughness = match settings.roughness {
         RoughnessChoice::Surface => format!("σ = {} µm, τ = {} µm", settings.sigma_um, settings.tau_um),
         RoughnessChoice::Mesh => "σ and τ from the mesh".to_owned(),

@@ -1,11 +1,11 @@
 //! What the scene on show did not compute, and the time that this saved.
 
 use chromascope_figure::{TextSize, text_width};
+use chromascope_measure::pareto::duration;
 use egui::{Align, Label, Layout, Rect, RichText, ScrollArea, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::command::Command;
-use crate::figures::pareto::duration;
 use crate::figures::skipped_work::{self, OVERLAP, Section};
 use crate::profiler::SkippedWork;
 use crate::theme::UNIT;

@@ -1,12 +1,12 @@
 //! How large an error may be, and how each camera keeps it.
 
 use chromascope_core::render::plan::{Candidate, Verdict};
+use chromascope_measure::pareto::duration;
 use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::PaneContext;
 use crate::action::{Action, RenderAction};
 use crate::document::render::{QualityChoice, RenderSettings};
-use crate::figures::pareto::duration;
 use crate::profiler::plans::{self, Planned};
 use crate::scene::ComparedSensor;
 use crate::theme::UNIT;

@@ -1,11 +1,11 @@
 //! What a run was of, and on what: times without that say little.
 
 use chromascope_core::query::render::Roughness;
+use chromascope_measure::Machine;
+use chromascope_measure::harness::now;
 use serde::{Deserialize, Serialize};
 
 use super::{SceneRunQuery, Subject, Trial};
-use crate::bench::{self, Machine};
-use crate::figures::render::mesh_name;
 use crate::number::number;
 use crate::scene::Scene;
 
@@ -32,8 +32,8 @@ impl Conditions {
             scene: run.scene.clone(),
             sensors: run.sensors.len(),
             machine: Machine::unmeasured().identity(),
-            program: bench::program(),
-            began: bench::now(),
+            program: chromascope_measure::program(),
+            began: now(),
         }
     }
 
@@ -120,7 +120,7 @@ pub(super) fn words(scene: &Scene<'_>, sources: usize) -> String {
         Roughness::Surface => format!("σ {} µm", number(settings.sigma_um)),
     };
     let reading = settings.reading.label();
-    let (mesh, light) = (mesh_name(&settings.mesh), scene.light_name());
+    let (mesh, light) = (settings.mesh.name(), scene.light_name());
     let light = if light == "E" { "E, equal energy".to_owned() } else { light };
     let plural = if sources == 1 { "source" } else { "sources" };
     format!("{mesh}, {}, {sigma}, {reading}, under {light}, {sources} {plural}", settings.material)

@@ -7,10 +7,10 @@ use chromascope_core::reflectance::{Precision, Reading};
 use chromascope_core::render::diffuse::{DARK, ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::shading::Way;
 use chromascope_core::render::{Against, Demand, DiffuseTable, Plan, Quality, ShadingImage, SpectralWeights};
+use chromascope_measure::harness::timed;
+use chromascope_measure::method::{Family, Method, Point, compare, largest, together};
 
-use super::method::{Method, largest, measured, together};
-use super::stopwatch::once;
-use super::{Family, Point, SceneRunQuery, Subject, Trial};
+use super::{SceneRunQuery, Subject, Trial};
 
 /// At most so many samples are measured on.
 const SAMPLES: usize = 300;
@@ -79,10 +79,10 @@ fn through(
     (demand, tolerances): (Demand, &[Tolerance]),
     ask: &impl Ask,
 ) -> Option<Vec<Point>> {
-    let (table, build) = once(|| DiffuseTable::new(measure));
+    let (table, build) = timed(|| DiffuseTable::new(measure));
     let mut methods = fixed(measure, &table, build, places);
     for (accuracy, name) in tolerances {
-        let (plan, preparation) = once(|| Plan::new(measure, *accuracy, Against::Peak, demand));
+        let (plan, preparation) = timed(|| Plan::new(measure, *accuracy, Against::Peak, demand));
         let Ok(plan) = plan else { continue };
         methods.push(Method {
             name: name.clone(),
@@ -105,7 +105,7 @@ fn through(
         let off = largest([0, 1, 2].map(|c: usize| value[c] - exact[c]));
         if peaks[index] > 0.0 { off / peaks[index] } else { 0.0 }
     };
-    measured(&methods, share, &ask.stop())
+    compare(&methods, share, &ask.stop())
 }
 
 /// The tolerances that are tried, and the one that pictures keep, if any: the largest first.

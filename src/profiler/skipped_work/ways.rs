@@ -12,8 +12,7 @@ use chromascope_core::render::measure::Node;
 use chromascope_core::render::plan::Method;
 use chromascope_core::render::shading::{Shade, Way};
 use chromascope_core::render::{Against, DiffuseTable, Plan, Quality, ShadingImage, SpectralWeights};
-
-use crate::profiler::stopwatch::shortest;
+use chromascope_measure::harness::shortest;
 
 /// How a source's integrals are made.
 pub(super) struct Ways {

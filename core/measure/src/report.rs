@@ -1,9 +1,9 @@
-//! All that was measured, and what becomes of it.
+//! All that was measured in one run, as figures, a table and JSON.
 
 use chromascope_figure::{Cell, Figure, Panel, Table};
 use serde::{Deserialize, Serialize};
 
-use super::{Effort, Machine, Measurement, Workload};
+use crate::{Effort, Machine, Measurement, Workload, figure};
 
 /// All that was measured in one run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,7 +22,7 @@ pub struct Report {
     pub measurements: Vec<Measurement>,
 }
 
-/// Why a report cannot be written down.
+/// A report that cannot be written down.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// It cannot be put as JSON.
@@ -49,12 +49,12 @@ impl Report {
 
     /// The run time of a workload's methods against their error; none if it was not measured.
     pub fn figure(&self, workload: Workload) -> Option<Figure> {
-        super::figure::figure(self, workload, super::figure::PANEL)
+        figure::figure(self, workload, figure::PANEL)
     }
 
     /// The panels of that figure for areas of a size in points.
     pub fn panels(&self, workload: Workload, size: [f64; 2]) -> Vec<Panel> {
-        super::figure::figure(self, workload, size).map_or_else(Vec::new, |figure| figure.panels)
+        figure::figure(self, workload, size).map_or_else(Vec::new, |figure| figure.panels)
     }
 
     /// All measurements as a table, a row for each.
@@ -69,7 +69,7 @@ impl Report {
 }
 
 /// Measurements of a report as a table, each row with what and when it was measured on.
-pub(super) fn table<'a>(report: &Report, measurements: impl Iterator<Item = &'a Measurement>) -> Table {
+pub(crate) fn table<'a>(report: &Report, measurements: impl Iterator<Item = &'a Measurement>) -> Table {
     let columns = [
         "workload",
         "case",

@@ -1,50 +1,50 @@
-//! What one measurement says.
+//! One method's time and error on one case of a workload.
 
 use serde::{Deserialize, Serialize};
 
-use super::Workload;
+use crate::Workload;
 
 /// One method on one case of a workload: how long it takes and how far off it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
     /// The workload.
     pub workload: Workload,
-    /// Which inputs, such as `CIE 1931 2°`. Methods are comparable within a case.
+    /// Its inputs, such as `CIE 1931 2°`. Methods are comparable within a case.
     pub case: String,
     /// The method.
     pub method: String,
-    /// On how many threads it ran.
+    /// Number of threads it ran on.
     pub threads: usize,
-    /// What is counted, such as `temperature`.
+    /// Name of an item, such as `temperature`.
     pub item: String,
-    /// How many items were done in each round.
+    /// Number of items in each round.
     pub items: usize,
-    /// In how many rounds.
+    /// Number of rounds.
     pub rounds: usize,
     /// The median time per item in seconds.
     pub seconds_per_item: f64,
-    /// The shortest time per item in seconds: what other work on the machine disturbed least.
+    /// The shortest time per item in seconds: the one that other work on the machine disturbed least.
     pub least_seconds_per_item: f64,
     /// The distance between the quartiles of the times, relative to the median.
     pub spread: f64,
-    /// What has to be made once before the first item, in seconds; 0 for nothing.
+    /// Seconds of preparation before the first item.
     pub build_seconds: f64,
-    /// How far off the results are.
+    /// Error of the results.
     pub error: ErrorOf,
     /// The method that times are compared with: the first of the case.
     pub baseline: String,
     /// The time relative to the baseline's: the median of the ratios within each round.
     pub ratio: f64,
-    /// How near it comes to this machine's limits, where it is known what it has to move and compute.
+    /// Shares of this machine's limits, where it is known what has to be moved and computed.
     pub roof: Option<Roof>,
 }
 
-/// How far results are off, on those items that the reference was computed for.
+/// Error of results, on those items that the reference was computed for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorOf {
-    /// Of what, in which unit, against what.
+    /// The quantity, its unit and the reference.
     pub what: String,
-    /// Which of the two errors the workload is about: it goes onto the figure's axis.
+    /// The one of the two errors that the workload is about: it goes onto the figure's axis.
     pub scale: ErrorScale,
     /// The largest difference.
     pub max_abs: f64,
@@ -54,13 +54,13 @@ pub struct ErrorOf {
     pub max_rel: f64,
     /// The root of the mean square of the relative differences.
     pub rms_rel: f64,
-    /// How many numbers were compared.
+    /// Number of numbers compared.
     pub checked: usize,
-    /// How many of the items checked the method refused to answer; they count in no error.
+    /// Number of the items checked that the method refused to answer; they count in no error.
     pub refused: usize,
 }
 
-/// Which error a workload is about.
+/// The kind of error that a workload is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ErrorScale {
@@ -70,7 +70,7 @@ pub enum ErrorScale {
     Relative,
 }
 
-/// How near a method comes to the limits that [`super::Machine`] was found to have, with as many threads. 1 is the limit.
+/// Nearness of a method to the limits that [`crate::Machine`] was found to have, with as many threads. 1 is the limit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Roof {
     /// Bytes per second over those that a sum over a large array reads.
@@ -98,17 +98,19 @@ impl ErrorOf {
 }
 
 /// Differences, gathered one by one.
+#[cfg(feature = "workloads")]
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Errors {
+pub(crate) struct Errors {
     max: [f64; 2],
     squares: [f64; 2],
     checked: usize,
     refused: usize,
 }
 
+#[cfg(feature = "workloads")]
 impl Errors {
-    /// A difference, and what it is to be relative to. What is not finite counts as refused.
-    pub(super) fn add(&mut self, difference: f64, scale: f64) {
+    /// Adds a difference and the number that it is relative to. NaN and infinities count as refused.
+    pub(crate) fn add(&mut self, difference: f64, scale: f64) {
         let relative = if difference == 0.0 { 0.0 } else { difference / scale };
         if !(difference.is_finite() && relative.is_finite()) {
             self.refused += 1;
@@ -121,13 +123,13 @@ impl Errors {
         self.checked += 1;
     }
 
-    /// An item that the method gives no answer to.
-    pub(super) fn refuse(&mut self) {
+    /// Adds an item that the method gives no answer to.
+    pub(crate) fn refuse(&mut self) {
         self.refused += 1;
     }
 
     /// The differences as one error.
-    pub(super) fn sum_up(self, what: &str, scale: ErrorScale) -> ErrorOf {
+    pub(crate) fn sum_up(self, what: &str, scale: ErrorScale) -> ErrorOf {
         let [rms_abs, rms_rel] = self.squares.map(|sum| (sum / self.checked.max(1) as f64).sqrt());
         let [max_abs, max_rel] = self.max;
         let (checked, refused) = (self.checked, self.refused);

@@ -4,10 +4,11 @@ use chromascope_core::reflectance::{Precision, diffuse_sum, diffuse_sum_by_regim
 use chromascope_math::double::Double;
 use rayon::prelude::*;
 
-use super::case::{ErrorOf, ErrorScale, Errors};
-use super::inputs::Numbers;
+use super::Numbers;
+use super::exact;
 use super::timing::{Bench, Case, Room, each, spaced};
-use super::{Workload, exact};
+use crate::measurement::Errors;
+use crate::{ErrorOf, ErrorScale, Workload};
 
 pub(super) fn run(bench: &mut Bench<'_>) {
     let cases = [

@@ -3,21 +3,20 @@
 use std::hint::black_box;
 use std::iter::successors;
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use chromascope_core::render::Stop;
 
-use super::case::{ErrorOf, Measurement, Roof};
-use super::{Effort, Machine, Progress, Workload};
+use crate::harness::{Budget, Times, take_turns, timed};
+use crate::{Data, Effort, ErrorOf, Machine, Measurement, Progress, Roof, Workload};
 
 /// Pools of one, two, four, … threads, up to all that the machine runs at a time.
-pub(super) struct Pools(Vec<(usize, ThreadPool)>);
+pub(crate) struct Pools(Vec<(usize, ThreadPool)>);
 
 impl Pools {
-    pub(super) fn new() -> Result<Self, ThreadPoolBuildError> {
+    pub(crate) fn new() -> Result<Self, ThreadPoolBuildError> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let mut counts: Vec<usize> =
             successors(Some(1), |count| Some(2 * count)).take_while(|&count| count < cores).collect();
@@ -27,17 +26,17 @@ impl Pools {
     }
 
     /// The numbers of threads there are, ascending.
-    pub(super) fn counts(&self) -> Vec<usize> {
+    pub(crate) fn counts(&self) -> Vec<usize> {
         self.0.iter().map(|(threads, _)| *threads).collect()
     }
 
     /// The largest.
-    pub(super) fn most(&self) -> usize {
+    pub(crate) fn most(&self) -> usize {
         self.0.last().map_or(1, |(threads, _)| *threads)
     }
 
     /// Runs work where its parallel parts have so many threads.
-    pub(super) fn on<T: Send>(&self, threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    pub(crate) fn on<T: Send>(&self, threads: usize, work: impl FnOnce() -> T + Send) -> T {
         match self.0.iter().find(|(count, _)| *count == threads) {
             Some((_, pool)) => pool.install(work),
             None => work(),
@@ -111,18 +110,11 @@ impl<'a> Candidate<'a> {
 
     fn seconds(&mut self, pools: &Pools, batch: Batch) -> f64 {
         let work = &mut self.work;
-        let run = || {
-            let start = Instant::now();
-            for _ in 0..batch.repeats {
-                work(batch.items);
-            }
-            start.elapsed().as_secs_f64()
-        };
-        pools.on(self.threads, run)
+        pools.on(self.threads, || timed(|| (0..batch.repeats).for_each(|_| work(batch.items))).1)
     }
 
-    /// How many items, how often, take about as long as wanted, and how many seconds that is. This also warms up.
-    fn batch(&mut self, pools: &Pools, target: f64) -> (Batch, f64) {
+    /// Numbers of items and repetitions that take about as long as wanted. This also warms up.
+    fn batch(&mut self, pools: &Pools, target: f64) -> Batch {
         let mut items = self.items.min(64).max(self.least);
         loop {
             let taken = self.seconds(pools, Batch { items, repeats: 1 });
@@ -130,8 +122,7 @@ impl<'a> Candidate<'a> {
                 let wanted = items as f64 * (target / taken.max(1e-9));
                 let most = (wanted as usize).clamp(self.least, self.items);
                 let repeats = (wanted / self.items as f64).round().clamp(1.0, 1e6) as usize;
-                let seconds = taken / items as f64 * (most * repeats) as f64;
-                return (Batch { items: most, repeats }, seconds);
+                return Batch { items: most, repeats };
             }
             items = (items * 8).min(self.items);
         }
@@ -145,16 +136,10 @@ struct Batch {
     repeats: usize,
 }
 
-/// What a work that makes something takes, with what it makes.
-pub(super) fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let start = Instant::now();
-    let made = work();
-    (made, start.elapsed().as_secs_f64())
-}
-
 /// A run.
 pub(super) struct Bench<'a> {
     pub(super) effort: Effort,
+    pub(super) data: &'a Data,
     pub(super) stop: &'a Stop,
     pub(super) pools: Pools,
     pub(super) machine: Machine,
@@ -183,56 +168,54 @@ impl Bench<'_> {
     /// Measures the candidates by turns. The first is the baseline.
     pub(super) fn compare(&mut self, case: Case<'_>, mut candidates: Vec<Candidate<'_>>) {
         let target = self.pick(2e-4, 6e-3, 3e-2);
-        let mut once = 0.0;
         let mut batches = Vec::with_capacity(candidates.len());
         for candidate in &mut candidates {
             if self.stop.is_set() {
                 return;
             }
-            let (batch, seconds) = candidate.batch(&self.pools, target);
-            batches.push(batch);
-            once += seconds;
+            batches.push(candidate.batch(&self.pools, target));
         }
         // Where a round takes long, a few must do.
         let (most, seconds) = self.pick((3, 0.0), (9, 1.5), (31, 25.0));
-        let rounds = ((seconds / once) as usize).clamp(3, most);
-        let mut times = vec![Vec::with_capacity(rounds); candidates.len()];
-        for round in 0..rounds {
-            for turn in 0..candidates.len() {
-                if self.stop.is_set() {
-                    return;
-                }
-                // Nobody always comes after the same one, which may leave caches cold or the clock low.
-                let which = (turn + round * 7) % candidates.len();
-                let batch = batches[which];
-                let taken = candidates[which].seconds(&self.pools, batch);
-                times[which].push(taken / (batch.items * batch.repeats) as f64);
-            }
-        }
-        let baseline = candidates.first().map(|candidate| candidate.method.clone()).unwrap_or_default();
+        let budget = Budget { rounds: [3, most], seconds: [0.0, seconds] };
+        let turn = |which: usize| {
+            let batch: Batch = batches[which];
+            candidates[which].seconds(&self.pools, batch) / (batch.items * batch.repeats) as f64
+        };
+        let Some(times) = take_turns(batches.len(), budget, self.stop, turn) else { return };
         for (index, candidate) in candidates.iter().enumerate() {
-            let ratios = times[index].iter().zip(&times[0]).map(|(time, base)| time / base);
-            let ratio = quantiles(ratios.collect())[1];
-            let [low, middle, high] = quantiles(times[index].clone());
-            let measurement = Measurement {
-                workload: case.workload,
-                case: case.name.to_owned(),
-                method: candidate.method.clone(),
-                threads: candidate.threads,
-                item: case.item.to_owned(),
-                items: batches[index].items,
-                rounds,
-                seconds_per_item: middle,
-                least_seconds_per_item: times[index].iter().copied().fold(f64::INFINITY, f64::min),
-                spread: (high - low) / middle,
-                build_seconds: candidate.build_seconds,
-                error: candidate.error.clone(),
-                baseline: baseline.clone(),
-                ratio,
-                roof: candidate.cost.map(|cost| self.roof(cost, candidate.threads, middle)),
-            };
+            let measurement = self.measurement(case, candidate, (&times[index], &times[0]), batches[index].items);
+            let baseline = candidates[0].method.clone();
+            let measurement = Measurement { baseline, ..measurement };
             (self.progress)(Progress::Measured(&measurement));
             self.measurements.push(measurement);
+        }
+    }
+
+    fn measurement(
+        &self,
+        case: Case<'_>,
+        candidate: &Candidate<'_>,
+        (times, base): (&Times, &Times),
+        items: usize,
+    ) -> Measurement {
+        let seconds = times.median();
+        Measurement {
+            workload: case.workload,
+            case: case.name.to_owned(),
+            method: candidate.method.clone(),
+            threads: candidate.threads,
+            item: case.item.to_owned(),
+            items,
+            rounds: times.rounds(),
+            seconds_per_item: seconds,
+            least_seconds_per_item: times.least(),
+            spread: times.spread(),
+            build_seconds: candidate.build_seconds,
+            error: candidate.error.clone(),
+            baseline: String::new(),
+            ratio: times.ratio_to(base),
+            roof: candidate.cost.map(|cost| self.roof(cost, candidate.threads, seconds)),
         }
     }
 
@@ -240,18 +223,6 @@ impl Bench<'_> {
         let [memory, arithmetic] = self.machine.limits(threads);
         Roof { memory: cost.bytes / seconds / memory, arithmetic: cost.flops / seconds / arithmetic }
     }
-}
-
-/// The quartiles and, between them, the median.
-fn quantiles(mut values: Vec<f64>) -> [f64; 3] {
-    values.sort_unstable_by(f64::total_cmp);
-    let at = |share: f64| {
-        let place = share * values.len().saturating_sub(1) as f64;
-        let (below, above) = (place.floor() as usize, place.ceil() as usize);
-        let [a, b] = [below, above].map(|index| values.get(index).copied().unwrap_or(0.0));
-        a + (b - a) * place.fract()
-    };
-    [at(0.25), at(0.5), at(0.75)]
 }
 
 /// Memory for results that the candidates of a case, which take turns, share.

@@ -1,38 +1,11 @@
-//! Run time against error: every method the core has, on every workload, beside a reference that is not the code under test.
-//!
-//! ```text
-//! plan of workloads ──► cases: items, a reference in 106 bits, candidates ──► rounds in turns ──► Report
-//!                                                                                       │ figures, table, JSON
-//! ```
-//! Candidates of a case take turns, so that a slow moment of the machine falls on all of them; times are medians, ratios are
-//! medians of the ratios to the case's baseline in the same round. No time is reported without an error.
+//! What can be measured, and how thoroughly.
 
-mod case;
-mod difference;
-mod diffuse_sum;
-pub mod exact;
-mod figure;
-mod frames;
-mod inputs;
-mod integral;
-mod locus;
-mod machine;
-mod reading;
-mod report;
-mod responses;
-mod temperature;
-mod timing;
-
-pub use case::{ErrorOf, ErrorScale, Measurement, Roof};
-pub use machine::Machine;
-pub use report::{Report, ReportError};
-
-use chromascope_core::render::Stop;
 use serde::{Deserialize, Serialize};
 
-use self::timing::{Bench, Pools};
+use crate::data::DataError;
+use crate::{Machine, Measurement};
 
-/// What is measured.
+/// A kind of computation that is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Workload {
@@ -81,7 +54,7 @@ impl Workload {
         }
     }
 
-    /// What it is, in a few words.
+    /// Title in a few words.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Locus => "Chromaticities of black bodies, 1000 to 20 000 K",
@@ -101,7 +74,7 @@ impl Workload {
     }
 }
 
-/// How much time may be taken.
+/// Thoroughness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Effort {
@@ -114,7 +87,7 @@ pub enum Effort {
     Full,
 }
 
-/// What happens while it runs.
+/// A step of a run.
 #[derive(Clone, Copy, Debug)]
 pub enum Progress<'a> {
     /// The machine's limits are known.
@@ -125,55 +98,13 @@ pub enum Progress<'a> {
     Measured(&'a Measurement),
 }
 
-/// Why nothing can be measured.
+/// A benchmark that cannot run.
 #[derive(Debug, thiserror::Error)]
 pub enum BenchError {
     /// There are no threads to be had.
     #[error("no threads to measure on: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
-    /// The data that come with the program cannot be computed with.
-    #[error("{0}")]
-    Data(#[from] crate::catalog::load::LoadError),
-}
-
-/// This moment in UTC to the second, as `2026-11-21T18:05:11Z`.
-pub(crate) fn now() -> String {
-    jiff::Timestamp::now().round(jiff::Unit::Second).map_or_else(|_| String::new(), |now| now.to_string())
-}
-
-/// The program and its version.
-pub(crate) fn program() -> String {
-    concat!("Chromascope ", env!("CARGO_PKG_VERSION")).to_owned()
-}
-
-/// Measures the workloads of a plan in its order. Once the stop is set, the report ends with the last whole case.
-pub fn run(
-    plan: &[Workload],
-    effort: Effort,
-    stop: &Stop,
-    progress: &mut dyn FnMut(Progress<'_>),
-) -> Result<Report, BenchError> {
-    let began = now();
-    let pools = Pools::new()?;
-    let machine = Machine::measure(effort, &pools);
-    progress(Progress::Machine(&machine));
-    let mut bench = Bench { effort, stop, pools, machine, progress, measurements: Vec::new() };
-    for &workload in plan {
-        if stop.is_set() {
-            break;
-        }
-        (bench.progress)(Progress::Begins(workload));
-        match workload {
-            Workload::Locus => locus::run(&mut bench)?,
-            Workload::Responses => responses::run(&mut bench)?,
-            Workload::DiffuseSum => diffuse_sum::run(&mut bench),
-            Workload::Integral => integral::run(&mut bench)?,
-            Workload::Frames => frames::run(&mut bench)?,
-            Workload::Temperature => temperature::run(&mut bench)?,
-            Workload::Reading => reading::run(&mut bench),
-            Workload::Difference => difference::run(&mut bench),
-        }
-    }
-    let Bench { machine, measurements, .. } = bench;
-    Ok(Report { program: program(), began, machine, effort, whole: !stop.is_set(), measurements })
+    /// The data cannot be computed with.
+    #[error(transparent)]
+    Data(#[from] DataError),
 }

@@ -4,7 +4,6 @@ use std::hint::black_box;
 use std::ops::{AddAssign, Mul};
 
 use chromascope_core::camera::batch::{Batch, Sample};
-use chromascope_core::query::Shared;
 use chromascope_core::spectral::Sensor;
 use chromascope_math::dot::dot;
 use chromascope_math::double::Double;
@@ -12,11 +11,11 @@ use ndarray::linalg::general_mat_mul;
 use ndarray::{ArrayView2, ArrayViewMut2, LinalgScalar};
 use rayon::prelude::*;
 
-use super::case::{ErrorOf, ErrorScale, Errors};
-use super::inputs::{Numbers, sensor};
-use super::timing::{Bench, Candidate, Case, Cost, Room, timed};
-use super::{BenchError, Workload};
-use crate::catalog::{Catalog, Place, SetKind};
+use super::Numbers;
+use super::timing::{Bench, Candidate, Case, Cost, Room};
+use crate::harness::timed;
+use crate::measurement::Errors;
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
 /// So many samples of reflectances differ; more are these again. They are far beyond any cache.
 const DIFFERENT: usize = 16_000_000;
@@ -24,7 +23,7 @@ const DIFFERENT: usize = 16_000_000;
 const FEW: usize = 12;
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
-    let sensors = cameras()?;
+    let sensors = bench.data.cameras()?;
     for step in [5, 1] {
         for count in [1, 4, 60] {
             let channels: Vec<Vec<f64>> =
@@ -39,15 +38,6 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
         }
     }
     Ok(())
-}
-
-fn cameras() -> Result<Vec<Shared<Sensor>>, BenchError> {
-    let catalog = Catalog::built_in();
-    let cameras = catalog.of_kind(SetKind::Camera).filter_map(|entry| match &entry.place {
-        Place::BuiltIn { path, .. } => Some(*path),
-        Place::Own(_) => None,
-    });
-    cameras.map(|path| Ok(sensor(path)?)).collect()
 }
 
 /// The weighted curves of a sensor, every so many nanometers.

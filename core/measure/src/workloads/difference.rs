@@ -5,10 +5,11 @@ use chromascope_core::colorimetry::difference::{delta_e_1976, delta_e_2000, delt
 use chromascope_math::double::Double;
 use rayon::prelude::*;
 
-use super::case::{ErrorOf, ErrorScale, Errors};
-use super::inputs::Numbers;
+use super::Numbers;
+use super::exact;
 use super::timing::{Bench, Candidate, Case, Room, each, spaced};
-use super::{Workload, exact};
+use crate::measurement::Errors;
+use crate::{ErrorOf, ErrorScale, Workload};
 
 pub(super) fn run(bench: &mut Bench<'_>) {
     let items = bench.pick(300, 1_000_000, 1_000_000);

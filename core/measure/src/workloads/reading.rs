@@ -7,9 +7,9 @@ use std::hint::black_box;
 use spectral_file::{ReadOptions, Table, read};
 
 use self::files::{File, files};
-use super::Workload;
-use super::case::{ErrorOf, ErrorScale, Errors};
 use super::timing::{Bench, Candidate, Case};
+use crate::measurement::Errors;
+use crate::{ErrorOf, ErrorScale, Workload};
 
 pub(super) fn run(bench: &mut Bench<'_>) {
     let bytes = bench.pick(60_000, 2_000_000, 20_000_000);

@@ -7,25 +7,25 @@ use chromascope_core::camera::locus_table::{LocusTable, LocusTableError};
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::colorimetry::rgb::XYZ_FROM_SRGB;
 use chromascope_core::light::PlanckianLocus;
-use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{Primaries, Sensor};
 use chromascope_core::units::Kelvin;
 use chromascope_math::double::Double;
-use chromascope_math::exp::exp;
-use chromascope_math::gauss::gauss_rule;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use super::case::{ErrorOf, ErrorScale, Errors};
-use super::inputs::{CAMERA, CONSTANTS, OBSERVER, sensor};
-use super::timing::{Bench, Candidate, Case, Room, each, spaced, timed};
-use super::{BenchError, Workload, exact};
+use super::exact;
+use super::timing::{Bench, Candidate, Case, Room, each, spaced};
+use super::{CAMERA, CONSTANTS, OBSERVER};
+use crate::harness::timed;
+use crate::loci::{CHECKED_NODES, LocusMethod, gauss_rule, locus_methods};
+use crate::measurement::Errors;
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
 type Place = [f64; 2];
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     for (name, path) in [("CIE 1931 2°", OBSERVER), ("Nikon D70 (2007 figure)", CAMERA)] {
-        let sensor = sensor(path)?;
+        let sensor = bench.data.sensor(path)?;
         one(bench, name, &sensor);
         let counts: &[usize] = bench.pick(&[10], if path == OBSERVER { &[1, 1000] } else { &[] }, &[1, 100, 10_000]);
         for &count in counts {
@@ -63,58 +63,6 @@ impl Diagram {
     }
 }
 
-/// Wavelengths with weights: one list for the three channels, or one for each.
-enum Rule {
-    Shared(Vec<(f64, [f64; 3])>),
-    Own([Vec<(f64, f64)>; 3]),
-}
-
-/// The constant part of Planck's law at a wavelength: c₂/λ and (550 nm/λ)⁵.
-fn law(nm: f64) -> (f64, f64) {
-    (CONSTANTS.second() * 1e9 / nm, (550.0 / nm).powi(5))
-}
-
-impl Rule {
-    /// Every so many nanometers.
-    fn sum(sensor: &Sensor, step: usize) -> Self {
-        let term = |index: usize| {
-            let (rate, fifth) = law(wavelength_nm(index));
-            (rate, [0, 1, 2].map(|c: usize| sensor.weighted(c)[index] * fifth * step as f64))
-        };
-        Self::Shared((0..COUNT).step_by(step).map(term).collect())
-    }
-
-    /// The Gauss rule of each channel.
-    fn gauss(sensor: &Sensor, count: usize) -> Self {
-        let points: Vec<f64> = (0..COUNT).map(wavelength_nm).collect();
-        Self::Own([0, 1, 2].map(|c: usize| {
-            let rule = gauss_rule(&points, sensor.weighted(c), count);
-            let terms = rule.nodes.iter().zip(&rule.weights).map(|(&nm, &weight)| {
-                let (rate, fifth) = law(nm);
-                (rate, weight * fifth)
-            });
-            terms.collect()
-        }))
-    }
-
-    fn raw(&self, kelvins: f64) -> [f64; 3] {
-        let reciprocal = 1.0 / kelvins;
-        match self {
-            Self::Shared(terms) => {
-                let mut sums = [0.0; 3];
-                for (rate, weights) in terms {
-                    let value = 1.0 / (exp(rate * reciprocal) - 1.0);
-                    sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += weight * value);
-                }
-                sums
-            }
-            Self::Own(channels) => [0, 1, 2].map(|c: usize| {
-                channels[c].iter().map(|(rate, weight)| weight / (exp(rate * reciprocal) - 1.0)).sum::<f64>()
-            }),
-        }
-    }
-}
-
 fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
     let items = bench.pick(1000, 1_000_000, 1_000_000);
     let checked = bench.pick(5, 60, 500);
@@ -134,20 +82,19 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
         Some(Xy { x, y })
     };
     let table = LocusTable::of(summed);
-    let by_rule = |method: String, threads: usize, make: &dyn Fn() -> Rule| {
-        let (rule, seconds) = timed(make);
-        let answer = move |&kelvins: &f64| diagram.xy(rule.raw(kelvins));
-        each(method, [threads, checked], &kelvins, &room, error, answer).built_in(seconds)
-    };
-    let mut candidates: Vec<Candidate<'_>> = [1, 2, 5, 10, 20]
-        .map(|step| by_rule(format!("{step} nm sum"), 1, &|| Rule::sum(sensor, step)))
-        .into_iter()
-        .chain((2..=12).map(|count| by_rule(format!("Gauss {count}"), 1, &|| Rule::gauss(sensor, count))))
-        .collect();
+    let mut candidates: Vec<Candidate<'_>> = Vec::new();
+    for method in methods(sensor, &[2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]) {
+        let (made, seconds) = timed(method.make);
+        let Ok(made) = made else { continue };
+        let answer = move |&t: &f64| Kelvin::new(t).map_or(NOWHERE, |t| diagram.xy((made.raw)(t)));
+        let many = if method.name == CHECKED_NODES { bench.pools.counts() } else { vec![1] };
+        for threads in many {
+            let name = method.name.as_str();
+            let answer = answer.clone();
+            candidates.push(each(name, [threads, checked], &kelvins, &room, error, answer).built_in(seconds));
+        }
+    }
     for threads in bench.pools.counts() {
-        let (evaluator, seconds) = timed(|| bench.pools.on(threads, || LocusEvaluator::new(sensor, CONSTANTS)));
-        let answer = move |&t: &f64| Kelvin::new(t).map_or(NOWHERE, |t| diagram.xy(evaluator.raw(t)));
-        candidates.push(each("checked nodes", [threads, checked], &kelvins, &room, error, answer).built_in(seconds));
         // Of an observer the program has the whole curve as polynomials.
         let (locus, seconds) = timed(|| bench.pools.on(threads, || PlanckianLocus::new(sensor, CONSTANTS)));
         if let Ok(locus) = locus {
@@ -174,6 +121,13 @@ fn one(bench: &mut Bench<'_>, name: &str, sensor: &Sensor) {
     bench.compare(Case { workload: Workload::Locus, name, item: "temperature" }, candidates);
 }
 
+/// The methods that there are, and the Gauss rules of some sizes.
+fn methods<'a>(sensor: &'a Sensor, gauss: &[usize]) -> Vec<LocusMethod<'a>> {
+    let mut methods = locus_methods(sensor, CONSTANTS);
+    methods.extend(gauss.iter().map(|&count| gauss_rule(sensor, CONSTANTS, count)));
+    methods
+}
+
 /// A few temperatures of a sensor that nothing is known of: what is made first counts.
 fn from_nothing(bench: &mut Bench<'_>, name: &str, sensor: &Sensor, count: usize) {
     let kelvins = temperatures(count);
@@ -183,13 +137,6 @@ fn from_nothing(bench: &mut Bench<'_>, name: &str, sensor: &Sensor, count: usize
         some.par_iter().map(|&kelvins| exact::black_body_xy(sensor, CONSTANTS, kelvins)).collect()
     });
     let diagram = Diagram::new(sensor);
-    let by_rule = |rule: &Rule, kelvins: &[f64]| -> Vec<Place> {
-        kelvins.iter().map(|&kelvins| diagram.xy(rule.raw(kelvins))).collect()
-    };
-    let nodes = move |kelvins: &[f64]| -> Vec<Place> {
-        let evaluator = LocusEvaluator::new(sensor, CONSTANTS);
-        kelvins.iter().map(|&t| Kelvin::new(t).map_or(NOWHERE, |t| diagram.xy(evaluator.raw(t)))).collect()
-    };
     let table = move |kelvins: &[f64]| -> Vec<Place> {
         let sums = LocusEvaluator::by_sum(sensor, CONSTANTS);
         let table = LocusTable::of(|t| {
@@ -200,15 +147,13 @@ fn from_nothing(bench: &mut Bench<'_>, name: &str, sensor: &Sensor, count: usize
         found.map(|xy| xy.map_or(NOWHERE, |xy| [xy.x, xy.y])).collect()
     };
     let mut methods: Vec<(String, Box<Method<'_>>)> = Vec::new();
-    for step in [1, 2, 5, 10, 20] {
-        let answers = move |kelvins: &[f64]| by_rule(&Rule::sum(sensor, step), kelvins);
-        methods.push((format!("{step} nm sum"), Box::new(answers)));
+    for method in self::methods(sensor, &[3, 5, 8, 12]) {
+        let answers = move |kelvins: &[f64]| -> Vec<Place> {
+            let Ok(made) = (method.make)() else { return vec![NOWHERE; kelvins.len()] };
+            kelvins.iter().map(|&t| Kelvin::new(t).map_or(NOWHERE, |t| diagram.xy((made.raw)(t)))).collect()
+        };
+        methods.push((method.name, Box::new(answers)));
     }
-    for size in [3, 5, 8, 12] {
-        let answers = move |kelvins: &[f64]| by_rule(&Rule::gauss(sensor, size), kelvins);
-        methods.push((format!("Gauss {size}"), Box::new(answers)));
-    }
-    methods.push(("checked nodes".to_owned(), Box::new(nodes)));
     methods.push(("table in mired".to_owned(), Box::new(table)));
     let candidates = methods.into_iter().map(|(method, answers)| {
         let error = error(&answers(&some), &exact);

@@ -8,10 +8,12 @@ use chromascope_core::units::Kelvin;
 use chromascope_math::double::Double;
 use rayon::prelude::*;
 
-use super::case::{ErrorOf, ErrorScale, Errors};
-use super::inputs::{CONSTANTS, Numbers, OBSERVER, sensor};
-use super::timing::{Bench, Candidate, Case, Room, each, spaced, timed};
-use super::{BenchError, Workload, exact};
+use super::exact;
+use super::timing::{Bench, Candidate, Case, Room, each, spaced};
+use super::{CONSTANTS, Numbers, OBSERVER};
+use crate::harness::timed;
+use crate::measurement::Errors;
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
 /// Temperature in kelvins and Duv; NaN where a method has no answer, or gives none.
 type Answer = [f64; 2];
@@ -26,7 +28,7 @@ enum Judged {
 }
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
-    let observer = sensor(OBSERVER)?;
+    let observer = bench.data.sensor(OBSERVER)?;
     for judged in [Judged::Temperature, Judged::Duv] {
         one(bench, &observer, judged);
     }

@@ -2,12 +2,12 @@
 
 use chromascope_figure::{Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Tag};
 
-use super::report::table;
-use super::{Measurement, Report, Workload};
-use crate::figures::pareto::{self, Place};
+use crate::pareto::{self, Place};
+use crate::report::table;
+use crate::{Measurement, Report, Workload};
 
 /// The size of a panel on paper, in points.
-pub(super) const PANEL: [f64; 2] = [420.0, 320.0];
+pub(crate) const PANEL: [f64; 2] = [420.0, 320.0];
 /// Panels side by side, and where there are many.
 const ACROSS: usize = 2;
 const ACROSS_OF_MANY: usize = 3;
@@ -28,7 +28,7 @@ const MARKERS: [Marker; 8] = [
 type Numbered<'a> = (usize, &'a Measurement);
 
 /// The figure of a workload with panels of a size. The marks' tags are the places of measurements among those of the workload, from 1.
-pub(super) fn figure(report: &Report, workload: Workload, size: [f64; 2]) -> Option<Figure> {
+pub(crate) fn figure(report: &Report, workload: Workload, size: [f64; 2]) -> Option<Figure> {
     let mut cases: Vec<Vec<Numbered<'_>>> = Vec::new();
     // What gives none of the values has no error, and so no place.
     for numbered in report.of(workload).enumerate().filter(|(_, measurement)| measurement.error.checked > 0) {

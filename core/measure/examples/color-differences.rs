@@ -1,0 +1,14 @@
+//! Run time and error of the color differences ΔE*00 on this machine, as comma-separated values.
+//!
+//! `cargo run --release -p chromascope-measure --features workloads --example color-differences`
+#![allow(clippy::print_stdout, reason = "the table is what it is run for")]
+
+use chromascope_core::render::Stop;
+use chromascope_measure::{BenchError, Data, Effort, Workload, run};
+
+fn main() -> Result<(), BenchError> {
+    // This workload makes its colors itself; others need the data files.
+    let report = run(&[Workload::Difference], Effort::Quick, &Data::default(), &Stop::NEVER, &mut |_| ())?;
+    print!("{}", report.table().to_csv());
+    Ok(())
+}
