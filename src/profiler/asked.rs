@@ -7,9 +7,9 @@ use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_mesh::Mesh;
 
 use super::SceneRunQuery;
+use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
 use crate::scene::{ComparedSensor, Scene};
-use crate::view::render::Orbit;
 
 /// The pictures that are measured on: as large as a pane's, whatever the window's size.
 const WIDTH: u32 = 480;

@@ -1,0 +1,64 @@
+//! The eye's position around the mesh, in the units of the window's fields.
+
+use chromascope_core::scene::Viewpoint;
+use serde::{Deserialize, Serialize};
+
+use crate::document::render::MeshChoice;
+
+/// Position of the eye around the mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Orbit {
+    /// Angle around the vertical, in degrees.
+    pub yaw_deg: f64,
+    /// Angle above the horizon, in degrees.
+    pub pitch_deg: f64,
+    /// Distance from the center, in radii of the scene.
+    pub distance: f64,
+    /// Vertical field of view in degrees; in an upright picture the horizontal one.
+    pub field_of_view_deg: f64,
+}
+
+impl Default for Orbit {
+    fn default() -> Self {
+        Self { yaw_deg: 20.0, pitch_deg: 5.0, distance: 3.6, field_of_view_deg: 30.0 }
+    }
+}
+
+impl Orbit {
+    /// The view that a mesh is first seen in.
+    pub fn of(mesh: &MeshChoice) -> Self {
+        match mesh {
+            MeshChoice::Fern => Self { pitch_deg: 15.0, ..Self::default() },
+            _ => Self::default(),
+        }
+    }
+
+    /// Turns it by angles in degrees.
+    #[must_use]
+    pub fn turned(self, yaw_deg: f64, pitch_deg: f64) -> Self {
+        let yaw_deg = (self.yaw_deg + yaw_deg + 180.0).rem_euclid(360.0) - 180.0;
+        Self { yaw_deg, pitch_deg: (self.pitch_deg + pitch_deg).clamp(-89.0, 89.0), ..self }
+    }
+
+    /// Moves it farther away by a factor.
+    #[must_use]
+    pub fn at_distance(self, factor: f64) -> Self {
+        Self { distance: (self.distance * factor).clamp(1.05, 100.0), ..self }
+    }
+
+    /// Changes the field of view, and the distance so that the mesh stays as large as it was.
+    #[must_use]
+    pub fn with_field_of_view(self, degrees: f64) -> Self {
+        let half = |degrees: f64| (degrees.to_radians() / 2.0).sin();
+        let moved = self.at_distance(half(self.field_of_view_deg) / half(degrees));
+        Self { field_of_view_deg: degrees, ..moved }
+    }
+
+    /// The viewpoint for a picture of the given width over height: what fits into a square is never cut.
+    pub fn viewpoint(&self, aspect: f64) -> Option<Viewpoint> {
+        let half = (self.field_of_view_deg.to_radians() / 2.0).tan() / aspect.clamp(0.05, 1.0);
+        let field = (2.0 * half.atan()).min(150_f64.to_radians());
+        Viewpoint::new(self.yaw_deg.to_radians(), self.pitch_deg.to_radians(), self.distance, field).ok()
+    }
+}
