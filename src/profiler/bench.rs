@@ -12,10 +12,7 @@ pub const BUILD: &str = "cargo run --release --features bench";
 /// Returns the benchmark; none in a build without the feature `bench`.
 pub fn bench() -> Option<Bench> {
     #[cfg(feature = "bench")]
-    return Some(|plan, effort, stop, progress| {
-        let data = chromascope_measure::Data::new(crate::catalog::asset_texts());
-        chromascope_measure::run(plan, effort, &data, stop, progress)
-    });
+    return Some(chromascope_measure::run);
     #[cfg(not(feature = "bench"))]
     None
 }

@@ -2,16 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should say so by failing")]
 
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use chromascope_core::colorimetry::Lab;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::render::Stop;
-use chromascope_core::spectral::Sensor;
 use chromascope_math::double::Double;
-use chromascope_measure::{Data, DataError, Effort, Progress, Report, Workload, exact, run};
+use chromascope_measure::{Effort, Progress, Report, Workload, exact, run};
 
 /// A decimal number with all its digits.
 fn decimal(text: &str) -> Double {
@@ -30,25 +28,6 @@ fn close(found: Double, expected: &str, within: f64) {
     let expected = decimal(expected);
     let off = ((found - expected) / expected).value().abs();
     assert!(off <= within, "{found:?} is off by {off:e} from {expected:?}");
-}
-
-fn data() -> Data {
-    Data::of_folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets")).unwrap()
-}
-
-fn observer() -> Sensor {
-    data().sensor("observers/cie_1931_2deg.csv").unwrap()
-}
-
-#[test]
-fn data_are_all_cameras_and_what_is_missing_is_named() {
-    let data = data();
-    let files = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/cameras")).unwrap();
-    assert_eq!(data.cameras().unwrap().len(), files.count());
-    let Err(DataError::Missing(path)) = data.sensor("cameras/none.csv") else { panic!("there is none") };
-    assert_eq!(path, "cameras/none.csv");
-    let none = run(&[Workload::Locus], Effort::Trial, &Data::default(), &Stop::NEVER, &mut |_| ()).unwrap_err();
-    assert_eq!(none.to_string(), "observers/cie_1931_2deg.csv is missing");
 }
 
 // All literals here: mpmath 1.3.0 with 60 digits.
@@ -74,7 +53,8 @@ fn references_hold_28_digits() {
 
 #[test]
 fn black_bodies_and_their_nearest_hold_24_digits() {
-    let (observer, constants) = (observer(), RadiationConstants::Paper);
+    let observer = chromascope_core::data::observer("CIE 1931 2°").unwrap();
+    let constants = RadiationConstants::Paper;
     let [x, y] = exact::black_body_xy(&observer, constants, 5500.0);
     close(x, "0.332458040673795065696484509251830866928162", 1e-28);
     close(y, "0.341084706617028822257825490476673480485704", 1e-28);
@@ -87,7 +67,7 @@ fn black_bodies_and_their_nearest_hold_24_digits() {
 
 /// The one workload that tests run; all of them run in trial after the release build, where times mean something.
 fn trial() -> Report {
-    run(&[Workload::Difference], Effort::Trial, &Data::default(), &Stop::NEVER, &mut |_| ()).unwrap()
+    run(&[Workload::Difference], Effort::Trial, &Stop::NEVER, &mut |_| ()).unwrap()
 }
 
 #[test]
@@ -149,13 +129,12 @@ fn what_is_stopped_says_so_and_begins_no_other_workload() {
     let flag = Arc::new(AtomicBool::new(false));
     let stop = Stop::at(Arc::clone(&flag));
     let mut seen = 0;
-    let report =
-        run(&[Workload::Difference, Workload::Locus], Effort::Trial, &Data::default(), &stop, &mut |progress| {
-            if matches!(progress, Progress::Measured(_)) {
-                seen += 1;
-                flag.store(true, std::sync::atomic::Ordering::Relaxed);
-            }
-        });
+    let report = run(&[Workload::Difference, Workload::Locus], Effort::Trial, &stop, &mut |progress| {
+        if matches!(progress, Progress::Measured(_)) {
+            seen += 1;
+            flag.store(true, std::sync::atomic::Ordering::Relaxed);
+        }
+    });
     let report = report.unwrap();
     assert!(!report.whole && report.workloads() == [Workload::Difference] && seen == report.measurements.len());
 }

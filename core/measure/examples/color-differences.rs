@@ -4,11 +4,10 @@
 #![allow(clippy::print_stdout, reason = "the table is what it is run for")]
 
 use chromascope_core::render::Stop;
-use chromascope_measure::{BenchError, Data, Effort, Workload, run};
+use chromascope_measure::{BenchError, Effort, Workload, run};
 
 fn main() -> Result<(), BenchError> {
-    // This workload makes its colors itself; others need the data files.
-    let report = run(&[Workload::Difference], Effort::Quick, &Data::default(), &Stop::NEVER, &mut |_| ())?;
+    let report = run(&[Workload::Difference], Effort::Quick, &Stop::NEVER, &mut |_| ())?;
     print!("{}", report.table().to_csv());
     Ok(())
 }

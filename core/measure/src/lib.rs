@@ -13,7 +13,7 @@ mod workload;
 #[cfg(feature = "workloads")]
 mod workloads;
 
-pub use data::{Data, DataError};
+pub use data::DataError;
 pub use machine::Machine;
 pub use measurement::{ErrorOf, ErrorScale, Measurement, Roof};
 pub use report::{Report, ReportError};

@@ -22,7 +22,7 @@ use chromascope_core::render::Stop;
 
 use self::timing::{Bench, Pools};
 use crate::harness::now;
-use crate::{BenchError, Data, Effort, Machine, Progress, Report, Workload};
+use crate::{BenchError, Effort, Machine, Progress, Report, Workload};
 
 /// The constants everything is computed with.
 const CONSTANTS: RadiationConstants = RadiationConstants::Paper;
@@ -38,11 +38,10 @@ const REFLECTANCE: &str = "materials/skin_vrhel.csv";
 /// Measures the workloads of a plan in its order. Once the stop is set, the report ends with the last whole case.
 ///
 /// # Errors
-/// Fails where no threads can be started, and where a data set of a workload is missing or damaged.
+/// Fails where no threads can be started, and where a data set of a workload is damaged.
 pub fn run(
     plan: &[Workload],
     effort: Effort,
-    data: &Data,
     stop: &Stop,
     progress: &mut dyn FnMut(Progress<'_>),
 ) -> Result<Report, BenchError> {
@@ -50,7 +49,7 @@ pub fn run(
     let pools = Pools::new()?;
     let machine = Machine::measure(effort, &pools);
     progress(Progress::Machine(&machine));
-    let mut bench = Bench { effort, data, stop, pools, machine, progress, measurements: Vec::new() };
+    let mut bench = Bench { effort, stop, pools, machine, progress, measurements: Vec::new() };
     for &workload in plan {
         if stop.is_set() {
             break;

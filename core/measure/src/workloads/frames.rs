@@ -18,9 +18,10 @@ use chromascope_mesh::{Mesh, ShadowTree, head};
 
 use super::timing::{Bench, Candidate, Case};
 use super::{LIGHT, REFLECTANCE};
+use crate::data::{curve, sensor};
 use crate::harness::timed;
 use crate::measurement::Errors;
-use crate::{BenchError, Data, ErrorOf, ErrorScale, Workload};
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
 
 /// The reference and the cameras of the paper's third experiment.
 const SOURCES: [&str; 4] = [
@@ -53,11 +54,11 @@ struct RenderService {
 }
 
 impl RenderService {
-    fn new(data: &Data, triangles: usize, sigma_m: f64) -> Result<Option<Self>, BenchError> {
-        let (light, skin) = (data.curve(LIGHT, Quantity::Light)?, data.curve(REFLECTANCE, Quantity::Reflectance)?);
+    fn new(triangles: usize, sigma_m: f64) -> Result<Option<Self>, BenchError> {
+        let (light, skin) = (curve(LIGHT, Quantity::Light)?, curve(REFLECTANCE, Quantity::Reflectance)?);
         let mut sources = Vec::new();
         for path in SOURCES {
-            let sensor = data.sensor(path)?;
+            let sensor = sensor(path)?;
             let Ok(divisors) = white_divisors(&sensor, &light) else { return Ok(None) };
             let measure =
                 SpectralWeights::new(&sensor, &light, &skin, divisors, wavelength_power(Reading::Radiometric));
@@ -140,7 +141,7 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     );
     for ((name, sigma_m), sides) in [("\u{3c3} 5 µm", 5e-6), ("\u{3c3} 0.3 µm", 0.3e-6)].into_iter().zip(sides) {
         let most = bench.pools.most();
-        let Some(studio) = bench.pools.on(most, || RenderService::new(bench.data, triangles, sigma_m))? else {
+        let Some(studio) = bench.pools.on(most, || RenderService::new(triangles, sigma_m))? else {
             continue;
         };
         let tables = || studio.sources.iter().map(|(measure, _)| DiffuseTable::new(measure)).collect::<Vec<_>>();

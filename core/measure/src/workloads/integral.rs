@@ -18,6 +18,7 @@ use super::diffuse_sum::term_by_term;
 use super::exact;
 use super::timing::{Bench, CHUNK, Candidate, Case, Room, each, spaced};
 use super::{CAMERA, LIGHT, Numbers, REFLECTANCE};
+use crate::data::{curve, sensor};
 use crate::harness::timed;
 use crate::measurement::Errors;
 use crate::{BenchError, ErrorOf, ErrorScale, Workload};
@@ -30,9 +31,9 @@ type Signals = [f64; 3];
 const TOLERANCES: [f64; 4] = [1e-3, 1e-5, 1e-8, 1e-10];
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
-    let sensor = bench.data.sensor(CAMERA)?;
-    let light = bench.data.curve(LIGHT, Quantity::Light)?;
-    let reflectance = bench.data.curve(REFLECTANCE, Quantity::Reflectance)?;
+    let sensor = sensor(CAMERA)?;
+    let light = curve(LIGHT, Quantity::Light)?;
+    let reflectance = curve(REFLECTANCE, Quantity::Reflectance)?;
     let Ok(divisors) = white_divisors(&sensor, &light) else { return Ok(()) };
     let (measure, seconds) = timed(|| SpectralWeights::new(&sensor, &light, &reflectance, divisors, 2));
     let cases = [("smooth: κ from 0.001 to 1", 1e-3, 1.0), ("between: κ from 1 to 128", 1.0, ROUGH)];

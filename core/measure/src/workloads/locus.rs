@@ -16,6 +16,7 @@ use rayon::prelude::*;
 use super::exact;
 use super::timing::{Bench, Candidate, Case, Room, each, spaced};
 use super::{CAMERA, CONSTANTS, OBSERVER};
+use crate::data::sensor;
 use crate::harness::timed;
 use crate::loci::{CHECKED_NODES, LocusMethod, gauss_rule, locus_methods};
 use crate::measurement::Errors;
@@ -25,7 +26,7 @@ type Place = [f64; 2];
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     for (name, path) in [("CIE 1931 2°", OBSERVER), ("Nikon D70 (2007 figure)", CAMERA)] {
-        let sensor = bench.data.sensor(path)?;
+        let sensor = sensor(path)?;
         one(bench, name, &sensor);
         let counts: &[usize] = bench.pick(&[10], if path == OBSERVER { &[1, 1000] } else { &[] }, &[1, 100, 10_000]);
         for &count in counts {

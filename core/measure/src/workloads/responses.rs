@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 use super::Numbers;
 use super::timing::{Bench, Candidate, Case, Cost, Room};
+use crate::data::cameras;
 use crate::harness::timed;
 use crate::measurement::Errors;
 use crate::{BenchError, ErrorOf, ErrorScale, Workload};
@@ -23,7 +24,7 @@ const DIFFERENT: usize = 16_000_000;
 const FEW: usize = 12;
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
-    let sensors = bench.data.cameras()?;
+    let sensors = cameras()?;
     for step in [5, 1] {
         for count in [1, 4, 60] {
             let channels: Vec<Vec<f64>> =

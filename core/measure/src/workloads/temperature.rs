@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::exact;
 use super::timing::{Bench, Candidate, Case, Room, each, spaced};
 use super::{CONSTANTS, Numbers, OBSERVER};
+use crate::data::sensor;
 use crate::harness::timed;
 use crate::measurement::Errors;
 use crate::{BenchError, ErrorOf, ErrorScale, Workload};
@@ -28,7 +29,7 @@ enum Judged {
 }
 
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
-    let observer = bench.data.sensor(OBSERVER)?;
+    let observer = sensor(OBSERVER)?;
     for judged in [Judged::Temperature, Judged::Duv] {
         one(bench, &observer, judged);
     }

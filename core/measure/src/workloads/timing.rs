@@ -10,7 +10,7 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use chromascope_core::render::Stop;
 
 use crate::harness::{Budget, Times, take_turns, timed};
-use crate::{Data, Effort, ErrorOf, Machine, Measurement, Progress, Roof, Workload};
+use crate::{Effort, ErrorOf, Machine, Measurement, Progress, Roof, Workload};
 
 /// Pools of one, two, four, … threads, up to all that the machine runs at a time.
 pub(crate) struct Pools(Vec<(usize, ThreadPool)>);
@@ -139,7 +139,6 @@ struct Batch {
 /// A run.
 pub(super) struct Bench<'a> {
     pub(super) effort: Effort,
-    pub(super) data: &'a Data,
     pub(super) stop: &'a Stop,
     pub(super) pools: Pools,
     pub(super) machine: Machine,
