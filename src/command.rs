@@ -1,9 +1,9 @@
 //! Everything that can be done from a menu, a key or a button, in one list.
 
+use chromascope_measure::Workload;
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::action::Action;
-use crate::bench::Workload;
 use crate::document::SetKind;
 use crate::document::own::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;

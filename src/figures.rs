@@ -3,7 +3,6 @@
 pub mod accuracy;
 pub mod chromaticity;
 pub mod curves;
-pub mod pareto;
 pub mod render;
 pub mod skipped_work;
 pub mod spectra;

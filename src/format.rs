@@ -22,23 +22,6 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     if is_zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
 }
 
-/// A time with three digits in the unit that suits it.
-pub fn duration(seconds: f64) -> String {
-    let (value, unit) = match seconds {
-        s if s < 0.9995e-6 => (s * 1e9, "ns"),
-        s if s < 0.9995e-3 => (s * 1e6, "µs"),
-        s if s < 0.9995 => (s * 1e3, "ms"),
-        s => (s, "s"),
-    };
-    // A whole number of units is a tick of an axis.
-    let decimals = match value {
-        v if (v - v.round()).abs() < 1e-9 * v || v >= 99.95 => 0,
-        v if v >= 9.995 => 1,
-        _ => 2,
-    };
-    format!("{value:.decimals$} {unit}")
-}
-
 /// A text with a capital at its start.
 pub fn capitalized(words: &str) -> String {
     let mut letters = words.chars();
@@ -100,11 +83,5 @@ mod tests {
         let many: Vec<DroppedRow> = (1..=82).map(|line| row(line, Dropped::Repeated)).collect();
         assert_eq!(dropped_rows(&many, 1), ["82 rows left out: line 1 (the same as an earlier row) and 81 more"]);
         assert!(dropped_rows(&[], 5).is_empty());
-    }
-
-    #[test]
-    fn times_have_units_that_suit() {
-        let all = [1e-9, 1.5e-8, 9.99e-7, 1e-6, 2.5e-6, 1.5e-3, 0.9999, 12.0].map(duration);
-        assert_eq!(all, ["1 ns", "15 ns", "999 ns", "1 µs", "2.50 µs", "1.50 ms", "1.00 s", "12 s"]);
     }
 }

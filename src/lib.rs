@@ -12,7 +12,6 @@
 
 pub mod action;
 pub mod app;
-pub mod bench;
 pub mod catalog;
 pub mod cli;
 pub mod command;

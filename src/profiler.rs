@@ -4,22 +4,23 @@
 //! except that asking again measures again: [`SceneRunQuery::run`] tells runs apart.
 
 mod asked;
+pub mod bench;
 mod conditions;
 mod integral;
 mod loci;
-mod method;
 pub mod plans;
 mod skipped_work;
-mod stopwatch;
 
 use std::time::Duration;
 
 use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
 use chromascope_core::query::{Ask, LocusQuery, PatchColorsQuery, Query, Shared};
 use chromascope_core::spectral::Sensor;
+use chromascope_measure::harness::timed;
+use chromascope_measure::method::Point;
+use chromascope_measure::{Effort, Report, Workload};
 use serde::{Deserialize, Serialize};
 
-use crate::bench::{self, Effort, Report, Workload};
 use crate::jobs::{Background, Executor};
 use crate::results::Results;
 pub use conditions::Conditions;
@@ -121,58 +122,18 @@ impl Subject {
     }
 }
 
-/// Time and error of a method.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Point {
-    /// The method.
-    pub name: String,
-    /// What kind of method it is.
-    pub family: Family,
-    /// Seconds for one input and source, on one thread: the median of rounds in which the methods take turns.
-    pub seconds: f64,
-    /// Seconds that were spent before the first input, for one source.
-    pub preparation: f64,
-    /// The largest error.
-    pub max: f64,
-    /// The root of the errors' mean square.
-    pub rms: f64,
-    /// The error that the core promised, where a tolerance was asked for.
-    pub certified: Option<f64>,
-}
-
-/// A kind of method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Family {
-    /// A sum over the grid.
-    Sum,
-    /// One of the program's qualities.
-    Quality,
-    /// The cheapest that meets a tolerance.
-    Tolerance,
-}
-
-impl Family {
-    /// In words.
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::Sum => "sum over the grid",
-            Self::Quality => "a quality of the program",
-            Self::Tolerance => "cheapest for a tolerance",
-        }
-    }
-}
-
 impl Query for SceneRunQuery {
     type Answer = SceneRun;
     const NAME: &'static str = "scene run";
     const KEPT: usize = 1;
 
     fn answer(&self, ask: &impl Ask) -> SceneRun {
-        let (start, conditions) = (std::time::Instant::now(), Conditions::now(self));
-        let ask = &fresh(ask);
-        let trials = [integral::trial(self, ask), loci::trial(self, ask)].into_iter().flatten().collect();
-        let skipped_work = skipped_work::rows(self, ask);
-        SceneRun { conditions, trials, skipped_work, time: start.elapsed() }
+        let (conditions, ask) = (Conditions::now(self), &fresh(ask));
+        let ((trials, skipped_work), seconds) = timed(|| {
+            let trials = [integral::trial(self, ask), loci::trial(self, ask)].into_iter().flatten().collect();
+            (trials, skipped_work::rows(self, ask))
+        });
+        SceneRun { conditions, trials, skipped_work, time: Duration::from_secs_f64(seconds) }
     }
 }
 
@@ -196,8 +157,8 @@ impl Query for BenchQuery {
     const KEPT: usize = 1;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let report = bench::run(&[self.workload], Effort::Quick, &ask.stop(), &mut |_| ());
-        report.map_err(|error| error.to_string())
+        let Some(bench) = bench::bench() else { return Err("this build has no benchmark".to_owned()) };
+        bench(&[self.workload], Effort::Quick, &ask.stop(), &mut |_| ()).map_err(|error| error.to_string())
     }
 }
 

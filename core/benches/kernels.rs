@@ -16,8 +16,7 @@
 #![allow(clippy::print_stdout, reason = "the names and ratios are what it is run for")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot go on should say so by failing")]
 
-#[path = "compare/library.rs"]
-#[allow(dead_code, reason = "the other bench uses the rest")]
+#[path = "kernels/library.rs"]
 mod library;
 #[path = "kernels/list.rs"]
 mod list;

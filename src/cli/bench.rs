@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 
 use chromascope_core::render::Stop;
 use chromascope_figure::Figure;
+use chromascope_measure::pareto::duration;
+use chromascope_measure::{Effort, Measurement, Progress, Report, Workload};
 use clap::Args;
 
 use super::error::CliError;
 use super::outputs::{show, write_to};
-use crate::bench::{self, Effort, Measurement, Progress, Report, Workload};
 use crate::export::{Paper, png, png_file, svg};
-use crate::format::duration;
+use crate::profiler::bench::bench;
 use crate::terminal::say;
 use crate::theme::Theme;
 
@@ -66,6 +67,7 @@ pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
         let lines = Workload::ALL.map(|workload| format!("{:<12} {}\n", workload.name(), workload.title()));
         return show(&lines.concat());
     };
+    let measure = bench().ok_or(CliError::NoBench)?;
     // Better now than after a quarter of an hour.
     make_folder(folder)?;
     let plan: Vec<Workload> = Workload::ALL
@@ -87,7 +89,7 @@ pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
         Effort::Full
     };
     let mut case = String::new();
-    let report = bench::run(&plan, effort, &Stop::NEVER, &mut |progress| tell(progress, &mut case))?;
+    let report = measure(&plan, effort, &Stop::NEVER, &mut |progress| tell(progress, &mut case))?;
     let files = files(&report, folder)?;
     for (path, bytes) in &files {
         write_to(path, bytes).map_err(|error| CliError::Output { path: path.clone(), error })?;

@@ -48,10 +48,13 @@ pub(super) enum CliError {
     },
     /// Nothing can be measured.
     #[error(transparent)]
-    Bench(#[from] crate::bench::BenchError),
+    Bench(#[from] chromascope_measure::BenchError),
+    /// This build has no benchmark.
+    #[error("this build has no benchmark; build it with it: {} -- bench …", crate::profiler::bench::BUILD)]
+    NoBench,
     /// What was measured cannot be written down.
     #[error(transparent)]
-    Report(#[from] crate::bench::ReportError),
+    Report(#[from] chromascope_measure::ReportError),
     /// A figure cannot be drawn.
     #[error(transparent)]
     Figure(#[from] crate::export::ExportError),

@@ -1,11 +1,12 @@
 //! Run time against error of the scene on show, as measured.
 
 use chromascope_figure::{Cell, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag};
+use chromascope_measure::method::{Family, Point};
+use chromascope_measure::pareto::{self, Place, duration};
+use chromascope_measure::{Measurement, Report, Workload};
 
-use super::pareto::{self, Place};
-use crate::bench::{Measurement, Report, Workload};
-use crate::format::{duration, number};
-use crate::profiler::{Conditions, Family, Point, SceneRun, Subject, Trial};
+use crate::format::number;
+use crate::profiler::{Conditions, SceneRun, Subject, Trial};
 use crate::view::View;
 use crate::view::accuracy::Shows;
 

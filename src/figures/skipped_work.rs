@@ -1,8 +1,9 @@
 //! What was not computed, and the time that this saved: as a run measured it, and by memory since the start.
 
 use chromascope_figure::{Anchor, Axis, Cell, Figure, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks};
+use chromascope_measure::pareto::duration;
 
-use crate::format::{capitalized, duration};
+use crate::format::capitalized;
 use crate::profiler::{LOCI, PATCHES, SkippedWork};
 use crate::results::Count;
 use crate::view::View;

@@ -3,15 +3,16 @@
 use std::time::Duration;
 
 use chromascope_figure::LegendEntry;
+use chromascope_measure::Workload;
 use egui::{Align2, ComboBox, FontId, Id, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
-use crate::bench::Workload;
 use crate::command::Command;
 use crate::figures::accuracy;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::profiler::Subject;
+use crate::profiler::bench::{BUILD, bench};
 use crate::theme::UNIT;
 use crate::view::accuracy::Shows;
 use crate::workspaces::PaneKind;
@@ -48,7 +49,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
     match context.view.accuracy.shows {
         Shows::Scene(subject) => scene(ui, body, subject, context),
-        Shows::Bench(workload) => bench(ui, body, workload, context),
+        Shows::Bench(workload) => benchmark(ui, body, workload, context),
     }
 }
 
@@ -90,8 +91,12 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
 }
 
 /// The methods of the program on a workload, a panel for each case.
-fn bench(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneContext<'_>) {
+fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneContext<'_>) {
     let report = match context.view.accuracy.reports.get(&workload).map(AsRef::as_ref) {
+        None if bench().is_none() => {
+            without_bench(ui, body);
+            return;
+        }
         None => {
             nothing(ui, body, "Nothing measured yet. A quick run takes some seconds.", context);
             return;
@@ -206,6 +211,9 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
         ui.ctx().request_repaint_after(Duration::from_millis(100));
         return;
     }
+    if matches!(now, Shows::Bench(_)) && bench().is_none() {
+        return;
+    }
     let again = match now {
         Shows::Scene(_) => context.view.accuracy.run.is_some(),
         Shows::Bench(workload) => context.view.accuracy.reports.contains_key(&workload),
@@ -236,6 +244,15 @@ fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &mut PaneContext<'_>) 
     } else if child.button("Run").clicked() {
         context.push(measure(context.view.accuracy.shows));
     }
+}
+
+/// The way to a build that has the benchmark.
+fn without_bench(ui: &mut Ui, body: Rect) {
+    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 96.0)).intersect(body);
+    let layout = egui::Layout::top_down(egui::Align::Center);
+    let mut child = ui.new_child(UiBuilder::new().id_salt("no benchmark").max_rect(place).layout(layout));
+    child.label("This build has no benchmark. To have it, build and run with:");
+    child.monospace(BUILD);
 }
 
 fn failed(ui: &Ui, body: Rect, why: &str, context: &PaneContext<'_>) {

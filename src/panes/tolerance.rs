@@ -1,12 +1,13 @@
 //! How large an error may be, and how each camera keeps it.
 
 use chromascope_core::render::plan::{Candidate, Verdict};
+use chromascope_measure::pareto::duration;
 use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, RenderAction};
 use crate::document::render::RenderSettings;
-use crate::format::{capitalized, duration};
+use crate::format::capitalized;
 use crate::panes::widgets;
 use crate::profiler::plans::Planned;
 use crate::scene::ComparedSensor;

@@ -1,12 +1,13 @@
 //! What the scene on show did not compute, and the time that this saved.
 
 use chromascope_figure::{TextSize, text_width};
+use chromascope_measure::pareto::duration;
 use egui::{Align, Label, Layout, Rect, RichText, ScrollArea, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::command::Command;
 use crate::figures::skipped_work::{self, OVERLAP, Section};
-use crate::format::{capitalized, duration};
+use crate::format::capitalized;
 use crate::panes::widgets;
 use crate::profiler::SkippedWork;
 use crate::theme::UNIT;

@@ -1,10 +1,11 @@
 //! What a run was of, and on what: times without that say little.
 
 use chromascope_core::query::render::Roughness;
+use chromascope_measure::Machine;
+use chromascope_measure::harness::now;
 use serde::{Deserialize, Serialize};
 
 use super::{SceneRunQuery, Subject, Trial};
-use crate::bench::{self, Machine};
 use crate::format::number;
 use crate::scene::Scene;
 
@@ -31,8 +32,8 @@ impl Conditions {
             scene: run.scene.clone(),
             sensors: run.sensors.len(),
             machine: Machine::unmeasured().identity(),
-            program: bench::program(),
-            began: bench::now(),
+            program: chromascope_measure::program(),
+            began: now(),
         }
     }
 

@@ -7,10 +7,10 @@ use chromascope_core::reflectance::{Normalization, Precision};
 use chromascope_core::render::diffuse::by_nodes;
 use chromascope_core::render::shading::DiffuseKind;
 use chromascope_core::render::{Against, Demand, Plan, Quality, ShadingImage, SpectralWeights};
+use chromascope_measure::harness::timed;
+use chromascope_measure::method::{Family, Method, Point, compare, largest, together};
 
-use super::method::{Method, largest, measured, together};
-use super::stopwatch::once;
-use super::{Family, Point, SceneRunQuery, Subject, Trial};
+use super::{SceneRunQuery, Subject, Trial};
 
 /// At most so many samples are measured on.
 const SAMPLES: usize = 300;
@@ -79,7 +79,7 @@ fn through(
 ) -> Option<Vec<Point>> {
     let mut methods = fixed(measure, places);
     for (accuracy, name) in tolerances {
-        let (plan, preparation) = once(|| Plan::new(measure, *accuracy, Against::Peak, demand));
+        let (plan, preparation) = timed(|| Plan::new(measure, *accuracy, Against::Peak, demand));
         let Ok(plan) = plan else { continue };
         methods.push(Method {
             name: name.clone(),
@@ -102,7 +102,7 @@ fn through(
         let off = largest([0, 1, 2].map(|c: usize| value[c] - exact[c]));
         if peaks[index] > 0.0 { off / peaks[index] } else { 0.0 }
     };
-    measured(&methods, share, &ask.stop())
+    compare(&methods, share, &ask.stop())
 }
 
 /// The tolerances that are tried, and the one that pictures keep, if any: the largest first.

@@ -14,11 +14,11 @@ use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::shading::{DiffuseKind, Shade};
 use chromascope_core::render::{CameraImage, ShadingImage, SpectralWeights, Stop};
+use chromascope_measure::harness::shortest;
+use chromascope_measure::pareto::duration;
 use serde::{Deserialize, Serialize};
 
 use super::SceneRunQuery;
-use super::stopwatch::shortest;
-use crate::format::duration;
 pub use panes::{LOCI, PATCHES};
 use ways::Ways;
 

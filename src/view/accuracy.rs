@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::bench::{Report, Workload};
+use chromascope_measure::{Report, Workload};
+
 use crate::profiler::{SceneRun, SkippedWork, Subject};
 
 /// What is looked at in Accuracy.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::paint::PictureTextures;
 use crate::plot_item::SensorId;
 use crate::render_service::RenderedFrame;
-use crate::scene::orbit::Orbit;
+pub use crate::scene::orbit::Orbit;
 
 /// The part that is kept between runs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use chromascope::action::{Action, CompareAction, RenderAction, SceneAction};
-use chromascope::bench::{self, Effort, Workload};
+
 use chromascope::command::Command;
 use chromascope::document::render::{ReadingChoice, RenderSettings};
 use chromascope::document::{Light, SetKind};
@@ -14,8 +14,8 @@ use chromascope::view::accuracy::Shows;
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::render::QualityLevel;
-use chromascope_core::render::Stop;
 use chromascope_figure::{Ink, InkRole, Shape};
+use chromascope_measure::Workload;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -286,7 +286,7 @@ fn escape_stops_measuring() {
 
 #[test]
 fn a_report_of_the_bench_is_shown_and_exported() {
-    let report = bench::run(&[Workload::Difference], Effort::Trial, &Stop::NEVER, &mut |_| ()).unwrap();
+    let report = crate::bench::report();
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     let view = window.state_mut().view_mut();
     view.saved.workspace = Workspace::Accuracy;
@@ -306,4 +306,19 @@ fn a_report_of_the_bench_is_shown_and_exported() {
             assert_eq!((&mark.name, &panel.name), (&measurement.method, &measurement.case));
         }
     }
+}
+
+#[test]
+fn without_the_benchmark_its_place_says_how_to_get_it() {
+    let mut window = open([900.0, 600.0], egui::Theme::Light);
+    window.state_mut().push(Command::Show(Workspace::Accuracy));
+    window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::Difference);
+    window.run_steps(3);
+    let offered = window.query_by_label("Nothing measured yet. A quick run takes some seconds.").is_some();
+    let told = window.query_by_label(chromascope::profiler::bench::BUILD).is_some();
+    assert_eq!((offered, told), (cfg!(feature = "bench"), cfg!(not(feature = "bench"))));
+    // The scene can be measured in either build.
+    window.state_mut().view_mut().accuracy.shows = Shows::Scene(Subject::Loci);
+    window.run_steps(3);
+    assert!(window.query_all_by_label("Run").next().is_some());
 }

@@ -4,7 +4,7 @@ use std::fs;
 
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
-use chromascope::bench::{self, Effort, Workload};
+
 use chromascope::command::{Command, Format};
 use chromascope::document::{Document, SetKind};
 use chromascope::export::spectra::Form;
@@ -12,7 +12,7 @@ use chromascope::files::Files;
 use chromascope::view::accuracy::Shows;
 use chromascope::view::{SavedView, Weight};
 use chromascope::workspaces::PaneKind;
-use chromascope_core::render::Stop;
+use chromascope_measure::Workload;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -129,7 +129,7 @@ fn another_kind_of_file_takes_its_own_ending() {
 
 #[test]
 fn a_workload_is_offered_by_its_name() {
-    let report = bench::run(&[Workload::Difference], Effort::Trial, &Stop::NEVER, &mut |_| ()).unwrap();
+    let report = crate::bench::report();
     let mut window = window();
     let view = window.state_mut().view_mut();
     view.accuracy.shows = Shows::Bench(Workload::Difference);

@@ -1,7 +1,6 @@
 //! How exact the chosen quality is and what it costs, beside the sum over all wavelengths, on the samples of this very picture.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use chromascope_core::camera::RenderingError;
 use chromascope_core::query::Ask as _;
@@ -10,14 +9,15 @@ use chromascope_core::reflectance::{Normalization, Surface};
 use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::shading::DiffuseKind;
 use chromascope_core::render::{CameraImage, GeometryImage, Plan, Quality, ShadingImage, SpectralWeights, Stop};
+use chromascope_measure::harness::{Budget, take_turns, timed};
 use rayon::ThreadPoolBuilder;
 
 use super::Made;
 
 /// At most this many lit samples are measured on.
 const SAMPLES: usize = 2000;
-/// Short work is repeated for so long, and the shortest taken.
-const AT_LEAST: Duration = Duration::from_millis(20);
+/// Short work is repeated for 20 ms, and the shortest time taken.
+const BUDGET: Budget = Budget { rounds: [0, 0], seconds: [0.02, 0.02] };
 
 /// What was measured.
 pub(super) struct Measured {
@@ -56,7 +56,7 @@ pub(super) struct Errors {
 struct Run {
     signals: Vec<Vec<[f32; 3]>>,
     sums: u64,
-    time: Duration,
+    seconds: f64,
 }
 
 /// What is measured on. All data are at hand, so that no question is asked while a watch runs.
@@ -93,7 +93,7 @@ pub(super) fn measure(made: &Made<'_>) -> Option<Measured> {
     let samples = bench.geometry.samples().len();
     let cost = |run: &Run| Cost {
         sums: run.sums,
-        ns: run.time.as_secs_f64() * 1e9 / (samples * run.signals.len().max(1)) as f64,
+        ns: run.seconds * 1e9 / (samples * run.signals.len().max(1)) as f64,
         errors: (0..peaks.len()).map(|i| errors(&run.signals[i], &exact.signals[i], peaks[i])).collect(),
     };
     Some(Measured { stride, samples, chosen: cost(&chosen), exact: cost(&exact), regimes: cost(&regimes) })
@@ -118,17 +118,17 @@ impl Bench {
     }
 
     fn shortest(&self, quality: Quality) -> Option<Run> {
-        let start = Instant::now();
-        let mut best = self.once(quality)?;
-        while start.elapsed() < AT_LEAST {
-            best.time = best.time.min(self.once(quality)?.time);
+        let (run, seconds) = timed(|| self.once(quality));
+        let mut run = Run { seconds, ..run? };
+        if seconds < BUDGET.seconds[0] {
+            let more = take_turns(1, BUDGET, &Stop::NEVER, |_| timed(|| self.once(quality)).1)?;
+            run.seconds = seconds.min(more[0].least());
         }
-        Some(best)
+        Some(run)
     }
 
     /// From angles to all sensors' signals. Finding the methods is not counted: that is done once for any number of samples.
     fn once(&self, quality: Quality) -> Option<Run> {
-        let start = Instant::now();
         let geometry = Arc::clone(&self.geometry);
         let shading = ShadingImage::new(geometry, self.surface, self.reading, quality, &Stop::NEVER)?;
         let image = |camera: &Camera| {
@@ -140,9 +140,12 @@ impl Bench {
             CameraImage::new(&shading, measure, plan, reach, &Stop::NEVER)
         };
         let images: Vec<CameraImage> = self.cameras.iter().map(image).collect::<Option<_>>()?;
-        let time = start.elapsed();
         let signals = images.iter().map(|image| image.signals().to_vec()).collect();
-        Some(Run { sums: images.iter().map(|image| sums(&shading, image.plan())).max().unwrap_or(0), signals, time })
+        Some(Run {
+            sums: images.iter().map(|image| sums(&shading, image.plan())).max().unwrap_or(0),
+            signals,
+            seconds: 0.0,
+        })
     }
 }
 

@@ -8,9 +8,9 @@ use chromascope_core::reflectance::{Geometry, Normalization, Surface, coherent_p
 use chromascope_core::render::SpectralWeights;
 use chromascope_core::render::mirror::{Nodes, Reach, mirror_sum};
 use chromascope_core::render::shading::Mirror;
+use chromascope_measure::harness::shortest;
 
 use super::{SUMS, SkippedWork, Sources, measured_on, some_of};
-use crate::profiler::stopwatch::shortest;
 
 /// They are made here, as the quality in use makes those that it has. None where the reading has no mirror.
 pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<SkippedWork> {

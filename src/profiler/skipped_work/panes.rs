@@ -2,9 +2,9 @@
 
 use chromascope_core::query::Ask;
 use chromascope_core::query::render::picture::PicturesQuery;
+use chromascope_measure::harness::timed;
 
 use super::SkippedWork;
-use crate::profiler::stopwatch::once;
 use crate::profiler::{SceneRunQuery, fresh};
 
 /// The row of the loci.
@@ -22,34 +22,35 @@ fn threads() -> String {
 
 /// Cameras that are not on show: their signals are made here.
 pub(super) fn cameras(run: &SceneRunQuery, pictures: &PicturesQuery, ask: &impl Ask) -> Option<SkippedWork> {
-    let ((), seconds) = once(|| run.hidden.iter().for_each(|hidden| drop(ask.ask(&pictures.image(&hidden.rendering)))));
+    let ((), seconds) =
+        timed(|| run.hidden.iter().for_each(|hidden| drop(ask.ask(&pictures.image(&hidden.rendering)))));
     (!run.hidden.is_empty()).then(|| SkippedWork {
         what: "sources that are not on show".into(),
         count: run.hidden.len() as u64,
         of: Some((run.hidden.len() + pictures.sources.len()) as u64),
         saved: seconds,
-        how: format!("their signals, made once with what all sources share at hand; {}", threads()),
+        how: format!("their signals, made timed with what all sources share at hand; {}", threads()),
     })
 }
 
 /// The pictures of a workspace that is not on show.
 pub(super) fn pictures(pictures: &PicturesQuery, ask: &impl Ask) -> Option<SkippedWork> {
     let fresh = fresh(ask);
-    let (answer, seconds) = once(|| fresh.ask(pictures));
+    let (answer, seconds) = timed(|| fresh.ask(pictures));
     matches!(&*answer, Ok(Some(_))).then(|| SkippedWork {
         what: "pictures, while Render is not on show".into(),
         count: pictures.sources.len() as u64,
         of: None,
         saved: seconds,
-        how: format!("made once from nothing, mesh, shadows and tables included; {}", threads()),
+        how: format!("made timed from nothing, mesh, shadows and tables included; {}", threads()),
     })
 }
 
 /// What other panes would ask for.
 pub(super) fn others(run: &SceneRunQuery, ask: &impl Ask) -> Vec<SkippedWork> {
     let row = |what: &'static str, count: usize, work: &dyn Fn()| {
-        let ((), saved) = once(work);
-        let how = format!("each made once from nothing; {}", threads());
+        let ((), saved) = timed(work);
+        let how = format!("each made timed from nothing; {}", threads());
         (count > 0).then_some(SkippedWork { what: what.into(), count: count as u64, of: None, saved, how })
     };
     let loci = row(LOCI, run.loci.len(), &|| run.loci.iter().for_each(|locus| drop(fresh(ask).ask(locus))));

@@ -4,9 +4,9 @@ use chromascope_core::reflectance::Precision;
 use chromascope_core::render::SpectralWeights;
 use chromascope_core::render::diffuse::by_nodes;
 use chromascope_core::render::shading::{DiffuseKind, Shade};
+use chromascope_measure::harness::shortest;
 
 use super::{SAMPLES, SUMS, SkippedWork, Sources, measured_on, some_of};
-use crate::profiler::stopwatch::shortest;
 
 /// What is dark: its sums are made here.
 pub(super) fn dark(sources: &Sources<'_>) -> Option<SkippedWork> {

@@ -4,10 +4,10 @@ use std::hint::black_box;
 
 use chromascope_core::reflectance::series_terms;
 use chromascope_core::render::Quality;
+use chromascope_measure::harness::shortest;
+use chromascope_measure::pareto::duration;
 
 use super::{SUMS, SkippedWork, Sources, measured_on, some_of};
-use crate::format::duration;
-use crate::profiler::stopwatch::shortest;
 
 /// At most so many terms of all sums together are added: the time of a term is known by then.
 const AT_MOST: f64 = 5e6;

@@ -9,8 +9,7 @@ use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
 use chromascope_core::render::measure::Node;
 use chromascope_core::render::shading::{DiffuseKind, Shade};
 use chromascope_core::render::{Plan, ShadingImage, SpectralWeights};
-
-use crate::profiler::stopwatch::shortest;
+use chromascope_measure::harness::shortest;
 
 /// Measure and plan of a source.
 pub(super) struct Ways {

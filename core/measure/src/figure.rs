@@ -1,0 +1,88 @@
+//! Run time against error, a panel for each case: down and to the left is better.
+
+use chromascope_figure::{Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Tag};
+
+use crate::pareto::{self, Place};
+use crate::report::table;
+use crate::{Measurement, Report, Workload};
+
+/// The size of a panel on paper, in points.
+pub(crate) const PANEL: [f64; 2] = [420.0, 320.0];
+/// Panels side by side, and where there are many.
+const ACROSS: usize = 2;
+const ACROSS_OF_MANY: usize = 3;
+const MANY: usize = 7;
+/// What stands for 1, 2, 4 and more threads: not what stands for cameras, so without their colors, and with the markers of the
+/// first three last.
+const MARKERS: [Marker; 8] = [
+    Marker::Diamond,
+    Marker::TriangleDown,
+    Marker::Hexagon,
+    Marker::TriangleRight,
+    Marker::TriangleLeft,
+    Marker::Circle,
+    Marker::Square,
+    Marker::TriangleUp,
+];
+/// A measurement with its place among those of its workload.
+type Numbered<'a> = (usize, &'a Measurement);
+
+/// The figure of a workload with panels of a size. The marks' tags are the places of measurements among those of the workload, from 1.
+pub(crate) fn figure(report: &Report, workload: Workload, size: [f64; 2]) -> Option<Figure> {
+    let mut cases: Vec<Vec<Numbered<'_>>> = Vec::new();
+    // What gives none of the values has no error, and so no place.
+    for numbered in report.of(workload).enumerate().filter(|(_, measurement)| measurement.error.checked > 0) {
+        match cases.iter_mut().find(|case| case[0].1.case == numbered.1.case) {
+            Some(case) => case.push(numbered),
+            None => cases.push(vec![numbered]),
+        }
+    }
+    if cases.is_empty() {
+        return None;
+    }
+    let across = if cases.len() < MANY { ACROSS.min(cases.len()) } else { ACROSS_OF_MANY };
+    let down = cases.len().div_ceil(across);
+    let mut figure = Figure::new(workload.title(), [size[0] * across as f64, size[1] * down as f64]);
+    for (index, case) in cases.iter().enumerate() {
+        let corner = [size[0] * (index % across) as f64, size[1] * (index / across) as f64];
+        figure.panels.push(panel(case, Rect::from_min_size(corner, size)));
+    }
+    let threads = report.of(workload).map(|m| m.threads).collect::<std::collections::BTreeSet<_>>();
+    figure.legend = threads.iter().map(|&threads| entry(threads)).collect();
+    figure.legend_place = LegendPlace::Outside;
+    figure.caption = format!(
+        "Median time per item against the largest error of {}; the line joins what nothing else beats in both. {}; {}, {}.",
+        cases[0][0].1.error.what, report.machine, report.program, report.began
+    );
+    figure.table = table(report, report.of(workload));
+    Some(figure)
+}
+
+fn entry(threads: usize) -> LegendEntry {
+    let (marker, role) = look(threads);
+    let name = if threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
+    LegendEntry { name, stroke: None, marker: Some(marker), fill: Some(role.into()) }
+}
+
+/// Marker and color by the number of threads.
+fn look(threads: usize) -> (Marker, InkRole) {
+    let slot = threads.max(1).ilog2() as usize;
+    (MARKERS[slot % MARKERS.len()], if slot.is_multiple_of(2) { InkRole::Text } else { InkRole::Weak })
+}
+
+fn panel(case: &[Numbered<'_>], area: Rect) -> Panel {
+    let place = |(index, measurement): &Numbered<'_>| {
+        let (marker, role) = look(measurement.threads);
+        let (name, tag) = (measurement.method.clone(), Tag(u32::try_from(index + 1).unwrap_or(u32::MAX)));
+        Place { name, tag, error: measurement.error.max(), seconds: measurement.seconds_per_item, marker, role }
+    };
+    let places: Vec<Place> = case.iter().map(place).collect();
+    let labels = [format!("error of {}", short(&case[0].1.error.what)), format!("time per {}", case[0].1.item)];
+    let name = &case[0].1.case;
+    pareto::panel(name, labels.each_ref().map(String::as_str), name.clone(), &places, area)
+}
+
+/// What stands before a comma, a parenthesis: the rest is in the table.
+fn short(what: &str) -> &str {
+    what.split([',', '(', ';']).next().unwrap_or(what).trim_end()
+}

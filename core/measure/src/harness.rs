@@ -1,0 +1,168 @@
+//! The stopwatch: pieces of work take turns, so that a slow moment of the machine falls on all of them.
+
+use std::hint::black_box;
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
+
+use chromascope_core::render::Stop;
+
+/// Rounds and time to spend on a comparison.
+#[derive(Clone, Copy, Debug)]
+pub struct Budget {
+    /// Rounds at least, however long they take, and rounds wanted.
+    pub rounds: [usize; 2],
+    /// Seconds at least, in further rounds if need be, and seconds after which no round begins.
+    pub seconds: [f64; 2],
+}
+
+impl Budget {
+    /// Budget of a comparison that somebody waits for.
+    pub const INTERACTIVE: Self = Self { rounds: [3, 5], seconds: [0.1, 1.0] };
+
+    fn is_spent(self, rounds: usize, seconds: f64) -> bool {
+        let wanted = rounds >= self.rounds[1] && seconds >= self.seconds[0];
+        rounds >= self.rounds[0] && (wanted || seconds >= self.seconds[1])
+    }
+}
+
+/// Seconds of a piece of work, round by round.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Times(Vec<f64>);
+
+impl Times {
+    /// Number of rounds.
+    pub fn rounds(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Median.
+    pub fn median(&self) -> f64 {
+        quartiles(self.0.clone())[1]
+    }
+
+    /// Shortest time: the one that other work on the machine disturbed least.
+    pub fn least(&self) -> f64 {
+        self.0.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance between the quartiles, relative to the median.
+    pub fn spread(&self) -> f64 {
+        let [low, middle, high] = quartiles(self.0.clone());
+        (high - low) / middle
+    }
+
+    /// Median of the ratios to another's times in the same rounds.
+    pub fn ratio_to(&self, other: &Self) -> f64 {
+        quartiles(self.0.iter().zip(&other.0).map(|(time, base)| time / base).collect())[1]
+    }
+}
+
+/// Times of `count` pieces of work that take turns; none if stopped. `seconds` does the piece of an index and returns its time.
+pub fn take_turns(
+    count: usize,
+    budget: Budget,
+    stop: &Stop,
+    mut seconds: impl FnMut(usize) -> f64,
+) -> Option<Vec<Times>> {
+    let mut times = vec![Times::default(); count];
+    let start = Instant::now();
+    let mut round = 0;
+    while count > 0 && !budget.is_spent(round, start.elapsed().as_secs_f64()) {
+        for turn in 0..count {
+            if stop.is_set() {
+                return None;
+            }
+            // Nobody always comes after the same one, which may leave caches cold or the clock low.
+            let which = (turn + round * 7) % count;
+            times[which].0.push(seconds(which));
+        }
+        round += 1;
+    }
+    Some(times)
+}
+
+/// Result of some work, and the seconds it took.
+pub fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let made = black_box(work());
+    (made, start.elapsed().as_secs_f64())
+}
+
+/// Seconds of the shortest of three runs.
+pub fn shortest<T>(work: impl FnMut() -> T) -> f64 {
+    shortest_of(3, work)
+}
+
+/// Seconds of the shortest of some runs.
+pub(crate) fn shortest_of<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
+    (0..runs).map(|_| timed(&mut work).1).fold(f64::INFINITY, f64::min)
+}
+
+/// The present time in UTC to the second, as `2026-11-21T18:05:11Z`.
+pub fn now() -> String {
+    utc(SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()))
+}
+
+/// Date and time of seconds since 1970, in the proleptic Gregorian calendar (H. Hinnant, `civil_from_days`).
+fn utc(seconds: u64) -> String {
+    let (days, second) = (seconds / 86_400 + 719_468, seconds % 86_400);
+    let (era, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    // Months from March on: the leap day is the last of a year.
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let (year, month) = (era * 400 + year + u64::from(month > 9), if month < 10 { month + 3 } else { month - 9 });
+    let (hour, minute, second) = (second / 3600, second / 60 % 60, second % 60);
+    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
+}
+
+/// Quartiles and, between them, the median.
+fn quartiles(mut values: Vec<f64>) -> [f64; 3] {
+    values.sort_unstable_by(f64::total_cmp);
+    [0.25, 0.5, 0.75].map(|share| {
+        let place = share * values.len().saturating_sub(1) as f64;
+        let [a, b] = [place.floor(), place.ceil()].map(|index| values.get(index as usize).copied().unwrap_or(0.0));
+        a + (b - a) * place.fract()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_summed_up_by_quartiles_and_ratios_within_rounds() {
+        let (a, b) = (Times(vec![4.0, 1.0, 2.0, 3.0, 5.0]), Times(vec![2.0, 1.0, 1.0, 1.0, 1.0]));
+        assert_eq!((a.rounds(), a.median(), a.least()), (5, 3.0, 1.0));
+        assert!((a.spread() - 2.0 / 3.0).abs() < 1e-15);
+        assert_eq!(a.ratio_to(&b), 2.0);
+    }
+
+    #[test]
+    fn rounds_are_those_of_the_budget_and_a_stop_leaves_nothing() {
+        let rounds = |rounds, seconds| {
+            let times = take_turns(3, Budget { rounds, seconds }, &Stop::NEVER, |which| which as f64).expect("no stop");
+            assert!(times.iter().enumerate().all(|(which, times)| times.median() == which as f64));
+            times[2].rounds()
+        };
+        assert_eq!(rounds([3, 9], [0.0, f64::INFINITY]), 9, "as many as wanted");
+        assert_eq!(rounds([3, 9], [0.0, 0.0]), 3, "no time for more");
+        assert_eq!(take_turns(0, Budget::INTERACTIVE, &Stop::NEVER, |_| 0.0), Some(Vec::new()));
+        let set = Stop::at(std::sync::Arc::new(true.into()));
+        assert_eq!(take_turns(1, Budget::INTERACTIVE, &set, |_| 0.0), None);
+    }
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        // `date -u -d @… +%FT%TZ` of GNU coreutils.
+        for (seconds, date) in [
+            (0, "1970-01-01T00:00:00Z"),
+            (951_782_400, "2000-02-29T00:00:00Z"),
+            (1_795_367_111, "2026-11-22T17:05:11Z"),
+            (4_107_542_399, "2100-02-28T23:59:59Z"),
+            (4_107_542_400, "2100-03-01T00:00:00Z"),
+        ] {
+            assert_eq!(utc(seconds), date);
+        }
+    }
+}

@@ -1,0 +1,27 @@
+#![doc = include_str!("../README.md")]
+
+mod data;
+mod figure;
+pub mod harness;
+pub mod loci;
+mod machine;
+mod measurement;
+pub mod method;
+pub mod pareto;
+mod report;
+mod workload;
+#[cfg(feature = "workloads")]
+mod workloads;
+
+pub use data::DataError;
+pub use machine::Machine;
+pub use measurement::{ErrorOf, ErrorScale, Measurement, Roof};
+pub use report::{Report, ReportError};
+pub use workload::{BenchError, Effort, Progress, Workload};
+#[cfg(feature = "workloads")]
+pub use workloads::{exact, run};
+
+/// Program and version.
+pub fn program() -> String {
+    concat!("Chromascope ", env!("CARGO_PKG_VERSION")).to_owned()
+}

@@ -1,0 +1,145 @@
+//! Run time against error, both in powers of ten: methods as points, those that no other beats joined by a line.
+
+mod names;
+
+use chromascope_figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Rect, Shape, Tag, Ticks};
+
+/// Errors below this are drawn there: a double tells them from nothing only by chance.
+pub const LEAST_ERROR: f64 = 1e-18;
+
+/// A method's place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// Its name.
+    pub name: String,
+    /// What it stands for.
+    pub tag: Tag,
+    /// Its error.
+    pub error: f64,
+    /// Its time in seconds.
+    pub seconds: f64,
+    /// How it is drawn.
+    pub marker: Marker,
+    /// In which color.
+    pub role: InkRole,
+}
+
+impl Place {
+    /// Whether another beats it in one and is not worse in the other.
+    fn is_beaten(&self, others: &[Self]) -> bool {
+        others.iter().any(|other| {
+            other.seconds <= self.seconds
+                && other.error <= self.error
+                && (other.seconds < self.seconds || other.error < self.error)
+        })
+    }
+
+    fn logarithms(&self) -> [f64; 2] {
+        [error_of(self.error).log10(), self.seconds.max(LEAST_SECONDS).log10()]
+    }
+}
+
+/// A dot less is no time.
+const LEAST_SECONDS: f64 = 1e-15;
+
+/// The panel in an area. Its axes are the decimal logarithms of error and seconds.
+pub fn panel(name: &str, [error_label, time_label]: [&str; 2], note: String, places: &[Place], area: Rect) -> Panel {
+    let errors = decades(places.iter().map(|place| place.logarithms()[0]), [-16.0, 0.0]);
+    let times = decades(places.iter().map(|place| place.logarithms()[1]), [-9.0, -3.0]);
+    let x = Axis::new(error_label, errors).with_ticks(Ticks::At(error_ticks(errors)));
+    let y = Axis::new(time_label, times).with_ticks(Ticks::At(time_ticks(times)));
+    let mut panel = Panel::new(name, area, x, y);
+    panel.note = note;
+    let (mut front, rest): (Vec<&Place>, Vec<&Place>) = places.iter().partition(|place| !place.is_beaten(places));
+    front.sort_by(|a, b| a.error.total_cmp(&b.error));
+    let line: Vec<[f64; 2]> = front.iter().map(|place| place.logarithms()).collect();
+    if front.len() > 1 {
+        let points = line.clone();
+        let line = Mark::new(Tag::default(), "what nothing beats", Shape::Line { points, closed: false });
+        panel.marks.push(line.with_stroke(InkRole::Weak, 1.2).with_dash(Dash::Dashed));
+    }
+    for (place, on_front) in rest.iter().map(|place| (place, false)).chain(front.iter().map(|place| (place, true))) {
+        let points = Shape::Points { points: vec![place.logarithms()], marker: place.marker, radius: 5.0 };
+        let mark = Mark::new(place.tag, place.name.clone(), points).with_stroke(place.role, 1.5);
+        let filled = on_front && place.marker.has_inside();
+        panel.marks.push(if filled { mark.with_fill(place.role) } else { mark });
+    }
+    // What is on the front is named first: it is what one looks for.
+    let order: Vec<&Place> = front.into_iter().chain(rest).collect();
+    let names = names::names(&panel, &order, &line);
+    panel.marks.extend(names);
+    panel
+}
+
+fn error_of(error: f64) -> f64 {
+    if error > LEAST_ERROR { error } else { LEAST_ERROR }
+}
+
+/// Whole powers of ten around logarithms, with room beside the outermost.
+fn decades(values: impl Iterator<Item = f64>, usual: [f64; 2]) -> [f64; 2] {
+    let around = |range: Option<[f64; 2]>, value: f64| {
+        Some(range.map_or([value; 2], |[low, high]| [low.min(value), high.max(value)]))
+    };
+    let [low, high] = values.filter(|value| value.is_finite()).fold(None, around).unwrap_or(usual);
+    [(low - 0.4).floor(), (high + 0.4).ceil()]
+}
+
+fn error_ticks([low, high]: [f64; 2]) -> Vec<(f64, String)> {
+    let least = LEAST_ERROR.log10() as i32;
+    let label =
+        |exponent: i32| if exponent == least { "0".to_owned() } else { format!("1e{exponent}").replace('-', "−") };
+    (least.max(low as i32)..=high as i32).map(|exponent| (f64::from(exponent), label(exponent))).collect()
+}
+
+fn time_ticks([low, high]: [f64; 2]) -> Vec<(f64, String)> {
+    (low as i32..=high as i32).map(|exponent| (f64::from(exponent), duration(10_f64.powi(exponent)))).collect()
+}
+
+/// A time with three digits in the unit that suits it.
+pub fn duration(seconds: f64) -> String {
+    let (value, unit) = match seconds {
+        s if s < 0.9995e-6 => (s * 1e9, "ns"),
+        s if s < 0.9995e-3 => (s * 1e6, "µs"),
+        s if s < 0.9995 => (s * 1e3, "ms"),
+        s => (s, "s"),
+    };
+    // A whole number of units is a tick of an axis.
+    let decimals = match value {
+        v if (v - v.round()).abs() < 1e-9 * v || v >= 99.95 => 0,
+        v if v >= 9.995 => 1,
+        _ => 2,
+    };
+    format!("{value:.decimals$} {unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_has_no_error_has_a_place() {
+        let place = |error, seconds| Place {
+            name: "a method".to_owned(),
+            tag: Tag(1),
+            error,
+            seconds,
+            marker: Marker::Circle,
+            role: InkRole::Text,
+        };
+        let area = Rect::from_min_size([0.0, 0.0], [400.0, 300.0]);
+        let panel = panel("p", ["error", "time"], String::new(), &[place(0.0, 1e-6), place(1e-3, 0.0)], area);
+        let finite = |v: &[f64; 2]| v.iter().all(|v| v.is_finite());
+        for mark in &panel.marks {
+            if let Shape::Points { points, .. } | Shape::Line { points, .. } = &mark.shape {
+                assert!(points.iter().all(finite));
+            }
+        }
+        assert_eq!((panel.x.range, panel.y.range), ([-19.0, -2.0], [-16.0, -5.0]), "all is within the axes");
+    }
+
+    #[test]
+    fn times_have_units_that_suit() {
+        let all = [1e-9, 1.5e-8, 9.99e-7, 1e-6, 2.5e-6, 1.5e-3, 0.9999, 12.0].map(duration);
+        assert_eq!(all, ["1 ns", "15 ns", "999 ns", "1 µs", "2.50 µs", "1.50 ms", "1.00 s", "12 s"]);
+    }
+}

@@ -1,0 +1,95 @@
+//! The workloads, each with candidates and a reference that is not the code under test.
+//!
+//! ```text
+//! plan of workloads ──► cases: items, a reference in 106 bits, candidates ──► rounds in turns ──► Report
+//! ```
+//! Candidates of a case take turns; times are medians, ratios are medians of the ratios to the case's baseline in the same
+//! round. No time is reported without an error.
+
+mod difference;
+mod diffuse_sum;
+pub mod exact;
+mod frames;
+mod integral;
+mod locus;
+mod reading;
+mod responses;
+mod temperature;
+pub(crate) mod timing;
+
+use chromascope_core::light::RadiationConstants;
+use chromascope_core::render::Stop;
+
+use self::timing::{Bench, Pools};
+use crate::harness::now;
+use crate::{BenchError, Effort, Machine, Progress, Report, Workload};
+
+/// The constants everything is computed with.
+const CONSTANTS: RadiationConstants = RadiationConstants::Paper;
+/// The observer of color temperatures.
+const OBSERVER: &str = "observers/cie_1931_2deg.csv";
+/// The camera that stands for all.
+const CAMERA: &str = "cameras/nikon_d70_2007_figure.csv";
+/// The light that stands for all.
+const LIGHT: &str = "illuminants/direct_sun_astm_g173.csv";
+/// The reflectance that stands for all.
+const REFLECTANCE: &str = "materials/skin_vrhel.csv";
+
+/// Measures the workloads of a plan in its order. Once the stop is set, the report ends with the last whole case.
+///
+/// # Errors
+/// Fails where no threads can be started, and where a data set of a workload is damaged.
+pub fn run(
+    plan: &[Workload],
+    effort: Effort,
+    stop: &Stop,
+    progress: &mut dyn FnMut(Progress<'_>),
+) -> Result<Report, BenchError> {
+    let began = now();
+    let pools = Pools::new()?;
+    let machine = Machine::measure(effort, &pools);
+    progress(Progress::Machine(&machine));
+    let mut bench = Bench { effort, stop, pools, machine, progress, measurements: Vec::new() };
+    for &workload in plan {
+        if stop.is_set() {
+            break;
+        }
+        (bench.progress)(Progress::Begins(workload));
+        match workload {
+            Workload::Locus => locus::run(&mut bench)?,
+            Workload::Responses => responses::run(&mut bench)?,
+            Workload::DiffuseSum => diffuse_sum::run(&mut bench),
+            Workload::Integral => integral::run(&mut bench)?,
+            Workload::Frames => frames::run(&mut bench)?,
+            Workload::Temperature => temperature::run(&mut bench)?,
+            Workload::Reading => reading::run(&mut bench),
+            Workload::Difference => difference::run(&mut bench),
+        }
+    }
+    let Bench { machine, measurements, .. } = bench;
+    Ok(Report { program: crate::program(), began, machine, effort, whole: !stop.is_set(), measurements })
+}
+
+/// Numbers that look like chance and are the same in every run (Steele, Lea and Flood 2014).
+struct Numbers(u64);
+
+impl Numbers {
+    fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next, evenly from `low` to `high`.
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut mixed = self.0;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        let unit = (mixed ^ (mixed >> 31)) >> 11;
+        low + (high - low) * (unit as f64 / (1_u64 << 53) as f64)
+    }
+
+    /// The next, its logarithm evenly.
+    fn log_between(&mut self, low: f64, high: f64) -> f64 {
+        self.between(low.ln(), high.ln()).exp()
+    }
+}

@@ -1,0 +1,165 @@
+//! Frames of the head under the sun through four sources, from visibility to signals.
+
+use std::hint::black_box;
+use std::sync::Arc;
+
+use chromascope_core::accuracy::RelTolerance;
+use chromascope_core::camera::rendering::white_divisors;
+use chromascope_core::reflectance::{Normalization, Surface, wavelength_power};
+use chromascope_core::render::mirror::Reach;
+use chromascope_core::render::{
+    CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows, SpectralWeights, Stop, Visibility,
+};
+use chromascope_core::scene::lighting::SUN_RADIUS;
+use chromascope_core::scene::{Lighting, Viewpoint};
+use chromascope_core::spectral::Quantity;
+use chromascope_mesh::{Mesh, ShadowTree, head};
+
+use super::timing::{Bench, Candidate, Case};
+use super::{LIGHT, REFLECTANCE};
+use crate::data::{curve, sensor};
+use crate::harness::timed;
+use crate::measurement::Errors;
+use crate::{BenchError, ErrorOf, ErrorScale, Workload};
+
+/// The reference and the cameras of the paper's third experiment.
+const SOURCES: [&str; 4] = [
+    "observers/stiles_burch_1955_2deg.csv",
+    "cameras/canon_eos_10d_2007_figure.csv",
+    "cameras/nikon_d70_2007_figure.csv",
+    "cameras/kodak_dcs200.csv",
+];
+/// The side of the frames that errors are found on: each has the same peak.
+const CHECKED: u32 = 48;
+
+/// Up to this side slow qualities are measured too: beyond it they take minutes, and as long per pixel.
+const SLOW_UP_TO: u32 = 128;
+
+/// What no frame makes anew.
+struct RenderService {
+    mesh: Mesh,
+    tree: ShadowTree,
+    eye: Viewpoint,
+    lighting: Lighting,
+    surface: Surface,
+    sources: Vec<SpectralWeights>,
+}
+
+impl RenderService {
+    fn new(triangles: usize, sigma_m: f64) -> Result<Option<Self>, BenchError> {
+        let (light, skin) = (curve(LIGHT, Quantity::Light)?, curve(REFLECTANCE, Quantity::Reflectance)?);
+        let mut sources = Vec::new();
+        for path in SOURCES {
+            let sensor = sensor(path)?;
+            let Ok(divisors) = white_divisors(&sensor, &light) else { return Ok(None) };
+            let measure =
+                SpectralWeights::new(&sensor, &light, &skin, divisors, wavelength_power(Normalization::Radiometric));
+            sources.push(measure);
+        }
+        let eye = Viewpoint::new(0.3, 0.1, 3.6, 30_f64.to_radians());
+        let lighting = Lighting::from_angles(25_f64.to_radians(), -25_f64.to_radians(), SUN_RADIUS);
+        let surface = Surface::new(sigma_m, 10e-6, 50e-6, 50e-6, 1.4);
+        let mesh = head::head(triangles);
+        let tree = ShadowTree::new(&mesh);
+        let (Ok(eye), Ok(lighting), Ok(surface)) = (eye, lighting, surface) else { return Ok(None) };
+        Ok(Some(Self { mesh, tree, eye, lighting, surface, sources }))
+    }
+
+    /// What is seen, with what of it depends on the surface.
+    fn shading(&self, side: u32, quality: Quality, stop: &Stop) -> Option<ShadingImage> {
+        let eye = self.eye.eye(self.mesh.bounds());
+        let visibility = Visibility::new(&self.mesh, eye, RasterSize::new(side, side), stop)?;
+        let shadows = Some((&self.tree, Shadows::Coarse));
+        let geometry = GeometryImage::new(&self.mesh, &visibility, &self.lighting, shadows, stop)?;
+        ShadingImage::new(Arc::new(geometry), self.surface, Normalization::Radiometric, quality, stop)
+    }
+
+    /// A frame through all sources by plans of this quality; none only if it was stopped.
+    fn frame(
+        &self,
+        side: u32,
+        quality: Quality,
+        plans: &[(Arc<Plan>, Reach)],
+        stop: &Stop,
+    ) -> Option<Vec<CameraImage>> {
+        let shading = self.shading(side, quality, stop)?;
+        let images = self.sources.iter().zip(plans);
+        images.map(|(measure, (plan, reach))| CameraImage::new(&shading, measure, plan.clone(), *reach, stop)).collect()
+    }
+
+    /// The plans of a frame of this size, one for each source; none where the tolerance cannot be kept, or if stopped.
+    fn plans(&self, side: u32, quality: Quality, stop: &Stop) -> Option<Vec<(Arc<Plan>, Reach)>> {
+        let shading = self.shading(side, quality, stop)?;
+        let plans = self.sources.iter().map(|measure| {
+            let plan = Plan::for_picture(&shading, measure).ok()?;
+            Some((Arc::new(plan), Reach::in_picture(&shading, measure)))
+        });
+        plans.collect()
+    }
+
+    /// The signals of a small frame beside those of the sum over 401 wavelengths.
+    fn error(&self, quality: Quality, plans: &[(Arc<Plan>, Reach)], stop: &Stop) -> ErrorOf {
+        let mut errors = Errors::default();
+        let reference = self.plans(CHECKED, Quality::Reference, stop);
+        let exact = reference.and_then(|plans| self.frame(CHECKED, Quality::Reference, &plans, stop));
+        let frames = self.frame(CHECKED, quality, plans, stop).zip(exact);
+        for (found, exact) in frames.into_iter().flat_map(|(found, exact)| found.into_iter().zip(exact)) {
+            let signals = |image: &CameraImage| -> Vec<f64> {
+                image.signals().iter().flatten().map(|&signal| f64::from(signal)).collect()
+            };
+            let (found, exact) = (signals(&found), signals(&exact));
+            let peak = exact.iter().fold(0.0_f64, |most, signal| most.max(signal.abs()));
+            found.iter().zip(&exact).for_each(|(found, exact)| errors.add(found - exact, peak));
+        }
+        errors.sum_up("signals, of a frame's peak, against the sums over 401 wavelengths in f32", ErrorScale::Relative)
+    }
+}
+
+pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
+    let triangles = bench.pick(2_000, 100_000, 100_000);
+    let sides: [&[u32]; 2] = bench.pick(
+        [&[32], &[]],
+        [&[SLOW_UP_TO, 256, 512, 1024], &[256]],
+        [&[SLOW_UP_TO, 256, 512, 1024], &[SLOW_UP_TO, 256, 512, 1024]],
+    );
+    for ((name, sigma_m), sides) in [("\u{3c3} 5 µm", 5e-6), ("\u{3c3} 0.3 µm", 0.3e-6)].into_iter().zip(sides) {
+        let most = bench.pools.most();
+        let Some(studio) = bench.pools.on(most, || RenderService::new(triangles, sigma_m))? else { continue };
+        let studio = &studio;
+        for &side in sides {
+            let mut qualities = vec![("full", Quality::Full), ("preview", Quality::Preview)];
+            if side <= SLOW_UP_TO {
+                let slow = [
+                    ("401 wavelengths", Quality::Reference),
+                    ("401, the paper's cases", Quality::Regimes),
+                    ("fine", Quality::Fine),
+                ];
+                qualities.splice(0..0, slow);
+            }
+            let exponents: &[i32] = if side <= SLOW_UP_TO { &[-3, -5, -8] } else { &[-5] };
+            let tolerances = exponents.iter().filter_map(|&exponent| {
+                let tolerance = RelTolerance::new(10_f64.powi(exponent)).ok()?;
+                Some((format!("within 1e{exponent}"), Quality::Within(tolerance)))
+            });
+            let named = qualities.into_iter().map(|(name, quality)| (name.to_owned(), quality));
+            let mut candidates = Vec::new();
+            for (method, quality) in named.chain(tolerances) {
+                let (plans, seconds) = timed(|| bench.pools.on(most, || studio.plans(side, quality, bench.stop)));
+                let Some(plans) = plans.map(Arc::new) else { continue };
+                let error = bench.pools.on(most, || studio.error(quality, &plans, bench.stop));
+                let often = quality == Quality::Full;
+                for threads in if often { bench.pools.counts() } else { vec![most] } {
+                    let (stop, plans) = (bench.stop, Arc::clone(&plans));
+                    let work = move |_: usize| {
+                        black_box(studio.frame(side, quality, &plans, stop));
+                    };
+                    let candidate = Candidate::new(method.as_str(), 1, error.clone(), work);
+                    candidates.push(candidate.undivided().on(threads).built_in(seconds));
+                }
+            }
+            let case = format!("{side} × {side}, {name}");
+            bench.compare(Case { workload: Workload::Frames, name: &case, item: "frame" }, candidates);
+        }
+    }
+    Ok(())
+}
