@@ -21,6 +21,7 @@ pub mod dropped;
 pub mod export;
 pub mod figures;
 pub mod files;
+pub mod help;
 pub mod jobs;
 pub mod number;
 pub mod paint;

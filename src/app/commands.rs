@@ -124,7 +124,8 @@ impl ChromascopeApp {
             }
             Command::SetTheme(preference) => ctx.set_theme(preference),
             Command::SetSurround(surround) => self.view.saved.surround = surround,
-            Command::Help(page) => self.view.help = Some(page),
+            Command::Help(page) => self.view.help.open(page, 0),
+            Command::FocusSearch if self.view.help.page.is_some() => self.view.help.focus_search = true,
             Command::FocusSearch => {
                 self.view.saved.layout.library = true;
                 self.view.maximized = None;
@@ -216,7 +217,7 @@ impl ChromascopeApp {
         }
         let rendering = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::Render);
         let view = &mut self.view;
-        if view.palette.take().is_some() || view.help.take().is_some() {
+        if view.palette.take().is_some() || view.help.escape() {
             return;
         }
         if std::mem::take(&mut view.inspector_over) {

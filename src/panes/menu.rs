@@ -9,7 +9,6 @@ use crate::document::DifferenceChoice;
 use crate::document::history::History;
 use crate::document::start::Start;
 use crate::theme::{ROW, Surround, UNIT};
-use crate::view::HelpPage;
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Shows the bar in its rectangle.
@@ -231,13 +230,7 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 fn help(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    for (page, words) in [
-        (HelpPage::WhatYouSee, "What you see"),
-        (HelpPage::Keyboard, "Keyboard"),
-        (HelpPage::Data, "Data and sources"),
-        (HelpPage::Equations, "Equations"),
-        (HelpPage::About, "About Chromascope"),
-    ] {
-        item(ui, words, Command::Help(page), context);
+    for page in crate::help::pages() {
+        item(ui, &page.title, Command::Help(page.name), context);
     }
 }

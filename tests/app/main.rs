@@ -13,6 +13,7 @@ mod doubt;
 mod exports;
 mod figure;
 mod focus;
+mod help;
 mod import;
 mod import_files;
 mod import_keys;
