@@ -7,7 +7,7 @@ pub mod search;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
-use crate::catalog::{Catalog, SetKind, asset_text, licenses};
+use crate::catalog::{Catalog, SetKind, licenses};
 use markdown::{Block, Inline};
 
 /// Pages in the order of the list: the file name without its ending, which is also the target of links.
@@ -56,7 +56,7 @@ pub fn pages() -> &'static [Page] {
 
 /// The Markdown text of a page that is a file.
 pub fn source(name: &str) -> Option<&'static str> {
-    asset_text(&format!("help/{name}.md"))
+    chromascope_data::text(&format!("help/{name}.md"))
 }
 
 /// The page of this name.

@@ -170,7 +170,7 @@ fn say_grouped(node: &Node, out: &mut String) {
     let mut words = String::new();
     node.say(&mut words);
     let words = words.trim();
-    let single = words.chars().all(char::is_alphanumeric);
+    let single = words.chars().count() == 1 || words.chars().all(char::is_alphanumeric);
     out.push_str(&if single { words.to_owned() } else { format!("({words})") });
 }
 

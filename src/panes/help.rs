@@ -44,7 +44,7 @@ fn window(ui: &Ui, page: &'static Page, context: &mut PaneContext<'_>) {
         .anchor(Align2::CENTER_CENTER, Vec2::ZERO)
         .fixed_size(size)
         .show(ui.ctx(), |ui| {
-            let (all, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+            let (all, _) = ui.allocate_exact_size(ui.available_size(), egui::Sense::hover());
             let split = all.left() + LIST;
             let mut left = ui.new_child(UiBuilder::new().id_salt("list").max_rect(all.with_max_x(split - 2.0 * UNIT)));
             list(&mut left, page, &mut context.view.help);

@@ -134,7 +134,8 @@ fn every_page_is_laid_out() {
     for page in pages() {
         window.state_mut().view_mut().help.open(page.name, 0);
         window.run();
-        assert!(window.query_all_by_label(&page.title).count() >= 2, "{} in the list and above its text", page.title);
+        let mut titles = window.query_all_by_role_and_label(Role::Label, &page.title);
+        assert!(titles.next().is_some(), "{} stands above its text", page.title);
     }
 }
 

@@ -204,8 +204,9 @@ impl Flow {
                 let top = place - Vec2::new(0.0, typeset::baseline(galley));
                 ui.painter().galley(top, galley.clone(), color);
                 if piece.strong {
-                    // The bundled fonts have no bold face.
-                    ui.painter().galley(top + Vec2::new(0.6, 0.0), galley.clone(), color);
+                    // The bundled fonts have no bold face: drawn twice, one pixel apart.
+                    let pixel = 1.0 / ui.ctx().pixels_per_point();
+                    ui.painter().galley(top + Vec2::new(pixel, 0.0), galley.clone(), color);
                 }
             }
             What::Formula(set) => set.paint(ui.painter(), place, color),
