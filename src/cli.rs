@@ -83,7 +83,7 @@ pub enum CliError {
     #[error(transparent)]
     Figure(#[from] crate::export::ExportError),
     /// An output that is an input.
-    #[error("{}: this command reads it, so it is not written over; name another file", .0.display())]
+    #[error("{}: not overwritten because this command reads it; name another file", .0.display())]
     Input(PathBuf),
     /// An output that exists.
     #[error("{}: the file exists; name another, or add --force to replace it", .0.display())]
@@ -130,10 +130,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
     };
     let (Some(subcommand), Some((_, matches))) = (parsed.subcommand, matches.subcommand()) else {
         if let Some(word) = parsed.files.iter().find(|file| is_mistyped_command(file)) {
-            say(&format!(
-                "chromascope: {}: no command and no file is called so; see chromascope --help\n",
-                word.display()
-            ));
+            say(&format!("chromascope: {}: no such command or file; see chromascope --help\n", word.display()));
             return Outcome::Done(2);
         }
         return Outcome::Window(parsed.files);

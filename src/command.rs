@@ -204,13 +204,13 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
         letter(Key::Home, Command::ResetView, "Reset the view"),
     ]);
     for (index, key) in numbers.into_iter().enumerate() {
-        keys.push(letter(key, Command::ToggleSource(index), "Show or hide a source"));
+        keys.push(letter(key, Command::ToggleSource(index), "Show or hide a compared sensor"));
     }
     let always = |key, command, words| KeyBinding { shortcut: plain(key), command, words, rests_while_typing: false };
     keys.extend([
         always(Key::F1, Command::Help(crate::help::FIRST), "Help"),
         always(Key::F6, Command::NextPane, "Next pane"),
-        always(Key::Escape, Command::Escape, "Back"),
+        always(Key::Escape, Command::Escape, "One step back"),
     ]);
     keys
 }

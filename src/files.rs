@@ -254,7 +254,7 @@ pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write)
     // The file is in its place; some systems cannot flush a folder.
     #[cfg(unix)]
     if let Err(error) = fs::File::open(folder).and_then(|folder| folder.sync_all()) {
-        log::debug!("{} is not flushed: {error}", folder.display());
+        log::debug!("{} could not be flushed: {error}", folder.display());
     }
     Ok(())
 }

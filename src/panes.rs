@@ -38,7 +38,7 @@ use crate::view::View;
 use crate::workspaces::PaneKind;
 
 /// What is said where something is measured.
-const NOT_KEPT: &str = "Measured results are not kept when the program ends: export them.";
+const NOT_KEPT: &str = "Measured results are lost when the program ends; export them to save them.";
 
 /// What a pane is given.
 pub struct PaneContext<'a> {

@@ -66,9 +66,9 @@ impl PaneKind {
             Self::RenderSetup => "Scene",
             Self::Import => "Import",
             Self::Curves => "Result",
-            Self::Understood => "Understood as",
+            Self::Understood => "Interpretation",
             Self::Accuracy => "Methods",
-            Self::SkippedWork => "Left out",
+            Self::SkippedWork => "Work saved",
             Self::Tolerance => "Tolerance",
         }
     }

@@ -14,14 +14,13 @@ use crate::export::{Paper, png, png_file, svg};
 use crate::figures::pareto::duration;
 use crate::theme::Theme;
 
-pub(super) const EXAMPLES: &str = "\
-Examples:
+pub(super) const EXAMPLES: &str = "Examples:
   chromascope bench --quick --out measured
   chromascope bench --only locus,temperature --out measured
   chromascope bench --list
 
-Writes bench.json, bench.csv and, for each workload, a figure as SVG and PNG. Nothing is written before all is measured,
-and nothing over an earlier run unless told to with --replace.
+Writes bench.json, bench.csv and, for each workload, a figure as SVG and PNG. Files are written at the end,
+and an earlier run is overwritten only with --replace.
 A line gives: threads, median time per item, ratio to the case's first method, largest error, what it is an error of.";
 
 /// The file of all measurements.
@@ -75,7 +74,7 @@ pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     if let Some(name) = known.filter(|_| !arguments.replace) {
         let folder = folder.display();
         return Err(CliError::File(format!(
-            "{folder}: {name} of an earlier run exists; give another folder, or --replace"
+            "{folder}: {name} of an earlier run exists; name another folder, or add --replace"
         )));
     }
     let effort = if arguments.trial {
@@ -104,7 +103,7 @@ fn names(plan: &[Workload]) -> Vec<String> {
 /// The folder, made if need be, in which a file can be made.
 fn make_folder(folder: &Path) -> Result<(), CliError> {
     if folder.exists() && !folder.is_dir() {
-        let reason = format!("{} is a file; give a folder, the files are named by themselves", folder.display());
+        let reason = format!("{} is a file; name a folder (files are named automatically)", folder.display());
         return Err(CliError::Argument { argument: "--out", reason });
     }
     let failed = |error| CliError::Output { path: folder.to_owned(), error };

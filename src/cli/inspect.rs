@@ -43,7 +43,10 @@ impl Failure {
         match self {
             Self::Disk(reason) => reason.clone(),
             Self::Read(error) => error.to_string(),
-            Self::NoCamera(role) => format!("read as {role}, but --per is of camera sensitivities; add --role camera"),
+            Self::NoCamera(role) => format!(
+                "read as {role}, but --per applies to camera sensitivities; add --role \
+                                             camera"
+            ),
             Self::Write(error) => error.to_string(),
         }
     }
@@ -165,7 +168,7 @@ fn respond(table: &mut Table, per_photon: bool) -> Result<(), Failure> {
     if table.role.value != Role::Camera {
         return Err(Failure::NoCamera(table.role.value));
     }
-    let why = "Asked for by --per".to_owned();
+    let why = "Set by --per".to_owned();
     table.reading.per_photon = Some(Decided { value: per_photon, certainty: Certainty::Chosen, why });
     Ok(())
 }
@@ -179,7 +182,7 @@ fn contents(file: &Path) -> io::Result<Vec<u8>> {
     }
     let done = Arc::new(AtomicBool::new(false));
     if io::stdin().is_terminal() {
-        say("Type or paste what is to be read; Ctrl+D ends it.\n");
+        say("Type or paste the data; Ctrl+D ends the input.\n");
     } else {
         let patience = || thread::sleep(PATIENCE);
         let done = Arc::clone(&done);

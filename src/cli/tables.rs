@@ -128,7 +128,7 @@ fn say_caution(scene: &Scene<'_>, request: &Request) -> Result<(), SceneError> {
 
 fn temperatures(arguments: &LocusArguments) -> Result<Temperatures, CliError> {
     let kelvin = |argument: &'static str, value: f64| {
-        let reason = || format!("{value} is no temperature; give kelvins from 1 to 1e15");
+        let reason = || format!("{value} is not a temperature; use kelvins from 1 to 1e15");
         let usable = Kelvin::new(value).ok().filter(|kelvin| (1.0..=1e15).contains(&kelvin.get()));
         usable.ok_or_else(|| CliError::Argument { argument, reason: reason() })
     };

@@ -80,7 +80,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choices = [
         (SwatchStyle::Split, "Split", "Left half: reference; right half: sensor"),
         (SwatchStyle::Inset, "Inset", "The reference inside"),
-        (SwatchStyle::Whole, "Whole", "The sensor alone"),
+        (SwatchStyle::Whole, "Sensor only", "The sensor without the reference"),
     ];
     if let Some(style) = widgets::segmented(ui, &choices, context.view.saved.swatch_style) {
         context.view.saved.swatch_style = style;
@@ -90,7 +90,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let built = swatches::build(&context.scene, context.view, [400.0, 200.0]);
     if let Some((words, thing)) = built.worst {
         let label = egui::Button::new(egui::RichText::new(words).color(context.theme.weak)).frame(false).truncate();
-        if ui.add(label).on_hover_text("The largest difference: click to keep it").clicked() {
+        if ui.add(label).on_hover_text("Largest difference: click to select it").clicked() {
             context.view.selected = Some(thing);
         }
     }

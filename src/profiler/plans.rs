@@ -80,10 +80,10 @@ impl Certain {
     pub fn words(self) -> String {
         let diffuse = self.diffuse.map_or_else(
             || "no sample takes a spectral integral".to_owned(),
-            |error| format!("diffuse part certified below {error:.1e} of the peak"),
+            |error| format!("diffuse component: estimated error bound {error:.1e} of the peak"),
         );
-        let mirror = self.mirror.map(|error| format!("mirror lobes within {error:e} of the brightest sample"));
-        let storage = format!("kept in single precision ({SINGLE_PRECISION:e})");
+        let mirror = self.mirror.map(|error| format!("specular lobes within {error:e} of the brightest sample"));
+        let storage = format!("stored in single precision ({SINGLE_PRECISION:e})");
         let storage = ((self.diffuse.or(self.mirror)).is_some() && self.is_limited_by_storage()).then_some(storage);
         [Some(diffuse), mirror, storage].into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
@@ -114,7 +114,7 @@ pub fn words(method: &Method) -> String {
         Method::Nothing => "nothing".to_owned(),
         Method::Moments { orders, from_kappa } => {
             let plural = if *orders == 1 { "moment" } else { "moments" };
-            format!("{orders} {plural} from κ {}", crate::number::number(*from_kappa))
+            format!("{orders} {plural} (κ ≥ {})", crate::number::number(*from_kappa))
         }
         Method::Table { degree, kappas, betas, nodes } => {
             format!("table of {kappas} × {betas}, degree {degree}, {nodes} wavelengths a place")

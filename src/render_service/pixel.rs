@@ -153,7 +153,7 @@ fn roughness(shot: &RenderedFrame, middle: usize) -> Option<(f64, String)> {
         Quality::Preview | Quality::Full if DiffuseTable::holds(kappa, beta) => "table of 9 wavelengths",
         Quality::Preview | Quality::Full => "9 wavelengths",
         Quality::Fine => "15 wavelengths",
-        Quality::Within(_) => "as the camera's plan says",
+        Quality::Within(_) => "by the camera's plan",
         Quality::Exact => "401 wavelengths",
         Quality::Regimes => match Regime::of(kappa) {
             Regime::Slight => "first term of Eq 2",

@@ -145,7 +145,7 @@ fn a_choice_is_given_back_to_the_content() {
     let mut window = window("leaf.csv", LEAF);
     choose(&mut window, "Values are", "Plain numbers");
     assert_eq!(own(&window)[0].wishes.options.values, Some(Values::Plain));
-    choose(&mut window, "Values are", "As the content says");
+    choose(&mut window, "Values are", "Decided by content");
     assert_eq!((own(&window)[0].wishes.options.values, numbers(&window)[0].1[0]), (None, 0.055));
 }
 

@@ -98,7 +98,7 @@ fn every_kind_of_thing_has_its_page() {
 fn a_sensor_says_what_its_table_leaves_in_doubt() {
     let mut window = window();
     for (name, words) in [
-        ("Nikon D70 (2007 figure)", "unknown, taken as per energy: The plot does not say"),
+        ("Nikon D70 (2007 figure)", "unknown, assumed per energy: The plot does not say"),
         ("Nikon D70 (2007 figure)", "digitized from a figure"),
         ("Nikon D70 (2007 figure)", "misses the raw values of a real D70 by 4.5 %"),
         ("Nikon D70 (2007 figure)", "to 1 nm by Sprague's interpolation; zero outside 400–700 nm"),

@@ -17,7 +17,7 @@ use egui_kittest::kittest::Queryable;
 
 use crate::screenshots::{accuracy, driven, open};
 
-const KEPT: &str = "Measured results are not kept when the program ends: export them.";
+const KEPT: &str = "Measured results are lost when the program ends; export them to save them.";
 
 /// What the default cameras cost on a small picture of a sphere.
 fn small(change: impl FnOnce(&mut Document)) -> SceneRunQuery {
@@ -38,7 +38,7 @@ fn a_second_run_measures_computing_and_not_remembering() {
     let results = Results::bounded();
     let runs = [1, 2].map(|run| results.ask(&SceneRunQuery { run, ..scene.clone() }));
     for run in &runs {
-        assert!(run.skipped_work.iter().any(|row| row.what == "pictures, while Render is not on show"));
+        assert!(run.skipped_work.iter().any(|row| row.what == "pictures, while Render is not visible"));
     }
     assert_eq!(results.counts().len(), 1, "nothing is remembered but the runs: {:?}", results.counts());
 }

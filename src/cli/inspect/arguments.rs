@@ -11,8 +11,7 @@ use serde::de::value::{Error, StrDeserializer};
 use spectral_file::write::Grid;
 use spectral_file::{DecimalMark, Delimiter, Orientation, ReadOptions, Reader, Role, Values, WavelengthUnit};
 
-pub(in crate::cli) const EXAMPLES: &str = "\
-Examples:
+pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope inspect leaf.txt
   chromascope inspect leaf.txt --values percent --csv leaf.csv
   chromascope inspect measured/ --step 5 --csv tables
@@ -20,12 +19,11 @@ Examples:
   chromascope inspect lamp.spdx --csv - | head
   chromascope inspect *.sp --json | jq '.[].kind'
 
-Says of each file what was understood, a line for each decision: what, how sure (certain, a guess, chosen), and why. Whatever
-was decided can be overruled by an option of the same name. A folder stands for the files in it, `-` for standard input; a pipe
-with a name is refused, since nothing may ever come in it.
+Reports the decisions made for each file, one line each: value, confidence (certain, a guess, chosen) and reason. An option of the
+same name overrides a decision. A folder stands for the files in it, `-` for standard input; named pipes are not supported.
 
 --csv writes `wavelength_nm,<curve>,...`: nanometers, reflectances and transmittances as fractions, a cell left blank where a
-curve has no sample. With `--csv -` the table goes to standard output and what was understood to standard error. OUT is a
+curve has no sample. With `--csv -` the table goes to standard output and the report to standard error. OUT is a
 folder where several files or a folder are named.
 
 --json prints an object for a file, an array for several: file, kind (camera, reflectance, transmittance, illuminant, unknown),
@@ -33,7 +31,7 @@ curves [{name, unit, quantity, wavelengths_nm, values, missing}], channels [red,
 decisions [{what, value, certainty, why}], warnings [{line, text}], reading {...}, notes on resampling; or file and error
 {line, column, text}. Lines and columns count from 1.
 
-A file that cannot be read is told on standard error, the others are read all the same, and the exit code is 1.";
+A file that cannot be read is reported on standard error; the others are still read, and the exit code is 1.";
 
 /// What `inspect` takes.
 #[derive(Debug, Args)]
@@ -73,7 +71,7 @@ pub(in crate::cli) struct InspectArguments {
     #[arg(long, value_name = "MARK", value_parser = named::<DecimalMark>(&MARKS), help_heading = READING)]
     decimal_mark: Option<DecimalMark>,
     /// Whether wavelengths run down a column or across a row
-    #[arg(long, value_name = "WAY", value_parser = named::<Orientation>(&WAYS), help_heading = READING)]
+    #[arg(long, value_name = "ORIENTATION", value_parser = named::<Orientation>(&WAYS), help_heading = READING)]
     orientation: Option<Orientation>,
     /// The column of the wavelengths, from 1
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
@@ -93,7 +91,7 @@ pub(in crate::cli) struct InspectArguments {
     raw: Option<bool>,
 }
 
-const READING: &str = "Instead of what is guessed";
+const READING: &str = "Overrides";
 
 const ROLES: [&str; 5] = ["camera", "reflectance", "transmittance", "illuminant", "unknown"];
 const VALUES: [&str; 4] = ["plain", "percent", "absorbance", "decibels"];

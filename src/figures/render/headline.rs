@@ -9,8 +9,8 @@ use crate::document::{DifferenceChoice, Document};
 use crate::widgets::lines::fixed;
 
 /// What the numbers mean, for hints.
-pub const MEANING: &str = "Facing the light: the flat material under this light, as a patch. Median and 95 %: over the lit \
-    samples whose L* in the reference is above 20.";
+pub const MEANING: &str = "Facing the light: the flat material under this light, as a patch. Median and 95 %: over the \
+                           lit samples whose L* in the reference is above 20.";
 
 /// How much is said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,7 +39,7 @@ pub fn words(difference: &Difference, measure: &str, detail: Detail) -> String {
     let facing = difference.facing.map_or_else(|| "undefined".to_owned(), |facing| fixed(facing, 1));
     let quantiles = || {
         let rest = difference.bright.map_or_else(
-            || "all else too dark to judge".to_owned(),
+            || "all other samples too dark".to_owned(),
             |bright| format!("median {}, 95 % {}", fixed(bright.median, 1), fixed(bright.p95, 1)),
         );
         format!("{measure} {facing} facing light, {rest}")
@@ -77,7 +77,7 @@ mod tests {
         let unlit = Difference { map: Vec::new(), mean: 0.0, max: 0.0, ..dark.clone() };
         assert_eq!(words(&dark, "ΔE*00", Detail::Number), "ΔE 3.1");
         let whole = words(&dark, "ΔE*00", Detail::Quantiles);
-        assert_eq!(whole, "ΔE*00 3.1 facing light, all else too dark to judge");
+        assert_eq!(whole, "ΔE*00 3.1 facing light, all other samples too dark");
         assert!(said.iter().all(|&detail| words(&unlit, "ΔE*00", detail) == "no light"));
     }
 

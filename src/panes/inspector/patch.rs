@@ -75,7 +75,7 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
     let (own, seen) = match colors {
         Ok((Some(own), Some(seen))) => (own, seen),
         Ok(_) => {
-            note(ui, &theme, "This patch is not on show now.");
+            note(ui, &theme, "This patch is not visible.");
             return;
         }
         Err(error) => {
@@ -87,7 +87,7 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
     let width = ui.available_width();
     pair(ui, &theme, &seen, right, PAIR, width);
     if own.srgb.clipped {
-        note(ui, &theme, "Notched corner: the screen cannot show this color; the numbers are whole.");
+        note(ui, &theme, "Notched corner: outside the screen's gamut; the numbers are not clipped.");
     }
     if !is_reference {
         difference(ui, id, patch, context);
@@ -173,7 +173,7 @@ pub(super) fn across(ui: &mut Ui, patch: &str, context: &mut PaneContext<'_>) {
     let seen = match color_of(&scene, &reference_id(&scene), patch) {
         Ok(Some(seen)) => seen,
         Ok(None) => {
-            note(ui, &theme, "This patch is not on show now.");
+            note(ui, &theme, "This patch is not visible.");
             return;
         }
         Err(error) => {

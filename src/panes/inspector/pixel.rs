@@ -23,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
     let render = &context.view.render;
     let Some((pinned, shot)) = kept(context).zip(render.shot.clone()) else { return };
     ui.add_space(UNIT);
-    ui.label(RichText::new("The pixel that is kept").strong());
+    ui.label(RichText::new("Pinned pixel").strong());
     for source in &shot.sources {
         let place = PixelPlace { source: id(source), ..pinned.clone() };
         let Some(reading) = pixel_of(&context.scene, render, &place) else { continue };

@@ -27,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let (geometry, shading) = (made.geometry, made.shading);
     let quality = shot.query.shading.quality;
     let wavelengths = match quality {
-        Quality::Within(_) => "as each camera's plan says",
+        Quality::Within(_) => "by each camera's plan",
         Quality::Preview | Quality::Full if shading.table == 0 && shading.sums == 0 => "closed form, none of 401",
         Quality::Preview | Quality::Full => "9 of 401 for the table",
         Quality::Fine => "15 of 401",
@@ -42,9 +42,9 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ("In shadow", format!("{}, {} rays", geometry.shadowed, geometry.rays)),
             ("Below threshold", shading.dark.to_string()),
             ("Closed form", shading.moments.to_string()),
-            ("By table", shading.table.to_string()),
-            ("By sums", shading.sums.to_string()),
-            ("By a plan", shading.planned.to_string()),
+            ("Table", shading.table.to_string()),
+            ("Sums", shading.sums.to_string()),
+            ("Plan", shading.planned.to_string()),
             ("Specular terms", format!("{}, {} skipped", shading.mirrors, shading.mirrors_skipped)),
             ("Wavelengths", wavelengths.to_owned()),
         ],
@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         if let Some((_, count)) = counts.iter().find(|(counted, _)| *counted == name) {
             let each = count.own_time.as_secs_f64() * 1e3 / count.misses.max(1) as f64;
             let time = if context.view.fixed_clock { String::new() } else { format!(", {} ms each", fixed(each, 1)) };
-            stages.push((words, format!("{} made, {} reused{time}", count.misses, count.hits)));
+            stages.push((words, format!("computed {}×, reused {}×{time}", count.misses, count.hits)));
         }
     }
     ui.label(RichText::new("Since the start").small().color(context.theme.weak));

@@ -108,7 +108,7 @@ fn the_command_line_says_what_was_taken() {
     assert_eq!(stderr(&["--illuminant", "CIE D65"]), "");
     let said = stderr(&["--illuminant", "tungst"]);
     assert_eq!(said, "chromascope: --illuminant \"tungst\": taking ISO 7589 studio tungsten\n");
-    assert!(stderr(&["--white", "tungsten"]).starts_with("chromascope: --white \"tungsten\": taking ISO"));
+    assert!(stderr(&["--white", "tungsten"]).starts_with("chromascope: --white-balance \"tungsten\": using ISO"));
     for typed in ["daylight", "CIE daylight", "Daylight illuminant"] {
         refused(&["patches", "--illuminant", typed], &["daylight:5500", "Daylight (Stanford)"]);
         refused(&["patches", "--white", typed], &["daylight:5500"]);
