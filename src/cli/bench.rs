@@ -33,19 +33,19 @@ const CSV: &str = "bench.csv";
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "switches of a command line")]
 pub(super) struct BenchArguments {
-    /// A minute instead of a quarter of an hour
+    /// Takes a minute instead of a quarter of an hour
     #[arg(long)]
     quick: bool,
-    /// The folder for the files; it is made if it is not there
+    /// Folder for the files, created if necessary
     #[arg(long, value_name = "DIR", required_unless_present = "list")]
     out: Option<PathBuf>,
-    /// Write over the measurements of an earlier run in that folder
+    /// Overwrites an earlier run in that folder
     #[arg(long, visible_alias = "force")]
     replace: bool,
-    /// These workloads alone
+    /// Measures only these workloads
     #[arg(long, value_name = "NAME", value_delimiter = ',', num_args = 1.., value_parser = workload)]
     only: Vec<Workload>,
-    /// Print the names of the workloads, and measure nothing
+    /// Lists the workloads
     #[arg(long)]
     list: bool,
     /// As little as can be: to try the command, not to measure

@@ -244,7 +244,7 @@ fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, bool), CliError> {
     Ok((files, several))
 }
 
-/// The files in a folder; hidden ones and folders within are left out.
+/// Files of a folder, without hidden files and subfolders.
 fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {

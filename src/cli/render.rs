@@ -233,7 +233,7 @@ impl Content<'_> {
     }
 }
 
-/// A sensor's way to the diagram, or why it has none.
+/// Color transform of a sensor, or the reason why it has none.
 fn rendering(scene: &Scene<'_>, name: &str, of: &RenderingQuery) -> Result<Rendering, SceneError> {
     let answer = scene.results.ask(of);
     (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })

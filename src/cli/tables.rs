@@ -31,7 +31,7 @@ const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tri
 /// Temperatures that are computed at once; a table of millions of them is written as it is made.
 const PART: usize = 1024;
 
-/// Writes loci, a row for each source and temperature.
+/// Writes loci, one row for each sensor and temperature.
 pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let temperatures = temperatures(arguments)?;
     let request = Request::new(&arguments.common, matches)?;
@@ -144,7 +144,7 @@ fn temperatures(arguments: &LocusArguments) -> Result<Temperatures, CliError> {
     })
 }
 
-/// Patches or radiances, a row for each source and spectrum.
+/// Writes patches or radiances, one row for each sensor and spectrum.
 pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<String, CliError> {
     let mut request = Request::new(&arguments.common, matches)?;
     request.values = arguments.values;

@@ -176,7 +176,11 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.run_steps(2);
     assert_eq!((render(&window).quality, render(&window).tolerance), (QualityChoice::Tolerance, 1e-6));
     take_in(&mut window);
-    assert_eq!(window.query_all_by_label_contains("Diffuse part certified below").count(), 4, "one for each source");
+    assert_eq!(
+        window.query_all_by_label_contains("Diffuse component: estimated error bound").count(),
+        4,
+        "one for each source"
+    );
     window.state_mut().push(Command::Show(Workspace::Render));
     window.run_steps(2);
     window.state().studio().wait();
@@ -249,8 +253,8 @@ fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
         let text = |window: &Window| window.get_by_role_and_label(Role::TextInput, "Tolerance").value();
         for (typed, words) in [
             ("a bit", "“a bit” is no number"),
-            ("1e-14", "too small: give 1e−13 to 0.1"),
-            ("7", "too large: give 1e−13 to 0.1"),
+            ("1e-14", "too small: range 1e−13 to 0.1"),
+            ("7", "too large: range 1e−13 to 0.1"),
         ] {
             type_tolerance(&mut window, typed, egui::Key::Enter);
             assert_eq!(tolerance(&window), 1e-6);

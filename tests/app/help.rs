@@ -165,30 +165,3 @@ fn help_opens_searches_follows_links_and_closes_by_keyboard() {
     window.run();
     assert_eq!(window.state_mut().view_mut().help.page, None);
 }
-
-#[test]
-fn zz_look() {
-    for (theme, words) in [(egui::Theme::Dark, "dark"), (egui::Theme::Light, "light")] {
-        for size in [[1280.0, 800.0], [900.0, 600.0]] {
-            let mut window = open_with(Document::colorimetry(), size, theme);
-            for (name, block) in [
-                ("getting-started", 0),
-                ("model", 0),
-                ("model", 18),
-                ("glossary", 0),
-                ("benchmark", 5),
-                ("own-spectra", 0),
-            ] {
-                if (words == "light") != (size[0] < 1000.0) && name != "model" {
-                    continue;
-                }
-                window.state_mut().view_mut().help.open(name, block);
-                window.run();
-                window.render().unwrap().save(format!("/tmp/h/help-{name}{block}-{words}-{}.png", size[0])).unwrap();
-            }
-            window.state_mut().view_mut().help.query = "roughness".into();
-            window.run();
-            window.render().unwrap().save(format!("/tmp/h/help-search-{words}-{}.png", size[0])).unwrap();
-        }
-    }
-}

@@ -40,3 +40,4 @@ mod starts;
 mod temperature;
 mod theme;
 mod waiting;
+mod words;

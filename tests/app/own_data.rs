@@ -220,7 +220,7 @@ fn the_second_window_says_so_as_long_as_it_is_open() {
         window.run();
         window.state_mut().view_mut().say("Something else.");
         window.run();
-        assert!(crate::import_switches::says(&window, "is open: changes here are kept in a copy"));
+        assert!(crate::import_switches::says(&window, "is open: changes here are saved in a copy"));
     }
 }
 

@@ -42,50 +42,50 @@ pub(in crate::cli) struct InspectArguments {
     /// Prints all that was read as JSON, curves included
     #[arg(long)]
     pub(super) json: bool,
-    /// Where to write the curves as CSV: a file, a folder for several files, or `-` for standard output
+    /// Writes the curves as CSV: a file, a folder for several files, or `-` for standard output
     #[arg(long, value_name = "OUT")]
     pub(super) csv: Option<PathBuf>,
-    /// Replaces files named by --csv that exist; never one that is read
+    /// Overwrites existing files named by --csv, but never an input file
     #[arg(long)]
     pub(super) force: bool,
-    /// Resamples the curves, in CSV and JSON, to whole multiples of so many nanometers
+    /// Resamples the curves, in CSV and JSON, to whole multiples of a step in nanometers
     #[arg(long, value_name = "NM", value_parser = step)]
     pub(super) step: Option<f64>,
-    /// With --step, averages the curves over bands of that width around each wavelength, which keeps narrow lines, instead of
-    /// taking their values there
+    /// With --step, averages the curves over bands of that width around each wavelength, which preserves the energy of
+    /// narrow lines, instead of sampling them
     #[arg(long, requires = "step")]
     average: bool,
-    /// What the curves are
+    /// Role of the curves
     #[arg(long, value_name = "ROLE", value_parser = named::<Role>(&ROLES), help_heading = READING)]
     role: Option<Role>,
-    /// What the values are as written
+    /// Scale of the values as written
     #[arg(long, value_name = "VALUES", value_parser = values(), help_heading = READING)]
     values: Option<Values>,
-    /// The unit of the wavelengths as written
+    /// Unit of the wavelengths as written
     #[arg(long, value_name = "UNIT", value_parser = unit(), help_heading = READING)]
     unit: Option<WavelengthUnit>,
-    /// What stands between two cells
+    /// Delimiter between cells
     #[arg(long, value_name = "DELIMITER", value_parser = named::<Delimiter>(&DELIMITERS), help_heading = READING)]
     delimiter: Option<Delimiter>,
-    /// What stands before the fraction of a number
+    /// Decimal mark
     #[arg(long, value_name = "MARK", value_parser = named::<DecimalMark>(&MARKS), help_heading = READING)]
     decimal_mark: Option<DecimalMark>,
-    /// Whether wavelengths run down a column or across a row
+    /// Orientation of the wavelengths: down a column or across a row
     #[arg(long, value_name = "ORIENTATION", value_parser = named::<Orientation>(&WAYS), help_heading = READING)]
     orientation: Option<Orientation>,
-    /// The column of the wavelengths, from 1
+    /// Column of the wavelengths, from 1
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
     wavelength_column: Option<u32>,
-    /// Which of several tables, blocks or groups in a file, from 1
+    /// Number of the table, block or group in the file, from 1
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
     part: Option<u32>,
-    /// What sensitivities of a camera are a response to: equal power or equal numbers of photons at each wavelength
+    /// Unit of a camera's sensitivities: response per energy or per photon
     #[arg(long, value_name = "UNIT", value_parser = PossibleValuesParser::new(["energy", "photon"]), help_heading = READING)]
     per: Option<String>,
-    /// Which reader takes the file, whatever it looks like
+    /// Format of the file, overriding detection
     #[arg(long, value_name = "READER", value_parser = named::<Reader>(&READERS), help_heading = READING)]
     reader: Option<Reader>,
-    /// Whether raw counts and what is recorded beside spectra are kept; with --wavelength-column, every other column
+    /// Imports raw counts and other quantities recorded with the spectra; with --wavelength-column, every other column
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true",
           help_heading = READING)]
     raw: Option<bool>,

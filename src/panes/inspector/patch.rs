@@ -140,7 +140,7 @@ fn difference(ui: &mut Ui, id: &SensorId, patch: &str, context: &PaneContext<'_>
     }
 }
 
-/// Where a difference stands among all of its source.
+/// Rank of a difference among all of its sensor, from the largest.
 pub(super) fn rank(value: f64, all: &[Result<f64, DifferenceError>]) -> Option<String> {
     let known: Vec<f64> = all.iter().filter_map(|d| d.ok()).collect();
     if known.len() < 2 {
@@ -151,18 +151,8 @@ pub(super) fn rank(value: f64, all: &[Result<f64, DifferenceError>]) -> Option<S
     Some(match place {
         1 => format!("worst of {of}"),
         _ if place == of => format!("best of {of}"),
-        _ => format!("{} worst of {of}", ordinal(place)),
+        _ => format!("rank {place} of {of}"),
     })
-}
-
-fn ordinal(number: usize) -> String {
-    let ending = match (number % 10, number % 100) {
-        (1, teen) if teen != 11 => "st",
-        (2, teen) if teen != 12 => "nd",
-        (3, teen) if teen != 13 => "rd",
-        _ => "th",
-    };
-    format!("{number}{ending}")
 }
 
 /// A patch through all visible sensors.

@@ -28,7 +28,7 @@ pub(super) fn cameras(run: &SceneRunQuery, pictures: &PicturesQuery, ask: &impl 
         count: run.hidden.len() as u64,
         of: Some((run.hidden.len() + pictures.sources.len()) as u64),
         saved: seconds,
-        how: format!("their signals, made once with what all sources share at hand; {}", threads()),
+        how: format!("their signals, computed once with shared inputs cached; {}", threads()),
     })
 }
 

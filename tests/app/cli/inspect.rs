@@ -51,7 +51,7 @@ fn merged_rows_are_not_called_left_out() {
     let text = done(&[&twice]);
     let rows = text.lines().find(|line| line.starts_with("  Rows: ")).unwrap();
     assert!(rows.contains("2 rows merged with others of the same wavelength (mean): lines 3, 4;"), "{rows}");
-    assert!(rows.contains("; 1 row left out: line 6 (the same as an earlier row)"), "{rows}");
+    assert!(rows.contains("; 1 row skipped: line 6 (the same as an earlier row)"), "{rows}");
 }
 
 #[test]
