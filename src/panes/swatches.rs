@@ -60,8 +60,6 @@ fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneCon
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let count = context.scene.patches().map_or(0, |set| set.patches().len());
     if context.scene.has_five() {
-        let all =
-            if context.scene.document.subset == Subset::All { format!("All {count}") } else { "All 24".to_owned() };
         let choices = [
             (Subset::Five, "Five", "The paper's five: red, green, blue, white, orange yellow"),
             (Subset::All, "All", "All patches of the chart"),
