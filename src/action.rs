@@ -183,7 +183,7 @@ impl CompareAction {
     fn name(&self) -> String {
         match self {
             Self::Add(_, name) => format!("Compare {name}"),
-            Self::Remove(_, name) => format!("Take {name} off"),
+            Self::Remove(_, name) => format!("Remove {name} from comparison"),
             Self::SetVisible(_, name, true) => format!("Show {name}"),
             Self::SetVisible(_, name, false) => format!("Hide {name}"),
             Self::Rename(_, name, _) => format!("Rename {name}"),

@@ -93,7 +93,7 @@ impl ChromascopeApp {
             files,
             meshes: MeshStore::on(executor, move || window.request_repaint()),
             opened,
-            radiators: Background::on(executor, "black bodies", move || third.request_repaint()),
+            radiators: Background::on(executor, "blackbodies", move || third.request_repaint()),
             studio: RenderService::on(executor, ctx),
             laboratory: Profiler::on(executor, move || fourth.request_repaint()),
             curves: None,

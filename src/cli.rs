@@ -46,10 +46,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
     };
     let (Some(subcommand), Some((_, matches))) = (parsed.subcommand, matches.subcommand()) else {
         if let Some(word) = parsed.files.iter().find(|file| is_mistyped_command(file)) {
-            say(&format!(
-                "chromascope: {}: no command and no file is called so; see chromascope --help\n",
-                word.display()
-            ));
+            say(&format!("chromascope: {}: no such command or file; see chromascope --help\n", word.display()));
             return Outcome::Done(2);
         }
         return Outcome::Window(parsed.files);

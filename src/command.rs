@@ -9,7 +9,6 @@ use crate::document::own::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
 use crate::plot_item::SensorId;
 use crate::theme::Surround;
-use crate::view::HelpPage;
 use crate::view::import::ImportItem;
 use crate::workspaces::{PaneKind, Workspace};
 
@@ -86,8 +85,8 @@ pub enum Command {
     SetTheme(egui::ThemePreference),
     /// The gray around swatches.
     SetSurround(Surround),
-    /// Open a page of help.
-    Help(HelpPage),
+    /// Opens the help page of this name.
+    Help(&'static str),
     /// Search the library.
     FocusSearch,
     /// Open the palette of commands.
@@ -202,13 +201,13 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
         letter(Key::Home, Command::ResetView, "Reset the view"),
     ]);
     for (index, key) in numbers.into_iter().enumerate() {
-        keys.push(letter(key, Command::ToggleSource(index), "Show or hide a source"));
+        keys.push(letter(key, Command::ToggleSource(index), "Show or hide a compared sensor"));
     }
     let always = |key, command, words| KeyBinding { shortcut: plain(key), command, words, rests_while_typing: false };
     keys.extend([
-        always(Key::F1, Command::Help(HelpPage::Keyboard), "All keys"),
+        always(Key::F1, Command::Help(crate::help::FIRST), "Help"),
         always(Key::F6, Command::NextPane, "Next pane"),
-        always(Key::Escape, Command::Escape, "Back"),
+        always(Key::Escape, Command::Escape, "One step back"),
     ]);
     keys
 }

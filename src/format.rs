@@ -49,12 +49,12 @@ pub fn dropped_rows(rows: &[DroppedRow], told: usize) -> Vec<String> {
     if !merged.is_empty() {
         let lines = listed(&merged, told, |row| row.line.to_string());
         let plural = if merged.len() == 1 { "line" } else { "lines" };
-        let with = "merged with others of the same wavelength, of which the mean was taken";
+        let with = "merged with others of the same wavelength (mean)";
         sentences.push(format!("{} {with}: {plural} {lines}", rows_of(merged.len())));
     }
     if !left.is_empty() {
         let lines = listed(&left, told, |row| format!("line {} ({})", row.line, row.why));
-        sentences.push(format!("{} left out: {lines}", rows_of(left.len())));
+        sentences.push(format!("{} skipped: {lines}", rows_of(left.len())));
     }
     sentences
 }
@@ -78,10 +78,10 @@ mod tests {
     fn merged_rows_are_not_left_out() {
         let row = |line, why| DroppedRow { line, why };
         let rows = [row(4, Dropped::Averaged), row(5, Dropped::NoWavelength), row(7, Dropped::Averaged)];
-        let merged = "2 rows merged with others of the same wavelength, of which the mean was taken: lines 4, 7";
-        assert_eq!(dropped_rows(&rows, 5), [merged, "1 row left out: line 5 (no wavelength)"]);
+        let merged = "2 rows merged with others of the same wavelength (mean): lines 4, 7";
+        assert_eq!(dropped_rows(&rows, 5), [merged, "1 row skipped: line 5 (no wavelength)"]);
         let many: Vec<DroppedRow> = (1..=82).map(|line| row(line, Dropped::Repeated)).collect();
-        assert_eq!(dropped_rows(&many, 1), ["82 rows left out: line 1 (the same as an earlier row) and 81 more"]);
+        assert_eq!(dropped_rows(&many, 1), ["82 rows skipped: line 1 (the same as an earlier row) and 81 more"]);
         assert!(dropped_rows(&[], 5).is_empty());
     }
 }

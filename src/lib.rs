@@ -20,6 +20,7 @@ pub mod export;
 pub mod figures;
 pub mod files;
 pub mod format;
+pub mod help;
 pub mod jobs;
 pub mod paint;
 pub mod panes;

@@ -83,7 +83,7 @@ pub const ALL: &[&Pane] = &[
 ];
 
 /// Note where something is measured.
-const NOT_KEPT: &str = "Measured results are not kept when the program ends: export them.";
+const NOT_KEPT: &str = "Measured results are lost when the program ends; export them to save them.";
 
 /// A pane, if there is one of this id.
 pub fn by_kind(kind: PaneKind) -> Option<&'static Pane> {

@@ -100,16 +100,16 @@ impl Subject {
     /// The same, said at length.
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Integral => "The diffuse spectral integral of the samples that the scene on show renders",
-            Self::Loci => "Planckian loci of the sources on show",
+            Self::Integral => "The diffuse spectral integral of the samples that the visible scene renders",
+            Self::Loci => "Planckian loci of the visible sensors",
         }
     }
 
     /// What a time is the time of.
     pub const fn per(self) -> &'static str {
         match self {
-            Self::Integral => "a sample through a source",
-            Self::Loci => "a temperature through a source",
+            Self::Integral => "a sample through a sensor",
+            Self::Loci => "a temperature through a sensor",
         }
     }
 

@@ -63,7 +63,7 @@ pub enum SceneError {
         error: RenderingError,
     },
     /// A white that has no color.
-    #[error("the white \"{0}\" has no color; choose another")]
+    #[error("the white-balance target \"{0}\" has no color; choose another")]
     WhiteBalanceTarget(String),
     /// A daylight that is not defined.
     #[error(transparent)]

@@ -1,6 +1,7 @@
 //! What is looked at and how: selection, panes, layout. Not part of the document, no steps of undo.
 
 pub mod accuracy;
+pub mod help;
 pub mod import;
 pub mod render;
 
@@ -16,6 +17,7 @@ use crate::theme::Surround;
 use crate::workspaces::{Layout, PaneKind, Workspace};
 use accuracy::AccuracyView;
 use chromascope_figure::Tag;
+use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use render::{RenderLook, RenderView};
 
@@ -59,8 +61,8 @@ pub struct View {
     pub keeps_escape: bool,
     /// The temperature field takes the keyboard in this frame.
     pub focus_temperature: bool,
-    /// The page of help that is open.
-    pub help: Option<HelpPage>,
+    /// The help window.
+    pub help: HelpView,
     /// The palette of commands, with what is typed into it, while open.
     pub palette: Option<String>,
     /// Times are neither shown nor renewed: for pictures that are compared.
@@ -166,21 +168,6 @@ pub enum SpectraLayout {
     Overlay,
     /// A plot for each sensor.
     Each,
-}
-
-/// A page of help.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HelpPage {
-    /// What the window shows.
-    WhatYouSee,
-    /// All keys.
-    Keyboard,
-    /// Where every figure is from.
-    Data,
-    /// The equations.
-    Equations,
-    /// Version and terms.
-    About,
 }
 
 /// A message at the foot of the window.

@@ -60,7 +60,7 @@ impl ChromascopeApp {
                 self.travel(History::undo, step);
             }
             Command::Redo => {
-                let step = self.history.redo_name().map(|name| format!("Done again: {name}."));
+                let step = self.history.redo_name().map(|name| format!("Redone: {name}."));
                 self.travel(History::redo, step);
             }
             Command::Open => self.files.ask_to_open(),
@@ -124,7 +124,8 @@ impl ChromascopeApp {
             }
             Command::SetTheme(preference) => ctx.set_theme(preference),
             Command::SetSurround(surround) => self.view.saved.surround = surround,
-            Command::Help(page) => self.view.help = Some(page),
+            Command::Help(page) => self.view.help.open(page, 0),
+            Command::FocusSearch if self.view.help.page.is_some() => self.view.help.focus_search = true,
             Command::FocusSearch => {
                 self.view.saved.layout.library = true;
                 self.view.maximized = None;
@@ -211,12 +212,12 @@ impl ChromascopeApp {
         }
         if self.laboratory.busy().is_some() {
             self.laboratory.stop();
-            self.view.say("Measuring was stopped. What was measured before stays.");
+            self.view.say("Measuring stopped. Earlier results are unchanged.");
             return;
         }
         let rendering = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER);
         let view = &mut self.view;
-        if view.palette.take().is_some() || view.help.take().is_some() {
+        if view.palette.take().is_some() || view.help.escape() {
             return;
         }
         if std::mem::take(&mut view.inspector_over) {
@@ -224,7 +225,7 @@ impl ChromascopeApp {
         }
         if rendering && view.render.is_waiting() && !view.render.cancelled {
             view.render.cancelled = true;
-            view.say("Rendering was stopped; what was made so far stays.");
+            view.say("Rendering stopped; the pictures so far are unchanged.");
             return;
         }
         if view.selected.take().is_some() || (rendering && view.render.pinned.take().is_some()) {
@@ -353,10 +354,10 @@ impl ChromascopeApp {
         let name = opened.path.file_name().unwrap_or(opened.path.as_os_str()).to_string_lossy().into_owned();
         self.step(|history| history.replace(format!("Open {name}"), opened.document));
         let words =
-            format!("Opened {name}. The document before it is kept: File, Kept documents. Ctrl+Z takes it back.");
+            format!("Opened {name}. The previous document was saved: File, Recovered documents. Ctrl+Z undoes this.");
         match opened.lost.first() {
             None => self.view.say(words),
-            Some(first) => self.view.fail(format!("{words} It lacks what could not be read: {first}.")),
+            Some(first) => self.view.fail(format!("{words} Parts that could not be read are missing: {first}.")),
         }
         self.view.kept = self.files.kept_documents();
     }

@@ -153,8 +153,8 @@ impl ChromascopeApp {
         };
         if !with.is_empty() {
             let what = match why {
-                Why::Changed => format!("Read {which} again"),
-                Why::Alike => format!("Read {which} alike"),
+                Why::Changed => format!("Reload {which}"),
+                Why::Alike => format!("Read {which} with the same settings"),
             };
             log::info!("read again {}", names.join(", "));
             self.step(|history| history.apply_again(&Action::Own(OwnAction::ReplaceAll { what, with })));
@@ -162,14 +162,14 @@ impl ChromascopeApp {
         }
         let done = match why {
             _ if which.is_empty() => String::new(),
-            Why::Changed => format!("{which} changed on disk and was read again. Ctrl+Z takes it back."),
-            Why::Alike => format!("{which}: read alike. Ctrl+Z takes it back."),
+            Why::Changed => format!("{which} changed on disk and was reloaded. Ctrl+Z undoes this."),
+            Why::Alike => format!("{which}: read with the same settings. Ctrl+Z undoes this."),
         };
         if failures.is_empty() && !done.is_empty() {
             self.view.say(done);
         } else if !failures.is_empty() {
             let failures = failures.join(".  ");
-            self.view.fail(format!("{failures}. What was read before stays. {done}").trim_end().to_owned());
+            self.view.fail(format!("{failures}. The earlier data are unchanged. {done}").trim_end().to_owned());
         }
     }
 
@@ -279,7 +279,7 @@ impl ChromascopeApp {
         match &set.path {
             Some(path) => {
                 let path = path.clone();
-                self.view.say(format!("{} is as it was.", set.file));
+                self.view.say(format!("{} is unchanged.", set.file));
                 self.read_changed(&[path]);
             }
             None => self.view.fail(format!("{} did not come from a file on disk.", set.file)),
@@ -333,7 +333,7 @@ impl ChromascopeApp {
             .map(|file| Request::Known(file.origin.fingerprint, Box::new(wishes.clone())))
             .collect();
         if sets.is_empty() && unused.is_empty() {
-            self.view.say("No other open file is of this kind; the next one will be read like this.");
+            self.view.say("No other open file is of this kind; the next one will be read with these settings.");
             return;
         }
         if !sets.is_empty() {
@@ -372,7 +372,7 @@ impl ChromascopeApp {
     /// Stops reading, if something is being read.
     pub(super) fn stop_reading(&mut self) -> bool {
         let Some(name) = self.opened.stop() else { return false };
-        self.view.say(format!("Reading {name} was stopped. Nothing was changed."));
+        self.view.say(format!("Reading {name} stopped. Nothing was changed."));
         true
     }
 }
@@ -383,18 +383,18 @@ fn renamed(new: &[(&OwnSet, &Shared<OwnSet>)]) -> String {
     let Some((first, set)) = renamed.next() else { return String::new() };
     let more = match renamed.count() {
         0 => String::new(),
-        count => format!(", and {count} more so"),
+        count => format!(" ({count} others renamed)"),
     };
-    format!("{} is the name of another set, so this one is {}{more}.", first.name, set.name)
+    format!("A data set named {} already exists; imported as {}{more}.", first.name, set.name)
 }
 
 /// Which of so many files are those of sets that were there already.
 fn opened_again(again: &[(&OwnSet, &Shared<OwnSet>)], count: usize) -> String {
     match again {
         [] => String::new(),
-        [(_, set)] if count == 1 => format!("It is the set {}, which was open already.", set.name),
-        [(wanted, set)] => format!("{} is the set {} again.", wanted.file, set.name),
-        many => format!("{} of them are sets that were open already.", many.len()),
+        [(_, set)] if count == 1 => format!("This data set is already open as {}.", set.name),
+        [(wanted, set)] => format!("{} is already open as {}.", wanted.file, set.name),
+        many => format!("{} of them were already open.", many.len()),
     }
 }
 
@@ -407,8 +407,8 @@ fn put_to_use(before: &Document, after: &Document, brought: &[Shared<OwnSet>]) -
     let shown = after.compared.len() - before.compared.len();
     let shown = match (shown, cameras) {
         (_, 0) => "None is a camera".to_owned(),
-        (shown, cameras) if shown == cameras => format!("{shown} put on show"),
-        (shown, cameras) => format!("{shown} of {cameras} cameras put on show"),
+        (shown, cameras) if shown == cameras => format!("{shown} added to the comparison"),
+        (shown, cameras) => format!("{shown} of {cameras} cameras added to the comparison"),
     };
-    format!("{shown}; light and patches stay. Choose others in the Library.")
+    format!("{shown}; illuminant and patches are unchanged. Choose others in the Library.")
 }

@@ -12,7 +12,7 @@ impl ChromascopeApp {
     pub(super) fn open_mesh(&mut self, path: &Path) {
         let before = self.meshes.opening().filter(|before| before != path);
         self.meshes.open(path);
-        let given_up = before.map(|before| format!(" {} was given up: one mesh is shown at a time.", name_of(&before)));
+        let given_up = before.map(|before| format!(" {} was canceled: one mesh is shown at a time.", name_of(&before)));
         self.view.say(format!("Reading {}… Esc stops.{}", name_of(path), given_up.unwrap_or_default()));
     }
 
@@ -41,7 +41,7 @@ impl ChromascopeApp {
     /// Stops reading a mesh, if one is being opened.
     pub(super) fn stop_opening(&mut self) -> bool {
         let Some(path) = self.meshes.cancel() else { return false };
-        self.view.say(format!("Reading {} was stopped. Nothing was changed.", name_of(&path)));
+        self.view.say(format!("Reading {} stopped. Nothing was changed.", name_of(&path)));
         true
     }
 }

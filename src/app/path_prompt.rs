@@ -59,7 +59,7 @@ fn content(ui: &mut Ui, theme: &Theme, prompt: &mut PathPrompt) -> Option<Step> 
     let endings = prompt.save.as_ref().map_or_else(String::new, |request| format!("Saves as {}. ", request.endings()));
     ui.small(format!("{endings}Tab completes the path; ~ is your home folder."));
     if prompt.no_dialog {
-        ui.small("For dialogs install a desktop portal or the package zenity.");
+        ui.small("For file dialogs, install a desktop portal or the package zenity.");
     }
     step
 }

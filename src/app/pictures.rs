@@ -21,16 +21,14 @@ impl ChromascopeApp {
                 self.files.ask_to_save(SaveRequest { what, name, forms, note: String::new() });
             }
             Some(Err(why)) => self.view.fail(why),
-            None => self.view.fail(format!("{}: there is no picture yet.", source.name)),
+            None => self.view.fail(format!("{}: no picture yet.", source.name)),
         }
     }
 
     fn exr(&self, source: &SensorId) -> Option<Result<Vec<u8>, String>> {
         let shot = self.view.render.shot.clone()?;
         if !self.studio.is_settled() {
-            return Some(Err(
-                "The pictures are not finished yet: wait until nothing is being made, then save.".to_owned()
-            ));
+            return Some(Err("The pictures are not finished yet; save again when rendering is complete.".to_owned()));
         }
         let index = index_of(&shot, source)?;
         let image = shot.made()?.images.get(index)?.as_ref()?;

@@ -71,7 +71,7 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         }),
     )?;
     if let Some(copy) = copy.filter(|copy| copy.exists()) {
-        crate::terminal::say(&format!("chromascope: this window's document is kept in {}\n", copy.display()));
+        crate::terminal::say(&format!("chromascope: this window's document is saved in {}\n", copy.display()));
     }
     Ok(())
 }

@@ -68,14 +68,14 @@ pub fn imported(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides)
     let mut message = format!("{file}: {}", summary(table));
     let taken = taken(table, wishes);
     if taken.len() < table.curves.len() {
-        message = format!("{message} {} of them are taken; choose in Import.", taken.len());
+        message = format!("{message} {} of them are imported; choose in Import.", taken.len());
     }
     if let Some(guess) = guesses.iter().find(|guess| guess.what == "Values").or_else(|| guesses.first()) {
         let choose = if guess.certainty == Certainty::Open { " Choose in Import." } else { "" };
         message = format!("{message} {guess}{choose}");
     }
     if table.role.value == Role::Camera && table.reading.camera_columns.is_none() && table.curves.len() > 3 {
-        message = format!("{message} Its first three curves are taken as red, green and blue; choose in Import.");
+        message = format!("{message} Its first three curves are used as red, green and blue; choose in Import.");
     }
     if let Some(warning) = table.warnings.first() {
         message = format!("{message} {warning}");

@@ -29,7 +29,7 @@ pub enum LoadError {
         error: DatasetError,
     },
     /// A light needs a curve.
-    #[error("it has no curve")]
+    #[error("no curve found")]
     NoCurve,
     /// The curves make no sensor.
     #[error(transparent)]

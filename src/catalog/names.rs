@@ -16,7 +16,7 @@ pub enum NameError {
         nearest: Vec<String>,
     },
     /// Several names contain it.
-    #[error("\"{name}\" could be {}; give more of the name", .candidates.join(", "))]
+    #[error("\"{name}\" could be {}; type more of the name", .candidates.join(", "))]
     Ambiguous {
         /// What was typed.
         name: String,
@@ -94,7 +94,7 @@ impl<'a> Found<'a> {
             [] => String::new(),
             others => format!("; also there: {}", others.join(", ")),
         };
-        (!self.exact).then(|| format!("taking {}{others}", self.entry.name))
+        (!self.exact).then(|| format!("using {}{others}", self.entry.name))
     }
 }
 

@@ -21,13 +21,12 @@ pub(super) struct Arguments {
     /// Spectra or camera sensitivities to open in the window: CSV, TSV or text
     #[arg(value_name = "FILE")]
     pub(super) files: Vec<PathBuf>,
-    /// What to compute without a window
+    /// A computation without a window
     #[command(subcommand)]
     pub(super) subcommand: Option<Subcommand>,
 }
 
-const EXAMPLES: &str = "\
-Examples:
+const EXAMPLES: &str = "Examples:
   chromascope leaf.csv
   chromascope locus --camera \"Nikon D70\" --observer \"CIE 1931 2°\" --temperatures 2856,5500,6504
   chromascope patches --camera \"Canon EOS 10D\" --illuminant D55 --out patches.csv
@@ -36,38 +35,37 @@ Examples:
   chromascope list cameras
 
 Names are those of `chromascope list`. Case, punctuation and words such as CIE, illuminant, standard and observer are ignored; whole
-words, or any unambiguous substring, match. What was taken for a name that is not exact is said on standard error.
-No command writes over a file that it reads, nor over any other file without --force.";
+words, or any unambiguous substring, match. A match that is not exact is reported on standard error.
+No command overwrites a file that it reads, or any other file without --force.";
 
 const LOCUS_EXAMPLES: &str = "\
 Examples:
   chromascope locus > loci.csv
   chromascope locus --preset paper --from 2000 --to 10000 --count 50
-  chromascope locus --camera \"Nikon D70\" --camera mine.csv --reference \"CIE 1964 10°\" --illuminant A --white D55
+  chromascope locus --camera \"Nikon D70\" --camera mine.csv --reference \"CIE 1964 10°\" --illuminant A --white-balance D55
 
 Columns: sensor, temperature_k, x, y, u_prime, v_prime; distance_xy and distance_uv, the distances to the reference at the same
 temperature, in x, y and in u\u{2032}, v\u{2032}; cct_error_k, the correlated color temperature read on the reference's
 own locus (nearest in CIE 1960 u, v, within 0.05) minus the true temperature, so that the reference's is 0 (within 0.02 K); arc_length_xy, the length in x, y of the
 straight steps from row to row since the sensor's first (more rows, nearer to the locus's own length); then the conditions: reference, illuminant, white_balance, transform, preset.
 
-Temperatures are in kelvins, from 1 to 1e15. Rows come by sensor, in the order named, then by temperature. What is not defined is
-left empty.";
+Temperatures are in kelvins, from 1 to 1e15. Rows are ordered by sensor, as named, then by temperature. Undefined values
+are empty.";
 
-const PATCHES_EXAMPLES: &str = "\
-Examples:
+const PATCHES_EXAMPLES: &str = "Examples:
   chromascope patches --preset paper
-  chromascope patches --camera \"Canon EOS 10D\" --illuminant A --white D55
+  chromascope patches --camera \"Canon EOS 10D\" --illuminant A --white-balance D55
   chromascope patches --camera mine.csv --per photon --chart leaves.csv --illuminant daylight:6504 --out leaves_seen.csv
   chromascope patches --radiance measured.csv --radiance-white \"white tile\"
 
 Columns: sensor, patch; r, g, b after white balance (empty for CIE observers); x_tristimulus, y_tristimulus, z_tristimulus (Y = 1
 for a perfect diffuser, under Eq 13 within 5e-5); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
 delta_…, the differences from the reference, a column for each metric; then the conditions: reference, illuminant,
-white_balance, transform, preset. What is not defined is left empty: with the paper's matrix, Eq 13 takes RGB as sRGB
+white_balance, transform, preset. Undefined values are empty: with the paper's matrix, Eq 13 takes RGB as sRGB
 whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*, and their L*a*b* is not that of the CIE.
 
-A file's reflectances are fractions or percent, its wavelengths nm or µm; guesses are said on standard error. Numbers above one of
-which the file does not say what they are need --values percent or --values plain; a file of radiances is refused as a chart.";
+A file's reflectances are fractions or percent, its wavelengths nm or µm; guesses are reported on standard error. Numbers above one whose
+scale the file does not state need --values percent or --values plain; a file of radiances is refused as a chart.";
 
 /// What can be computed without a window.
 #[derive(Debug, clap::Subcommand)]
@@ -81,15 +79,15 @@ pub(super) enum Subcommand {
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
-    /// What files of spectra hold and how they were understood; their curves as CSV or JSON
+    /// Contents of files of spectra and the decisions made when reading them; curves as CSV or JSON
     #[command(after_help = super::inspect::arguments::EXAMPLES)]
     Inspect(Box<InspectArguments>),
     /// Run time against error of every method, measured on this machine: figures, table and JSON
     #[command(after_help = super::bench::EXAMPLES)]
     Bench(BenchArguments),
-    /// The names of the built-in data sets, one a line
+    /// The names of the built-in data sets, one per line
     List {
-        /// Which; all if left out
+        /// Kind of data sets [default: all]
         kind: Option<ListKind>,
     },
 }
@@ -97,8 +95,8 @@ pub(super) enum Subcommand {
 /// Sensors, the reference and the color transform, for tables and pictures.
 #[derive(Debug, Args)]
 pub(super) struct SourceArguments {
-    /// Where everything starts that no other option names: reference, sensors, color transform and, in tables, illuminant, white
-    /// balance and patches
+    /// Defaults of all options that are not given: reference, sensors, color transform and, in tables, illuminant, white balance and
+    /// patches
     #[arg(long, value_enum, default_value_t = Start::Colorimetry)]
     pub(super) preset: Start,
     /// An observer; may be repeated. Without any sensor: those of the preset
@@ -107,11 +105,10 @@ pub(super) struct SourceArguments {
     /// A camera, or a file with three sensitivities; may be repeated
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) camera: Vec<OsString>,
-    /// What the sensitivities in camera files are a response to, whatever the files say: equal energy or equal numbers of photons
-    /// at each wavelength
+    /// Unit of the sensitivities in camera files, overriding the files: response per energy or per photon
     #[arg(long, value_enum, value_name = "UNIT")]
     pub(super) per: Option<Per>,
-    /// The reference observer, which all sensors are compared with [default: the preset's]
+    /// The reference observer that all sensors are compared with [default: the preset's]
     #[arg(long, value_name = "OBSERVER")]
     pub(super) reference: Option<String>,
     /// The color transform from camera RGB to XYZ [default: the preset's]
@@ -139,12 +136,12 @@ pub(super) struct CommonArguments {
     pub(super) illuminant: Option<OsString>,
     /// The white-balance target, the RGB a perfect diffuser is mapped to: `unity`, an illuminant, `daylight:K` or `blackbody:K`
     /// [default: the preset's]
-    #[arg(long, value_name = "WHITE", visible_alias = "white-balance")]
+    #[arg(long = "white-balance", alias = "white", value_name = "WHITE")]
     pub(super) white: Option<String>,
-    /// Where to write; `-` or nothing for standard output
+    /// Output file [default: standard output, also `-`]
     #[arg(long, value_name = "FILE")]
     pub(super) out: Option<PathBuf>,
-    /// Replaces the file named by --out if it exists
+    /// Overwrites the file named by --out
     #[arg(long)]
     pub(super) force: bool,
 }
@@ -160,7 +157,7 @@ pub(super) struct LocusArguments {
     /// The last temperature in kelvins [default: 20000]
     #[arg(long, value_name = "K", conflicts_with = "temperatures")]
     pub(super) to: Option<f64>,
-    /// How many temperatures, evenly in 1/T [default: 200]
+    /// Number of temperatures, evenly in 1/T [default: 200]
     #[arg(long, value_name = "N", conflicts_with = "temperatures", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     pub(super) count: Option<u32>,
     /// These temperatures in kelvins, in this order
@@ -176,7 +173,7 @@ pub(super) struct PatchesArguments {
     /// A chart, a material, or a file with reflectances [default: the preset's]
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) chart: Option<OsString>,
-    /// What the values of a file of reflectances stand for, where the file does not say it
+    /// Scale of the values in a file of reflectances that does not state it
     #[arg(long, value_name = "VALUES", value_parser = super::inspect::arguments::values(), requires = "chart")]
     pub(super) values: Option<Values>,
     /// A file with spectra of radiance, which are integrated as they are: no chart and no illuminant is named then. Without

@@ -16,14 +16,13 @@ use crate::profiler::bench::bench;
 use crate::terminal::say;
 use crate::theme::Theme;
 
-pub(super) const EXAMPLES: &str = "\
-Examples:
+pub(super) const EXAMPLES: &str = "Examples:
   chromascope bench --quick --out measured
   chromascope bench --only locus,temperature --out measured
   chromascope bench --list
 
-Writes bench.json, bench.csv and, for each workload, a figure as SVG and PNG. Nothing is written before all is measured,
-and nothing over an earlier run unless told to with --replace.
+Writes bench.json, bench.csv and, for each workload, a figure as SVG and PNG. Files are written at the end,
+and an earlier run is overwritten only with --replace.
 A line gives: threads, median time per item, ratio to the case's first method, largest error, what it is an error of.";
 
 /// The file of all measurements.
@@ -36,19 +35,19 @@ const CSV: &str = "bench.csv";
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "switches of a command line")]
 pub(super) struct BenchArguments {
-    /// A minute instead of a quarter of an hour
+    /// Takes a minute instead of a quarter of an hour
     #[arg(long)]
     quick: bool,
-    /// The folder for the files; it is made if it is not there
+    /// Folder for the files, created if necessary
     #[arg(long, value_name = "DIR", required_unless_present = "list")]
     out: Option<PathBuf>,
-    /// Write over the measurements of an earlier run in that folder
+    /// Overwrites an earlier run in that folder
     #[arg(long, visible_alias = "force")]
     replace: bool,
-    /// These workloads alone
+    /// Measures only these workloads
     #[arg(long, value_name = "NAME", value_delimiter = ',', num_args = 1.., value_parser = workload)]
     only: Vec<Workload>,
-    /// Print the names of the workloads, and measure nothing
+    /// Lists the workloads
     #[arg(long)]
     list: bool,
     /// As little as can be: to try the command, not to measure
@@ -78,7 +77,7 @@ pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     if let Some(name) = known.filter(|_| !arguments.replace) {
         let folder = folder.display();
         return Err(CliError::File(format!(
-            "{folder}: {name} of an earlier run exists; give another folder, or --replace"
+            "{folder}: {name} of an earlier run exists; name another folder, or add --replace"
         )));
     }
     let effort = if arguments.trial {
@@ -107,7 +106,7 @@ fn names(plan: &[Workload]) -> Vec<String> {
 /// The folder, made if need be, in which a file can be made.
 fn make_folder(folder: &Path) -> Result<(), CliError> {
     if folder.exists() && !folder.is_dir() {
-        let reason = format!("{} is a file; give a folder, the files are named by themselves", folder.display());
+        let reason = format!("{} is a file; name a folder (files are named automatically)", folder.display());
         return Err(CliError::Argument { argument: "--out", reason });
     }
     let failed = |error| CliError::Output { path: folder.to_owned(), error };

@@ -18,8 +18,10 @@ pub(super) fn reflectances(path: &str, role: Role, table: &SpectralFile) -> Resu
         _ => None,
     });
     if let Some(quantity) = other {
-        let why =
-            format!("the file says {quantity}, which is no reflectance; measured radiances go with patches --radiance");
+        let why = format!(
+            "the file states {quantity}, which is not a reflectance; use patches --radiance for measured \
+                     radiances"
+        );
         return Err(CliError::File(format!("{path}: {why}")));
     }
     let values = &table.reading.values;
@@ -39,7 +41,7 @@ pub(super) fn say_role(path: &str, role: Role, table: &SpectralFile, bytes: &[u8
     };
     if unnamed && open() {
         say(&format!(
-            "chromascope: {path}: nothing in the file says what its numbers are; taken as {role}, as its option asks\n"
+            "chromascope: {path}: the file does not state its quantity; used as {role} because of the option\n"
         ));
     }
 }
@@ -50,7 +52,7 @@ pub(super) fn channels(path: &str, role: Role, table: &SpectralFile) -> Result<(
     if role != Role::Camera || count <= 3 || table.reading.camera_columns.is_some() {
         return Ok(());
     }
-    let why = "nothing says which are red, green and blue; name the columns red, green and blue, or leave three";
+    let why = "red, green and blue are not identified; name the columns red, green and blue, or keep three";
     Err(CliError::File(format!("{path}: {count} curves; {why}")))
 }
 

@@ -59,7 +59,7 @@ pub(super) enum CliError {
     #[error(transparent)]
     Figure(#[from] crate::export::ExportError),
     /// An output that is an input.
-    #[error("{}: this command reads it, so it is not written over; name another file", .0.display())]
+    #[error("{}: not overwritten because this command reads it; name another file", .0.display())]
     Input(PathBuf),
     /// An output that exists.
     #[error("{}: the file exists; name another, or add --force to replace it", .0.display())]

@@ -44,7 +44,10 @@ impl Failure {
         match self {
             Self::Disk(reason) => reason.clone(),
             Self::Read(error) => error.to_string(),
-            Self::NoCamera(role) => format!("read as {role}, but --per is of camera sensitivities; add --role camera"),
+            Self::NoCamera(role) => format!(
+                "read as {role}, but --per applies to camera sensitivities; add --role \
+                                             camera"
+            ),
             Self::Write(error) => error.to_string(),
         }
     }
@@ -166,7 +169,7 @@ fn respond(table: &mut SpectralFile, per_photon: bool) -> Result<(), Failure> {
     if table.role.value != Role::Camera {
         return Err(Failure::NoCamera(table.role.value));
     }
-    let why = "Asked for by --per".to_owned();
+    let why = "Set by --per".to_owned();
     table.reading.per_photon = Some(Decided { value: per_photon, certainty: Certainty::Chosen, why });
     Ok(())
 }
@@ -180,7 +183,7 @@ fn contents(file: &Path) -> io::Result<Vec<u8>> {
     }
     let done = Arc::new(AtomicBool::new(false));
     if io::stdin().is_terminal() {
-        say("Type or paste what is to be read; Ctrl+D ends it.\n");
+        say("Type or paste the data; Ctrl+D ends the input.\n");
     } else {
         let patience = || thread::sleep(PATIENCE);
         let done = Arc::clone(&done);
@@ -242,7 +245,7 @@ fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, bool), CliError> {
     Ok((files, several))
 }
 
-/// The files in a folder; hidden ones and folders within are left out.
+/// Files of a folder, without hidden files and subfolders.
 fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {

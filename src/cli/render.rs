@@ -101,7 +101,7 @@ impl<'a> Made<'a> {
         let scene = Scene { document, catalog: &setup.request.catalog, results };
         let sources = scene.sources();
         let mesh = scene.mesh_of(setup.own_mesh.as_ref());
-        let mesh = mesh.ok_or_else(|| CliError::File(format!("{}: there is no mesh", arguments.mesh.display())))?;
+        let mesh = mesh.ok_or_else(|| CliError::File(format!("{}: no mesh", arguments.mesh.display())))?;
         let query = scene.pictures_of(&sources, mesh, setup.viewpoint, setup.finish, None)?;
         // Exposure goes by the reference, on show or not. What cannot be shown is said before anything large is computed.
         rendering(&scene, &document.reference, &query.reference)?;
@@ -146,7 +146,7 @@ impl<'a> Made<'a> {
             return Ok(Content::Png(picture));
         }
         let image = self.pictures.images[index].as_ref();
-        let image = image.ok_or_else(|| CliError::File(format!("{name}: there is no picture")))?;
+        let image = image.ok_or_else(|| CliError::File(format!("{name}: no picture")))?;
         let rendering = rendering(&self.scene, name, &self.query.sources[index].rendering)?;
         let shading = &self.query.shading;
         let provenance = Provenance {
@@ -228,7 +228,7 @@ impl Content<'_> {
     }
 }
 
-/// A sensor's way to the diagram, or why it has none.
+/// Color transform of a sensor, or the reason why it has none.
 fn rendering(scene: &Scene<'_>, name: &str, of: &RenderingQuery) -> Result<Rendering, SceneError> {
     let answer = scene.results.ask(of);
     (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
@@ -239,7 +239,7 @@ fn make_folder(folder: &Path) -> Result<(), CliError> {
         return Ok(());
     }
     if folder.exists() {
-        let reason = format!("{} is a file; give a folder, the pictures are named by themselves", folder.display());
+        let reason = format!("{} is a file; name a folder (pictures are named automatically)", folder.display());
         return Err(CliError::Argument { argument: "--out", reason });
     }
     fs::create_dir_all(folder).map_err(|error| CliError::Output { path: folder.to_owned(), error })

@@ -154,7 +154,7 @@ impl Request {
         let built_in = kinds.iter().any(|kind| self.catalog.get(*kind, &typed).is_some());
         if built_in && Path::new(given).is_file() {
             say(&format!(
-                "chromascope: {argument} \"{typed}\": taking the built-in set; for the file, write ./{typed}\n"
+                "chromascope: {argument} \"{typed}\": using the built-in data set; for the file, write ./{typed}\n"
             ));
         }
         !built_in && is_file(given)
@@ -207,7 +207,7 @@ impl Request {
                 let set = self.open(Path::new(given), Role::Reflectance)?;
                 if let [first, _, ..] = set.curves.as_slice() {
                     let count = set.curves.len();
-                    say(&format!("chromascope: {material}: {count} reflectances; taking the first, {}\n", first.name));
+                    say(&format!("chromascope: {material}: {count} reflectances; using the first, {}\n", first.name));
                 }
                 set.name.clone()
             }
@@ -231,11 +231,11 @@ impl Request {
 
     /// Chooses the white-balance target.
     pub(super) fn set_white(&mut self, white: &str) -> Result<(), CliError> {
-        self.document.white = match radiator("--white", white)? {
+        self.document.white = match radiator("--white-balance", white)? {
             Some((Radiator::Daylight, kelvin)) => WhiteBalanceChoice::Daylight(kelvin),
             Some((Radiator::BlackBody, kelvin)) => WhiteBalanceChoice::BlackBody(kelvin),
             None if white.trim().eq_ignore_ascii_case("unity") => WhiteBalanceChoice::Unity,
-            None => WhiteBalanceChoice::Light(self.illuminant("--white", white)?),
+            None => WhiteBalanceChoice::Light(self.illuminant("--white-balance", white)?),
         };
         Ok(())
     }
@@ -251,7 +251,7 @@ impl Request {
         let sets: Vec<&str> = sets.filter(|name| name.to_lowercase().starts_with(formula)).collect();
         let or =
             if sets.is_empty() { String::new() } else { format!(", or the full name of a set: {}", sets.join(", ")) };
-        let reason = format!("\"{typed}\" alone has no temperature; write {formula}:5500{or}");
+        let reason = format!("\"{typed}\" needs a temperature; write {formula}:5500{or}");
         Err(CliError::Argument { argument, reason })
     }
 
@@ -304,7 +304,7 @@ impl Request {
         if let Some(response) = response.filter(|response| response.certainty == Certainty::Guess) {
             let what = if response.value { "photon" } else { "energy" };
             say(&format!(
-                "chromascope: {file}: taken as responses per {what}, a guess; --per energy or --per photon decides\n"
+                "chromascope: {file}: assumed to be responses per {what}; set --per energy or --per photon\n"
             ));
         }
         Ok(imported.set)
@@ -328,8 +328,8 @@ fn tell(argument: &str, typed: &str, found: &Found<'_>) {
 pub(super) fn read(path: &Path) -> io::Result<Vec<u8>> {
     let known = fs::metadata(path)?;
     if !(known.is_file() || known.is_dir() || is_shells(path, &known)) {
-        let why = "named pipes, sockets and devices are not supported; redirect to standard input and give /dev/stdin, \
-                   or - to inspect";
+        let why = "named pipes, sockets and devices are not supported; redirect to standard input and use \
+                   /dev/stdin, or `-` with inspect";
         return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
     }
     let mut bytes = Vec::new();
@@ -367,9 +367,10 @@ fn radiator(argument: &'static str, text: &str) -> Result<Option<(Radiator, f64)
     let number = kelvin.trim().trim_end_matches(['K', 'k']).trim();
     match number.parse::<f64>().ok().and_then(|kelvin| Kelvin::new(kelvin).ok()) {
         Some(kelvin) => Ok(Some((radiator, kelvin.get()))),
-        None => {
-            Err(CliError::Argument { argument, reason: format!("\"{kelvin}\" is no temperature; write {name}:5500") })
-        }
+        None => Err(CliError::Argument {
+            argument,
+            reason: format!("\"{kelvin}\" is not a temperature; write {name}:5500"),
+        }),
     }
 }
 

@@ -33,7 +33,7 @@ const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tri
 /// Temperatures that are computed at once; a table of millions of them is written as it is made.
 const PART: usize = 1024;
 
-/// Writes loci, a row for each source and temperature.
+/// Writes loci, one row for each sensor and temperature.
 pub(super) fn locus(arguments: &LocusArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let temperatures = temperatures(arguments)?;
     let request = Request::new(&arguments.common, matches)?;
@@ -128,7 +128,7 @@ fn say_caution(scene: &Scene<'_>, request: &Request) -> Result<(), SceneError> {
 
 fn temperatures(arguments: &LocusArguments) -> Result<Temperatures, CliError> {
     let kelvin = |argument: &'static str, value: f64| {
-        let reason = || format!("{value} is no temperature; give kelvins from 1 to 1e15");
+        let reason = || format!("{value} is not a temperature; use kelvins from 1 to 1e15");
         let usable = Kelvin::new(value).ok().filter(|kelvin| (1.0..=1e15).contains(&kelvin.get()));
         usable.ok_or_else(|| CliError::Argument { argument, reason: reason() })
     };
@@ -144,7 +144,7 @@ fn temperatures(arguments: &LocusArguments) -> Result<Temperatures, CliError> {
     })
 }
 
-/// Patches or radiances, a row for each source and spectrum.
+/// Writes patches or radiances, one row for each sensor and spectrum.
 pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Result<String, CliError> {
     let mut request = Request::new(&arguments.common, matches)?;
     request.values = arguments.values;

@@ -216,10 +216,12 @@ pub enum RoughnessChoice {
 
 impl RoughnessChoice {
     /// Why one would not choose the mesh.
-    pub const WHY_NOT: &'static str = "As in the paper: at each vertex σ from the heights of its neighbors about the tangent \
-        plane, τ from the radius of that neighborhood; P at the vertices, interpolated. These are lengths of the mesh, not of \
-        the material: tenths of a millimeter and millimeters, so that g is some tens of millions, and the width of the gloss, \
-        2σ/τ, is the angle at which triangles meet. With more triangles it narrows.";
+    pub const WHY_NOT: &'static str = "As in the paper: at each vertex σ from the heights of its neighbors about the \
+                                       tangent plane, τ from the radius of that neighborhood; P at the vertices, \
+                                       interpolated. These are lengths of the mesh, not of the material: tenths of \
+                                       millimeters and millimeters, so g is tens of millions, and the width of the \
+                                       specular lobe, 2σ/τ, is the angle between neighboring triangles. It narrows \
+                                       with more triangles.";
 
     /// The core's.
     pub const fn roughness(self) -> Roughness {
@@ -273,16 +275,18 @@ impl ReadingChoice {
     pub const fn why(self) -> &'static str {
         match self {
             Self::Radiometric => {
-                "Scattered radiance per incident irradiance: Eq 1 times A / (λ² cos θs). A rough white stays white."
+                "Scattered radiance per incident irradiance: Eq 1 times A / (λ² cos θs). A rough white surface \
+                 remains white."
             }
             Self::Paper => {
-                "Eq 1 to 12 as printed, but for A, which is chosen beside X and Y. Eq 4 goes with λ² and no λ⁻² beside it, so rough \
-                 surfaces turn yellow: a white under D55 goes from xy (0.332, 0.347) to (0.373, 0.379)."
+                "Eq 1 to 12 as printed, except for A, which is set with X and Y. Eq 4 is proportional to λ² without \
+                 a compensating λ⁻², so rough surfaces turn yellow: a white surface under D55 moves from xy \
+                 (0.332, 0.347) to (0.373, 0.379)."
             }
             Self::Microfacet => {
                 "Beckmann's own geometric factor in place of the cos θi of Eq 3. Only the diffuse component is reciprocal (Helmholtz)."
             }
-            Self::Lambertian => "No model: every direction gets the same share. The quickest, and a plain reference.",
+            Self::Lambertian => "No model: equal in all directions. The fastest, as a baseline.",
         }
     }
 }

@@ -18,10 +18,13 @@ pub enum SessionError {
     #[error("this is not a Chromascope session (its format is \"{0}\")")]
     Format(String),
     /// More sensors than have a place in the palette.
-    #[error("{0} sensors are compared, but at most {MOST_COMPARED} can be shown; take some out of \"compared\"")]
+    #[error("{0} sensors are compared, but at most {MOST_COMPARED} can be shown; remove some from \"compared\"")]
     Compared(usize),
     /// A newer program wrote it.
-    #[error("written by a newer Chromascope (form {0}, this one reads up to {VERSION}); update to open it")]
+    #[error(
+        "written by a newer version of Chromascope (format {0}; this version reads up to {VERSION}); update to \
+             open it"
+    )]
     Newer(u32),
     /// One of its imported sets cannot be read.
     #[error("{0}")]

@@ -160,14 +160,14 @@ fn attributes(rendering: &Rendering, provenance: &Provenance<'_>) -> LayerAttrib
 fn comments(reading: Normalization) -> &'static str {
     match reading {
         Normalization::Radiometric | Normalization::Microfacet => {
-            "R G B: Eq 12 balanced, before exposure, with pi f in the place of P; X Y Z: tristimulus values by the program's way \
-             to the diagram; A: coverage, multiplied in. Lengths in meters, angles in degrees except lightAngularRadius \
+            "R G B: Eq 12 balanced, before exposure, with pi f in place of P; X Y Z: tristimulus values by the color \
+             transform; A: coverage, premultiplied. Lengths in meters, angles in degrees except lightAngularRadius \
              (radians), the light in view axes, orbit = yaw, pitch, distance in scene radii."
         }
         Normalization::Paper | Normalization::Lambertian => {
-            "R G B: Eq 12 balanced, before exposure; X Y Z: tristimulus values by the program's way to the diagram; A: coverage, \
-             multiplied in. Lengths in meters, angles in degrees except lightAngularRadius (radians), the light in view \
-             axes, orbit = yaw, pitch, distance in scene radii."
+            "R G B: Eq 12 balanced, before exposure; X Y Z: tristimulus values by the color transform; A: coverage, \
+             premultiplied. Lengths in meters, angles in degrees except lightAngularRadius (radians), the light in \
+             view axes, orbit = yaw, pitch, distance in scene radii."
         }
     }
 }

@@ -67,16 +67,16 @@ pub fn describe(trial: &Trial, point: &Point) -> Vec<String> {
         lines.push(format!("{} times the speed of {}", ratio(reference.seconds / point.seconds), reference.name));
     }
     if index == Some(0) {
-        lines.push("the reference: all errors, and what is promised of them, are against it".to_owned());
+        lines.push("Reference method; all errors and bounds are relative to it".to_owned());
     } else {
         let (max, rms) = (number(point.max), number(point.rms));
         lines.push(format!("error: largest {max}, RMS {rms} {}", trial.subject.error_of()));
     }
     if let Some(certified) = point.certified {
-        lines.push(format!("promised beforehand: below {} {}", number(certified), trial.subject.error_of()));
+        lines.push(format!("bound: {} {}", number(certified), trial.subject.error_of()));
     }
     if point.preparation > 0.0 {
-        lines.push(format!("made once before, for a source: {}", duration(point.preparation)));
+        lines.push(format!("preparation per sensor: {}", duration(point.preparation)));
     }
     lines
 }
@@ -103,8 +103,8 @@ pub fn figure(view: &View) -> Option<Figure> {
     figure.legend = legend(trial);
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(
-        "{}: {}. {} Times are medians over rounds in which the methods take turns, for {}, on one \
-         thread; errors are against {}, {}. The dashed line joins methods that no other beats in both.",
+        "{}: {}. {} Times are medians over rounds in which the methods take turns, for {}, on one thread; errors are \
+         against {}, {}. The dashed line joins methods that no other surpasses in both.",
         run.conditions.of(trial),
         trial.inputs_in_words(),
         run.conditions.on(),
@@ -150,7 +150,7 @@ pub fn table(trial: &Trial) -> Table {
         "ratio to the reference".to_owned(),
         format!("largest error ({})", trial.subject.error_of()),
         format!("RMS error ({})", trial.subject.error_of()),
-        format!("promised error ({})", trial.subject.error_of()),
+        format!("error bound ({})", trial.subject.error_of()),
         "preparation (ms)".to_owned(),
     ]);
     let reference = trial.points.first().map_or(1.0, |point| point.seconds);
@@ -178,13 +178,11 @@ pub fn describe_measurement(m: &Measurement) -> Vec<String> {
         format!("error: largest {}, RMS {}, of {}", number(m.error.max()), number(m.error.rms()), m.error.what),
     ];
     if m.build_seconds > 0.0 {
-        lines.push(format!("made once before: {}", duration(m.build_seconds)));
+        lines.push(format!("preparation: {}", duration(m.build_seconds)));
     }
     if let Some(roof) = m.roof {
         let [memory, arithmetic] = [roof.memory, roof.arithmetic].map(|share| format!("{:.0} %", 100.0 * share));
-        lines.push(format!(
-            "{memory} of what memory can carry, {arithmetic} of what the processor can multiply and add"
-        ));
+        lines.push(format!("{memory} of memory bandwidth, {arithmetic} of peak arithmetic"));
     }
     lines
 }

@@ -172,7 +172,7 @@ pub fn pixel_line(scene: &Scene<'_>, render: &RenderView, place: &PixelPlace) ->
     let [x, y] = reading.at;
     let rest = match &reading.shows {
         PixelShows::Nothing => {
-            let hint = "Drag orbits, the wheel moves nearer.";
+            let hint = "Drag to orbit; scroll to move nearer.";
             return Some(format!("{label}, pixel {x}, {y}: beside the mesh. {hint}"));
         }
         PixelShows::Unlit => "no light reaches it".to_owned(),

@@ -16,7 +16,7 @@ const AROUND: f64 = 60.0;
 /// What is said of all rows.
 pub const OVERLAP: &str = "Rows overlap: their times do not add up.";
 
-const SINCE_THE_START: &str = "remembered since the start";
+const SINCE_THE_START: &str = "counted since the start";
 
 /// Rows that were found alike.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,8 +32,7 @@ pub struct Section {
 /// What was left out: as the last run measured it, and what was remembered since the start. Sections without rows are none.
 pub fn sections(view: &View) -> Vec<Section> {
     let accuracy = &view.accuracy;
-    let at_the_run =
-        if accuracy.is_current { "measured at the run" } else { "measured at the run, of the scene as it was" };
+    let at_the_run = if accuracy.is_current { "measured by Run" } else { "measured by Run for an earlier scene" };
     let run = accuracy.run.as_ref().map_or_else(Vec::new, |run| run.skipped_work.clone());
     let sections = [
         Section { when: at_the_run, is_old: !accuracy.is_current, rows: run },
@@ -50,7 +49,7 @@ pub fn figure(view: &View) -> Option<Figure> {
     if sections.is_empty() {
         return None;
     }
-    let mut figure = Figure::new("Time saved by what was left out", [WIDTH, AROUND + ROW * lines as f64]);
+    let mut figure = Figure::new("Time saved by skipped work", [WIDTH, AROUND + ROW * lines as f64]);
     let saved = |row: &SkippedWork| row.saved.max(1e-9).log10();
     let timed = rows().filter(|row| row.saved > 0.0).map(saved);
     let (low, high) = timed.fold((-6.0_f64, -3.0_f64), |(low, high), s| (low.min(s), high.max(s)));
@@ -58,7 +57,7 @@ pub fn figure(view: &View) -> Option<Figure> {
     let ticks = (low as i32..=high as i32).map(|e| (f64::from(e), duration(10_f64.powi(e)))).collect();
     let x = Axis::new("time saved", [low, high]).with_ticks(Ticks::At(ticks));
     let y = Axis::new("", [lines as f64, 0.0]).with_ticks(Ticks::None).with_grid(false);
-    let mut panel = Panel::new("left out", Rect::from_min_size([0.0, 0.0], figure.size), x, y);
+    let mut panel = Panel::new("skipped", Rect::from_min_size([0.0, 0.0], figure.size), x, y);
     let text = |name: &str, at: [f64; 2], text: String| {
         let (anchor, offset, size, ink) = (Anchor::LEFT, [6.0, 0.0], TextSize::Small, InkRole::Text.into());
         Mark::new(Tag::default(), name, Shape::Text { at, text, anchor, offset, size, ink })
@@ -79,7 +78,7 @@ pub fn figure(view: &View) -> Option<Figure> {
         middle += 1.0;
     }
     figure.panels.push(panel);
-    figure.caption = format!("What was not computed, and the time that computing it takes. {OVERLAP}");
+    figure.caption = format!("Skipped work, and the time that computing it would take. {OVERLAP}");
     figure.table = table(&sections);
     Some(figure)
 }
@@ -91,7 +90,7 @@ fn time(row: &SkippedWork) -> String {
 
 /// As numbers.
 pub fn table(sections: &[Section]) -> Table {
-    let mut table = Table::new(["left out", "count", "of", "time saved (ms)", "measured by", "when"]);
+    let mut table = Table::new(["skipped", "count", "of", "time saved (ms)", "measured by", "when"]);
     for section in sections {
         for row in &section.rows {
             table.push([
@@ -111,18 +110,18 @@ pub fn table(sections: &[Section]) -> Table {
 pub fn remembered(counts: &[(&'static str, Count)], run: &[SkippedWork]) -> Vec<SkippedWork> {
     let reused = |&(name, count): &(&'static str, Count)| {
         let what = STAGES.iter().find(|(stage, _)| *stage == name)?.1;
-        let made = format!("made {} times", count.misses);
+        let made = format!("computed {}×", count.misses);
         let (each, how) = match FROM_NOTHING.iter().find(|(stage, _)| *stage == name) {
             None => {
                 let each = count.own_time.as_secs_f64() / count.misses.max(1) as f64;
-                (each, format!("{made}, {} each, with what it is made of at hand", duration(each)))
+                (each, format!("{made}, {} each, with inputs cached", duration(each)))
             }
             Some((_, row)) => match run.iter().find(|measured| measured.what == *row) {
                 Some(measured) => {
                     let each = measured.saved / measured.count.max(1) as f64;
-                    (each, format!("{made}, {} each, as measured at the run from nothing", duration(each)))
+                    (each, format!("{made}, {} each, measured by Run without cached inputs", duration(each)))
                 }
-                None => (0.0, format!("{made}; Run measures the time of one")),
+                None => (0.0, format!("{made}; Run measures the time")),
             },
         };
         (count.hits > 0).then(|| SkippedWork {
@@ -150,8 +149,8 @@ const STAGES: [(&str, &str); 11] = [
     ("camera image", "signals of a camera"),
     ("picture", "pixels of a picture"),
     ("locus", "loci"),
-    ("radiator signals", "black bodies through a sensor"),
-    ("patch colors", "patches of a source"),
+    ("radiator signals", "blackbodies through a sensor"),
+    ("patch colors", "patches of a sensor"),
 ];
 
 #[cfg(test)]

@@ -49,7 +49,7 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
         }
     } else if !sources.is_empty() {
         let (marks, low) = sensitivities(scene, &sources, &mut built);
-        contents.push(("sensitivities, each to peak 1".to_owned(), marks, [low, 1.1], 1.7));
+        contents.push(("sensitivities, scaled to peak 1".to_owned(), marks, [low, 1.1], 1.7));
     }
     let weights: f64 = contents.iter().map(|content| content.3).sum();
     let large = size[0] > 500.0;
@@ -245,7 +245,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
         })
         .collect();
     figure.legend_place = LegendPlace::Outside;
-    figure.caption = format!("Dotted: beyond the data, the last value held. {}", caption(scene));
+    figure.caption = format!("Dotted: beyond the data, the end value is held. {}", caption(scene));
     figure.table = table(scene);
     figure
 }

@@ -190,7 +190,7 @@ impl Drop for Breakdown<'_> {
         if std::thread::panicking() {
             let mut state = self.0.lock();
             (state.running, state.ended) = (false, Some(self.0.clock.now()));
-            state.failure = Some("the program broke off while it was writing".to_owned());
+            state.failure = Some("the program was interrupted while writing".to_owned());
             if let Some(ctx) = &state.wake {
                 ctx.request_repaint();
             }
@@ -260,7 +260,7 @@ impl Keeper {
             // What is another window's is left to it.
             Err(Unread::Because(why)) if is_others => {
                 let words =
-                    format!("The document of the other window could not be read ({why}); this one starts anew.");
+                    format!("The other window's document could not be read ({why}); starting with a new document.");
                 Loaded { document: Document::default(), complaint: Some((words, first)) }
             }
             Err(Unread::Because(why)) => {

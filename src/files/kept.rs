@@ -19,10 +19,8 @@ impl Files {
     /// The document as it was kept, else the first screen.
     pub fn kept_document(&mut self) -> Document {
         if self.keeper.is_first_run() {
-            let words = format!(
-                "Start: {}. The other start is one click away, in the Inspector or under Edit.",
-                Start::default().name()
-            );
+            let words =
+                format!("Start: {}. The other start is in the Inspector and under Edit.", Start::default().name());
             self.note(Note::Event(FileEvent::Said(words)));
         }
         let loaded = self.keeper.load();
@@ -37,7 +35,7 @@ impl Files {
         let (other, file) = self.keeper.other()?;
         let process = other.process.map_or_else(String::new, |process| format!(" (process {process})"));
         let words = format!(
-            "Another Chromascope window{process} is open: changes here are kept in a copy, not in its document."
+            "Another Chromascope window{process} is open: changes here are saved in a copy, not in its document."
         );
         Some((words, file.to_owned()))
     }
@@ -62,9 +60,7 @@ impl Files {
         self.in_background(move || {
             let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
             let event = match read(&path) {
-                Ok((kept, _)) if kept.document == before => {
-                    FileEvent::Said(format!("{name} is the document as it is."))
-                }
+                Ok((kept, _)) if kept.document == before => FileEvent::Said(format!("{name} is the current document.")),
                 Ok((kept, _)) => {
                     let is_untouched = before == before.start.document();
                     match if is_untouched { Ok(()) } else { keeper.put_aside(&before) } {
@@ -75,11 +71,11 @@ impl Files {
                             before,
                         })),
                         Err(why) => FileEvent::Failed(format!(
-                            "{name} was not opened, for the document as it is could not be kept: {why}."
+                            "{name} was not opened because the current document could not be saved: {why}."
                         )),
                     }
                 }
-                Err(Unread::Missing) => FileEvent::Failed(format!("{} is no more.", path.display())),
+                Err(Unread::Missing) => FileEvent::Failed(format!("{} no longer exists.", path.display())),
                 Err(Unread::Because(why)) => FileEvent::Failed(format!("{name} could not be opened: {why}.")),
             };
             [Note::Event(event)]
@@ -89,10 +85,10 @@ impl Files {
     /// Removes a document that another window kept.
     pub fn remove_document(&self, path: &Path) {
         let event = if self.keeper.is_in_use(path) {
-            FileEvent::Failed(format!("{} is the document of an open window; it is not deleted.", path.display()))
+            FileEvent::Failed(format!("{} is open in another window and was not deleted.", path.display()))
         } else {
             match std::fs::remove_file(path) {
-                Ok(()) => FileEvent::Said(format!("{} is deleted.", path.display())),
+                Ok(()) => FileEvent::Said(format!("{} was deleted.", path.display())),
                 Err(error) => FileEvent::Failed(format!("{}: {}.", path.display(), io_reason(&error))),
             }
         };
@@ -119,7 +115,7 @@ impl Files {
         let Some(folder) = self.keeper.folder().filter(|_| self.keeper.other().is_none()) else { return };
         let text = match ron::ser::to_string_pretty(layout, ron::ser::PrettyConfig::default()) {
             Ok(text) => text,
-            Err(error) => return log::warn!("the layout cannot be kept: {error}"),
+            Err(error) => return log::warn!("the layout could not be saved: {error}"),
         };
         // What is being written beside the window may not be done before the program is.
         if self.layout.as_ref() == Some(&text) && !now {

@@ -54,9 +54,9 @@ impl Files {
         let Notices { complaint, copies, dismissed } = &self.standing;
         let failure = self.keeper.failure().map(|why| {
             let words = if self.keeper.is_saved() {
-                format!("Nothing can be saved: {why}. Changes are lost when the window closes.")
+                format!("Saving is not possible: {why}. Changes will be lost when the window closes.")
             } else {
-                format!("Changes are not saved: {why}. Trying again until they are.")
+                format!("Changes are not saved: {why}. Retrying.")
             };
             Standing { kind: StandingKind::NotSaved, words, file: None }
         });
@@ -65,13 +65,13 @@ impl Files {
         let aside =
             complaint.clone().map(|(words, file)| Standing { kind: StandingKind::SetAside, words, file: Some(file) });
         let moved = self.keeper.moved().map(|file| {
-            let words = "Another program wrote to the document: changes here are kept in a copy, not in it.".to_owned();
+            let words = "Another program wrote to the document: changes here are saved in a copy.".to_owned();
             Standing { kind: StandingKind::Moved, words, file: Some(file) }
         });
         let copies = (*copies > 0).then(|| {
             let words = match copies {
-                1 => "A document of another window is kept: File, Kept documents opens it.".to_owned(),
-                many => format!("{many} documents of other windows are kept: File, Kept documents opens them."),
+                1 => "A document of another window was recovered: File, Recovered documents.".to_owned(),
+                many => format!("{many} documents of other windows were recovered: File, Recovered documents."),
             };
             Standing { kind: StandingKind::Copies, words, file: None }
         });

@@ -237,7 +237,7 @@ pub(super) fn read(file: &Path) -> Result<(Kept, Fingerprint), Unread> {
         io::ErrorKind::NotFound => Unread::Missing,
         _ => because(io_reason(&error)),
     })?;
-    let text = std::str::from_utf8(&bytes).map_err(|error| because(format!("it is no text: {error}")))?;
+    let text = std::str::from_utf8(&bytes).map_err(|error| because(format!("not text: {error}")))?;
     let folder = file.parent().map(|folder| folder.join(CURVES)).unwrap_or_default();
     let mut files: HashMap<String, Result<Vec<Vec<OwnCurve>>, String>> = HashMap::new();
     let mut curves = |Place(name, index): &Place| {
@@ -252,7 +252,7 @@ pub(super) fn read(file: &Path) -> Result<(Kept, Fingerprint), Unread> {
 fn read_curves(folder: &Path, name: &str) -> Result<Vec<Vec<OwnCurve>>, String> {
     // A name leads nowhere else.
     if Path::new(name).file_name().is_none_or(|own| own != name) {
-        return Err(format!("{name} is no name of a file"));
+        return Err(format!("{name} is not a file name"));
     }
     let path = folder.join(name);
     let bytes = fs::read(&path).map_err(|error| format!("{}: {}", path.display(), io_reason(&error)))?;

@@ -57,15 +57,15 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let diagrams = [
         (Diagram::Xy, "xy", "The CIE 1931 diagram"),
-        (Diagram::UvPrime, "u′v′", "The CIE 1976 diagram, in which distances look more alike"),
+        (Diagram::UvPrime, "u′v′", "The CIE 1976 diagram, perceptually more uniform"),
     ];
     if let Some(diagram) = widgets::segmented(ui, &diagrams, context.scene.document.diagram) {
         context.push(Action::Scene(SceneAction::SetDiagram(diagram)));
     }
     ui.add_space(UNIT);
     let fits = [
-        (DiagramFit::Data, "Data", "What holds loci and patches"),
-        (DiagramFit::Whole, "Whole", "All of the spectral locus"),
+        (DiagramFit::Data, "Data", "Fit to loci and patches"),
+        (DiagramFit::Whole, "Full diagram", "The full spectral locus"),
     ];
     if let Some(fit) = widgets::segmented(ui, &fits, context.view.saved.diagram_fit) {
         context.view.saved.diagram_fit = fit;
@@ -73,7 +73,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ui.ctx().request_repaint();
     }
     ui.add_space(UNIT);
-    ui.menu_button("Show", |ui| overlays(ui, context)).response.on_hover_text("What the diagram shows");
+    ui.menu_button("Show", |ui| overlays(ui, context)).response.on_hover_text("Elements of the diagram");
 }
 
 fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {

@@ -114,7 +114,7 @@ fn nothing(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) {
     ui.add_space(UNIT);
     open_buttons(ui, size.x, context);
     ui.add_space(UNIT);
-    let hint = "Or paste data with Ctrl+V. What is read can be looked at, and read otherwise, here.";
+    let hint = "Or paste data with Ctrl+V. Check and correct here how a file was read.";
     ui.label(RichText::new(hint).small().color(context.theme.weak));
 }
 

@@ -106,7 +106,7 @@ fn buttons(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
     ui.horizontal_wrapped(|ui| {
         let pinned = context.view.pinned.contains(&selected);
         let words = if pinned { "Unpin" } else { "Pin" };
-        if ui.button(words).on_hover_text("Keep it beside the next one (P)").clicked() {
+        if ui.button(words).on_hover_text("Pin for comparison (P)").clicked() {
             context.push(Command::Pin);
         }
         copy = ui.button("Copy numbers").on_hover_text("For a spreadsheet, in full precision").clicked();
@@ -128,11 +128,11 @@ fn copy_text(ui: &Ui, text: String, context: &mut PaneContext<'_>) {
 fn held_words(what: &str, assumed: Assumed) -> Option<String> {
     match (assumed.below_nm, assumed.above_nm) {
         (None, None) => None,
-        (Some(first), None) => Some(format!("{what} begins at {} nm; its first value holds before.", number(first))),
-        (None, Some(last)) => Some(format!("{what} ends at {} nm; its last value holds beyond.", number(last))),
+        (Some(first), None) => Some(format!("{what} begins at {} nm; its first value is held below.", number(first))),
+        (None, Some(last)) => Some(format!("{what} ends at {} nm; its last value is held beyond.", number(last))),
         (Some(first), Some(last)) => {
             let range = range_words([first, last]);
-            Some(format!("{what} covers {range}; its end values hold outside."))
+            Some(format!("{what} covers {range}; its end values are held outside."))
         }
     }
 }
@@ -156,7 +156,7 @@ fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
         let header = scene.entry(id.kind, &id.name).ok().and_then(|entry| entry.header);
         match header.map(|header| header.response_evidence()) {
             Some(Evidence::Unknown) => {
-                words.push(format!("{label}: per energy or per photon is not stated; taken per energy."));
+                words.push(format!("{label}: per energy or per photon is not stated; assumed per energy."));
             }
             Some(Evidence::Inferred) => words.push(format!("{label}: per energy is inferred, not stated.")),
             Some(Evidence::Stated) | None => {}
@@ -164,7 +164,8 @@ fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
         if let Some(below) = sensor.extrapolated_below_k() {
             let end = number(sensor.support_nm()[1]);
             words.push(format!(
-                "{label}: its locus below {below:.0} K (dotted) depends on the tail beyond {end} nm, which the table lacks."
+                "{label}: its locus below {below:.0} K (dotted) depends on data beyond {end} nm, which the table \
+                 lacks."
             ));
         }
     }

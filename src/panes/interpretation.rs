@@ -24,7 +24,7 @@ use crate::view::import::Stop;
 use crate::workspaces::PaneKind;
 
 /// What the first entry of each list says.
-const CONTENT: &str = "As the content says";
+const CONTENT: &str = "Decided by content";
 /// The same where there is little room.
 const CONTENT_SHORT: &str = "By content";
 
@@ -43,7 +43,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, notes::button);
     let inner = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
     let Some(shown) = ImportSelection::refresh(&context.scene, context.view, context.opened) else {
-        let mut child = ui.new_child(UiBuilder::new().id_salt("nothing understood").max_rect(inner));
+        let mut child = ui.new_child(UiBuilder::new().id_salt("nothing recognized").max_rect(inner));
         note(&mut child, &context.theme, "Drop files here.");
         return;
     };
@@ -105,7 +105,7 @@ fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelectio
         ui.label(RichText::new(sentence(words)).color(color));
     });
     ui.horizontal_wrapped(|ui| {
-        if shown.pending && ui.button("Back").on_hover_text("Give up what was tried").clicked() {
+        if shown.pending && ui.button("Back").on_hover_text("Discard the attempted settings").clicked() {
             context.push(Command::TakeWishBack);
         }
         if let Some(line) = line
@@ -116,7 +116,7 @@ fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelectio
         }
     });
     if shown.set.is_some() && shown.pending {
-        note(ui, &context.theme, "The set stays as it was until the file can be read so.");
+        note(ui, &context.theme, "The data set is unchanged until the file can be read with these settings.");
     }
 }
 

@@ -8,7 +8,6 @@ use crate::action::{Action, SceneAction};
 use crate::command::{Command, Format, shortcut_of};
 use crate::document::start::Start;
 use crate::theme::{ROW, Surround, UNIT};
-use crate::view::HelpPage;
 use crate::workspaces::{PaneKind, Workspace};
 
 /// Shows the bar in its rectangle.
@@ -62,7 +61,7 @@ fn unseen_dot(ui: &Ui, tab: &egui::Response, context: &PaneContext<'_>) {
     }
     ui.painter().circle_filled(tab.rect.right_top() + Vec2::new(-7.0, 9.0), 3.0, context.theme.warning);
     let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
-    let words = format!("Import, {files} to look at");
+    let words = format!("Import: {files} to check");
     tab.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &words));
     tab.clone().on_hover_text(words);
 }
@@ -124,11 +123,11 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     let kept = context.view.kept.clone();
     if !kept.is_empty() {
-        ui.menu_button("Kept documents", |ui| {
+        ui.menu_button("Recovered documents", |ui| {
             for (path, age) in kept {
                 let words = format!("Document of another window, {age}");
                 let menu = ui.menu_button(words, |ui| {
-                    if ui.button("Open").on_hover_text("The document on screen is kept here before").clicked() {
+                    if ui.button("Open").on_hover_text("The current document is saved here first").clicked() {
                         context.push(Command::OpenDocument(path.clone()));
                         ui.close();
                     }
@@ -206,7 +205,7 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.menu_button("Theme", |ui| {
         let now = ui.ctx().options(|options| options.theme_preference);
         for (preference, words) in [
-            (egui::ThemePreference::System, "As the system"),
+            (egui::ThemePreference::System, "System"),
             (egui::ThemePreference::Dark, "Dark"),
             (egui::ThemePreference::Light, "Light"),
         ] {
@@ -229,13 +228,7 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 fn help(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    for (page, words) in [
-        (HelpPage::WhatYouSee, "What you see"),
-        (HelpPage::Keyboard, "Keyboard"),
-        (HelpPage::Data, "Data and sources"),
-        (HelpPage::Equations, "Equations"),
-        (HelpPage::About, "About Chromascope"),
-    ] {
-        item(ui, words, Command::Help(page), context);
+    for page in crate::help::pages() {
+        item(ui, &page.title, Command::Help(page.name), context);
     }
 }

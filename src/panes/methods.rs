@@ -24,9 +24,9 @@ const PANEL: Vec2 = Vec2::new(420.0, 280.0);
 
 /// A key of the legend.
 const KEY: Vec2 = Vec2::new(16.0, 18.0);
-const MARKS: &str = "Filled marks, joined by the dashed line: no other is both faster and more exact.";
-const BENCH: &str = "The program's methods on inputs of its own, whatever the scene, against references computed in another way or \
-                     with twice the digits. Point at a mark for its numbers.";
+const MARKS: &str = "Filled markers, joined by the dashed line: no other method is both faster and more accurate.";
+const BENCH: &str = "The program's methods on standard inputs, independent of the scene, against reference values \
+                     computed by another method or with twice the digits. Point at a marker for its values.";
 
 /// The pane.
 pub const PANE: Pane = Pane {
@@ -61,8 +61,11 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
     };
     let Some(trial) = accuracy::trial(&run, subject) else {
         let words = match subject {
-            Subject::Integral => "No sample takes a spectral integral: nothing is rendered, or all is flat.",
-            Subject::Loci => "No source is on show. Tick a camera in the Library.",
+            Subject::Integral => {
+                "No sample needs a spectral integral: nothing is rendered, or every surface is \
+                                  Lambertian."
+            }
+            Subject::Loci => "No sensor is visible. Tick a camera in the Library.",
         };
         nothing(ui, body, words, context);
         return;
@@ -98,7 +101,7 @@ fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneCont
             return;
         }
         None => {
-            nothing(ui, body, "Nothing measured yet. A quick run takes some seconds.", context);
+            nothing(ui, body, "Nothing measured yet. A quick run takes a few seconds.", context);
             return;
         }
         Some(Err(why)) => {
@@ -109,7 +112,7 @@ fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneCont
         Some(Ok(report)) => report.clone(),
     };
     let Some(figure) = report.figure(workload) else {
-        nothing(ui, body, "Nothing was measured to its end.", context);
+        nothing(ui, body, "No measurement was completed.", context);
         return;
     };
     if context.view.saved.tables.contains(&PaneKind::METHODS) {
@@ -193,7 +196,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
     let said = format!("Workload of the bench: {words}");
     combo.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
-    combo.response.on_hover_text("The program's methods on inputs of its own, whatever the scene");
+    combo.response.on_hover_text("The program's methods on standard inputs, independent of the scene");
     if let Some(shows) = chosen {
         context.view.accuracy.shows = shows;
         ui.ctx().request_repaint();
@@ -203,7 +206,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 /// A way to measure what is on show, or to stop that.
 fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
     if let Some(busy) = context.laboratory.busy() {
-        if ui.button("Stop").on_hover_text("Stop measuring (Esc). What was measured before stays.").clicked() {
+        if ui.button("Stop").on_hover_text("Stop measuring (Esc). Earlier results are unchanged.").clicked() {
             context.push(Command::StopMeasuring);
         }
         let words = format!("measuring, {:.0} s…", busy.as_secs_f64());
@@ -218,7 +221,8 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
         Shows::Scene(_) => context.view.accuracy.run.is_some(),
         Shows::Bench(workload) => context.view.accuracy.reports.contains_key(&workload),
     };
-    let hint = "Measures the methods, and on a scene what was left out of it. Takes some seconds. What was measured is not kept when the program ends: export it.";
+    let hint = "Measures the methods and the work saved on this scene. Takes a few seconds. Results are lost when \
+                the program ends; export them to save them.";
     if ui.button(if again { "Run again" } else { "Run" }).on_hover_text(hint).clicked() {
         context.push(measure(now));
     }

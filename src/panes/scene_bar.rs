@@ -93,8 +93,8 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 context.commands.push(Action::Scene(SceneAction::SetLight(light)).into());
             }
         };
-        offer(ui, Light::BlackBody, "Blackbody of the temperature");
-        offer(ui, Light::Daylight, "Daylight of the temperature, 4000–20000 K");
+        offer(ui, Light::BlackBody, "Blackbody at the temperature");
+        offer(ui, Light::Daylight, "Daylight at the temperature, 4000–20000 K");
         ui.separator();
         for entry in context.scene.entries(SetKind::Illuminant) {
             let words =
@@ -181,8 +181,8 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
         WhiteBalanceChoice::Daylight(kelvin) => format!("Daylight {kelvin:.0} K"),
         WhiteBalanceChoice::BlackBody(kelvin) => format!("Blackbody {kelvin:.0} K"),
     };
-    let hint = "White-balance target: the RGB that a perfect diffuser under the light is mapped to (Eq 11). With a fitted color \
-                transform it changes camera RGB only; the matrix compensates for it.";
+    let hint = "White-balance target: the RGB that a perfect diffuser under the light is mapped to (Eq 11). With a \
+                fitted color transform it changes camera RGB only; the matrix compensates for it.";
     choice(ui, "White balance", hint, &shown, |ui| {
         let mut offer = |ui: &mut Ui, white: WhiteBalanceChoice, words: &str| {
             if ui.selectable_label(now == white, words).clicked() {
@@ -207,9 +207,9 @@ fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
         TransformChoice::Paper => "Paper (Eq 13)".to_owned(),
         TransformChoice::Observer(name) => format!("Fit {name}"),
     };
-    let hint = "Color transform from camera RGB to XYZ. Paper matrix: camera and RGB observer signals through the matrix of \
-                Eq 13, CIE observers directly. Fitted: a 3×3 matrix for each sensor, fitted to a CIE observer over 190 \
-                training reflectances under the light.";
+    let hint = "Color transform from camera RGB to XYZ. Paper matrix: camera and RGB observer signals through the \
+                matrix of Eq 13, CIE observers directly. Fitted: a 3×3 matrix for each sensor, fitted to a CIE \
+                observer over 190 training reflectances under the light.";
     choice(ui, "Color transform", hint, &shown, |ui| {
         if ui.selectable_label(now == TransformChoice::Paper, "Paper matrix (Eq 13)").clicked() {
             context.push(Action::Scene(SceneAction::SetWay(TransformChoice::Paper)));
@@ -229,10 +229,10 @@ fn difference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let transform = context.scene.document.transform.clone();
     let hint = match transform {
         TransformChoice::Paper => {
-            "The measure of difference from the reference. Eq 13 takes RGB of an observer as sRGB, so its L*a*b* is not that of \
-             the CIE: distances in the diagram mean what they say; the ΔE*00 formula gives only a number."
+            "Metric of the difference from the reference. Eq 13 treats an observer's RGB as sRGB, so its L*a*b* is \
+             not that of the CIE: distances in the diagram are valid, but the ΔE*00 formula does not yield ΔE*00."
         }
-        TransformChoice::Observer(_) => "The measure of difference from the reference.",
+        TransformChoice::Observer(_) => "Metric of the difference from the reference.",
     };
     choice(ui, "Difference", hint, now.name(transform.is_eq_13()), |ui| {
         for metric in transform.metrics() {

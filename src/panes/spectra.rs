@@ -30,7 +30,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |ui, context| {
         let choices = [
             (SpectraLayout::Overlay, "Overlay", "All sensitivities in one plot"),
-            (SpectraLayout::Each, "Each", "A plot for each source"),
+            (SpectraLayout::Each, "Each", "A plot for each sensor"),
         ];
         if let Some(layout) = widgets::segmented(ui, &choices, context.view.saved.spectra_layout) {
             context.view.saved.spectra_layout = layout;

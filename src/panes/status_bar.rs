@@ -25,11 +25,12 @@ const PATIENCE: Duration = Duration::from_millis(100);
 /// The width of the button after a message.
 const CHANGE: f32 = 76.0;
 /// What the facts at the right mean.
-const FACTS: &str = "How long the last change took to compute; the largest error of the loci on show, relative to the largest \
-                     signal and checked against sums at 1 nm; how many cameras are computed. What is not shown is not computed.";
+const FACTS: &str = "Computation time of the last change; largest error of the visible loci, relative to the largest \
+                     signal and checked against sums at 1 nm; number of cameras computed. What is not visible is not \
+                     computed.";
 /// The same where pictures are rendered.
-const RENDER_FACTS: &str = "How long the last stage of the pictures took; the error of their integrals over wavelength, relative \
-                            to the brightest pixel; how many cameras are rendered. What is not shown is not computed.";
+const RENDER_FACTS: &str = "Time of the last rendering stage; error of integrals over wavelength, relative to the \
+                            brightest pixel; number of cameras rendered. What is not visible is not computed.";
 
 /// Shows the bar in its rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut PaneContext<'_>) {
@@ -82,9 +83,9 @@ fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     };
     let button = status.change.filter(|_| !status.text.is_empty()).map(|(item, line)| {
         let (title, hint) = if status.weight == Weight::Error {
-            ("Show line", "See the text where it could not be read")
+            ("Show line", "Show the text where reading failed")
         } else {
-            ("Change", "See what was decided on reading, and change it")
+            ("Change", "Check and correct how the file was read")
         };
         (title, hint, Command::ShowImport(item, line))
     });
@@ -127,7 +128,7 @@ fn line(
 fn reading(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut PaneContext<'_>) {
     ui.ctx().request_repaint_after(Duration::from_millis(50));
     let words = reading_words(progress);
-    let button = ("Stop", "Read no further; nothing is changed (Esc)", Command::StopReading);
+    let button = ("Stop", "Stop reading; nothing is changed (Esc)", Command::StopReading);
     line(ui, rect, &words, context.theme.text, Some(button), context);
 }
 
@@ -148,7 +149,10 @@ fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
         found.map_or_else(|| id.name.clone(), |source| source.label)
     };
     let at = |xy: Option<chromascope_core::colorimetry::Xy>| {
-        xy.map_or_else(|| "no chromaticity".to_owned(), |xy| format!("x {} y {}", fixed(xy.x, 4), fixed(xy.y, 4)))
+        xy.map_or_else(
+            || "chromaticity undefined".to_owned(),
+            |xy| format!("x {} y {}", fixed(xy.x, 4), fixed(xy.y, 4)),
+        )
     };
     match thing {
         PlotItem::Light => format!("The light: {}", scene.light_name()),

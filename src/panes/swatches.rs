@@ -70,10 +70,9 @@ fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneCon
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let count = context.scene.patches().map_or(0, |set| set.patches().len());
     if context.scene.has_five() {
-        let all = if context.scene.document.subset == Subset::All { count.to_string() } else { "24".to_owned() };
         let choices = [
-            (Subset::Five, "5", "The paper's five: red, green, blue, white, orange yellow"),
-            (Subset::All, all.as_str(), "All patches of the chart"),
+            (Subset::Five, "Five", "The paper's five: red, green, blue, white, orange yellow"),
+            (Subset::All, "All", "All patches of the chart"),
         ];
         if let Some(subset) = widgets::segmented(ui, &choices, context.scene.document.subset) {
             context.push(Action::Scene(SceneAction::SetSubset(subset)));
@@ -90,7 +89,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choices = [
         (SwatchStyle::Split, "Split", "Left half: reference; right half: sensor"),
         (SwatchStyle::Inset, "Inset", "The reference inside"),
-        (SwatchStyle::Whole, "Whole", "The sensor alone"),
+        (SwatchStyle::Whole, "Sensor only", "The sensor without the reference"),
     ];
     if let Some(style) = widgets::segmented(ui, &choices, context.view.saved.swatch_style) {
         context.view.saved.swatch_style = style;
@@ -100,7 +99,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let built = swatches::build(&context.scene, context.view, [400.0, 200.0]);
     if let Some((words, thing)) = built.worst {
         let label = egui::Button::new(egui::RichText::new(words).color(context.theme.weak)).frame(false).truncate();
-        if ui.add(label).on_hover_text("The largest difference: click to keep it").clicked() {
+        if ui.add(label).on_hover_text("Largest difference: click to select it").clicked() {
             context.view.selected = Some(thing);
         }
     }

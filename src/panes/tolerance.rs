@@ -40,22 +40,24 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.label("Largest error of a picture, relative to its brightest sample").on_hover_text(TOLERANCE);
     ui.spacing_mut().slider_width = (ui.available_width() - 100.0).max(60.0);
     let id = ui.make_persistent_id("tolerance field");
-    let hint = "Tolerance of the methods below. Pictures keep it once the box below is ticked; choosing it here does not tick it.";
+    let hint = "The tolerance for the methods listed below. It applies to renders once the box below is ticked.";
     if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "", hint, context) {
         set(context, "Tolerance", |settings| settings.tolerance = to);
     }
     ui.add_space(UNIT);
     let mut keep = on;
-    let hint = "On, pictures are made within the tolerance. Off, at quality Full; Render settings has more qualities.";
-    if ui.checkbox(&mut keep, "Pictures keep it").on_hover_text(hint).changed() {
+    let hint = "On: pictures are rendered within the tolerance. Off: at quality Full; the Render workspace has more \
+                qualities.";
+    if ui.checkbox(&mut keep, "Apply to renders").on_hover_text(hint).changed() {
         let quality = if keep { QualityLevel::Tolerance } else { QualityLevel::Full };
         set(context, "Quality", |settings| settings.quality = quality);
     }
     let words = if on {
-        "For each camera the fastest method is used whose estimated error, checked for this light and material, is within it."
+        "Each camera uses the fastest method whose estimated error, checked for this light and material, stays \
+         within the tolerance."
             .to_owned()
     } else {
-        format!("Now: {}. Below is what the tolerance would take.", settings.quality.label())
+        format!("Current quality: {}. Below: the methods that the tolerance would use.", settings.quality.label())
     };
     ui.label(RichText::new(words).small().color(context.theme.weak));
 }
@@ -74,7 +76,7 @@ fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
         return;
     };
     let Some(plans) = context.laboratory.plans(&pictures) else {
-        ui.label(RichText::new("Searching the fastest methods…").color(weak));
+        ui.label(RichText::new("Choosing methods…").color(weak));
         ui.ctx().request_repaint_after(std::time::Duration::from_millis(100));
         return;
     };
@@ -125,7 +127,7 @@ fn explained(ui: &mut Ui, name: &str, planned: &Planned, context: &PaneContext<'
     ui.label(small(format!("{}.", capitalized(&explanation.to_string())))).on_hover_text(METHODS);
     ui.label(small(bounds)).on_hover_text(BOUNDS);
     let parts: Vec<String> = explanation.parts().map(cost).collect();
-    let costs = if parts.is_empty() { "nothing".to_owned() } else { parts.join("; below that ") };
+    let costs = if parts.is_empty() { "nothing".to_owned() } else { parts.join("; below that, ") };
     ui.label(small(format!("Estimated: {costs}.")).color(context.theme.weak)).on_hover_text(ESTIMATED);
     if explanation.rejected.is_empty() {
         return;
@@ -141,25 +143,27 @@ fn explained(ui: &mut Ui, name: &str, planned: &Planned, context: &PaneContext<'
     });
 }
 
-const TOLERANCE: &str = "Allowed difference of a sample from the sum over all wavelengths. The diffuse integral J(κ, β) is largest at \
-                         β = 0, seen from the mirror's direction: estimated error bounds are relative to that peak, J(κ, 0), at the \
-                         sample's κ; where no sample is that bright, methods keep a smaller share of it. S itself is exact to 1e−13.";
-const METHODS: &str = "κ is the roughness g at 550 nm and the angles of a sample; S(g, b) is the diffuse sum of Eq 2, evaluated within the \
-                       stated error.";
-const BOUNDS: &str = "Diffuse component: the largest error found in the check against the sum over all wavelengths, times a margin, \
-                      relative to J(κ, 0) at the sample's κ; where no sample is seen from near the mirror's direction, a tighter bound \
-                      is used so that the error relative to the brightest pixel stays within tolerance. Specular lobes are within the \
-                      tolerance of the brightest sample of the picture. Signals are then kept as numbers with 24 binary digits.";
-const ESTIMATED: &str = "Times by a model of the program's methods, not measured here; Methods measures them. The method with the least \
-                         total time, preparation and all samples, is used.";
+const TOLERANCE: &str = "Allowed error of a sample, relative to the sum over all wavelengths. The diffuse integral \
+                         J(κ, β) is largest at β = 0, in the specular direction: error bounds are estimated relative \
+                         to that peak, J(κ, 0), at the sample's κ, and are tighter where no sample is that bright. S \
+                         itself is accurate to 1e−13.";
+const METHODS: &str = "κ is the roughness g at 550 nm and the angles of a sample; S(g, b) is the diffuse sum of Eq 2, \
+                    evaluated to the stated error.";
+const BOUNDS: &str = "Diffuse component: the largest error found against the sum over all wavelengths, times a \
+                         margin, relative to J(κ, 0) at the sample's κ. Where no sample is near the specular \
+                         direction, a tighter bound is used so that the error relative to the brightest pixel stays \
+                         within tolerance. Specular lobes are within the tolerance of the brightest sample of the \
+                         picture. Signals are stored in single precision (24 bits).";
+const ESTIMATED: &str = "Times are from a cost model, not measured here; Methods measures them. The method with the \
+                         least total time, preparation included, is used.";
 
 /// Cost of a method by the model.
 fn cost(candidate: &Candidate) -> String {
     let [sample, making] = [candidate.sample_ns, candidate.making_ns].map(|ns| duration(ns * 1e-9));
     if candidate.making_ns > 0.0 {
-        format!("{sample} a sample, {making} to make")
+        format!("{sample} a sample, {making} preparation")
     } else {
-        format!("{sample} a sample, nothing to make")
+        format!("{sample} a sample, no preparation")
     }
 }
 
@@ -168,8 +172,8 @@ fn rejected(candidate: &Candidate) -> String {
     let error = candidate.error_bound.map_or_else(|| "not checked".to_owned(), |e| format!("error {e:.0e}"));
     let why = match candidate.verdict {
         Verdict::Chosen => "chosen",
-        Verdict::TooInexact => "not exact enough",
-        Verdict::TooSlow => "slower in all",
+        Verdict::TooInexact => "not accurate enough",
+        Verdict::TooSlow => "slower in total",
     };
     let method = candidate.method.to_string();
     format!("{method}: {}, {}, {why}", error.replace('-', "−"), cost(candidate))

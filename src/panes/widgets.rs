@@ -20,8 +20,8 @@ use crate::theme::{ROW, Theme, UNIT};
 use crate::workspaces::PaneKind;
 
 /// The sentence that says what the window is about.
-pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities are not the eye's, so it records other colors than a person sees. \
-                                Here is how far off each one is.";
+pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, so it records other colors \
+                                than a person sees. Chromascope shows how far off each camera is.";
 
 /// The height of a pane's header.
 pub const HEADER: f32 = 32.0;

@@ -34,19 +34,19 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
     let sections = skipped_work::sections(context.view);
     if context.view.saved.tables.contains(&PaneKind::WORK_SAVED) {
-        widgets::data_table(ui, body, "left out", &skipped_work::table(&sections));
+        widgets::data_table(ui, body, "skipped", &skipped_work::table(&sections));
         return;
     }
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    let mut child = ui.new_child(UiBuilder::new().id_salt("left out").max_rect(inner));
+    let mut child = ui.new_child(UiBuilder::new().id_salt("skipped").max_rect(inner));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
-    ScrollArea::vertical().id_salt("left out").auto_shrink(false).show(&mut child, |ui| {
+    ScrollArea::vertical().id_salt("skipped").auto_shrink(false).show(&mut child, |ui| {
         if context.view.accuracy.run.is_none() {
             ui.horizontal(|ui| {
                 if context.laboratory.busy().is_none() && ui.button("Run").clicked() {
                     context.push(Command::SpectralWeights);
                 }
-                ui.label("measures what was not computed on this scene, by computing it.");
+                ui.label("estimates the time saved by timing the skipped work.");
             });
         }
         table(ui, &sections, context);
@@ -66,7 +66,7 @@ fn table(ui: &mut Ui, sections: &[Section], context: &PaneContext<'_>) {
     let name = |what: &str| text_width(what, TextSize::Body) as f32 + 2.0 * UNIT;
     let rows = sections.iter().flat_map(|section| &section.rows);
     let wide = width >= WIDE;
-    let first = if wide { "Left out" } else { "Left out, and how that was measured" };
+    let first = if wide { "Work saved" } else { "Skipped work, and how it was measured" };
     let what = rows.map(|row| name(&row.what)).fold(name(first), f32::max).min(width - TIME - COUNT);
     ui.spacing_mut().item_spacing = Vec2::new(2.0 * UNIT, 0.25 * UNIT);
     let line = |ui: &mut Ui, cells: [RichText; 3], how: RichText| {

@@ -43,7 +43,7 @@ impl Conditions {
             Subject::Integral => self.scene.clone(),
             Subject::Loci => {
                 let plural = if self.sensors == 1 { "source" } else { "sources" };
-                format!("black bodies from 1000 to 20 000 K, {} {plural}", self.sensors)
+                format!("blackbodies from 1000 to 20 000 K, {} {plural}", self.sensors)
             }
         }
     }
@@ -53,7 +53,7 @@ impl Conditions {
         let known = [&self.machine, &self.program, &self.began].into_iter().filter(|words| !words.is_empty());
         let known = known.map(String::as_str).collect::<Vec<_>>().join(", ");
         if known.is_empty() {
-            "On what it was measured is not known.".to_owned()
+            "The machine it was measured on is unknown.".to_owned()
         } else {
             format!("Measured on: {known}.")
         }
@@ -95,18 +95,20 @@ impl Subject {
     pub const fn explained(self) -> &'static str {
         match self {
             Self::Integral => {
-                "The diffuse integral J(κ, β) over wavelength, without the mirror lobe, at lit samples spread over the picture, \
-                 through each source. κ is the roughness g at 550 nm and a sample's angles, β how far off the mirror's direction \
-                 it is seen; S(g, b) is the sum under the integral. Errors are relative to J(κ, 0), the peak at the sample's κ; \
-                 of several sources the worst counts, and times are means. The reference is the sum over all 401 wavelengths with \
-                 S to 1e-13; promises are checked against that sum too. A tolerance is of the picture's brightest sample: where no sample \
-                 is seen from near the mirror's direction, its integral is kept to less of the peak, as in “within 3.1e-11, for \
-                 5e-10”."
+                "The diffuse integral J(κ, β) over wavelength, without the specular lobe, at lit samples spread over \
+                 the picture, through each sensor. κ is the roughness g at 550 nm and a sample's angles, β how far \
+                 off the specular direction it is seen; S(g, b) is the sum under the integral. Errors are relative \
+                 to J(κ, 0), the peak at the sample's κ; of several sensors the largest is shown, and times are \
+                 means. The reference is the sum over all 401 wavelengths with S to 1e-13; error bounds are \
+                 checked against that sum too. A tolerance is of the picture's brightest sample: where no sample \
+                 is seen from near the specular direction, its integral is kept to less of the peak, as in “within \
+                 3.1e-11, for 5e-10”."
             }
             Self::Loci => {
-                "The three signals of black bodies through each sensor on show; mesh, material and light have no part in it. \
-                 Errors are relative to the largest of the three signals; of several sources the worst counts, and times are \
-                 means. The reference is the sum over each nanometer; promises are of that sum too."
+                "The three signals of blackbodies through each visible sensor; independent of mesh, material and \
+                 light. Errors are relative to the largest of the three signals; of several sensors the largest is \
+                 shown, and times are means. The reference is the sum over each nanometer; error bounds refer to \
+                 that sum too."
             }
         }
     }

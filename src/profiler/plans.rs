@@ -79,10 +79,10 @@ impl ErrorBounds {
     pub fn words(self) -> String {
         let diffuse = self.diffuse.map_or_else(
             || "no sample takes a spectral integral".to_owned(),
-            |error| format!("estimated error bound of the diffuse component {error:.1e} of the peak"),
+            |error| format!("diffuse component: estimated error bound {error:.1e} of the peak"),
         );
         let mirror = self.mirror.map(|error| format!("specular lobes within {error:e} of the brightest sample"));
-        let storage = format!("kept in single precision ({SINGLE_PRECISION:e})");
+        let storage = format!("stored in single precision ({SINGLE_PRECISION:e})");
         let storage = ((self.diffuse.or(self.mirror)).is_some() && self.is_limited_by_storage()).then_some(storage);
         [Some(diffuse), mirror, storage].into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
@@ -117,11 +117,11 @@ mod tests {
         assert_eq!(
             words(Some(3.4e-10), Some(1e-9)),
             "estimated error bound of the diffuse component 3.4e-10 of the peak; specular lobes within 1e-9 of the brightest sample; \
-             kept in single precision (6e-8)"
+             stored in single precision (6e-8)"
         );
         assert_eq!(
             words(Some(4.3e-8), None),
-            "estimated error bound of the diffuse component 4.3e-8 of the peak; kept in single precision (6e-8)"
+            "estimated error bound of the diffuse component 4.3e-8 of the peak; stored in single precision (6e-8)"
         );
         assert_eq!(
             words(Some(4.3e-8), Some(1e-3)),

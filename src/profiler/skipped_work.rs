@@ -118,7 +118,8 @@ fn unlit(sources: &Sources<'_>) -> Vec<SkippedWork> {
     let each = sample_cost(sources);
     let how = match &each {
         Ok(each) => format!(
-            "what a lit sample costs through all sources, from angles to signals, {}, times their number; {}, one thread",
+            "what a lit sample costs through all sensors, from angles to signals, {}, times their number; {}, one \
+             thread",
             duration(each.seconds),
             measured_on(each.samples, sources.shading.geometry().angles().len(), "lit samples"),
         ),

@@ -74,7 +74,7 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     };
     let beside = of("samples beside the mesh");
     let rest: u64 = ["samples turned from the light", "samples in shadow"].map(|what| of(what).count).iter().sum();
-    let lit = of("mirror terms").of.expect("of the lit samples");
+    let lit = of("specular terms").of.expect("of the lit samples");
     assert_eq!(Some(beside.count + rest + lit), beside.of, "every sample is lit or accounted for");
     let terms = of("terms of S at a lit sample");
     assert!(terms.count > lit * 4 * 9, "several terms at each wavelength, {} of them", terms.count);
@@ -128,7 +128,7 @@ fn how_it_was_measured_is_in_sight_in_a_small_window() {
 fn methods_say_what_was_measured_and_what_marks_stand_for() {
     for size in [[900.0, 600.0], [1280.0, 800.0]] {
         let window = accuracy(size, egui::Theme::Light);
-        for words in ["sum over the grid", "a quality of the program", "cheapest for a tolerance", "What is this?"] {
+        for words in ["sum over the grid", "a quality of the program", "fastest for a tolerance", "What is this?"] {
             let rect = window.get_by_label(words).rect();
             assert!(rect.left() >= 0.0 && rect.right() <= size[0], "{words} at {size:?}: {rect:?}");
         }
@@ -159,7 +159,7 @@ fn a_hidden_camera_is_told_of() {
     assert_eq!(window.state().view().saved.workspace, Workspace::Accuracy, "what is measured is shown");
     take_in(&mut window);
     let run = run(&window);
-    let row = run.skipped_work.iter().find(|row| row.what == "sources that are not on show").expect("one is hidden");
+    let row = run.skipped_work.iter().find(|row| row.what == "sensors that are not visible").expect("one is hidden");
     assert_eq!(row.count, 1);
     let trial = &run.trials[0];
     let set = trial.name(trial.set.expect("the tolerance that is set is tried too"));
@@ -173,12 +173,12 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.run_steps(2);
     let render = |window: &Window| window.state().history().document().render.clone();
     assert_eq!(render(&window).quality, QualityLevel::Full);
-    window.get_by_label("Pictures keep it").click();
+    window.get_by_label("Apply to renders").click();
     window.run_steps(2);
     assert_eq!((render(&window).quality, render(&window).tolerance), (QualityLevel::Tolerance, 1e-6));
     take_in(&mut window);
     assert_eq!(
-        window.query_all_by_label_contains("Estimated error bound of the diffuse component").count(),
+        window.query_all_by_label_contains("Diffuse component: estimated error bound").count(),
         4,
         "one for each source"
     );
@@ -254,8 +254,8 @@ fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
         let text = |window: &Window| window.get_by_role_and_label(Role::TextInput, "Tolerance").value();
         for (typed, words) in [
             ("a bit", "“a bit” is no number"),
-            ("1e-14", "too small: give 1e−13 to 0.1"),
-            ("7", "too large: give 1e−13 to 0.1"),
+            ("1e-14", "too small: range 1e−13 to 0.1"),
+            ("7", "too large: range 1e−13 to 0.1"),
         ] {
             type_tolerance(&mut window, typed, egui::Key::Enter);
             assert_eq!(tolerance(&window), 1e-6);
@@ -293,7 +293,7 @@ fn a_report_of_the_bench_is_shown_and_exported() {
     view.accuracy.shows = Shows::Bench(Workload::Difference);
     view.accuracy.reports.insert(Workload::Difference, Arc::new(Ok(report.clone())));
     window.run_steps(3);
-    assert!(window.query_by_label("Nothing measured yet. A quick run takes some seconds.").is_none());
+    assert!(window.query_by_label("Nothing measured yet. A quick run takes a few seconds.").is_none());
     assert!(window.query_by_label("Run again").is_some());
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };

@@ -92,7 +92,7 @@ fn strip(area: Rect) -> Panel {
 fn spectra(area: Rect) -> Panel {
     let y = Axis::new("sensitivity", [-0.1, 1.1]);
     let mut panel = Panel::new("Sensitivities", area, Axis::new("wavelength (nm)", [380.0, 780.0]), y);
-    panel.note = "sensitivities, each to peak 1".into();
+    panel.note = "sensitivities, scaled to peak 1".into();
     for (slot, shift) in [(0_u8, 0.0), (1, 12.0), (5, 25.0)] {
         for peak in [450.0, 540.0, 600.0] {
             let curve = (0..101).map(|i| 380.0 + 4.0 * f64::from(i));
@@ -393,7 +393,7 @@ fn the_pointer_reads_the_nearest_black_body() {
             if at.y < 220.0 {
                 at.y = 330.0;
                 rounds += 1;
-                assert!(rounds < 2, "no place in the diagram is near a black body: {read}");
+                assert!(rounds < 2, "no place in the diagram is near a blackbody: {read}");
             }
         }
     };

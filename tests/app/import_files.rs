@@ -77,13 +77,15 @@ fn a_camera_called_as_a_built_in_one_is_another() {
     drop_file(&mut window, "Nikon D70 (A.M.P.A.S.).csv", CAMERA);
     let (said, _) = status(&window);
     assert!(
-        said.contains("Nikon D70 (A.M.P.A.S.) is the name of another set, so this one is Nikon D70 (A.M.P.A.S.) (own)"),
+        said.contains(
+            "A data set named Nikon D70 (A.M.P.A.S.) already exists; imported as Nikon D70 (A.M.P.A.S.) (own)"
+        ),
         "{said}"
     );
     assert!(window.state().compares(SetKind::Camera, "Nikon D70 (2007 figure)"));
     assert!(window.state().compares(SetKind::Camera, "Nikon D70 (A.M.P.A.S.) (own)"));
     // A name that is taken is refused, and said why, while it is typed and after.
-    for (name, why) in [("Canon EOS 10D (2007 figure)", "A built-in set has this name"), ("mine", "")] {
+    for (name, why) in [("Canon EOS 10D (2007 figure)", "A built-in data set has this name"), ("mine", "")] {
         type_name(&mut window, name);
         assert!(why.is_empty() || says(&window, why), "{name}");
         window.key_press(egui::Key::Enter);
@@ -150,7 +152,10 @@ fn several_files_at_once_leave_light_and_patches() {
     assert_eq!((&document.light, &document.chart), (&Document::paper().light, &Document::paper().chart));
     assert!(window.state().compares(SetKind::Camera, "a"));
     let (said, weight) = status(&window);
-    assert!(said.starts_with("3 files read. 1 put on show; light and patches stay."), "{said}");
+    assert!(
+        said.starts_with("3 files read. 1 added to the comparison; illuminant and patches are unchanged."),
+        "{said}"
+    );
     assert!(said.contains("2 of 5 files could not be read: d.csv, line 4") && weight == Weight::Warning, "{said}");
     undo(&mut window);
     assert_eq!(*window.state().history().document(), Document::paper());
@@ -294,7 +299,7 @@ fn none_of_the_curves_means_none() {
     assert_eq!(before[0].curves.len(), 3);
     window.get_by_role_and_label(Role::Button, "None").click();
     settle(&mut window);
-    assert!(says(&window, "0 of 3 taken") && says(&window, "No curve is taken. The set stays as it was"));
+    assert!(says(&window, "0 of 3 imported") && says(&window, "No curve is selected. The data set is unchanged"));
     assert_eq!(own(&window), before);
     for color in ["red", "blue"] {
         window.get_by_role_and_label(Role::CheckBox, color).click();
@@ -342,7 +347,7 @@ fn parts_of_a_file_are_taken_side_by_side() {
         window.get_by_role_and_label(Role::CheckBox, part).click();
         settle(&mut window);
     }
-    window.get_by_role_and_label(Role::Button, "Take 2 parts").click();
+    window.get_by_role_and_label(Role::Button, "Import 2 parts").click();
     until(&mut window, "parts", |app| app.history().document().own.len() == 3);
     let sets = own(&window);
     assert_eq!(sets[0], before[0]);

@@ -145,7 +145,7 @@ fn a_choice_is_given_back_to_the_content() {
     let mut window = window("leaf.csv", LEAF);
     choose(&mut window, "Values are", "Plain numbers");
     assert_eq!(own(&window)[0].wishes.options.values, Some(Values::Plain));
-    choose(&mut window, "Values are", "As the content says");
+    choose(&mut window, "Values are", "Decided by content");
     assert_eq!((own(&window)[0].wishes.options.values, numbers(&window)[0].1[0]), (None, 0.055));
 }
 
@@ -156,7 +156,7 @@ fn two_wrong_choices_are_mended_one_by_one() {
     choose(&mut window, "Columns split by", "Comma");
     choose(&mut window, "Decimal mark", "Point");
     assert_eq!(own(&window), before, "what cannot be read changes nothing");
-    assert!(says(&window, "The set stays as it was"));
+    assert!(says(&window, "The data set is unchanged"));
     choose(&mut window, "Columns split by", "Semicolon");
     assert_eq!(own(&window), before);
     choose(&mut window, "Decimal mark", "Comma");
@@ -227,17 +227,17 @@ fn curves_are_picked() {
     let head = (0..30).map(|i| format!(",leaf {i}")).collect::<Vec<_>>().concat();
     let row = |nm: u32| format!("{nm}{}\n", ",0.5".repeat(30));
     let mut window = window("many.csv", &format!("nm{head}\n{}", [400, 500, 600].map(row).concat()));
-    assert!(says(&window, "30 of 30 taken"));
+    assert!(says(&window, "30 of 30 imported"));
     window.state_mut().view_mut().import.search = "leaf 2".to_owned();
     settle(&mut window);
     window.get_by_role_and_label(Role::CheckBox, "leaf 21").click();
     settle(&mut window);
-    assert!(says(&window, "29 of 30 taken"));
+    assert!(says(&window, "29 of 30 imported"));
     window.state_mut().view_mut().import.search.clear();
     settle(&mut window);
     window.get_by_role_and_label(Role::Button, "None").click();
     settle(&mut window);
-    assert!(says(&window, "0 of 30 taken"));
+    assert!(says(&window, "0 of 30 imported"));
     assert_eq!(own(&window)[0].curves.len(), 29, "a set of nothing is none");
     window.get_by_role_and_label(Role::CheckBox, "leaf 1").click();
     settle(&mut window);
@@ -285,7 +285,7 @@ fn a_set_without_its_file_is_changed_by_value() {
     window.state_mut().push(Action::Own(OwnAction::Import(vec![imported.set])));
     window.state_mut().push(Command::ShowImport(ImportItem::Set("Leaves".to_owned()), None));
     settle(&mut window);
-    assert!(says(&window, "leaves.csv is not at hand. Its 2 curves are kept in the session."));
+    assert!(says(&window, "leaves.csv is not available. Its 2 curves are stored in the session."));
     window.get_by_role_and_label(Role::CheckBox, "Values are percent").click();
     settle(&mut window);
     assert!(!own(&window)[0].percent);
@@ -343,9 +343,9 @@ fn the_foot_leads_to_what_was_guessed() {
     window.state_mut().view_mut().say("Values reach 98: read as percent.");
     window.state_mut().view_mut().status.change = Some((item, None));
     window.run_steps(2);
-    assert!(says(&window, "Import, 1 file to look at"));
+    assert!(says(&window, "Import: 1 file to check"));
     window.get_by_role_and_label(Role::Button, "Change").click();
     settle(&mut window);
     assert_eq!(window.state().view().saved.workspace, Workspace::Import);
-    assert!(!says(&window, "to look at"));
+    assert!(!says(&window, "to check"));
 }

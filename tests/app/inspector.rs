@@ -46,7 +46,7 @@ fn says(window: &Window, words: &str) -> bool {
 #[test]
 fn without_a_selection_it_says_what_is_seen() {
     let window = window();
-    assert!(says(&window, "A camera's spectral sensitivities are not the eye's"));
+    assert!(says(&window, "A camera's spectral sensitivities differ from the eye's"));
     assert!(says(&window, "Hover to read, click to select, Esc to deselect."));
     assert!(says(&window, "Ready. Drop a spectrum or camera file anywhere."));
     let cameras = Catalog::built_in().of_kind(SetKind::Camera).count();
@@ -100,12 +100,12 @@ fn every_kind_of_thing_has_its_page() {
 fn a_sensor_says_what_its_table_leaves_in_doubt() {
     let mut window = window();
     for (name, words) in [
-        ("Nikon D70 (2007 figure)", "unknown, taken as per energy: The plot does not say"),
+        ("Nikon D70 (2007 figure)", "unknown, assumed per energy: The plot does not say"),
         ("Nikon D70 (2007 figure)", "digitized from a figure"),
         ("Nikon D70 (2007 figure)", "misses the raw values of a real D70 by 4.5 %"),
         ("Nikon D70 (2007 figure)", "to 1 nm by Sprague's interpolation; zero outside 400–700 nm"),
-        ("Nikon D70 (2007 figure)", "its locus below 2500 K (dotted) depends on the tail beyond 700 nm"),
-        ("Nikon D70 (2007 figure)", "signals normalized to equal energy, which it follows"),
+        ("Nikon D70 (2007 figure)", "its locus below 2500 K (dotted) depends on data beyond 700 nm"),
+        ("Nikon D70 (2007 figure)", "signals normalized to equal energy, which determines it"),
         ("Nikon D70 (A.M.P.A.S.)", "per energy, inferred: The table says only that its unit is relative."),
         ("Kodak DCS200", "per energy, stated: Per energy, as Psychtoolbox states"),
         ("Kodak DCS200", "Zenodo 4297288"),

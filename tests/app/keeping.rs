@@ -270,7 +270,7 @@ fn each_document_that_cannot_be_read_is_set_aside_under_a_name_of_its_own() {
     let truncated = whole.as_bytes()[..whole.len() / 2].to_vec();
     let newer = whole.replace("\"version\": 4", "\"version\": 99").into_bytes();
     for (index, (broken, why)) in
-        [(invalid, "it is no text"), (truncated, "EOF"), (newer, "newer Chromascope")].into_iter().enumerate()
+        [(invalid, "not text"), (truncated, "EOF"), (newer, "newer version of Chromascope")].into_iter().enumerate()
     {
         fs::write(folder.join("document.json"), &broken).unwrap();
         let mut files = open(&folder);
@@ -368,7 +368,7 @@ fn a_folder_that_cannot_be_written_is_told_at_the_start() {
     let around = tempfile::tempdir().unwrap();
     fs::write(around.path().join("file"), "").unwrap();
     let (_executor, mut window) = window(&around.path().join("file").join("chromascope"));
-    assert!(says(&window, "Nothing can be saved: "));
+    assert!(says(&window, "Saving is not possible: "));
     assert!(!close(&mut window), "nothing was changed, so nothing is lost");
 }
 
@@ -490,7 +490,7 @@ fn two_windows_lose_nothing_in_any_order_of_closing() {
         assert_eq!(copies.len(), 1);
         drop(next);
         let (executor, mut window) = window(&folder);
-        assert!(says(&window, "A document of another window is kept"));
+        assert!(says(&window, "A document of another window was recovered"));
         window.state_mut().push(Command::OpenDocument(copies[0].0.clone()));
         opens(&executor, &mut window, &with_leaf);
         // The document before it is kept as well, and undo brings it back.

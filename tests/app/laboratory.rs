@@ -18,7 +18,7 @@ use egui_kittest::kittest::Queryable;
 
 use crate::screenshots::{accuracy, driven, open};
 
-const KEPT: &str = "Measured results are not kept when the program ends: export them.";
+const KEPT: &str = "Measured results are lost when the program ends; export them to save them.";
 
 /// What the default cameras cost on a small picture of a sphere.
 fn small(change: impl FnOnce(&mut Document)) -> SceneRunQuery {
@@ -39,7 +39,7 @@ fn a_second_run_measures_computing_and_not_remembering() {
     let results = Results::bounded();
     let runs = [1, 2].map(|run| results.ask(&SceneRunQuery { run, ..scene.clone() }));
     for run in &runs {
-        assert!(run.skipped_work.iter().any(|row| row.what == "pictures, while Render is not on show"));
+        assert!(run.skipped_work.iter().any(|row| row.what == "pictures, while Render is not visible"));
     }
     assert_eq!(results.counts().len(), 1, "nothing is remembered but the runs: {:?}", results.counts());
 }
@@ -82,7 +82,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
         assert!(window.state().view().accuracy.run.is_some());
         window.state().view().accuracy.is_current
     };
-    let (now, then) = ("Measured at the run", "Measured at the run, of the scene as it was");
+    let (now, then) = ("Measured by Run", "Measured by Run for an earlier scene");
     assert!(is_current(&window) && window.query_by_label(now).is_some());
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::BlackBody)));
     window.run_steps(2);
@@ -98,10 +98,10 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
     let figure = panes::figure(PaneKind::WORK_SAVED, &scene, window.state().view()).expect("measured");
-    assert!(figure.table.to_csv().contains("of the scene as it was"));
+    assert!(figure.table.to_csv().contains("for an earlier scene"));
     let svg =
         chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, chromascope::export::Paper::default());
-    assert!(svg.contains("of the scene as it was") && svg.contains("Rows overlap"));
+    assert!(svg.contains("for an earlier scene") && svg.contains("Rows overlap"));
     window.state_mut().push(Command::Undo);
     window.run_steps(3);
     assert!(is_current(&window), "the scene is again the one that was measured");
@@ -110,7 +110,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
 #[test]
 fn what_is_remembered_stands_apart_and_what_is_not_kept_is_said() {
     let window = accuracy([1280.0, 800.0], egui::Theme::Light);
-    let heads = ["Measured at the run", "Remembered since the start"];
+    let heads = ["Measured by Run", "Counted since the start"];
     let [run, start] = heads.map(|head| window.get_by_label(head).rect().top());
     assert!(run < start);
     assert!(window.query_by_label("Rows overlap: their times do not add up.").is_some());

@@ -101,7 +101,7 @@ fn a_label_is_renamed_in_its_place() {
     press(&mut window, Role::Button, "Menu of Nikon D70 (2007)");
     press(&mut window, Role::Button, "Rename…");
     let field = |window: &Window, text: &str| {
-        window.get_by_role_and_label(Role::TextInput, "Label of the source").type_text(text);
+        window.get_by_role_and_label(Role::TextInput, "Label of the sensor").type_text(text);
     };
     window.run();
     window.key_combination_modifiers(egui::Modifiers::COMMAND, &[egui::Key::A]);

@@ -264,7 +264,7 @@ fn reading_stops_when_it_is_no_longer_wanted() {
     executor.run_all();
     assert!(store.poll().is_empty());
     let MeshState::Failed(sentence) = store.get(&path) else { panic!("it was stopped") };
-    assert_eq!(sentence, "Reading sheet.obj was stopped; open it again, or choose Head or Fern.");
+    assert_eq!(sentence, "Reading sheet.obj stopped; open it again, or choose Head or Fern.");
 }
 
 #[test]
@@ -310,7 +310,7 @@ fn escape_stops_opening() {
     harness.run_steps(2);
     executor.run_all();
     harness.run_steps(2);
-    assert_eq!(harness.state().view().status.text, "Reading sheet.obj was stopped. Nothing was changed.");
+    assert_eq!(harness.state().view().status.text, "Reading sheet.obj stopped. Nothing was changed.");
     assert_eq!(*harness.state().history().document(), Document::paper());
 }
 
@@ -330,7 +330,7 @@ fn what_is_no_file_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("folder.obj");
     fs::create_dir(&path).unwrap();
-    assert_eq!(opened(&store(), &path).unwrap_err(), "folder.obj is no file. Nothing was changed.");
+    assert_eq!(opened(&store(), &path).unwrap_err(), "folder.obj is not a file. Nothing was changed.");
     fs::write(folder.path().join("empty.obj"), "").unwrap();
     let refused = opened(&store(), &folder.path().join("empty.obj")).unwrap_err();
     assert!(refused.starts_with("empty.obj: the file is empty"), "{refused}");

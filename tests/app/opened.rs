@@ -275,7 +275,7 @@ fn what_was_remembered_is_told_and_given_up_where_it_does_not_fit() {
     until(&mut window, "another", |app| app.history().document().own.len() == 2);
     assert_eq!(own(&window)[1].role, Role::Illuminant);
     let status = &window.state().view().status;
-    assert!(status.text.contains("as you chose") && status.change.is_some(), "{}", status.text);
+    assert!(status.text.contains("with your settings") && status.change.is_some(), "{}", status.text);
     open_path(&mut window, &folder.path().join("three.csv"));
     until(&mut window, "a third", |app| app.history().document().own.len() == 3);
     assert_eq!(own(&window)[2].wishes, ImportOverrides::default());

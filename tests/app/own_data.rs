@@ -160,7 +160,8 @@ fn a_second_window_keeps_a_document_of_its_own() {
     let (words, copy) = second.copy().expect("it is the second");
     let process = std::process::id();
     let wanted = format!(
-        "Another Chromascope window (process {process}) is open: changes here are kept in a copy, not in its document."
+        "Another Chromascope window (process {process}) is open: changes here are saved in a copy, not in its \
+         document."
     );
     assert_eq!(words, wanted);
     assert_eq!(second.kept_document(), of(3000.0), "it begins with what the first one kept");
@@ -178,7 +179,7 @@ fn a_second_window_keeps_a_document_of_its_own() {
     assert_eq!(next.kept_document(), of(5000.0));
     assert!(copy.exists());
     let said = |files: &Files| files.standing().into_iter().map(|standing| standing.words).collect::<Vec<_>>();
-    assert_eq!(said(&next), ["A document of another window is kept: File, Kept documents opens it."]);
+    assert_eq!(said(&next), ["A document of another window was recovered: File, Recovered documents."]);
     assert_eq!(
         next.kept_documents().into_iter().map(|(path, _)| path).collect::<Vec<_>>(),
         std::slice::from_ref(&copy)
@@ -219,7 +220,7 @@ fn the_second_window_says_so_as_long_as_it_is_open() {
         window.run();
         window.state_mut().view_mut().say("Something else.");
         window.run();
-        assert!(crate::import_switches::says(&window, "is open: changes here are kept in a copy"));
+        assert!(crate::import_switches::says(&window, "is open: changes here are saved in a copy"));
     }
 }
 

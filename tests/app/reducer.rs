@@ -250,7 +250,7 @@ fn a_session_keeps_all_even_what_it_does_not_know() {
 fn other_sessions_are_refused() {
     let refused = |json: &str| session::from_json(json).unwrap_err().to_string();
     assert!(refused(r#"{"format":"other"}"#).contains("not a Chromascope session"));
-    assert!(refused(r#"{"version":99}"#).contains("newer Chromascope"));
+    assert!(refused(r#"{"version":99}"#).contains("newer version of Chromascope"));
     assert!(refused("{\n  oops").contains("line 2"));
     let spoiled = session::from_json(r#"{"temperature_k": 1e300, "truth": "CIE 1964 10°"}"#).unwrap();
     assert_eq!(spoiled.temperature_k, 20_000.0);

@@ -1,6 +1,6 @@
 //! Spectra that come with Chromascope, as text: one data file for each set, with its source and license in its header.
 //!
-//! Folders: `cameras`, `observers`, `charts`, `illuminants`, `materials`; `licenses` holds the license texts.
+//! Folders: `cameras`, `observers`, `charts`, `illuminants`, `materials`; `licenses` holds the license texts, `help` the pages of the guide.
 
 use include_dir::{Dir, include_dir};
 

@@ -51,7 +51,8 @@ pub(crate) fn figure(report: &Report, workload: Workload, size: [f64; 2]) -> Opt
     figure.legend = threads.iter().map(|&threads| entry(threads)).collect();
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(
-        "Median time per item against the largest error of {}; the line joins what nothing else beats in both. {}; {}, {}.",
+        "Median time per item against the largest error of {}; the line joins methods that no other surpasses in \
+         both. {}; {}, {}.",
         cases[0][0].1.error.what, report.machine, report.program, report.began
     );
     figure.table = table(report, report.of(workload));

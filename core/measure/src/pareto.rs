@@ -55,7 +55,7 @@ pub fn panel(name: &str, [error_label, time_label]: [&str; 2], note: String, pla
     let line: Vec<[f64; 2]> = front.iter().map(|place| place.logarithms()).collect();
     if front.len() > 1 {
         let points = line.clone();
-        let line = Mark::new(Tag::default(), "what nothing beats", Shape::Line { points, closed: false });
+        let line = Mark::new(Tag::default(), "best methods", Shape::Line { points, closed: false });
         panel.marks.push(line.with_stroke(InkRole::Weak, 1.2).with_dash(Dash::Dashed));
     }
     for (place, on_front) in rest.iter().map(|place| (place, false)).chain(front.iter().map(|place| (place, true))) {

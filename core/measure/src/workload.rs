@@ -57,7 +57,7 @@ impl Workload {
     /// Title in a few words.
     pub const fn title(self) -> &'static str {
         match self {
-            Self::Locus => "Chromaticities of black bodies, 1000 to 20 000 K",
+            Self::Locus => "Chromaticities of blackbodies, 1000 to 20 000 K",
             Self::Responses => "Responses of reflectances through sensitivities",
             Self::DiffuseSum => "The diffuse sum S(g, b)",
             Self::Integral => "The spectral integral of a pixel",

@@ -59,7 +59,7 @@ pub enum MeshFailure {
         error: io::Error,
     },
     /// A folder or a device.
-    #[error("{file} is no file")]
+    #[error("{file} is not a file")]
     NoFile {
         /// Its name.
         file: String,
@@ -77,7 +77,7 @@ pub enum MeshFailure {
         bytes: u64,
     },
     /// There is no memory for it.
-    #[error("{file}: no memory for its {} MB; close other programs or simplify the mesh", .bytes / 1_000_000)]
+    #[error("{file}: not enough memory for its {} MB; close other programs or simplify the mesh", .bytes / 1_000_000)]
     NoMemory {
         /// The file's name.
         file: String,
@@ -93,13 +93,13 @@ pub enum MeshFailure {
         error: MeshReadError,
     },
     /// The program broke on it.
-    #[error("{file} could not be read because of a fault in this program; please report it with the file")]
+    #[error("{file} could not be read because of an error in this program; please report it with the file")]
     Broken {
         /// The file's name.
         file: String,
     },
     /// Nobody wanted it any more.
-    #[error("reading {file} was stopped")]
+    #[error("reading {file} stopped")]
     Stopped {
         /// The file's name.
         file: String,

@@ -160,7 +160,7 @@ fn contents(
             job.at(Path::new(&name), file, count);
             if is_mesh(Path::new(&name), &bytes[..bytes.len().min(LOOK)]) {
                 let sentence =
-                    format!("{name}: a session remembers where a mesh is, so it must be on disk; save it first");
+                    format!("{name}: a session stores the path of a mesh, so the mesh must be on disk; save it first");
                 return Err(Unread::Because(sentence));
             }
             let origin = Origin { path: None, fingerprint: Fingerprint::of(&bytes), name };
@@ -210,7 +210,7 @@ fn take(
     if from_memory && *wishes != ImportOverrides::default() {
         match &mut read {
             Ok(imported) => {
-                imported.message.push_str(" Read as you chose for a file like it.");
+                imported.message.push_str(" Read with your settings for files of this kind.");
                 imported.guessed = true;
             }
             // What fitted another file does not fit this one.
@@ -239,7 +239,7 @@ fn read_once(origin: &Origin, bytes: &[u8], wishes: &ImportOverrides, job: &Job)
     let read = catch_unwind(AssertUnwindSafe(|| import_as(origin, bytes, wishes, Watch::new(&go_on))));
     let broken = |_| {
         let name = &origin.name;
-        Err(format!("{name} could not be read because of a fault in this program; please report it with the file"))
+        Err(format!("{name} could not be read because of an error in this program; please report it with the file"))
     };
     read.map_or_else(broken, |read| read.map_err(|error| unread(&origin.name, &error)))
 }
@@ -351,7 +351,7 @@ fn read_bytes(path: &Path) -> Result<Arc<[u8]>, String> {
     let failed = |error: io::Error| format!("{name}: {}", io_reason(&error));
     let known = fs::metadata(path).map_err(failed)?;
     if !known.is_file() {
-        return Err(format!("{name} is no file"));
+        return Err(format!("{name} is not a file"));
     }
     let size = known.len();
     if size > MAX_BYTES as u64 {

@@ -11,8 +11,7 @@ use serde::de::value::{Error, StrDeserializer};
 use spectral_file::write::Grid;
 use spectral_file::{DecimalMark, Delimiter, Orientation, ReadOptions, Reader, Role, Values, WavelengthUnit};
 
-pub(in crate::cli) const EXAMPLES: &str = "\
-Examples:
+pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope inspect leaf.txt
   chromascope inspect leaf.txt --values percent --csv leaf.csv
   chromascope inspect measured/ --step 5 --csv tables
@@ -20,12 +19,11 @@ Examples:
   chromascope inspect lamp.spdx --csv - | head
   chromascope inspect *.sp --json | jq '.[].kind'
 
-Says of each file what was understood, a line for each decision: what, how sure (certain, a guess, chosen), and why. Whatever
-was decided can be overruled by an option of the same name. A folder stands for the files in it, `-` for standard input; a pipe
-with a name is refused, since nothing may ever come in it.
+Reports the decisions made for each file, one line each: value, confidence (certain, a guess, chosen) and reason. An option of the
+same name overrides a decision. A folder stands for the files in it, `-` for standard input; named pipes are not supported.
 
 --csv writes `wavelength_nm,<curve>,...`: nanometers, reflectances and transmittances as fractions, a cell left blank where a
-curve has no sample. With `--csv -` the table goes to standard output and what was understood to standard error. OUT is a
+curve has no sample. With `--csv -` the table goes to standard output and the report to standard error. OUT is a
 folder where several files or a folder are named.
 
 --json prints an object for a file, an array for several: file, kind (camera, reflectance, transmittance, illuminant, unknown),
@@ -33,7 +31,7 @@ curves [{name, unit, quantity, wavelengths_nm, values, missing}], channels [red,
 decisions [{what, value, certainty, why}], warnings [{line, text}], reading {...}, notes on resampling; or file and error
 {line, column, text}. Lines and columns count from 1.
 
-A file that cannot be read is told on standard error, the others are read all the same, and the exit code is 1.";
+A file that cannot be read is reported on standard error; the others are still read, and the exit code is 1.";
 
 /// What `inspect` takes.
 #[derive(Debug, Args)]
@@ -44,56 +42,56 @@ pub(in crate::cli) struct InspectArguments {
     /// Prints all that was read as JSON, curves included
     #[arg(long)]
     pub(super) json: bool,
-    /// Where to write the curves as CSV: a file, a folder for several files, or `-` for standard output
+    /// Writes the curves as CSV: a file, a folder for several files, or `-` for standard output
     #[arg(long, value_name = "OUT")]
     pub(super) csv: Option<PathBuf>,
-    /// Replaces files named by --csv that exist; never one that is read
+    /// Overwrites existing files named by --csv, but never an input file
     #[arg(long)]
     pub(super) force: bool,
-    /// Resamples the curves, in CSV and JSON, to whole multiples of so many nanometers
+    /// Resamples the curves, in CSV and JSON, to whole multiples of a step in nanometers
     #[arg(long, value_name = "NM", value_parser = step)]
     pub(super) step: Option<f64>,
-    /// With --step, averages the curves over bands of that width around each wavelength, which keeps narrow lines, instead of
-    /// taking their values there
+    /// With --step, averages the curves over bands of that width around each wavelength, which preserves the energy of
+    /// narrow lines, instead of sampling them
     #[arg(long, requires = "step")]
     average: bool,
-    /// What the curves are
+    /// Role of the curves
     #[arg(long, value_name = "ROLE", value_parser = named::<Role>(&ROLES), help_heading = READING)]
     role: Option<Role>,
-    /// What the values are as written
+    /// Scale of the values as written
     #[arg(long, value_name = "VALUES", value_parser = values(), help_heading = READING)]
     values: Option<Values>,
-    /// The unit of the wavelengths as written
+    /// Unit of the wavelengths as written
     #[arg(long, value_name = "UNIT", value_parser = unit(), help_heading = READING)]
     unit: Option<WavelengthUnit>,
-    /// What stands between two cells
+    /// Delimiter between cells
     #[arg(long, value_name = "DELIMITER", value_parser = named::<Delimiter>(&DELIMITERS), help_heading = READING)]
     delimiter: Option<Delimiter>,
-    /// What stands before the fraction of a number
+    /// Decimal mark
     #[arg(long, value_name = "MARK", value_parser = named::<DecimalMark>(&MARKS), help_heading = READING)]
     decimal_mark: Option<DecimalMark>,
-    /// Whether wavelengths run down a column or across a row
-    #[arg(long, value_name = "WAY", value_parser = named::<Orientation>(&WAYS), help_heading = READING)]
+    /// Orientation of the wavelengths: down a column or across a row
+    #[arg(long, value_name = "ORIENTATION", value_parser = named::<Orientation>(&WAYS), help_heading = READING)]
     orientation: Option<Orientation>,
-    /// The column of the wavelengths, from 1
+    /// Column of the wavelengths, from 1
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
     wavelength_column: Option<u32>,
-    /// Which of several tables, blocks or groups in a file, from 1
+    /// Number of the table, block or group in the file, from 1
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = READING)]
     part: Option<u32>,
-    /// What sensitivities of a camera are a response to: equal power or equal numbers of photons at each wavelength
+    /// Unit of a camera's sensitivities: response per energy or per photon
     #[arg(long, value_name = "UNIT", value_parser = PossibleValuesParser::new(["energy", "photon"]), help_heading = READING)]
     per: Option<String>,
-    /// Which reader takes the file, whatever it looks like
+    /// Format of the file, overriding detection
     #[arg(long, value_name = "READER", value_parser = named::<Reader>(&READERS), help_heading = READING)]
     reader: Option<Reader>,
-    /// Whether raw counts and what is recorded beside spectra are kept; with --wavelength-column, every other column
+    /// Imports raw counts and other quantities recorded with the spectra; with --wavelength-column, every other column
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true",
           help_heading = READING)]
     raw: Option<bool>,
 }
 
-const READING: &str = "Instead of what is guessed";
+const READING: &str = "Overrides";
 
 const ROLES: [&str; 5] = ["camera", "reflectance", "transmittance", "illuminant", "unknown"];
 const VALUES: [&str; 4] = ["plain", "percent", "absorbance", "decibels"];

@@ -26,7 +26,7 @@ impl Out {
         if is_standard_output(path) {
             return match (arguments.json, several) {
                 (true, _) => wrong("JSON goes to standard output already; name a file"),
-                (_, true) => wrong("several tables make no table; name a folder"),
+                (_, true) => wrong("several tables cannot be written to one file; name a folder"),
                 _ => Ok(Self::StandardOutput),
             };
         }

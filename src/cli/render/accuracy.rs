@@ -59,7 +59,7 @@ struct Run {
     seconds: f64,
 }
 
-/// What is measured on. All data are at hand, so that no question is asked while a watch runs.
+/// Inputs of a measurement. All data are computed beforehand, so that no query runs while a stopwatch runs.
 struct Bench {
     geometry: Arc<GeometryImage>,
     surface: Surface,

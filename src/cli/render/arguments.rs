@@ -14,17 +14,16 @@ use crate::document::render::model::{AreaChoice, SpecularChoice};
 use crate::document::render::{ReadingChoice, TOLERANCES};
 use chromascope_core::render::QualityLevel;
 
-pub(in crate::cli) const EXAMPLES: &str = "\
-Examples:
+pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope render --out pictures
-  chromascope render --mesh fern --reading paper --samples 3
+  chromascope render --mesh fern --normalization paper --samples 3
   chromascope render --mesh bust.obj --camera \"Nikon D70\" --light=-1,1,1 --orbit 30,10,4
   chromascope render --sigma 1e-6 --tau 5e-6 --quality fine --stats -
-  chromascope render --mesh sphere --material mine.csv --illuminant A --white A --format exr
+  chromascope render --mesh sphere --material mine.csv --illuminant A --white-balance A --format exr
 
-The light's direction is in view axes: x to the right, y up, z towards the eye. Angles are in degrees, lengths in meters,
+The light's direction is in view axes: x to the right, y up, z toward the viewer. Angles are in degrees, lengths in meters,
 distances in radii of the mesh. A picture is named for mesh and sensor, as in head_nikon-d70.png; --force replaces existing ones.
-OpenEXR holds Eq 12 before exposure, with \u{3c0}f in the place of P for the radiometric and microfacet readings: R G B after white
+OpenEXR holds Eq 12 before exposure, with \u{3c0}f in place of P for the radiometric and microfacet normalizations: R G B after white
 balance, X Y Z, and the coverage A. Without any sensor: the preset's reference and cameras.";
 
 /// What `render` takes.
@@ -32,17 +31,17 @@ balance, X Y Z, and the coverage A. Without any sensor: the preset's reference a
 pub(in crate::cli) struct RenderArguments {
     #[command(flatten)]
     pub(in crate::cli) sources: SourceArguments,
-    /// What is looked at: `head`, `fern`, `sphere`, `plane`, or an OBJ, PLY or STL file
+    /// The mesh: `head`, `fern`, `sphere`, `plane`, or an OBJ, PLY or STL file
     #[arg(long, value_name = "NAME|FILE", default_value = "head", help_heading = SCENE)]
     pub(super) mesh: OsString,
-    /// About how many triangles head, fern and sphere have
+    /// Approximate number of triangles of head, fern and sphere
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(8..=5_000_000),
           help_heading = SCENE)]
     pub(super) triangles: u32,
     /// The reflectance: `skin`, `leaf`, a name, or a file [default: skin; leaf for the fern]
     #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
     pub(super) material: Option<OsString>,
-    /// What the values of a file of reflectances stand for, where the file does not say it
+    /// Scale of the values in a file of reflectances that does not state it
     #[arg(long, value_name = "VALUES", value_parser = crate::cli::inspect::arguments::values(), requires = "material",
           help_heading = SCENE)]
     pub(super) values: Option<Values>,
@@ -51,36 +50,36 @@ pub(in crate::cli) struct RenderArguments {
     pub(super) illuminant: Option<OsString>,
     /// The white-balance target, the RGB a perfect diffuser is mapped to: `unity`, an illuminant, `daylight:K` or `blackbody:K`
     /// [default: D55]
-    #[arg(long, value_name = "WHITE", visible_alias = "white-balance", help_heading = SCENE)]
+    #[arg(long = "white-balance", alias = "white", value_name = "WHITE", help_heading = SCENE)]
     pub(super) white: Option<String>,
-    /// The way to the light in view axes: right, up, towards the eye [default: 25° up, 25° left]
+    /// Direction to the light in view axes: right, up, toward the viewer [default: 25° up, 25° left]
     #[arg(long, value_name = "x,y,z", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) light: Option<[f64; 3]>,
     /// Metric of the differences from the reference [default: delta-e2000, or xy with the paper's matrix]
     #[arg(long, value_name = "METRIC", value_parser = metrics(), help_heading = SCENE)]
     pub(super) difference: Option<String>,
-    /// Lets light pass through the mesh
+    /// Disables shadows
     #[arg(long, help_heading = SCENE)]
     pub(super) no_shadows: bool,
-    /// Where the eye is: degrees around and above the mesh, and its distance in radii of the mesh [default: 20,5,3.6; 20,15,3.6
+    /// Viewpoint: degrees around and above the mesh, and distance in radii of the mesh [default: 20,5,3.6; 20,15,3.6
     /// for the fern]
     #[arg(long, value_name = "yaw,pitch,distance", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) orbit: Option<[f64; 3]>,
-    /// The vertical field of view in degrees [default: 30, or what shows 30 across in an upright picture]
+    /// The vertical field of view in degrees [default: 30, or 30 across in an upright picture]
     #[arg(long, value_name = "DEGREES", value_parser = finite, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) fov: Option<f64>,
     /// RMS roughness in meters [default: 5e-6]
     #[arg(long, value_name = "METERS", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) sigma: Option<f64>,
     /// Takes RMS roughness and correlation length from the mesh, vertex by vertex, as the paper does: heights about the tangent
-    /// plane and radius of the neighborhood. Dark but for a narrow gloss
+    /// plane and radius of the neighborhood. Dark except for a narrow specular lobe
     #[arg(long, help_heading = SURFACE)]
     pub(super) sigma_from_mesh: bool,
     /// Correlation length in meters: lag at which the height autocorrelation falls to 1/e [default: 10e-6]
     #[arg(long, value_name = "METERS", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) tau: Option<f64>,
     /// Half-widths of the coherently illuminated area in meters [default: 50e-6,50e-6]
-    #[arg(long, value_name = "X,Y", value_parser = two, allow_hyphen_values = true, help_heading = SURFACE)]
+    #[arg(long = "half-widths", alias = "patch", value_name = "X,Y", value_parser = two, allow_hyphen_values = true, help_heading = SURFACE)]
     pub(super) patch: Option<[f64; 2]>,
     /// The refractive index [default: 1.4; 1.45 for the fern]
     #[arg(long, value_name = "N", value_parser = finite, allow_hyphen_values = true, help_heading = SURFACE)]
@@ -90,12 +89,12 @@ pub(in crate::cli) struct RenderArguments {
     pub(super) area: AreaName,
     /// Normalization of P. Returned at normal incidence, and at 85°, by the default surface: 0.49 and 0.03 of the light
     /// (radiometric), 0.49 and 1.38 (microfacet: more than 1 from about 70°)
-    #[arg(long, value_enum, default_value_t = ReadingName::Radiometric, help_heading = SURFACE)]
+    #[arg(long = "normalization", alias = "reading", value_enum, default_value_t = ReadingName::Radiometric, help_heading = SURFACE)]
     pub(super) reading: ReadingName,
     /// Reflectance factor of the coherent (specular) component [default: fresnel; paper in the paper's start]
     #[arg(long, value_enum, help_heading = SURFACE)]
     pub(super) specular: Option<SpecularName>,
-    /// Exactness of the integrals over wavelength
+    /// Accuracy of the integrals over wavelength
     #[arg(long, value_parser = quality(), default_value = "full", help_heading = PICTURE)]
     pub(super) quality: QualityLevel,
     /// The largest error of a picture, relative to its brightest sample, from 1e-13 to 0.1: for each camera the fastest method
@@ -114,16 +113,16 @@ pub(in crate::cli) struct RenderArguments {
     #[arg(long, value_name = "EV", default_value_t = 0.0, value_parser = ev, allow_hyphen_values = true,
           help_heading = PICTURE)]
     pub(super) exposure: f64,
-    /// What kind of files
+    /// File format
     #[arg(long, value_enum, default_value_t = Format::Png, help_heading = PICTURE)]
     pub(super) format: Format,
-    /// The folder for pictures; made if it is not there
+    /// Folder for pictures, created if necessary
     #[arg(long, value_name = "DIR", default_value = ".", help_heading = PICTURE)]
     pub(super) out: PathBuf,
-    /// Measures times, counts and errors, and writes them as JSON; `-` for standard output
+    /// Writes times, counts and errors as JSON; `-` for standard output
     #[arg(long, value_name = "FILE", help_heading = PICTURE)]
     pub(super) stats: Option<PathBuf>,
-    /// Replaces pictures and statistics that exist
+    /// Overwrites existing pictures and statistics
     #[arg(long, help_heading = PICTURE)]
     pub(super) force: bool,
 }
@@ -174,11 +173,11 @@ impl AreaName {
 pub(super) enum ReadingName {
     /// Radiance per irradiance
     Radiometric,
-    /// Eq 1 to 12 as printed, but for A
+    /// Eq 1 to 12 as printed, except for A
     Paper,
     /// Beckmann's own geometric factor; reciprocal: diffuse component only
     Microfacet,
-    /// No model: all directions alike
+    /// No model: equal in all directions
     Lambertian,
 }
 
@@ -227,29 +226,27 @@ impl Format {
 fn finite(text: &str) -> Result<f64, String> {
     // The window and papers write a minus sign of their own.
     let number = text.trim().replace('\u{2212}', "-").parse::<f64>().ok().filter(|number| number.is_finite());
-    number.ok_or_else(|| format!("\"{text}\" is no number; write one like 0.5 or 5e-6"))
+    number.ok_or_else(|| format!("\"{text}\" is not a number; write one like 0.5 or 5e-6"))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
     let number = finite(text)?;
     let (least, largest) = (TOLERANCES.start(), TOLERANCES.end());
     let within = TOLERANCES.contains(&number);
-    within
-        .then_some(number)
-        .ok_or_else(|| format!("an error of {text} cannot be asked for; give {least:e} to {largest:e}"))
+    within.then_some(number).ok_or_else(|| format!("tolerance {text} out of range ({least:e} to {largest:e})"))
 }
 
 fn ev(text: &str) -> Result<f64, String> {
     const LARGEST: f64 = 64.0;
     let number = finite(text)?;
     let within = number.abs() <= LARGEST;
-    within.then_some(number).ok_or_else(|| format!("{number} EV is out of sight; give -{LARGEST} to {LARGEST}"))
+    within.then_some(number).ok_or_else(|| format!("exposure out of range: {number} EV (-{LARGEST} to {LARGEST} EV)"))
 }
 
 fn numbers<const N: usize>(text: &str, example: &str) -> Result<[f64; N], String> {
     let parts: Vec<f64> = text.split(',').map(finite).collect::<Result<_, _>>()?;
     let count = parts.len();
-    parts.try_into().map_err(|_| format!("{count} given, but {N} wanted with commas between, such as {example}"))
+    parts.try_into().map_err(|_| format!("expected {N} numbers separated by commas, such as {example}; found {count}"))
 }
 
 fn three(text: &str) -> Result<[f64; 3], String> {
@@ -261,7 +258,7 @@ fn two(text: &str) -> Result<[f64; 2], String> {
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
-    let remedy = || format!("give pixels across and down, each from 1 to {MAX_SIDE}, such as 512x512");
+    let remedy = || format!("expected width and height in pixels, each from 1 to {MAX_SIDE}, such as 512x512");
     let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(remedy)?;
     let side = |text: &str| text.trim().parse::<u32>().ok().filter(|side| (1..=MAX_SIDE).contains(side));
     Ok([side(width).ok_or_else(remedy)?, side(height).ok_or_else(remedy)?])

@@ -114,7 +114,7 @@ fn mesh_choice(given: &OsStr) -> Result<MeshChoice, CliError> {
     let nearest = alike.into_iter().filter(|(score, _)| *score > 0.7).max_by(|a, b| a.0.total_cmp(&b.0));
     let hint = nearest.map_or_else(String::new, |(_, name)| format!("did you mean {name}? "));
     let reason = format!(
-        "no mesh is named \"{typed}\"; {hint}give head, fern, sphere, plane, or the path of an OBJ, PLY or STL file"
+        "no mesh is named \"{typed}\"; {hint}use head, fern, sphere, plane, or the path of an OBJ, PLY or STL file"
     );
     Err(CliError::Argument { argument: "--mesh", reason })
 }
@@ -167,7 +167,7 @@ fn settings(
         let length = x.hypot(y).hypot(z);
         if !(length > 0.0 && length.is_finite()) {
             let reason =
-                "a direction of no length; give one such as -0.4,0.5,1: 0.4 to the left, 0.5 up, 1 towards the eye"
+                "a direction of zero length; use one such as -0.4,0.5,1: 0.4 to the left, 0.5 up, 1 toward the viewer"
                     .to_owned();
             return Err(CliError::Argument { argument: "--light", reason });
         }
@@ -193,7 +193,7 @@ fn viewpoint(arguments: &RenderArguments, mesh: &MeshChoice) -> Result<Viewpoint
     let usual = Orbit::of(mesh);
     let [yaw, pitch, distance] = arguments.orbit.unwrap_or([usual.yaw_deg, usual.pitch_deg, usual.distance]);
     if pitch.abs() > 90.0 {
-        let reason = format!("{pitch}° is beyond the poles; give a pitch from -90 to 90");
+        let reason = format!("{pitch}° is beyond the poles; use a pitch from -90 to 90");
         return Err(CliError::Argument { argument: "--orbit", reason });
     }
     let [width, height] = arguments.size.map(f64::from);
@@ -220,8 +220,8 @@ fn raster(arguments: &RenderArguments) -> Result<RasterSize, CliError> {
     if count > MOST_SAMPLES || size.clamped() != size {
         let millions = count.div_ceil(1_000_000);
         let reason = format!(
-            "{width}x{height} with {samples} x {samples} samples a pixel are {millions} million samples; give at most {} million, \
-             and {} along a side",
+            "{width}x{height} with {samples} x {samples} samples a pixel are {millions} million samples; the limits \
+             are {} million, and {} along a side",
             MOST_SAMPLES / 1_000_000,
             chromascope_core::render::visibility::MAX_SIDE
         );

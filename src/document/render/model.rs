@@ -51,12 +51,12 @@ impl SpecularChoice {
     pub const fn why(self) -> &'static str {
         match self {
             Self::Paper => {
-                "Eq 1 has no Fresnel factor, and S(λ) multiplies the coherent component too: a mirror of the material's color, \
-                 at n = 1.4 and normal incidence 36 times as bright as a dielectric."
+                "Eq 1 has no Fresnel factor, and S(λ) multiplies the coherent component too: a specular reflection \
+                 in the material's color, at n = 1.4 and normal incidence 36 times as bright as a dielectric's."
             }
             Self::Fresnel => {
-                "The coherent component times Fresnel's reflectance at the half vector, without S(λ): a dielectric's gloss has \
-                 the color of the light."
+                "The coherent component times Fresnel's reflectance at the half vector, without S(λ): the specular \
+                 reflection of a dielectric has the color of the light."
             }
         }
     }
@@ -109,8 +109,8 @@ impl AreaChoice {
                 "With the paper's sinc(v_x X) sinc(v_y Y) the illuminated area is 2X by 2Y: only A = 4XY conserves energy."
             }
             Self::Xy => {
-                "As the paper prints it. Three quarters of the coherent component are lost; under Paper, Eq 1–12 the diffuse \
-                 component is four times stronger instead."
+                "As printed in the paper. Three quarters of the coherent component are lost; with the normalization \
+                 Paper, Eq 1–12, the diffuse component is four times stronger instead."
             }
         }
     }

@@ -39,7 +39,7 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
     drawing.data.extend(points.iter().filter(|p| p[0].is_finite()));
     let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
     if points.iter().all(|p| !p[0].is_finite()) {
-        drawing.refused.push(format!("{}: no chromaticity: the signals sum to nothing", source.label));
+        drawing.refused.push(format!("{}: chromaticity undefined (X + Y + Z = 0)", source.label));
     }
     let below = drawing.scene.extrapolated_below(source.kind, &source.name).map(|(below, _)| below);
     let [measured, beyond] = split(&points, |index| locus[index].temperature.get(), below);

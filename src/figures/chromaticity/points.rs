@@ -134,10 +134,7 @@ fn describe_radiator(scene: &Scene<'_>, source: &SensorId, kelvin: f64) -> Vec<S
     let Some(point) = blackbody(scene, source.kind, &source.name, kelvin) else { return lines };
     if let Some((below, end)) = scene.extrapolated_below(source.kind, &source.name).filter(|(below, _)| kelvin < *below)
     {
-        lines.push(format!(
-            "extrapolated: below {below:.0} K the table's missing tail beyond {} nm matters",
-            number(end)
-        ));
+        lines.push(format!("extrapolated: below {below:.0} K, the missing data beyond {} nm matter", number(end)));
     }
     lines.extend(coordinates(point.xy, point.uv));
     if let Some(why) = why_apart(scene, source) {

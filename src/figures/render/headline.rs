@@ -71,7 +71,7 @@ impl Measure {
         let facing = difference.facing.map_or_else(|| "undefined".to_owned(), |facing| self.number(facing));
         let quantiles = || {
             let rest = difference.bright.map_or_else(
-                || "all else too dark to judge".to_owned(),
+                || "all other samples too dark".to_owned(),
                 |bright| format!("median {}, 95 % {}", self.number(bright.median), self.number(bright.p95)),
             );
             format!("{name} {facing} facing light, {rest}")
@@ -109,7 +109,7 @@ mod tests {
         let unlit = Difference { map: Vec::new(), mean: 0.0, max: 0.0, ..dark.clone() };
         assert_eq!(measure.words(&dark, Detail::Number), "ΔE 3.1");
         let whole = measure.words(&dark, Detail::Quantiles);
-        assert_eq!(whole, "ΔE*00 3.1 facing light, all else too dark to judge");
+        assert_eq!(whole, "ΔE*00 3.1 facing light, all other samples too dark");
         assert!(said.iter().all(|&detail| measure.words(&unlit, detail) == "no light"));
     }
 

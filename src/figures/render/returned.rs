@@ -36,12 +36,14 @@ pub fn words(scene: &Scene<'_>) -> Option<Words> {
 pub const fn meaning(reading: ReadingChoice) -> &'static str {
     match reading {
         ReadingChoice::Paper => {
-            "The model's directional-hemispherical reflectance at 550 nm, diffuse and coherent, for S(λ) = 1. P is relative to a \
-             smooth mirror, and depends on A: no reflectance follows from it. This is what Eq 12 makes of it."
+            "The model's directional-hemispherical reflectance at 550 nm, diffuse and coherent, for S(λ) = 1. P is \
+             relative to a smooth mirror, and depends on A: it is not a reflectance. This is the value that Eq 12 \
+             uses."
         }
         _ => {
-            "The model's directional-hemispherical reflectance at 550 nm, diffuse and coherent, for S(λ) = 1: ∫ f cos θs dω. There \
-             is no multiple scattering, shadowing or masking, so light is lost at grazing angles, or made."
+            "The model's directional-hemispherical reflectance at 550 nm, diffuse and coherent, for S(λ) = 1: ∫ f \
+             cos θs dω. Without multiple scattering, shadowing and masking, energy is not conserved at grazing \
+             angles."
         }
     }
 }
@@ -54,7 +56,7 @@ fn sentence(light: ReturnedLight, reading: Normalization) -> Words {
     let (normal, grazing) = (share(light.normal), share(light.grazing));
     let mut text = format!("Returns {normal} of the light at normal incidence ({grazing} at 85°)");
     if reading == Normalization::Paper {
-        text.push_str(", taking P for π f");
+        text.push_str(", with P as π f");
     }
     if let Some(from) = light.exceeds_one_from_deg {
         let from = number(from.round());

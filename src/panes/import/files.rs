@@ -85,7 +85,7 @@ pub(super) fn drop_down(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mu
     draw_mark(ui.painter(), egui::pos2(head.left() + 6.0, head.center().y), entry.state, false, &context.theme);
     let list = Rect::from_min_max(head.min + Vec2::new(MARK, 0.0), head.max - Vec2::new(lines::DOTS + UNIT, 0.0));
     let mut child = ui.new_child(UiBuilder::new().id_salt("files list").max_rect(list));
-    let combo = ComboBox::from_id_salt("file on show").width(list.width()).truncate();
+    let combo = ComboBox::from_id_salt("visible file").width(list.width()).truncate();
     let words = format!("{}  ({})", entry.name, entry.note);
     let mut chosen = None;
     let response = combo.selected_text(words).show_ui(&mut child, |ui| {
@@ -98,7 +98,7 @@ pub(super) fn drop_down(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mu
             }
         }
     });
-    let name = format!("File on show: {}, {}", entry.name, entry.state.words());
+    let name = format!("Visible file: {}, {}", entry.name, entry.state.words());
     response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &name));
     if context.view.import.takes_keyboard(Stop::Files) {
         response.response.request_focus();
@@ -130,8 +130,8 @@ fn take(context: &mut PaneContext<'_>) {
         ImportItem::File(file) if shown.is_fresh() && !shown.taken().is_empty() => {
             context.push(Command::UseFile(file, Box::new(shown.wishes)));
         }
-        ImportItem::File(_) => context.view.say("It cannot be read so; see Understood as (F6)."),
-        ImportItem::Set(name) => context.view.say(format!("{name} is a set of yours already.")),
+        ImportItem::File(_) => context.view.say("It cannot be read with these settings; see Interpretation (F6)."),
+        ImportItem::Set(name) => context.view.say(format!("{name} is already imported.")),
     }
 }
 
@@ -262,12 +262,12 @@ fn menu(ui: &Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut Pane
     let entry = &entries[index];
     let button = lines::dots(ui, rect, id(index).with("dots"), &format!("Menu of {}", entry.name));
     egui::Popup::menu(&button).show(|ui| {
-        if ui.button("Remove").on_hover_text("Take it off the list (Delete)").clicked() {
+        if ui.button("Remove").on_hover_text("Remove from the list (Delete)").clicked() {
             remove(ui, index, entries, context);
             ui.close();
         }
-        let again = ui.add_enabled(entry.path.is_some(), egui::Button::new("Read again"));
-        if again.on_disabled_hover_text("It did not come from a file on disk").clicked() {
+        let again = ui.add_enabled(entry.path.is_some(), egui::Button::new("Reload"));
+        if again.on_disabled_hover_text("Not from a file on disk").clicked() {
             context.push(match (&entry.item, &entry.path) {
                 (ImportItem::File(_), Some(path)) => Command::OpenPath(path.clone()),
                 _ => Command::ReadAgain(entry.name.clone()),
@@ -276,8 +276,12 @@ fn menu(ui: &Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut Pane
         }
         let alike =
             ui.add_enabled(entry.at_hand && entry.state != State::Failed, egui::Button::new("Use for all like it"));
-        let hint = "Read all files of this kind as this one, now and later";
-        if alike.on_hover_text(hint).on_disabled_hover_text("It is not at hand, or cannot be read so").clicked() {
+        let hint = "Use these settings for all files of this kind, now and later";
+        if alike
+            .on_hover_text(hint)
+            .on_disabled_hover_text("Not available, or not readable with these settings")
+            .clicked()
+        {
             context.push(Command::UseForAlike(entry.item.clone()));
             ui.close();
         }

@@ -163,7 +163,7 @@ pub(super) fn legend(theme: &Theme, gap: f32) -> LayoutJob {
         ("name", Some(What::Name { curve: 0 })),
         ("unit", Some(What::Unit { curve: None })),
         ("setting", Some(What::Setting)),
-        ("left out", Some(left_out)),
+        ("skipped", Some(left_out)),
         ("not used", None),
     ] {
         let format = form(what, &pen);

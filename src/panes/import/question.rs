@@ -24,7 +24,7 @@ const KINDS: [Answer; 3] = [
     ("Light", "Use the numbers as spectral power of a light", Some(Role::Illuminant), Values::Plain),
     (
         "As written",
-        "Keep the numbers as spectra of an unknown kind; “This is a” says otherwise at any time",
+        "Import as spectra of an unknown kind; change it any time under “This is a”",
         Some(Role::Unknown),
         Values::Plain,
     ),
@@ -33,7 +33,7 @@ const KINDS: [Answer; 3] = [
 /// Answers where only the scale is open.
 const SCALES: [Answer; 2] = [
     ("In percent", "Divide the numbers by 100", None, Values::Percent),
-    ("As written", "Take the numbers as fractions of one", None, Values::Plain),
+    ("As written", "Use the numbers as fractions of one", None, Values::Plain),
 ];
 
 /// What the file on show leaves open, and the answers.

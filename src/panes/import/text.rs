@@ -87,9 +87,9 @@ fn away(ui: &mut Ui, rect: Rect, set: &OwnSet, context: &mut PaneContext<'_>) {
     let mut child = ui.new_child(UiBuilder::new().id_salt("away").max_rect(rect.shrink(UNIT)));
     let place = set.path.as_ref().map_or(String::new(), |path| format!(" ({})", path.display()));
     let kept = if set.curves.len() == 1 { "Its curve is" } else { "Its curves are" };
-    child.label(format!("{} is not at hand{place}. {kept} kept in the session.", set.file));
+    child.label(format!("{} is not available{place}. {kept} stored in the session.", set.file));
     child.add_space(UNIT);
-    if child.button("Open…").on_hover_text("Open the file from where it is now").clicked() {
+    if child.button("Open…").on_hover_text("Locate the file").clicked() {
         context.push(Command::Open);
     }
 }

@@ -75,7 +75,7 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
     let (own, seen) = match colors {
         Ok((Some(own), Some(seen))) => (own, seen),
         Ok(_) => {
-            note(ui, &theme, "This patch is not on show now.");
+            note(ui, &theme, "This patch is not visible.");
             return;
         }
         Err(error) => {
@@ -87,7 +87,7 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
     let width = ui.available_width();
     pair(ui, &theme, &seen, right, PAIR, width);
     if own.srgb.clipped {
-        note(ui, &theme, "Notched corner: the screen cannot show this color; the numbers are whole.");
+        note(ui, &theme, "Notched corner: outside the screen's gamut; the numbers are not clipped.");
     }
     if !is_reference {
         difference(ui, id, patch, context);
@@ -140,7 +140,7 @@ fn difference(ui: &mut Ui, id: &SensorId, patch: &str, context: &PaneContext<'_>
     }
 }
 
-/// Where a difference stands among all of its source.
+/// Rank of a difference among all of its sensor, from the largest.
 pub(super) fn rank(value: f64, all: &[Result<f64, DifferenceError>]) -> Option<String> {
     let known: Vec<f64> = all.iter().filter_map(|d| d.ok()).collect();
     if known.len() < 2 {
@@ -151,18 +151,8 @@ pub(super) fn rank(value: f64, all: &[Result<f64, DifferenceError>]) -> Option<S
     Some(match place {
         1 => format!("worst of {of}"),
         _ if place == of => format!("best of {of}"),
-        _ => format!("{} worst of {of}", ordinal(place)),
+        _ => format!("rank {place} of {of}"),
     })
-}
-
-fn ordinal(number: usize) -> String {
-    let ending = match (number % 10, number % 100) {
-        (1, teen) if teen != 11 => "st",
-        (2, teen) if teen != 12 => "nd",
-        (3, teen) if teen != 13 => "rd",
-        _ => "th",
-    };
-    format!("{number}{ending}")
 }
 
 /// A patch through all visible sensors.
@@ -173,7 +163,7 @@ pub(super) fn across(ui: &mut Ui, patch: &str, context: &mut PaneContext<'_>) {
     let seen = match color_of(&scene, &reference_id(&scene), patch) {
         Ok(Some(seen)) => seen,
         Ok(None) => {
-            note(ui, &theme, "This patch is not on show now.");
+            note(ui, &theme, "This patch is not visible.");
             return;
         }
         Err(error) => {

@@ -50,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         .iter()
         .any(|thing| matches!(thing, PlotItem::Sensor(_) | PlotItem::Light | PlotItem::Patch { source: None, .. }))
     {
-        note(ui, &theme, "Only points and swatches have numbers to set side by side.");
+        note(ui, &theme, "Only points and swatches have values to compare.");
     }
 }
 

@@ -1,4 +1,4 @@
-//! The pixel that is kept of the rendered pictures, through every sensor.
+//! Pinned pixel of the rendered pictures, through every sensor.
 
 use egui::{Grid, RichText, Ui};
 
@@ -13,7 +13,7 @@ use crate::theme::UNIT;
 use crate::view::render::PixelPlace;
 use crate::workspaces::PaneKind;
 
-/// The pixel that is kept, if pictures are on show.
+/// Pinned pixel, if pictures are on show.
 pub(super) fn kept<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
     let (saved, render) = (&context.view.saved, &context.view.render);
     render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::RENDER))
@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
     let render = &context.view.render;
     let Some((pinned, shot)) = kept(context).zip(render.shot.clone()) else { return };
     ui.add_space(UNIT);
-    ui.label(RichText::new("The pixel that is kept").strong());
+    ui.label(RichText::new("Pinned pixel").strong());
     let measure = Measure::of(&shot.query);
     for source in &shot.sources {
         let place = PixelPlace { source: id(source), ..pinned.clone() };

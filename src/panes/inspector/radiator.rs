@@ -53,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
         }
     };
     if own.xy.is_none() {
-        note(ui, &theme, "No chromaticity: the signals sum to nothing.");
+        note(ui, &theme, "Chromaticity undefined (X + Y + Z = 0).");
     }
     let (heads, points) = if is_reference {
         (vec!["reference".to_owned()], vec![Some(own)])
@@ -71,7 +71,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
             note(
                 ui,
                 &theme,
-                "The light on the scene is daylight of the marked temperature; the locus is of black bodies.",
+                "The light on the scene is daylight of the marked temperature; the locus is that of blackbodies.",
             );
         }
         Light::Set(_) => {}

@@ -53,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
     let label = super::source_of(&scene, id).map_or_else(|| id.name.clone(), |source| source.label);
     show_assumptions(ui, &theme, assumptions(&scene, id, &label));
     if matches!(entry.place, Place::Own(_))
-        && ui.button("Reading…").on_hover_text("How its file was read; change it").clicked()
+        && ui.button("Reading…").on_hover_text("Check and correct how its file was read").clicked()
     {
         context.push(Command::ShowImport(ImportItem::Set(id.name.clone()), None));
     }
@@ -90,7 +90,7 @@ fn measures(scene: &Scene<'_>, id: &SensorId) -> Vec<Fact> {
     {
         let balance = scene.locus_balance();
         let (kelvin, distance) = (fixed(nearest.kelvin, 0), fixed(nearest.distance, 4));
-        let words = format!("at {kelvin} K, Δxy {distance} (signals normalized to {balance}, which it follows)");
+        let words = format!("at {kelvin} K, Δxy {distance} (signals normalized to {balance}, which determines it)");
         facts.push(("Nearest to the reference", words));
     }
     facts

@@ -41,18 +41,18 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
             let reads = shown.is_fresh() && shown.table().is_some();
             let none = shown.taken().is_empty();
             let button = ui.add_enabled(reads && !none, egui::Button::new("Use"));
-            let hint = "Make a set of it and put it to use; Undo takes it back";
-            let why = if reads { "None of its curves is taken" } else { "It cannot be read so" };
+            let hint = "Import it and use it; can be undone";
+            let why = if reads { "No curve is selected" } else { "Not readable with these settings" };
             if button.on_hover_text(hint).on_disabled_hover_text(why).clicked() {
                 context.push(Command::UseFile(*fingerprint, Box::new(shown.wishes.clone())));
             }
             alike(ui, shown, context);
             if let Some(path) = shown.file.as_ref().and_then(|file| file.origin.path.clone())
-                && ui.button("Read again").on_hover_text("Read the file from disk again").clicked()
+                && ui.button("Reload").on_hover_text("Reload the file from disk").clicked()
             {
                 context.push(Command::OpenPath(path));
             }
-            if ui.button("Do not import").on_hover_text("Take it off the list").clicked() {
+            if ui.button("Do not import").on_hover_text("Remove from the list").clicked() {
                 context.push(Command::ForgetFile(*fingerprint));
                 context.view.import.selected = None;
             }
@@ -61,30 +61,32 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
             if shown.file.is_some() {
                 alike(ui, shown, context);
             }
-            if on_disk(shown) && ui.button("Read again").on_hover_text("Read the file from disk again").clicked() {
+            if on_disk(shown) && ui.button("Reload").on_hover_text("Reload the file from disk").clicked() {
                 context.push(Command::ReadAgain(name.clone()));
             }
-            if ui.button("Remove").on_hover_text("Take the set out; Undo brings it back").clicked() {
+            if ui.button("Remove").on_hover_text("Remove the data set; can be undone").clicked() {
                 context.push(Action::Own(OwnAction::Remove(name.clone())));
             }
         }
     });
     ui.horizontal(|ui| {
         let chosen = shown.wishes != ImportOverrides::default();
-        let hint = "Read it as its content says, and other files like it from now on; Undo brings the choices back";
+        let hint = "Decide by content again, for this file and others like it; can be undone";
         let button = ui.add_enabled(chosen, egui::Button::new("Forget choices")).on_hover_text(hint);
         if button.on_disabled_hover_text("Nothing was chosen for it").clicked() {
             context.push(Command::ForgetChoices(shown.item.clone()));
         }
     });
     if on_disk(shown) {
-        ui.checkbox(&mut context.view.saved.import.watch, "Reload when the file changes")
-            .on_hover_text("Files of your sets, and those that could not be read, are read again when they change on disk; Undo takes it back");
+        ui.checkbox(&mut context.view.saved.import.watch, "Reload when the file changes").on_hover_text(
+            "Files are reloaded when they change on disk, including files that failed to load; can be \
+                            undone",
+        );
     }
 }
 
 fn alike(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) {
-    let hint = "Read all open files of this kind so, and files like it from now on";
+    let hint = "Use these settings for all open files of this kind, and for files like it from now on";
     let reads = shown.is_fresh() && shown.table().is_some();
     if ui.add_enabled(reads, egui::Button::new("Use for all like it")).on_hover_text(hint).clicked() {
         context.push(Command::UseForAlike(shown.item.clone()));

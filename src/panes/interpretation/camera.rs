@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
             let guess = wishes.channels.is_none() && found.is_none();
             let how = if guess { "guess" } else { "" };
             let why =
-                if wishes.channels.is_some() { "Chosen by hand" } else { "By the names or the peaks of the curves" };
+                if wishes.channels.is_some() { "Chosen by hand" } else { "From the names or the peaks of the curves" };
             let closed = Closed { value: name.to_owned(), how: how.to_owned(), guess, why: why.to_owned() };
             let entries: Vec<(String, bool)> = table
                 .curves

@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     }
     let before = taken.clone();
     ui.add_space(UNIT);
-    ui.label(format!("{} of {count} taken", before.iter().filter(|taken| **taken).count()));
+    ui.label(format!("{} of {count} imported", before.iter().filter(|taken| **taken).count()));
     if count >= SEARCHED {
         let field = TextEdit::singleline(&mut context.view.import.search).hint_text("Search curves");
         let field = ui.add(field.desired_width(f32::INFINITY));
@@ -50,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     }
     let pitch = ROW + ui.spacing().item_spacing.y;
     let height = pitch * found.len().min(ROWS) as f32;
-    let mut area = ScrollArea::vertical().id_salt("curves taken").max_height(height).auto_shrink([false, true]);
+    let mut area = ScrollArea::vertical().id_salt("imported curves").max_height(height).auto_shrink([false, true]);
     let wanted = wanted_row(ui, found.len(), context);
     if let Some(row) = wanted {
         area = area.vertical_scroll_offset((row as f32 * pitch - (height - pitch) / 2.0).max(0.0));
@@ -92,8 +92,8 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     let inside = focused.is_some() || ui.rect_contains_pointer(output.inner_rect);
     hover(ui, under, inside, context);
     if !taken.contains(&true) {
-        let stays = if shown.set.is_some() { " The set stays as it was until one is." } else { "" };
-        ui.label(RichText::new(format!("No curve is taken.{stays}")).small().color(context.theme.warning));
+        let stays = if shown.set.is_some() { " The data set is unchanged until one is." } else { "" };
+        ui.label(RichText::new(format!("No curve is selected.{stays}")).small().color(context.theme.warning));
     }
     if taken != before {
         wishes.taken = Some((0..count).filter(|place| taken[*place]).collect());
@@ -122,16 +122,16 @@ fn wanted_row(ui: &Ui, count: usize, context: &mut PaneContext<'_>) -> Option<us
 /// All, none, the first of those found.
 fn buttons(ui: &mut Ui, found: &[usize], taken: &mut [bool]) {
     ui.horizontal(|ui| {
-        if ui.button("All").on_hover_text("Take all that are listed").clicked() {
+        if ui.button("All").on_hover_text("Select all that are listed").clicked() {
             set(taken, found, true);
         }
-        if ui.button("None").on_hover_text("Leave out all that are listed").clicked() {
+        if ui.button("None").on_hover_text("Deselect all that are listed").clicked() {
             set(taken, found, false);
         }
         if found.len() > TAKEN_AT_FIRST
             && ui
                 .button(format!("First {TAKEN_AT_FIRST}"))
-                .on_hover_text("Take only the first that are listed")
+                .on_hover_text("Select only the first that are listed")
                 .clicked()
         {
             taken.fill(false);

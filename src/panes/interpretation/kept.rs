@@ -20,7 +20,7 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
         1 => "curve is".to_owned(),
         count => format!("{count} curves are"),
     };
-    note(ui, &theme, format!("{} is not at hand. Its {curves} kept in the session.", set.file));
+    note(ui, &theme, format!("{} is not available. Its {curves} stored in the session.", set.file));
     let mut changed = set.clone();
     choices(ui, &mut changed, &theme);
     if changed.role == Role::Camera {
@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
     }
     ui.add_space(UNIT);
     if !set.decisions.is_empty() {
-        ui.label("Decided on reading");
+        ui.label("Decisions");
     }
     for decision in &set.decisions {
         ui.label(RichText::new(decision).small());
@@ -115,7 +115,7 @@ fn trouble(set: &OwnSet, context: &PaneContext<'_>) -> Option<String> {
     match set.role {
         Role::Camera => context.scene.sensor(SetKind::Camera, &set.name).err().map(|error| error.to_string()),
         _ => match set.curves_in_nm() {
-            Ok(curves) if curves.is_empty() => Some(format!("{}: it has no curve", set.name)),
+            Ok(curves) if curves.is_empty() => Some(format!("{}: no curve found", set.name)),
             Ok(_) => None,
             Err(error) => Some(format!("{}: {error}", set.name)),
         },

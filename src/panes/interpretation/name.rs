@@ -27,8 +27,8 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
     field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Name of the set"));
     let sentence = match holder(text.trim()) {
         None => "",
-        Some(Holder::Own) => "Another set of yours has this name.",
-        Some(Holder::BuiltIn) => "A built-in set has this name; take another, so that the two are told apart.",
+        Some(Holder::Own) => "Another imported data set has this name.",
+        Some(Holder::BuiltIn) => "A built-in data set has this name; choose another.",
     };
     if !sentence.is_empty() {
         ui.label(RichText::new(sentence).color(theme.error));

@@ -24,7 +24,7 @@ pub(super) fn button(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(count) = shown.table().map(|table| table.warnings.len()).filter(|count| *count > 0) else { return };
     ui.add_space(UNIT);
     let words = RichText::new(counted(count)).color(context.theme.warning);
-    if ui.button(words).on_hover_text("What should be looked at before the curves are trusted").clicked() {
+    if ui.button(words).on_hover_text("Points to check before the curves are used").clicked() {
         ui.data_mut(|data| data.insert_temp(led_to(), true));
         ui.ctx().request_repaint();
     }
@@ -46,9 +46,9 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
     let count = table.warnings.len();
     let head = ui.horizontal(|ui| {
         ui.label(counted(count));
-        if ui.small_button("Copy").on_hover_text("Warnings, decisions and where it is from, as text").clicked() {
+        if ui.small_button("Copy").on_hover_text("Warnings, decisions and origin, as text").clicked() {
             ui.ctx().copy_text(text(shown, table));
-            context.view.say("Understood as: notes copied.");
+            context.view.say("Interpretation: notes copied.");
         }
     });
     if ui.data_mut(|data| data.remove_temp::<bool>(led_to())).unwrap_or(false) {
@@ -69,7 +69,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
         }
     }
     ui.add_space(UNIT);
-    ui.label("Decided on reading");
+    ui.label("Decisions");
     for decision in table.decisions() {
         let color = if decision.certainty.is_doubtful() { theme.warning } else { theme.text };
         let words = format!("{}: {} ({}).", decision.what, decision.value, decision.certainty);
@@ -77,7 +77,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
         note(ui, &theme, format!("{}.", decision.why));
     }
     ui.add_space(UNIT);
-    ui.label("Where it is from");
+    ui.label("Origin");
     for fact in facts(shown, table) {
         note(ui, &theme, fact);
     }

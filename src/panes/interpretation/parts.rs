@@ -33,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
     let fingerprint = file.origin.fingerprint;
     let own = context.scene.document.own.iter().filter(|set| set.fingerprint == Some(fingerprint));
     let used: BTreeSet<usize> = own.filter_map(|set| set.wishes.options.part).collect();
-    note(ui, &context.theme, "Parts, each as a set of its own");
+    note(ui, &context.theme, "Parts, each as a separate data set");
     let mut ticked = std::mem::take(&mut context.view.import.parts);
     ticked.retain(|part| *part <= parts.len() && !used.contains(part));
     let free = (1..=parts.len()).filter(|part| !used.contains(part));
@@ -50,19 +50,19 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
             if response.changed() && !ticked.remove(&part) {
                 ticked.insert(part);
             }
-            response.on_disabled_hover_text("It is a set of yours already");
+            response.on_disabled_hover_text("Already imported");
         }
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = UNIT;
-        if ui.button("All parts").on_hover_text("Tick all parts that are no set yet").clicked() {
+        if ui.button("All parts").on_hover_text("Tick all parts that are not imported yet").clicked() {
             ticked.extend(&free);
         }
         let words = match ticked.len() {
-            1 => "Take 1 part".to_owned(),
-            count => format!("Take {count} parts"),
+            1 => "Import 1 part".to_owned(),
+            count => format!("Import {count} parts"),
         };
-        let hint = "Make a set of each part that is ticked; Undo takes all of them back";
+        let hint = "Import each ticked part; can be undone";
         let button = ui.add_enabled(!ticked.is_empty(), egui::Button::new(words)).on_hover_text(hint);
         if button.on_disabled_hover_text("No part is ticked").clicked() {
             let taken: Vec<usize> = std::mem::take(&mut ticked).into_iter().collect();

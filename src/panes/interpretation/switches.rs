@@ -172,7 +172,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     let mut raw = options.raw == Some(true);
     if columns
         && ui
-            .checkbox(&mut raw, "Keep raw columns")
+            .checkbox(&mut raw, "Import raw columns")
             .on_hover_text("Dark, reference and sample counts, temperatures and times, beside the spectra")
             .changed()
     {

@@ -22,7 +22,7 @@ struct Renaming {
 }
 
 fn renaming_id() -> Id {
-    Id::unique("renamed source")
+    Id::unique("renamed sensor")
 }
 
 /// One sensor: key, label, tag, menu.
@@ -160,7 +160,7 @@ fn menu(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     if offer(ui, if source.visible { "Hide" } else { "Show" }, true) {
         toggle(source, context);
     }
-    if offer(ui, "Take off", !source.is_reference) {
+    if offer(ui, "Remove from comparison", !source.is_reference) {
         context.push(Action::Compare(CompareAction::Remove(source.kind, name)));
     }
     if offer(ui, "Source", true) {
@@ -196,7 +196,7 @@ pub(super) fn show_inspector(context: &mut PaneContext<'_>) {
 fn rename_field(ui: &mut Ui, rect: Rect, id: Id, mut renaming: Renaming, context: &mut PaneContext<'_>) {
     let field = TextEdit::singleline(&mut renaming.text).id(id.with("rename")).margin(egui::Margin::symmetric(4, 3));
     let response = ui.put(rect, field);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Label of the source"));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Label of the sensor"));
     context.view.keeps_escape = true;
     if response.lost_focus() {
         let given_up = ui.input(|input| input.key_down(Key::Escape));

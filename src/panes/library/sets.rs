@@ -209,7 +209,7 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     response.on_hover_ui(|ui| {
         if !enabled {
-            ui.label("The reference stays; choose another reference first.");
+            ui.label("The reference cannot be removed; choose another reference first.");
         }
         facts::tooltip(ui, &scene, &theme, entry);
     });

@@ -227,10 +227,10 @@ pub(super) fn choosers(ui: &mut Ui, stand: &PictureLayout, sources: &[ComparedSe
     marker(&painter, Rect::from_min_size(Pos2::new(left, row.top()), Vec2::new(16.0, CAPTION)), &now, context);
     let place = Rect::from_min_size(Pos2::new(left + 20.0, row.top() + 1.0), Vec2::new(190.0, CAPTION - 2.0));
     let place = place.intersect(row);
-    let mut child = ui.new_child(UiBuilder::new().id_salt("source on show").max_rect(place));
+    let mut child = ui.new_child(UiBuilder::new().id_salt("visible sensor").max_rect(place));
     child.spacing_mut().interact_size.y = place.height();
     child.spacing_mut().button_padding.y = 1.0;
-    let combo = ComboBox::from_id_salt("source on show").width(place.width()).truncate().selected_text(title(&now));
+    let combo = ComboBox::from_id_salt("visible sensor").width(place.width()).truncate().selected_text(title(&now));
     let response = combo.show_ui(&mut child, |ui| {
         for source in sources.iter().filter(|source| stand.mode == RenderMode::One || !source.is_reference) {
             let here = source.kind == now.kind && source.name == now.name;
@@ -239,7 +239,7 @@ pub(super) fn choosers(ui: &mut Ui, stand: &PictureLayout, sources: &[ComparedSe
             }
         }
     });
-    let said = format!("Source on show: {}", title(&now));
+    let said = format!("Visible sensor: {}", title(&now));
     response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
     let made = shot.as_deref().and_then(|shot| index_of(shot, &id(&now)));
     let rest = Rect::from_min_max(Pos2::new(place.right() + 8.0, row.top()), row.max);

@@ -11,9 +11,9 @@ use crate::view::render::RenderMode;
 /// How pictures stand, and the paper's figures.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let modes = [
-        (RenderMode::Grid, "Grid", "All sources side by side"),
+        (RenderMode::Grid, "Grid", "All sensors side by side"),
         (RenderMode::Split, "Split", "The reference at the left, a sensor at the right, with a divider to drag"),
-        (RenderMode::One, "One", "One source, large (double click a picture)"),
+        (RenderMode::One, "One", "One sensor, large (double-click a picture)"),
         (RenderMode::Difference, "Difference", "Difference of each sensor from the reference, pixel by pixel"),
     ];
     if let Some(mode) = widgets::segmented(ui, &modes, context.view.saved.render.mode) {
@@ -30,8 +30,8 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.x = 0.75 * UNIT;
     for (action, words, mesh) in figures {
         let hint = format!(
-            "{mesh} in parallel sunlight, balanced to D55, by the reflectance model that is chosen under Surface (at first \
-             radiometric). Sets Light and White too, in one step; ticked sensors stay."
+            "{mesh} in parallel sunlight, balanced to D55, with the reflectance model chosen under Surface \
+             (initially radiometric). Also sets light and white balance; the compared sensors stay."
         );
         if ui.button(words).on_hover_text(hint).clicked() {
             set_up(action, context);
@@ -40,8 +40,8 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let menu = ui.menu_button("⋯", |ui| {
         for action in [RenderAction::PaperFigure8, RenderAction::PaperFigure9] {
             let words = Action::Render(action.clone()).name();
-            let hint = "The paper's own setup: a point light, and Eq 12 with P as printed: no Fresnel factor, A = XY. σ and τ are \
-                        not given there; they are this program's.";
+            let hint = "The paper's setup: a point light, and Eq 12 with P as printed: no Fresnel factor, A = XY. \
+                        The paper does not give σ and τ; they are this program's.";
             if ui.button(words).on_hover_text(hint).clicked() {
                 set_up(action, context);
                 ui.close();

@@ -18,12 +18,14 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let weak = context.theme.weak;
     let Some(place) = render.pinned.clone().map(|place| shown(place, render)) else {
         ui.label(
-            RichText::new("Point at a picture to read it; click keeps the pixel, Esc lets go.").small().color(weak),
+            RichText::new("Point at a picture to read it; click to pin the pixel, Esc to unpin it.")
+                .small()
+                .color(weak),
         );
         return;
     };
     let Some(reading) = pixel_of(&context.scene, render, &place) else {
-        ui.label(RichText::new("Nothing was made for this source yet.").small().color(weak));
+        ui.label(RichText::new("No picture of this sensor yet.").small().color(weak));
         return;
     };
     let Some(shot) = render.shot.as_deref() else { return };
@@ -36,7 +38,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ui.label("Beside the mesh.");
         }
         PixelShows::Unlit => {
-            ui.label("No light reaches it: turned away, or in shadow.");
+            ui.label("No light reaches it: facing away, or in shadow.");
         }
         PixelShows::Lit(lit) => {
             let numbers = Grid::new("pixel").num_columns(2).spacing([3.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
@@ -47,8 +49,8 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 }
             });
             numbers.response.on_hover_text(
-                "RGB: linear sRGB at this exposure, before clipping. xy, Lab and the difference from the reference: a white of the \
-                 same roughness that faces the light has Y = 1. g: at 550 nm.",
+                "RGB: linear sRGB at this exposure, before clipping. xy, Lab and the difference from the reference: a \
+                 white of the same roughness that faces the light has Y = 1. g: at 550 nm.",
             );
             others(ui, &place, context);
             if let Some((_, transform)) = lit.roughness {
@@ -74,7 +76,7 @@ fn others(ui: &mut Ui, place: &PixelPlace, context: &PaneContext<'_>) {
     let render = &context.view.render;
     let Some(shot) = render.shot.as_deref() else { return };
     let measure = Measure::of(&shot.query);
-    Grid::new("pixel through all").num_columns(3).spacing([2.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
+    Grid::new("pixel in all pictures").num_columns(3).spacing([2.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
         for source in &shot.sources {
             let place = PixelPlace { at: place.at, source: SensorId { kind: source.kind, name: source.name.clone() } };
             let Some(PixelShows::Lit(lit)) = pixel_of(&context.scene, render, &place).map(|reading| reading.shows)

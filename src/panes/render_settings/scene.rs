@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             range: TRIANGLES,
             logarithmic: Some(1.0),
             unit: "",
-            hint: "About how many triangles the mesh is made of. Making a new one takes longer than drawing it.",
+            hint: "Approximate number of triangles. Generating a mesh takes longer than drawing it.",
             beyond: false,
         };
         if let Some(to) = dial.show(ui, settings.triangles as f64) {
@@ -88,18 +88,27 @@ fn summary(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
 fn light(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     let angle =
         |name, to: f64, hint| Dial { name, range: -to..=to, logarithmic: None, unit: "°", hint, beyond: false };
-    let height = angle("Light height", 90.0, "The light above the view axis; it goes along when you orbit.");
+    let height = angle(
+        "Light elevation",
+        90.0,
+        "Elevation of the light above the view axis; it moves with the \
+                                              viewpoint.",
+    );
     if let Some(to) = height.show(ui, settings.light_up_deg) {
-        set(context, "Light height", |settings| settings.light_up_deg = to.round());
+        set(context, "Light elevation", |settings| settings.light_up_deg = to.round());
     }
-    let side =
-        angle("Light side", 180.0, "The light to the right of the view axis; negative is left, beyond 90° behind.");
+    let side = angle(
+        "Light azimuth",
+        180.0,
+        "Azimuth of the light to the right of the view axis; negative is left, beyond 90° \
+                                    is behind.",
+    );
     if let Some(to) = side.show(ui, settings.light_right_deg) {
-        set(context, "Light side", |settings| settings.light_right_deg = to.round());
+        set(context, "Light azimuth", |settings| settings.light_right_deg = to.round());
     }
     ui.horizontal(|ui| {
         let mut shadows = settings.shadows;
-        if ui.checkbox(&mut shadows, "Shadows").on_hover_text("Whether the mesh shadows itself").changed() {
+        if ui.checkbox(&mut shadows, "Shadows").on_hover_text("Self-shadowing of the mesh").changed() {
             set(context, "Shadows", |settings| settings.shadows = shadows);
         }
         let mut disk = settings.light_radius > 0.0;
@@ -109,9 +118,9 @@ fn light(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) 
             set(context, "Sun's disk", |settings| settings.light_radius = if disk { SUN_RADIUS } else { 0.0 });
         }
         let mut near = settings.light_distance.is_some();
-        let hint = "From a point at a distance instead of parallel rays, without the inverse square";
+        let hint = "Point light at a finite distance instead of parallel rays; no inverse-square falloff";
         if ui.checkbox(&mut near, "Point light").on_hover_text(hint).changed() {
-            set(context, "Near light", |settings| settings.light_distance = near.then_some(NEAR));
+            set(context, "Point light", |settings| settings.light_distance = near.then_some(NEAR));
         }
     });
     if let Some(distance) = settings.light_distance {

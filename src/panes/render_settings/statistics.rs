@@ -48,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         if let Some((_, count)) = counts.iter().find(|(counted, _)| *counted == name) {
             let each = count.own_time.as_secs_f64() * 1e3 / count.misses.max(1) as f64;
             let time = if context.view.fixed_clock { String::new() } else { format!(", {} ms each", fixed(each, 1)) };
-            stages.push((words, format!("{} made, {} reused{time}", count.misses, count.hits)));
+            stages.push((words, format!("computed {}×, reused {}×{time}", count.misses, count.hits)));
         }
     }
     ui.label(RichText::new("Since the start").small().color(context.theme.weak));

@@ -94,7 +94,7 @@ fn presets(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 "",
                 1.50,
                 0.05,
-                "σ 0.05 µm, τ 10 µm, n 1.50: a gloss, dark beside its highlights; the material stays",
+                "σ 0.05 µm, τ 10 µm, n 1.50: a glossy surface, dark except for highlights; the material is unchanged",
             ),
         ] {
             if ui.button(name).on_hover_text(hint).clicked() {
@@ -132,7 +132,8 @@ fn lengths(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>
         set(context, "Roughness from the mesh", |settings| settings.roughness = to);
     }
     if from_mesh {
-        let words = RichText::new("Lengths of the mesh, not of the material: dark but for a narrow gloss").small();
+        let words =
+            RichText::new("Lengths of the mesh, not of the material: dark except for a narrow specular lobe").small();
         ui.label(words.color(context.theme.warning)).on_hover_text(RoughnessChoice::WHY_NOT);
     }
     let tau = length(
@@ -194,9 +195,9 @@ fn cautions(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
         }
         Ok(surface) => {
             if is_nearly_a_mirror(settings) {
-                let whole = "Nearly a mirror: most light stays in the highlight, which is what exposure goes by; all else is dark. \
-                             The small highlight may fall between the pixels.";
-                let words = RichText::new("Nearly a mirror: dark but for its highlight").small();
+                let whole = "Nearly specular: most light is in the highlight, which determines exposure; everything \
+                             else is dark. A small highlight may fall between pixels.";
+                let words = RichText::new("Nearly specular: dark except for the highlight").small();
                 ui.label(words.color(context.theme.warning)).on_hover_text(whole);
             }
             for caution in surface.cautions() {

@@ -18,7 +18,8 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         set(context, "Exposure", |settings| settings.exposure_ev = (to * 10.0).round() / 10.0);
     }
     let orbit = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
-    let hint = "Of the lens; the eye moves so that the mesh stays as large. Wide lenses fall off with cos⁴ (Eq 12).";
+    let hint = "Of the lens; the viewpoint moves so that the mesh keeps its size. Wide lenses fall off with cos⁴ (Eq \
+                12).";
     let dial = Dial { name: "Field of view", range: 2.0..=120.0, logarithmic: None, unit: "°", hint, beyond: false };
     if let Some(to) = dial.show(ui, orbit.field_of_view_deg) {
         context.view.saved.render.orbit = Some(orbit.with_field_of_view(to));
@@ -36,16 +37,16 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         });
         let said = format!("Quality: {}", now.label());
         response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
-        response.response.on_hover_text("How exactly integrals over wavelength are made once nothing moves");
+        response.response.on_hover_text("Accuracy of integrals over wavelength at rest");
         ui.label("Quality");
-        if ui.button("Reset").on_hover_text("The view the mesh is first seen in (Home)").clicked() {
+        if ui.button("Reset").on_hover_text("Initial view of the mesh (Home)").clicked() {
             context.view.saved.render.orbit = None;
             ui.ctx().request_repaint();
         }
     });
     if settings.quality == QualityLevel::Tolerance {
-        let hint =
-            "The largest error of a picture, relative to its brightest sample. Accuracy says how each camera keeps it.";
+        let hint = "Largest error of a picture, relative to its brightest sample. The Accuracy workspace shows the method \
+             for each camera.";
         let id = ui.make_persistent_id("tolerance field");
         if let Some(to) = widgets::tolerance::field(ui, id, settings.tolerance, "Tolerance", hint, context) {
             set(context, "Tolerance", |settings| settings.tolerance = to);

@@ -20,7 +20,7 @@ pub type Fact = (&'static str, String);
 /// What a built-in table's sensitivities are a response to, with the evidence and its grounds.
 pub fn response_of(header: &Header) -> String {
     let words = match (header.response(), header.response_evidence()) {
-        (Response::Unknown, _) | (_, Evidence::Unknown) => "unknown, taken as per energy".to_owned(),
+        (Response::Unknown, _) | (_, Evidence::Unknown) => "unknown, assumed per energy".to_owned(),
         (response, Evidence::Stated) => format!("{}, stated", response_words(response)),
         (response, Evidence::Inferred) => format!("{}, inferred", response_words(response)),
     };
@@ -53,7 +53,7 @@ pub const fn response_words(response: Response) -> &'static str {
     match response {
         Response::PerEnergy => "per energy",
         Response::PerPhoton => "per photon",
-        Response::Unknown => "not stated; taken per energy",
+        Response::Unknown => "not stated; assumed per energy",
     }
 }
 

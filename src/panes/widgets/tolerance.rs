@@ -6,7 +6,7 @@ use crate::document::render::{TOLERANCES, decade};
 use crate::panes::context::PaneContext;
 
 /// What can be typed.
-const TAKES: &str = "Any error from 1e−13 to 0.1, such as 5e-10; the slider goes by powers of ten";
+const TAKES: &str = "From 1e−13 to 0.1, such as 5e-10; the slider moves in powers of ten";
 /// Width of the text.
 const TEXT: f32 = 72.0;
 
@@ -75,14 +75,14 @@ fn shown(tolerance: f64) -> String {
 fn tolerance(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let (least, largest) = (shown(*TOLERANCES.start()), TOLERANCES.end());
-    let give = format!("give {least} to {largest}");
+    let give = format!("range {least} to {largest}");
     match text.replace('−', "-").parse::<f64>() {
         Ok(number) if TOLERANCES.contains(&number) => Ok(number),
         Ok(number) if number > *TOLERANCES.end() => Err(format!("{text} is too large: {give}.")),
-        Ok(number) if number > 0.0 => Err(format!("{text} is too small: {give}; S itself is exact to {least}.")),
-        Ok(number) if number <= 0.0 => Err(format!("An error is above 0; {give}.")),
-        _ if text.is_empty() => Err(format!("Nothing is there; {give}.")),
-        _ => Err(format!("“{text}” is no number; write one like 1e-6, {least} to {largest}.")),
+        Ok(number) if number > 0.0 => Err(format!("{text} is too small: {give}; S itself is accurate to {least}.")),
+        Ok(number) if number <= 0.0 => Err(format!("The tolerance must be above 0; {give}.")),
+        _ if text.is_empty() => Err(format!("Enter a number; {give}.")),
+        _ => Err(format!("“{text}” is not a number; write one like 1e-6, {least} to {largest}.")),
     }
 }
 

@@ -59,7 +59,7 @@ pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<SkippedWo
     };
     let seconds = shortest(|| sources.measures().zip(&reaches).map(sum).collect::<Vec<_>>());
     Some(SkippedWork {
-        what: "mirror terms".into(),
+        what: "specular terms".into(),
         count: skipped.len() as u64,
         of: Some(all as u64),
         saved: seconds * skipped.len() as f64 / taken.len().max(1) as f64,

@@ -8,9 +8,9 @@ use super::SkippedWork;
 use crate::profiler::{SceneRunQuery, fresh};
 
 /// The row of the loci.
-pub const LOCI: &str = "loci, while Chromaticity is not on show";
+pub const LOCI: &str = "loci, while Chromaticity is not visible";
 /// The row of the patches.
-pub const PATCHES: &str = "patches of a source, while nothing shows them";
+pub const PATCHES: &str = "patches of a sensor, while nothing shows them";
 
 /// On how many threads questions are answered here.
 fn threads() -> String {
@@ -25,11 +25,11 @@ pub(super) fn cameras(run: &SceneRunQuery, pictures: &PicturesQuery, ask: &impl 
     let ((), seconds) =
         timed(|| run.hidden.iter().for_each(|hidden| drop(ask.ask(&pictures.image(&hidden.rendering)))));
     (!run.hidden.is_empty()).then(|| SkippedWork {
-        what: "sources that are not on show".into(),
+        what: "sensors that are not visible".into(),
         count: run.hidden.len() as u64,
         of: Some((run.hidden.len() + pictures.sources.len()) as u64),
         saved: seconds,
-        how: format!("their signals, made timed with what all sources share at hand; {}", threads()),
+        how: format!("their signals, computed once with shared inputs cached; {}", threads()),
     })
 }
 
@@ -38,7 +38,7 @@ pub(super) fn pictures(pictures: &PicturesQuery, ask: &impl Ask) -> Option<Skipp
     let fresh = fresh(ask);
     let (answer, seconds) = timed(|| fresh.ask(pictures));
     matches!(&*answer, Ok(Some(_))).then(|| SkippedWork {
-        what: "pictures, while Render is not on show".into(),
+        what: "pictures, while Render is not visible".into(),
         count: pictures.sources.len() as u64,
         of: None,
         saved: seconds,

@@ -57,7 +57,7 @@ fn tolerance(settings: &mut RenderSettings, tolerance: f64) {
 #[test]
 fn a_lambertian_surface_leaves_out_no_mirror_and_no_wavelength() {
     let rows = rows_of(|settings| settings.reading = ReadingChoice::Lambertian);
-    assert!(row(&rows, "mirror terms").is_none(), "there are none to leave out");
+    assert!(row(&rows, "specular terms").is_none(), "there are none to leave out");
     assert_eq!(rows.len(), 3, "what is not lit: {rows:?}");
 }
 
@@ -89,11 +89,11 @@ fn what_was_measured_on_a_part_says_so_with_threads_and_threshold() {
     for row in &rows {
         assert!(row.how.contains("one thread"), "{row:?}");
     }
-    let mirrors = row(&rows, "mirror terms").expect("left out of a rough surface");
+    let mirrors = row(&rows, "specular terms").expect("left out of a rough surface");
     assert!(mirrors.count > 200 && mirrors.how.contains("extrapolated from 1"), "{mirrors:?}");
     assert!(mirrors.how.contains("below 1e-7 of the picture's brightest sample"), "{mirrors:?}");
     let rows = rows_of(|settings| tolerance(settings, 1e-6));
-    let mirrors = row(&rows, "mirror terms").expect("left out of a rough surface");
+    let mirrors = row(&rows, "specular terms").expect("left out of a rough surface");
     assert!(mirrors.how.contains("below 1e-7 of"), "a tenth of the tolerance: {mirrors:?}");
 }
 
@@ -102,7 +102,7 @@ fn of_vertices_each_has_a_roughness_of_its_own() {
     let rows = rows_of(|settings| settings.roughness = RoughnessChoice::Mesh);
     let beside = row(&rows, "samples beside the mesh").expect("counted");
     assert!(beside.saved == 0.0 && beside.count > 0 && beside.how.contains("not measured"), "{beside:?}");
-    let mirrors = row(&rows, "mirror terms").expect("left out at most vertices");
+    let mirrors = row(&rows, "specular terms").expect("left out at most vertices");
     assert!(mirrors.how.contains("vertices"), "{mirrors:?}");
     assert!(row(&rows, "wavelengths at a lit vertex").is_some_and(|row| row.count > 0 && row.saved >= 0.0), "{rows:?}");
 }

@@ -98,9 +98,9 @@ fn numbers_without_a_word_are_what_an_option_says_and_nothing_is_scaled_unasked(
     );
     let percent = run(&["patches", "--chart", text(&bare), "--values", "percent"]);
     assert!(percent.status.success(), "{}", said(&percent));
-    assert!(said(&percent).contains("nothing in the file says what its numbers are; taken as reflectances"));
+    assert!(said(&percent).contains("the file does not state its quantity; used as reflectances"));
     let light = run(&["locus", "--illuminant", text(&bare), "--count", "1"]);
-    assert!(light.status.success() && said(&light).contains("taken as illuminants"), "{}", said(&light));
+    assert!(light.status.success() && said(&light).contains("used as illuminants"), "{}", said(&light));
     let inspected = run(&["inspect", text(&bare)]);
     assert!(inspected.status.success(), "{}", said(&inspected));
     assert!(said(&inspected).contains("add --role reflectance --values percent"), "{}", said(&inspected));
@@ -112,7 +112,7 @@ fn radiances_are_no_chart() {
     let output = run(&["patches", "--chart", text(&radiances)]);
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(
-        !output.status.success() && said.contains("the file says radiance") && said.contains("--radiance"),
+        !output.status.success() && said.contains("the file states radiance") && said.contains("--radiance"),
         "{said}"
     );
 }

@@ -50,11 +50,8 @@ fn merged_rows_are_not_called_left_out() {
     let twice = put(&folder("merged"), "twice.csv", "nm,a\n400,1\n410,2\n410,4\n420,5\n420,5\n430,6\n440,7\n");
     let text = done(&[&twice]);
     let rows = text.lines().find(|line| line.starts_with("  Rows: ")).unwrap();
-    assert!(
-        rows.contains("2 rows merged with others of the same wavelength, of which the mean was taken: lines 3, 4;"),
-        "{rows}"
-    );
-    assert!(rows.contains("; 1 row left out: line 6 (the same as an earlier row)"), "{rows}");
+    assert!(rows.contains("2 rows merged with others of the same wavelength (mean): lines 3, 4;"), "{rows}");
+    assert!(rows.contains("; 1 row skipped: line 6 (the same as an earlier row)"), "{rows}");
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn pipes_sockets_and_devices_are_refused_wherever_a_file_is_named() {
         ] {
             refused(arguments, &[place, "not supported"]);
         }
-        refused(&["render", "--mesh", place], &["no file"]);
+        refused(&["render", "--mesh", place], &["not a file"]);
     }
     // What a shell opens for a command is read.
     let script = format!(

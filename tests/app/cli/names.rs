@@ -64,12 +64,12 @@ fn whole_words_win_over_parts_and_what_was_taken_is_known() {
         (SetKind::Illuminant, "tungst", "ISO 7589 studio tungsten"),
         (SetKind::Illuminant, "tungsten", "ISO 7589 studio tungsten"),
     ] {
-        assert_eq!(taken(kind, typed), (name.to_owned(), Some(format!("taking {name}"))), "{typed}");
+        assert_eq!(taken(kind, typed), (name.to_owned(), Some(format!("using {name}"))), "{typed}");
     }
     // Of several tables of one model the first that was measured, and the others are named.
     for typed in ["Nikon D70", "d70"] {
         let (name, note) = taken(SetKind::Camera, typed);
-        let expected = "taking Nikon D70 (A.M.P.A.S.); also there: Nikon D70 (2007 figure), Nikon D70 (UPenn 2011)";
+        let expected = "using Nikon D70 (A.M.P.A.S.); also there: Nikon D70 (2007 figure), Nikon D70 (UPenn 2011)";
         assert_eq!(name, "Nikon D70 (A.M.P.A.S.)");
         let mut parts: Vec<&str> = note.as_deref().unwrap().split([';', ',']).collect();
         parts[1] = parts[1].trim_start_matches(" also there:");
@@ -108,8 +108,8 @@ fn the_command_line_says_what_was_taken() {
     };
     assert_eq!(stderr(&["--illuminant", "CIE D65"]), "");
     let said = stderr(&["--illuminant", "tungst"]);
-    assert_eq!(said, "chromascope: --illuminant \"tungst\": taking ISO 7589 studio tungsten\n");
-    assert!(stderr(&["--white", "tungsten"]).starts_with("chromascope: --white \"tungsten\": taking ISO"));
+    assert_eq!(said, "chromascope: --illuminant \"tungst\": using ISO 7589 studio tungsten\n");
+    assert!(stderr(&["--white", "tungsten"]).starts_with("chromascope: --white-balance \"tungsten\": using ISO"));
     for typed in ["daylight", "CIE daylight", "Daylight illuminant"] {
         refused(&["patches", "--illuminant", typed], &["daylight:5500", "Daylight (Stanford)"]);
         refused(&["patches", "--white", typed], &["daylight:5500"]);
@@ -144,7 +144,7 @@ fn a_built_in_sets_name_means_it_even_beside_a_file_that_is_called_so() {
         (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
     };
     let (built_in, said) = patches("D65");
-    assert!(said.contains("taking the built-in set; for the file, write ./D65"), "{said}");
+    assert!(said.contains("using the built-in data set; for the file, write ./D65"), "{said}");
     assert!(built_in.contains("0.542363476"), "red under D65: {built_in}");
     assert_ne!(patches("./D65").0, built_in);
 }
@@ -153,5 +153,5 @@ fn a_built_in_sets_name_means_it_even_beside_a_file_that_is_called_so() {
 fn a_mistyped_command_is_named() {
     let output = std::process::Command::new(env!("CARGO_BIN_EXE_chromascope")).arg("lists").output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.code() == Some(2) && said.contains("lists: no command and no file"), "{said}");
+    assert!(output.status.code() == Some(2) && said.contains("lists: no such command or file"), "{said}");
 }
