@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 
+use crate::document::names::BuiltInNames;
 use crate::document::own::OwnSet;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
@@ -103,13 +104,20 @@ pub enum RenderAction {
 pub enum OwnAction {
     /// Brings sets in. One alone is put to use; of several, cameras are put on show while there are places, and light and
     /// chart stay. A name that is taken becomes one that is free.
-    Import(Vec<OwnSet>),
+    Import {
+        /// The sets.
+        sets: Vec<OwnSet>,
+        /// Names that they may not have.
+        built_in: BuiltInNames,
+    },
     /// Puts another version of a set in its place: another unit, role or name.
     Replace {
         /// The name it had.
         name: String,
         /// The set as it is to be.
         with: Box<OwnSet>,
+        /// Names that it may not have.
+        built_in: BuiltInNames,
     },
     /// Puts other versions of some sets in their places, because of what the step is called.
     ReplaceAll {
@@ -117,6 +125,8 @@ pub enum OwnAction {
         what: String,
         /// The names they had, and the sets as they are to be.
         with: Vec<(String, OwnSet)>,
+        /// Names that they may not have.
+        built_in: BuiltInNames,
     },
     /// Takes a set out, and off the list.
     Remove(String),
@@ -133,7 +143,7 @@ impl Action {
                 format!("Open {}", name.to_string_lossy())
             }
             Self::Render(action) => action.name().to_owned(),
-            Self::Own(OwnAction::Import(sets)) => match sets.as_slice() {
+            Self::Own(OwnAction::Import { sets, .. }) => match sets.as_slice() {
                 [one] => format!("Open {}", one.name),
                 many => format!("Open {} sets", many.len()),
             },
@@ -301,14 +311,14 @@ impl RenderAction {
 impl OwnAction {
     fn apply(&self, document: &mut Document) {
         match self {
-            Self::Import(sets) => {
+            Self::Import { sets, built_in } => {
                 for set in sets {
                     if let Some(index) = document.same_set(set) {
-                        bring_again(document, index, set, sets.len() == 1);
+                        bring_again(document, index, set, sets.len() == 1, built_in);
                         continue;
                     }
                     let mut set = Shared::new(set.clone());
-                    let name = document.free_name(SetKind::of_own(&set), &set.name, None);
+                    let name = document.free_name(SetKind::of_own(&set), &set.name, None, built_in);
                     if name != set.name {
                         set = Shared::new(OwnSet { name, ..(*set).clone() });
                     }
@@ -320,8 +330,10 @@ impl OwnAction {
                     document.own.push(set);
                 }
             }
-            Self::Replace { name, with } => replace(document, name, with),
-            Self::ReplaceAll { with, .. } => with.iter().for_each(|(name, with)| replace(document, name, with)),
+            Self::Replace { name, with, built_in } => replace(document, name, with, built_in),
+            Self::ReplaceAll { with, built_in, .. } => {
+                with.iter().for_each(|(name, with)| replace(document, name, with, built_in));
+            }
             Self::Remove(name) => {
                 let Some(index) = document.own.iter().position(|set| set.name == *name) else { return };
                 let set = document.own.remove(index);
@@ -333,10 +345,10 @@ impl OwnAction {
 
 /// Opens a file again that a set was made of. The same contents leave the set as it is, with all that a person chose for it; other
 /// contents take their place under its name.
-fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool) {
+fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool, built_in: &BuiltInNames) {
     let name = document.own[index].name.clone();
     if set.fingerprint != document.own[index].fingerprint {
-        replace(document, &name, &OwnSet { name: name.clone(), ..set.clone() });
+        replace(document, &name, &OwnSet { name: name.clone(), ..set.clone() }, built_in);
     }
     let known = document.own[index].clone();
     if alone {
@@ -347,12 +359,12 @@ fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool)
 }
 
 /// Puts another version of a set in its place. What it is used as stays, unless that has become something else.
-fn replace(document: &mut Document, name: &str, with: &OwnSet) {
+fn replace(document: &mut Document, name: &str, with: &OwnSet, built_in: &BuiltInNames) {
     let Some(index) = document.own.iter().position(|set| set.name == name) else { return };
     let before = SetKind::of_own(&document.own[index]);
     let mut set = Shared::new(with.clone());
     let kind = SetKind::of_own(&set);
-    let free = document.free_name(kind, &set.name, Some(index));
+    let free = document.free_name(kind, &set.name, Some(index), built_in);
     if free != set.name {
         set = Shared::new(OwnSet { name: free, ..with.clone() });
     }

@@ -85,9 +85,10 @@ impl ChromascopeApp {
         let opened = Opened::on(executor, move || also.request_repaint());
         opened.recall(saved.import.failing.clone());
         let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
+        let catalog = Catalog::built_in();
         Self {
-            history,
-            catalog: Catalog::built_in(),
+            history: history.with_names_apart(catalog.names()),
+            catalog,
             results: Results::default(),
             view: View { saved, import, kept: files.kept_documents(), ..View::default() },
             files,
@@ -210,9 +211,7 @@ impl ChromascopeApp {
         for event in events {
             match event {
                 Event::Paste(text) if !typing => self.commands.push(Command::Paste(text)),
-                Event::Copy if !typing && !self.something_is_marked(ctx) => {
-                    self.commands.push(Command::CopyNumbers(focused));
-                }
+                Event::Copy if !typing => self.commands.push(Command::CopyNumbers(focused)),
                 _ => {}
             }
         }
@@ -244,12 +243,6 @@ impl ChromascopeApp {
         if ctx.input(|input| !input.pointer.any_down()) {
             self.history.end_gesture();
         }
-    }
-
-    /// Whether text is marked somewhere, which is what Ctrl+C would then mean.
-    #[expect(clippy::unused_self, reason = "belongs to the program's state as soon as text can be marked")]
-    fn something_is_marked(&self, _ctx: &egui::Context) -> bool {
-        false
     }
 
     /// The bars and panes of one frame.

@@ -10,13 +10,14 @@ pub mod meshes;
 pub mod names;
 pub mod opened;
 
-use std::collections::{BTreeMap, HashSet};
-use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
+use std::collections::BTreeMap;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::{Dataset, Header};
 
 use crate::document::SetKind;
+use crate::document::names::{BuiltInNames, caseless};
 use crate::document::own::OwnSet;
 
 /// Where a set's figures are: a file of the program, or a set of the user's, held by value.
@@ -84,6 +85,7 @@ impl Entry {
 #[derive(Clone, Debug)]
 pub struct Catalog {
     entries: Vec<Entry>,
+    names: BuiltInNames,
 }
 
 impl Catalog {
@@ -112,7 +114,13 @@ impl Catalog {
             let model = e.name.split_once(" (").map_or(e.name.as_str(), |(model, _)| model);
             (e.kind, names::sort_key(model), e.is_digitized(), names::sort_key(&e.name))
         });
-        Self { entries }
+        let names = BuiltInNames::new(entries.iter().map(|entry| (entry.kind, entry.name.as_str())));
+        Self { entries, names }
+    }
+
+    /// Names of the sets.
+    pub fn names(&self) -> &BuiltInNames {
+        &self.names
     }
 
     /// All sets, by kind and then by name; of one model, measured tables before digitized ones.
@@ -129,23 +137,9 @@ impl Catalog {
     pub fn get(&self, kind: SetKind, name: &str) -> Option<&Entry> {
         let exact = self.of_kind(kind).find(|entry| entry.name == name);
         exact.or_else(|| {
-            let wanted = names::caseless(name);
-            self.of_kind(kind).find(|entry| names::caseless(&entry.name) == wanted)
+            let wanted = caseless(name);
+            self.of_kind(kind).find(|entry| caseless(&entry.name) == wanted)
         })
-    }
-}
-
-/// Whether a built-in set has this name, among those of a kind: a user's set of that kind must have another. Patches are chosen
-/// from charts and materials alike.
-pub fn is_built_in(kind: SetKind, name: &str) -> bool {
-    static NAMES: LazyLock<HashSet<(SetKind, String)>> = LazyLock::new(|| {
-        Catalog::built_in().entries.iter().map(|entry| (entry.kind, names::caseless(&entry.name))).collect()
-    });
-    let name = names::caseless(name);
-    let has = |kind| NAMES.contains(&(kind, name.clone()));
-    match kind {
-        SetKind::Chart | SetKind::Material => has(SetKind::Chart) || has(SetKind::Material),
-        _ => has(kind),
     }
 }
 

@@ -5,6 +5,7 @@
 
 pub mod kept;
 pub mod kind;
+pub mod names;
 pub mod own;
 pub mod paths;
 pub mod render;

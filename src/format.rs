@@ -3,7 +3,7 @@
 use spectral_file::{Dropped, DroppedRow};
 
 /// A number for reading: six significant digits at most, a true minus sign.
-pub fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let magnitude = value.abs();
     let text = if value == 0.0 || (1e-4..1e6).contains(&magnitude) {
         let decimals = if magnitude >= 1.0 { 5_usize.saturating_sub(magnitude.log10() as usize) } else { 5 };
@@ -16,25 +16,25 @@ pub fn number(value: f64) -> String {
 }
 
 /// A number with a fixed count of decimals and a true minus sign; no minus before nothing but zeros.
-pub fn fixed(value: f64, decimals: usize) -> String {
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let is_zero = !text.bytes().any(|b| b.is_ascii_digit() && b != b'0');
     if is_zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
 }
 
 /// A text with a capital at its start.
-pub fn capitalized(words: &str) -> String {
+pub(crate) fn capitalized(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// A message of a library as a sentence: with a capital at its start and a full stop.
-pub fn sentence(words: &str) -> String {
+pub(crate) fn sentence(words: &str) -> String {
     format!("{}.", capitalized(words))
 }
 
 /// The system's reason for a failure, without its error number.
-pub fn io_reason(error: &std::io::Error) -> String {
+pub(crate) fn io_reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     let end = text.find(" (os error").unwrap_or(text.len());
     text[..end].to_lowercase()
@@ -42,7 +42,7 @@ pub fn io_reason(error: &std::io::Error) -> String {
 
 /// Rows of a file that are in no curve: a sentence for those merged into others and one for those left out, each with the lines of
 /// at most `told` rows.
-pub fn dropped_rows(rows: &[DroppedRow], told: usize) -> Vec<String> {
+pub(crate) fn dropped_rows(rows: &[DroppedRow], told: usize) -> Vec<String> {
     let (merged, left): (Vec<&DroppedRow>, Vec<&DroppedRow>) =
         rows.iter().partition(|row| row.why == Dropped::Averaged);
     let mut sentences = Vec::new();

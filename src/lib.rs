@@ -1,14 +1,21 @@
 //! Chromascope's window and command line, as a library for its tests.
 //!
 //! ```text
-//! catalog + document   ground state: data sets, and what is compared under what
-//!        │ scene       names become data, choices become questions
-//!        ▼
-//!     results          answers, the only cache
-//!        │ figures     answers become figures
-//!        ▼
-//!     panes, cli       show them, and push commands, which change the document
+//! format  terminal  theme      text for people, standard error, colors and sizes
+//! document ─► action           what is compared under what; its changes, and undo
+//! results ─► jobs              answers, the only cache; computations beside the window
+//! catalog ─► scene             data sets; names become data, choices become queries
+//! files  export                the document and the user's files; pictures and tables out
+//! plot_item  paint  workspaces what marks stand for; figures on screen; which panes stand where
+//! render_service  bench  profiler   pictures of meshes; run time against error
+//! view ─► command              what is looked at; what keys, menus and panes ask for
+//! figures                      answers become figures
+//! panes  cli                   show them, and ask for changes
+//! app                          the window
 //! ```
+//!
+//! Each module uses only modules before it (`tests/app/architecture.rs` has the order and holds it), and no circle of files is
+//! larger than two.
 
 pub mod action;
 pub mod app;
@@ -19,7 +26,7 @@ pub mod document;
 pub mod export;
 pub mod figures;
 pub mod files;
-pub mod format;
+mod format;
 pub mod help;
 pub mod jobs;
 pub mod paint;

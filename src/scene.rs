@@ -24,8 +24,8 @@ use chromascope_core::units::{Kelvin, NotPositive};
 use chromascope_figure::{InkRole, Marker};
 
 use crate::catalog::load::{LightQuery, LoadError, LoadedLight, PatchesQuery, SensorQuery};
-use crate::catalog::names::caseless;
 use crate::catalog::{Catalog, Entry, Place};
+use crate::document::names::caseless;
 use crate::document::{
     Compared, Document, FIT_TARGET, LOCUS_RANGE_K, Light, SetKind, Subset, TRAINING, TransformChoice,
     WhiteBalanceChoice,

@@ -21,12 +21,6 @@ pub const SMALL: f32 = TextSize::Small.points();
 /// Font size of numbers.
 pub const MONO: f32 = TextSize::Mono.points();
 
-/// Width of the reference's line.
-pub const LINE_TRUTH: f64 = 4.0;
-/// Width of a camera's line.
-pub const LINE_CAMERA: f64 = 2.0;
-/// Width of an observer's line.
-pub const LINE_OBSERVER: f64 = 1.5;
 /// Width of the tail from a point to the reference.
 pub const LINE_TAIL: f64 = 1.2;
 /// Width of grid lines.

@@ -2,6 +2,7 @@
 
 use super::Action;
 use crate::document::Document;
+use crate::document::names::BuiltInNames;
 
 /// How many steps are kept.
 const DEPTH: usize = 200;
@@ -29,6 +30,13 @@ impl History {
     /// Starts from a document.
     pub fn new(document: Document) -> Self {
         Self { document, ..Self::default() }
+    }
+
+    /// Renames imported sets of the document whose names built-in sets have: a session may come from another version.
+    #[must_use]
+    pub fn with_names_apart(mut self, built_in: &BuiltInNames) -> Self {
+        self.document.part_names(built_in);
+        self
     }
 
     /// The document now.

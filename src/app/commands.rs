@@ -346,12 +346,13 @@ impl ChromascopeApp {
     }
 
     /// Puts a document that was read in the place of this one, as one step.
-    fn take_document(&mut self, opened: crate::files::OpenedDocument) {
+    fn take_document(&mut self, mut opened: crate::files::OpenedDocument) {
         if opened.before != *self.history.document() {
             // It went on meanwhile: what it is now is kept.
             return self.files.open_document(&opened.path, self.history.document().clone());
         }
         let name = opened.path.file_name().unwrap_or(opened.path.as_os_str()).to_string_lossy().into_owned();
+        opened.document.part_names(self.catalog.names());
         self.step(|history| history.replace(format!("Open {name}"), opened.document));
         let words =
             format!("Opened {name}. The previous document was saved: File, Recovered documents. Ctrl+Z undoes this.");

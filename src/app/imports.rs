@@ -84,7 +84,8 @@ impl ChromascopeApp {
         let before = self.history.document().clone();
         let guessed: Vec<bool> = sets.iter().map(|imported| imported.guessed).collect();
         let wanted: Vec<OwnSet> = sets.into_iter().map(|imported| imported.set).collect();
-        self.history.apply(&Action::Own(OwnAction::Import(wanted.clone())));
+        self.history
+            .apply(&Action::Own(OwnAction::Import { sets: wanted.clone(), built_in: self.catalog.names().clone() }));
         self.history.end_gesture();
         let after = self.history.document();
         let brought: Vec<Shared<OwnSet>> =
@@ -157,7 +158,8 @@ impl ChromascopeApp {
                 Why::Alike => format!("Read {which} with the same settings"),
             };
             log::info!("read again {}", names.join(", "));
-            self.step(|history| history.apply_again(&Action::Own(OwnAction::ReplaceAll { what, with })));
+            let built_in = self.catalog.names().clone();
+            self.step(|history| history.apply_again(&Action::Own(OwnAction::ReplaceAll { what, with, built_in })));
             self.history.end_gesture();
         }
         let done = match why {
@@ -192,7 +194,8 @@ impl ChromascopeApp {
         let with = OwnSet { name: name.clone(), file: set.file.clone(), path: set.path.clone(), ..fresh };
         self.view.import.tried.remove(&item);
         self.view.saved.import.remember(Likeness::of(&file.bytes), &wishes);
-        self.change(&Action::Own(OwnAction::Replace { name, with: Box::new(with) }));
+        let built_in = self.catalog.names().clone();
+        self.change(&Action::Own(OwnAction::Replace { name, with: Box::new(with), built_in }));
         self.history.end_gesture();
     }
 

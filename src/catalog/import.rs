@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use spectral_file::{Certainty, ReadError, Role, SpectralFile, Values, Warning, Watch};
+use spectral_file::{Certainty, Effect, ReadError, Role, SpectralFile, Values, Warning, Watch};
 
 use crate::document::own::{Fingerprint, ImportOverrides, OwnCurve, OwnSet, ReadAs};
 
@@ -70,7 +70,7 @@ pub fn imported(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides)
     if taken.len() < table.curves.len() {
         message = format!("{message} {} of them are imported; choose in Import.", taken.len());
     }
-    if let Some(guess) = guesses.iter().find(|guess| guess.what == "Values").or_else(|| guesses.first()) {
+    if let Some(guess) = guesses.iter().find(|guess| guess.effect == Effect::Scale).or_else(|| guesses.first()) {
         let choose = if guess.certainty == Certainty::Open { " Choose in Import." } else { "" };
         message = format!("{message} {guess}{choose}");
     }
@@ -85,10 +85,8 @@ pub fn imported(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides)
 
 /// The guesses, and what is not decided, that change numbers or what a set is used as.
 pub fn weighty_guesses(table: &SpectralFile) -> Vec<spectral_file::Decision> {
-    let weighty =
-        |what: &str| matches!(what, "Role" | "Wavelengths" | "Values" | "Separator" | "Part" | "Spectral unit");
     let decisions = table.decisions().into_iter();
-    decisions.filter(|decision| decision.certainty.is_doubtful() && weighty(decision.what)).collect()
+    decisions.filter(|decision| decision.certainty.is_doubtful() && decision.effect != Effect::Report).collect()
 }
 
 /// Which curves of a table are taken: those wished for, which may be none, else the first of them.

@@ -37,16 +37,6 @@ pub fn folded(name: &str) -> String {
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// A name for telling whether two names are one: its case does not count (after full case mapping, so that `STRASSE` is `Straße`).
-pub fn caseless(name: &str) -> String {
-    name.chars().flat_map(char::to_uppercase).flat_map(char::to_lowercase).collect()
-}
-
-/// Whether two names are one.
-pub fn is_same_name(a: &str, b: &str) -> bool {
-    a == b || caseless(a) == caseless(b)
-}
-
 /// Orders numbers within names by their value: `FL2` before `FL10`.
 pub fn sort_key(name: &str) -> Vec<(String, u64)> {
     let mut key = Vec::new();

@@ -10,7 +10,7 @@ mod reading;
 
 pub use file::OpenFile;
 pub use look::{FilePreview, FilePreviewQuery};
-pub use reading::{Request, read_file};
+pub use reading::Request;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -245,11 +245,6 @@ impl Opened {
         self.desk.lock().file(fingerprint).cloned()
     }
 
-    /// Whether a file's contents were looked for on disk in vain.
-    pub fn is_lost(&self, fingerprint: Fingerprint) -> bool {
-        self.desk.lock().lost.contains(&fingerprint)
-    }
-
     /// Forgets a file.
     pub fn forget(&self, fingerprint: Fingerprint) {
         self.desk.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
@@ -271,11 +266,6 @@ impl Opened {
         self.look.ask(vec![FilePreviewQuery::new(file, options)]);
         let shown = self.look.shown()?;
         (shown.answer.fingerprint == file.origin.fingerprint).then_some(shown.answer)
-    }
-
-    /// Whether [`look`](Self::look) is still at it.
-    pub fn is_looking(&self) -> bool {
-        self.look.busy().is_some()
     }
 
     /// For how long [`look`](Self::look) has been at it.

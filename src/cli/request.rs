@@ -270,8 +270,8 @@ impl Request {
         }
         let mut set = self.read(path, role)?;
         checks::curves(&set)?;
-        let kind = Entry::from_own(&Shared::new(set.clone())).kind;
-        if self.document.holder_of(kind, &set.name, None).is_some() {
+        let kind = SetKind::of_own(&set);
+        if self.document.holder_of(kind, &set.name, None, self.catalog.names()).is_some() {
             set.name = format!("{} ({})", set.name, told(path));
         }
         let set = Shared::new(set);

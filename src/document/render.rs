@@ -289,4 +289,14 @@ impl ReadingChoice {
             Self::Lambertian => "No model: equal in all directions. The fastest, as a baseline.",
         }
     }
+
+    /// Consequence in a few words.
+    pub const fn consequence(self) -> &'static str {
+        match self {
+            Self::Radiometric => "A rough white surface remains white",
+            Self::Paper => "Eq 4 is proportional to λ² without a compensating λ⁻², so rough surfaces turn yellow",
+            Self::Microfacet => "Only the diffuse component is reciprocal (Helmholtz)",
+            Self::Lambertian => "The fastest, as a baseline",
+        }
+    }
 }

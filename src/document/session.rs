@@ -4,6 +4,7 @@ use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 
 use super::kind::SetKind;
+use super::names::BuiltInNames;
 use super::own::{OwnSet, Role};
 use super::start::Start;
 use super::{Document, MOST_COMPARED, VERSION, kept};
@@ -138,10 +139,10 @@ impl Document {
         if !self.compared.iter().any(|c| c.kind == SetKind::Observer && c.name == reference) {
             self.compare(&reference, SetKind::Observer);
         }
-        self.part_names();
         if !self.transform.metrics().contains(&self.difference) {
             self.difference = self.transform.preferred_metric(self.diagram);
         }
+        self.part_names(&BuiltInNames::default());
         let mut seen = std::collections::HashSet::new();
         self.compared.retain(|c| seen.insert((c.kind, c.name.clone())));
         self.render.mend();

@@ -1,11 +1,10 @@
 //! Which names the user's own sets may have, and what a document uses them as.
 
 use super::kind::SetKind;
+use super::names::{BuiltInNames, caseless};
 use super::own::OwnSet;
 use super::render::RenderSettings;
 use super::{CHART, Document, LIGHT, Light, Subset, WhiteBalanceChoice};
-use crate::catalog::is_built_in;
-use crate::catalog::names::caseless;
 use chromascope_core::query::Shared;
 use std::collections::{HashMap, HashSet};
 
@@ -23,11 +22,17 @@ pub enum Holder {
 
 impl Document {
     /// What has a name that an own set of a kind is to have; none if it is free. `except` is the place of the set itself.
-    pub fn holder_of(&self, kind: SetKind, name: &str, except: Option<usize>) -> Option<Holder> {
+    pub fn holder_of(
+        &self,
+        kind: SetKind,
+        name: &str,
+        except: Option<usize>,
+        built_in: &BuiltInNames,
+    ) -> Option<Holder> {
         let wanted = caseless(name);
         let is_taken = |(index, set): (usize, &Shared<OwnSet>)| Some(index) != except && caseless(&set.name) == wanted;
         let own = self.own.iter().enumerate().any(is_taken);
-        match (own, is_built_in(kind, name)) {
+        match (own, built_in.has(kind, name)) {
             (true, _) => Some(Holder::Own),
             (false, true) => Some(Holder::BuiltIn),
             (false, false) => None,
@@ -36,10 +41,10 @@ impl Document {
 
     /// A name that no other set of the kind has and no other own set: `Nikon D70 (own)` beside a built-in one, else
     /// `leaf (2)`.
-    pub fn free_name(&self, kind: SetKind, wanted: &str, except: Option<usize>) -> String {
+    pub fn free_name(&self, kind: SetKind, wanted: &str, except: Option<usize>, built_in: &BuiltInNames) -> String {
         let others = self.own.iter().enumerate().filter(|(index, _)| Some(*index) != except);
         let taken: HashSet<String> = others.map(|(_, set)| caseless(&set.name)).collect();
-        free_name(kind, wanted, &taken, &mut HashMap::new())
+        free_name(kind, wanted, &taken, built_in, &mut HashMap::new())
     }
 
     /// Shows what was just opened: a camera in the list, a chart as the patches, a light as the light.
@@ -115,21 +120,21 @@ impl Document {
         }
     }
 
-    /// Gives own sets of a session from elsewhere names that no other set has; what used them goes on doing so.
-    pub(super) fn part_names(&mut self) {
+    /// Renames imported sets of a session from elsewhere whose names another set has; what used them goes on doing so.
+    pub fn part_names(&mut self, built_in: &BuiltInNames) {
         let mut taken: HashSet<String> = self.own.iter().map(|set| caseless(&set.name)).collect();
         let (mut seen, mut numbers) = (HashSet::new(), HashMap::new());
         for index in 0..self.own.len() {
             let (kind, old) = (SetKind::of_own(&self.own[index]), self.own[index].name.clone());
             // Of two own sets with one name the second was never reached by it.
             let earlier = !seen.insert(caseless(&old));
-            if !earlier && !is_built_in(kind, &old) {
+            if !earlier && !built_in.has(kind, &old) {
                 continue;
             }
             if !earlier {
                 taken.remove(&caseless(&old));
             }
-            let name = free_name(kind, &old, &taken, &mut numbers);
+            let name = free_name(kind, &old, &taken, built_in, &mut numbers);
             if !earlier {
                 self.follow_name(kind, &old, &name);
             }
@@ -153,8 +158,14 @@ impl Document {
 
 /// A name that is not among those taken (without case) and not built in. `numbers` remembers up to which number the names of a
 /// stem are taken.
-fn free_name(kind: SetKind, wanted: &str, taken: &HashSet<String>, numbers: &mut HashMap<String, usize>) -> String {
-    let is_free = |name: &str| !taken.contains(&caseless(name)) && !is_built_in(kind, name);
+fn free_name(
+    kind: SetKind,
+    wanted: &str,
+    taken: &HashSet<String>,
+    built_in: &BuiltInNames,
+    numbers: &mut HashMap<String, usize>,
+) -> String {
+    let is_free = |name: &str| !taken.contains(&caseless(name)) && !built_in.has(kind, name);
     let marked = format!("{wanted} (own)");
     if is_free(wanted) {
         return wanted.to_owned();

@@ -6,6 +6,8 @@ mod loci;
 mod pixel;
 mod points;
 
+use std::collections::BTreeSet;
+
 use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_figure::{
     Axis, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Ticks,
@@ -31,6 +33,8 @@ pub struct Built {
     pub things: PickIndex,
     /// Sensors that could not be drawn, with why.
     pub refused: Vec<String>,
+    /// Places among the marks of the lines of Planckian loci: their points are the locus's points, in its order.
+    pub loci: BTreeSet<usize>,
 }
 
 /// Coordinates that the data's fit takes in; real colors lie between 0 and 0.85.
@@ -54,6 +58,7 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
         marks: Vec::new(),
         things: PickIndex::default(),
         refused: Vec::new(),
+        loci: BTreeSet::new(),
         data: Vec::new(),
     };
     ground::add(&mut drawing);
@@ -75,7 +80,7 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
     panel.y.range = y_range;
     panel.equal_aspect = true;
     panel.marks = drawing.marks;
-    Built { panel, things: drawing.things, refused: drawing.refused }
+    Built { panel, things: drawing.things, refused: drawing.refused, loci: drawing.loci }
 }
 
 /// What the diagram shows: the data, or all of the spectral locus.
@@ -109,6 +114,7 @@ pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Pane
         marks: Vec::new(),
         things: PickIndex::default(),
         refused: Vec::new(),
+        loci: BTreeSet::new(),
         data: Vec::new(),
     };
     ground::add_area(&mut drawing, 1.0);

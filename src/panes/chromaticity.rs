@@ -168,11 +168,7 @@ fn thing_at(context: &PaneContext<'_>, built: &Built, hit: &paint::Hit) -> Optio
     let thing = built.things.get(hit.tag)?.clone();
     let PlotItem::Sensor(source) = &thing else { return Some(thing) };
     let locus = context.scene.locus(source.kind, &source.name).ok()?;
-    let is_locus = built.panel.marks.get(hit.mark).is_some_and(|mark| match &mark.shape {
-        chromascope_figure::Shape::Line { points, .. } => points.len() == locus.points.len(),
-        _ => false,
-    });
-    match locus.points.get(hit.index).filter(|_| is_locus) {
+    match locus.points.get(hit.index).filter(|_| built.loci.contains(&hit.mark)) {
         Some(point) => Some(PlotItem::Radiator { source: source.clone(), kelvin: point.temperature.get().round() }),
         None => Some(thing),
     }

@@ -58,7 +58,7 @@ const APP_LAYERS: &[&str] = &[
 ];
 
 /// Uses against that order, which can only become fewer.
-const AGAINST_ORDER: &[(&str, &str)] = &[("bench", "figures"), ("document", "catalog")];
+const AGAINST_ORDER: &[(&str, &str)] = &[("bench", "figures")];
 
 /// Other crates under the names that `chromascope-core` gives them.
 const REEXPORTED: &[&str] = &["math", "mesh"];

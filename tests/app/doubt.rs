@@ -51,6 +51,12 @@ fn a_locus_is_dotted_where_its_table_ends_too_early() {
         assert_eq!(solid[0], dotted[126], "the two meet");
         let measured = lines(&built.panel.marks, "Nikon D70 (A.M.P.A.S.)");
         assert!(matches!(measured.as_slice(), [(Dash::Solid, all)] if all.len() == 200), "{measured:?}");
+        let loci = |name: &str| built.loci.iter().filter(|place| built.panel.marks[**place].name == name).count();
+        assert_eq!(
+            ["Nikon D70 (2007)", "Nikon D70 (A.M.P.A.S.)"].map(loci),
+            [2, 1],
+            "the lines under the pointer are known"
+        );
         let strip = strip::build(scene, [800.0, 90.0]).expect("cameras compare");
         let figure = lines(&strip.panel.marks, "Nikon D70 (2007)");
         let [(Dash::Solid, solid), (Dash::Dotted, dotted)] = figure.as_slice() else { panic!("{figure:?}") };

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use chromascope::action::{Action, OwnAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::import::import;
 use chromascope::command::Command;
@@ -282,7 +281,7 @@ fn a_set_without_its_file_is_changed_by_value() {
     let mut imported = import("leaves.csv", text.as_bytes(), Some(Kinds::Reflectance)).expect("a table of two curves");
     imported.set.name = "Leaves".to_owned();
     assert!(imported.set.percent, "values to 50 are percent");
-    window.state_mut().push(Action::Own(OwnAction::Import(vec![imported.set])));
+    window.state_mut().push(crate::import_sets(vec![imported.set]));
     window.state_mut().push(Command::ShowImport(ImportItem::Set("Leaves".to_owned()), None));
     settle(&mut window);
     assert!(says(&window, "leaves.csv is not available. Its 2 curves are stored in the session."));

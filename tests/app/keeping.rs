@@ -55,7 +55,7 @@ fn set(name: &str) -> OwnSet {
 
 fn with_sets(sets: Vec<OwnSet>) -> Document {
     let mut document = Document::paper();
-    Action::Own(OwnAction::Import(sets)).apply(&mut document);
+    crate::import_sets(sets).apply(&mut document);
     document
 }
 
@@ -186,7 +186,12 @@ fn curves_are_written_once_and_a_change_costs_little() {
     document.temperature_k = 3000.0;
     files.save_document(&document).unwrap();
     let renamed = OwnSet { name: "branch".to_owned(), ..(*document.own[0]).clone() };
-    Action::Own(OwnAction::Replace { name: "leaf".to_owned(), with: Box::new(renamed) }).apply(&mut document);
+    Action::Own(OwnAction::Replace {
+        name: "leaf".to_owned(),
+        with: Box::new(renamed),
+        built_in: crate::built_in_names(),
+    })
+    .apply(&mut document);
     files.save_document(&document).unwrap();
     assert_eq!(names(&folder.join("curves")), curves);
     drop(files);
@@ -219,7 +224,7 @@ fn a_set_whose_curves_are_gone_costs_only_itself() {
     let first = names(&folder.join("curves"));
     let mut twig = set("twig");
     twig.curves[0].values[0] = 0.25;
-    Action::Own(OwnAction::Import(vec![twig])).apply(&mut document);
+    crate::import_sets(vec![twig]).apply(&mut document);
     files.save_document(&document).unwrap();
     drop(files);
     fs::write(folder.join("curves").join(&first[0]), "[[").unwrap();
@@ -241,7 +246,7 @@ fn a_set_that_cannot_be_written_does_not_stop_the_rest() {
     // In the place of the folder of curves there is a file.
     fs::write(folder.join("curves"), "").unwrap();
     let mut document = Document { temperature_k: 4321.0, ..document };
-    Action::Own(OwnAction::Import(vec![set("leaf")])).apply(&mut document);
+    crate::import_sets(vec![set("leaf")]).apply(&mut document);
     let why = files.save_document(&document).unwrap_err();
     assert!(why.starts_with("leaf could not be saved (") && why.ends_with("; the rest is"), "{why}");
     assert_eq!(
@@ -418,7 +423,7 @@ fn what_cannot_be_saved_is_saved_elsewhere_and_opened_from_there() {
     let (around, folder) = profile();
     let (_executor, mut window) = window(&folder);
     let away = vanish(&folder);
-    window.state_mut().push(Action::Own(OwnAction::Import(vec![set("leaf")])));
+    window.state_mut().push(crate::import_sets(vec![set("leaf")]));
     change(&mut window, 3456.0);
     assert!(close(&mut window));
     window.run_steps(2);

@@ -1,6 +1,5 @@
 //! The library: ticking, searching, hiding, the reference.
 
-use chromascope::action::{Action, OwnAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::import;
 use chromascope::command::Command;
@@ -135,7 +134,7 @@ fn own_sets_come_first_and_can_be_removed() {
     let mut imported = import::import("zoo.csv", text.as_bytes(), Some(chromascope::document::own::Role::Camera))
         .expect("a table of three curves");
     imported.set.name = "Zoo".to_owned();
-    window.state_mut().push(Action::Own(OwnAction::Import(vec![imported.set])));
+    window.state_mut().push(crate::import_sets(vec![imported.set]));
     window.run();
     let own = window.get_by_role_and_label(Role::CheckBox, "Zoo").rect();
     let first = window.get_by_role_and_label(Role::CheckBox, "ARRI D21").rect();

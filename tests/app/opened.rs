@@ -187,8 +187,7 @@ fn a_file_that_changes_on_disk_is_read_again_and_a_broken_one_is_not() {
 fn a_session_opens_without_its_files() {
     let imported = import("leaf.csv", LEAF.as_bytes(), None).unwrap();
     let mut document = Document::paper();
-    chromascope::action::Action::Own(chromascope::action::OwnAction::Import(vec![imported.set.clone()]))
-        .apply(&mut document);
+    crate::import_sets(vec![imported.set.clone()]).apply(&mut document);
     let again = session::from_json(&session::to_json(&document).unwrap()).unwrap();
     assert_eq!(again, document);
     assert_eq!(again.own[0].fingerprint, Some(Fingerprint::of(LEAF.as_bytes())));

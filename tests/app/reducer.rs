@@ -3,6 +3,7 @@
 use chromascope::action::history::History;
 use chromascope::action::{Action, CompareAction, OwnAction, SceneAction};
 use chromascope::catalog::Catalog;
+use chromascope::document::names::BuiltInNames;
 use chromascope::document::own::{ImportOverrides, OwnCurve, OwnSet, ReadAs, Role, WavelengthUnit};
 use chromascope::document::uses::PLACES;
 use chromascope::document::{CHART, Document, Light, PAPER_REFERENCE, SetKind, Subset, WhiteBalanceChoice, session};
@@ -43,7 +44,21 @@ fn own(name: &str, role: Role) -> OwnSet {
 }
 
 fn import(names: &[&str], role: Role) -> Action {
-    Action::Own(OwnAction::Import(names.iter().map(|name| own(name, role)).collect()))
+    crate::import_sets(names.iter().map(|name| own(name, role)).collect())
+}
+
+#[test]
+fn importing_depends_on_the_document_and_the_action_alone() {
+    let names_of = |built_in: BuiltInNames| {
+        let mut document = Document::paper();
+        let sets = vec![own("Kodak DCS200", Role::Camera), own("my camera", Role::Camera)];
+        Action::Own(OwnAction::Import { sets, built_in }).apply(&mut document);
+        document.own.iter().map(|set| set.name.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(names_of(BuiltInNames::default()), ["Kodak DCS200", "my camera"], "no catalog is asked");
+    let other = BuiltInNames::new([(SetKind::Camera, "MY CAMERA"), (SetKind::Chart, "Kodak DCS200")].into_iter());
+    assert_eq!(names_of(other), ["Kodak DCS200", "my camera (own)"]);
+    assert_eq!(names_of(crate::built_in_names()), ["Kodak DCS200 (own)", "my camera"]);
 }
 
 #[test]
@@ -141,7 +156,8 @@ fn an_own_set_has_a_name_of_its_own_among_all_of_its_kind() {
     assert!(scene.entry(SetKind::Camera, "Nikon D70 (2007 figure) (own)").unwrap().is_own());
     // A role that makes a name a double gives it up too.
     let with = Box::new(OwnSet { role: Role::Camera, ..(*document.own[3]).clone() });
-    Action::Own(OwnAction::Replace { name: "Sony ILCE-7M3".to_owned(), with }).apply(&mut document);
+    Action::Own(OwnAction::Replace { name: "Sony ILCE-7M3".to_owned(), with, built_in: crate::built_in_names() })
+        .apply(&mut document);
     assert_eq!(document.own[3].name, "Sony ILCE-7M3 (own)");
     assert!(document.compared(SetKind::Camera, "Sony ILCE-7M3 (own)").is_some());
 }
@@ -151,7 +167,8 @@ fn what_has_one_name_is_used_by_its_kind() {
     let mut document = Document::paper();
     import(&["E"], Role::Camera).apply(&mut document);
     let with = Box::new(own("F", Role::Camera));
-    Action::Own(OwnAction::Replace { name: "E".to_owned(), with }).apply(&mut document);
+    Action::Own(OwnAction::Replace { name: "E".to_owned(), with, built_in: crate::built_in_names() })
+        .apply(&mut document);
     assert_eq!(document.light, Light::Set("E".to_owned()), "the light is another set");
     assert!(document.compared(SetKind::Camera, "F").is_some());
 }
@@ -160,7 +177,8 @@ fn what_has_one_name_is_used_by_its_kind() {
 fn own_sets_of_an_older_session_are_told_from_the_built_in_ones() {
     let mut document = Document::paper();
     document.own.push(Shared::new(own("Nikon D70 (2007 figure)", Role::Camera)));
-    let again = session::from_json(&session::to_json(&document).unwrap()).unwrap();
+    let mut again = session::from_json(&session::to_json(&document).unwrap()).unwrap();
+    again.part_names(&crate::built_in_names());
     assert_eq!(again.own[0].name, "Nikon D70 (2007 figure) (own)");
     assert!(
         again.compared(SetKind::Camera, "Nikon D70 (2007 figure) (own)").is_some(),
@@ -186,7 +204,8 @@ fn another_role_moves_a_set() {
     let mut document = Document::paper();
     import(&["x"], Role::Reflectance).apply(&mut document);
     let with = Box::new(own("x", Role::Camera));
-    Action::Own(OwnAction::Replace { name: "x".to_owned(), with }).apply(&mut document);
+    Action::Own(OwnAction::Replace { name: "x".to_owned(), with, built_in: crate::built_in_names() })
+        .apply(&mut document);
     assert_eq!(document.chart, CHART);
     assert!(document.compared(SetKind::Camera, "x").is_some());
 }
@@ -265,7 +284,8 @@ fn a_set_that_is_renamed_keeps_its_uses_and_gets_no_others() {
     let rename = |from: &str, to: &str, document: &mut Document| {
         let set = document.own.iter().find(|set| set.name == from).unwrap();
         let with = Box::new(OwnSet { name: to.to_owned(), ..(**set).clone() });
-        Action::Own(OwnAction::Replace { name: from.to_owned(), with }).apply(document);
+        Action::Own(OwnAction::Replace { name: from.to_owned(), with, built_in: crate::built_in_names() })
+            .apply(document);
     };
     rename("leaf", "oak", &mut document);
     assert_eq!(document.chart, "bark");

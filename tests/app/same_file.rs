@@ -3,7 +3,7 @@
 use chromascope::action::{Action, OwnAction};
 use chromascope::catalog::Catalog;
 use chromascope::catalog::import::{Origin, imported};
-use chromascope::catalog::names::is_same_name;
+use chromascope::document::names::is_same_name;
 use chromascope::document::own::{ImportOverrides, OwnSet, Role};
 use chromascope::document::{Compared, Document, Light, MOST_COMPARED, SetKind, session};
 use chromascope::plot_item::{PickIndex, PlotItem, SensorId};
@@ -23,7 +23,7 @@ fn set(name: &str, path: Option<&str>, text: &str) -> OwnSet {
 }
 
 fn open(document: &mut Document, sets: &[OwnSet]) {
-    Action::Own(OwnAction::Import(sets.to_vec())).apply(document);
+    crate::import_sets(sets.to_vec()).apply(document);
 }
 
 fn names(document: &Document) -> Vec<&str> {
@@ -36,7 +36,12 @@ fn the_same_file_is_the_same_set() {
     open(&mut document, &[set("leaf.csv", Some("/a/leaf.csv"), LEAF)]);
     // A person made something of it.
     let with = OwnSet { name: "my leaf".to_owned(), role: Role::Illuminant, ..(*document.own[0]).clone() };
-    Action::Own(OwnAction::Replace { name: "leaf".to_owned(), with: Box::new(with) }).apply(&mut document);
+    Action::Own(OwnAction::Replace {
+        name: "leaf".to_owned(),
+        with: Box::new(with),
+        built_in: crate::built_in_names(),
+    })
+    .apply(&mut document);
     document.light = Light::BlackBody;
     let before = document.own.clone();
     for again in [Some("/a/leaf.csv"), Some("/b/copy.csv"), None] {
@@ -100,7 +105,7 @@ fn a_session_of_many_sets_of_one_name_opens() {
         (again.own.len(), again.own[0].name.as_str(), again.own[19_999].name.as_str()),
         (20_000, "leaf", "leaf (20000)")
     );
-    let free = again.free_name(SetKind::Chart, "LEAF", None);
+    let free = again.free_name(SetKind::Chart, "LEAF", None, &crate::built_in_names());
     assert_eq!(free, "LEAF (20001)");
 }
 

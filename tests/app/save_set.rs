@@ -1,6 +1,5 @@
 //! Sets of the library as files: what is written reads back, what does not fit says why, the menu is there.
 
-use chromascope::action::{Action, OwnAction};
 use chromascope::catalog::import::import;
 use chromascope::catalog::{Catalog, Entry};
 use chromascope::document::SetKind;
@@ -142,7 +141,7 @@ fn what_does_not_fit_says_why() {
 fn every_row_has_a_menu_with_all_forms() {
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
     let set = own("zoo.csv", "nm,red,green,blue\n400,0,1,5\n500,1,8,4\n600,9,5,1\n700,5,1,0\n", Role::Camera);
-    window.state_mut().push(Action::Own(OwnAction::Import(vec![OwnSet { name: "Zoo".to_owned(), ..set }])));
+    window.state_mut().push(crate::import_sets(vec![OwnSet { name: "Zoo".to_owned(), ..set }]));
     window.run();
     for (menu, own) in [("Menu of your Zoo", true), ("Menu in the library of ARRI D21", false)] {
         window.get_by_role_and_label(accesskit::Role::Button, menu).click();

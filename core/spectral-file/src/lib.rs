@@ -94,7 +94,8 @@ pub use options::ReadOptions;
 pub use preview::{LONGEST_LINE, LeftOut, Mark, Marker, Preview, Shown, What};
 pub use read::{read, read_marked, read_watched};
 pub use report::{
-    Certainty, Decided, Decision, Dropped, DroppedRow, Encoding, Medium, Orientation, Part, ReadReport, Reader, Steps,
+    Certainty, Decided, Decision, Dropped, DroppedRow, Effect, Encoding, Medium, Orientation, Part, ReadReport, Reader,
+    Steps,
 };
 pub use role::{Quantity, Role, Values};
 pub use separators::{DecimalMark, Delimiter};

@@ -18,7 +18,7 @@
 
 use crate::grid::{Grid, RawCurve};
 use crate::options::ReadOptions;
-use crate::report::{Certainty, Decided, Decision};
+use crate::report::{Certainty, Decided, Decision, Effect};
 use crate::role::{Quantity, Role, Values};
 use crate::text::excerpt;
 use crate::unit_text::{is_per_energy, is_per_photon, is_photons, names_photons, says_per_photon};
@@ -203,7 +203,7 @@ pub(super) fn to_energy(
     // A power of ten in a unit may be meant either way.
     let certainty = if first.ten == 1.0 { Certainty::Certain } else { Certainty::Guess };
     let decided = Decided { value: format!("{}{some}", first.told()), certainty, why: first.why.clone() };
-    let decision = Decision::new(DECISION, &decided);
+    let decision = Decision::new(DECISION, &decided).affecting(Effect::Data);
     for (curve, conversion) in grid.curves.iter_mut().zip(&found) {
         let Some(conversion) = conversion else { continue };
         for (value, nm) in curve.values.iter_mut().zip(&grid.wavelengths) {
@@ -230,7 +230,7 @@ fn unsaid(grid: &Grid, axis: &Decided<WavelengthUnit>) -> Option<Decision> {
         return None;
     }
     let why = format!("The axis is {}, but nothing says per what the power is", axis.value);
-    Some(Decision::new(DECISION, &Decided::guess("power per nanometer, taken as it is", why)))
+    Some(Decision::new(DECISION, &Decided::guess("power per nanometer, taken as it is", why)).affecting(Effect::Data))
 }
 
 /// A name that does not say photons, or a unit that the values have no longer.

@@ -89,11 +89,35 @@ pub struct Decision {
     pub certainty: Certainty,
     /// The evidence: "Cells such as 0,05".
     pub why: String,
+    /// What would be wrong with it.
+    pub effect: Effect,
+}
+
+/// What a wrong decision makes wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effect {
+    /// The report alone.
+    Report,
+    /// Numbers, or their use.
+    Data,
+    /// The scale of all values.
+    Scale,
 }
 
 impl Decision {
     pub(super) fn new<T: fmt::Display>(what: &'static str, decided: &Decided<T>) -> Self {
-        Self { what, value: decided.value.to_string(), certainty: decided.certainty, why: decided.why.clone() }
+        Self {
+            what,
+            value: decided.value.to_string(),
+            certainty: decided.certainty,
+            why: decided.why.clone(),
+            effect: Effect::Report,
+        }
+    }
+
+    /// The decision with an effect on the data.
+    pub(super) fn affecting(self, effect: Effect) -> Self {
+        Self { effect, ..self }
     }
 }
 
@@ -343,12 +367,12 @@ impl ReadReport {
         // The form of JCAMP-DX, among the notes, stands for both: its data are no columns.
         let columns = self.reader.value != Reader::Jcamp;
         all.push(Decision::new("Encoding", &self.decided_encoding()));
-        all.extend(columns.then(|| Decision::new("Separator", &self.delimiter)));
+        all.extend(columns.then(|| Decision::new("Separator", &self.delimiter).affecting(Effect::Data)));
         all.push(Decision::new("Decimal mark", &self.decimal_mark));
         all.extend(columns.then(|| Decision::new("Orientation", &self.orientation)));
         all.extend([
-            Decision::new("Wavelengths", &self.wavelength_unit),
-            Decision::new("Values", &self.values),
+            Decision::new("Wavelengths", &self.wavelength_unit).affecting(Effect::Data),
+            Decision::new("Values", &self.values).affecting(Effect::Scale),
             Decision::new("Quantity", &self.quantity),
         ]);
         if let Some(per_photon) = &self.per_photon {
@@ -356,7 +380,7 @@ impl ReadReport {
             all.push(Decision::new("Response", &per_photon.told(what)));
         }
         if self.parts.len() > 1 {
-            all.push(Decision::new("Part", &self.part.told(&self.told_part())));
+            all.push(Decision::new("Part", &self.part.told(&self.told_part())).affecting(Effect::Data));
         }
         all.extend(self.notes.iter().cloned());
         all

@@ -10,7 +10,7 @@ use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 use chromascope_mesh::reading::{MeshReadError, Note, ReadMesh, read_mesh};
 
-use crate::format::io_reason;
+use crate::format::{capitalized, io_reason};
 
 /// The largest mesh file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1_000_000_000;
@@ -109,28 +109,51 @@ pub enum MeshFailure {
 impl MeshFailure {
     /// For a person who opened the file.
     pub fn on_opening(&self) -> String {
-        capitalized(&format!("{self}. Nothing was changed."))
+        format!("{}. Nothing was changed.", self.beginning())
     }
 
     /// For a picture that needs the file.
     pub fn on_show(&self) -> String {
-        capitalized(&match self {
-            Self::Missing { .. } => format!("{self}; open it from where it is now, or choose Head or Fern."),
-            Self::Io { .. } | Self::Stopped { .. } => format!("{self}; open it again, or choose Head or Fern."),
-            _ => format!("{self}. Open another mesh, or choose Head or Fern."),
-        })
+        let remedy = match self {
+            Self::Missing { .. } => "; open it from where it is now, or choose Head or Fern.",
+            Self::Io { .. } | Self::Stopped { .. } => "; open it again, or choose Head or Fern.",
+            _ => ". Open another mesh, or choose Head or Fern.",
+        };
+        self.beginning() + remedy
+    }
+
+    /// The message as the beginning of a sentence: only a sentence's own first word takes a capital, a file's name stays as it is.
+    fn beginning(&self) -> String {
+        match self {
+            Self::Stopped { .. } => capitalized(&self.to_string()),
+            _ => self.to_string(),
+        }
     }
 }
 
-/// A line number belongs to the name before it.
+/// What stands between a file's name and a message, which may begin with a place in the file.
 fn joint(error: &MeshReadError) -> &'static str {
-    let text = error.to_string();
-    if ["line ", "face ", "vertex "].iter().any(|place| text.starts_with(place)) { ", " } else { ": " }
-}
-
-/// Only a sentence's own first word takes a capital: a file's name stays as it is.
-fn capitalized(sentence: &str) -> String {
-    sentence.strip_prefix("reading ").map_or_else(|| sentence.to_owned(), |rest| format!("Reading {rest}"))
+    use MeshReadError as E;
+    match error {
+        E::Number { .. }
+        | E::NotFinite { .. }
+        | E::TooFar { .. }
+        | E::TooFewNumbers { .. }
+        | E::Index { .. }
+        | E::NoSuchVertex { .. }
+        | E::NoSuchNormal { .. }
+        | E::FaceTooShort { .. }
+        | E::FaceTooLong { .. }
+        | E::Syntax { .. } => ", ",
+        E::Empty
+        | E::NotAMesh { .. }
+        | E::NoFaces { .. }
+        | E::NoArea { .. }
+        | E::TooLarge { .. }
+        | E::Truncated { .. }
+        | E::Unfinished { .. }
+        | E::Stopped => ": ",
+    }
 }
 
 /// When a file was changed, and how long it is.

@@ -337,14 +337,6 @@ pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Jo
     }
 }
 
-/// Reads one file without a window; the error is a sentence with its name.
-pub fn read_file(path: &Path) -> Result<Imported, String> {
-    let bytes = read_bytes(path)?;
-    let origin = origin(path, &bytes);
-    let read = import_as(&origin, &bytes, &ImportOverrides::default(), Watch::none());
-    read.map_err(|error| unread(&origin.name, &error))
-}
-
 /// A file's bytes; the error is a sentence with its name.
 fn read_bytes(path: &Path) -> Result<Arc<[u8]>, String> {
     let name = name_of(path);
@@ -379,7 +371,7 @@ fn name_of(path: &Path) -> String {
 }
 
 fn unread(name: &str, error: &ReadError) -> String {
-    let text = error.to_string();
-    let joint = if text.starts_with("line ") { ", " } else { ": " };
-    format!("{name}{joint}{text}")
+    // A message about a line begins with it, which belongs to the name before it.
+    let joint = if error.line().is_some() { ", " } else { ": " };
+    format!("{name}{joint}{error}")
 }

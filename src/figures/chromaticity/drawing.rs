@@ -1,5 +1,7 @@
 //! The chromaticity diagram while it is drawn.
 
+use std::collections::BTreeSet;
+
 use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_figure::Mark;
 
@@ -16,6 +18,8 @@ pub(super) struct Drawing<'a> {
     pub(super) marks: Vec<Mark>,
     pub(super) things: PickIndex,
     pub(super) refused: Vec<String>,
+    /// Places among the marks of the lines of Planckian loci.
+    pub(super) loci: BTreeSet<usize>,
     /// All that the ranges have to hold.
     pub(super) data: Vec<[f64; 2]>,
 }

@@ -47,8 +47,10 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
         let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });
         line.with_stroke(source.role, source.width)
     };
+    drawing.loci.insert(drawing.marks.len());
     drawing.marks.push(line(measured).with_halo(InkRole::Plot));
     if !beyond.is_empty() {
+        drawing.loci.insert(drawing.marks.len());
         drawing.marks.push(line(beyond).with_dash(Dash::Dotted));
     }
     for kelvin in TICKS {

@@ -38,7 +38,8 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
     }
     if changed != *set {
         follow(set, &mut changed);
-        context.push(Action::Own(OwnAction::Replace { name: set.name.clone(), with: Box::new(changed) }));
+        let (name, built_in) = (set.name.clone(), context.scene.catalog.names().clone());
+        context.push(Action::Own(OwnAction::Replace { name, with: Box::new(changed), built_in }));
     }
 }
 

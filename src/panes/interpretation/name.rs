@@ -1,11 +1,9 @@
 //! The name of a set, taken over with Enter or when the field is left.
 
-use chromascope_core::query::Shared;
 use egui::{Id, RichText, TextEdit, Ui};
 
 use super::caption;
 use crate::action::{Action, OwnAction};
-use crate::catalog::Entry;
 use crate::document::SetKind;
 use crate::document::own::OwnSet;
 use crate::document::uses::Holder;
@@ -20,8 +18,9 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
     let mut text = kept.filter(|(of, _)| *of == set.name).map_or_else(|| set.name.clone(), |(_, text)| text);
     let document = context.scene.document;
     let index = document.own.iter().position(|other| other.name == set.name);
-    let kind = Entry::from_own(&Shared::new(set.clone())).kind;
-    let holder = |name: &str| document.holder_of(kind, name, index).filter(|_| name != set.name);
+    let kind = SetKind::of_own(set);
+    let built_in = context.scene.catalog.names();
+    let holder = |name: &str| document.holder_of(kind, name, index, built_in).filter(|_| name != set.name);
     caption(ui, &theme, "Name", false);
     let field = ui.add(TextEdit::singleline(&mut text).id(id.with("field")).desired_width(f32::INFINITY));
     field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Name of the set"));
@@ -44,7 +43,8 @@ pub(super) fn show(ui: &mut Ui, set: &OwnSet, context: &mut PaneContext<'_>) {
     ui.data_mut(|data| data.insert_temp(id, (set.name.clone(), text)));
     if let Some(name) = accepted.filter(|name| *name != set.name) {
         let with = OwnSet { name: name.clone(), ..set.clone() };
-        context.push(Action::Own(OwnAction::Replace { name: set.name.clone(), with: Box::new(with) }));
+        let built_in = built_in.clone();
+        context.push(Action::Own(OwnAction::Replace { name: set.name.clone(), with: Box::new(with), built_in }));
         follow(&set.name, &name, context);
     }
 }

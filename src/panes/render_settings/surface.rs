@@ -21,11 +21,8 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     area(ui, &settings, context);
     reading(ui, settings.reading, context);
-    let why = settings.reading.why();
-    // What follows from it, which its last sentence says; the pointer reads all.
-    let last = why.rsplit(". ").next().unwrap_or(why).split(':').next().unwrap_or(why);
-    let last = last.trim_end_matches('.');
-    ui.label(RichText::new(last).small().color(context.theme.weak)).on_hover_text(why);
+    let consequence = RichText::new(settings.reading.consequence()).small().color(context.theme.weak);
+    ui.label(consequence).on_hover_text(settings.reading.why());
     if settings.reading != ReadingChoice::Lambertian {
         specular(ui, settings.specular, context);
         returned_light(ui, &settings, context);

@@ -13,7 +13,7 @@ const LARGEST: usize = 2;
 const KNOWN: &[(&str, &str, usize)] = &[
     ("src", "bench", 6),
     ("src", "profiler", 4),
-    ("core/src", "render", 22),
+    ("core/src", "render::plan", 9),
     ("core/spectral-file/src", "text", 36),
     ("core/spectral-file/src", "write", 6),
     ("core/spectral-file/src", "wide", 3),

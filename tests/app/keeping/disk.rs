@@ -24,7 +24,7 @@ fn a_document_saved_in_part_is_not_as_the_one_before_it() {
     files.save_document(&before).unwrap();
     fs::write(folder.join("curves"), "").unwrap();
     let mut document = Document { temperature_k: 4321.0, ..before.clone() };
-    Action::Own(OwnAction::Import(vec![set("leaf")])).apply(&mut document);
+    crate::import_sets(vec![set("leaf")]).apply(&mut document);
     files.save_document(&document).unwrap_err();
     // Undone, while the disk has the other temperature.
     files.autosave(&before, &egui::Context::default());
