@@ -23,6 +23,7 @@ const KNOWN: &[(&str, &str, usize)] = &[
 const CRATES: &[&str] = &[
     "src",
     "core/src",
+    "core/data/src",
     "core/figure/src",
     "core/math/src",
     "core/mesh/src",
