@@ -1,4 +1,4 @@
-//! Which panes stand where: tables of splits, no docking.
+//! Workspaces: tables of splits that place the panes, no docking.
 
 use std::collections::BTreeSet;
 use std::fmt::{self, Formatter};
@@ -33,7 +33,7 @@ impl PaneKind {
     pub const IMPORT: Self = Self::new("Import");
     /// Curves that a file gives.
     pub const CURVES: Self = Self::new("Curves");
-    /// How a file was read, with switches.
+    /// Decisions made in reading a file, with switches.
     pub const INTERPRETATION: Self = Self::new("Understood");
     /// Run time against error by method.
     pub const METHODS: Self = Self::new("Accuracy");
@@ -112,7 +112,7 @@ pub enum Workspace {
     Render,
     /// The user's files, and what was understood of them.
     Import,
-    /// What the scene costs by each method, and what was left out.
+    /// Run time and error of each method on the scene, and the skipped work.
     Accuracy,
 }
 
@@ -131,7 +131,7 @@ impl Workspace {
         }
     }
 
-    /// Whether a narrow window hides the library, so that the right column stays.
+    /// True where a narrow window hides the library and keeps the right column.
     pub const fn keeps_right_column(self) -> bool {
         matches!(self, Self::Render | Self::Import | Self::Accuracy)
     }
@@ -162,7 +162,7 @@ pub struct Layout {
     pub lower_share: f32,
     /// Height of the right column's lower pane as a share.
     pub right_lower_share: f32,
-    /// Whether the library is shown.
+    /// Library visible.
     pub library: bool,
     /// Compare: center upper, center lower, right upper, right lower.
     pub compare: [Option<PaneKind>; 4],
@@ -210,7 +210,7 @@ impl Layout {
         }
     }
 
-    /// The same, to change.
+    /// The panes of a workspace's four places, mutable.
     pub fn places_mut(&mut self, workspace: Workspace) -> &mut [Option<PaneKind>; 4] {
         match workspace {
             Workspace::Compare => &mut self.compare,
@@ -230,7 +230,7 @@ impl Layout {
         }
     }
 
-    /// Whether a workspace shows a pane.
+    /// True if a workspace shows a pane.
     pub fn shows(&self, workspace: Workspace, pane: PaneKind) -> bool {
         if pane == PaneKind::LIBRARY { self.library } else { self.places(workspace).contains(&Some(pane)) }
     }
@@ -266,7 +266,7 @@ impl Layout {
     }
 }
 
-/// Where everything stands.
+/// Rectangles of the panes and borders of a window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arrangement {
     /// Panes with their rectangles.
@@ -275,7 +275,7 @@ pub struct Arrangement {
     pub splitters: Vec<(Splitter, Rect)>,
     /// A pane that lies over the others.
     pub over: Option<(PaneKind, Rect)>,
-    /// Whether a column was left out for want of width.
+    /// The window is too narrow for one of the columns.
     pub narrow: bool,
 }
 

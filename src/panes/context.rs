@@ -30,9 +30,9 @@ pub struct Pane {
     pub show: fn(&mut Ui, Rect, &mut PaneContext<'_>),
     /// Figure as on screen, with its numbers, for exports; none while there is nothing to show. None for a pane without figures.
     pub figure: Option<fn(&Scene<'_>, &View) -> Option<Figure>>,
-    /// Whether the figure's numbers depend on the document's conditions, and are written with them.
+    /// The figure's numbers depend on the document's conditions, and are written with them.
     pub under_conditions: bool,
-    /// Whether the pane can show its numbers as a table instead.
+    /// The pane can show its numbers as a table instead.
     pub table: bool,
 }
 
@@ -44,7 +44,7 @@ pub struct PaneContext<'a> {
     pub scene: Scene<'a>,
     /// The colors.
     pub theme: Theme,
-    /// What is looked at and how.
+    /// View state: selection, zoom, layout.
     pub view: &'a mut View,
     /// The user's mesh files.
     pub meshes: &'a MeshStore,
@@ -52,13 +52,13 @@ pub struct PaneContext<'a> {
     pub opened: &'a Opened,
     /// Tells the nearest black body of a color, once it is asked.
     pub radiators: &'a Background<NearestBlackBodyQuery>,
-    /// Where pictures are made.
+    /// Renderer of the pictures.
     pub studio: &'a mut RenderService,
-    /// Where the scene's cost is measured.
+    /// Profiler of the scene.
     pub laboratory: &'a mut Profiler,
     /// The curves that Import drew last.
     pub curves: &'a mut Option<CurveCache>,
-    /// What is to be done when the frame is over.
+    /// Commands carried out after the frame.
     pub commands: &'a mut Vec<Command>,
 }
 

@@ -12,7 +12,7 @@ use crate::theme::UNIT;
 use crate::view::import::ImportItem;
 use crate::workspaces::PaneKind;
 
-/// How near the pointer must be, in points.
+/// Reach of the pointer, in points.
 const REACH: f32 = 8.0;
 /// Who waits so long is told that something is going on.
 const PATIENCE: Duration = Duration::from_millis(100);

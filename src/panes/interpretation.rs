@@ -1,4 +1,4 @@
-//! What a file was understood as, with switches.
+//! Decisions made in reading a file, with switches to correct them.
 
 mod buttons;
 mod camera;
@@ -23,9 +23,9 @@ use crate::theme::{ROW, SMALL, TEXT, Theme, UNIT};
 use crate::view::import::Stop;
 use crate::workspaces::PaneKind;
 
-/// What the first entry of each list says.
+/// First entry of each list.
 const CONTENT: &str = "Decided by content";
-/// The same where there is little room.
+/// First entry where room is short.
 const CONTENT_SHORT: &str = "By content";
 
 /// The pane.
@@ -125,7 +125,7 @@ fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
     ui.label(RichText::new(words).small().color(theme.weak));
 }
 
-/// What stands above a control; a guess is marked with a dot.
+/// Label above a control; a dot marks a guess.
 fn caption(ui: &mut Ui, theme: &Theme, words: &str, guess: bool) {
     let response = ui.label(RichText::new(words).small().color(theme.weak));
     if guess {
@@ -134,7 +134,7 @@ fn caption(ui: &mut Ui, theme: &Theme, words: &str, guess: bool) {
     }
 }
 
-/// What the closed list says: a value, and how it came about.
+/// Text of a closed list: a value, and how it was decided.
 struct Closed {
     value: String,
     how: String,

@@ -17,7 +17,7 @@ use crate::theme::UNIT;
 use crate::view::accuracy::Shows;
 use crate::workspaces::PaneKind;
 
-/// How near the pointer must be, in points.
+/// Reach of the pointer, in points.
 const REACH: f32 = 10.0;
 /// A panel of the bench is at least so large; a wider pane has two side by side.
 const PANEL: Vec2 = Vec2::new(420.0, 280.0);
@@ -149,7 +149,7 @@ fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneCont
     });
 }
 
-/// What was measured, what that means, and what the marks stand for. Returns what is left below.
+/// Key: subject, meaning and marks. Returns the rectangle below.
 fn above(
     ui: &mut Ui,
     body: Rect,
@@ -178,7 +178,7 @@ fn above(
     Rect::from_min_max(egui::pos2(body.left(), top), body.max)
 }
 
-/// What is on show, and a way to measure it.
+/// Choice of the subject, and buttons that measure it.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.view.accuracy.shows;
     run(ui, now, context);

@@ -1,4 +1,4 @@
-//! What is rendered: mesh, material, surface, light's place, view; and the pixel that is read.
+//! Settings of the render: mesh, material, surface, light, view; and the pixel that is read.
 
 mod material;
 mod pixel;
@@ -20,7 +20,7 @@ use crate::workspaces::PaneKind;
 const PIXEL: f32 = 128.0;
 const PIXEL_LINE: f32 = 17.0;
 const PIXEL_LINES: usize = 6;
-/// The same while no pixel is kept: the status bar reads what is under the pointer.
+/// Height while no pixel is pinned: the status bar reads the one under the pointer.
 const NO_PIXEL: f32 = 44.0;
 /// In a lower pane they are a group among the others.
 const WITH_PIXEL: f32 = 480.0;
@@ -100,7 +100,7 @@ struct Dial<'a> {
     logarithmic: Option<f64>,
     unit: &'a str,
     hint: &'a str,
-    /// Whether values beyond the slider may be typed.
+    /// Values beyond the slider may be typed.
     beyond: bool,
 }
 

@@ -1,4 +1,4 @@
-//! How large an error may be, and how each camera keeps it.
+//! Allowed error, and the method that keeps it for each camera.
 
 use chromascope_core::render::plan::{Candidate, Verdict};
 use chromascope_measure::pareto::duration;

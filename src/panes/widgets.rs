@@ -130,7 +130,7 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
 pub enum Icon {
     /// A grid.
     Table {
-        /// Whether numbers are shown.
+        /// Numbers are visible.
         on: bool,
     },
     /// An arrow out of a tray.

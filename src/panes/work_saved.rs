@@ -1,4 +1,4 @@
-//! What the scene on show did not compute, and the time that this saved.
+//! Work that the visible scene skipped, and the time it saved.
 
 use chromascope_figure::{TextSize, text_width};
 use chromascope_measure::pareto::duration;

@@ -13,7 +13,7 @@ use crate::scene::Scene;
 pub struct Words {
     /// The sentence.
     pub text: String,
-    /// Whether more light is returned than comes.
+    /// More light is returned than comes.
     pub is_warning: bool,
 }
 
@@ -32,7 +32,7 @@ pub fn words(scene: &Scene<'_>) -> Option<Words> {
     of(scene).map(|light| sentence(light, scene.document.render.reading.reading()))
 }
 
-/// What the sentence means, for a hint.
+/// Meaning of the sentence, for a hint.
 pub const fn meaning(reading: ReadingChoice) -> &'static str {
     match reading {
         ReadingChoice::Paper => {

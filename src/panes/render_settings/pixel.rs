@@ -71,7 +71,7 @@ fn shown(place: PixelPlace, render: &RenderView) -> PixelPlace {
     }
 }
 
-/// The same pixel through each sensor, in a line each.
+/// The pixel through each sensor, one line each.
 fn others(ui: &mut Ui, place: &PixelPlace, context: &PaneContext<'_>) {
     let render = &context.view.render;
     let Some(shot) = render.shot.as_deref() else { return };

@@ -9,7 +9,7 @@ use crate::command::Command;
 use crate::document::render::{MeshChoice, NEAR, RenderSettings};
 use crate::panes::context::PaneContext;
 
-/// How many triangles can be chosen.
+/// Choices of the number of triangles.
 const TRIANGLES: std::ops::RangeInclusive<f64> = 2e3..=2e6;
 
 /// Shows the group.
@@ -75,7 +75,7 @@ fn mesh(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, format!("Mesh: {shown}")));
 }
 
-/// What was read from a file, and tolerated.
+/// Notes on the mesh file that was read.
 fn summary(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
     if let MeshChoice::File(path) = &settings.mesh
         && let MeshState::Ready(mesh) = context.meshes.get(path)

@@ -1,4 +1,4 @@
-//! What was computed for the pictures on show, and what was left out.
+//! Computed and skipped work of the visible pictures.
 
 use egui::{Grid, RichText, Ui};
 

@@ -181,7 +181,7 @@ fn reading(ui: &mut Ui, now: ReadingChoice, context: &mut PaneContext<'_>) {
     });
 }
 
-/// Where the model is stretched.
+/// Limits of the model that the surface exceeds.
 fn cautions(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
     if settings.reading == ReadingChoice::Lambertian || settings.roughness == RoughnessChoice::Mesh {
         return;
@@ -211,7 +211,7 @@ fn cautions(ui: &mut Ui, settings: &RenderSettings, context: &PaneContext<'_>) {
     }
 }
 
-/// Whether most of the light is reflected as by a mirror when it comes head-on, at 550 nm.
+/// True if most of the light is reflected specularly at normal incidence, at 550 nm.
 fn is_nearly_a_mirror(settings: &RenderSettings) -> bool {
     let phase = 4.0 * std::f64::consts::PI * settings.sigma_um / 0.55;
     settings.roughness == RoughnessChoice::Surface && (-phase * phase).exp() > 0.01
