@@ -49,7 +49,7 @@ pub struct View {
     pub import: ImportView,
     /// What the Render pane shows now.
     pub render: RenderView,
-    /// What is looked at in RelTolerance.
+    /// What is looked at in Accuracy.
     pub accuracy: AccuracyView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,

@@ -14,6 +14,8 @@ use crate::reflectance::{Precision, diffuse_sums_into, regimes::diffuse_sum_by_r
 
 /// κ from which on four moments are within 1e-6 of J(κ, 0).
 pub const ROUGH: f64 = 128.0;
+/// κ from which on four moments are within 1e-9 of J(κ, 0).
+pub const VERY_ROUGH: f64 = 1024.0;
 /// A sample is dark where J is below e^-30 of its peak.
 pub const DARK: f64 = 30.0;
 

@@ -36,7 +36,7 @@ pub use check::MARGIN;
 pub use domain::{Demand, is_lit, position};
 pub(in crate::render) use run::{Places, RUN};
 
-use super::diffuse::{ROUGH, by_nodes, by_regimes};
+use super::diffuse::{ROUGH, VERY_ROUGH, by_nodes, by_regimes};
 use super::measure::{MOMENTS, Node, SpectralWeights};
 use super::quality::Quality;
 use super::shading::ShadingImage;
@@ -90,8 +90,6 @@ const PREVIEW_NODES: usize = 6;
 const PREVIEW_BOUND: f64 = 1e-4;
 const COARSE_BOUND: f64 = 1e-6;
 const FINE_BOUND: f64 = 1e-9;
-/// κ from which on four moments are within 1e-9; from [`ROUGH`] on they are within 1e-6.
-const VERY_ROUGH: f64 = 1024.0;
 /// Below this cost of a picture's samples at wavelengths, in nanoseconds, no search is made: it would take longer.
 const SEARCH_NS: f64 = 5e6;
 
@@ -158,15 +156,15 @@ impl Plan {
         }
     }
 
-    /// Whether a search pays for a picture of a quality with so many samples below [`ROUGH`], if the diffuse component has to
-    /// keep this tolerance. A tolerance in numbers is always searched for: its error is checked.
-    pub(in crate::render) fn is_searched(quality: Quality, tolerance: RelTolerance, samples: u64) -> bool {
-        let (nodes, precision) = match quality {
+    /// Whether a search pays for a picture of a quality with so many samples below [`ROUGH`] and [`VERY_ROUGH`], if the diffuse
+    /// component has to keep this tolerance. A tolerance in numbers is always searched for: its error is checked.
+    pub(in crate::render) fn is_searched(quality: Quality, tolerance: RelTolerance, below: [u64; 2]) -> bool {
+        let (nodes, precision, samples) = match quality {
             Quality::Within(_) => return true,
             Quality::Preview | Quality::Reference | Quality::Regimes => return false,
             Quality::Full | Quality::Fine if !tolerance.allows(FINE_BOUND) => return true,
-            Quality::Full if tolerance.allows(COARSE_BOUND) => (9, Precision::Fine),
-            Quality::Full | Quality::Fine => (15, Precision::Full),
+            Quality::Full if tolerance.allows(COARSE_BOUND) => (9, Precision::Fine, below[0]),
+            Quality::Full | Quality::Fine => (15, Precision::Full, below[1]),
         };
         let by_nodes = cost::of_sample(&IntegrationMethod::Shared { nodes, precision });
         samples as f64 * by_nodes > SEARCH_NS

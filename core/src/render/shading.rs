@@ -4,7 +4,7 @@ mod brightness;
 mod lobes;
 
 use super::Stop;
-use super::diffuse::ROUGH;
+use super::diffuse::{ROUGH, VERY_ROUGH};
 use super::geometry::{Angles, GeometryImage};
 use super::measure::LAMBDA_0_NM;
 use super::plan::{self, Demand, Plan};
@@ -98,11 +98,11 @@ pub struct ShadingImage {
     range: Option<KappaRange>,
 }
 
-/// Smallest and largest κ of the spectral integrals, and how many are below [`ROUGH`].
+/// Smallest and largest κ of the spectral integrals, and how many are below [`ROUGH`] and [`VERY_ROUGH`].
 #[derive(Clone, Copy, Debug)]
 struct KappaRange {
     kappa: [f64; 2],
-    samples: u64,
+    below: [u64; 2],
 }
 
 impl ShadingImage {
@@ -223,7 +223,7 @@ impl ShadingImage {
 
     /// Demand of the picture on a camera's plan; none where no sample has a spectral integral.
     pub fn demand(&self) -> Option<Demand> {
-        self.range.map(|range| Demand::of_picture(range.kappa, range.samples))
+        self.range.map(|range| Demand::of_picture(range.kappa, range.below[0]))
     }
 
     /// The quality whose [`Plan::fixed`] serves where no plan is searched.
@@ -234,8 +234,8 @@ impl ShadingImage {
     /// Tolerance and demand of a plan that is to be searched ([`Plan::new`]); none where [`Plan::fixed`] serves.
     pub fn plan_request(&self) -> Option<(RelTolerance, Demand)> {
         let (range, tolerance) = self.range.zip(self.plan_tolerance())?;
-        let is_searched = Plan::is_searched(self.quality, tolerance, range.samples);
-        is_searched.then(|| (tolerance, Demand::of_picture(range.kappa, range.samples)))
+        let is_searched = Plan::is_searched(self.quality, tolerance, range.below);
+        is_searched.then(|| (tolerance, Demand::of_picture(range.kappa, range.below[0])))
     }
 }
 
@@ -243,10 +243,13 @@ impl KappaRange {
     fn of(shades: &[Shade]) -> Option<Self> {
         let shades = shades.par_iter().with_min_len(GeometryImage::chunk());
         let spectral = shades.filter(|shade| shade.kind == DiffuseKind::Spectral);
-        let of = |shade: &Shade| Self { kappa: [shade.kappa; 2], samples: u64::from(shade.kappa < ROUGH) };
+        let of = |shade: &Shade| Self {
+            kappa: [shade.kappa; 2],
+            below: [ROUGH, VERY_ROUGH].map(|rough| u64::from(shade.kappa < rough)),
+        };
         let both = |a: Self, b: Self| Self {
             kappa: [a.kappa[0].min(b.kappa[0]), a.kappa[1].max(b.kappa[1])],
-            samples: a.samples + b.samples,
+            below: [a.below[0] + b.below[0], a.below[1] + b.below[1]],
         };
         spectral.map(of).reduce_with(both)
     }

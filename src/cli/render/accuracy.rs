@@ -111,7 +111,7 @@ impl Bench {
             let own = (*measure).as_ref().ok();
             let plan = own.and_then(|measure| image.plan(shading, measure, made.scene.results).ok());
             let reach = own.map(|measure| Reach::in_picture(shading, measure));
-            Camera { plan, reach, measure }
+            Camera { measure, plan, reach }
         });
         let of = &made.query.shading;
         Self { geometry, surface: of.surface, reading: of.reading, quality: of.quality, cameras: cameras.collect() }

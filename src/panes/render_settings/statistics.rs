@@ -36,12 +36,12 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ("Specular terms", format!("{}, {} skipped", shading.mirrors, shading.mirrors_skipped)),
         ],
     );
-    let methods =
-        shot.sources.iter().zip(&made.images).filter_map(|(source, image)| {
-            Some((source.label.as_str(), image.as_ref()?.plan().explanation().to_string()))
-        });
     ui.label(RichText::new("Integration methods").small().color(context.theme.weak));
-    rows(ui, "methods", &methods.collect::<Vec<_>>());
+    for (source, image) in shot.sources.iter().zip(&made.images) {
+        if let Some(image) = image {
+            ui.label(RichText::new(format!("{}: {}", source.label, image.plan().explanation())).small());
+        }
+    }
     let counts = context.studio.counts();
     let mut stages = Vec::new();
     for (name, words) in STAGES {
