@@ -28,20 +28,28 @@ const MOST: usize = 2_000_000;
 /// for the eyeballs, which are spheres of their own. The same for any number of threads.
 pub fn head(triangles: usize) -> Mesh {
     let triangles = triangles.min(MOST);
+    let eye = shapes::sphere_of(EYE_RADIUS, triangles / EYE_SHARE);
+    let skin = skin(triangles.saturating_sub(2 * eye.triangles().len()));
+    let right = EYE * Vec3::new(-1.0, 1.0, 1.0);
+    joined([(&skin, Vec3::ZERO), (&eye, EYE), (&eye, right)])
+}
+
+fn skin(triangles: usize) -> Mesh {
     let cage = cage(CAGE).and_then(|(positions, quads)| Surface::new(positions, &quads));
     let cage = cage.expect("the head's cage is closed and of quadrilaterals");
-    let eye = shapes::sphere_of(EYE_RADIUS, triangles / EYE_SHARE);
-    let skin = cage.limit(triangles.saturating_sub(2 * eye.triangles().len())).expect("the head's cage is a mesh");
-    let eyes = [EYE, EYE * Vec3::new(-1.0, 1.0, 1.0)];
-    let mut positions = skin.positions().to_vec();
-    let (mut normals, mut faces) = (skin.normals().to_vec(), skin.triangles().to_vec());
-    for center in eyes {
+    cage.limit(triangles).expect("the head's cage is finite")
+}
+
+/// Several meshes, each moved, as one.
+fn joined(parts: [(&Mesh, Vec3); 3]) -> Mesh {
+    let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    for (mesh, by) in parts {
         let first = positions.len() as u32;
-        positions.extend(eye.positions().iter().map(|&p| p + center));
-        normals.extend_from_slice(eye.normals());
-        faces.extend(eye.triangles().iter().map(|corners| corners.map(|v| v + first)));
+        positions.extend(mesh.positions().iter().map(|&p| p + by));
+        normals.extend_from_slice(mesh.normals());
+        triangles.extend(mesh.triangles().iter().map(|corners| corners.map(|v| v + first)));
     }
-    Mesh::new(positions, normals, faces).expect("eyes and skin are meshes")
+    Mesh::new(positions, normals, triangles).expect("parts are meshes")
 }
 
 /// Vertices and quadrilaterals of an OBJ file; none if a line of either holds anything but numbers.

@@ -1,6 +1,6 @@
 //! Catmull–Clark subdivision (1978) of closed surfaces of quadrilaterals, as triangles on the limit surface.
 //!
-//! Every vertex is on the limit surface and has its normal, by the masks of Halstead, Kass and DeRose (1993). The number of
+//! Every vertex is on the limit surface and has its normal, by the masks of Halstead, Kass and `DeRose` (1993). The number of
 //! triangles is free: all edges are halved equally often, then the longest once more, each together with all that lie
 //! opposite to it across quadrilaterals, so that neighbors share all their vertices.
 
@@ -224,13 +224,6 @@ fn mask(valence: usize) -> Vec<[f32; 4]> {
 /// Numbers the strips of edges: those opposite to one another across quadrilaterals are of one.
 fn strips(edge: &[u32], edges: usize) -> Vec<u32> {
     let mut root: Vec<u32> = (0..edges as u32).collect();
-    fn find(root: &mut [u32], mut at: u32) -> u32 {
-        while root[at as usize] != at {
-            root[at as usize] = root[root[at as usize] as usize];
-            at = root[at as usize];
-        }
-        at
-    }
     for quad in edge.as_chunks::<4>().0 {
         for k in 0..2 {
             let (a, b) = (find(&mut root, quad[k]), find(&mut root, quad[k + 2]));
@@ -250,4 +243,13 @@ fn strips(edge: &[u32], edges: usize) -> Vec<u32> {
         };
     }
     strip
+}
+
+/// The lowest edge of a strip, by links that end there; they become shorter.
+fn find(root: &mut [u32], mut at: u32) -> u32 {
+    while root[at as usize] != at {
+        root[at as usize] = root[root[at as usize] as usize];
+        at = root[at as usize];
+    }
+    at
 }

@@ -8,9 +8,12 @@ use glam::Vec3A;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, node::Bvh2Node};
 use obvhs::triangle::Triangle;
+use rayon::prelude::*;
 
-/// Bins along each axis.
+/// Most bins along each axis; small parts have as many as items.
 const BINS: usize = 16;
+/// Items that one task sorts into bins.
+const RUN: usize = 8192;
 /// Levels below the root: what the stack of a traversal has room for.
 const DEEPEST: u32 = 31;
 /// Triangles from which both halves are built side by side.
@@ -55,8 +58,9 @@ fn build(part: Part<'_>) -> Bvh2Node {
     if let [item] = items {
         return Bvh2Node::new(item.aabb, 1, first_item);
     }
-    let aabb = items.iter().fold(Aabb::empty(), |all, item| all.union(&item.aabb));
-    let middle = split(items, depth);
+    let extent = Extent::new(items);
+    let aabb = extent.items;
+    let middle = if items.len() == 2 { 1 } else { split(items, &extent, depth) };
     let is_large = items.len() >= PARALLEL;
     let (left, right) = items.split_at_mut(middle);
     let (children, below) = nodes.split_at_mut(2);
@@ -79,16 +83,40 @@ fn build(part: Part<'_>) -> Bvh2Node {
     Bvh2Node::new(aabb, 0, first_node)
 }
 
+/// The boxes around items and around their centers.
+struct Extent {
+    items: Aabb,
+    centers: Aabb,
+}
+
+impl Extent {
+    fn new(items: &[Item]) -> Self {
+        let of = |items: &[Item]| {
+            let (mut all, mut centers) = (Aabb::empty(), Aabb::empty());
+            for item in items {
+                all = all.union(&item.aabb);
+                centers.extend(item.center);
+            }
+            Self { items: all, centers }
+        };
+        let join = |a: Self, b: Self| Self { items: a.items.union(&b.items), centers: a.centers.union(&b.centers) };
+        if items.len() < 2 * RUN {
+            return of(items);
+        }
+        let runs = items.par_chunks(RUN).map(of);
+        runs.reduce(|| Self { items: Aabb::empty(), centers: Aabb::empty() }, join)
+    }
+}
+
 /// Reorders the items and returns how many go to the left: at least one, and no more than fit below this level.
-fn split(items: &mut [Item], depth: u32) -> usize {
+fn split(items: &mut [Item], extent: &Extent, depth: u32) -> usize {
     let most = 1_usize << (DEEPEST.saturating_sub(depth + 1));
     let fits = |left: usize| left > 0 && left < items.len() && left.max(items.len() - left) <= most;
-    let cut = Bins::new(items).best_cut();
+    let cut = Bins::new(items, extent).best_cut();
     if let Some(cut) = cut.filter(|cut| fits(cut.left)) {
         return partition(items, |item| cut.is_left(item));
     }
-    let centers = items.iter().fold(Aabb::empty(), |all, item| all.union(&Aabb::from_point(item.center)));
-    let extent = centers.max - centers.min;
+    let extent = extent.centers.max - extent.centers.min;
     let axis = (0..3).max_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(0);
     let middle = items.len() / 2;
     if extent[axis] > 0.0 {
@@ -116,8 +144,11 @@ fn partition(items: &mut [Item], is_left: impl Fn(&Item) -> bool) -> usize {
 struct Bins {
     min: Vec3A,
     scale: Vec3A,
-    axes: [[(Aabb, usize); BINS]; 3],
+    count: usize,
+    axes: Axes,
 }
+
+type Axes = [[(Aabb, usize); BINS]; 3];
 
 /// A plane between two bins.
 struct Cut {
@@ -127,34 +158,49 @@ struct Cut {
     left: usize,
     min: Vec3A,
     scale: Vec3A,
+    bins: usize,
 }
 
 impl Cut {
     fn is_left(&self, item: &Item) -> bool {
-        bin(item.center, self.min, self.scale)[self.axis] < self.bin
+        bin(item.center, self.min, self.scale, self.bins)[self.axis] < self.bin
     }
 }
 
 /// The bin on each axis. A center that is on no axis' scale comes to the first.
-fn bin(center: Vec3A, min: Vec3A, scale: Vec3A) -> [usize; 3] {
-    ((center - min) * scale).to_array().map(|at| (at as usize).min(BINS - 1))
+fn bin(center: Vec3A, min: Vec3A, scale: Vec3A, bins: usize) -> [usize; 3] {
+    ((center - min) * scale).to_array().map(|at| (at as usize).min(bins - 1))
 }
 
 impl Bins {
-    fn new(items: &[Item]) -> Self {
-        let centers = items.iter().fold(Aabb::empty(), |all, item| all.union(&Aabb::from_point(item.center)));
-        let extent = centers.max - centers.min;
-        let scale = |extent: f32| if extent > f32::MIN_POSITIVE * 32.0 { BINS as f32 / extent } else { 0.0 };
+    fn new(items: &[Item], extent: &Extent) -> Self {
+        // Below this the bins' own cost exceeds the items'.
+        let count = items.len().clamp(4, BINS);
+        let (min, extent) = (extent.centers.min, extent.centers.max - extent.centers.min);
+        let scale = |extent: f32| if extent > f32::MIN_POSITIVE * 32.0 { count as f32 / extent } else { 0.0 };
         let scale = Vec3A::from_array(extent.to_array().map(scale));
-        let mut axes = [[(Aabb::empty(), 0); BINS]; 3];
-        for item in items {
-            for (bins, at) in axes.iter_mut().zip(bin(item.center, centers.min, scale)) {
-                let (aabb, count) = &mut bins[at];
-                *aabb = aabb.union(&item.aabb);
-                *count += 1;
+        let sorted = |items: &[Item]| {
+            let mut axes = [[(Aabb::empty(), 0); BINS]; 3];
+            for item in items {
+                for (bins, at) in axes.iter_mut().zip(bin(item.center, min, scale, count)) {
+                    let (aabb, count) = &mut bins[at];
+                    *aabb = aabb.union(&item.aabb);
+                    *count += 1;
+                }
             }
+            axes
+        };
+        if items.len() < 2 * RUN {
+            return Self { min, scale, count, axes: sorted(items) };
         }
-        Self { min: centers.min, scale, axes }
+        let join = |mut a: Axes, b: Axes| {
+            for (into, from) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+                *into = (into.0.union(&from.0), into.1 + from.1);
+            }
+            a
+        };
+        let axes = items.par_chunks(RUN).map(sorted).reduce(|| [[(Aabb::empty(), 0); BINS]; 3], join);
+        Self { min, scale, count, axes }
     }
 
     /// The cut with the least sum over both sides of area times count; none where all are in one bin on every axis.
@@ -163,18 +209,19 @@ impl Bins {
         for (axis, bins) in self.axes.iter().enumerate() {
             let mut right = [0.0; BINS];
             let mut side = (Aabb::empty(), 0);
-            for (index, bin) in bins.iter().enumerate().skip(1).rev() {
+            for (index, bin) in bins.iter().enumerate().take(self.count).skip(1).rev() {
                 side = (side.0.union(&bin.0), side.1 + bin.1);
                 right[index] = if side.1 == 0 { f32::INFINITY } else { side.0.half_area() * side.1 as f32 };
             }
             let mut side = (Aabb::empty(), 0);
-            for index in 1..BINS {
+            for index in 1..self.count {
                 let bin = &bins[index - 1];
                 side = (side.0.union(&bin.0), side.1 + bin.1);
                 let left = if side.1 == 0 { f32::INFINITY } else { side.0.half_area() * side.1 as f32 };
                 let cost = left + right[index];
                 if cost.is_finite() && best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                    best = Some((cost, Cut { axis, bin: index, left: side.1, min: self.min, scale: self.scale }));
+                    let Self { min, scale, count, .. } = *self;
+                    best = Some((cost, Cut { axis, bin: index, left: side.1, min, scale, bins: count }));
                 }
             }
         }
