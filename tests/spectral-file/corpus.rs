@@ -47,7 +47,7 @@ fn close(a: f64, b: f64) -> bool {
     a == b || (a - b).abs() <= CLOSE * a.abs().max(b.abs())
 }
 
-/// What is wrong with a reading, by its truth.
+/// Differences between a reading and its truth.
 fn faults(file: &Path, truth: &str) -> Vec<String> {
     let lines = truth.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     let claims: Vec<(&str, &str)> =
@@ -117,7 +117,7 @@ fn against(table: &SpectralFile, claims: &[(&str, &str)]) -> Vec<String> {
     faults
 }
 
-/// How a curve differs from its truth.
+/// Difference between a curve and its truth.
 fn of_curve(name: &str, samples: &[(f64, f64)], true_name: &str, truth: &str) -> Option<String> {
     let number = |text: &str| text.parse::<f64>().unwrap_or_else(|_| panic!("“{text}” is no number"));
     let truth: Vec<(f64, f64)> = truth

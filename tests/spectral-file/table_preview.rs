@@ -1,4 +1,4 @@
-//! What the preview of a file marks: every value of every curve once, nothing else, in files built byte for byte.
+//! Marks of the preview of a file: every value of every curve once, nothing else, in files built byte for byte.
 
 mod damage;
 mod families;
@@ -39,7 +39,7 @@ impl Seen {
         self.marks(number).into_iter().map(|mark| (&line[mark.range], mark.what)).collect()
     }
 
-    /// What is said of each piece of a line.
+    /// Descriptions of the pieces of a line.
     fn said(&self, number: usize) -> Vec<String> {
         let say = |(piece, what): (&str, What)| format!("{piece} = {}", what.describe(&self.table));
         self.pieces(number).into_iter().map(say).collect()

@@ -1,4 +1,4 @@
-//! What is understood of a file, for a person who looks at it.
+//! Curves and text of a file, with marks, for a person who looks at it.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -31,7 +31,7 @@ impl Hash for Contents {
     }
 }
 
-/// What is a file understood as with these switches?
+/// Query for the curves, the text and the marks of a file that is read with these switches.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FilePreviewQuery {
     contents: Contents,
@@ -46,7 +46,7 @@ impl FilePreviewQuery {
     }
 }
 
-/// A file's text and what was understood of it.
+/// A file's text, its curves, and their places in the text.
 #[derive(Debug)]
 pub struct FilePreview {
     /// Which file.
@@ -55,9 +55,9 @@ pub struct FilePreview {
     pub options: ReadOptions,
     /// Its text, where it is text.
     pub preview: Result<Arc<Preview>, ReadError>,
-    /// What was understood.
+    /// The curves.
     pub table: Result<Arc<SpectralFile>, ReadError>,
-    /// Where that stands in the text.
+    /// Their places in the text.
     pub marker: Option<Marker>,
 }
 
@@ -84,7 +84,7 @@ impl Query for FilePreviewQuery {
     }
 }
 
-/// What are the lines of a file?
+/// Query for the lines of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct PreviewQuery {
     contents: Contents,

@@ -7,7 +7,7 @@ use spectral_file::{
 
 use super::{error, names, ok, samples};
 
-/// How often who watches is asked while a text is read: once for each table in it, and once for each 256 KiB that are looked at,
+/// Number of looks at the watch while a text is read: once for each table in it, and once for each 256 KiB that are looked at,
 /// however often they were before.
 fn looks(text: &str, values: usize) -> usize {
     let looks = std::cell::Cell::new(0);

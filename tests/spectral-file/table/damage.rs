@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 
-/// What must hold of whatever is read.
+/// Invariants of every result.
 pub(super) fn check(bytes: &[u8], options: &ReadOptions) {
     let Ok(table) = read(bytes, options) else { return };
     assert!(!table.curves.is_empty());
@@ -92,7 +92,7 @@ fn damaged() -> impl Strategy<Value = Vec<u8>> {
     )
 }
 
-/// How a table of numbers is written.
+/// Notation of a table of numbers.
 #[derive(Debug, Clone)]
 struct Style {
     separator: &'static str,

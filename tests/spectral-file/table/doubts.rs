@@ -1,4 +1,4 @@
-//! What is read with a doubt that is told: encodings, commas, values below zero, quantities that were chosen.
+//! Readings with a warning: encodings, commas, values below zero, quantities that were chosen.
 
 use spectral_file::{
     Certainty, DecimalMark, Encoding, Quantity, ReadError, ReadOptions, Role, SpectralFile, Warning, read,

@@ -1,4 +1,4 @@
-//! What headers say of quantities, units and responses, and what flipping a switch does.
+//! Quantities, units and responses in headers, and the effect of each switch.
 
 use proptest::prelude::*;
 use spectral_file::write::{Grid, Sheet, Trace, canonical_csv};

@@ -23,7 +23,7 @@ fn sound() -> Vec<Vec<u8>> {
     all
 }
 
-/// What must hold of whatever is read.
+/// Invariants of every result.
 fn check(bytes: &[u8], options: &ReadOptions) {
     let answer = read(bytes, options);
     if let Ok(table) = &answer {

@@ -1,4 +1,4 @@
-//! What XML allows, in files of spectra: the same curves however they are written, and a place for everything that is broken.
+//! Forms that XML allows in files of spectra: the same curves however they are written, and a place for everything that is broken.
 
 use std::cell::Cell;
 
@@ -18,7 +18,7 @@ fn light(middle: &str) -> String {
     )
 }
 
-/// The same as a light of points in `CxF`.
+/// The document as a light of points in `CxF`.
 fn points(middle: &str) -> String {
     format!(
         "<CxF><Object Name=\"a\"><EmissiveSpectrum>\n<SpectralPoint WL=\"400\">1</SpectralPoint>\n{middle}\n\
@@ -232,7 +232,7 @@ fn nesting_is_bounded() {
     assert_eq!(error(&nested(100_000)), ReadError::Unsupported { family: Family::Xml });
 }
 
-/// How often a reading looks whether to go on, and the last share it tells.
+/// Number of looks at the watch during a reading, and the last share reported.
 fn looks(text: &str) -> (usize, f32, Result<SpectralFile, ReadError>) {
     let (count, last) = (Cell::new(0), Cell::new(0.0_f32));
     let look = |share: f32| {

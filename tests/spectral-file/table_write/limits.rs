@@ -1,4 +1,4 @@
-//! What cannot be written, what hardly can, and how much at once.
+//! Limits of writing: curves that cannot be written, extreme ones, and many at once.
 
 use super::{CAMERA, Curves, back, has, sheet, written};
 use spectral_file::write::{Content, Format, Grid, Note, Trace, WriteError, canonical_csv, write};

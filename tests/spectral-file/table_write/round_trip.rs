@@ -8,7 +8,7 @@ use spectral_file::{Certainty, Curve, Role};
 const CONTENTS: [Content<'static>; 6] =
     [CAMERA, Content::Observer, Content::Reflectance, Content::Transmittance, Content::Illuminant, Content::Other];
 
-/// Whether two doubles are the same, or the reader of JSON has lost the last bit.
+/// Returns whether two doubles are equal but for the last bit, which a reader of JSON may lose.
 fn same(format: Format, a: f64, b: f64) -> bool {
     let json = matches!(format, Format::RawtoacesJson | Format::DcamprofJson);
     a == b || (json && (a - b).abs() <= 2.3e-16 * a.abs())
