@@ -1,5 +1,10 @@
 //! Writes a file of spectra as CSV to standard output: `cargo run --example convert -- FILE > spectra.csv`
-#![allow(clippy::disallowed_methods, reason = "an example reads the file that it is given")]
+#![allow(
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "an example reads a file and prints"
+)]
 
 use std::error::Error;
 

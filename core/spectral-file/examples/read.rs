@@ -1,5 +1,10 @@
 //! Reads files of spectra and prints their curves, decisions and warnings: `cargo run --example read -- FILE…`
-#![allow(clippy::disallowed_methods, reason = "an example reads the files that it is given")]
+#![allow(
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "an example reads files and prints"
+)]
 
 use std::process::ExitCode;
 

@@ -17,7 +17,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError
     if let Some(kind) = binary(bytes) {
         return Err(ReadError::Binary { kind });
     }
-    let (text, encoding) = decode_any(bytes)?;
+    #[cfg(feature = "encodings")]
+    let (text, encoding) = decode_any(bytes);
+    #[cfg(not(feature = "encodings"))]
+    let (text, encoding) = decode_utf8(bytes)?;
     let text = if text.contains('\0') { Cow::Owned(text.replace('\0', "")) } else { text };
     if text.trim().is_empty() {
         return Err(ReadError::Empty);
@@ -27,7 +30,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError
 
 /// Decodes UTF-8 alone.
 #[cfg(not(feature = "encodings"))]
-fn decode_any(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
+fn decode_utf8(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
     let rest = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let other = |_| ReadError::NotBuilt { what: "text in another encoding than UTF-8", feature: "encodings" };
     if bare_utf16(bytes).is_some() {
@@ -37,12 +40,7 @@ fn decode_any(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
 }
 
 #[cfg(feature = "encodings")]
-fn decode_any(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError> {
-    Ok(decode_encoded(bytes))
-}
-
-#[cfg(feature = "encodings")]
-fn decode_encoded(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
+fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
     if let Some(rest) = bytes.strip_prefix(b"\xFF\xFE") {
         return (UTF_16LE.decode_without_bom_handling(rest).0, Encoding::Utf16Le);
     }
