@@ -9,10 +9,14 @@ pub type Bench = fn(&[Workload], Effort, &Stop, &mut dyn FnMut(Progress<'_>)) ->
 /// The command that runs the program with the benchmark.
 pub const BUILD: &str = "cargo run --release --features bench";
 
-/// Returns the benchmark; none in a build without the feature `bench`.
+/// Returns the benchmark.
+#[cfg(feature = "bench")]
 pub fn bench() -> Option<Bench> {
-    #[cfg(feature = "bench")]
-    return Some(chromascope_measure::run);
-    #[cfg(not(feature = "bench"))]
+    Some(chromascope_measure::run)
+}
+
+/// Returns none: this build has no benchmark.
+#[cfg(not(feature = "bench"))]
+pub fn bench() -> Option<Bench> {
     None
 }
