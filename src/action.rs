@@ -332,7 +332,9 @@ impl OwnAction {
             }
             Self::Replace { name, with, built_in } => replace(document, name, with, built_in),
             Self::ReplaceAll { with, built_in, .. } => {
-                with.iter().for_each(|(name, with)| replace(document, name, with, built_in));
+                for (name, with) in with {
+                    replace(document, name, with, built_in);
+                }
             }
             Self::Remove(name) => {
                 let Some(index) = document.own.iter().position(|set| set.name == *name) else { return };

@@ -97,7 +97,7 @@ impl Document {
     pub fn forget_name(&mut self, kind: SetKind, name: &str) {
         match kind {
             SetKind::Camera | SetKind::Observer => {
-                self.compared.retain(|c| c.kind != SetKind::Camera || c.name != name)
+                self.compared.retain(|c| c.kind != SetKind::Camera || c.name != name);
             }
             SetKind::Chart | SetKind::Material => {
                 if self.chart == name {
