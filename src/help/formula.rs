@@ -171,7 +171,8 @@ fn say_grouped(node: &Node, out: &mut String) {
     node.say(&mut words);
     let words = words.trim();
     let single = words.chars().count() == 1 || words.chars().all(char::is_alphanumeric);
-    out.push_str(&if single { words.to_owned() } else { format!("({words})") });
+    let parentheses = if single { ["", ""] } else { ["(", ")"] };
+    out.extend([parentheses[0], words, parentheses[1]]);
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -253,7 +253,7 @@ fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
         let tolerance = |window: &Window| window.state().history().document().render.tolerance;
         let text = |window: &Window| window.get_by_role_and_label(Role::TextInput, "Tolerance").value();
         for (typed, words) in [
-            ("a bit", "“a bit” is no number"),
+            ("a bit", "“a bit” is not a number"),
             ("1e-14", "too small: range 1e−13 to 0.1"),
             ("7", "too large: range 1e−13 to 0.1"),
         ] {

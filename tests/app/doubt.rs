@@ -72,7 +72,7 @@ fn tooltip_caption_and_table_say_what_is_extrapolated() {
             let source = SensorId { kind: SetKind::Camera, name: name.to_owned() };
             chromaticity::describe(scene, &PlotItem::Radiator { source, kelvin }).join("\n")
         };
-        let words = "extrapolated: below 2500 K the missing data beyond 700 nm matter";
+        let words = "extrapolated: below 2500 K, the missing data beyond 700 nm matter";
         assert!(told(D70, 1000.0).contains(words) && told(D70, 2499.0).contains(words));
         assert!(!told(D70, 2500.0).contains("extrapolated"));
         assert!(!told("Nikon D70 (A.M.P.A.S.)", 1000.0).contains("extrapolated"));

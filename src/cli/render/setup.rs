@@ -183,7 +183,7 @@ fn surface_error(error: SurfaceError) -> CliError {
     let (argument, remedy) = match error {
         SurfaceError::Sigma => ("--sigma", "write meters, such as 5e-6 for 5 µm"),
         SurfaceError::Tau => ("--tau", "write meters, such as 10e-6 for 10 µm"),
-        SurfaceError::Patch => ("--patch", "write meters, such as 50e-6,50e-6 for 50 µm each"),
+        SurfaceError::Patch => ("--half-widths", "write meters, such as 50e-6,50e-6 for 50 µm each"),
         SurfaceError::Index => ("--ior", "skin has 1.4, a leaf 1.45"),
     };
     CliError::Argument { argument, reason: format!("{error}; {remedy}") }

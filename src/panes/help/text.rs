@@ -6,7 +6,7 @@ use egui::text::LayoutJob;
 use egui::{Color32, CursorIcon, FontId, Galley, Pos2, Rect, Sense, Stroke, TextFormat, Ui, Vec2};
 
 use super::typeset::{self, Typeset};
-use crate::help::markdown::{self, Inline};
+use crate::help::markdown::{self, Inline, Style};
 use crate::theme::Theme;
 
 /// Size of code relative to the words around it.
@@ -38,8 +38,7 @@ struct Piece {
     descent: f32,
     /// Whether a line may begin here, after a space.
     after_space: bool,
-    strong: bool,
-    code: bool,
+    style: Style,
     highlighted: bool,
     link: Option<String>,
 }
@@ -67,9 +66,9 @@ impl Flow {
                     for (index, word) in text.split(' ').enumerate() {
                         after_space |= index > 0;
                         if !word.is_empty() {
-                            let mut piece = word_piece(ui, word, size, style, ink);
+                            let mut piece = word_piece(ui, word, size, *style, ink);
                             (piece.after_space, piece.link) = (after_space, link.clone());
-                            piece.strong |= strong;
+                            piece.style.strong |= strong;
                             flow.pieces.push(piece);
                             after_space = false;
                         }
@@ -196,14 +195,14 @@ impl Flow {
         );
         if piece.highlighted {
             ui.painter().rect_filled(area.expand(1.0), 2.0, ink.theme.chosen);
-        } else if piece.code {
+        } else if piece.style.code {
             ui.painter().rect_filled(area.expand(1.0), 2.0, ink.theme.plot);
         }
         match &piece.what {
             What::Word(galley) => {
                 let top = place - Vec2::new(0.0, typeset::baseline(galley));
                 ui.painter().galley(top, galley.clone(), color);
-                if piece.strong {
+                if piece.style.strong {
                     // The bundled fonts have no bold face: drawn twice, one pixel apart.
                     let pixel = 1.0 / ui.ctx().pixels_per_point();
                     ui.painter().galley(top + Vec2::new(pixel, 0.0), galley.clone(), color);
@@ -218,7 +217,7 @@ impl Flow {
     }
 }
 
-fn word_piece(ui: &Ui, word: &str, size: f32, style: &markdown::Style, ink: &Ink<'_>) -> Piece {
+fn word_piece(ui: &Ui, word: &str, size: f32, style: Style, ink: &Ink<'_>) -> Piece {
     let font = if style.code { FontId::monospace(CODE * size) } else { FontId::proportional(size) };
     let format = TextFormat { italics: style.emphasis, ..TextFormat::simple(font, Color32::PLACEHOLDER) };
     let mut job = LayoutJob::single_section(word.to_owned(), format);
@@ -232,8 +231,7 @@ fn word_piece(ui: &Ui, word: &str, size: f32, style: &markdown::Style, ink: &Ink
         ascent,
         descent: galley.size().y - ascent,
         after_space: false,
-        strong: style.strong,
-        code: style.code,
+        style,
         highlighted: ink.terms.iter().any(|term| folded.contains(term.as_str())),
         link: None,
         what: What::Word(galley),
@@ -246,8 +244,7 @@ fn formula_piece(set: Typeset) -> Piece {
         ascent: set.ascent,
         descent: set.descent,
         after_space: false,
-        strong: false,
-        code: false,
+        style: Style::default(),
         highlighted: false,
         link: None,
         what: What::Formula(set),

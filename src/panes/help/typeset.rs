@@ -217,7 +217,8 @@ impl Setter<'_> {
                 return usual;
             }
             let large = self.glyphs(&mark.to_string(), (size * scale * 1.05).round(), false);
-            let shift = (large.ascent - large.descent - inner.ascent + inner.descent) / 2.0;
+            let [upper, lower] = [large.ascent - inner.ascent, large.descent - inner.descent];
+            let shift = 0.5 * (upper - lower);
             let mut fence = Typeset { width: large.width, ..Typeset::default() };
             fence.place(large, Vec2::new(0.0, shift));
             fence
