@@ -81,12 +81,12 @@ pub fn png(svg: &str, scale: f32) -> Result<RgbaImage, ExportError> {
 
 /// The bytes of a PNG file.
 pub fn png_file(picture: &RgbaImage) -> Result<Vec<u8>, ExportError> {
-    Ok(encoded(picture.as_raw(), picture.width(), picture.height())?)
+    Ok(encoded(picture.as_raw(), picture.width(), picture.height(), CompressionType::Default)?)
 }
 
-fn encoded(rgba: &[u8], width: u32, height: u32) -> Result<Vec<u8>, image::ImageError> {
+fn encoded(rgba: &[u8], width: u32, height: u32, compression: CompressionType) -> Result<Vec<u8>, image::ImageError> {
     let mut file = Vec::new();
-    PngEncoder::new_with_quality(&mut file, CompressionType::Default, FilterType::Adaptive).write_image(
+    PngEncoder::new_with_quality(&mut file, compression, FilterType::Adaptive).write_image(
         rgba,
         width,
         height,
@@ -117,6 +117,6 @@ fn options() -> usvg::Options<'static> {
 
 fn data_uri(image: &Image) -> Option<String> {
     let (width, height) = (u32::try_from(image.width).ok()?, u32::try_from(image.height).ok()?);
-    let file = encoded(&image.rgba, width, height).ok()?;
+    let file = encoded(&image.rgba, width, height, CompressionType::Default).ok()?;
     Some(format!("data:image/png;base64,{}", BASE64_STANDARD.encode(&file)))
 }

@@ -11,6 +11,7 @@ use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes,
     LineOrder, Text, WritableImage as _,
 };
+use image::codecs::png::CompressionType;
 
 /// Reason that there is no file.
 #[derive(Debug, thiserror::Error)]
@@ -50,7 +51,9 @@ pub struct Provenance<'a> {
 
 /// The bytes of a PNG file: eight bits, sRGB, with opacity.
 pub fn png_bytes(picture: &Picture) -> Result<Vec<u8>, PictureError> {
-    Ok(super::encoded(&picture.rgba, picture.width as u32, picture.height as u32)?)
+    // Shaded surfaces are hardly smaller when packed slowly, and a first picture waits for it.
+    let (width, height) = (picture.width as u32, picture.height as u32);
+    Ok(super::encoded(&picture.rgba, width, height, CompressionType::Fast)?)
 }
 
 /// The bytes of an OpenEXR file: the balanced signals of Eq 12 as R G B (where the source has such), tristimulus values as
