@@ -72,8 +72,8 @@ pub fn describe(trial: &Trial, point: &Point) -> Vec<String> {
         let (max, rms) = (number(point.max), number(point.rms));
         lines.push(format!("error: largest {max}, RMS {rms} {}", trial.subject.error_of()));
     }
-    if let Some(certified) = point.certified {
-        lines.push(format!("bound: {} {}", number(certified), trial.subject.error_of()));
+    if let Some(error_bound) = point.error_bound {
+        lines.push(format!("estimated error bound: {} {}", number(error_bound), trial.subject.error_of()));
     }
     if point.preparation > 0.0 {
         lines.push(format!("preparation per sensor: {}", duration(point.preparation)));
@@ -150,7 +150,7 @@ pub fn table(trial: &Trial) -> Table {
         "ratio to the reference".to_owned(),
         format!("largest error ({})", trial.subject.error_of()),
         format!("RMS error ({})", trial.subject.error_of()),
-        format!("error bound ({})", trial.subject.error_of()),
+        format!("estimated error bound ({})", trial.subject.error_of()),
         "preparation (ms)".to_owned(),
     ]);
     let reference = trial.points.first().map_or(1.0, |point| point.seconds);
@@ -161,7 +161,7 @@ pub fn table(trial: &Trial) -> Table {
             (point.seconds / reference).into(),
             point.max.into(),
             point.rms.into(),
-            point.certified.into(),
+            point.error_bound.into(),
             Cell::Number(point.preparation * 1e3),
         ]);
     }

@@ -85,7 +85,7 @@ fn through(
             name: name.clone(),
             family: Family::Tolerance,
             preparation,
-            certified: Some(plan.explanation().error_bound()),
+            error_bound: Some(plan.explanation().error_bound()),
             values: Box::new(move || {
                 let mut sums = vec![[0.0; 3]; places.len()];
                 plan.fill(places, &mut sums);
@@ -146,7 +146,7 @@ fn fixed<'a>(measure: &'a SpectralWeights, places: &'a [[f64; 2]]) -> Vec<Method
         name: name.to_owned(),
         family,
         preparation: 0.0,
-        certified: None,
+        error_bound: None,
         values,
     };
     let sum = |name: &str, precision| {

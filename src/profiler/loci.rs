@@ -38,7 +38,7 @@ fn ready<'a>(method: LocusMethod<'a>, temperatures: &'a [Kelvin]) -> Option<Meth
     let (made, preparation) = timed(&method.make);
     let made = made.ok()?;
     let values = Box::new(move || temperatures.iter().map(|&t| (made.raw)(t)).collect());
-    Some(Method { name: method.name, family: method.family, preparation, certified: made.error_bound, values })
+    Some(Method { name: method.name, family: method.family, preparation, error_bound: made.error_bound, values })
 }
 
 /// Largest difference of two triples of signals, as shares of the largest signal of each: methods may differ by a common factor.

@@ -65,7 +65,7 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
         for point in &trial.points {
             assert!(point.seconds >= 0.0 && point.seconds.is_finite(), "{point:?}");
             assert!(point.rms <= point.max && point.max.is_finite(), "{point:?}");
-            assert!(point.certified.is_none_or(|certified| point.max <= certified.max(2e-14)), "{point:?}");
+            assert!(point.error_bound.is_none_or(|error_bound| point.max <= error_bound.max(2e-14)), "{point:?}");
         }
     }
     let of = |what: &str| {

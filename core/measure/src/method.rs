@@ -13,8 +13,8 @@ pub struct Method<'a> {
     pub family: Family,
     /// Seconds that were spent before the first input.
     pub preparation: f64,
-    /// The error that was promised.
-    pub certified: Option<f64>,
+    /// Estimated error bound, where there is one.
+    pub error_bound: Option<f64>,
     /// Computes all inputs.
     pub values: Box<dyn Fn() -> Vec<[f64; 3]> + 'a>,
 }
@@ -36,7 +36,7 @@ impl Family {
         match self {
             Self::Sum => "sum over the grid",
             Self::Quality => "a quality of the program",
-            Self::Tolerance => "cheapest for a tolerance",
+            Self::Tolerance => "fastest for a tolerance",
         }
     }
 }
@@ -56,8 +56,9 @@ pub struct Point {
     pub max: f64,
     /// The root of the errors' mean square.
     pub rms: f64,
-    /// The error that the core promised, where a tolerance was asked for.
-    pub certified: Option<f64>,
+    /// Estimated error bound, where a tolerance was asked for.
+    #[serde(alias = "certified")]
+    pub error_bound: Option<f64>,
 }
 
 /// Time and error of each method against the first, on this thread alone: the cost of an input, not the power of a machine.
@@ -82,7 +83,7 @@ pub fn compare(
             preparation: method.preparation,
             max,
             rms: (squares / count).sqrt(),
-            certified: method.certified,
+            error_bound: method.error_bound,
         }
     };
     Some(methods.iter().zip(times).map(point).collect())
@@ -98,7 +99,7 @@ pub fn together(sensors: &[Vec<Point>]) -> Vec<Point> {
             sum.preparation += point.preparation;
             sum.max = sum.max.max(point.max);
             sum.rms = sum.rms.max(point.rms);
-            sum.certified = sum.certified.zip(point.certified).map(|(a, b)| a.max(b));
+            sum.error_bound = sum.error_bound.zip(point.error_bound).map(|(a, b)| a.max(b));
         }
         sum.seconds /= sensors.len() as f64;
         sum.preparation /= sensors.len() as f64;
