@@ -9,12 +9,11 @@
 //! ```
 //! Ten cameras share the first three; a new balance needs the last alone.
 
+pub mod coherent;
 pub mod develop;
 pub mod diffuse;
 pub mod geometry;
-pub mod lobe;
 pub mod measure;
-pub mod mirror;
 pub mod plan;
 pub mod quality;
 pub mod shading;
@@ -22,6 +21,7 @@ pub mod signals;
 pub mod vertices;
 pub mod visibility;
 
+pub use coherent::CoherentIntegral;
 pub use develop::{ColorimetricScale, Development, Picture, develop};
 pub use geometry::{Angles, GeometryCounts, GeometryImage, LitSamples, Shadows};
 pub use measure::{LAMBDA_0_NM, SpectralWeights};

@@ -11,7 +11,6 @@ use std::sync::Arc;
 
 use chromascope_core::query::Ask;
 use chromascope_core::query::render::picture::PicturesQuery;
-use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::shading::{DiffuseKind, Shade};
 use chromascope_core::render::{CameraImage, ShadingImage, SpectralWeights, Stop};
 use chromascope_measure::harness::shortest;
@@ -156,13 +155,12 @@ fn sample_cost(sources: &Sources<'_>) -> Result<SampleCost, &'static str> {
     if count == 0 {
         return Err("no sample is lit");
     }
-    let reaches: Vec<Reach> = sources.measures().map(|measure| Reach::in_picture(sources.shading, measure)).collect();
     let of = &sources.pictures.shading;
     let work = || {
         let shading = ShadingImage::new(thinned.clone(), of.surface, of.reading, of.quality, &Stop::NEVER)?;
-        for (ways, &reach) in sources.ways.iter().zip(&reaches) {
+        for ways in &sources.ways {
             let measure = ways.measure();
-            CameraImage::new(&shading, measure, Arc::clone(ways.plan()), reach, &Stop::NEVER)?;
+            CameraImage::new(&shading, measure, Arc::clone(ways.plan()), &Stop::NEVER)?;
         }
         Some(())
     };

@@ -5,5 +5,6 @@ mod drawn;
 mod images;
 mod shadow;
 mod skipping;
+mod smooth;
 mod studio;
 mod visibility;

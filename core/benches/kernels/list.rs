@@ -14,7 +14,6 @@ use chromascope_core::colorimetry::{Lab, Uv60, delta_e_2000, delta_e_2000_into};
 use chromascope_core::light::PlanckianLocus;
 use chromascope_core::reflectance::{Normalization, Precision, Surface, diffuse_sum, wavelength_power};
 use chromascope_core::render::diffuse::{by_moments, by_nodes, rough_basis};
-use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{
     Against, CameraImage, Demand, Development, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows,
     SpectralWeights, Stop, Visibility, develop,
@@ -62,7 +61,10 @@ pub(crate) const KERNELS: &[Kernel] = &[
     Kernel { name: "nearest_black_body", count: 5000, ready: nearest },
     Kernel { name: "sprague_81_to_401", count: 200, ready: sprague },
     Kernel { name: "csv_4000_samples", count: 2, ready: csv },
-    Kernel { name: "sphere_96", count: 2, ready: sphere },
+    Kernel { name: "sphere_96", count: 2, ready: || sphere(1e-6) },
+    Kernel { name: "sphere_96_0.3_um", count: 2, ready: || sphere(0.3e-6) },
+    Kernel { name: "sphere_96_0.1_um", count: 2, ready: || sphere(0.1e-6) },
+    Kernel { name: "sphere_96_0.05_um", count: 2, ready: || sphere(0.05e-6) },
 ];
 
 const CAMERA: &str = "cameras/canon_eos_10d_2007_figure.csv";
@@ -216,12 +218,12 @@ fn csv() -> Work {
     })
 }
 
-/// Every stage from the mesh to pixels, the mesh's tree made once.
-fn sphere() -> Work {
+/// Every stage from the mesh to pixels at a roughness, the mesh's tree made once.
+fn sphere(sigma_m: f64) -> Work {
     let mesh = shapes::sphere(2000);
     let tree = ShadowTree::new(&mesh);
     let (rendering, measure) = measure();
-    let surface = Surface::new(1e-6, 10e-6, 50e-6, 50e-6, 1.5).unwrap();
+    let surface = Surface::new(sigma_m, 10e-6, 50e-6, 50e-6, 1.5).unwrap();
     let lighting = Lighting::far(DVec3::new(0.5, 0.6, 0.8), SUN_RADIUS).unwrap();
     let viewpoint = Viewpoint::new(0.3, 0.2, 3.0, 0.7).unwrap();
     Box::new(move || {
@@ -231,7 +233,7 @@ fn sphere() -> Work {
         let shading =
             ShadingImage::new(Arc::new(geometry), surface, Normalization::Radiometric, Quality::Full, &stop).unwrap();
         let plan = Arc::new(Plan::for_picture(&shading, &measure).unwrap());
-        let image = CameraImage::new(&shading, &measure, plan, Reach::in_picture(&shading, &measure), &stop).unwrap();
+        let image = CameraImage::new(&shading, &measure, plan, &stop).unwrap();
         let development = Development::new(&rendering, 1.0, None);
         develop(&image, &development, &stop).unwrap().rgba.iter().map(|&v| f64::from(v)).sum()
     })

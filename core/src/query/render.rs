@@ -8,13 +8,12 @@ pub mod picture;
 pub mod plan;
 pub mod returned;
 
-use plan::{PlanQuery, ReachQuery};
+use plan::PlanQuery;
 
 use super::ask::{Ask, Query};
 use super::shared::Shared;
 use crate::camera::{RenderingError, rendering::white_divisors};
 use crate::reflectance::{Normalization, Specular, Surface, wavelength_power};
-use crate::render::mirror::Reach;
 use crate::render::{
     Against, CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows, SpectralWeights,
     VertexImage, Visibility,
@@ -266,15 +265,8 @@ impl Query for CameraImageQuery {
         let Some(shading) = (*shading).as_ref() else { return Ok(None) };
         let measure = self.measure.in_picture(shading, ask);
         let measure = (*measure).as_ref().map_err(|&e| e)?;
-        let reach = match Reach::accuracy_in(shading) {
-            Some(tolerance) => {
-                let of = self.measure.untinted(shading).unwrap_or_else(|| self.measure.clone());
-                (*ask.ask(&ReachQuery { measure: of, tolerance }))?
-            }
-            None => Reach::usual_in(shading, measure),
-        };
         let plan = self.plan(shading, measure, ask)?;
-        Ok(CameraImage::new(shading, measure, plan, reach, &ask.stop()))
+        Ok(CameraImage::new(shading, measure, plan, &ask.stop()))
     }
 }
 

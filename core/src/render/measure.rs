@@ -4,12 +4,12 @@
 //! in wavelength, so a Gauss rule of the measure needs a dozen (see `math::gauss`); where P is rough the integral separates
 //! into moments of the measure.
 
+use super::coherent::CoherentRules;
 use crate::math::gauss::{gauss_rule, interpolatory_rule};
 use crate::spectral::grid::{COUNT, wavelength_nm};
 use crate::spectral::{GridSpectrum, Sensor};
 use glam::DVec3;
-use std::f64::consts::TAU;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The wavelength that κ is g at, in nanometers.
 pub const LAMBDA_0_NM: f64 = 550.0;
@@ -38,7 +38,7 @@ pub struct SpectralWeights {
     fine: Vec<Node>,
     moments: [[f64; MOMENTS]; 3],
     totals: [f64; 3],
-    settled_m: f64,
+    coherent_rules: OnceLock<CoherentRules>,
     untinted: Option<Arc<SpectralWeights>>,
 }
 
@@ -78,8 +78,7 @@ impl SpectralWeights {
         let coarse = nodes(&dense, COARSE_NODES);
         let fine = nodes(&dense, FINE_NODES);
         let totals = [0, 1, 2].map(|c: usize| dense.iter().map(|node| node.weights[c]).sum());
-        let settled_m = settled(&dense, unsigned);
-        Self { dense, coarse, fine, moments, totals, settled_m, untinted: None }
+        Self { dense, coarse, fine, moments, totals, coherent_rules: OnceLock::new(), untinted: None }
     }
 
     /// This measure with another for the coherent component: that of a white, where a boundary's reflection does not take the
@@ -124,33 +123,10 @@ impl SpectralWeights {
         self.totals
     }
 
-    /// From this path in meters, half side of the patch times |v| / k, the mirror lobe's oscillation cancels over the
-    /// wavelengths: what is left is below 3e-7 of the lobe's height. At most 36 µm, beyond which a period is below 2 nm and
-    /// the grid no longer shows it: there the mean is nearer the reference than the grid's own sum.
-    pub fn settled_m(&self) -> f64 {
-        self.settled_m
+    /// Quadrature rules of these weights for the coherent component, made when first asked for.
+    pub(crate) fn coherent_rules(&self) -> &CoherentRules {
+        self.coherent_rules.get_or_init(|| CoherentRules::new(&self.dense))
     }
-}
-
-/// Paths that [`SpectralWeights::settled_m`] is looked for at: 1 µm to 36 µm in steps of an eighth.
-const PATHS: i32 = 31;
-
-/// See [`SpectralWeights::settled_m`].
-fn settled(dense: &[Node], unsigned: [f64; 3]) -> f64 {
-    let path = |i: i32| 36e-6 * 1.125_f64.powi(-i);
-    // sinc² u = (1 − cos 2u) / 2u².
-    let rest = |path: f64| {
-        let mut sums = [0.0; 3];
-        for node in dense {
-            let u = TAU * path / (node.wavelength_nm * 1e-9);
-            let wave = (2.0 * u).cos() / (2.0 * u * u);
-            sums.iter_mut().zip(node.weights).for_each(|(sum, weight)| *sum += weight * wave);
-        }
-        let shares = sums.iter().zip(unsigned).map(|(sum, all)| if all > 0.0 { sum.abs() / all } else { 0.0 });
-        shares.fold(0.0, f64::max)
-    };
-    let unsettled = (0..PATHS).find(|&i| rest(path(i)) > 1e-7);
-    unsettled.map_or(path(PATHS), |i| path(i - 1).min(36e-6))
 }
 
 fn moments(dense: &[Node], channel: usize) -> [f64; MOMENTS] {

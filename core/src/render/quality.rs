@@ -3,11 +3,10 @@
 use crate::accuracy::RelTolerance;
 use crate::spectral::grid::COUNT;
 
-/// Share of a tolerance that coherent terms left out may take.
-const MIRROR_OF_ERROR: f64 = 0.1;
-/// Coherent terms below this share of the brightest sample are left out of a preview and of [`Quality::Full`].
-pub const MIRROR_SHARE: f64 = 1e-7;
-const FINE_MIRROR_SHARE: f64 = 1e-10;
+/// Share of an error that coherent terms left out may take, and that the others may.
+const SKIPPED_OF_ERROR: f64 = 0.1;
+const COHERENT_OF_ERROR: f64 = 0.4;
+/// Share of the brightest sample below which coherent terms are left out of the sums over the grid.
 const REFERENCE_MIRROR_SHARE: f64 = 1e-14;
 
 /// Exactness of the spectral integrals of a picture.
@@ -16,8 +15,8 @@ const REFERENCE_MIRROR_SHARE: f64 = 1e-14;
 /// bound is within it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quality {
-    /// Six wavelengths, or four moments where the surface is rough: error below 1e-4 of the peak. Of the specular lobe's
-    /// oscillation only the mean, from a path of 2 µm on. For pictures in motion: nothing is made beforehand.
+    /// Six wavelengths, or four moments where the surface is rough: error below 1e-4 of the peak, 1e-3 of the brightest
+    /// sample for the specular lobe. For pictures in motion: nothing is made beforehand.
     Preview,
     /// Error below 1e-5 of the peak.
     #[default]
@@ -50,14 +49,25 @@ impl Quality {
         if let Self::Within(tolerance) = self { Some(tolerance) } else { None }
     }
 
+    /// Largest error relative to the picture's brightest sample; 0 for the sums over the grid.
+    fn error(self) -> f64 {
+        match self {
+            Self::Preview => 1e-3,
+            Self::Full => 1e-5,
+            Self::Fine => 1e-9,
+            Self::Reference | Self::Regimes => 0.0,
+            Self::Within(tolerance) => tolerance.max_relative_error(),
+        }
+    }
+
     /// Share of the brightest sample below which coherent terms are left out.
     pub fn mirror_share(self) -> f64 {
-        match self {
-            Self::Preview | Self::Full => MIRROR_SHARE,
-            Self::Fine => FINE_MIRROR_SHARE,
-            Self::Reference | Self::Regimes => REFERENCE_MIRROR_SHARE,
-            Self::Within(tolerance) => MIRROR_OF_ERROR * tolerance.max_relative_error(),
-        }
+        (SKIPPED_OF_ERROR * self.error()).max(REFERENCE_MIRROR_SHARE)
+    }
+
+    /// Error of the coherent terms that are kept, relative to the picture's brightest sample; 0 for the sums over the grid.
+    pub(crate) fn coherent_tolerance(self) -> f64 {
+        COHERENT_OF_ERROR * self.error()
     }
 
     /// Returns true if samples below e^-30 of their peak are left out.

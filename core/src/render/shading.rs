@@ -92,7 +92,7 @@ pub struct ShadingImage {
     quality: Quality,
     shades: Vec<Shade>,
     mirrors: Vec<Mirror>,
-    mirror_scale: f64,
+    brightness: f64,
     diffuse_scale: f64,
     counts: ShadingCounts,
     range: Option<KappaRange>,
@@ -142,7 +142,7 @@ impl ShadingImage {
         let untinted = surface.specular() == Specular::Fresnel;
         let darkest = if untinted { DARKEST } else { 1.0 };
         let material = Material { reading, quality, angular_radius: geometry.angular_radius(), darkest };
-        let (shades, Lobes { mirrors, scale: mirror_scale, diffuse_scale }) = match &vertices {
+        let (shades, Lobes { mirrors, brightness, diffuse_scale }) = match &vertices {
             None => {
                 let place = |index: usize| {
                     let angles: &Angles = &geometry.angles()[index];
@@ -162,7 +162,7 @@ impl ShadingImage {
         let counts = counts(&shades, mirrors.len());
         let range = KappaRange::of(&shades);
         let vertices = vertices.map(|(vertices, _)| vertices);
-        Some(Self { geometry, vertices, surface, quality, shades, mirrors, mirror_scale, diffuse_scale, counts, range })
+        Some(Self { geometry, vertices, surface, quality, shades, mirrors, brightness, diffuse_scale, counts, range })
     }
 
     /// The angles it is made of.
@@ -195,15 +195,9 @@ impl ShadingImage {
         &self.mirrors
     }
 
-    /// The brightest sample as a share of the highest lobe, as a power of two not above 1: errors relative to a lobe's height
-    /// have to be so much smaller where no sample sees a lobe's middle.
-    pub fn mirror_scale(&self) -> f64 {
-        self.mirror_scale
-    }
-
-    /// Tolerance of lobes, relative to their height, that keeps the one given for the picture.
-    pub fn mirror_tolerance(&self) -> Option<RelTolerance> {
-        self.quality.given_tolerance().map(|tolerance| tolerance.times(self.mirror_scale))
+    /// Estimate from below of the brightest sample's reflectance factor, to which errors are relative.
+    pub fn brightness(&self) -> f64 {
+        self.brightness
     }
 
     /// Tolerance of the diffuse component's integral, relative to its peak, that keeps the picture's: smaller where no sample is
@@ -297,7 +291,7 @@ impl Material {
         if stop.is_set() {
             return None;
         }
-        let height = |lobe: &Lobe| lobe.at_550_nm(&place(lobe.mirror.index as usize), self.angular_radius);
+        let height = |lobe: &Lobe| lobe.brightness(&place(lobe.mirror.index as usize), self.angular_radius);
         let lobes = Lobes::worth_having(&lobes.concat(), diffuse, self.darkest, height, share);
         Some((shades, lobes))
     }
@@ -338,6 +332,6 @@ impl Material {
         let wave_number = std::f64::consts::TAU / (LAST_NM * 1e-9);
         let most = height * rho0_squared_bound(geometry, surface, wave_number, self.angular_radius);
         let mirror = Mirror { index: index as u32, front, kappa, v: [geometry.vx_by_k, geometry.vy_by_k] };
-        (most > least).then_some(Lobe { mirror, height, most })
+        (most > least).then_some(Lobe { mirror, most })
     }
 }

@@ -1,9 +1,9 @@
 //! The pictures that cameras take: three numbers a sample, before white balance and exposure.
 
 use super::Stop;
+use super::coherent::CoherentIntegral;
 use super::geometry::LitSamples;
 use super::measure::SpectralWeights;
-use super::mirror::{Nodes, Reach, mirror_sum};
 use super::plan::{Places, Plan, RUN};
 use super::shading::{DiffuseKind, Shade, ShadingImage};
 use rayon::prelude::*;
@@ -18,16 +18,9 @@ pub struct CameraImage {
 }
 
 impl CameraImage {
-    /// Integrates at every lit sample by the methods of a plan, [`Plan::for_picture`] or another; none if stopped. `reach` says
-    /// how the specular lobe is integrated: [`Reach::in_picture`] of this shading or of one like it.
-    pub fn new(
-        shading: &ShadingImage,
-        measure: &SpectralWeights,
-        plan: Arc<Plan>,
-        reach: Reach,
-        stop: &Stop,
-    ) -> Option<Self> {
-        let signals = Camera { measure, plan: &plan, reach }.signals(shading, stop)?;
+    /// Integrates at every lit sample by the methods of a plan, [`Plan::for_picture`] or another; none if stopped.
+    pub fn new(shading: &ShadingImage, measure: &SpectralWeights, plan: Arc<Plan>, stop: &Stop) -> Option<Self> {
+        let signals = Camera { measure, plan: &plan }.signals(shading, stop)?;
         Some(Self { placed: Arc::clone(shading.geometry().placed()), signals: Arc::new(signals), plan })
     }
 
@@ -50,12 +43,10 @@ impl CameraImage {
 struct Camera<'a> {
     measure: &'a SpectralWeights,
     plan: &'a Plan,
-    reach: Reach,
 }
 
 impl Camera<'_> {
     fn signals(&self, shading: &ShadingImage, stop: &Stop) -> Option<Vec<[f32; 3]>> {
-        let geometry = shading.geometry();
         let mut signals = vec![[0.0; 3]; shading.shades().len()];
         let chunk = self.plan.chunk();
         signals.par_chunks_mut(chunk).zip(shading.shades().par_chunks(chunk)).for_each(|(signals, shades)| {
@@ -63,11 +54,12 @@ impl Camera<'_> {
                 self.diffuse(shades, signals);
             }
         });
+        let integral = CoherentIntegral::in_picture(shading, self.measure);
         let mirrors = shading.mirrors().par_iter().with_min_len(64).map(|mirror| {
             if stop.is_set() {
                 return [0.0; 3];
             }
-            mirror_sum(mirror, shading.surface(), self.mirror_nodes(), geometry.angular_radius())
+            integral.at(mirror)
         });
         let mirrors: Vec<[f64; 3]> = mirrors.collect();
         for (mirror, sums) in shading.mirrors().iter().zip(mirrors) {
@@ -102,12 +94,6 @@ impl Camera<'_> {
                 }
             }
         }
-    }
-
-    fn mirror_nodes(&self) -> Nodes<'_> {
-        let Reach { still_m, settled_m, quick } = self.reach;
-        let measure = self.measure.coherent();
-        Nodes { smooth: measure.fine(), every: measure.dense(), still_m, settled_m, quick }
     }
 }
 

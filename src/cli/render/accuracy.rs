@@ -6,7 +6,6 @@ use chromascope_core::camera::RenderingError;
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::Roughness;
 use chromascope_core::reflectance::{Normalization, Surface};
-use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::shading::DiffuseKind;
 use chromascope_core::render::{CameraImage, GeometryImage, Plan, Quality, ShadingImage, SpectralWeights, Stop};
 use chromascope_measure::harness::{Budget, take_turns, timed};
@@ -72,7 +71,6 @@ struct Bench {
 struct Camera {
     measure: Arc<Result<SpectralWeights, RenderingError>>,
     plan: Option<Arc<Plan>>,
-    reach: Option<Reach>,
 }
 
 /// Measures; none where nothing is lit, and where samples lie between vertices of different roughness.
@@ -105,13 +103,12 @@ impl Bench {
         let cameras = made.query.sources.iter().map(|source| {
             let image = made.query.image(&source.rendering);
             let Some(shading) = (*shading).as_ref() else {
-                return Camera { measure: made.scene.results.ask(&image.measure), plan: None, reach: None };
+                return Camera { measure: made.scene.results.ask(&image.measure), plan: None };
             };
             let measure = image.measure.in_picture(shading, made.scene.results);
             let own = (*measure).as_ref().ok();
             let plan = own.and_then(|measure| image.plan(shading, measure, made.scene.results).ok());
-            let reach = own.map(|measure| Reach::in_picture(shading, measure));
-            Camera { measure, plan, reach }
+            Camera { measure, plan }
         });
         let of = &made.query.shading;
         Self { geometry, surface: of.surface, reading: of.reading, quality: of.quality, cameras: cameras.collect() }
@@ -134,10 +131,9 @@ impl Bench {
         let image = |camera: &Camera| {
             let measure = (*camera.measure).as_ref().ok()?;
             // The plan of the whole picture: that of fewer samples may be another.
-            let made = (quality == self.quality).then(|| camera.plan.clone().zip(camera.reach)).flatten();
-            let (plan, reach) =
-                made.unwrap_or_else(|| (Arc::new(Plan::fixed(measure, quality)), Reach::in_picture(&shading, measure)));
-            CameraImage::new(&shading, measure, plan, reach, &Stop::NEVER)
+            let made = (quality == self.quality).then(|| camera.plan.clone()).flatten();
+            let plan = made.unwrap_or_else(|| Arc::new(Plan::fixed(measure, quality)));
+            CameraImage::new(&shading, measure, plan, &Stop::NEVER)
         };
         let images: Vec<CameraImage> = self.cameras.iter().map(image).collect::<Option<_>>()?;
         let signals = images.iter().map(|image| image.signals().to_vec()).collect();

@@ -5,9 +5,8 @@ use std::collections::BTreeSet;
 use chromascope_core::query::Ask;
 use chromascope_core::query::render::MeshRoughnessQuery;
 use chromascope_core::reflectance::{Geometry, Normalization, Surface, coherent_prefactor, kappa};
-use chromascope_core::render::SpectralWeights;
-use chromascope_core::render::mirror::{Nodes, Reach, mirror_sum};
 use chromascope_core::render::shading::Mirror;
+use chromascope_core::render::{CoherentIntegral, SpectralWeights};
 use chromascope_measure::harness::shortest;
 
 use super::{SUMS, SkippedWork, Sources, measured_on, some_of};
@@ -44,20 +43,11 @@ pub(super) fn mirrors(sources: &Sources<'_>, ask: &impl Ask) -> Option<SkippedWo
         })
     };
     let taken: Vec<Mirror> = some_of(&skipped, SUMS).iter().filter_map(mirror).collect();
-    let reach = |measure: &SpectralWeights| {
-        // Of a picture without any it is not known how much smaller than their height lobes have to be right.
-        let any = !shading.mirrors().is_empty();
-        if any { Reach::in_picture(shading, measure) } else { Reach::of(quality, measure) }
+    let sum = |measure: &SpectralWeights| {
+        let integral = CoherentIntegral::in_picture(shading, measure);
+        taken.iter().map(|mirror| integral.at(mirror)).collect::<Vec<_>>()
     };
-    let reaches: Vec<Reach> = sources.measures().map(reach).collect();
-    let radius = shading.geometry().angular_radius();
-    let sum = |(measure, reach): (&SpectralWeights, &Reach)| {
-        let Reach { still_m, settled_m, quick } = *reach;
-        let measure = measure.coherent();
-        let nodes = Nodes { smooth: measure.fine(), every: measure.dense(), still_m, settled_m, quick };
-        taken.iter().map(|mirror| mirror_sum(mirror, &surface, nodes, radius)).collect::<Vec<_>>()
-    };
-    let seconds = shortest(|| sources.measures().zip(&reaches).map(sum).collect::<Vec<_>>());
+    let seconds = shortest(|| sources.measures().map(sum).collect::<Vec<_>>());
     Some(SkippedWork {
         what: "specular terms".into(),
         count: skipped.len() as u64,

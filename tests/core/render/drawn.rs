@@ -6,7 +6,6 @@ use std::sync::Arc;
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Normalization, Surface, wavelength_power};
-use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{
     CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, SpectralWeights, Stop, Visibility,
 };
@@ -84,7 +83,7 @@ impl Drawn {
         let shading = |quality| ShadingImage::new(geometry.clone(), surface, reading, quality, &Stop::NEVER).unwrap();
         let image = |shading: &ShadingImage| {
             let plan = Arc::new(Plan::for_picture(shading, measure).unwrap());
-            CameraImage::new(shading, measure, plan, Reach::in_picture(shading, measure), &Stop::NEVER)
+            CameraImage::new(shading, measure, plan, &Stop::NEVER)
         };
         let exact = image(&shading(Quality::Reference)).unwrap();
         let found = image(&shading(quality));

@@ -24,7 +24,7 @@ use crate::support;
 
 /// The largest difference between pictures of one scene, relative to each source's largest signal or, where that is larger,
 /// to the material facing light and eye: a mirror's highlight may fall between the samples.
-fn apart(a: &Pictures, b: &Pictures) -> f64 {
+pub(super) fn apart(a: &Pictures, b: &Pictures) -> f64 {
     let (mut worst, facing) = (0.0_f64, b.facing.material.y);
     for (a, b) in a.images.iter().flatten().zip(b.images.iter().flatten()) {
         assert_eq!(a.signals().len(), b.signals().len());

@@ -29,6 +29,8 @@ pub(super) struct RenderService {
     pub light_up: f64,
     pub sigma_m: f64,
     pub tau_m: f64,
+    pub half_width_m: f64,
+    pub angular_radius: f64,
     pub specular: Specular,
     pub shadows: Shadows,
     pub reading: Normalization,
@@ -61,6 +63,8 @@ impl RenderService {
             light_up: 25.0,
             sigma_m: 5e-6,
             tau_m: 10e-6,
+            half_width_m: 50e-6,
+            angular_radius: SUN_RADIUS,
             specular: Specular::Paper,
             shadows: Shadows::Full,
             reading: Normalization::Radiometric,
@@ -72,13 +76,15 @@ impl RenderService {
     }
 
     pub(super) fn surface(&self) -> Surface {
-        Surface::new(self.sigma_m, self.tau_m, 50e-6, 50e-6, 1.4).unwrap().with_specular(self.specular)
+        let half = self.half_width_m;
+        Surface::new(self.sigma_m, self.tau_m, half, half, 1.4).unwrap().with_specular(self.specular)
     }
 
     pub(super) fn question(&self) -> PicturesQuery {
         let viewpoint = Viewpoint::new(self.yaw, 0.1, 3.6, 30_f64.to_radians()).unwrap();
         let visibility = VisibilityQuery { mesh: self.mesh.clone(), viewpoint, size: self.size };
-        let lighting = Lighting::from_angles(self.light_up.to_radians(), (-25_f64).to_radians(), SUN_RADIUS).unwrap();
+        let (up, right) = (self.light_up.to_radians(), (-25_f64).to_radians());
+        let lighting = Lighting::from_angles(up, right, self.angular_radius).unwrap();
         let geometry = GeometryQuery { visibility, lighting, shadows: self.shadows };
         let (surface, reading, quality) = (self.surface(), self.reading, self.quality);
         PicturesQuery {

@@ -7,12 +7,11 @@ use chromascope_core::camera::LocusEvaluator;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::reflectance::{Normalization, Precision, Surface, diffuse_sum};
 use chromascope_core::render::diffuse::by_nodes;
-use chromascope_core::render::mirror::{Nodes, Reach, mirror_sum};
 use chromascope_core::render::plan::position;
 use chromascope_core::render::shading::{DiffuseKind, Mirror, Shade};
 use chromascope_core::render::{
-    Against, CameraImage, Demand, GeometryImage, Plan, Quality, RasterSize, ShadingImage, SpectralWeights, Stop,
-    Visibility,
+    Against, CameraImage, CoherentIntegral, Demand, GeometryImage, Plan, Quality, RasterSize, ShadingImage,
+    SpectralWeights, Stop, Visibility,
 };
 use chromascope_core::scene::{Lighting, Viewpoint};
 use chromascope_core::spectral::Primaries;
@@ -37,8 +36,8 @@ pub(super) const WALKS: &[Walk] = &[
     Walk { name: "Precision::within", promise: 1.0, share: 2.0, draw: draw_sum, check: precision },
     Walk { name: "LocusEvaluator::within", promise: 1.0, share: 0.05, draw: draw_locus, check: locus },
     Walk { name: "Measure::shared", promise: 1e-9, share: 0.05, draw: draw_shared, check: shared },
-    Walk { name: "Reach", promise: 1.0, share: 0.02, draw: draw_reach, check: reach },
-    Walk { name: "mirror_sum by Reach", promise: 1.0, share: 0.5, draw: draw_mirror, check: mirror },
+    Walk { name: "CoherentIntegral of any camera", promise: 1.0, share: 0.05, draw: draw_lobes, check: lobes },
+    Walk { name: "CoherentIntegral", promise: 1.0, share: 0.5, draw: draw_coherent, check: coherent },
     Walk { name: "Demand", promise: 0.0, share: 20.0, draw: draw_demand, check: demand },
     Walk { name: "Plan::at", promise: 1.0, share: 0.5, draw: draw_place, check: place },
     Walk { name: "Plan::fill", promise: 0.0, share: 0.05, draw: draw_fill, check: fill },
@@ -145,77 +144,63 @@ fn shared(numbers: &Case, v: &mut Verdict) {
     }
 }
 
-const QUALITIES: [Quality; 5] = [Quality::Preview, Quality::Full, Quality::Fine, Quality::Reference, Quality::Regimes];
-
-fn draw_reach(d: &mut Draw) -> Case {
+fn draw_lobes(d: &mut Draw) -> Case {
     case([d.key(), d.pick(6), d.pick(2), d.pick(6), draw_accuracy(d), d.key()])
 }
 
 /// Lobes of a drawn measure.
-fn reach(numbers: &Case, v: &mut Verdict) {
+fn lobes(numbers: &Case, v: &mut Verdict) {
     let (error, key) = (numbers[4], numbers[5]);
-    let (Some(measure), Ok(accuracy)) = (drawn_measure(numbers), RelTolerance::new(error)) else { return v.refuse() };
-    let paths = |reach: Reach| reach.still_m >= 0.0 && reach.settled_m >= 0.0 && reach.still_m.is_finite();
-    v.holds("no paths", QUALITIES.into_iter().all(|quality| paths(Reach::of(quality, &measure))));
-    let reach = Reach::within(&measure, accuracy);
-    v.holds("no paths", paths(reach));
-    let quality = Quality::Within(accuracy);
-    v.holds(
-        "of a quality another",
-        quality.given_tolerance() == Some(accuracy) && Reach::of(quality, &measure) == reach,
-    );
+    let (Some(measure), true) = (drawn_measure(numbers), error > 0.0) else { return v.refuse() };
     let mut d = Draw::new(key as u64, "lobes", 0);
     for _ in 0..50 {
         let lobe = draw_lobe(&mut d);
-        compare(&measure, reach, error, lobe, v);
+        compare(&measure, error, lobe, v);
     }
 }
 
-/// Half a side, v along each, κ, the light's angular radius.
+/// Half-width, v along each axis, κ, the light's angular radius: anything, or as in a picture with the paper's smooth surfaces.
 fn draw_lobe(d: &mut Draw) -> [f64; 5] {
+    if d.pick(2) == 0.0 {
+        let half = [1e-6, 10e-6, 50e-6, 1e-3][d.pick(4) as usize % 4];
+        let sigma = [0.3e-6, 0.1e-6, 0.05e-6, 0.01e-6, 0.0][d.pick(5) as usize % 5];
+        let kappa = (std::f64::consts::TAU * sigma / 550e-9 * d.within(0.1, 2.0)).powi(2);
+        let radius = if d.pick(2) == 0.0 { 0.0 } else { 4.65e-3 };
+        return [half, d.signed(1e-5, 1.0), d.signed(1e-5, 1.0), kappa, radius];
+    }
     let v = |d: &mut Draw| if d.pick(4) == 0.0 { 0.0 } else { d.signed(1e-9, 2.0) };
     let radius = if d.pick(2) == 0.0 { 0.0 } else { d.log(1e-6, 0.5) };
     [d.log(1e-9, 1.0), v(d), v(d), d.log(1e-12, 1e3), radius]
 }
 
-/// A lobe by few wavelengths and by all, in parts of what was asked for, of the lobe's height.
-fn compare(
-    measure: &SpectralWeights,
-    reach: Reach,
-    error: f64,
-    [half, vx, vy, kappa, radius]: [f64; 5],
-    v: &mut Verdict,
-) {
+/// A lobe by the fastest sum and by all wavelengths, in parts of the tolerance. Rounding of phases along very long paths is in
+/// both.
+fn compare(measure: &SpectralWeights, error: f64, [half, vx, vy, kappa, radius]: [f64; 5], v: &mut Verdict) {
     let Ok(surface) = Surface::new(1e-6, 1e-5, half, half, 1.5) else { return v.refuse() };
-    let (smooth, every) = (measure.fine(), measure.dense());
     let mirror = Mirror { index: 0, front: 1.0, kappa, v: [vx, vy] };
-    let sum = |Reach { still_m, settled_m, quick }: Reach| {
-        mirror_sum(&mirror, &surface, Nodes { smooth, every, still_m, settled_m, quick }, radius)
-    };
-    let found = sum(reach);
+    let integral = CoherentIntegral::new(measure, &surface, radius, error);
+    let found = integral.at(&mirror);
     v.all_finite(found);
-    let unsigned = |c: usize| every.iter().map(|n| n.weights[c].abs()).sum::<f64>();
+    v.holds("more wavelengths than there are", integral.evaluations(&mirror) <= measure.dense().len());
+    let unsigned = |c: usize| measure.dense().iter().map(|n| n.weights[c].abs()).sum::<f64>();
     let height = unsigned(0).max(unsigned(1)).max(unsigned(2));
-    for (a, b) in found.into_iter().zip(sum(Reach { still_m: 0.0, settled_m: f64::INFINITY, quick: false })) {
-        v.error(if a == b { 0.0 } else { (a - b).abs() / height / error });
+    for (a, b) in found.into_iter().zip(CoherentIntegral::new(measure, &surface, radius, 0.0).at(&mirror)) {
+        v.error(if a == b { 0.0 } else { ((a - b).abs() / height - 1e-14).max(0.0) / error });
     }
 }
 
 /// Errors that the measures of two sensors are planned for.
 const ERRORS: [f64; 4] = [1e-2, 1e-4, 1e-7, 1e-11];
 
-static REACHES: LazyLock<[[Reach; 4]; 2]> = LazyLock::new(|| {
-    [0.0, 1.0].map(|which| ERRORS.map(|error| Reach::within(&of(which).measure, RelTolerance::new(error).unwrap())))
-});
-
-fn draw_mirror(d: &mut Draw) -> Case {
+fn draw_coherent(d: &mut Draw) -> Case {
     let [half, vx, vy, kappa, radius] = draw_lobe(d);
-    case([d.pick(2), d.pick(4), half, vx, vy, kappa, radius])
+    case([d.pick(2), d.log(1e-12, 1e-1), half, vx, vy, kappa, radius])
 }
 
-fn mirror(&[which, error, half, vx, vy, kappa, radius, ..]: &Case, v: &mut Verdict) {
-    let (which, error) = (usize::from(which >= 1.0), error as usize % 4);
-    compare(&of(which as f64).measure, REACHES[which][error], ERRORS[error], [half, vx, vy, kappa, radius], v);
+fn coherent(&[which, error, half, vx, vy, kappa, radius, ..]: &Case, v: &mut Verdict) {
+    if error > 0.0 {
+        compare(&of(which).measure, error, [half, vx, vy, kappa, radius], v);
+    }
 }
 
 fn draw_demand(d: &mut Draw) -> Case {
@@ -254,7 +239,6 @@ static PLANS: LazyLock<[Plan; 4]> = LazyLock::new(|| {
 
 /// Made before there are many threads: one that waits for a part of a plan would take up a case that waits for the plan.
 pub(super) fn ready() {
-    LazyLock::force(&REACHES);
     LazyLock::force(&PLANS);
 }
 
@@ -385,10 +369,9 @@ fn picture(&[which, sigma, tau, half, index, key, reading, ..]: &Case, v: &mut V
     } else {
         v.holds("samples without a demand", !shading.shades().iter().any(is_spectral));
     }
-    let reach = REACHES[which % 2][which];
     let image = |plan: &Plan| {
         let plan = Arc::new(plan.clone());
-        CameraImage::new(&shading, &scene.measure, plan, reach, &Stop::NEVER).expect("never stopped")
+        CameraImage::new(&shading, &scene.measure, plan, &Stop::NEVER).expect("never stopped")
     };
     let (image, by_sum) = (image(plan), image(&Plan::fixed(&scene.measure, Quality::Reference)));
     against_all(&shading, reading, &scene.measure, v);
@@ -406,18 +389,17 @@ fn picture(&[which, sigma, tau, half, index, key, reading, ..]: &Case, v: &mut V
 /// The mirror terms of a whole picture, relative to its brightest sample, beside those that leave nothing out.
 fn against_all(shading: &ShadingImage, reading: Normalization, measure: &SpectralWeights, v: &mut Verdict) {
     let asked = shading.quality().given_tolerance().expect("an accuracy is asked for");
-    let scale = shading.mirror_scale();
-    v.holds("lobes lower than the picture", scale > 0.0 && scale <= 1.0);
-    let of_parts = [shading.mirror_tolerance(), shading.plan_tolerance()];
-    v.holds("parts less exact than the whole", of_parts.into_iter().flatten().all(|part| part <= asked));
+    v.holds("no brightness", shading.brightness() >= 0.0 && shading.brightness().is_finite());
+    v.holds("the diffuse part less exact than the whole", shading.plan_tolerance().is_none_or(|part| part <= asked));
     let (geometry, surface) = (Arc::clone(shading.geometry()), *shading.surface());
     let exact = ShadingImage::new(geometry, surface, reading, Quality::Reference, &Stop::NEVER).expect("never stopped");
     v.holds("the truth leaves more out", exact.quality().mirror_share() <= shading.quality().mirror_share().max(1e-14));
-    let of_truth = Reach::of(Quality::Reference, measure);
     let plan = Arc::new(Plan::fixed(measure, Quality::Reference));
-    let exact = CameraImage::new(&exact, measure, plan.clone(), of_truth, &Stop::NEVER).expect("never stopped");
-    let reach = Reach::in_picture(shading, measure);
-    let found = CameraImage::new(shading, measure, plan, reach, &Stop::NEVER).expect("never stopped");
+    let exact = CameraImage::new(&exact, measure, plan.clone(), &Stop::NEVER).expect("never stopped");
+    let found = CameraImage::new(shading, measure, plan, &Stop::NEVER).expect("never stopped");
+    let integral = CoherentIntegral::in_picture(shading, measure);
+    let evaluations = shading.mirrors().iter().map(|mirror| integral.evaluations(mirror));
+    v.holds("more wavelengths than there are", evaluations.max().unwrap_or(0) <= measure.dense().len());
     let pairs = || found.signals().as_flattened().iter().zip(exact.signals().as_flattened());
     let peak = pairs().fold(0.0_f64, |most, (_, exact)| most.max(exact.abs().into()));
     let off = pairs().fold(0.0_f64, |most, (found, exact)| most.max((found - exact).abs().into()));

@@ -8,7 +8,6 @@ use chromascope_core::reflectance::{
     Geometry, IlluminatedArea, Method, Normalization, Precision, Specular, Surface, beta, coherent_prefactor,
     diffuse_prefactor, diffuse_sum, directional_hemispherical, factor, factor_by, factors_by, kappa, wavelength_power,
 };
-use chromascope_core::render::lobe::mean_sinc_squared_quick;
 use chromascope_math::double::Double;
 use glam::DVec3;
 
@@ -26,7 +25,6 @@ pub(super) const WALKS: &[Walk] = &[
         check: integral,
     },
     Walk { name: "mean_sinc_squared", promise: 1e-14, share: 20.0, draw: draw_lobe, check: lobe },
-    Walk { name: "mean_sinc_squared_quick", promise: 1e-7, share: 40.0, draw: draw_lobe, check: quick_lobe },
     Walk {
         name: "sinc, lobe ends",
         promise: 0.0,
@@ -174,18 +172,9 @@ fn lobe(&[u, w, ..]: &Case, v: &mut Verdict) {
     v.error((value - exact_lobe(u, w)).abs());
 }
 
-fn quick_lobe(&[u, w, ..]: &Case, v: &mut Verdict) {
-    let value = mean_sinc_squared_quick(u, w);
-    v.finite(value);
-    v.error((value - exact_lobe(u, w)).abs());
-}
-
 fn lobe_ends(&[u, w, ..]: &Case, v: &mut Verdict) {
     v.all_finite([sinc(u), sine_integral(u), mean_sinc_squared(u, w)]);
     v.holds("more than 1", sinc(u).abs() <= 1.0 && mean_sinc_squared(u, w) <= 1.0 + 1e-15);
-    if u.is_finite() && w.is_finite() {
-        v.finite(mean_sinc_squared_quick(u, w));
-    }
 }
 
 fn draw_angles(d: &mut Draw) -> Case {

@@ -8,8 +8,6 @@ use chromascope_core::query::render::difference::BrightSamples;
 use chromascope_core::reflectance::{Normalization, Precision, Surface, wavelength_power};
 use chromascope_core::render::develop::differences;
 use chromascope_core::render::diffuse::{by_moments, by_nodes, by_nodes_into, by_regimes, rough_basis};
-use chromascope_core::render::mirror::{Nodes, Reach, mirror_sum};
-use chromascope_core::render::shading::Mirror;
 use chromascope_core::render::{
     CameraImage, ColorimetricScale, Development, GeometryImage, IntegrationMethod, Plan, Quality, RasterSize,
     ShadingImage, Shadows, SpectralWeights, Stop, VertexImage, Visibility, develop,
@@ -28,7 +26,6 @@ pub(super) const WALKS: &[Walk] = &[
     Walk { name: "by_moments", promise: 1e-6, share: 0.5, draw: draw_rough, check: moments },
     Walk { name: "by_nodes", promise: 1e-9, share: 0.5, draw: draw_any, check: nodes },
     Walk { name: "diffuse ends", promise: 0.0, share: 4.0, draw: draw_ends, check: ends },
-    Walk { name: "mirror_sum", promise: 1e-6, share: 0.5, draw: draw_mirror, check: mirror },
     Walk { name: "Measure::new", promise: 1e-9, share: 0.2, draw: draw_measure, check: measure },
     Walk { name: "Plan::fixed", promise: 0.0, share: 0.01, draw: draw_measure, check: fixed },
     Walk { name: "ShadowTree::is_blocked", promise: 0.0, share: 20.0, draw: draw_ray, check: shadow },
@@ -103,27 +100,6 @@ fn ends(&[which, kappa, beta, ..]: &Case, v: &mut Verdict) {
     v.all_finite(rough_basis(kappa.max(128.0), beta));
 }
 
-fn draw_mirror(d: &mut Draw) -> Case {
-    let v = |d: &mut Draw| if d.pick(4) == 0.0 { 0.0 } else { d.signed(1e-9, 2.0) };
-    let radius = if d.pick(2) == 0.0 { 0.0 } else { d.log(1e-6, 0.5) };
-    case([d.pick(2), d.log(1e-9, 1.0), v(d), v(d), d.log(1e-12, 1e3), radius])
-}
-
-/// The table of the lobe against sine integrals, at the same wavelengths; in units of the weights.
-fn mirror(&[which, half, vx, vy, kappa, radius, ..]: &Case, v: &mut Verdict) {
-    let scene = of(which);
-    let Ok(surface) = Surface::new(1e-6, 1e-5, half, half, 1.5) else { return v.refuse() };
-    let (smooth, every) = (scene.measure.fine(), scene.measure.dense());
-    let settled_m = scene.measure.settled_m();
-    let mirror = Mirror { index: 0, front: 1.0, kappa, v: [vx, vy] };
-    let sum = |quick| mirror_sum(&mirror, &surface, Nodes { smooth, every, still_m: 1e-6, settled_m, quick }, radius);
-    let (quick, careful) = (sum(true), sum(false));
-    v.all_finite(quick);
-    for (a, b) in quick.into_iter().zip(careful) {
-        v.error((a - b).abs());
-    }
-}
-
 fn draw_measure(d: &mut Draw) -> Case {
     case([d.key(), d.pick(6), d.pick(2), d.pick(6)])
 }
@@ -139,8 +115,6 @@ pub(super) fn drawn_measure(&[key, kind, power, light, ..]: &Case) -> Option<Spe
 fn measure(case: &Case, v: &mut Verdict) {
     let Some(measure) = drawn_measure(case) else { return v.refuse() };
     v.all_finite(measure.totals().into_iter().chain(measure.moments().iter().flatten().copied()));
-    v.finite(measure.settled_m());
-    v.holds("settled beyond 36 µm", (0.0..=36.001e-6).contains(&measure.settled_m()));
     let unsigned: [f64; 3] = [0, 1, 2].map(|c: usize| measure.dense().iter().map(|n| n.weights[c].abs()).sum());
     for list in [measure.dense(), measure.coarse(), measure.fine()] {
         v.all_finite(list.iter().flat_map(|n| n.weights.into_iter().chain([n.scale, n.wavelength_nm, n.reference])));
@@ -293,8 +267,7 @@ fn picture(&[key, sigma, tau, half, index, reading, quality, kind]: &Case, v: &m
         let shading = shading.expect("never stopped");
         let measure = scene.measure.clone().with_untinted(Arc::new(scene.measure.clone()));
         let plan = Arc::new(Plan::fixed(&measure, shading.fixed_quality()));
-        CameraImage::new(&shading, &measure, plan, Reach::in_picture(&shading, &measure), &Stop::NEVER)
-            .expect("never stopped")
+        CameraImage::new(&shading, &measure, plan, &Stop::NEVER).expect("never stopped")
     });
     for image in &images {
         v.all_finite(image.signals().iter().flatten().map(|s| f64::from(*s)));

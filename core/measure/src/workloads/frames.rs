@@ -6,7 +6,6 @@ use std::sync::Arc;
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::{Normalization, Surface, wavelength_power};
-use chromascope_core::render::mirror::Reach;
 use chromascope_core::render::{
     CameraImage, GeometryImage, Plan, Quality, RasterSize, ShadingImage, Shadows, SpectralWeights, Stop, Visibility,
 };
@@ -35,14 +34,23 @@ const CHECKED: u32 = 48;
 /// Up to this side slow qualities are measured too: beyond it they take minutes, and as long per pixel.
 const SLOW_UP_TO: u32 = 128;
 
-/// What no frame makes anew.
+/// Roughness of the frames that are compared with those of the first in one case, with the names of their methods.
+const ROUGHNESSES: [(&str, f64); 4] = [
+    ("full, \u{3c3} 5 µm", 5e-6),
+    ("full, \u{3c3} 0.3 µm", 0.3e-6),
+    ("full, \u{3c3} 0.1 µm", 0.1e-6),
+    ("full, \u{3c3} 0.05 µm", 0.05e-6),
+];
+
+/// Parts that no frame makes anew.
+#[derive(Clone)]
 struct RenderService {
-    mesh: Mesh,
-    tree: ShadowTree,
+    mesh: Arc<Mesh>,
+    tree: Arc<ShadowTree>,
     eye: Viewpoint,
     lighting: Lighting,
     surface: Surface,
-    sources: Vec<SpectralWeights>,
+    sources: Arc<Vec<SpectralWeights>>,
 }
 
 impl RenderService {
@@ -58,47 +66,37 @@ impl RenderService {
         }
         let eye = Viewpoint::new(0.3, 0.1, 3.6, 30_f64.to_radians());
         let lighting = Lighting::from_angles(25_f64.to_radians(), -25_f64.to_radians(), SUN_RADIUS);
-        let surface = Surface::new(sigma_m, 10e-6, 50e-6, 50e-6, 1.4);
-        let mesh = head::head(triangles);
-        let tree = ShadowTree::new(&mesh);
-        let (Ok(eye), Ok(lighting), Ok(surface)) = (eye, lighting, surface) else { return Ok(None) };
-        Ok(Some(Self { mesh, tree, eye, lighting, surface, sources }))
+        let mesh = Arc::new(head::head(triangles));
+        let tree = Arc::new(ShadowTree::new(&mesh));
+        let (Ok(eye), Ok(lighting), Some(surface)) = (eye, lighting, surface(sigma_m)) else { return Ok(None) };
+        Ok(Some(Self { mesh, tree, eye, lighting, surface, sources: Arc::new(sources) }))
     }
 
     /// What is seen, with what of it depends on the surface.
     fn shading(&self, side: u32, quality: Quality, stop: &Stop) -> Option<ShadingImage> {
         let eye = self.eye.eye(self.mesh.bounds());
         let visibility = Visibility::new(&self.mesh, eye, RasterSize::new(side, side), stop)?;
-        let shadows = Some((&self.tree, Shadows::Coarse));
+        let shadows = Some((&*self.tree, Shadows::Coarse));
         let geometry = GeometryImage::new(&self.mesh, &visibility, &self.lighting, shadows, stop)?;
         ShadingImage::new(Arc::new(geometry), self.surface, Normalization::Radiometric, quality, stop)
     }
 
     /// A frame through all sources by plans of this quality; none only if it was stopped.
-    fn frame(
-        &self,
-        side: u32,
-        quality: Quality,
-        plans: &[(Arc<Plan>, Reach)],
-        stop: &Stop,
-    ) -> Option<Vec<CameraImage>> {
+    fn frame(&self, side: u32, quality: Quality, plans: &[Arc<Plan>], stop: &Stop) -> Option<Vec<CameraImage>> {
         let shading = self.shading(side, quality, stop)?;
         let images = self.sources.iter().zip(plans);
-        images.map(|(measure, (plan, reach))| CameraImage::new(&shading, measure, plan.clone(), *reach, stop)).collect()
+        images.map(|(measure, plan)| CameraImage::new(&shading, measure, plan.clone(), stop)).collect()
     }
 
     /// The plans of a frame of this size, one for each source; none where the tolerance cannot be kept, or if stopped.
-    fn plans(&self, side: u32, quality: Quality, stop: &Stop) -> Option<Vec<(Arc<Plan>, Reach)>> {
+    fn plans(&self, side: u32, quality: Quality, stop: &Stop) -> Option<Vec<Arc<Plan>>> {
         let shading = self.shading(side, quality, stop)?;
-        let plans = self.sources.iter().map(|measure| {
-            let plan = Plan::for_picture(&shading, measure).ok()?;
-            Some((Arc::new(plan), Reach::in_picture(&shading, measure)))
-        });
+        let plans = self.sources.iter().map(|measure| Plan::for_picture(&shading, measure).ok().map(Arc::new));
         plans.collect()
     }
 
     /// The signals of a small frame beside those of the sum over 401 wavelengths.
-    fn error(&self, quality: Quality, plans: &[(Arc<Plan>, Reach)], stop: &Stop) -> ErrorOf {
+    fn error(&self, quality: Quality, plans: &[Arc<Plan>], stop: &Stop) -> ErrorOf {
         let mut errors = Errors::default();
         let reference = self.plans(CHECKED, Quality::Reference, stop);
         let exact = reference.and_then(|plans| self.frame(CHECKED, Quality::Reference, &plans, stop));
@@ -115,6 +113,32 @@ impl RenderService {
     }
 }
 
+/// The surface of all frames, at a roughness.
+fn surface(sigma_m: f64) -> Option<Surface> {
+    Surface::new(sigma_m, 10e-6, 50e-6, 50e-6, 1.4).ok()
+}
+
+/// Frames of smooth surfaces as a multiple of a rough one's time.
+fn smooth_surfaces(bench: &mut Bench<'_>, studio: &RenderService, side: u32) {
+    let most = bench.pools.most();
+    let with = |sigma_m| surface(sigma_m).map(|surface| RenderService { surface, ..studio.clone() });
+    let studios = ROUGHNESSES.map(|(name, sigma_m)| (name, with(sigma_m)));
+    let mut candidates = Vec::new();
+    for (name, studio) in studios {
+        let Some(studio) = studio else { continue };
+        let (quality, stop) = (Quality::Full, bench.stop);
+        let (plans, seconds) = timed(|| bench.pools.on(most, || studio.plans(side, quality, stop)));
+        let Some(plans) = plans else { continue };
+        let error = bench.pools.on(most, || studio.error(quality, &plans, stop));
+        let work = move |_: usize| {
+            black_box(studio.frame(side, quality, &plans, stop));
+        };
+        candidates.push(Candidate::new(name, 1, error, work).undivided().on(most).built_in(seconds));
+    }
+    let case = format!("{side} × {side}, smooth surfaces");
+    bench.compare(Case { workload: Workload::Frames, name: &case, item: "frame" }, candidates);
+}
+
 pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     let triangles = bench.pick(2_000, 100_000, 100_000);
     let sides: [&[u32]; 2] = bench.pick(
@@ -126,6 +150,9 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
         let most = bench.pools.most();
         let Some(studio) = bench.pools.on(most, || RenderService::new(triangles, sigma_m))? else { continue };
         let studio = &studio;
+        if sigma_m > 1e-6 {
+            smooth_surfaces(bench, studio, bench.pick(32, 512, 512));
+        }
         for &side in sides {
             let mut qualities = vec![("full", Quality::Full), ("preview", Quality::Preview)];
             if side <= SLOW_UP_TO {

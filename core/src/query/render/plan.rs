@@ -4,8 +4,7 @@ use super::SpectralWeightsQuery;
 use crate::accuracy::RelTolerance;
 use crate::camera::RenderingError;
 use crate::query::ask::{Ask, Query};
-use crate::render::mirror::Reach;
-use crate::render::{Against, Demand, Plan, Quality};
+use crate::render::{Against, Demand, Plan};
 use std::sync::Arc;
 
 /// The fastest method of a camera's spectral integral within a tolerance. Depends on no surface or angle: the demands of pictures
@@ -36,26 +35,5 @@ impl Query for PlanQuery {
         let measure = ask.ask(&self.measure);
         let measure = (*measure).as_ref().map_err(|&e| e)?;
         Ok(Arc::new(Plan::new(measure, self.tolerance, self.against, self.demand)?))
-    }
-}
-
-/// Paths over which a specular lobe is integrated by a few wavelengths, or by its mean, within a tolerance.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct ReachQuery {
-    /// The camera under the light.
-    pub measure: SpectralWeightsQuery,
-    /// The allowed error.
-    pub tolerance: RelTolerance,
-}
-
-impl Query for ReachQuery {
-    type Answer = Result<Reach, RenderingError>;
-    const NAME: &'static str = "mirror reach";
-    const WHOLE: bool = true;
-    const KEPT: usize = 64;
-
-    fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let measure = ask.ask(&self.measure);
-        Ok(Reach::of(Quality::Within(self.tolerance), (*measure).as_ref().map_err(|&e| e)?))
     }
 }

@@ -5,16 +5,19 @@ use super::{Mirror, Place};
 use crate::reflectance::coherent::rho0_squared;
 use crate::reflectance::power::LAMBDA_0_NM;
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 
 /// So many of the lobes that may be highest are looked at.
 const LOOKED_AT: usize = 32;
+/// Wavelengths of a lobe's brightness: first, step and number.
+const FIRST_NM: f64 = 463.0;
+const STEP_NM: f64 = 11.3;
+const WAVELENGTHS: u32 = 16;
 
 /// A sample's mirror term, with what it does not exceed.
 #[derive(Clone, Debug)]
 pub(super) struct Lobe {
     pub(super) mirror: Mirror,
-    /// What the middle of its lobe does not exceed.
-    pub(super) height: f64,
     /// What it does not exceed itself.
     pub(super) most: f64,
 }
@@ -23,28 +26,33 @@ pub(super) struct Lobe {
 pub(super) struct Lobes {
     /// Ascending.
     pub(super) mirrors: Vec<Mirror>,
-    /// The brightest sample as a share of the highest lobe and of the highest diffuse part, powers of two not above 1.
-    pub(super) scale: f64,
+    /// Estimate from below of the brightest sample.
+    pub(super) brightness: f64,
+    /// The brightest sample as a share of the highest diffuse part, a power of two not above 1.
     pub(super) diffuse_scale: f64,
 }
 
 impl Lobe {
-    /// What it is at 550 nm.
-    pub(super) fn at_550_nm(&self, place: &Place, angular_radius: f64) -> f64 {
-        let wave_number = std::f64::consts::TAU / (LAMBDA_0_NM * 1e-9);
-        let lobe = rho0_squared(&place.geometry, &place.surface, wave_number, angular_radius);
-        self.mirror.front * lobe * (-self.mirror.kappa).exp()
+    /// Mean over some wavelengths about 550 nm: at a single one the interference may have its crest.
+    pub(super) fn brightness(&self, place: &Place, angular_radius: f64) -> f64 {
+        let at = |nm: f64| {
+            let ratio = LAMBDA_0_NM / nm;
+            let pattern = rho0_squared(&place.geometry, &place.surface, TAU / (nm * 1e-9), angular_radius);
+            pattern * (-self.mirror.kappa * ratio * ratio).exp()
+        };
+        let sum: f64 = (0..WAVELENGTHS).map(|i| at(FIRST_NM + STEP_NM * f64::from(i))).sum();
+        self.mirror.front * sum / f64::from(WAVELENGTHS)
     }
 }
 
 impl Lobes {
-    /// Those above a share of the brightest sample. How bright that is at least is found at 550 nm: of some diffuse parts, and of
-    /// the lobes that may be highest by `at_550_nm`. Beside lobes, diffuse parts count with a reflectance of `darkest`.
+    /// Those above a share of the brightest sample. How bright that is at least is found of some diffuse parts, and of the lobes that
+    /// may be highest by `brightness`. Beside lobes, diffuse parts count with a reflectance of `darkest`.
     pub(super) fn worth_having(
         lobes: &[Lobe],
         diffuse: Brightness,
         darkest: f64,
-        at_550_nm: impl Fn(&Lobe) -> f64 + Sync,
+        brightness: impl Fn(&Lobe) -> f64 + Sync,
         share: f64,
     ) -> Self {
         // The others make nothing brighter.
@@ -54,14 +62,12 @@ impl Lobes {
             highest.select_nth_unstable_by(LOOKED_AT, order);
             highest.truncate(LOOKED_AT);
         }
-        let mirror = highest.par_iter().map(|lobe| at_550_nm(lobe)).reduce(|| 0.0, f64::max);
+        let mirror = highest.par_iter().map(|lobe| brightness(lobe)).reduce(|| 0.0, f64::max);
         let brightest = (darkest * diffuse.brightest).max(mirror);
         let threshold = share * brightest;
-        let kept = || lobes.iter().filter(|lobe| lobe.most > threshold);
-        let height = kept().map(|lobe| lobe.height).fold(0.0, f64::max);
         Self {
-            mirrors: kept().map(|lobe| lobe.mirror).collect(),
-            scale: brightness::scale(brightest, height),
+            mirrors: lobes.iter().filter(|lobe| lobe.most > threshold).map(|lobe| lobe.mirror).collect(),
+            brightness: brightest,
             // A darker material makes this larger.
             diffuse_scale: brightness::scale(diffuse.brightest.max(mirror), diffuse.highest),
         }

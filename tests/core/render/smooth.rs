@@ -1,0 +1,63 @@
+//! Smooth surfaces, whose light is mostly coherent: their error and their work, from 1 µm to 1 mm, under the sun and a point light.
+
+use chromascope_core::accuracy::RelTolerance;
+use chromascope_core::query::render::MeshQuery;
+use chromascope_core::query::{Ask, Direct};
+use chromascope_core::render::{CoherentIntegral, Quality, RasterSize};
+use chromascope_core::scene::lighting::SUN_RADIUS;
+
+use super::images::apart;
+use super::studio::{Counting, RenderService};
+
+const SIGMAS_M: [f64; 5] = [0.3e-6, 0.1e-6, 0.05e-6, 0.01e-6, 0.0];
+const HALF_WIDTHS_M: [f64; 4] = [1e-6, 10e-6, 50e-6, 1e-3];
+const RADII: [f64; 2] = [0.0, SUN_RADIUS];
+
+/// Every smooth surface under every light.
+fn each_smooth_surface(start: &RenderService, check: impl Fn(&RenderService, &str)) {
+    for sigma_m in SIGMAS_M {
+        for half_width_m in HALF_WIDTHS_M {
+            for angular_radius in RADII {
+                let name = format!("σ {sigma_m}, half-width {half_width_m}, radius {angular_radius}");
+                check(&RenderService { sigma_m, half_width_m, angular_radius, ..start.clone() }, &name);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_smooth_surface_keeps_its_error_against_401_wavelengths() {
+    let mut start = RenderService { size: RasterSize::new(12, 12), ..RenderService::new() };
+    start.sources.truncate(2);
+    // Tables do not depend on the surface: they are made once.
+    let ask = Counting::default();
+    let within = |error| Quality::Within(RelTolerance::new(error).unwrap());
+    each_smooth_surface(&start, |studio, name| {
+        let exact = RenderService { quality: Quality::Reference, ..studio.clone() }.take(&ask);
+        // Signals are kept in single precision.
+        for (quality, bound) in
+            [(Quality::Full, 1e-5), (Quality::Preview, 1e-3), (within(1e-3), 1e-3), (within(1e-6), 1.2e-6)]
+        {
+            let error = apart(&RenderService { quality, ..studio.clone() }.take(&ask), &exact);
+            assert!(error <= bound, "{name}, {quality:?}: {error:.1e}");
+        }
+    });
+}
+
+#[test]
+fn no_smooth_surface_takes_many_wavelengths() {
+    // Of a head, few samples see the sun's image: next to the brightest of these, few coherent terms count.
+    let start = RenderService { size: RasterSize::new(64, 64), mesh: MeshQuery::Head(9_000), ..RenderService::new() };
+    each_smooth_surface(&start, |studio, name| {
+        let question = studio.question();
+        let shading = Direct.ask(&question.shading);
+        let shading = (*shading).as_ref().unwrap();
+        for source in &question.sources {
+            let measure = Direct.ask(&question.image(&source.rendering).measure);
+            let integral = CoherentIntegral::in_picture(shading, (*measure).as_ref().unwrap());
+            let evaluations: usize = shading.mirrors().iter().map(|mirror| integral.evaluations(mirror)).sum();
+            let mean = evaluations as f64 / shading.shades().len() as f64;
+            assert!(mean <= 60.0, "{name}: {mean:.1} wavelengths for each lit sample");
+        }
+    });
+}
