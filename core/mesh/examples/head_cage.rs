@@ -7,7 +7,7 @@
 //! The given OBJ file is the head of `MakeHuman`'s base mesh with the target `caucasian-male-young`, in meters, y up and z
 //! forward, with the groups `skin` and `eyes`. Taken of it is the skin above the lowest loop of edges around the neck. From
 //! there, rings of quadrilaterals follow curves from the neck over the shoulders to the edge of a base, and a grid closes it.
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "an example that writes to the terminal")]
+#![allow(clippy::print_stdout, clippy::print_stderr, clippy::disallowed_methods, reason = "a program of its own")]
 
 use glam::{Vec3, vec2, vec3};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -229,34 +229,31 @@ impl Cage {
         // An even number of columns, with the middle in front.
         let columns = count / 4 / 2 * 2 + 2;
         let rows = count / 2 - columns;
-        let ahead = |k: isize| ring[k.rem_euclid(count as isize) as usize];
-        let (columns_i, rows_i) = (columns as isize, rows as isize);
+        let half = columns / 2;
         let mut grid = vec![vec![0; columns + 1]; rows + 1];
-        for (row, line) in (0_isize..).zip(&mut grid) {
-            for (column, vertex) in (0_isize..).zip(line) {
-                // From +x to −x and from front to back.
-                let from_middle = columns_i / 2 - column;
-                *vertex = if row == 0 {
-                    ahead(from_middle)
-                } else if row == rows_i {
-                    ahead(columns_i / 2 + rows_i + column)
+        for (row, line) in grid.iter_mut().enumerate() {
+            for (column, vertex) in line.iter_mut().enumerate() {
+                // From +x to −x and from front to back; inside comes later.
+                let place = if row == 0 {
+                    count + half - column
+                } else if row == rows {
+                    half + rows + column
                 } else if column == 0 {
-                    ahead(columns_i / 2 + row)
-                } else if column == columns_i {
-                    ahead(-columns_i / 2 - row)
+                    half + row
                 } else {
-                    usize::MAX
+                    count - half - row
                 };
+                *vertex = ring[place % count];
             }
         }
         let border = grid.clone();
-        for row in 1..rows {
-            for column in 1..columns {
+        for (row, line) in grid.iter_mut().enumerate().take(rows).skip(1) {
+            for (column, vertex) in line.iter_mut().enumerate().take(columns).skip(1) {
                 let (u, v) = (column as f32 / columns as f32, row as f32 / rows as f32);
                 let at = |r: usize, c: usize| self.positions[border[r][c]];
                 let across = at(row, 0).lerp(at(row, columns), u) + at(0, column).lerp(at(rows, column), v);
                 let corners = at(0, 0).lerp(at(0, columns), u).lerp(at(rows, 0).lerp(at(rows, columns), u), v);
-                grid[row][column] = self.positions.len();
+                *vertex = self.positions.len();
                 self.positions.push(across - corners);
             }
         }

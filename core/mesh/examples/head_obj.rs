@@ -3,7 +3,7 @@
 //! ```text
 //! cargo run -p chromascope-mesh --example head_obj -- 100000 > head.obj
 //! ```
-#![allow(clippy::print_stdout, reason = "an example that writes to standard output")]
+#![allow(clippy::print_stdout, clippy::disallowed_methods, reason = "a program of its own")]
 
 use chromascope_mesh::head::head;
 use std::io::{BufWriter, Error, Write as _};

@@ -3,7 +3,7 @@
 //! ```text
 //! cargo run -p chromascope-mesh --example mesh_report -- head.obj
 //! ```
-#![allow(clippy::print_stdout, reason = "an example that writes to standard output")]
+#![allow(clippy::print_stdout, clippy::disallowed_methods, reason = "a program of its own")]
 
 use chromascope_mesh::reading::read_mesh;
 use std::error::Error;

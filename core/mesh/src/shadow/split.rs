@@ -163,13 +163,19 @@ struct Cut {
 
 impl Cut {
     fn is_left(&self, item: &Item) -> bool {
-        bin(item.center, self.min, self.scale, self.bins)[self.axis] < self.bin
+        let axis = self.axis;
+        bin_on_axis((item.center[axis] - self.min[axis]) * self.scale[axis], self.bins) < self.bin
     }
 }
 
 /// The bin on each axis. A center that is on no axis' scale comes to the first.
 fn bin(center: Vec3A, min: Vec3A, scale: Vec3A, bins: usize) -> [usize; 3] {
-    ((center - min) * scale).to_array().map(|at| (at as usize).min(bins - 1))
+    ((center - min) * scale).to_array().map(|at| bin_on_axis(at, bins))
+}
+
+fn bin_on_axis(at: f32, bins: usize) -> usize {
+    // Through 32 bits, which processors convert to; no place is below 0.
+    (at as i32 as usize).min(bins - 1)
 }
 
 impl Bins {
