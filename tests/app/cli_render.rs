@@ -368,7 +368,7 @@ fn a_tolerance_is_kept_and_said() {
     assert!(flat.contains("; no sample takes a spectral integral\n"), "{flat}");
     let smooth = [&SMALL[..], &D70[..], &["--tolerance", "1e-9", "--sigma", "0.1e-6"]].concat();
     let words = rendered(&folder, &smooth);
-    let parts = ["; specular lobes within 1e-9 of the brightest sample", "; kept in single precision (6e-8)"];
+    let parts = ["; specular lobes within 1e-9 of the brightest sample", "; stored in single precision (6e-8)"];
     assert!(parts.iter().all(|part| words.contains(part)), "{words}");
     refused(&self::folder("tolerance refused"), &["--tolerance", "1e-15"], 2, &["1e-15", "1e-13"]);
     refused(&self::folder("tolerance and quality"), &["--tolerance", "1e-5", "--quality", "fine"], 2, &["--quality"]);

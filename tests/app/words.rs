@@ -114,8 +114,8 @@ fn violations(sentences: &[Sentence]) -> Vec<String> {
         for (banned, instead) in BANNED {
             let hit = folded.match_indices(banned).any(|(at, _)| {
                 let outside = |letter: Option<char>| letter.is_none_or(|letter| !letter.is_alphanumeric());
-                let after = folded[at + banned.len()..].chars();
-                outside(folded[..at].chars().next_back()) && outside(after.skip_while(|letter| *letter == 's').next())
+                let mut after = folded[at + banned.len()..].chars();
+                outside(folded[..at].chars().next_back()) && outside(after.find(|letter| *letter != 's'))
             });
             if hit {
                 let place = format!("{}:{}", sentence.file.display(), sentence.line);
