@@ -172,7 +172,6 @@ mod metric_id {
     use chromascope_core::colorimetry::Metric;
     use serde::{Deserialize as _, Deserializer, Serializer, de::Error as _};
 
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
     pub(super) fn serialize<S: Serializer>(metric: &Metric, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(metric.id)
     }

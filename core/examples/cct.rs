@@ -1,5 +1,6 @@
 //! Correlated color temperature and Duv of a million colors near the Planckian locus (Ohno's definition: nearest point in
 //! CIE 1960 u, v).
+#![allow(clippy::print_stdout, reason = "an example prints its result")]
 
 use chromascope_core::colorimetry::Uv60;
 use chromascope_core::prelude::*;

@@ -1,4 +1,5 @@
 //! Chromaticity of a blackbody at 5500 K through a Nikon D70 (Eq 15 and 13, equal energy).
+#![allow(clippy::print_stdout, reason = "an example prints its result")]
 
 use chromascope_core::prelude::*;
 

@@ -1,4 +1,5 @@
-//! ColorChecker patches under D65 through a camera fitted to CIE 1931, with their difference from that observer.
+//! `ColorChecker` patches under D65 through a camera fitted to CIE 1931, with their difference from that observer.
+#![allow(clippy::print_stdout, reason = "an example prints its result")]
 
 use chromascope_core::colorimetry::delta_e_2000;
 use chromascope_core::prelude::*;

@@ -166,7 +166,7 @@ pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Res
     };
     let conditions = conditions(&scene, &illuminant);
     let reference = colors(SetKind::Observer, &request.document.reference)?;
-    let metrics = Metric::ALL.iter().map(|metric| format!(",{}", metric.column)).collect::<String>();
+    let metrics: String = Metric::ALL.iter().flat_map(|metric| [",", metric.column]).collect();
     let mut text = head(&format!("{PATCHES_HEAD}{metrics}"));
     for (kind, name) in &request.sources {
         let comparable = scene.comparable(*kind, name)?;
@@ -201,7 +201,7 @@ pub fn list(catalog: &Catalog, kind: Option<SetKind>) -> String {
     let names = |kind: SetKind| {
         let five = (kind == SetKind::Chart).then_some(FIVE);
         let names = catalog.of_kind(kind).map(|entry| entry.name.as_str()).chain(five);
-        names.map(|name| format!("{name}\n")).collect::<String>()
+        names.flat_map(|name| [name, "\n"]).collect::<String>()
     };
     kind.map_or_else(|| SetKind::ALL.map(names).concat(), names)
 }

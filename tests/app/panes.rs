@@ -18,7 +18,8 @@ fn each_file_of_a_pane_is_registered_under_its_title() {
     let mut stems: Vec<String> = files.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned()).collect();
     stems.retain(|stem| !BESIDE_PANES.contains(&stem.as_str()));
     let mut titles: Vec<String> = panes::ALL.iter().map(|pane| pane.title.to_lowercase().replace(' ', "_")).collect();
-    (stems.sort(), titles.sort());
+    stems.sort();
+    titles.sort();
     assert_eq!(stems, titles);
     let kinds: BTreeSet<PaneKind> = panes::ALL.iter().map(|pane| pane.kind).collect();
     assert_eq!(kinds.len(), panes::ALL.len(), "each has an id of its own");

@@ -1,4 +1,5 @@
 //! Writes a figure with one curve as SVG to standard output.
+#![allow(clippy::disallowed_methods, reason = "an example writes its result")]
 
 use chromascope_figure::{Axis, Figure, Image, InkRole, Mark, Palette, Panel, Rect, Shape, Tag, svg};
 use std::io::Write as _;

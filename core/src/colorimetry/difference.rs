@@ -81,7 +81,7 @@ impl Metric {
         symbol: "ΔE*00",
         decimals: 2,
         full_scale: 20.0,
-        formula: Formula::Lab(|reference, sample| delta_e_2000(reference, sample)),
+        formula: Formula::Lab(delta_e_2000),
     };
 
     /// Distance in the CIE 1976 diagram.

@@ -44,7 +44,7 @@ fn scene(path: &str) -> Scene {
     let rendering = Rendering::new(&sensor, &light, WhiteBalanceTarget::UNITY, ColorTransform::Paper).unwrap();
     let power = wavelength_power(Normalization::Radiometric);
     let measure = SpectralWeights::new(&sensor, &light, &GridSpectrum::constant(0.5), rendering.white_integrals, power);
-    Scene { measure, rendering }
+    Scene { rendering, measure }
 }
 
 static SCENES: LazyLock<[Scene; 2]> = LazyLock::new(|| [CANON_10D, CIE_1931].map(scene));
