@@ -110,7 +110,7 @@ fn without_sources_those_of_the_preset() {
             "{line}"
         );
     }
-    assert!(lines[0].ends_with(": the reference") && lines[1].contains("Δ of Eq 13 colors "));
+    assert!(lines[0].ends_with(": the reference") && lines[1].contains("Δxy 0.0"));
     assert!(lines[1].contains(" facing light, median ") && lines[1].contains(", max "), "{}", lines[1]);
     assert_eq!(lines[4], "surface: Returns 0.49 of the light at normal incidence (0.03 at 85°)");
     assert!(lines[5].starts_with("4 pictures of 40x30, ") && lines[5].contains(" ms ("), "{}", lines[5]);
@@ -272,7 +272,7 @@ fn statistics_are_json() {
     assert_eq!(source["name"], "Nikon D70 (2007 figure)");
     assert_eq!(source["difference"]["samples_of_lit"], json["samples"]["lit"]);
     let difference = &source["difference"];
-    assert_eq!(difference["measure"], "Δ of Eq 13 colors");
+    assert_eq!(difference["measure"], "Δxy");
     let of = |name: &str| difference[name].as_f64().unwrap_or_else(|| panic!("{name}"));
     assert!(of("facing_light") > 0.0 && of("median_above_l20") <= of("p95_above_l20"), "{difference}");
     assert!(of("samples_above_l20") <= json["samples"]["lit"].as_f64().unwrap(), "{difference}");

@@ -81,9 +81,7 @@ fn the_truth_and_three_cameras_stand_side_by_side() {
     assert_eq!(captions.len(), 4, "{captions:?}");
     assert!(captions[0].starts_with("Picture: Reference"), "{captions:?}");
     assert!(
-        captions[1..]
-            .iter()
-            .all(|caption| caption.contains("Δ of Eq 13 colors") && caption.contains(" facing light, median ")),
+        captions[1..].iter().all(|caption| caption.contains("Δxy 0.0") && caption.contains(" facing light, median ")),
         "{captions:?}"
     );
     let shot = window.state().view().render.shot.clone().unwrap();
@@ -371,7 +369,7 @@ fn a_click_keeps_a_pixel_and_escape_lets_go() {
     window.hover_at(at);
     window.run_steps(2);
     let point = window.state().view().point.clone().expect("the pointer reads");
-    assert!(point.contains("pixel") && point.contains("Δ of Eq 13 colors"), "{point}");
+    assert!(point.contains("pixel") && point.contains("Δxy 0.0"), "{point}");
     window.drag_at(at);
     window.drop_at(at);
     settle(&mut window);
