@@ -116,7 +116,7 @@ mod tests {
         let words = |diffuse, mirror| ErrorBounds { diffuse, mirror }.words();
         assert_eq!(
             words(Some(3.4e-10), Some(1e-9)),
-            "estimated error bound of the diffuse component 3.4e-10 of the peak; specular lobes within 1e-9 of the brightest sample; \
+            "diffuse component: estimated error bound 3.4e-10 of the peak; specular lobes within 1e-9 of the brightest sample; \
              stored in single precision (6e-8)"
         );
         assert_eq!(

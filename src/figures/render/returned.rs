@@ -91,7 +91,7 @@ mod tests {
         let words = said(|document| document.render.reading = ReadingChoice::Microfacet).expect("a sentence");
         assert!(words.is_warning && words.text.contains("; more than 1 from 7"), "{}", words.text);
         let words = said(|document| document.render.reading = ReadingChoice::Paper).expect("a sentence");
-        assert!(!words.is_warning && words.text.contains("e-6 of the light") && words.text.ends_with("P for π f"));
+        assert!(!words.is_warning && words.text.contains("e-6 of the light") && words.text.ends_with("with P as π f"));
     }
 
     #[test]

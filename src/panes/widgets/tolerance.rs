@@ -97,17 +97,17 @@ mod tests {
         assert_eq!(tolerance("5e-10"), Ok(5e-10));
         assert_eq!(tolerance("1.5E-4"), Ok(1.5e-4));
         for (text, words) in [
-            ("", "Nothing"),
+            ("", "Enter a number"),
             ("10 %", "“10 %” is no number"),
             ("nan", "is no number"),
             ("inf", "too large"),
-            ("0.5", "too large: give 1e−13 to 0.1"),
+            ("0.5", "too large: range 1e−13 to 0.1"),
             ("7", "too large: give 1e−13 to 0.1"),
-            ("1e-14", "too small: give 1e−13 to 0.1; S itself is exact to 1e−13"),
-            ("1,5e-4", "“1,5e-4” is no number"),
-            ("0.1%", "“0.1%” is no number"),
-            ("abc", "“abc” is no number"),
-            ("-1", "above 0; give 1e−13 to 0.1"),
+            ("1e-14", "too small: range 1e−13 to 0.1; S itself is accurate to 1e−13"),
+            ("1,5e-4", "“1,5e-4” is not a number"),
+            ("0.1%", "“0.1%” is not a number"),
+            ("abc", "“abc” is not a number"),
+            ("-1", "above 0; range 1e−13 to 0.1"),
             ("0", "above 0"),
             ("−3", "above 0"),
         ] {

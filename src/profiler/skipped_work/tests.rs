@@ -69,14 +69,13 @@ fn wavelengths_that_are_looked_at_do_not_count_as_left_out() {
         let size = RasterSize { width: 24, height: 18, samples: 1 };
         assert_eq!(wavelengths(&rows_at(size, |settings| settings.quality = quality)), None, "{quality:?}");
     }
-    // Fifteen at each sample, of those of 401 that a source responds at.
+    // Few at a sample, or none by moments, of those of 401 that a source responds at.
     let Some((fine, Some(of))) = wavelengths(&rows_of(|settings| settings.quality = QualityLevel::Fine)) else {
         panic!("some are left out");
     };
-    assert!(fine < of && (of - fine).is_multiple_of(15), "{fine} of {of}");
-    // Nine, or none by moments.
+    assert!(fine < of && (of - fine) * 20 < of, "{fine} of {of}");
     let Some((full, Some(of_full))) = wavelengths(&rows_of(|_| ())) else { panic!("some are left out") };
-    assert!((of_full - full).is_multiple_of(9) && full > fine && of_full <= of, "{full} of {of_full}");
+    assert!(full < of_full && full >= fine && of_full <= of, "{full} of {of_full}");
     // Few samples so exact are summed over some wavelengths or all, as each camera's plan says.
     let exact = rows_of(|settings| tolerance(settings, 1e-13));
     let left = wavelengths(&exact).map_or(0, |(count, _)| count);
@@ -91,7 +90,7 @@ fn what_was_measured_on_a_part_says_so_with_threads_and_threshold() {
     }
     let mirrors = row(&rows, "specular terms").expect("left out of a rough surface");
     assert!(mirrors.count > 200 && mirrors.how.contains("extrapolated from 1"), "{mirrors:?}");
-    assert!(mirrors.how.contains("below 1e-7 of the picture's brightest sample"), "{mirrors:?}");
+    assert!(mirrors.how.contains("below 1e-6 of the picture's brightest sample"), "{mirrors:?}");
     let rows = rows_of(|settings| tolerance(settings, 1e-6));
     let mirrors = row(&rows, "specular terms").expect("left out of a rough surface");
     assert!(mirrors.how.contains("below 1e-7 of"), "a tenth of the tolerance: {mirrors:?}");

@@ -81,7 +81,7 @@ fn graph(files: &[(String, String)]) -> Graph {
             let names = match path.names.split_first() {
                 Some((first, rest)) if first == "crate" => rest.to_vec(),
                 // An import from a module below.
-                Some((first, _)) if path.import && modules.contains(&[&own[..], std::slice::from_ref(&first)].concat()) => {
+                Some((first, _)) if path.import && modules.contains(&[&own[..], std::slice::from_ref(first)].concat()) => {
                     [&own[..], &path.names].concat()
                 }
                 _ => continue,
