@@ -201,11 +201,11 @@ impl Flow {
         match &piece.what {
             What::Word(galley) => {
                 let top = place - Vec2::new(0.0, typeset::baseline(galley));
-                ui.painter().galley(top, galley.clone(), color);
+                ui.painter().galley_with_override_text_color(top, galley.clone(), color);
                 if piece.style.strong {
                     // The bundled fonts have no bold face: drawn twice, one pixel apart.
                     let pixel = 1.0 / ui.ctx().pixels_per_point();
-                    ui.painter().galley(top + Vec2::new(pixel, 0.0), galley.clone(), color);
+                    ui.painter().galley_with_override_text_color(top + Vec2::new(pixel, 0.0), galley.clone(), color);
                 }
             }
             What::Formula(set) => set.paint(ui.painter(), place, color),
@@ -219,7 +219,7 @@ impl Flow {
 
 fn word_piece(ui: &Ui, word: &str, size: f32, style: Style, ink: &Ink<'_>) -> Piece {
     let font = if style.code { FontId::monospace(CODE * size) } else { FontId::proportional(size) };
-    let format = TextFormat { italics: style.emphasis, ..TextFormat::simple(font, Color32::PLACEHOLDER) };
+    let format = TextFormat { italics: style.emphasis, font_id: font, ..TextFormat::default() };
     let mut job = LayoutJob::single_section(word.to_owned(), format);
     job.wrap.max_width = f32::INFINITY;
     let galley = ui.painter().layout_job(job);

@@ -39,7 +39,7 @@ impl Typeset {
     pub(super) fn paint(&self, painter: &Painter, origin: Pos2, color: Color32) {
         for (offset, item) in &self.items {
             match item {
-                Item::Text(galley) => painter.galley(origin + *offset, galley.clone(), color),
+                Item::Text(galley) => painter.galley_with_override_text_color(origin + *offset, galley.clone(), color),
                 Item::Line(points) => {
                     let points = points.iter().map(|point| origin + *offset + *point).collect();
                     painter.line(points, Stroke::new(RULE, color));
@@ -101,8 +101,7 @@ impl Setter<'_> {
 
     /// Characters with the extents of their ink.
     fn glyphs(&self, text: &str, size: f32, italics: bool) -> Typeset {
-        // A transparent color is replaced when painted.
-        let format = TextFormat { italics, ..TextFormat::simple(FontId::proportional(size), Color32::PLACEHOLDER) };
+        let format = TextFormat { italics, font_id: FontId::proportional(size), ..TextFormat::default() };
         let mut job = LayoutJob::single_section(text.to_owned(), format);
         job.wrap.max_width = f32::INFINITY;
         let galley = self.painter.layout_job(job);
