@@ -18,6 +18,7 @@ pub mod plan;
 pub mod quality;
 pub mod shading;
 pub mod signals;
+mod stop;
 pub mod vertices;
 pub mod visibility;
 
@@ -29,27 +30,6 @@ pub use plan::{Against, Demand, IntegrationMethod, Plan};
 pub use quality::{Quality, QualityLevel};
 pub use shading::{ShadingCounts, ShadingImage};
 pub use signals::CameraImage;
+pub use stop::Stop;
 pub use vertices::VertexImage;
 pub use visibility::{RasterSize, Visibility};
-
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Says when a computation is no longer wanted; looked at once a tile.
-#[derive(Clone, Debug, Default)]
-pub struct Stop(Option<Arc<AtomicBool>>);
-
-impl Stop {
-    /// Never stops.
-    pub const NEVER: Self = Self(None);
-
-    /// Stops once the flag is set.
-    pub fn at(flag: Arc<AtomicBool>) -> Self {
-        Self(Some(flag))
-    }
-
-    /// Whether to stop.
-    pub fn is_set(&self) -> bool {
-        self.0.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed))
-    }
-}

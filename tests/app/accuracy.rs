@@ -81,7 +81,7 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     // Moments add none; of the few samples near grazing some are added.
     assert!(terms.of.is_some_and(|of| terms.count <= of && terms.count / 99 > of / 100), "{terms:?}");
     assert!(measured.skipped_work.iter().all(|row| row.saved.is_finite() && row.saved >= 0.0 && !row.how.is_empty()));
-    assert_eq!(window.query_by_label("Run again").is_some(), cfg!(feature = "bench"));
+    assert!(window.query_by_label("Run again").is_some());
     assert!(window.state().view().accuracy.is_current);
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };

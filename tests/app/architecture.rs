@@ -28,6 +28,8 @@ const CORE_LAYERS: &[&str] = &[
     "scene",
     "render",
     "query",
+    "data",
+    "prelude",
 ];
 
 /// Modules of the app in their order: each uses only those before it. The picture is in `src/lib.rs`.
@@ -40,6 +42,7 @@ const APP_LAYERS: &[&str] = &[
     "results",
     "jobs",
     "catalog",
+    "help",
     "scene",
     "files",
     "export",
@@ -47,7 +50,6 @@ const APP_LAYERS: &[&str] = &[
     "paint",
     "workspaces",
     "render_service",
-    "bench",
     "profiler",
     "view",
     "command",
@@ -58,7 +60,7 @@ const APP_LAYERS: &[&str] = &[
 ];
 
 /// Uses against that order, which can only become fewer.
-const AGAINST_ORDER: &[(&str, &str)] = &[("bench", "figures")];
+const AGAINST_ORDER: &[(&str, &str)] = &[];
 
 /// Other crates under the names that `chromascope-core` gives them.
 const REEXPORTED: &[&str] = &["math", "mesh"];

@@ -207,7 +207,6 @@ fn a_picture_computes_only_what_an_action_changes() {
                 ("camera image", 1),
                 ("difference", 1),
                 ("measure", 1),
-                ("mirror reach", 1),
                 ("picture", 1),
                 ("pictures", 1),
                 ("rendering", 1),
@@ -232,7 +231,6 @@ fn a_surface_a_light_and_a_view_compute_only_what_follows_them() {
     let mut set = |change: fn(&mut Pictures)| {
         let mut runs = pictures.computed(change);
         // It follows the brightest sample, by powers of two.
-        runs.retain(|(name, _)| *name != "mirror reach");
         runs
     };
     let developed = [("picture", 4), ("pictures", 1)];

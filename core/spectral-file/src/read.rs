@@ -151,8 +151,8 @@ fn finish(
     scale::convert(&mut grid, &scale);
     notes.extend(photons::to_energy(&mut grid, scale.role.value, &wavelength_unit, options));
     scale::warn(&scale, &grid, &mut warnings);
-    let places = warnings.places.take();
-    let mut marker = places.map(|places| Marker::new(places, &grid, &layout, reader.value, wavelength_unit.value));
+    let marker = |places| Marker::new(places, &grid, &layout, reader.value, wavelength_unit.value);
+    let mut marker = warnings.places.take().map(marker);
     let mut decimal_mark = layout.decimal_mark;
     if scale.denies_thousands() && warnings.warnings.contains(&Warning::MaybeThousands) {
         warnings.warnings.retain(|warning| *warning != Warning::MaybeThousands);
@@ -163,8 +163,7 @@ fn finish(
         notes.push(Decision::new("Medium", &Decided::certain(medium, format!("Line {line} says so"))));
     }
     let (rows, grid_column) = (grid.rows, grid.wavelength_column);
-    let header = std::mem::take(&mut grid.header);
-    let mut dropped_rows = std::mem::take(&mut grid.dropped);
+    let (header, mut dropped_rows) = (std::mem::take(&mut grid.header), std::mem::take(&mut grid.dropped));
     dropped_rows.truncate(MAX_DROPPED);
     let (curves, origins) = grid.into_curves(&mut warnings);
     if curves.is_empty() {
@@ -173,7 +172,6 @@ fn finish(
     if let Some(marker) = &mut marker {
         marker.take_curves(&origins);
     }
-    let camera_columns = scale::camera_columns(scale.role.value, &curves);
     let reading = ReadReport {
         reader,
         encoding,
@@ -197,7 +195,7 @@ fn finish(
         descending,
         range_nm,
         step_nm,
-        camera_columns,
+        camera_columns: scale::camera_columns(scale.role.value, &curves),
     };
     Ok((SpectralFile { curves, role: scale.role, reading, warnings: warnings.warnings }, marker))
 }

@@ -14,7 +14,7 @@
 
 mod antiderivative;
 mod axis;
-mod rules;
+pub(super) mod rules;
 
 use super::measure::SpectralWeights;
 use super::shading::{Mirror, Quality, ShadingImage};

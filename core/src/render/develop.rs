@@ -1,6 +1,6 @@
 //! From a camera's signals to pixels: white balance, matrix, exposure, and the screen's encoding.
 
-use super::Stop;
+use super::stop::Stop;
 use super::geometry::LitSamples;
 use super::signals::CameraImage;
 use super::visibility::RasterSize;

@@ -3,7 +3,7 @@
 mod lanes;
 
 use self::lanes::{EDGE, Found, Given, LANES};
-use super::Stop;
+use super::stop::Stop;
 use super::visibility::{Hit, RasterSize, Rays, Visibility};
 use crate::reflectance::Geometry;
 use crate::scene::{Lighting, PlacedLight};

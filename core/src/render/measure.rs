@@ -4,7 +4,7 @@
 //! in wavelength, so a Gauss rule of the measure needs a dozen (see `math::gauss`); where P is rough the integral separates
 //! into moments of the measure.
 
-use super::coherent::CoherentRules;
+use super::coherent::rules::CoherentRules;
 use crate::math::gauss::{gauss_rule, interpolatory_rule};
 use crate::spectral::grid::{COUNT, wavelength_nm};
 use crate::spectral::{GridSpectrum, Sensor};

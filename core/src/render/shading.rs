@@ -3,7 +3,7 @@
 mod brightness;
 mod lobes;
 
-use super::Stop;
+use super::stop::Stop;
 use super::diffuse::{ROUGH, VERY_ROUGH};
 use super::geometry::{Angles, GeometryImage};
 use super::measure::LAMBDA_0_NM;

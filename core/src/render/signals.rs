@@ -1,6 +1,6 @@
 //! The pictures that cameras take: three numbers a sample, before white balance and exposure.
 
-use super::Stop;
+use super::stop::Stop;
 use super::coherent::CoherentIntegral;
 use super::geometry::LitSamples;
 use super::measure::SpectralWeights;

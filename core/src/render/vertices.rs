@@ -1,6 +1,6 @@
 //! P at the vertices, interpolated: how the paper renders, with a roughness of its own at each vertex.
 
-use super::Stop;
+use super::stop::Stop;
 use super::geometry::{Angles, GeometryImage};
 use super::visibility::Visibility;
 use crate::reflectance::Geometry;

@@ -5,7 +5,7 @@
 //! d·(a × b) share a sign. Nothing is projected, so nothing is clipped, and neighbors share an edge's function up to its
 //! sign to the last bit: no cracks, no sample twice.
 
-use super::Stop;
+use super::stop::Stop;
 use crate::scene::Eye;
 use chromascope_mesh::Mesh;
 use glam::DVec3;

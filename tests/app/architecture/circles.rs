@@ -11,13 +11,7 @@ const LARGEST: usize = 2;
 
 /// Circles that are larger, each by one of its files with its number of files. The list can only shrink.
 const KNOWN: &[(&str, &str, usize)] = &[
-    ("src", "bench", 6),
-    ("src", "profiler", 4),
     ("core/src", "render::plan", 9),
-    ("core/spectral-file/src", "text", 36),
-    ("core/spectral-file/src", "write", 6),
-    ("core/spectral-file/src", "wide", 3),
-    ("core/spectral-file/src", "families::jcamp", 3),
 ];
 
 const CRATES: &[&str] = &[
