@@ -228,11 +228,7 @@ fn a_picture_computes_only_what_an_action_changes() {
 #[test]
 fn a_surface_a_light_and_a_view_compute_only_what_follows_them() {
     let mut pictures = Pictures::new();
-    let mut set = |change: fn(&mut Pictures)| {
-        let mut runs = pictures.computed(change);
-        // It follows the brightest sample, by powers of two.
-        runs
-    };
+    let mut set = |change: fn(&mut Pictures)| pictures.computed(change);
     let developed = [("picture", 4), ("pictures", 1)];
     assert_eq!(set(|p| p.desk.document.render.exposure_ev = 1.0), developed, "exposure: the last stage alone");
     let signals = [("camera image", 4), ("difference", 3), ("exposure", 1), ("picture", 4), ("pictures", 1)];

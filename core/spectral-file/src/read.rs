@@ -169,9 +169,7 @@ fn finish(
     if curves.is_empty() {
         return Err(ReadError::TooFewSamples { line: layout.first_line });
     }
-    if let Some(marker) = &mut marker {
-        marker.take_curves(&origins);
-    }
+    marker.iter_mut().for_each(|marker| marker.take_curves(&origins));
     let reading = ReadReport {
         reader,
         encoding,

@@ -1,8 +1,8 @@
 //! From a camera's signals to pixels: white balance, matrix, exposure, and the screen's encoding.
 
-use super::stop::Stop;
 use super::geometry::LitSamples;
 use super::signals::CameraImage;
+use super::stop::Stop;
 use super::visibility::RasterSize;
 use crate::camera::Rendering;
 use crate::colorimetry::rgb::srgb_transfer;

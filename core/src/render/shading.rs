@@ -3,12 +3,12 @@
 mod brightness;
 mod lobes;
 
-use super::stop::Stop;
 use super::diffuse::{ROUGH, VERY_ROUGH};
 use super::geometry::{Angles, GeometryImage};
 use super::measure::LAMBDA_0_NM;
 use super::plan::{self, Demand, Plan};
 pub use super::quality::Quality;
+use super::stop::Stop;
 use super::vertices::VertexImage;
 use crate::accuracy::RelTolerance;
 use crate::reflectance::coherent::rho0_squared_bound;

@@ -1,11 +1,11 @@
 //! The pictures that cameras take: three numbers a sample, before white balance and exposure.
 
-use super::stop::Stop;
 use super::coherent::CoherentIntegral;
 use super::geometry::LitSamples;
 use super::measure::SpectralWeights;
 use super::plan::{Places, Plan, RUN};
 use super::shading::{DiffuseKind, Shade, ShadingImage};
+use super::stop::Stop;
 use rayon::prelude::*;
 use std::sync::Arc;
 

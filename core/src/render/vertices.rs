@@ -1,7 +1,7 @@
 //! P at the vertices, interpolated: how the paper renders, with a roughness of its own at each vertex.
 
-use super::stop::Stop;
 use super::geometry::{Angles, GeometryImage};
+use super::stop::Stop;
 use super::visibility::Visibility;
 use crate::reflectance::Geometry;
 use crate::scene::Lighting;

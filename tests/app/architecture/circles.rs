@@ -10,9 +10,7 @@ use super::{Violation, hold, module, sources};
 const LARGEST: usize = 2;
 
 /// Circles that are larger, each by one of its files with its number of files. The list can only shrink.
-const KNOWN: &[(&str, &str, usize)] = &[
-    ("core/src", "render::plan", 9),
-];
+const KNOWN: &[(&str, &str, usize)] = &[("core/src", "render::plan", 9)];
 
 const CRATES: &[&str] = &[
     "src",
@@ -75,7 +73,9 @@ fn graph(files: &[(String, String)]) -> Graph {
             let names = match path.names.split_first() {
                 Some((first, rest)) if first == "crate" => rest.to_vec(),
                 // An import from a module below.
-                Some((first, _)) if path.import && modules.contains(&[&own[..], std::slice::from_ref(first)].concat()) => {
+                Some((first, _))
+                    if path.import && modules.contains(&[&own[..], std::slice::from_ref(first)].concat()) =>
+                {
                     [&own[..], &path.names].concat()
                 }
                 _ => continue,
