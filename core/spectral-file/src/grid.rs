@@ -77,6 +77,11 @@ impl RawCurve {
 }
 
 impl Grid {
+    /// First and last wavelength of a sorted grid that has one.
+    pub(super) fn range_nm(&self) -> [f64; 2] {
+        [self.wavelengths[0], self.wavelengths[self.wavelengths.len() - 1]]
+    }
+
     /// The line of a wavelength.
     pub(super) fn line(&self, index: usize) -> usize {
         self.lines.get(index).or(self.lines.last()).copied().unwrap_or(1)

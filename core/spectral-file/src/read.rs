@@ -85,7 +85,7 @@ pub fn read_watched(bytes: &[u8], options: &ReadOptions, watch: Watch<'_>) -> Re
     read_once(bytes, options, watch).map_err(|error| blame(bytes, options, error, watch))
 }
 
-/// [`read_watched`], with a record of where in the text each sample stands, for a [`Preview`].
+/// [`read_watched`], with a record of where in the text each sample stands, for a [`crate::Preview`].
 ///
 /// Takes somewhat longer, and up to 24 bytes for each sample of formats other than tables.
 ///
@@ -136,8 +136,7 @@ fn finish(
     }
     warnings.look(usize::MAX)?;
     let descending = wavelengths::sort(&mut grid, &mut warnings);
-    let range_nm = [grid.wavelengths[0], grid.wavelengths[grid.wavelengths.len() - 1]];
-    let step_nm = Steps::of(&grid.wavelengths);
+    let (range_nm, step_nm) = (grid.range_nm(), Steps::of(&grid.wavelengths));
     wavelengths::warn(&grid, step_nm, &mut warnings);
     warnings.look(usize::MAX)?;
     gaps::take(&mut grid, &mut warnings);
@@ -162,14 +161,16 @@ fn finish(
     if let Some((line, medium)) = grid.header.medium {
         notes.push(Decision::new("Medium", &Decided::certain(medium, format!("Line {line} says so"))));
     }
-    let (rows, grid_column) = (grid.rows, grid.wavelength_column);
+    let (rows, wavelength_column) = (grid.rows, grid.wavelength_column);
     let (header, mut dropped_rows) = (std::mem::take(&mut grid.header), std::mem::take(&mut grid.dropped));
     dropped_rows.truncate(MAX_DROPPED);
     let (curves, origins) = grid.into_curves(&mut warnings);
     if curves.is_empty() {
         return Err(ReadError::TooFewSamples { line: layout.first_line });
     }
-    marker.iter_mut().for_each(|marker| marker.take_curves(&origins));
+    if let Some(marker) = &mut marker {
+        marker.take_curves(&origins);
+    }
     let reading = ReadReport {
         reader,
         encoding,
@@ -179,7 +180,7 @@ fn finish(
         orientation: layout.orientation,
         wavelength_unit,
         values: scale.values,
-        wavelength_column: grid_column,
+        wavelength_column,
         quantity,
         per_photon,
         parts,
