@@ -18,7 +18,7 @@ impl RelTolerance {
     ///
     /// # Errors
     ///
-    /// [`NotAnAccuracy`] unless the number is positive and below 1.
+    /// [`NotATolerance`] unless the number is positive and below 1.
     ///
     /// ```
     /// use chromascope_core::accuracy::RelTolerance;
