@@ -48,7 +48,7 @@ pub enum CompareAction {
     SetReference {
         /// The observer.
         name: String,
-        /// Whether its color matching functions are XYZ, so that it can be fitted to.
+        /// True if its color matching functions are XYZ, so that it can be fitted to.
         counts_in_xyz: bool,
     },
 }
@@ -155,7 +155,7 @@ impl Action {
         }
     }
 
-    /// Whether a change during the same drag belongs to the same step.
+    /// True if a change during the same drag belongs to the same step.
     pub fn is_same_gesture(&self, next: &Self) -> bool {
         if let (Self::Render(RenderAction::Set { what, .. }), Self::Render(RenderAction::Set { what: next, .. })) =
             (self, next)

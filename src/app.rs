@@ -162,7 +162,7 @@ impl ChromascopeApp {
         &self.opened
     }
 
-    /// Whether a path is being asked for.
+    /// True if a path is being asked for.
     pub fn is_asking(&self) -> bool {
         self.files.is_asking()
     }

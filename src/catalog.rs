@@ -52,17 +52,17 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// Whether the user brought it.
+    /// True if the user brought it.
     pub fn is_own(&self) -> bool {
         matches!(self.place, Place::Own(_))
     }
 
-    /// Whether an observer's color matching functions are XYZ, by its column heads alone: nothing is parsed for a menu.
+    /// True if an observer's color matching functions are XYZ, by its column heads alone: nothing is parsed for a menu.
     pub fn counts_in_xyz(&self) -> bool {
         self.header.as_ref().is_some_and(|header| header.columns.first().is_some_and(|head| head == "x_bar"))
     }
 
-    /// Whether its figures were read off a published figure.
+    /// True if its figures were read off a published figure.
     pub fn is_digitized(&self) -> bool {
         self.header.as_ref().is_some_and(Header::is_digitized)
     }

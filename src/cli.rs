@@ -70,7 +70,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
     })
 }
 
-/// Whether what stands for a file is a bare word that no file has: a command that was mistyped.
+/// True if what stands for a file is a bare word that no file has: a command that was mistyped.
 fn is_mistyped_command(file: &Path) -> bool {
     file.components().count() == 1 && file.extension().is_none() && !file.exists()
 }

@@ -146,7 +146,7 @@ pub struct KeyBinding {
     pub command: Command,
     /// In words.
     pub words: &'static str,
-    /// Whether it rests while text is typed.
+    /// True if it rests while text is typed.
     pub rests_while_typing: bool,
 }
 

@@ -76,7 +76,7 @@ pub struct Compared {
     pub kind: SetKind,
     /// Its place in the palette, kept while it is compared.
     pub slot: u8,
-    /// Whether its curves are drawn.
+    /// True if its curves are drawn.
     #[serde(default = "yes")]
     pub visible: bool,
     /// What the user calls it, if not its name.
@@ -100,7 +100,7 @@ pub enum Light {
     Daylight,
 }
 
-/// How many patches of a chart.
+/// Number of patches of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Subset {
@@ -138,7 +138,7 @@ pub enum TransformChoice {
 }
 
 impl TransformChoice {
-    /// Whether colors go through Eq 13.
+    /// True if colors go through Eq 13.
     pub const fn is_eq_13(&self) -> bool {
         matches!(self, Self::Paper)
     }
@@ -322,7 +322,7 @@ impl Document {
         }
     }
 
-    /// Whether a sensor is the reference.
+    /// True if a sensor is the reference.
     pub fn is_reference(&self, compared: &Compared) -> bool {
         compared.kind == SetKind::Observer && compared.name == self.reference
     }

@@ -56,7 +56,7 @@ pub struct Shown<A> {
     pub answer: Arc<A>,
     /// Which stage of its request it is.
     pub stage: usize,
-    /// Whether it answers the latest request.
+    /// True if it answers the latest request.
     pub current: bool,
     /// How long it took, earlier stages not included.
     pub time: Duration,
@@ -161,7 +161,7 @@ where
         self.desk.lock().begun.map(|begun| self.desk.clock.since(begun))
     }
 
-    /// Why the latest request has no answer, if it failed.
+    /// Reason that the latest request has no answer, if it failed.
     pub fn failure(&self) -> Option<String> {
         self.desk.lock().failure.clone()
     }

@@ -66,7 +66,7 @@ pub struct SceneRun {
 pub struct Trial {
     /// What is computed.
     pub subject: Subject,
-    /// How many inputs were measured on.
+    /// Number of inputs measured on.
     pub inputs: usize,
     /// The methods, the reference first.
     pub points: Vec<Point>,
@@ -231,7 +231,7 @@ impl Profiler {
         self.worker.busy().or_else(|| self.bench.busy())
     }
 
-    /// Why there is nothing, if measuring failed.
+    /// Reason that there is nothing, if measuring failed.
     pub fn failure(&self) -> Option<String> {
         self.worker.failure().or_else(|| self.bench.failure())
     }

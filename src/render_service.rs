@@ -27,7 +27,7 @@ pub struct RenderedFrame {
     pub answer: Arc<<PicturesQuery as Query>::Answer>,
     /// How long it took.
     pub time: Duration,
-    /// Whether nothing finer is to come.
+    /// True if nothing finer is to come.
     pub is_last: bool,
     /// A number that no other answer has.
     pub serial: u64,
@@ -102,7 +102,7 @@ impl RenderService {
         (rest > 0.0).then_some(rest)
     }
 
-    /// Whether the finest pictures of the same shaded mesh are on show, so that only their development can differ.
+    /// True if the finest pictures of the same shaded mesh are on show, so that only their development can differ.
     pub fn only_develops(&self, wanted: &PicturesQuery) -> bool {
         self.shot.as_ref().is_some_and(|shot| shot.is_last && shot.query.shading == wanted.shading)
     }
@@ -171,7 +171,7 @@ impl RenderService {
         self.shot.clone()
     }
 
-    /// Whether the pictures on show are those that are wanted in the end.
+    /// True if the pictures on show are those that are wanted in the end.
     pub fn is_settled(&self) -> bool {
         self.shot.as_ref().is_some_and(|shot| self.wanted.as_ref() == Some(&shot.query))
     }
@@ -181,7 +181,7 @@ impl RenderService {
         self.worker.busy()
     }
 
-    /// Why the latest request has no answer, if it failed.
+    /// Reason that the latest request has no answer, if it failed.
     pub fn failure(&self) -> Option<String> {
         self.worker.failure()
     }
@@ -191,7 +191,7 @@ impl RenderService {
         self.worker.counts()
     }
 
-    /// How many stages the latest request has.
+    /// Number of stages of the latest request.
     pub fn stages(&self) -> usize {
         self.latest.stages.len()
     }

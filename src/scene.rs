@@ -32,10 +32,10 @@ use crate::document::{
 };
 use crate::results::Results;
 
-/// How many points a locus on screen has.
+/// Number of points a locus on screen has.
 pub const LOCUS_POINTS: usize = 200;
 
-/// Why something of the scene cannot be shown.
+/// Reason that something of the scene cannot be shown.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneError {
     /// A name that no set has, as in a session from elsewhere.
@@ -51,7 +51,7 @@ pub enum SceneError {
     Load {
         /// Its name.
         name: String,
-        /// Why.
+        /// Reason.
         error: LoadError,
     },
     /// A sensor that cannot be shown under this light.
@@ -59,7 +59,7 @@ pub enum SceneError {
     Rendering {
         /// Its name.
         name: String,
-        /// Why.
+        /// Reason.
         error: RenderingError,
     },
     /// A white that has no color.
@@ -94,11 +94,11 @@ pub struct ComparedSensor {
     pub marker: Marker,
     /// The width of its lines in points.
     pub width: f64,
-    /// Whether it is the reference.
+    /// True if it is the reference.
     pub is_reference: bool,
-    /// Whether the user brought it.
+    /// True if the user brought it.
     pub is_own: bool,
-    /// Whether its curves are drawn.
+    /// True if its curves are drawn.
     pub visible: bool,
 }
 
@@ -116,7 +116,7 @@ pub enum Caution {
         target: String,
         /// The reference.
         reference: String,
-        /// Whether the reference is an XYZ observer, so that it can be fitted to.
+        /// True if the reference is an XYZ observer, so that it can be fitted to.
         can_fit: bool,
     },
 }
@@ -223,7 +223,7 @@ impl<'a> Scene<'a> {
         self.patch_set(&self.document.chart, five.then_some(PAPER_FIVE.as_slice()))
     }
 
-    /// Whether the chart has the paper's five patches and more.
+    /// True if the chart has the paper's five patches and more.
     pub fn has_five(&self) -> bool {
         self.chart_entry(&self.document.chart).ok().and_then(|entry| entry.header).is_some_and(|header| {
             header.columns.len() > PAPER_FIVE.len()
@@ -339,7 +339,7 @@ impl<'a> Scene<'a> {
         Ok(self.results.ask(&SpectralLocusQuery { observer: self.sensor(SetKind::Observer, FIT_TARGET)? }))
     }
 
-    /// Whether a sensor may be compared with the reference on this way to the diagram.
+    /// True if a sensor may be compared with the reference on this way to the diagram.
     pub fn comparable(&self, kind: SetKind, name: &str) -> Result<Result<(), DifferenceError>, SceneError> {
         if self.document.transform != TransformChoice::Paper {
             return Ok(Ok(()));

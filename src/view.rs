@@ -43,7 +43,7 @@ pub struct View {
     pub maximized: Option<PaneKind>,
     /// The pane that keys and exports mean.
     pub focused: Option<PaneKind>,
-    /// Whether the column that a narrow window leaves out lies over the center.
+    /// True if the column that a narrow window leaves out lies over the center.
     pub inspector_over: bool,
     /// What is looked at in Import.
     pub import: ImportView,
@@ -85,15 +85,15 @@ pub struct SavedView {
     pub tables: BTreeSet<PaneKind>,
     /// The gray around swatches.
     pub surround: Surround,
-    /// Whether the diagram fits the data or shows all.
+    /// True if the diagram fits the data or shows all.
     pub diagram_fit: DiagramFit,
-    /// Whether swatches stand in rows or as charts.
+    /// True if swatches stand in rows or as charts.
     pub swatch_layout: SwatchLayout,
     /// How the reference stands within a swatch.
     pub swatch_style: SwatchStyle,
-    /// Whether curves lie over each other or each sensor has its own plot.
+    /// True if curves lie over each other or each sensor has its own plot.
     pub spectra_layout: SpectraLayout,
-    /// Whether the bars of differences are shown.
+    /// True if the bars of differences are shown.
     pub difference_bars: bool,
     /// Groups of the library that are folded.
     pub folded: BTreeSet<String>,

@@ -38,7 +38,7 @@ impl RelTolerance {
         self.max_relative_error
     }
 
-    /// Whether an error is within it. What is no number is not.
+    /// True if an error is within it. What is no number is not.
     pub fn allows(self, relative_error: f64) -> bool {
         relative_error <= self.max_relative_error
     }
@@ -100,7 +100,7 @@ impl fmt::Display for RelTolerance {
     }
 }
 
-/// Why a number is no accuracy.
+/// Reason that a number is no accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{value} is not a relative error between 0 and 1")]
 pub struct NotATolerance {

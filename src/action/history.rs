@@ -4,7 +4,7 @@ use super::Action;
 use crate::document::Document;
 use crate::document::names::BuiltInNames;
 
-/// How many steps are kept.
+/// Largest number of steps.
 const DEPTH: usize = 200;
 
 /// One step: what was done, and the document before (undo) or after it (redo).
@@ -22,7 +22,7 @@ pub struct History {
     document: Document,
     undo: Vec<Step>,
     redo: Vec<Step>,
-    /// Whether a gesture (a drag) is going on, whose changes are one step.
+    /// True if a gesture (a drag) is going on, whose changes are one step.
     gesture: bool,
 }
 

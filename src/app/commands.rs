@@ -158,7 +158,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Whether a narrow window has no place for the library beside the rest.
+    /// True if a narrow window has no place for the library beside the rest.
     fn library_left_out(&self) -> bool {
         self.arrangement.narrow && self.view.saved.workspace.keeps_right_column()
     }
@@ -368,7 +368,7 @@ impl ChromascopeApp {
         self.files.autosave(self.history.document(), ctx);
     }
 
-    /// Whether a set of this kind and name is on the list.
+    /// True if a set of this kind and name is on the list.
     pub fn compares(&self, kind: SetKind, name: &str) -> bool {
         self.history.document().compared(kind, name).is_some()
     }

@@ -14,7 +14,7 @@ use crate::view::SavedView;
 /// The program's name in the system: folders, window class.
 const APP_ID: &str = "chromascope";
 
-/// Why the window did not open.
+/// Reason that the window did not open.
 #[derive(Debug, thiserror::Error)]
 pub enum WindowError {
     /// There is no screen to open it on.

@@ -16,7 +16,7 @@ pub struct Imported {
     pub set: OwnSet,
     /// What was read, in one sentence, with what a person should know first.
     pub message: String,
-    /// Whether something that changes numbers was guessed.
+    /// True if something that changes numbers was guessed.
     pub guessed: bool,
 }
 
@@ -102,7 +102,7 @@ pub fn taken(table: &SpectralFile, wishes: &ImportOverrides) -> Vec<usize> {
     (0..count.min(TAKEN_AT_FIRST)).collect()
 }
 
-/// How many curves of what, over which range.
+/// Number of curves of what, over which range.
 fn summary(table: &SpectralFile) -> String {
     let [first, last] = table.reading.range_nm;
     let count = table.curves.len();

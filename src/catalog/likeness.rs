@@ -9,7 +9,7 @@ use crate::document::own::Fingerprint;
 pub struct Likeness {
     /// The lines.
     shapes: Vec<Fingerprint>,
-    /// Whether some of them hold words.
+    /// True if some of them hold words.
     words: bool,
 }
 
@@ -35,12 +35,12 @@ impl Likeness {
         Self { shapes, words }
     }
 
-    /// Whether there is more than numbers to tell a kind by, so that it is worth remembering.
+    /// True if there is more than numbers to tell a kind by, so that it is worth remembering.
     pub fn is_telling(&self) -> bool {
         self.words
     }
 
-    /// Whether two files are of one kind.
+    /// True if two files are of one kind.
     pub fn is_like(&self, other: &Self) -> bool {
         let common = self.shapes.iter().filter(|shape| other.shapes.binary_search(shape).is_ok()).count();
         let all = self.shapes.len() + other.shapes.len() - common;

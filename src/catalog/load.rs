@@ -14,7 +14,7 @@ use super::{Place, asset_text};
 /// The daylight basis among the built-in files.
 pub const DAYLIGHT_BASIS: &str = "illuminants/cie_daylight_basis.csv";
 
-/// Why a set's figures cannot be computed with.
+/// Reason that a set's figures cannot be computed with.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LoadError {
     /// A built-in file is missing from the program.

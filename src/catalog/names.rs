@@ -2,7 +2,7 @@
 
 use super::Entry;
 
-/// Why a name means no set.
+/// Reason that a name means no set.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
     /// Nothing of that name.
@@ -51,7 +51,7 @@ pub fn sort_key(name: &str) -> Vec<(String, u64)> {
     key
 }
 
-/// Whether every word of a search occurs in an entry's name, short name or gloss.
+/// True if every word of a search occurs in an entry's name, short name or gloss.
 pub fn matches_search(entry: &Entry, search: &str) -> bool {
     let text = format!("{} {} {}", entry.name, entry.short, entry.also.as_deref().unwrap_or_default());
     let text = folded(&text);
@@ -63,7 +63,7 @@ pub fn matches_search(entry: &Entry, search: &str) -> bool {
 pub struct Found<'a> {
     /// The entry.
     pub entry: &'a Entry,
-    /// Whether its own name was typed; case, punctuation and words such as "illuminant" aside.
+    /// True if its own name was typed; case, punctuation and words such as "illuminant" aside.
     pub exact: bool,
     /// Other tables of the same model.
     pub others: Vec<&'a str>,

@@ -48,7 +48,7 @@ pub enum OpenedEvent {
         sets: Vec<Imported>,
         /// What was read, and what was decided, in one sentence.
         message: String,
-        /// How many files beside them could not be read, and why the first could not; may be empty.
+        /// Number of files beside them could not be read, and why the first could not; may be empty.
         failure: String,
         /// The files on disk that they came from.
         paths: Vec<PathBuf>,
@@ -59,7 +59,7 @@ pub enum OpenedEvent {
     Reread {
         /// The sets by the names they had: each as it is now, or why it stays as it was.
         sets: Vec<(String, Result<Imported, String>)>,
-        /// Why.
+        /// Reason.
         why: Why,
         /// A later reading has a larger number.
         ticket: u64,
@@ -81,7 +81,7 @@ pub enum OpenedEvent {
     Failed(String, Vec<Fingerprint>),
 }
 
-/// Why a set is read again.
+/// Reason that a set is read again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
     /// Its file changed on disk.
@@ -123,7 +123,7 @@ struct State {
     files: Vec<OpenFile>,
     events: Vec<OpenedEvent>,
     running: Vec<Arc<Job>>,
-    /// How many readings were begun again.
+    /// Number of files read again.
     tickets: u64,
     /// Files that were looked for on disk and are not there as they were.
     lost: Vec<Fingerprint>,

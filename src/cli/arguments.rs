@@ -120,7 +120,7 @@ pub(super) struct SourceArguments {
 }
 
 impl SourceArguments {
-    /// Whether no sensor was named.
+    /// True if no sensor was named.
     pub(super) fn names_no_sensor(&self) -> bool {
         self.observer.is_empty() && self.camera.is_empty()
     }

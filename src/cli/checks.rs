@@ -1,4 +1,4 @@
-//! Whether a file holds what the option asks for that names it.
+//! True if a file holds what the option asks for that names it.
 
 use spectral_file::{Certainty, ReadOptions, SpectralFile, Warning};
 
@@ -56,7 +56,7 @@ pub(super) fn channels(path: &str, role: Role, table: &SpectralFile) -> Result<(
     Err(CliError::File(format!("{path}: {count} curves; {why}")))
 }
 
-/// Whether a file holds as many curves as its use takes.
+/// True if a file holds as many curves as its use takes.
 pub(super) fn curves(set: &OwnSet) -> Result<(), CliError> {
     let wanted = match set.role {
         Role::Camera if set.curves.len() < 3 => "expected three for a camera: red, green and blue",

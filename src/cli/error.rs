@@ -19,7 +19,7 @@ pub(super) enum CliError {
     /// Some of several files failed; each was told of.
     #[error("{failed} of {count} files failed")]
     Failed {
-        /// How many.
+        /// Number.
         failed: usize,
         /// Of how many.
         count: usize,
@@ -43,7 +43,7 @@ pub(super) enum CliError {
     Picture {
         /// Which.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         error: crate::export::render::PictureError,
     },
     /// Nothing can be measured.
@@ -72,7 +72,7 @@ pub(super) enum CliError {
     Output {
         /// Where.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         error: io::Error,
     },
 }

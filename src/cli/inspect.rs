@@ -25,7 +25,7 @@ use super::request::read;
 use crate::format::io_reason;
 use crate::terminal::say;
 
-/// Why a file could not be read or written.
+/// Reason that a file could not be read or written.
 #[derive(Clone)]
 enum Failure {
     /// The system says no.

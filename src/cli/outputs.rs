@@ -74,19 +74,19 @@ pub(super) fn check<'a>(
     Ok(())
 }
 
-/// Whether a path means standard output.
+/// True if a path means standard output.
 pub(super) fn is_standard_output(path: &Path) -> bool {
     ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
 }
 
-/// Whether a path is an open file of the shell's. What that leads to is the shell's business.
+/// True if a path is an open file of the shell's. What that leads to is the shell's business.
 pub(super) fn is_descriptor(path: &Path) -> bool {
     let number = |rest: &Path| rest.to_str().is_some_and(|text| text.parse::<u32>().is_ok());
     let in_folder = |folder: &&str| path.strip_prefix(folder).is_ok_and(number);
     path == Path::new("/dev/stderr") || ["/dev/fd", "/proc/self/fd"].iter().any(in_folder)
 }
 
-/// Whether bytes that are written to a path replace nothing.
+/// True if bytes that are written to a path replace nothing.
 fn is_stream(path: &Path) -> bool {
     let no_file = || fs::metadata(path).is_ok_and(|known| !known.is_file() && !known.is_dir());
     is_standard_output(path) || is_descriptor(path) || no_file()

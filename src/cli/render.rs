@@ -88,7 +88,7 @@ struct Made<'a> {
     setup: &'a Setup,
     scene: Scene<'a>,
     sources: Vec<ComparedSensor>,
-    /// Why a sensor cannot be compared with the reference.
+    /// Reason that a sensor cannot be compared with the reference.
     not_comparable: Vec<Option<DifferenceError>>,
     files: Vec<PathBuf>,
     query: PicturesQuery,

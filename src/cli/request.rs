@@ -148,7 +148,7 @@ impl Request {
         Ok(())
     }
 
-    /// Whether an argument means a file. A built-in set's own name means that set, even beside a file that is called so.
+    /// True if an argument means a file. A built-in set's own name means that set, even beside a file that is called so.
     fn means_file(&self, argument: &str, kinds: &[SetKind], given: &OsStr) -> bool {
         let typed = given.to_string_lossy();
         let built_in = kinds.iter().any(|kind| self.catalog.get(*kind, &typed).is_some());
@@ -337,7 +337,7 @@ pub(super) fn read(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Whether a path is a pipe that the shell holds open for this command.
+/// True if a path is a pipe that the shell holds open for this command.
 #[cfg(unix)]
 fn is_shells(path: &Path, known: &fs::Metadata) -> bool {
     use std::os::unix::fs::FileTypeExt as _;
@@ -374,7 +374,7 @@ fn radiator(argument: &'static str, text: &str) -> Result<Option<(Radiator, f64)
     }
 }
 
-/// Whether an argument means a file and not a name.
+/// True if an argument means a file and not a name.
 fn is_file(argument: &OsStr) -> bool {
     let path = Path::new(argument);
     let ends_as_file = path

@@ -10,7 +10,7 @@ pub fn caseless(name: &str) -> String {
     name.chars().flat_map(char::to_uppercase).flat_map(char::to_lowercase).collect()
 }
 
-/// Whether two names are one.
+/// True if two names are one.
 pub fn is_same_name(a: &str, b: &str) -> bool {
     a == b || caseless(a) == caseless(b)
 }
@@ -25,7 +25,7 @@ impl BuiltInNames {
         Self(Arc::new(sets.map(|(kind, name)| (kind, caseless(name))).collect()))
     }
 
-    /// Whether a built-in set of a kind has a name. Patches are chosen from charts and materials alike.
+    /// True if a built-in set of a kind has a name. Patches are chosen from charts and materials alike.
     pub fn has(&self, kind: SetKind, name: &str) -> bool {
         let name = caseless(name);
         let has = |kind| self.0.contains(&(kind, name.clone()));

@@ -56,7 +56,7 @@ impl ImportOverrides {
 pub struct ReadAs {
     /// The unit of the wavelengths.
     pub unit: WavelengthUnit,
-    /// Whether values were percent.
+    /// True if values were percent.
     pub percent: bool,
 }
 
@@ -82,7 +82,7 @@ pub struct OwnSet {
     pub read_as: ReadAs,
     /// The unit of the wavelengths in the file, as the user has it.
     pub unit: WavelengthUnit,
-    /// Whether the file's values are percent, as the user has it.
+    /// True if the file's values are percent, as the user has it.
     pub percent: bool,
     /// For a camera: whether it counts photons, not energy.
     #[serde(default)]

@@ -25,7 +25,7 @@ pub const BALANCE: &str = "D55";
 /// The distance that a near light begins with, in radii of the mesh.
 pub const NEAR: f64 = 4.0;
 
-/// How many triangles the program's own meshes may have.
+/// Number of triangles the program's own meshes may have.
 pub const TRIANGLES: RangeInclusive<usize> = 2_000..=2_000_000;
 
 /// The tolerances that can be chosen; beyond, S itself is not exact enough.
@@ -79,7 +79,7 @@ pub struct RenderSettings {
     pub light_distance: Option<f64>,
     /// The light's angular radius in radians.
     pub light_radius: f64,
-    /// Whether the light casts shadows.
+    /// True if the light casts shadows.
     pub shadows: bool,
     /// Exposure in EV, the same for all cameras.
     pub exposure_ev: f64,
@@ -215,7 +215,7 @@ pub enum RoughnessChoice {
 }
 
 impl RoughnessChoice {
-    /// Why one would not choose the mesh.
+    /// Reason that one would not choose the mesh.
     pub const WHY_NOT: &'static str = "As in the paper: at each vertex σ from the heights of its neighbors about the \
                                        tangent plane, τ from the radius of that neighborhood; P at the vertices, \
                                        interpolated. These are lengths of the mesh, not of the material: tenths of \
@@ -271,7 +271,7 @@ impl ReadingChoice {
         }
     }
 
-    /// Why one would choose it.
+    /// Reason that one would choose it.
     pub const fn why(self) -> &'static str {
         match self {
             Self::Radiometric => {

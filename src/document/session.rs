@@ -9,7 +9,7 @@ use super::own::{OwnSet, Role};
 use super::start::Start;
 use super::{Document, MOST_COMPARED, VERSION, kept};
 
-/// Why a saved document cannot be opened.
+/// Reason that a saved document cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
     /// It is no JSON, or JSON of another shape.
@@ -37,7 +37,7 @@ pub fn to_json(document: &Document) -> Result<String, SessionError> {
     Ok(serde_json::to_string_pretty(document)? + "\n")
 }
 
-/// Whether a file that begins so is a document.
+/// True if a file that begins so is a document.
 pub fn is_session(beginning: &[u8]) -> bool {
     let text = String::from_utf8_lossy(&beginning[..beginning.len().min(200)]);
     let spaceless: String = text.chars().filter(|c| !c.is_whitespace()).collect();

@@ -23,7 +23,7 @@ const SINCE_THE_START: &str = "counted since the start";
 pub struct Section {
     /// When that was.
     pub when: &'static str,
-    /// Whether it is of the scene as it was.
+    /// True if it is of the scene as it was.
     pub is_old: bool,
     /// The rows.
     pub rows: Vec<SkippedWork>,

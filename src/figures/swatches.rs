@@ -48,7 +48,7 @@ const BAR: f64 = 3.0;
 /// The least height of a row.
 const LEAST_ROW: f64 = 22.0;
 
-/// Whether patches stand in rows.
+/// True if patches stand in rows.
 pub fn in_rows(layout: SwatchLayout, count: usize) -> bool {
     match layout {
         SwatchLayout::Auto => count <= 8,
@@ -256,7 +256,7 @@ fn chart_columns(count: usize) -> usize {
     if count == 24 { 6 } else { ((count as f64 * 1.5).sqrt().ceil() as usize).max(1) }
 }
 
-/// How many charts stand beside each other, and the size of a swatch: the largest that fits, else the least.
+/// Number of charts side by side, and the size of a swatch: the largest that fits, else the least.
 fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2]) -> (usize, [f64; 2]) {
     let mut best = (1, [0.0_f64, 0.0_f64]);
     for across in 1..=charts.max(1) {

@@ -100,13 +100,13 @@ pub(super) fn sweep(folder: &Path) {
     }
 }
 
-/// Whether a file was written last more than so long ago.
+/// True if a file was written last more than so long ago.
 pub(super) fn is_older(path: &Path, age: Duration, now: SystemTime) -> bool {
     let modified = fs::symlink_metadata(path).and_then(|facts| facts.modified()).ok();
     modified.and_then(|modified| now.duration_since(modified).ok()).is_some_and(|past| past > age)
 }
 
-/// Whether a name is one of those that [`temporary`] makes.
+/// True if a name is one of those that [`temporary`] makes.
 fn is_temporary(name: &OsStr) -> bool {
     let random = name.to_str().and_then(|name| name.strip_prefix(TEMPORARY));
     random.is_some_and(|random| random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric()))

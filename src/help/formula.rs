@@ -54,7 +54,7 @@ pub enum Node {
     Array {
         /// Rows of cells.
         rows: Vec<Vec<Node>>,
-        /// Whether columns alternate between right and left alignment without a gap.
+        /// True if columns alternate between right and left alignment without a gap.
         aligned: bool,
     },
 }
@@ -110,7 +110,7 @@ impl Formula {
         &self.words
     }
 
-    /// Whether it stands on a line of its own.
+    /// True if it stands on a line of its own.
     pub const fn is_display(&self) -> bool {
         self.display
     }

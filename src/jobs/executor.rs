@@ -30,7 +30,7 @@ impl Executor {
         Self(Some(Rc::default()))
     }
 
-    /// Whether work waits until it is told to run.
+    /// True if work waits until it is told to run.
     pub fn is_driven(&self) -> bool {
         self.0.is_some()
     }

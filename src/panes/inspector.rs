@@ -93,7 +93,7 @@ fn difference_words(metric: Metric, value: f64) -> String {
     fixed(value, metric.decimals)
 }
 
-/// Why there is no difference, as a sentence.
+/// Reason that there is no difference, as a sentence.
 fn no_difference(reason: DifferenceError) -> String {
     format!("No difference: {reason}.")
 }

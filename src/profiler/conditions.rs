@@ -15,7 +15,7 @@ use crate::scene::Scene;
 pub struct Conditions {
     /// Mesh, material, surface and light in words, and through how many sources; empty where nothing was rendered.
     pub scene: String,
-    /// How many sensors were on show.
+    /// Number of visible sensors.
     pub sensors: usize,
     /// The processor, its threads, its instruction set.
     pub machine: String,

@@ -69,7 +69,7 @@ impl ErrorBounds {
         Self { diffuse: explanation.map(Explanation::error_bound), mirror }
     }
 
-    /// Whether single precision is what limits it.
+    /// True if single precision is what limits it.
     pub fn is_limited_by_storage(self) -> bool {
         self.diffuse.is_none_or(|error| error < Self::WORTH_SAYING)
             && self.mirror.is_none_or(|error| error < Self::WORTH_SAYING)

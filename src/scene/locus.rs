@@ -13,7 +13,7 @@ pub struct Nearest {
     pub kelvin: f64,
     /// The distance there.
     pub distance: f64,
-    /// Whether it lies at an end of the temperatures, where it is no minimum of the curve.
+    /// True if it lies at an end of the temperatures, where it is no minimum of the curve.
     pub at_end: bool,
 }
 

@@ -14,7 +14,7 @@ pub struct AccuracyView {
     pub shows: Shows,
     /// The last run on the scene.
     pub run: Option<Arc<SceneRun>>,
-    /// Whether it is of the scene as it is now.
+    /// True if it is of the scene as it is now.
     pub is_current: bool,
     /// What was remembered since the start.
     pub remembered: Vec<SkippedWork>,

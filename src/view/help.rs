@@ -13,7 +13,7 @@ pub struct HelpView {
     pub picked: usize,
     /// The block to scroll to in the next frame.
     pub scroll_to: Option<usize>,
-    /// Whether the search field takes the keyboard in the next frame.
+    /// True if the search field takes the keyboard in the next frame.
     pub focus_search: bool,
 }
 

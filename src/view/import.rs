@@ -69,7 +69,7 @@ impl ImportView {
         }
     }
 
-    /// Whether the keyboard goes to a place in this frame; asked by that place, once.
+    /// True if the keyboard goes to a place in this frame; asked by that place, once.
     pub fn takes_keyboard(&mut self, stop: Stop) -> bool {
         let takes = self.focus == Some(stop);
         if takes {
@@ -129,7 +129,7 @@ pub struct Remembered {
 pub struct ImportMemory {
     /// What was wished for which kinds of files, the latest last.
     pub remembered: Vec<Remembered>,
-    /// Whether files are read again when they change on disk.
+    /// True if files are read again when they change on disk.
     pub watch: bool,
     /// Files on disk that could not be read.
     pub failing: Vec<Failing>,

@@ -76,7 +76,7 @@ pub struct RenderView {
     pub busy: Option<Duration>,
     /// What is being made, in a word.
     pub making: &'static str,
-    /// Whether finer pictures than those on show are not wanted.
+    /// True if finer pictures than those on show are not wanted.
     pub cancelled: bool,
     /// The pictures as textures.
     pub textures: PictureTextures,
@@ -88,7 +88,7 @@ impl RenderView {
     /// After this long a computation is shown to be going on, and Esc ends it.
     pub const PATIENCE: Duration = Duration::from_millis(100);
 
-    /// Whether a computation has been going on for long enough to be told of.
+    /// True if a computation has been going on for long enough to be told of.
     pub fn is_waiting(&self) -> bool {
         self.busy.is_some_and(|busy| busy >= Self::PATIENCE)
     }

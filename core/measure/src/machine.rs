@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub struct Machine {
     /// The processor's name, where the system says it.
     pub processor: String,
-    /// How many threads it runs at a time.
+    /// Number of threads it runs at a time.
     pub cores: usize,
     /// The widest instruction set that the kernels use here.
     pub instruction_set: String,

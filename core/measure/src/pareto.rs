@@ -25,7 +25,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// Whether another beats it in one and is not worse in the other.
+    /// True if another beats it in one and is not worse in the other.
     fn is_beaten(&self, others: &[Self]) -> bool {
         others.iter().any(|other| {
             other.seconds <= self.seconds

@@ -16,7 +16,7 @@ pub struct Report {
     pub machine: Machine,
     /// How thoroughly.
     pub effort: Effort,
-    /// Whether nothing stopped it.
+    /// True if nothing stopped it.
     pub whole: bool,
     /// What was measured, workload by workload, case by case, the baseline of each case first.
     pub measurements: Vec<Measurement>,

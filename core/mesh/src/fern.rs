@@ -23,9 +23,9 @@ use surface::Surface;
 /// What a fern looks like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fern {
-    /// How many grown fronds it has, 1 ..= 24.
+    /// Number of grown fronds, 1 ..= 24.
     pub fronds: u32,
-    /// How many young fronds are still rolled up, 0 ..= 6.
+    /// Number of young fronds still rolled up, 0 ..= 6.
     pub fiddleheads: u32,
     /// The length of the longest fronds along the stalk, in millimeters, 10 ..= 5000.
     pub frond_mm: u32,

@@ -12,9 +12,9 @@ pub enum MeshError {
     /// Each vertex needs one normal.
     #[error("{positions} vertices but {normals} normals")]
     Normals {
-        /// How many positions there are.
+        /// Number of positions.
         positions: usize,
-        /// How many normals there are.
+        /// Number of normals.
         normals: usize,
     },
     /// A triangle names a vertex that is not there.

@@ -43,7 +43,7 @@ impl ShadowTree {
         Self { tree, triangles, center, scale }
     }
 
-    /// Whether something stands between a point and what lies `distance` away in a direction of unit length.
+    /// True if something stands between a point and what lies `distance` away in a direction of unit length.
     ///
     /// What lies nearer than 2e-6 radii is not in the way: it is the surface itself. Nothing is in the way of what is no
     /// direction.

@@ -132,7 +132,7 @@ impl Surface {
         Mesh::new(positions, normals, triangles)
     }
 
-    /// Whether each strip is halved once more: the longest edges first, until about so many triangles are reached.
+    /// True if each strip is halved once more: the longest edges first, until about so many triangles are reached.
     fn longest_strips(&self, triangles: usize) -> Vec<bool> {
         let count = self.strip.iter().max().map_or(0, |&last| last as usize + 1);
         let mut lengths = vec![(0.0_f32, 0.0_f32); count];

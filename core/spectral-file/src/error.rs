@@ -1,4 +1,4 @@
-//! Why a file could not be read.
+//! Reason that a file could not be read.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use crate::markup::Family;
 use crate::report::Reader;
 use crate::switch::Switch;
 
-/// Why a file could not be read: where, what, and what helps. Lines and columns count from 1.
+/// Reason that a file could not be read: where, what, and what helps. Lines and columns count from 1.
 ///
 /// The application adds the name of the file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -141,7 +141,7 @@ pub enum ReadError {
         line: usize,
         /// The line, shortened.
         text: String,
-        /// Why it is none.
+        /// Reason that it is none.
         why: NearMiss,
     },
     /// An error that was none before a setting was chosen.
@@ -316,7 +316,7 @@ impl ReadError {
     }
 }
 
-/// Why a line with numbers is no row of them.
+/// Reason that a line with numbers is no row of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum NearMiss {
     /// The character between the numbers separates no columns.

@@ -255,7 +255,7 @@ pub struct Part {
     pub rows: usize,
 }
 
-/// Why a row is in no curve.
+/// Reason that a row is in no curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Dropped {
     /// It has values but no wavelength.
@@ -281,7 +281,7 @@ impl fmt::Display for Dropped {
 pub struct DroppedRow {
     /// Its line, from 1.
     pub line: usize,
-    /// Why.
+    /// Reason.
     pub why: Dropped,
 }
 

@@ -203,7 +203,7 @@ pub enum Warning {
     BrokenTable {
         /// Line where they begin.
         line: usize,
-        /// Why.
+        /// Reason.
         error: Box<ReadError>,
     },
     /// Lines out of place: their values are at the abscissas at their heads.

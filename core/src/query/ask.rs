@@ -11,10 +11,10 @@ pub trait Query: Clone + Eq + Hash + 'static {
 
     /// A name for counters.
     const NAME: &'static str;
-    /// Whether an answer is whole even if [`Ask::stop`] was set while it was made: it, and all it asks, do not look at that.
+    /// True if an answer is whole even if [`Ask::stop`] was set while it was made: it, and all it asks, do not look at that.
     const WHOLE: bool = false;
 
-    /// How many answers are worth keeping where memory is what limits; the least recently asked for go first.
+    /// Number of answers cached where memory limits; the least recently used go first.
     const KEPT: usize = 256;
 
     /// About how much memory an answer takes, in bytes; 0 for what is not worth counting.

@@ -82,7 +82,7 @@ pub struct VisibilityQuery {
     pub mesh: MeshQuery,
     /// Where it is seen from.
     pub viewpoint: Viewpoint,
-    /// How many samples there are.
+    /// Number of samples.
     pub size: RasterSize,
 }
 

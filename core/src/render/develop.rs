@@ -52,7 +52,7 @@ pub struct Picture {
     pub clipped: u64,
 }
 
-/// How many steps the encoding's table has: an eighth of the least step of eight bits.
+/// Number of steps of the encoding's table: an eighth of the least step of eight bits.
 const STEPS: usize = 1 << 15;
 
 /// Eight bits by linear value, in steps of 2⁻¹⁵.

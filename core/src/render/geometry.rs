@@ -19,7 +19,7 @@ const BLOCK: usize = 4;
 /// Samples that one task works on.
 const CHUNK: usize = 8192;
 
-/// Whether and how finely shadows are traced.
+/// Fineness of shadows, if any are traced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Shadows {
     /// None: light passes through everything.
@@ -31,7 +31,7 @@ pub enum Shadows {
     Full,
 }
 
-/// Why samples are dark, and how many.
+/// Reason that samples are dark, and how many.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GeometryCounts {
     /// Samples that see a triangle.
@@ -193,7 +193,7 @@ impl GeometryImage {
         self.angular_radius
     }
 
-    /// Why samples are dark, and how many.
+    /// Reason that samples are dark, and how many.
     pub fn counts(&self) -> GeometryCounts {
         self.counts
     }
@@ -209,7 +209,7 @@ impl GeometryImage {
         Self { placed, angles, counts, ..*self }
     }
 
-    /// How many samples of a list one task works on.
+    /// Number of samples of a list one task works on.
     pub fn chunk() -> usize {
         CHUNK
     }
@@ -237,11 +237,11 @@ struct Place {
     point: DVec3,
     normal: DVec3,
     hit: Hit,
-    /// Whether the triangle is seen from behind.
+    /// True if the triangle is seen from behind.
     behind: bool,
 }
 
-/// Whether each block of a band of rows is in shadow, once known.
+/// True if each block of a band of rows is in shadow, once known.
 type Blocks = Vec<Option<bool>>;
 
 impl Scene<'_> {

@@ -14,7 +14,7 @@ use std::sync::{Arc, OnceLock};
 /// The wavelength that κ is g at, in nanometers.
 pub const LAMBDA_0_NM: f64 = 550.0;
 
-/// How many moments beyond the first are kept.
+/// Number of moments beyond the first.
 pub const MOMENTS: usize = 4;
 
 /// A wavelength that stands for its neighborhood.

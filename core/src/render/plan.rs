@@ -63,7 +63,7 @@ pub struct Plan {
     demand: Demand,
     /// Range of κ that is served.
     held: [f64; 2],
-    /// Whether places below e^-30 of the peak are left out.
+    /// True if places below e^-30 of the peak are left out.
     leaves_dark: bool,
     /// κ from which on the first so many moments serve; infinite where none are good enough.
     rough: (f64, usize),
@@ -156,7 +156,7 @@ impl Plan {
         }
     }
 
-    /// Whether a search pays for a picture of a quality with so many samples below [`ROUGH`] and [`VERY_ROUGH`], if the diffuse
+    /// True if a search pays for a picture of a quality with so many samples below [`ROUGH`] and [`VERY_ROUGH`], if the diffuse
     /// component has to keep this tolerance. A tolerance in numbers is always searched for: its error is checked.
     pub(in crate::render) fn is_searched(quality: Quality, tolerance: RelTolerance, below: [u64; 2]) -> bool {
         let (nodes, precision, samples) = match quality {

@@ -16,7 +16,7 @@ impl Stop {
         Self(Some(flag))
     }
 
-    /// Whether to stop.
+    /// True if the computation is to stop.
     pub fn is_set(&self) -> bool {
         self.0.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed))
     }

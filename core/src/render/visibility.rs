@@ -19,7 +19,7 @@ const TILE: usize = 16;
 /// The largest side of a picture, in samples.
 pub const MAX_SIDE: u32 = 16_384;
 
-/// How many samples a picture has: pixels, each with a square of samples.
+/// Number of samples a picture has: pixels, each with a square of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct RasterSize {
     /// Pixels across.
@@ -75,7 +75,7 @@ impl Hit {
 
     const NOTHING: Self = Self { triangle: Self::NONE, weights: [0.0; 2] };
 
-    /// Whether a triangle is seen.
+    /// True if a triangle is seen.
     pub fn is_some(self) -> bool {
         self.triangle != Self::NONE
     }
@@ -278,7 +278,7 @@ struct Outline {
     extent: Extent,
     /// No corner is nearer than this; not positive if one is behind the eye.
     ahead: f32,
-    /// Whether it is drawn first: of a closed surface these hide the others.
+    /// True if it is drawn first: of a closed surface these hide the others.
     facing: bool,
 }
 
@@ -441,7 +441,7 @@ impl Tile {
         }
     }
 
-    /// Whether all of these samples see something nearer than a depth.
+    /// True if all of these samples see something nearer than a depth.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     fn hides(&self, ahead: f64, across: &Range<usize>, down: &Range<usize>) -> bool {

@@ -17,7 +17,7 @@ fn breaks_line(c: char) -> bool {
     c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')
 }
 
-/// Whether a character turns the direction of the text after it, so that what is shown is not what is there (bidirectional
+/// True if a character turns the direction of the text after it, so that what is shown is not what is there (bidirectional
 /// embeddings, overrides and isolates, UAX #9).
 pub fn turns_text(c: char) -> bool {
     matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
@@ -38,7 +38,7 @@ pub fn unguarded(cell: &str) -> &str {
     }
 }
 
-/// Whether a spreadsheet evaluates a cell. The wide forms count too where East Asian text is typed.
+/// True if a spreadsheet evaluates a cell. The wide forms count too where East Asian text is typed.
 fn begins_formula(text: &str) -> bool {
     text.starts_with(['=', '+', '-', '@', '＝', '＋', '－', '＠']) && text.parse::<f64>().is_err()
 }

@@ -39,7 +39,7 @@ impl LoadedMesh {
     }
 }
 
-/// Why a file gives no mesh.
+/// Reason that a file gives no mesh.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFailure {
     /// There is no such file.
@@ -55,7 +55,7 @@ pub enum MeshFailure {
     Io {
         /// The file's name.
         file: String,
-        /// Why.
+        /// Reason.
         error: io::Error,
     },
     /// A folder or a device.
@@ -235,7 +235,7 @@ fn loaded(file: &str, read: ReadMesh) -> LoadedMesh {
     LoadedMesh { mesh: Shared::new(mesh), notes: notes.iter().map(ToString::to_string).collect(), summary, message }
 }
 
-/// Whether a file is a mesh rather than spectra: by its name's ending, else by its first bytes.
+/// True if a file is a mesh rather than spectra: by its name's ending, else by its first bytes.
 pub fn is_mesh(path: &Path, beginning: &[u8]) -> bool {
     let ending = path.extension().and_then(OsStr::to_str);
     if ending.is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known))) {

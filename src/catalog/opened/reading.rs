@@ -17,7 +17,7 @@ use crate::format::io_reason;
 
 /// How much of a file is looked at to tell a mesh from spectra.
 const LOOK: usize = 1 << 16;
-/// How many files of a folder are read.
+/// Largest number of files read from a folder.
 const MAX_FILES: usize = 1000;
 
 /// Something to open.
@@ -46,9 +46,9 @@ struct Harvest {
     meshes: Vec<PathBuf>,
     documents: Vec<PathBuf>,
     notes: Vec<String>,
-    /// How many files were to be read.
+    /// Number of files to be read.
     count: usize,
-    /// Whether they were known before, such as the parts of one.
+    /// True if they were known before, such as the parts of one.
     from_memory: bool,
 }
 

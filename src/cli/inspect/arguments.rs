@@ -156,7 +156,7 @@ impl InspectArguments {
         }
     }
 
-    /// Whether sensitivities are to be taken as responses per photon.
+    /// True if sensitivities are to be taken as responses per photon.
     pub(super) fn per_photon(&self) -> Option<bool> {
         self.per.as_ref().map(|per| per == "photon")
     }

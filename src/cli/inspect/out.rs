@@ -47,7 +47,7 @@ impl Out {
         Ok(Self::Files(tables))
     }
 
-    /// Whether tables go where reports go else.
+    /// True if tables go where reports go else.
     pub(super) fn is_standard_output(&self) -> bool {
         matches!(self, Self::StandardOutput)
     }

@@ -7,9 +7,9 @@ use spectral_file::{Curve, ReadReport, SpectralFile};
 
 use crate::format;
 
-/// How many curves are named.
+/// Largest number of curves named.
 const NAMED: usize = 20;
-/// How many dropped rows are told of one by one.
+/// Largest number of dropped rows listed one by one.
 const TOLD: usize = 6;
 
 /// The name of the file, and below it a line for each decision, fact and warning.

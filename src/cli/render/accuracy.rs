@@ -22,7 +22,7 @@ const BUDGET: Budget = Budget { rounds: [0, 0], seconds: [0.02, 0.02] };
 pub(super) struct Measured {
     /// Each how many of the lit samples were taken.
     pub(super) stride: usize,
-    /// How many they are.
+    /// Number.
     pub(super) samples: usize,
     /// The chosen quality.
     pub(super) chosen: Cost,

@@ -47,7 +47,7 @@ impl SpecularChoice {
         }
     }
 
-    /// Why one would choose it.
+    /// Reason that one would choose it.
     pub const fn why(self) -> &'static str {
         match self {
             Self::Paper => {
@@ -102,7 +102,7 @@ impl AreaChoice {
         }
     }
 
-    /// Why one would choose it.
+    /// Reason that one would choose it.
     pub const fn why(self) -> &'static str {
         match self {
             Self::FourXy => {

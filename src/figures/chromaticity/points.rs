@@ -121,7 +121,7 @@ fn describe_source(scene: &Scene<'_>, source: &SensorId) -> Vec<String> {
     lines
 }
 
-/// Why a sensor has no distance to the reference, if so.
+/// Reason that a sensor has no distance to the reference, if so.
 fn why_apart(scene: &Scene<'_>, source: &SensorId) -> Option<String> {
     let reason = scene.comparable(source.kind, &source.name).ok()?.err()?;
     Some(format!(

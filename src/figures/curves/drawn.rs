@@ -38,7 +38,7 @@ pub struct Curves {
     pub quantity: String,
     /// Their unit, where all have the same.
     pub unit: Option<String>,
-    /// How many there are, for a corner of the plot.
+    /// Their number, for a corner of the plot.
     pub note: String,
     count: usize,
 }
@@ -215,7 +215,7 @@ impl Grid {
         Self(all)
     }
 
-    /// Whether the table has a wavelength between two.
+    /// True if the table has a wavelength between two.
     fn has_between(&self, a: f64, b: f64) -> bool {
         let after = self.0.partition_point(|nm| *nm <= a);
         self.0.get(after).is_some_and(|nm| *nm < b)

@@ -21,7 +21,7 @@ pub struct ImportSelection {
     pub set: Option<Shared<OwnSet>>,
     /// How it is, or is to be, read.
     pub wishes: ImportOverrides,
-    /// Whether that is not yet so in the document.
+    /// True if that is not yet so in the document.
     pub pending: bool,
     /// The file's contents, if they are at hand.
     pub file: Option<OpenFile>,
@@ -71,7 +71,7 @@ impl ImportSelection {
         Some(Self { item, set, wishes, pending, file: None, look })
     }
 
-    /// Whether the curves of another are the same: nothing that they depend on differs.
+    /// True if the curves of another are the same: nothing that they depend on differs.
     pub fn is_same(&self, other: &Self) -> bool {
         let look = match (&self.look, &other.look) {
             (Some(look), Some(other)) => Arc::ptr_eq(look, other),
@@ -84,7 +84,7 @@ impl ImportSelection {
             && self.set == other.set
     }
 
-    /// Whether what is known is of the wishes, not of those before.
+    /// True if what is known is of the wishes, not of those before.
     pub fn is_fresh(&self) -> bool {
         self.look.as_ref().is_some_and(|look| look.options == self.wishes.options)
     }
@@ -94,7 +94,7 @@ impl ImportSelection {
         self.look.as_ref()?.table.as_deref().ok()
     }
 
-    /// Why the contents cannot be read as wished.
+    /// Reason that the contents cannot be read as wished.
     pub fn error(&self) -> Option<&ReadError> {
         self.look.as_ref().filter(|_| self.is_fresh())?.table.as_ref().err()
     }

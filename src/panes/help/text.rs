@@ -36,7 +36,7 @@ struct Piece {
     width: f32,
     ascent: f32,
     descent: f32,
-    /// Whether a line may begin here, after a space.
+    /// True if a line may begin here, after a space.
     after_space: bool,
     style: Style,
     highlighted: bool,

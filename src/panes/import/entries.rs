@@ -55,7 +55,7 @@ pub(super) struct Entry {
     pub(super) note: String,
     /// Where it is on disk, if it is.
     pub(super) path: Option<PathBuf>,
-    /// Whether its contents are at hand.
+    /// True if its contents are at hand.
     pub(super) at_hand: bool,
 }
 

@@ -22,7 +22,7 @@ pub(super) struct Line {
 pub(super) struct Pen<'a> {
     /// The colors.
     pub(super) theme: &'a Theme,
-    /// Whether it is known what was understood, so that the rest was not.
+    /// True if it is known what was understood, so that the rest was not.
     pub(super) understood: bool,
     /// The curve under the pointer.
     pub(super) hovered: Option<usize>,

@@ -15,7 +15,7 @@ const NAMES: f32 = 40.0;
 pub(super) struct Row {
     /// What it is.
     pub(super) name: &'static str,
-    /// How many decimals are shown.
+    /// Number of decimals shown.
     pub(super) decimals: usize,
     /// The numbers; none where there is none.
     pub(super) cells: Vec<Option<f64>>,

@@ -25,7 +25,7 @@ pub(super) fn height(shown: &ImportSelection, width: f32) -> f32 {
     rows as f32 * (ROW + UNIT) + 2.0 * UNIT
 }
 
-/// Whether there is a file to look after.
+/// True if there is a file to look after.
 fn on_disk(shown: &ImportSelection) -> bool {
     match (&shown.set, &shown.file) {
         (Some(set), _) => set.path.is_some(),

@@ -111,7 +111,7 @@ fn camera(ui: &mut Ui, set: &mut OwnSet, theme: &Theme) {
     });
 }
 
-/// Why the set cannot be used as it is read now, if so.
+/// Reason that the set cannot be used as it is read now, if so.
 fn trouble(set: &OwnSet, context: &PaneContext<'_>) -> Option<String> {
     match set.role {
         Role::Camera => context.scene.sensor(SetKind::Camera, &set.name).err().map(|error| error.to_string()),

@@ -11,12 +11,12 @@ pub(super) fn to_first(ui: &Ui) {
     ui.data_mut(|data| data.insert_temp(first_switch(), true));
 }
 
-/// Whether this is the first switch and takes the keyboard.
+/// True if this is the first switch and takes the keyboard.
 pub(super) fn first(ui: &Ui) -> bool {
     ui.data_mut(|data| data.remove_temp::<bool>(first_switch())).unwrap_or(false)
 }
 
-/// Whether a list closed since the last frame without a click, which would have been meant for what was clicked.
+/// True if a list closed since the last frame without a click, which would have been meant for what was clicked.
 pub(super) fn closed(ui: &Ui, list: Id, open: bool) -> bool {
     let key = list.with("was open");
     let was: bool = ui.data(|data| data.get_temp(key)).unwrap_or(false);

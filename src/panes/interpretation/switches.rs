@@ -187,7 +187,7 @@ fn pair(ui: &mut Ui, gap: f32, add: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// Whether the file is, or is to be read as, numbers in columns.
+/// True if the file is, or is to be read as, numbers in columns.
 fn columns(table: Option<&SpectralFile>, wish: Option<Reader>) -> bool {
     let known = table.map(|table| table.reading.reader.value);
     wish.or(known).is_none_or(|reader| reader == Reader::Table)

@@ -92,7 +92,7 @@ fn tag(ui: &Ui, rect: Rect, source: &ComparedSensor, context: &PaneContext<'_>) 
     lines::right_aligned(ui, rect, words, TextStyle::Small, context.theme.weak) + UNIT
 }
 
-/// Why the sensor cannot be shown, if so.
+/// Reason that the sensor cannot be shown, if so.
 fn trouble(source: &ComparedSensor, context: &PaneContext<'_>) -> Option<String> {
     use chromascope_core::query::Ask;
     let scene = &context.scene;

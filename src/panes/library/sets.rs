@@ -28,9 +28,9 @@ pub(super) enum Row<'a> {
     Group {
         /// What it is of.
         kind: SetKind,
-        /// How many sets it has; while searching, how many match.
+        /// Number of sets; while searching, of matches.
         count: usize,
-        /// Whether its sets follow.
+        /// True if its sets follow.
         open: bool,
     },
     /// A set of the program's.
@@ -142,7 +142,7 @@ fn rim(ui: &Ui, rect: Rect, response: &Response, context: &PaneContext<'_>) {
     }
 }
 
-/// Whether a set is on show, and whether that can be changed here.
+/// True if a set is on show, and whether that can be changed here.
 fn state(entry: &Entry, context: &PaneContext<'_>) -> (bool, bool) {
     let document = context.scene.document;
     match entry.kind {

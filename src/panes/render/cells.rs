@@ -112,7 +112,7 @@ pub(super) fn chosen<'a>(all: &'a [ComparedSensor], chosen: Option<&SensorId>) -
     all.iter().find(is_chosen).or_else(|| all.iter().find(|source| !source.is_reference)).or_else(|| all.first())
 }
 
-/// How many pictures stand side by side, and their size: such that the smaller side is as large as it can be.
+/// Number of pictures side by side, and their size: such that the smaller side is as large as it can be.
 fn grid(area: Vec2, count: usize) -> (usize, Vec2) {
     let mut best = (1, Vec2::splat(1.0));
     for columns in 1..=count.max(1) {

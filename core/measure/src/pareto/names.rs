@@ -252,7 +252,7 @@ impl Taken {
         Some(choice.cost + CROSSING * crossed.count() as f64)
     }
 
-    /// Whether nothing is there.
+    /// True if nothing is there.
     fn is_free(&self, area: &Area) -> bool {
         let lines = || self.leaders.iter().chain(&self.front);
         !self.markers.iter().chain(&self.texts).any(|other| overlap(area, other))
@@ -264,7 +264,7 @@ fn overlap(a: &Area, b: &Area) -> bool {
     a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
 
-/// Whether a line has a part within an area (Liang and Barsky 1984).
+/// True if a line has a part within an area (Liang and Barsky 1984).
 fn passes([from, to]: Line, area: &Area) -> bool {
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     for axis in 0..2 {
@@ -283,7 +283,7 @@ fn passes([from, to]: Line, area: &Area) -> bool {
     enter < leave
 }
 
-/// Whether two lines cross.
+/// True if two lines cross.
 fn cross([a, b]: Line, [c, d]: Line) -> bool {
     let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0

@@ -38,7 +38,7 @@ pub(super) enum Organ {
 }
 
 impl Organ {
-    /// How many triangles it has at a fineness.
+    /// Number of triangles at a fineness.
     pub(super) fn triangles(&self, fineness: f32) -> usize {
         match self {
             Self::Leaf { leaf, share, dither } => leaf.triangles(cuts(fineness, leaf, *share, *dither)),

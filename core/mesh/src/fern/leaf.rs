@@ -41,7 +41,7 @@ struct Station {
 }
 
 impl Leaf {
-    /// How many triangles [`Leaf::build`] makes.
+    /// Number of triangles [`Leaf::build`] makes.
     pub(super) fn triangles(&self, cuts: Cuts) -> usize {
         4 * cuts.across * (2 * cuts.along - 1 - usize::from(self.base == 0.0))
     }

@@ -27,13 +27,13 @@ pub(super) struct Stem {
     pub(super) radius: f32,
     /// The radius before the tip as a share of the base's.
     pub(super) taper: f32,
-    /// How many sides and lengthwise pieces it has.
+    /// Number of sides and lengthwise pieces.
     pub(super) sides: usize,
     pub(super) pieces: usize,
 }
 
 impl Stem {
-    /// How many triangles [`Stem::build`] makes: the mantle, the point, the base.
+    /// Number of triangles [`Stem::build`] makes: the mantle, the point, the base.
     pub(super) fn triangles(&self) -> usize {
         self.sides * (2 * self.pieces - 1) + self.sides - 2
     }

@@ -9,7 +9,7 @@ use super::{Group, Kind, ReadMesh};
 use crate::mesh::{Mesh, smooth_normals};
 use glam::Vec3;
 
-/// How many vertices at one position are compared before another is made unlooked: keeps the time proportional.
+/// Largest number of vertices at one position that are compared: keeps the time proportional.
 const MOST_COMPARED: usize = 64;
 
 /// Makes the mesh.
@@ -98,7 +98,7 @@ impl Vertices {
     }
 }
 
-/// Whether two normals, or the lack of them, are the same; exporters repeat equal normals for each corner.
+/// True if two normals, or the lack of them, are the same; exporters repeat equal normals for each corner.
 fn is_same(soup: &Soup, a: u32, b: u32) -> bool {
     a == b || (a != NONE && b != NONE && soup.normals[a as usize] == soup.normals[b as usize])
 }
@@ -143,7 +143,7 @@ fn volume(soup: &Soup, cut: &Cut) -> f64 {
     cut.triangles.iter().map(|t| t.map(|i| at(i) - origin)).map(|[a, b, c]| a.dot(b.cross(c))).sum()
 }
 
-/// How many triangles have three normals from the file whose sum points to their back.
+/// Number of triangles with three normals from the file whose sum points to their back.
 fn against_winding(soup: &Soup, cut: &Cut) -> usize {
     let is_against = |triangle: &&[u32; 3]| {
         let corners = triangle.map(|i| soup.corners[i as usize]);
@@ -158,7 +158,7 @@ fn against_winding(soup: &Soup, cut: &Cut) -> usize {
     cut.triangles.iter().filter(is_against).count()
 }
 
-/// Whether the mesh lies so far out that its coordinates have less than about a thousand steps across it.
+/// True if the mesh lies so far out that its coordinates have less than about a thousand steps across it.
 fn is_far(mesh: &Mesh) -> bool {
     let bounds = mesh.bounds();
     let far = bounds.min.abs().max(bounds.max.abs()).max_element();

@@ -32,7 +32,7 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    /// Whether each edge has two triangles that agree.
+    /// True if each edge has two triangles that agree.
     pub(super) fn is_closed(&self) -> bool {
         self.boundary == 0 && self.non_manifold.count == 0 && self.flipped.count == 0
     }
@@ -144,7 +144,7 @@ fn sides(soup: &Soup, cut: &Cut) -> (Vec<u32>, Vec<Side>) {
     (starts, sides)
 }
 
-/// How many positions no triangle uses.
+/// Number of positions no triangle uses.
 fn unused(soup: &Soup, cut: &Cut) -> usize {
     let mut used = vec![false; soup.positions.len()];
     for &corner in cut.triangles.as_flattened() {
@@ -153,7 +153,7 @@ fn unused(soup: &Soup, cut: &Cut) -> usize {
     used.iter().filter(|used| !**used).count()
 }
 
-/// Whether the normal goes on smoothly from one triangle to its neighbor.
+/// True if the normal goes on smoothly from one triangle to its neighbor.
 fn is_smooth(soup: &Soup, cut: &Cut, normals: &[Vec3], pair: [u32; 2]) -> bool {
     let [f, g] = pair.map(|t| cut.faces[t as usize]);
     if f == g {

@@ -1,4 +1,4 @@
-//! Why a file gives no mesh: where, and what to do about it.
+//! Reason that a file gives no mesh: where, and what to do about it.
 
 /// A kind of file that holds something else, or a mesh in a way that is not read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -112,7 +112,7 @@ pub enum MeshReadError {
     TooFewNumbers {
         /// The line, from 1.
         line: usize,
-        /// How many there are.
+        /// Number.
         found: usize,
     },
     /// A corner of a face cannot be read.
@@ -132,7 +132,7 @@ pub enum MeshReadError {
         place: Place,
         /// The index as written.
         index: i64,
-        /// How many vertices the file has (before this line, where the index is counted back from it).
+        /// Number of vertices the file has (before this line, where the index is counted back from it).
         count: usize,
     },
     /// A face names a normal that the file does not have.
@@ -142,7 +142,7 @@ pub enum MeshReadError {
         place: Place,
         /// The index as written.
         index: i64,
-        /// How many normals the file has (before this line, where the index is counted back from it).
+        /// Number of normals the file has (before this line, where the index is counted back from it).
         count: usize,
     },
     /// A face has fewer than three corners.
@@ -150,7 +150,7 @@ pub enum MeshReadError {
     FaceTooShort {
         /// The line or face.
         place: Place,
-        /// How many corners there are.
+        /// Number of corners.
         corners: usize,
     },
     /// A concave polygon has more corners than are cut.
@@ -160,21 +160,21 @@ pub enum MeshReadError {
     FaceTooLong {
         /// The line or face.
         place: Place,
-        /// How many corners there are.
+        /// Number of corners.
         corners: usize,
-        /// How many there may be.
+        /// Largest number.
         limit: usize,
     },
     /// There are vertices but no faces.
     #[error("{vertices} vertices but no faces; export a surface, not a point cloud or curves")]
     NoFaces {
-        /// How many vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
     /// All triangles are without area.
     #[error("none of the {triangles} triangles has an area (the first at {place}); check the export's scale and axes")]
     NoArea {
-        /// How many triangles there are.
+        /// Number of triangles.
         triangles: usize,
         /// The first.
         place: Place,
@@ -194,7 +194,7 @@ pub enum MeshReadError {
     Truncated {
         /// The first face or vertex that is not whole.
         place: Place,
-        /// How many the header announces.
+        /// Number that the header announces.
         announced: usize,
     },
     /// A text ends within a face.

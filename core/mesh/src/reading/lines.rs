@@ -38,7 +38,7 @@ impl<'a> Cursor<'a> {
         self.first_line
     }
 
-    /// Whether all is read.
+    /// True if all is read.
     pub(super) fn is_done(&self) -> bool {
         self.at >= self.bytes.len()
     }

@@ -50,7 +50,7 @@ pub enum Skipped {
 }
 
 impl Skipped {
-    /// How many kinds there are.
+    /// Number of kinds.
     pub(super) const COUNT: usize = 9;
     /// All kinds, in their order.
     const ALL: [Self; Self::COUNT] = [
@@ -90,7 +90,7 @@ pub enum Normals {
     Computed,
     /// Some from the file; this many of the triangles' corners have none, or one of no length, and theirs are computed.
     Mixed {
-        /// How many corners are computed.
+        /// Number of corners computed.
         computed: usize,
     },
 }
@@ -120,13 +120,13 @@ pub struct Report {
     pub boundary_edges: usize,
     /// Edges whose two triangles disagree on which side is outside.
     pub flipped: Tally,
-    /// Whether a closed mesh encloses a negative volume: its triangles face inwards.
+    /// True if a closed mesh encloses a negative volume: its triangles face inwards.
     pub inside_out: bool,
     /// Triangles whose normals from the file point to the other side than their corners' order says.
     pub against_winding: usize,
     /// Vertices in the file that no triangle uses.
     pub unused_vertices: usize,
-    /// Whether the mesh lies so far from the origin that single precision shows: more than 1e4 of its own size.
+    /// True if the mesh lies so far from the origin that single precision shows: more than 1e4 of its own size.
     pub far_from_origin: bool,
     /// Statements read over, by kind.
     pub skipped: Vec<(Skipped, Tally)>,

@@ -4,7 +4,7 @@ use super::error::{Alien, MeshReadError, Place, Quantity};
 use super::lines::Cursor;
 use super::{Kind, MAX_BYTES, stl};
 
-/// How many bytes are looked at for what no text has.
+/// Number of bytes searched for what no text has.
 const LOOK: usize = 4096;
 
 /// The format of a file, or why it is none that is read.
@@ -39,7 +39,7 @@ pub(super) fn kind(bytes: &[u8], extension_hint: Option<&str>) -> Result<Kind, M
     }
 }
 
-/// Whether a text begins as STL does.
+/// True if a text begins as STL does.
 pub(super) fn is_text_stl(text: &[u8]) -> bool {
     let mut cursor = Cursor::new(&text[..text.len().min(LOOK)]);
     if cursor.word().is_none_or(|word| !word.text.eq_ignore_ascii_case(b"solid")) {
@@ -69,7 +69,7 @@ fn alien(bytes: &[u8], text: &[u8]) -> Option<Alien> {
     Some(looks_like)
 }
 
-/// Whether some line is a vertex's.
+/// True if some line is a vertex's.
 fn has_vertex(text: &[u8]) -> bool {
     let mut cursor = Cursor::new(text);
     while !cursor.is_done() {

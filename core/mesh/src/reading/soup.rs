@@ -64,7 +64,7 @@ pub(super) struct Soup {
     smoothing: Vec<(u32, Smoothing)>,
     /// From which face on which names hold.
     pub(super) groups: Vec<(u32, Names)>,
-    /// How many triangles the faces will make.
+    /// Number of triangles the faces will make.
     triangles: usize,
     /// Statements read over.
     pub(super) skipped: [Tally; Skipped::COUNT],
@@ -91,7 +91,7 @@ impl Soup {
         }
     }
 
-    /// How many faces there are.
+    /// Number of faces.
     pub(super) fn faces(&self) -> usize {
         self.ends.len()
     }

@@ -14,13 +14,13 @@ const HEADER: usize = 84;
 /// The bytes of a facet: a normal and three corners in single precision, and two more.
 const FACET: usize = 50;
 
-/// How many facets a binary file announces; none where the header is not whole.
+/// Number of facets a binary file announces; none where the header is not whole.
 pub(super) fn announced(bytes: &[u8]) -> Option<usize> {
     let count = bytes.get(HEADER - 4..)?.first_chunk()?;
     usize::try_from(u32::from_le_bytes(*count)).ok()
 }
 
-/// Whether the number of facets that a binary file announces is that of those it has.
+/// True if the number of facets that a binary file announces is that of those it has.
 pub(super) fn is_whole_binary(bytes: &[u8]) -> bool {
     announced(bytes).is_some_and(|count| {
         let facets = count.checked_mul(FACET);

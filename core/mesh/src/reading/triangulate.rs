@@ -309,7 +309,7 @@ impl Polygon {
         }
     }
 
-    /// Whether a triangle's corners are in line, as far as coordinates of single precision tell.
+    /// True if a triangle's corners are in line, as far as coordinates of single precision tell.
     fn is_flat(&self, triangle: [usize; 3]) -> bool {
         let [a, b, c] = triangle.map(|i| self.points[i]);
         self.area(triangle).abs() <= self.grain * longest(a, b, c).sqrt()

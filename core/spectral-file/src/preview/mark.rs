@@ -66,12 +66,12 @@ pub enum What {
     },
     /// Something that is in no curve.
     LeftOut {
-        /// Why.
+        /// Reason.
         why: LeftOut,
     },
 }
 
-/// Why something is in no curve.
+/// Reason that something is in no curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LeftOut {

@@ -23,7 +23,7 @@ pub struct Cct {
     pub duv: f64,
 }
 
-/// Why a color has no correlated color temperature.
+/// Reason that a color has no correlated color temperature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum CctError {
     /// Black, or numbers that are no chromaticity.
@@ -40,7 +40,7 @@ pub enum CctError {
     TooCold,
 }
 
-/// Why an observer gives no locus to compare with.
+/// Reason that an observer gives no locus to compare with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum LocusError {
     /// The observer's channels are not X, Y and Z, so that its signals have no place in the 1960 diagram.
@@ -54,7 +54,7 @@ pub enum LocusError {
     Crooked,
 }
 
-/// Whether a reciprocal temperature is one that is looked for.
+/// True if a reciprocal temperature is one that is looked for.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 pub(super) fn is_in_range(mired: f64) -> bool {

@@ -161,7 +161,7 @@ pub struct Pictures {
     pub angles: Arc<GeometryImage>,
     /// What exposure went by.
     pub facing: ExposureReference,
-    /// Why samples are dark.
+    /// Reason that samples are dark.
     pub geometry: GeometryCounts,
     /// How integrals were made.
     pub shading: ShadingCounts,

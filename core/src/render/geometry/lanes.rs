@@ -56,11 +56,11 @@ impl Given {
 
 /// What is found out about some samples.
 pub(super) struct Found {
-    /// Whether what follows holds; if not, the sample is one of the rare ones that need care.
+    /// True if what follows holds; if not, the sample is one of the rare ones that need care.
     pub(super) plain: Row<bool>,
-    /// Whether light and viewer are before the surface.
+    /// True if light and viewer are before the surface.
     pub(super) lit: Row<bool>,
-    /// Whether the triangle is seen from behind.
+    /// True if the triangle is seen from behind.
     pub(super) behind: Row<bool>,
     normals: Rows<f64>,
     angles: [Row<f32>; 7],

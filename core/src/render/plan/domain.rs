@@ -9,13 +9,13 @@ pub struct Demand {
     from: i16,
     to: i16,
     samples: u16,
-    /// Whether κ beyond the farthest ends are served as those at the ends.
+    /// True if κ beyond the farthest ends are served as those at the ends.
     open: bool,
 }
 
 /// The powers of two that κ may lie between: beyond, a surface is a mirror or beyond geometrical optics by any measure.
 const POWERS: (f64, f64) = (-60.0, 60.0);
-/// How many powers of two a demand spans at most; the smoothest beyond that are left to the sum over all wavelengths.
+/// Number of powers of two a demand spans at most; the smoothest beyond that are left to the sum over all wavelengths.
 const SPAN: i16 = 40;
 /// Powers of two at which the demands of pictures end: rough alone, all that a table reaches, and beyond.
 const ROUGH_POWER: i16 = 7;

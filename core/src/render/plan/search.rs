@@ -106,13 +106,13 @@ impl Search<'_> {
         }
     }
 
-    /// Whether a candidate is cheaper than the best so far.
+    /// True if a candidate is cheaper than the best so far.
     fn may_win(&self, candidate: &Candidate) -> bool {
         let samples = self.demand.samples();
         self.best.as_ref().is_none_or(|(best, _)| candidate.total_ns(samples) < best.total_ns(samples))
     }
 
-    /// Whether there are so many samples that a table is likely to pay.
+    /// True if there are so many samples that a table is likely to pay.
     fn many(&self, rough: f64) -> bool {
         let fewest = Candidate::unseen(IntegrationMethod::Shared { nodes: 2, precision: Precision::Coarse });
         self.tabulated(rough).is_some() && fewest.total_ns(self.demand.samples()) > PAYS_NS

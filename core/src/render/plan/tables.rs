@@ -70,7 +70,7 @@ impl<'a> Makings<'a> {
         Table::new(&self.extent, surface, nodes.clone())
     }
 
-    /// How many wavelengths a table is made of, and what making it costs in nanoseconds.
+    /// Number of wavelengths a table is made of, and what making it costs in nanoseconds.
     pub(super) fn cost(&mut self, size: &Size) -> (usize, f64) {
         let (level, source) = (level(size), self.source(size));
         let nodes = self.nodes(level);

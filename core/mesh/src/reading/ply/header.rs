@@ -77,7 +77,7 @@ pub(super) struct Property {
 pub(super) struct Element {
     /// What they are.
     pub(super) content: Content,
-    /// How many.
+    /// Number.
     pub(super) count: usize,
     /// What each has.
     pub(super) properties: Vec<Property>,
@@ -86,22 +86,22 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Whether each record has a normal.
+    /// True if each record has a normal.
     pub(super) fn has_normals(&self) -> bool {
         (3..6).all(|i| self.has(Role::Value(i)))
     }
 
-    /// Whether records have values that are read over.
+    /// True if records have values that are read over.
     pub(super) fn has_more(&self) -> bool {
         self.has(Role::Other)
     }
 
-    /// Whether there is a value for this.
+    /// True if there is a value for this.
     fn has(&self, role: Role) -> bool {
         self.properties.iter().any(|property| property.role == role)
     }
 
-    /// Whether records have what makes them vertices or faces.
+    /// True if records have what makes them vertices or faces.
     fn is_complete(&self) -> bool {
         match self.content {
             Content::Vertices => (0..3).all(|i| self.has(Role::Value(i))),

@@ -18,7 +18,7 @@ pub(super) struct Rows {
     pub(super) fault: Option<Fault>,
 }
 
-/// Why a row is none.
+/// Reason that a row is none.
 #[derive(Debug)]
 pub(super) enum Fault {
     /// Its key is no number.
