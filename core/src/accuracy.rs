@@ -1,4 +1,4 @@
-//! How exactly a number is wanted, and what is said where that cannot be had.
+//! Allowed errors, and the refusal where one cannot be kept.
 //!
 //! What takes an [`RelTolerance`] chooses the cheapest way whose error it has checked, and says [`Unmet`] where none is exact
 //! enough. Relative to what an error is, each says itself: a peak, a value, the largest of three signals.
@@ -48,14 +48,14 @@ impl RelTolerance {
         Self::at_best(self.max_relative_error * share)
     }
 
-    /// What can be had at best. Errors of 1 and more, and what is no number, count as the largest below 1.
+    /// Smallest tolerance that can be kept. Errors of 1 and more, and NaN, count as the largest below 1.
     pub(crate) fn at_best(relative_error: f64) -> Self {
         let largest = 1.0 - f64::EPSILON;
         let clamped = if relative_error < largest { relative_error.max(f64::MIN_POSITIVE) } else { largest };
         Self { max_relative_error: clamped }
     }
 
-    /// The same as a refusal, if a way of this error does not meet it.
+    /// Refusal of this tolerance, if a method of this error does not meet it.
     pub(crate) fn met_by(self, relative_error: f64) -> Result<(), Unmet> {
         if self.allows(relative_error) {
             Ok(())
@@ -112,7 +112,7 @@ pub struct NotATolerance {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 #[error("an error of {asked:.1} cannot be promised; the best that can be is {best:.1}")]
 pub struct Unmet {
-    /// What was asked for.
+    /// Tolerance asked for.
     pub asked: RelTolerance,
     /// The smallest error that can be promised.
     pub best: RelTolerance,

@@ -1,4 +1,4 @@
-//! What can be asked: each question a value that holds everything its answer depends on.
+//! Queries: each a value that holds everything its answer depends on.
 //!
 //! Equality of questions is the whole rule of invalidation: no flags, no revisions. A program that keeps answers
 //! (`Results` in the app) and one that does not ([`Direct`], for the command line and tests) ask in the same words.

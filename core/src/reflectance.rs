@@ -1,4 +1,4 @@
-//! How a rough surface scatters light: the reflectance model (Eq 1–4) and its parts.
+//! Reflectance of rough surfaces: the model (Eq 1–4) and its parts.
 //!
 //! A surface whose heights are normally distributed with deviation σ and correlated as exp(−r²/τ²) sends part of the light
 //! into the mirror direction and spreads the rest (Beckmann and Spizzichino 1963), through Fresnel's transmittances

@@ -12,13 +12,13 @@ pub const LEAST_ERROR: f64 = 1e-18;
 pub struct Place {
     /// Its name.
     pub name: String,
-    /// What it stands for.
+    /// Measurement that it stands for.
     pub tag: Tag,
     /// Its error.
     pub error: f64,
     /// Its time in seconds.
     pub seconds: f64,
-    /// How it is drawn.
+    /// Ink.
     pub marker: Marker,
     /// In which color.
     pub role: InkRole,

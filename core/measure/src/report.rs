@@ -10,15 +10,15 @@ use crate::{Effort, Machine, Measurement, Workload, figure};
 pub struct Report {
     /// By which program.
     pub program: String,
-    /// When it began, in UTC, as `2026-11-21T18:05:11Z`.
+    /// Begin in UTC, as `2026-11-21T18:05:11Z`.
     pub began: String,
     /// On what.
     pub machine: Machine,
-    /// How thoroughly.
+    /// Effort.
     pub effort: Effort,
     /// True if nothing stopped it.
     pub whole: bool,
-    /// What was measured, workload by workload, case by case, the baseline of each case first.
+    /// Measurements, workload by workload, case by case, the baseline of each case first.
     pub measurements: Vec<Measurement>,
 }
 

@@ -1,4 +1,4 @@
-//! What can be measured, and how thoroughly.
+//! Workloads, and the effort spent on them.
 
 use serde::{Deserialize, Serialize};
 

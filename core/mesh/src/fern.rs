@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use std::f32::consts::TAU;
 use surface::Surface;
 
-/// What a fern looks like.
+/// Appearance of a fern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fern {
     /// Number of grown fronds, 1 ..= 24.
@@ -29,7 +29,7 @@ pub struct Fern {
     pub fiddleheads: u32,
     /// The length of the longest fronds along the stalk, in millimeters, 10 ..= 5000.
     pub frond_mm: u32,
-    /// What decides all natural variation.
+    /// Seed of all natural variation.
     pub seed: u32,
 }
 

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use std::hash::{Hash, Hasher};
 
-/// Why vertices and triangles make no mesh.
+/// Reason that vertices and triangles make no mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum MeshError {
     /// There is nothing to see.

@@ -73,7 +73,7 @@ pub struct Group {
     pub name: String,
     /// The material's name; empty where the file gives none.
     pub material: String,
-    /// Which of the mesh's triangles.
+    /// Triangles of the mesh.
     pub triangles: std::ops::Range<usize>,
 }
 
@@ -84,7 +84,7 @@ pub struct ReadMesh {
     pub mesh: Mesh,
     /// The groups that have triangles, in the file's order; together they are all triangles. A name may come up again.
     pub groups: Vec<Group>,
-    /// What was found and tolerated.
+    /// Findings, and faults that were tolerated.
     pub report: Report,
 }
 

@@ -1,4 +1,4 @@
-//! Which places of a mesh the light does not reach.
+//! Places of a mesh that the light does not reach.
 
 mod split;
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// A question: a value with everything its answer depends on.
 pub trait Query: Clone + Eq + Hash + 'static {
-    /// What comes back.
+    /// Answer.
     type Answer: 'static;
 
     /// A name for counters.

@@ -11,7 +11,7 @@ use crate::spectral::Sensor;
 use crate::spectral::grid::{COUNT, wavelength_nm};
 use crate::units::Kelvin;
 
-/// Which temperatures a locus goes through.
+/// Temperatures of a locus.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Temperatures {
     /// Evenly in 1/T from the first to the last, both included.
@@ -20,7 +20,7 @@ pub enum Temperatures {
         from: Kelvin,
         /// The last temperature.
         to: Kelvin,
-        /// How many; one gives the first alone.
+        /// Number of temperatures; one gives the first alone.
         count: usize,
     },
     /// These, in this order.
@@ -80,7 +80,7 @@ impl Query for LocusRulesQuery {
     }
 }
 
-/// What does a sensor record of black bodies, before any balance? Independent of light, white and way.
+/// Signals of blackbodies before any balance: independent of light, white balance and color transform.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct RadiatorSignalsQuery {
     /// The camera or observer.
@@ -96,7 +96,7 @@ pub struct RadiatorSignalsQuery {
 pub struct RawLocus {
     /// Temperature and the three integrals.
     pub points: Vec<(Kelvin, [f64; 3])>,
-    /// How they were computed, with the error checked.
+    /// Method of computation, with the error found.
     pub method: LocusMethod,
 }
 
@@ -120,7 +120,7 @@ pub struct LocusPoint {
     pub xyz: Xyz,
     /// Its chromaticity, or none where the signals sum to nothing.
     pub xy: Option<Xy>,
-    /// The same in the 1976 diagram.
+    /// Chromaticity in the 1976 diagram.
     pub uv: Option<UvPrime>,
 }
 
@@ -129,7 +129,7 @@ pub struct LocusPoint {
 pub struct Locus {
     /// Its points, in the order asked for.
     pub points: Vec<LocusPoint>,
-    /// How they were computed, with the error checked.
+    /// Method of computation, with the error found.
     pub method: LocusMethod,
 }
 
@@ -141,7 +141,7 @@ impl Locus {
     }
 }
 
-/// Where does a sensor see black bodies (Eq 15)?
+/// Planckian locus through a sensor (Eq 15).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct LocusQuery {
     /// The sensor and its way to the diagram.
@@ -172,7 +172,7 @@ impl Query for LocusQuery {
     }
 }
 
-/// Where does a sensor see monochromatic light? What no matrix can mend shows here at once.
+/// Spectral locus through a sensor: shows errors that no 3×3 matrix can correct.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MonochromaticQuery {
     /// The sensor and its way to the diagram.
@@ -206,7 +206,7 @@ fn magnitude(v: [f64; 3]) -> f64 {
     v.iter().fold(0.0, |m, x| x.abs().max(m))
 }
 
-/// What tells the nearest black body of any color that an XYZ observer sees?
+/// Evaluator of the nearest blackbody of any color that an XYZ observer sees.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct NearestBlackBodyQuery {
     /// The observer.
@@ -224,7 +224,7 @@ impl Query for NearestBlackBodyQuery {
     }
 }
 
-/// Where does an XYZ observer see monochromatic light: the diagram's outline?
+/// Spectral locus of an XYZ observer: the diagram's outline.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SpectralLocusQuery {
     /// The observer.

@@ -24,7 +24,7 @@ pub enum ColorTransformSpec {
     },
 }
 
-/// How are a sensor's signals brought to the diagram?
+/// Color transform of a sensor under a light.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct RenderingQuery {
     /// The camera or observer.
@@ -54,7 +54,7 @@ impl Query for RenderingQuery {
     }
 }
 
-/// What does a reference observer see of the training reflectances? The same for every sensor that is fitted to it.
+/// XYZ of the training reflectances through a reference observer, shared by all sensors fitted to it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FitTargetsQuery {
     /// The observer.
@@ -83,7 +83,7 @@ pub struct PatchColor {
     pub xyz: Xyz,
     /// Chromaticity, or none for a signal that sums to nothing.
     pub xy: Option<Xy>,
-    /// The same in the 1976 diagram.
+    /// Chromaticity in the 1976 diagram.
     pub uv: Option<UvPrime>,
     /// L*a*b* relative to the rendering's white.
     pub lab: Option<Lab>,
@@ -93,7 +93,7 @@ pub struct PatchColor {
     pub srgb: EncodedSrgb,
 }
 
-/// What colors do patches take through a sensor (Eq 16)?
+/// Colors of patches through a sensor (Eq 16).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PatchColorsQuery {
     /// The sensor and its way to the diagram.

@@ -24,7 +24,7 @@ use crate::spectral::{GridSpectrum, Sensor};
 use chromascope_mesh::{Mesh, ShadowTree, fern, head, shapes};
 use std::sync::Arc;
 
-/// Which mesh?
+/// A mesh.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum MeshQuery {
     /// The head, with about this many triangles.
@@ -60,7 +60,7 @@ impl Query for MeshQuery {
     }
 }
 
-/// What tree finds the shadows of a mesh?
+/// Shadow tree of a mesh.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ShadowTreeQuery(pub MeshQuery);
 
@@ -75,12 +75,12 @@ impl Query for ShadowTreeQuery {
     }
 }
 
-/// Which triangle does each sample see? None if stopped.
+/// Triangle that each sample sees. None if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct VisibilityQuery {
     /// The mesh.
     pub mesh: MeshQuery,
-    /// Where it is seen from.
+    /// Viewpoint.
     pub viewpoint: Viewpoint,
     /// Number of samples.
     pub size: RasterSize,
@@ -101,14 +101,14 @@ impl Query for VisibilityQuery {
     }
 }
 
-/// What are the angles where the light reaches? None if stopped.
+/// Angles at each lit sample. None if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct GeometryQuery {
-    /// What is seen.
+    /// Visibility.
     pub visibility: VisibilityQuery,
-    /// Where the light is.
+    /// Position of the light.
     pub lighting: Lighting,
-    /// How shadows are found.
+    /// Fineness of shadows.
     pub shadows: Shadows,
 }
 
@@ -149,7 +149,7 @@ impl Query for MeshRoughnessQuery {
     }
 }
 
-/// Where σ and τ are from.
+/// Origin of σ and τ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Roughness {
     /// The surface's own, the same everywhere.
@@ -159,18 +159,18 @@ pub enum Roughness {
     Mesh,
 }
 
-/// What does a surface make of the angles? None if stopped.
+/// Factors of the reflectance model at each lit sample. None if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ShadingQuery {
     /// The angles.
     pub geometry: GeometryQuery,
     /// The surface.
     pub surface: Surface,
-    /// Where σ and τ are from.
+    /// Origin of σ and τ.
     pub roughness: Roughness,
-    /// How Eq 1 is read.
+    /// Normalization of Eq 1.
     pub reading: Normalization,
-    /// How exactly integrals are made.
+    /// Accuracy of the integrals.
     pub quality: Quality,
 }
 
@@ -199,7 +199,7 @@ impl Query for ShadingQuery {
     }
 }
 
-/// How does a camera weigh wavelengths under a light, from a reflectance?
+/// Spectral weights of a camera under a light, for a reflectance.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SpectralWeightsQuery {
     /// The camera or observer.
@@ -208,7 +208,7 @@ pub struct SpectralWeightsQuery {
     pub light: Shared<GridSpectrum>,
     /// The reflectance.
     pub reflectance: Shared<GridSpectrum>,
-    /// How Eq 1 is read.
+    /// Normalization of Eq 1.
     pub reading: Normalization,
 }
 
@@ -241,7 +241,7 @@ impl SpectralWeightsQuery {
     }
 }
 
-/// What signals does a camera give of a shaded mesh? None inside if stopped.
+/// Signals of a camera at each lit sample of a mesh. None inside if stopped.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct CameraImageQuery {
     /// The shaded mesh.

@@ -13,12 +13,12 @@ use rayon::prelude::*;
 use std::hash::{Hash, Hasher};
 use std::sync::LazyLock;
 
-/// What turns signals into light on a screen.
+/// Development from signals to light on a screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Development {
     /// Linear sRGB from signals: matrix × balance × exposure.
     pub linear_from_signals: DMat3,
-    /// What shows beside the mesh, in linear sRGB; none leaves it transparent.
+    /// Background in linear sRGB; none leaves it transparent.
     pub background: Option<[f32; 3]>,
 }
 
@@ -202,7 +202,7 @@ impl Task<'_> {
     }
 }
 
-/// Which part of an ascending list lies within a range.
+/// Part of an ascending list that lies within a range.
 fn range(list: &[u32], within: &std::ops::Range<usize>) -> std::ops::Range<usize> {
     list.partition_point(|&s| (s as usize) < within.start)..list.partition_point(|&s| (s as usize) < within.end)
 }

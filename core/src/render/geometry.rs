@@ -77,7 +77,7 @@ pub struct Angles {
     pub vy: f32,
 }
 
-/// Where a picture's samples are: all that a camera's signals need to know of geometry.
+/// Positions of a picture's lit samples: all that a camera's signals need of geometry.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LitSamples {
     size: RasterSize,
@@ -117,7 +117,7 @@ impl Angles {
         f64::from(self.falloff) * f64::from(self.cos_i)
     }
 
-    /// The same in the reflectance model's terms.
+    /// Angles in the reflectance model's terms.
     pub fn geometry(&self) -> Geometry {
         let (cos_i, cos_s) = (f64::from(self.cos_i), f64::from(self.cos_s));
         let vz_by_k = cos_i + cos_s;
@@ -173,7 +173,7 @@ impl GeometryImage {
         Some(Self { placed, angles, angular_radius: lighting.angular_radius(), counts })
     }
 
-    /// Where the samples are.
+    /// Positions of the samples.
     pub fn placed(&self) -> &Arc<LitSamples> {
         &self.placed
     }
@@ -198,7 +198,7 @@ impl GeometryImage {
         self.counts
     }
 
-    /// The same picture with each `stride`-th of its lit samples only: to measure on.
+    /// Picture with each `stride`-th of its lit samples only: to measure on.
     #[must_use]
     pub fn thinned(&self, stride: usize) -> Self {
         let stride = stride.max(1);
@@ -215,7 +215,7 @@ impl GeometryImage {
     }
 }
 
-/// What one task found.
+/// Result of one task.
 #[derive(Default)]
 struct Part {
     samples: Vec<u32>,
@@ -353,7 +353,7 @@ impl Scene<'_> {
         (of(self.mesh.positions()), of(self.mesh.normals()))
     }
 
-    /// Where a shadow ray starts: on the surface that the corners' normals suggest, a little above it.
+    /// Origin of a shadow ray: on the surface that the corners' normals suggest, a little above it.
     fn lifted(&self, place: &Place) -> DVec3 {
         let (points, normals) = self.corners(place.hit);
         let lifts = [0, 1, 2].map(|k: usize| {

@@ -108,7 +108,7 @@ impl SpectralWeights {
         &self.fine
     }
 
-    /// So many wavelengths for all three channels; fewer where the weights themselves are at fewer.
+    /// Wavelengths for all three channels, this many; fewer where the weights themselves are at fewer.
     pub fn shared(&self, count: usize) -> Vec<Node> {
         nodes(&self.dense, count)
     }

@@ -1,4 +1,4 @@
-//! What a surface makes of the angles: the same for every camera.
+//! Factors of the reflectance model at each sample: the same for every camera.
 
 mod brightness;
 mod lobes;
@@ -82,11 +82,11 @@ pub struct ShadingCounts {
     pub mirrors_skipped: u64,
 }
 
-/// What a surface makes of the angles at each lit sample.
+/// Factors of the reflectance model at each lit sample.
 #[derive(Clone, Debug)]
 pub struct ShadingImage {
     geometry: Arc<GeometryImage>,
-    /// Where samples lie between vertices that are shaded in their place.
+    /// Places of samples between vertices that are shaded instead.
     vertices: Option<Arc<VertexImage>>,
     surface: Surface,
     quality: Quality,
@@ -175,12 +175,12 @@ impl ShadingImage {
         &self.surface
     }
 
-    /// How exactly integrals are made.
+    /// Accuracy of the integrals.
     pub fn quality(&self) -> Quality {
         self.quality
     }
 
-    /// Where samples lie between vertices that are shaded in their place.
+    /// Places of samples between vertices that are shaded instead.
     pub fn vertices(&self) -> Option<&VertexImage> {
         self.vertices.as_deref()
     }
@@ -260,7 +260,7 @@ fn counts(shades: &[Shade], mirrors: usize) -> ShadingCounts {
 /// A lit sample, or a vertex in its place.
 struct Place {
     geometry: Geometry,
-    /// What stands beside the reflectance factor.
+    /// Factor beside the reflectance.
     light: f64,
     surface: Surface,
 }

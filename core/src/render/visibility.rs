@@ -1,4 +1,4 @@
-//! Which triangle each sample of a picture sees.
+//! Triangle that each sample of a picture sees.
 //!
 //! Rays through sample centers against triangles, as edge functions in the view's coordinates (Olano and Greer 1997):
 //! a ray d = (x, y, 1) meets the triangle with corners a, b, c where the three triple products d·(b × c), d·(c × a),
@@ -36,7 +36,7 @@ impl RasterSize {
         Self { width, height, samples: 1 }
     }
 
-    /// The same with sides of at least one and at most [`MAX_SIDE`] samples.
+    /// Size with sides of at least one and at most [`MAX_SIDE`] samples.
     #[must_use]
     pub fn clamped(self) -> Self {
         let samples = self.samples.clamp(1, 8);
@@ -60,7 +60,7 @@ impl RasterSize {
     }
 }
 
-/// What a sample sees.
+/// Triangle and place that a sample sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// The triangle's index, or [`Hit::NONE`].
@@ -87,7 +87,7 @@ impl Hit {
     }
 }
 
-/// What each sample sees, row by row from the top left.
+/// Triangles that the samples see, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Visibility {
     size: RasterSize,
@@ -98,7 +98,7 @@ pub struct Visibility {
 impl Visibility {
     /// Finds what each sample of a picture sees of a mesh, the nearest triangle from either side; none if stopped.
     ///
-    /// The same for any number of threads. Triangles that hold no sample's center are passed over.
+    /// Visibility of a mesh, equal for any number of threads. Triangles that hold no sample's center are passed over.
     pub fn new(mesh: &Mesh, eye: Eye, size: RasterSize, stop: &Stop) -> Option<Self> {
         let size = size.clamped();
         let rays = Rays::new(size, &eye);
@@ -136,18 +136,18 @@ impl Visibility {
         &self.eye
     }
 
-    /// What each sample sees, row by row from the top left.
+    /// Triangles that the samples see, row by row from the top left.
     pub fn hits(&self) -> &[Hit] {
         &self.hits
     }
 
-    /// Where samples look.
+    /// Rays of the samples.
     pub fn rays(&self) -> Rays {
         Rays::new(self.size, &self.eye)
     }
 }
 
-/// Where samples look: x and y of a ray that goes one ahead.
+/// Rays of the samples: x and y of a ray that goes one ahead.
 #[derive(Clone, Copy, Debug)]
 pub struct Rays {
     step: f64,
@@ -182,7 +182,7 @@ impl Rays {
 struct Corner {
     /// In view coordinates, ahead positive.
     place: DVec3,
-    /// Where it is seen, in samples from the left and the top; nowhere behind the eye.
+    /// Position in samples from the left and the top; none behind the viewer.
     seen: Option<[f64; 2]>,
 }
 
@@ -346,7 +346,7 @@ impl Bins {
     }
 }
 
-/// What all tiles are drawn from.
+/// Mesh and view that all tiles are drawn from.
 struct Scene<'a> {
     triangles: &'a [[u32; 3]],
     corners: &'a [Corner],
@@ -367,7 +367,7 @@ struct Tile {
     ids: [f64; TILE * STRIDE],
     /// The edge functions of the second and third corner, and the sum of all three.
     edges: [[f64; TILE * STRIDE]; 3],
-    /// Where the columns look.
+    /// Rays of the columns.
     xs: [f64; STRIDE],
 }
 
@@ -378,7 +378,7 @@ fn draw(tile: &mut Tile, index: usize, scene: &Scene<'_>, corner: [usize; 2]) {
     draw_portable(tile, index, scene, corner);
 }
 
-/// The same for any processor.
+/// Portable form for any processor.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn draw_portable(tile: &mut Tile, index: usize, scene: &Scene<'_>, corner: [usize; 2]) {
@@ -488,7 +488,7 @@ impl Tile {
         }
     }
 
-    /// The same for some samples side by side.
+    /// Depths of some samples side by side.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     fn four(&mut self, id: f64, row: usize, column: usize, lines: [(f64, f64, f64); 3], scale: f64) {

@@ -12,10 +12,10 @@ use super::Place;
 /// Half the height of a name, and half the side of a marker with some air, in points.
 const HALF: f64 = 7.0;
 const MARKER: f64 = 6.0;
-/// How far off a name may be, in points, in how many directions.
+/// Distances of a name in points, and number of directions.
 const RINGS: [f64; 6] = [20.0, 32.0, 46.0, 64.0, 86.0, 112.0];
 const DIRECTIONS: u32 = 32;
-/// What crossing the line costs, in points of distance.
+/// Cost of crossing the line, in points of distance.
 const CROSSING: f64 = 40.0;
 /// The height of a line of the list, and how far apart places are where it is tried.
 const LINE: f64 = 13.0;
@@ -32,12 +32,12 @@ struct Choice {
     anchor: Anchor,
     /// The anchored point of the text, in points from the marker.
     offset: [f64; 2],
-    /// Where the leader ends at the text; none where the name stands beside its point.
+    /// End of the leader at the text; none where the name stands beside its point.
     leader: Option<[f64; 2]>,
     cost: f64,
 }
 
-/// What is in the way.
+/// Obstacles.
 struct Taken {
     markers: Vec<Area>,
     texts: Vec<Area>,
@@ -79,7 +79,7 @@ pub(super) fn names(panel: &Panel, places: &[&Place], front: &[[f64; 2]]) -> Vec
     drawn.marks
 }
 
-/// What is drawn so far.
+/// Marks drawn so far.
 struct Drawn<'a> {
     panel: &'a Panel,
     projection: Projection,
@@ -231,7 +231,7 @@ impl Taken {
         best.map(|(_, choice)| choice)
     }
 
-    /// What a choice costs; none where it cannot be.
+    /// Cost of a choice; none where it is impossible.
     fn cost(&self, choice: &Choice, point: [f64; 2], width: f64) -> Option<f64> {
         let area = choice.area(point, width);
         let plot = &self.plot;
@@ -308,7 +308,7 @@ mod tests {
         (0..count).map(place).collect()
     }
 
-    /// Where the texts of a panel are, with their words.
+    /// Positions of the texts of a panel, with their words.
     fn texts(panel: &Panel) -> Vec<(String, Area)> {
         let projection = Projection::new(panel, 1.0);
         let text = |mark: &Mark| {

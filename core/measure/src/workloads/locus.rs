@@ -36,13 +36,13 @@ pub(super) fn run(bench: &mut Bench<'_>) -> Result<(), BenchError> {
     Ok(())
 }
 
-/// So many temperatures evenly in mired, from 1000 to 20 000 K; one alone is in between.
+/// Temperatures evenly in mired, from 1000 to 20 000 K; one alone is in between.
 fn temperatures(count: usize) -> Vec<f64> {
     let mired = |index: usize| 1000.0 + (50.0 - 1000.0) * (index as f64 + 0.5) / count as f64;
     (0..count).map(|index| 1e6 / mired(index)).collect()
 }
 
-/// Where signals lie in the diagram: an observer's as they are, a camera's by Eq 13.
+/// Chromaticity of signals: an observer's as they are, a camera's by Eq 13.
 #[derive(Clone, Copy)]
 struct Diagram {
     gain: DVec3,

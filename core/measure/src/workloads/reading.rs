@@ -57,7 +57,7 @@ fn of_rows(file: &File, rows: &[Vec<f64>]) -> Curves {
     below.split_off(below.len().saturating_sub(file.curves))
 }
 
-/// What errors here are of.
+/// Quantity of the errors.
 const WHAT: &str = "values, against the numbers written";
 
 /// The differences from the numbers that were written; nothing is right where samples are too many or too few.

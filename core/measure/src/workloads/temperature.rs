@@ -21,7 +21,7 @@ type Answer = [f64; 2];
 
 const NOTHING: Answer = [f64::NAN; 2];
 
-/// What of an answer is judged.
+/// Part of an answer that is judged.
 #[derive(Clone, Copy)]
 enum Judged {
     Temperature,

@@ -44,7 +44,7 @@ impl Pools {
     }
 }
 
-/// What an item moves and computes at the least, for a comparison with the machine's limits.
+/// Bytes moved and operations of an item at the least, for a comparison with the machine's limits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Cost {
     pub(super) bytes: f64,
@@ -83,27 +83,27 @@ impl<'a> Candidate<'a> {
         }
     }
 
-    /// The same on so many threads.
+    /// Candidate on this many threads.
     pub(super) fn on(self, threads: usize) -> Self {
         Self { threads, ..self }
     }
 
-    /// The same, which can only do all of its items at a time.
+    /// Candidate that can only do all of its items at a time.
     pub(super) fn undivided(self) -> Self {
         Self { least: self.items, ..self }
     }
 
-    /// The same with no fewer items at a time: so many that caches do not hold them.
+    /// Candidate with no fewer items at a time: more than caches hold.
     pub(super) fn at_least(self, items: usize) -> Self {
         Self { least: items.min(self.items), ..self }
     }
 
-    /// The same with what it takes to make it.
+    /// Candidate with its preparation time.
     pub(super) fn built_in(self, build_seconds: f64) -> Self {
         Self { build_seconds, ..self }
     }
 
-    /// The same with what an item costs.
+    /// Candidate with the cost of an item.
     pub(super) fn costing(self, cost: Cost) -> Self {
         Self { cost: Some(cost), ..self }
     }
@@ -129,7 +129,7 @@ impl<'a> Candidate<'a> {
     }
 }
 
-/// What is timed at once.
+/// Work timed at once.
 #[derive(Clone, Copy)]
 struct Batch {
     items: usize,
@@ -146,7 +146,7 @@ pub(super) struct Bench<'a> {
     pub(super) measurements: Vec<Measurement>,
 }
 
-/// What is compared.
+/// Comparison.
 #[derive(Clone, Copy)]
 pub(super) struct Case<'a> {
     pub(super) workload: Workload,

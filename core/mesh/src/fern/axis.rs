@@ -27,7 +27,7 @@ impl Frame {
         Self::new(self.origin, turn * self.forward, turn * self.up)
     }
 
-    /// The same axes at another place.
+    /// Axes at another place.
     pub(super) fn at(self, origin: Vec3) -> Self {
         Self { origin, ..self }
     }
@@ -44,7 +44,7 @@ pub(super) struct Arc {
     pub(super) length: f32,
     pub(super) sweep: f32,
     pub(super) droop: f32,
-    /// How far the up axis has turned about the line at the tip, in radians.
+    /// Angle by which the up axis has turned about the line at the tip, in radians.
     pub(super) twist: f32,
 }
 

@@ -1,4 +1,4 @@
-//! How a frond grows: a stalk, pinnae on both sides of it, leaflets on both sides of each pinna.
+//! Growth of a frond: a stalk, pinnae on both sides of it, leaflets on both sides of each pinna.
 
 use super::axis::{Arc, Frame, Spine};
 use super::chance::Chance;
@@ -7,7 +7,7 @@ use super::stem::{Line, Stem};
 use glam::Vec3;
 use std::f32::consts::TAU;
 
-/// How finely a plant is divided, whatever its size.
+/// Fineness of a plant's division, whatever its size.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Detail {
     /// Pairs of pinnae on a full frond.
@@ -65,16 +65,16 @@ fn cuts(fineness: f32, leaf: &Leaf, share: f32, dither: f32) -> Cuts {
 /// One frond's shape.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frond {
-    /// Where it leaves the ground; its up axis is where the upper surface looks.
+    /// Base at the ground; its up axis is where the upper surface looks.
     pub(super) base: Frame,
     /// The stalk's length from the ground to the tip, in meters.
     pub(super) length: f32,
-    /// How far the tip bends down from the base's direction, in radians.
+    /// Angle by which the tip bends down from the base's direction, in radians.
     pub(super) arch: f32,
-    /// How far it bends aside, and turns about itself.
+    /// Angles by which it bends aside, and turns about itself.
     pub(super) bend: f32,
     pub(super) twist: f32,
-    /// How far the tip is still rolled up, in radians; none: a grown frond.
+    /// Angle by which the tip is still rolled up, in radians; none: a grown frond.
     pub(super) coil: Option<f32>,
     pub(super) chance: Chance,
 }

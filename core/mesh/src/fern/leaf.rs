@@ -12,15 +12,15 @@ pub(super) struct Leaf {
     pub(super) half_width: f32,
     /// The width at the base as a share of the largest; 0: a point.
     pub(super) base: f32,
-    /// Where the outline rounds off: 1.4 a lance, 4 a tongue.
+    /// Exponent of the outline's rounding: 1.4 a lance, 4 a tongue.
     pub(super) bluntness: f32,
-    /// How much closer cuts are at the tip than at the base, −1 .. 1.
+    /// Concentration of cuts toward the tip, −1 .. 1.
     pub(super) crowding: f32,
     /// The slope with which each half rises from the midrib.
     pub(super) crease: f32,
-    /// How strongly each half bends down again towards the edge.
+    /// Strength by which each half bends down again toward the edge.
     pub(super) curl: f32,
-    /// How deep the edge's teeth are, as a share of the width.
+    /// Depth of the edge's teeth, as a share of the width.
     pub(super) teeth: f32,
     /// Thickness over the midrib, in meters.
     pub(super) thickness: f32,

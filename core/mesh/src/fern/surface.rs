@@ -6,7 +6,7 @@ use glam::Vec3;
 /// The cosine between a triangle's normal and its corners' from which on they share vertices.
 const LEAST_AGREEMENT: f32 = 0.1;
 
-/// What parts of the plant are added to.
+/// Surface that parts of the plant are added to.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Surface {
     pub(super) positions: Vec<Vec3>,

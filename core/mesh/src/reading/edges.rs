@@ -1,4 +1,4 @@
-//! Which triangles meet at which edges: what is open, doubled or flipped, and which corners share a computed normal.
+//! Edges of a mesh: open, doubled or flipped ones, and corners that share a computed normal.
 
 use super::build::usable;
 use super::error::MeshReadError;
@@ -14,7 +14,7 @@ const CREASE_COSINE: f32 = 0.5;
 /// Positions between two looks at whether to stop.
 const STOP_EVERY: usize = 1 << 16;
 
-/// What the edges tell.
+/// Findings about the edges.
 pub(super) struct Edges {
     /// Edges of more than two triangles.
     pub(super) non_manifold: Tally,

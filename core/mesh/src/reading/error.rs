@@ -33,7 +33,7 @@ impl std::fmt::Display for Alien {
     }
 }
 
-/// What there can be too much of.
+/// Quantity that has a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
     /// Bytes of the file.
@@ -54,7 +54,7 @@ impl std::fmt::Display for Quantity {
     }
 }
 
-/// Where in a file something is, counted from 1.
+/// Place in a file, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Place {
     /// A line of a text file; of a statement continued over several lines, the first.
@@ -75,7 +75,7 @@ impl std::fmt::Display for Place {
     }
 }
 
-/// Why bytes give no mesh. Each message says where it is and how to mend it.
+/// Reason that bytes give no mesh. Each message says where it is and how to mend it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum MeshReadError {
     /// There are no bytes, or nothing but blanks.
@@ -84,7 +84,7 @@ pub enum MeshReadError {
     /// The file is of another kind.
     #[error("this is no OBJ, PLY or STL file (it looks like {looks_like}); export the mesh as OBJ")]
     NotAMesh {
-        /// What it seems to be.
+        /// Format that it seems to be.
         looks_like: Alien,
     },
     /// A word stands where a number should.
@@ -184,9 +184,9 @@ pub enum MeshReadError {
     TooLarge {
         /// Of what.
         quantity: Quantity,
-        /// How much there may be.
+        /// Limit.
         limit: usize,
-        /// Where the limit is passed.
+        /// Place where the limit is passed.
         place: Place,
     },
     /// The file ends before what its header announces.

@@ -108,7 +108,7 @@ impl<'a> Cursor<'a> {
         Ok(xyz)
     }
 
-    /// What is not read yet.
+    /// Unread rest.
     pub(super) fn left(&self) -> &'a [u8] {
         &self.bytes[self.at..]
     }

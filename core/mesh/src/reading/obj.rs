@@ -138,7 +138,7 @@ fn corner(word: &Word<'_>, soup: &Soup, place: Place) -> Result<Corner, MeshRead
     Ok(Corner { position, normal })
 }
 
-/// What follows a slash, or none at the word's end.
+/// Text after a slash, or none at the word's end.
 fn after_slash(text: &[u8], wrong: MeshReadError) -> Result<Option<&[u8]>, MeshReadError> {
     match text {
         [] => Ok(None),

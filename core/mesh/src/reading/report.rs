@@ -1,13 +1,13 @@
-//! What was found on reading a mesh, and what was tolerated.
+//! Report on reading a mesh: findings, and faults that were tolerated.
 
 use super::Kind;
 use super::error::Place;
 use std::fmt::{Display, Formatter, Result};
 
-/// How often something occurs, and where first.
+/// Number of occurrences, and the first place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Tally {
-    /// How often.
+    /// Number of occurrences.
     pub count: usize,
     /// The first in the file; none where there is none.
     pub first: Option<Place>,
@@ -65,7 +65,7 @@ impl Skipped {
         Self::Unknown,
     ];
 
-    /// What is read over, as a person calls it.
+    /// Skipped content, as a person calls it.
     fn name(self) -> &'static str {
         match self {
             Self::Materials => "material statements",
@@ -81,7 +81,7 @@ impl Skipped {
     }
 }
 
-/// Where the mesh's normals come from.
+/// Origin of the mesh's normals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Normals {
     /// All from the file.
@@ -106,7 +106,7 @@ pub struct Report {
     pub polygons: usize,
     /// Triangles in the mesh.
     pub triangles: usize,
-    /// Where the normals come from.
+    /// Origin of the normals.
     pub normals: Normals,
     /// Triangles left out because they have no area within single precision's resolution of their coordinates.
     pub degenerate: Tally,
@@ -140,7 +140,7 @@ impl Report {
         Skipped::ALL.into_iter().zip(*tallies).filter(|(_, tally)| tally.count > 0).collect()
     }
 
-    /// What a person should know, in a line each, the gravest first; empty where all is in order.
+    /// Notes for a person, a line each, the gravest first; empty where all is in order.
     pub fn notes(&self) -> Vec<Note> {
         let tally = |tally: Tally, note: fn(usize, Place) -> Note| tally.first.map(|first| note(tally.count, first));
         let some = |count: usize, note: Note| (count > 0).then_some(note);

@@ -1,4 +1,4 @@
-//! Which format a file is of, by its content.
+//! Format of a file, by its content.
 
 use super::error::{Alien, MeshReadError, Place, Quantity};
 use super::lines::Cursor;

@@ -1,4 +1,4 @@
-//! What a file says, format left behind: vertices, normals, polygons of any size.
+//! Contents of a file without its format: vertices, normals, polygons of any size.
 
 use super::error::{MeshReadError, Place, Quantity};
 use super::lines::FARTHEST;
@@ -19,7 +19,7 @@ pub(super) struct Corner {
     pub(super) normal: u32,
 }
 
-/// How normals that are missing are computed.
+/// Method for missing normals.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Smoothing {
     /// The file says nothing: smooth where faces meet at less than the crease angle.
@@ -56,7 +56,7 @@ pub(super) struct Soup {
     ends: Vec<u32>,
     /// For each face its line or its number.
     places: Vec<u32>,
-    /// What makes a place of that number.
+    /// Place of that number.
     place: fn(usize) -> Place,
     /// The number of the first vertex.
     first_index: i64,
@@ -108,12 +108,12 @@ impl Soup {
         self.ends.partition_point(|&end| end as usize <= reach).max(from + 1)
     }
 
-    /// Where a face stands in the file.
+    /// Place of a face in the file.
     pub(super) fn place(&self, face: usize) -> Place {
         (self.place)(self.places[face] as usize)
     }
 
-    /// How a face's missing normals are computed.
+    /// Method for a face's missing normals.
     pub(super) fn smoothing(&self, face: u32) -> Smoothing {
         let after = self.smoothing.partition_point(|&(first, _)| first <= face);
         if after == 0 { Smoothing::Auto } else { self.smoothing[after - 1].1 }

@@ -11,7 +11,7 @@ use std::ops::Range;
 /// The most corners of a concave polygon, whose cutting takes time with their square.
 const MAX_CONCAVE: usize = 4096;
 
-/// How often all corners of a polygon are looked at anew when no ear is left.
+/// Number of passes over all corners of a polygon when no ear is left.
 const MOST_LOOKS: u32 = 8;
 
 /// Corners between two looks at whether to stop: also how many concave polygons there can be between them.
@@ -110,7 +110,7 @@ impl Cut {
     }
 }
 
-/// How far rounding to single precision moves a point whose farthest coordinate this is.
+/// Distance by which rounding to single precision moves a point with this farthest coordinate.
 fn grain(size: f64) -> f64 {
     2.0 * f64::from(f32::EPSILON) * size
 }
@@ -124,11 +124,11 @@ struct Polygon {
     space: Vec<DVec3>,
     /// Their places in the plane, counter-clockwise.
     points: Vec<DVec2>,
-    /// What is still uncut: for each corner the one before and the one after.
+    /// Uncut rest: for each corner the one before and the one after.
     around: Vec<[u32; 2]>,
     /// For each corner how good an ear it is; zero where it is none.
     ears: Vec<f64>,
-    /// How far rounding to single precision moves a corner.
+    /// Distance by which rounding to single precision moves a corner.
     grain: f64,
     /// Triangles of indices among `corners`.
     triangles: Vec<[u32; 3]>,

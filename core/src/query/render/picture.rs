@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// The luminance that a material facing the light takes at 0 EV.
 pub const MID_LUMINANCE: f64 = 0.4;
 
-/// How bright is a material that faces light and eye, through the reference?
+/// XYZ of a material that faces light and viewer, through the reference.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ExposureQuery {
     /// The reference.
@@ -27,13 +27,13 @@ pub struct ExposureQuery {
     pub reflectance: Shared<GridSpectrum>,
     /// Its roughness.
     pub surface: Surface,
-    /// How Eq 1 is read.
+    /// Normalization of Eq 1.
     pub reading: Normalization,
     /// The light's angular radius in radians, as bits.
     pub angular_radius: u64,
 }
 
-/// What exposure and the measuring of colors go by.
+/// Reference of exposure and of color measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExposureReference {
     /// XYZ of the material, through the reference.
@@ -90,18 +90,18 @@ pub struct SourceOf {
     pub rendering: RenderingQuery,
 }
 
-/// What does a camera's picture look like?
+/// Picture of a camera.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PictureQuery {
     /// Its signals.
     pub image: CameraImageQuery,
-    /// How they are balanced.
+    /// White balance.
     pub rendering: RenderingQuery,
     /// Exposure in EV, as bits.
     pub ev: u64,
-    /// What is exposed by.
+    /// Reference of exposure.
     pub exposure: ExposureQuery,
-    /// What shows beside the mesh, in linear sRGB as bits; none leaves it transparent.
+    /// Background in linear sRGB as bits; none leaves it transparent.
     pub background: Option<[u32; 3]>,
 }
 
@@ -127,7 +127,7 @@ impl Query for PictureQuery {
     }
 }
 
-/// What do several cameras' pictures of one shaded mesh look like, side by side?
+/// Pictures of one shaded mesh through several sensors.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PicturesQuery {
     /// The shaded mesh.
@@ -140,7 +140,7 @@ pub struct PicturesQuery {
     pub sources: Vec<SourceOf>,
     /// Exposure in EV, as bits.
     pub ev: u64,
-    /// What shows beside the mesh, in linear sRGB as bits.
+    /// Background in linear sRGB as bits.
     pub background: Option<[u32; 3]>,
     /// Metric of the differences from the reference.
     pub metric: Metric,
@@ -159,16 +159,16 @@ pub struct Pictures {
     pub differences: Vec<Option<Arc<Difference>>>,
     /// The angles at the lit samples, to read pixels from.
     pub angles: Arc<GeometryImage>,
-    /// What exposure went by.
+    /// Reference of exposure.
     pub facing: ExposureReference,
     /// Reason that samples are dark.
     pub geometry: GeometryCounts,
-    /// How integrals were made.
+    /// Methods of integration.
     pub shading: ShadingCounts,
 }
 
 impl PicturesQuery {
-    /// What exposure goes by.
+    /// Reference of exposure.
     pub fn exposure(&self) -> ExposureQuery {
         ExposureQuery {
             reference: self.reference.clone(),
@@ -201,7 +201,7 @@ impl PicturesQuery {
         }
     }
 
-    /// How far a source is from the reference, looking at each `stride`-th lit sample.
+    /// Difference of a sensor from the reference, at each `stride`-th lit sample.
     pub fn difference(&self, rendering: &RenderingQuery, stride: usize) -> DifferenceQuery {
         DifferenceQuery {
             metric: self.metric,

@@ -150,7 +150,7 @@ static LIMITS: LazyLock<Vec<[[f64; COUNTS.len()]; SHARES]>> = LazyLock::new(|| {
 struct Ellipse {
     eta: f64,
     sinh: f64,
-    /// How much e^-g at κ = 1 exceeds its largest value on the band, as a logarithm.
+    /// Logarithm by which e^-g at κ = 1 exceeds its largest value on the band.
     growth: f64,
     /// Logarithm of what divides the rest of the bound: `(e^η − 1)/4` and the growth of `(2π/λ)^-6`.
     ln_front: f64,

@@ -17,7 +17,7 @@ type Row<T> = [T; LANES];
 /// Three coordinates for each sample, axis by axis.
 type Rows<T> = [Row<T>; 3];
 
-/// What the angles of some samples are made of.
+/// Inputs of the angles of some samples.
 pub(super) struct Given {
     /// The sample's column in the picture.
     pub(super) columns: Row<u32>,
@@ -54,7 +54,7 @@ impl Given {
     }
 }
 
-/// What is found out about some samples.
+/// Results for some samples.
 pub(super) struct Found {
     /// True if what follows holds; if not, the sample is one of the rare ones that need care.
     pub(super) plain: Row<bool>,
@@ -92,7 +92,7 @@ pub(super) fn find(given: &Given, world_from_view: &DMat3, found: &mut Found) {
     find_portable(given, world_from_view, found);
 }
 
-/// The same for any processor.
+/// Portable form for any processor.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn find_portable(given: &Given, world_from_view: &DMat3, found: &mut Found) {

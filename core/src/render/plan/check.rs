@@ -13,17 +13,17 @@ use rayon::prelude::*;
 /// The largest error between the points of the check is taken to be at most this much larger than at them.
 pub const MARGIN: f64 = 3.0;
 
-/// What the sum over all wavelengths is off by: S at full precision.
+/// Error of the sum over all wavelengths: S at full precision.
 pub(super) const REFERENCE: f64 = 1e-13;
 
-/// How many κ there are, and how many β at each.
+/// Numbers of κ, and of β at each.
 const KAPPAS: usize = 96;
 const BETAS: usize = 16;
 /// Ways whose error is smooth in κ and β, as that of sums over a few wavelengths, are compared at each third point. Strides have
 /// no divisor in common with the number of β, so that none is left out.
 const SMOOTH_STRIDE: usize = 3;
 
-/// How many β there are at the least and the largest κ, and where moments begin: errors are largest in the corners.
+/// Number of β at the least and the largest κ, and where moments begin: errors are largest in the corners.
 const EDGE_BETAS: usize = 64;
 
 /// Numbers of wavelengths that may stand for all in the check, compared with all at every 101st point.
@@ -55,7 +55,7 @@ pub(super) struct Check {
     /// The wavelengths that `exact` is made of.
     nodes: Vec<Node>,
     against: Against,
-    /// What `exact` may be off by.
+    /// Error allowed of `exact`.
     reference: f64,
 }
 
@@ -90,7 +90,7 @@ impl Check {
             .reduce(|| 0.0, f64::max)
     }
 
-    /// The same from some κ on, with that κ itself as an edge.
+    /// Check points from some κ on, with that κ itself as an edge.
     pub(super) fn error_from(&self, from: f64, way: impl Fn(f64, f64) -> [f64; 3] + Sync) -> f64 {
         let first = edge(&self.nodes, self.against, from);
         let first = first.iter().map(|point| off(point, way(point.kappa, point.beta))).fold(0.0, f64::max);

@@ -1,4 +1,4 @@
-//! What the ways cost, in nanoseconds on one core: a model, so that the choice is the same on every machine.
+//! Cost of the methods in nanoseconds on one core: a model, so that the choice is the same on every machine.
 //!
 //! Measured on an AVX2 Xeon; ratios hold better than times.
 
@@ -14,7 +14,7 @@ pub(super) const fn sum_ns(precision: Precision) -> f64 {
     }
 }
 
-/// How much longer one alone takes.
+/// Factor by which one sample alone takes longer.
 const ALONE: f64 = 1.5;
 
 /// One of the paper's three cases of g.

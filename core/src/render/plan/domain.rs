@@ -1,4 +1,4 @@
-//! Which κ and β are asked for, and where they lie in a table.
+//! Range of κ and β that a plan serves, and their place in a table.
 
 use crate::math::ln::{ln, ln_1p};
 use crate::render::diffuse::{DARK, ROUGH};

@@ -18,7 +18,7 @@ pub(super) const LAST_BETA: f64 = 60.0;
 pub(in crate::render) struct Places {
     pub(in crate::render) kappa: [f64; RUN],
     pub(in crate::render) beta: [f64; RUN],
-    /// Which are wanted.
+    /// Samples wanted.
     pub(in crate::render) wanted: [bool; RUN],
     pub(in crate::render) count: usize,
 }
@@ -28,7 +28,7 @@ impl Places {
         Self { kappa: [1.0; RUN], beta: [0.0; RUN], wanted: [true; RUN], count: 0 };
 }
 
-/// Which of the quick ways a sample goes.
+/// Fast method of a sample.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Quick {
     Moments,
@@ -110,7 +110,7 @@ fn quick(
     quick_portable(moments, orders, table, places, ways, sums);
 }
 
-/// The same for any processor.
+/// Portable form for any processor.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
 fn quick_portable(

@@ -1,4 +1,4 @@
-//! Which way is the cheapest that keeps the error.
+//! Search for the fastest method within a tolerance.
 //!
 //! What a way costs and is off by does not depend on the tolerance; what is passed over is dearer than one that meets it, or
 //! surely does not meet it: then the cheapest that meets a smaller error never has a larger one than the cheapest that meets a
@@ -27,7 +27,7 @@ const TABLE_SPAN: f64 = 1e-6;
 const DEGREES: [usize; 4] = [3, 5, 7, 9];
 /// An error is taken to fall by at most this much more than by 2^((degree + 1)/4) from a table to the next finer one.
 const STEEPER: f64 = 1.5;
-/// What other ways cost at the least, in nanoseconds, where tables are looked at first.
+/// Least cost of other methods in nanoseconds, where tables are tried first.
 const PAYS_NS: f64 = 2e6;
 /// A table's error is taken to be smaller than what is likely by this power of ten at most.
 const UNLIKELY: f64 = 0.1;
@@ -221,7 +221,7 @@ impl Search<'_> {
         }
     }
 
-    /// The same with rules of each channel's own, while they are cheaper.
+    /// Candidates with rules of each channel's own, while they are cheaper.
     fn own(&mut self) {
         for count in 1..=MOST_NODES / 2 {
             let rules = own_rules(self.measure.dense(), count);

@@ -91,7 +91,7 @@ impl Axis {
         axis
     }
 
-    /// Where the spline is to be given, from 0 to 1.
+    /// Positions at which the spline is given, from 0 to 1.
     pub(super) fn sites(&self) -> &[f64] {
         &self.sites
     }

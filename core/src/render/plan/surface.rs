@@ -33,7 +33,7 @@ impl Surface {
         Self::through(degree, intervals, &axes, axes[0].sites().par_iter().map(row).collect())
     }
 
-    /// The same on other knots.
+    /// Surface on other knots.
     pub(super) fn resampled(&self, degree: usize, intervals: [usize; 2]) -> Self {
         let axes = intervals.map(|count| Axis::new(degree, count));
         let own = self.intervals.map(|count| Axis::new(self.degree, count));

@@ -113,7 +113,7 @@ impl Table {
         self.surface.intervals[1] + self.surface.degree
     }
 
-    /// Where a run of samples lies between the knots.
+    /// Places of a run of samples between the knots.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
     pub(super) fn around<const N: usize>(&self, kappa: &[f64; RUN], beta: &[f64; RUN], around: &mut Around<N>) {
@@ -155,7 +155,7 @@ impl Table {
     }
 }
 
-/// Where a run of samples lies between the knots of a table.
+/// Places of a run of samples between the knots of a table.
 pub(super) struct Around<const N: usize> {
     /// v, above 1 where it is dark.
     pub(super) v: [f64; RUN],

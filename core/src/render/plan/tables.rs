@@ -1,4 +1,4 @@
-//! What tables are made of: splines of the highest degree through few sums over wavelengths, as exact as the tables they are for.
+//! Sources of tables: splines of the highest degree through few sums over wavelengths, as exact as the tables need.
 
 use super::check::Check;
 use super::cost;
@@ -30,7 +30,7 @@ pub(super) struct Makings<'a> {
     measure: &'a SpectralWeights,
     check: &'a Check,
     extent: Extent,
-    /// What so many wavelengths are off by, from none on.
+    /// Errors of sums over so many wavelengths, from none on.
     node_errors: Vec<f64>,
     made: Vec<Made>,
 }
@@ -78,7 +78,7 @@ impl<'a> Makings<'a> {
         (nodes, sums + size.count() as f64 * cost::PLACE_NS)
     }
 
-    /// What it is made of: one of degree 9 itself, others another that is more exact.
+    /// Source of the table: one of degree 9 itself, others another that is more exact.
     fn source(&self, size: &Size) -> Size {
         let exact = |source: &Size| source.digits() >= level(size);
         if size.degree == DEGREE { *size } else { self.sizes(DEGREE, 0).find(exact).unwrap_or(*size) }

@@ -1,4 +1,4 @@
-//! How bright a picture is, for errors that are relative to something in it.
+//! Brightness of a picture, for errors that are relative to something in it.
 
 use super::{DiffuseKind, Shade};
 use crate::reflectance::{Precision, diffuse_sum};
@@ -14,7 +14,7 @@ const LEAST_SCALE: f64 = -100.0;
 pub(super) struct Brightness {
     /// The largest, which the picture's is not below.
     pub(super) brightest: f64,
-    /// What the largest would be seen from the mirror's direction.
+    /// Largest brightness in the specular direction.
     pub(super) highest: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Which mirror terms are worth having, measured by the brightest sample of the picture.
+//! Coherent terms that count next to the brightest sample of the picture.
 
 use super::brightness::{self, Brightness};
 use super::{Mirror, Place};
@@ -7,7 +7,7 @@ use crate::reflectance::power::LAMBDA_0_NM;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// So many of the lobes that may be highest are looked at.
+/// Number of the highest lobes that are evaluated.
 const LOOKED_AT: usize = 32;
 /// Wavelengths of a lobe's brightness: first, step and number.
 const FIRST_NM: f64 = 463.0;
@@ -18,7 +18,7 @@ const WAVELENGTHS: u32 = 16;
 #[derive(Clone, Debug)]
 pub(super) struct Lobe {
     pub(super) mirror: Mirror,
-    /// What it does not exceed itself.
+    /// Upper bound of the term.
     pub(super) most: f64,
 }
 

@@ -12,7 +12,7 @@ pub(crate) struct File {
     pub(crate) samples: usize,
     /// The value of a curve at a sample.
     pub(crate) value: fn(usize, usize) -> f64,
-    /// How the `csv` crate is told to split it.
+    /// Settings of the `csv` crate.
     pub(crate) separator: u8,
     pub(crate) comma: bool,
 }
@@ -110,7 +110,7 @@ fn row(text: &mut String, curve: usize, separator: &str) {
     text.push('\n');
 }
 
-/// What stands in a row for each wavelength.
+/// Values of a row for each wavelength.
 fn heads(each: impl Fn(usize) -> String) -> String {
     (0..WAVELENGTHS).map(|sample| each(380 + sample)).collect()
 }

@@ -5,7 +5,7 @@ use crate::reading::MAX_TRIANGLES;
 use crate::reading::error::{MeshReadError, Place, Quantity};
 use crate::reading::lines::Cursor;
 
-/// What is kept of a record; the next one takes its room.
+/// Values of a record; the next one reuses its memory.
 #[derive(Default)]
 pub(super) struct Record {
     /// x, y, z, and the normal's x, y, z.
@@ -19,12 +19,12 @@ pub(super) struct Data<'a> {
     encoding: Encoding,
     /// The place in a text.
     cursor: Cursor<'a>,
-    /// What is left of a binary file.
+    /// Unread rest of a binary file.
     rest: &'a [u8],
 }
 
 impl<'a> Data<'a> {
-    /// What follows a header.
+    /// Data after a header.
     pub(super) fn new(encoding: Encoding, cursor: Cursor<'a>) -> Self {
         let rest = cursor.left();
         Self { encoding, cursor, rest }

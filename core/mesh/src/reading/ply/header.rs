@@ -3,7 +3,7 @@
 use crate::reading::error::{MeshReadError, Place};
 use crate::reading::lines::Cursor;
 
-/// How values are written.
+/// Encoding of the values.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {
     /// Words, one record on a line.
@@ -44,7 +44,7 @@ impl Scalar {
     }
 }
 
-/// What an element's records are.
+/// Kind of an element's records.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Content {
     Vertices,
@@ -52,7 +52,7 @@ pub(super) enum Content {
     Other,
 }
 
-/// What a value is for.
+/// Use of a value.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
     /// One of x, y, z, and the normal's x, y, z.
@@ -65,7 +65,7 @@ pub(super) enum Role {
 
 /// One value, or one list, of each record.
 pub(super) struct Property {
-    /// What for.
+    /// Use.
     pub(super) role: Role,
     /// The type of a list's length; none for a single value.
     pub(super) length: Option<Scalar>,
@@ -75,13 +75,13 @@ pub(super) struct Property {
 
 /// A number of records of the same kind.
 pub(super) struct Element {
-    /// What they are.
+    /// Kind of the records.
     pub(super) content: Content,
     /// Number.
     pub(super) count: usize,
-    /// What each has.
+    /// Properties of each record.
     pub(super) properties: Vec<Property>,
-    /// Where the element is announced.
+    /// Line that announces the element.
     line: usize,
 }
 
@@ -113,9 +113,9 @@ impl Element {
 
 /// All that the header says.
 pub(super) struct Header {
-    /// How values are written.
+    /// Encoding of the values.
     pub(super) encoding: Encoding,
-    /// What follows, in its order.
+    /// Elements in their order.
     pub(super) elements: Vec<Element>,
 }
 
