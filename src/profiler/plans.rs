@@ -121,11 +121,11 @@ mod tests {
         );
         assert_eq!(
             words(Some(4.3e-8), None),
-            "estimated error bound of the diffuse component 4.3e-8 of the peak; stored in single precision (6e-8)"
+            "diffuse component: estimated error bound 4.3e-8 of the peak; stored in single precision (6e-8)"
         );
         assert_eq!(
             words(Some(4.3e-8), Some(1e-3)),
-            "estimated error bound of the diffuse component 4.3e-8 of the peak; specular lobes within 1e-3 of the brightest sample"
+            "diffuse component: estimated error bound 4.3e-8 of the peak; specular lobes within 1e-3 of the brightest sample"
         );
         assert_eq!(words(None, None), "no sample takes a spectral integral");
         assert_eq!(

@@ -98,11 +98,11 @@ mod tests {
         assert_eq!(tolerance("1.5E-4"), Ok(1.5e-4));
         for (text, words) in [
             ("", "Enter a number"),
-            ("10 %", "“10 %” is no number"),
-            ("nan", "is no number"),
+            ("10 %", "“10 %” is not a number"),
+            ("nan", "is not a number"),
             ("inf", "too large"),
             ("0.5", "too large: range 1e−13 to 0.1"),
-            ("7", "too large: give 1e−13 to 0.1"),
+            ("7", "too large: range 1e−13 to 0.1"),
             ("1e-14", "too small: range 1e−13 to 0.1; S itself is accurate to 1e−13"),
             ("1,5e-4", "“1,5e-4” is not a number"),
             ("0.1%", "“0.1%” is not a number"),
