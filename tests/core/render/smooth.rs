@@ -57,7 +57,9 @@ fn no_smooth_surface_takes_many_wavelengths() {
             let integral = CoherentIntegral::in_picture(shading, (*measure).as_ref().unwrap());
             let evaluations: usize = shading.mirrors().iter().map(|mirror| integral.evaluations(mirror)).sum();
             let mean = evaluations as f64 / shading.shades().len() as f64;
-            assert!(mean <= 60.0, "{name}: {mean:.1} wavelengths for each lit sample");
+            // Nothing averages the fringes of a point light: it takes up to the largest rule's 208 nodes, never the grid's 401.
+            let limit = if studio.angular_radius > 0.0 { 60.0 } else { 208.0 };
+            assert!(mean <= limit, "{name}: {mean:.1} wavelengths for each lit sample");
         }
     });
 }
