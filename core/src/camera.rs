@@ -9,5 +9,5 @@ pub mod white_balance;
 pub use batch::{Batch, BatchError};
 pub use locus::{LocusEvaluator, LocusMethod};
 pub use locus_table::{LocusTable, LocusTableError};
-pub use rendering::{ColorTransform, FitTargets, Rendering, RenderingError};
+pub use rendering::{ColorTransform, FitSamples, FitTargets, Rendering, RenderingError};
 pub use white_balance::WhiteBalanceTarget;
