@@ -5,6 +5,7 @@
 
 pub mod ask;
 pub mod compare;
+pub mod lights;
 pub mod loci;
 pub mod patches;
 pub mod radiances;
@@ -13,6 +14,7 @@ pub mod shared;
 
 pub use ask::{Ask, Direct, Query};
 pub use compare::DifferenceError;
+pub use lights::{Consistency, ConsistencyError, ConsistencyQuery, Rendition, RenditionQuery};
 pub use loci::{
     Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery, RadiatorSignalsQuery,
     SpectralLocusQuery, Temperatures,
