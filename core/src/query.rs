@@ -16,8 +16,8 @@ pub use ask::{Ask, Direct, Query};
 pub use compare::DifferenceError;
 pub use lights::{Consistency, ConsistencyError, ConsistencyQuery, Rendition, RenditionQuery};
 pub use loci::{
-    Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery, RadiatorSignalsQuery,
-    SpectralLocusQuery, Temperatures,
+    CctQuery, Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery,
+    RadiatorSignalsQuery, SpectralLocusQuery, Temperatures,
 };
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;
