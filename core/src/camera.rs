@@ -3,6 +3,7 @@
 pub mod batch;
 pub mod locus;
 pub mod locus_table;
+pub mod recorded;
 pub mod rendering;
 pub mod white_balance;
 

@@ -8,6 +8,7 @@ pub mod compare;
 pub mod loci;
 pub mod patches;
 pub mod radiances;
+pub mod recorded;
 pub mod render;
 pub mod shared;
 
@@ -19,4 +20,5 @@ pub use loci::{
 };
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;
+pub use recorded::{RecordedFitQuery, RecordedSet};
 pub use shared::Shared;

@@ -16,6 +16,7 @@ mod locus_table;
 mod math;
 mod paper;
 mod query;
+mod recorded;
 mod reflectance;
 mod render;
 mod scene;
