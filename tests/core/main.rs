@@ -21,6 +21,7 @@ mod reflectance;
 mod render;
 mod scene;
 mod spectral;
+mod spectral_image;
 mod stress;
 mod support;
 mod temperature;
