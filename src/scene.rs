@@ -5,6 +5,7 @@
 pub mod conditions;
 pub mod locus;
 pub mod orbit;
+pub mod recorded;
 pub mod render;
 
 use std::sync::Arc;
