@@ -89,7 +89,7 @@ impl ChromascopeApp {
         Self {
             history: history.with_names_apart(catalog.names()),
             catalog,
-            results: Results::default(),
+            results: executor.results(),
             view: View { saved, import, kept: files.kept_documents(), ..View::default() },
             files,
             meshes: MeshStore::on(executor, move || window.request_repaint()),

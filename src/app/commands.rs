@@ -14,7 +14,7 @@ use crate::document::SetKind;
 use crate::export;
 use crate::files::{FileEvent, FileForm, SaveRequest};
 use crate::panes;
-use crate::profiler::SceneRunQuery;
+use crate::profiler::SceneRunJob;
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
 use crate::theme::Theme;
@@ -247,7 +247,7 @@ impl ChromascopeApp {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
-        self.laboratory.run(SceneRunQuery::of(&scene, own.as_ref(), self.view.saved.render.orbit));
+        self.laboratory.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Accuracy;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();

@@ -22,7 +22,6 @@ use serde::{Deserialize, Serialize};
 use super::import::Imported;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::jobs::{Background, Clock, Executor};
-use crate::results::Count;
 
 /// Files that no set is made of are forgotten, the oldest first, beyond so many bytes in all.
 const REMEMBERED_BYTES: usize = 256_000_000;
@@ -271,11 +270,6 @@ impl Opened {
     /// For how long [`look`](Self::look) has been at it.
     pub fn looking(&self) -> Option<Duration> {
         self.look.busy()
-    }
-
-    /// Hits, misses and times of each kind of question that [`look`](Self::look) asks.
-    pub fn counts(&self) -> Vec<(&'static str, Count)> {
-        self.look.counts()
     }
 
     /// Nobody looks.

@@ -163,7 +163,7 @@ mod tests {
     fn a_locus_takes_one_time_whoever_tells() {
         let time = Duration::from_micros(100);
         let counts =
-            [("locus", Count { hits: 10, misses: 2, time, own_time: time }), ("patch colors", Count::default())];
+            [("locus", Count { hits: 10, misses: 2, time, own_time: time, ..Count::default() }), ("patch colors", Count::default())];
         let run = SkippedWork { what: LOCI.into(), count: 4, of: None, saved: 0.02, how: String::new() };
         let rows = remembered(&counts, &[run]);
         assert_eq!(rows.len(), 1, "what was not asked for again saved nothing");

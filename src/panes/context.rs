@@ -12,7 +12,7 @@ use crate::catalog::opened::Opened;
 use crate::command::Command;
 use crate::figures::curves::CurveCache;
 use crate::jobs::Background;
-use crate::profiler::{Profiler, SceneRunQuery};
+use crate::profiler::{Profiler, SceneRunJob};
 use crate::render_service::RenderService;
 use crate::results::Count;
 use crate::scene::Scene;
@@ -81,7 +81,7 @@ impl PaneContext<'_> {
     /// Takes in what was measured since the last frame.
     pub fn refresh_run(&mut self) {
         let own = self.meshes.chosen(&self.scene.document.render.mesh);
-        let scene = SceneRunQuery::of(&self.scene, own.as_ref(), self.view.saved.render.orbit);
+        let scene = SceneRunJob::of(&self.scene, own.as_ref(), self.view.saved.render.orbit);
         if let Some((run, is_current)) = self.laboratory.shown(&scene) {
             (self.view.accuracy.run, self.view.accuracy.is_current) = (Some(run), is_current);
         }
@@ -94,13 +94,11 @@ impl PaneContext<'_> {
     pub fn planned_pictures(&self) -> Option<PicturesQuery> {
         let own = self.meshes.chosen(&self.scene.document.render.mesh);
         let quality = RelTolerance::new(self.scene.document.render.tolerance).ok().map(Quality::Within)?;
-        SceneRunQuery::pictures_of(&self.scene, own.as_ref(), self.view.saved.render.orbit, quality)
+        SceneRunJob::pictures_of(&self.scene, own.as_ref(), self.view.saved.render.orbit, quality)
     }
 
     /// Hits, misses and times of each kind of question, the window's and the pictures'.
     pub fn counts(&self) -> Vec<(&'static str, Count)> {
-        let mut counts: Vec<(&'static str, Count)> = self.scene.results.counts().into_iter().collect();
-        counts.extend(self.studio.counts());
-        counts
+        self.scene.results.counts().into_iter().collect()
     }
 }

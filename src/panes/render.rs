@@ -54,6 +54,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     orbit::by_pointer(ui, &response, context);
     orbit::by_keys(ui, &response, context);
     if let Err(words) = asked {
+        context.studio.hide();
         context.view.render.shot = None;
         say(&painter, body, &words, context);
     } else {

@@ -114,7 +114,7 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
         }
         if let Some(shot) = context.view.render.shot.clone().filter(|_| kind == PaneKind::RENDER) {
             ui.separator();
-            for source in &shot.sources {
+            for source in shot.sources.iter() {
                 if ui.button(format!("{} as OpenEXR…", source.label)).clicked() {
                     let id = SensorId { kind: source.kind, name: source.name.clone() };
                     context.push(Command::ExportExr(id));

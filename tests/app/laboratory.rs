@@ -5,13 +5,12 @@ use chromascope::catalog::Catalog;
 use chromascope::command::Command;
 use chromascope::document::render::{MeshChoice, ReadingChoice, RenderSettings};
 use chromascope::document::{Document, Light};
-use chromascope::jobs::Executor;
+use chromascope::jobs::{Executor, Job as _};
 use chromascope::panes;
-use chromascope::profiler::{Profiler, SceneRunQuery};
+use chromascope::profiler::{Profiler, SceneRunJob};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::workspaces::{PaneKind, Workspace};
-use chromascope_core::query::Ask;
 use chromascope_core::render::QualityLevel;
 use chromascope_core::render::RasterSize;
 use egui_kittest::kittest::Queryable;
@@ -21,12 +20,12 @@ use crate::screenshots::{accuracy, driven, open};
 const KEPT: &str = "Measured results are lost when the program ends; export them to save them.";
 
 /// What the default cameras cost on a small picture of a sphere.
-fn small(change: impl FnOnce(&mut Document)) -> SceneRunQuery {
+fn small(change: impl FnOnce(&mut Document)) -> SceneRunJob {
     let mut document = Document::paper();
     (document.render.mesh, document.render.triangles) = (MeshChoice::Sphere, 2000);
     change(&mut document);
     let (catalog, results) = (Catalog::built_in(), Results::default());
-    let mut run = SceneRunQuery::of(&Scene { document: &document, catalog: &catalog, results: &results }, None, None);
+    let mut run = SceneRunJob::of(&Scene { document: &document, catalog: &catalog, results: &results }, None, None);
     let pictures = run.pictures.as_mut().expect("there is a mesh");
     pictures.shading.geometry.visibility.size = RasterSize { width: 64, height: 48, samples: 1 };
     run
@@ -35,13 +34,12 @@ fn small(change: impl FnOnce(&mut Document)) -> SceneRunQuery {
 #[test]
 fn a_second_run_measures_computing_and_not_remembering() {
     let scene = small(|document| document.render.reading = ReadingChoice::Lambertian);
-    // As a worker that lives on asks for one run after the other.
-    let results = Results::bounded();
-    let runs = [1, 2].map(|run| results.ask(&SceneRunQuery { run, ..scene.clone() }));
+    let results = Results::default();
+    let runs = [1, 2].map(|_| scene.run(&results));
     for run in &runs {
         assert!(run.skipped_work.iter().any(|row| row.what == "pictures, while Render is not visible"));
     }
-    assert_eq!(results.counts().len(), 1, "nothing is remembered but the runs: {:?}", results.counts());
+    assert!(results.counts().is_empty(), "nothing is remembered: {:?}", results.counts());
 }
 
 #[test]

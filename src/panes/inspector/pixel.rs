@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
     ui.add_space(UNIT);
     ui.label(RichText::new("Pinned pixel").strong());
     let measure = Measure::of(&shot.query);
-    for source in &shot.sources {
+    for source in shot.sources.iter() {
         let place = PixelPlace { source: id(source), ..pinned.clone() };
         let Some(reading) = pixel_of(&context.scene, render, &place) else { continue };
         key_and_label(ui, source, &context.theme);

@@ -77,7 +77,7 @@ fn others(ui: &mut Ui, place: &PixelPlace, context: &PaneContext<'_>) {
     let Some(shot) = render.shot.as_deref() else { return };
     let measure = Measure::of(&shot.query);
     Grid::new("pixel in all pictures").num_columns(3).spacing([2.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
-        for source in &shot.sources {
+        for source in shot.sources.iter() {
             let place = PixelPlace { at: place.at, source: SensorId { kind: source.kind, name: source.name.clone() } };
             let Some(PixelShows::Lit(lit)) = pixel_of(&context.scene, render, &place).map(|reading| reading.shows)
             else {

@@ -42,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ui.label(RichText::new(format!("{}: {}", source.label, image.plan().explanation())).small());
         }
     }
-    let counts = context.studio.counts();
+    let counts = context.counts();
     let mut stages = Vec::new();
     for (name, words) in STAGES {
         if let Some((_, count)) = counts.iter().find(|(counted, _)| *counted == name) {
