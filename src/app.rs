@@ -177,6 +177,11 @@ impl ChromascopeApp {
         &self.laboratory
     }
 
+    /// The same, for tests to set up.
+    pub fn laboratory_mut(&mut self) -> &mut Profiler {
+        &mut self.laboratory
+    }
+
     /// Has something done in the next frame.
     pub fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());

@@ -108,8 +108,10 @@ impl<J: Job> Background<J> {
         let desk = Arc::new(Desk::new(executor, state, wake));
         if !executor.is_driven() {
             let (theirs, results) = (Arc::clone(&desk), executor.results());
-            let work = move || while theirs.wait_for(|state| state.closed || state.has_work(), |state| !state.closed) {
-                step(&theirs, &results);
+            let work = move || {
+                while theirs.wait_for(|state| state.closed || state.has_work(), |state| !state.closed) {
+                    step(&theirs, &results);
+                }
             };
             if let Err(error) = executor.spawn(name, work) {
                 desk.lock().failure = Some(format!("no thread could be started: {error}"));

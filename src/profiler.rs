@@ -11,6 +11,7 @@ mod loci;
 pub mod plans;
 mod skipped_work;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -153,8 +154,28 @@ impl Job for BenchJob {
     }
 }
 
+/// What was measured last.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// The last run on the scene.
+    pub run: Option<Arc<SceneRun>>,
+    /// True if it is of the scene as it is now.
+    pub is_current: bool,
+    /// What was remembered since the start.
+    pub remembered: Vec<SkippedWork>,
+    /// The last reports of the bench, or why there is none.
+    pub reports: BTreeMap<Workload, Arc<Result<Report, String>>>,
+}
+
+impl Measured {
+    /// Before anything was measured.
+    pub const NOTHING: Self = Self { run: None, is_current: false, remembered: Vec::new(), reports: BTreeMap::new() };
+}
+
 /// Where runs are made, and the last ones.
 pub struct Profiler {
+    /// What was measured last.
+    pub measured: Measured,
     worker: Background<SceneRunJob>,
     bench: Background<BenchJob>,
     plans: Background<PlansQuery>,
@@ -170,16 +191,21 @@ impl Profiler {
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
         let (also, third) = (wake.clone(), wake.clone());
         Self {
+            measured: Measured::NOTHING,
             worker: Background::on(executor, "scene runs", wake),
             bench: Background::on(executor, "bench", third),
             plans: Background::on(executor, "plans", also),
         }
     }
 
+    /// Begins to make the plans of these pictures' sources.
+    pub fn plan(&self, pictures: &PicturesQuery) {
+        self.plans.ask(vec![PlansQuery(pictures.clone())]);
+    }
+
     /// The plan of each of these pictures' sources, in their order. Until it is made, the last one that was made for the same
     /// camera, light and material; none while there is a source without one.
     pub fn plans(&self, pictures: &PicturesQuery) -> Option<Vec<PlanAnswer>> {
-        self.plans.ask(vec![PlansQuery(pictures.clone())]);
         let plans = self.plans.shown()?;
         plans.job.plans_for(pictures, &plans.answer)
     }
@@ -194,20 +220,20 @@ impl Profiler {
         self.bench.ask_anew(vec![BenchJob(workload)]);
     }
 
-    /// The last report of the bench, or why there is none. One that was stopped is not kept.
-    pub fn report(&self) -> Option<(Workload, Arc<Result<Report, String>>)> {
-        self.bench.shown().map(|shown| (shown.job.0, shown.answer))
-    }
-
     /// Gives up what is being measured.
     pub fn stop(&self) {
         self.worker.rest();
         self.bench.rest();
     }
 
-    /// The last run, and whether it is of this scene.
-    pub fn shown(&self, scene: &SceneRunJob) -> Option<(Arc<SceneRun>, bool)> {
-        self.worker.shown().map(|shown| (shown.answer, shown.job == *scene))
+    /// Takes in what was measured; a run is current if it is of this scene. A report that was stopped is not kept.
+    pub fn refresh(&mut self, scene: &SceneRunJob) {
+        if let Some(shown) = self.worker.shown() {
+            (self.measured.run, self.measured.is_current) = (Some(shown.answer), shown.job == *scene);
+        }
+        if let Some(shown) = self.bench.shown() {
+            self.measured.reports.insert(shown.job.0, shown.answer);
+        }
     }
 
     /// For how long it has been measured, if it still is.

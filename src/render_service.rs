@@ -93,6 +93,7 @@ pub struct RenderService {
     wanted: Option<PicturesQuery>,
     changed_at: f64,
     asked: bool,
+    is_looked_at: bool,
 }
 
 impl RenderService {
@@ -111,6 +112,7 @@ impl RenderService {
             wanted: None,
             changed_at: f64::NEG_INFINITY,
             asked: false,
+            is_looked_at: false,
         }
     }
 
@@ -180,9 +182,15 @@ impl RenderService {
 
     /// Closes a frame: pictures that nobody asked for in it are not made.
     pub fn end_frame(&mut self) {
-        if !std::mem::take(&mut self.asked) {
+        self.is_looked_at = std::mem::take(&mut self.asked);
+        if !self.is_looked_at {
             self.worker.rest();
         }
+    }
+
+    /// True if pictures were asked for in the last frame.
+    pub fn is_looked_at(&self) -> bool {
+        self.is_looked_at
     }
 
     /// The pictures on show: the last that were made.

@@ -12,6 +12,7 @@ use crate::catalog::opened::Request;
 use crate::command::{Command, Format};
 use crate::document::SetKind;
 use crate::export;
+use crate::figures::FigureInput;
 use crate::files::{FileEvent, FileForm, SaveRequest};
 use crate::panes;
 use crate::profiler::SceneRunJob;
@@ -258,7 +259,8 @@ impl ChromascopeApp {
     fn next_pane(&mut self, ctx: &egui::Context) {
         let shown: Vec<PaneKind> = self.arrangement.panes.iter().map(|(pane, _)| *pane).collect();
         let import = &mut self.view.import;
-        let picks = import.look.as_ref().and_then(|look| look.table.as_ref().ok()).is_some_and(|t| t.curves.len() > 1);
+        let picks =
+            self.opened.preview().and_then(|preview| preview.table.clone().ok()).is_some_and(|t| t.curves.len() > 1);
         if self.view.focused == Some(PaneKind::INTERPRETATION) && import.stop == Some(Stop::Switches) && picks {
             (import.stop, import.focus) = (Some(Stop::Picker), Some(Stop::Picker));
             return;
@@ -279,10 +281,21 @@ impl ChromascopeApp {
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 
+    /// What a pane's figure of a scene is made of.
+    pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
+        FigureInput {
+            scene,
+            view: &self.view,
+            pictures: self.studio.frame().map(AsRef::as_ref),
+            measured: &self.laboratory.measured,
+            preview: self.opened.preview(),
+        }
+    }
+
     /// The pane's figure as on screen, or a message that it has none.
     fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let figure = panes::figure(pane, &scene, &self.view);
+        let figure = panes::figure(pane, &self.figure_input(&scene));
         if figure.is_none() {
             let others = panes::ALL.iter().filter(|pane| pane.figure.is_some()).map(|pane| pane.title);
             let others = others.collect::<Vec<_>>().join(", ");

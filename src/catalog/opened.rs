@@ -263,8 +263,12 @@ impl Opened {
     /// What is understood of a file when it is read with these switches; the last answer while it is being read.
     pub fn look(&self, file: &OpenFile, options: &spectral_file::ReadOptions) -> Option<Arc<FilePreview>> {
         self.look.ask(vec![FilePreviewQuery::new(file, options)]);
-        let shown = self.look.shown()?;
-        (shown.answer.fingerprint == file.origin.fingerprint).then_some(shown.answer)
+        self.preview().filter(|preview| preview.fingerprint == file.origin.fingerprint)
+    }
+
+    /// What [`look`](Self::look) last found, whatever the file.
+    pub fn preview(&self) -> Option<Arc<FilePreview>> {
+        self.look.shown().map(|shown| shown.answer)
     }
 
     /// For how long [`look`](Self::look) has been at it.

@@ -40,7 +40,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let busy = context.studio.busy();
     context.view.render.busy = busy;
     if context.view.saved.tables.contains(&PaneKind::RENDER) {
-        if let Some(figure) = crate::figures::render::figure(&context.scene, context.view) {
+        if let Some(figure) = crate::figures::render::figure(&context.figure_input()) {
             widgets::data_table(ui, body, "render", &figure.table);
         }
         busy_line(ui, body, context);
@@ -55,7 +55,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     orbit::by_keys(ui, &response, context);
     if let Err(words) = asked {
         context.studio.hide();
-        context.view.render.shot = None;
         say(&painter, body, &words, context);
     } else {
         draw::pictures(ui, &painter, &stand, context);
@@ -101,8 +100,8 @@ fn point_at(ui: &Ui, response: &egui::Response, stand: &PictureLayout, context: 
         ui.ctx().request_repaint();
     }
     if !response.dragged() {
-        let words = crate::figures::render::pixel_line(&context.scene, &context.view.render, &place);
-        context.view.point = words;
+        let pictures = context.studio.frame();
+        context.view.point = pictures.and_then(|shot| crate::figures::render::pixel_line(&context.scene, shot, &place));
         context.view.hover(Some(&crate::plot_item::PlotItem::Sensor(source)));
         context.view.render.hovered = Some(place);
     }

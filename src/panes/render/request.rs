@@ -62,7 +62,6 @@ pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>)
         studio.ask(stages, &stand.sources, false);
     }
     studio.refresh();
-    context.view.render.shot = studio.frame().cloned();
     studio.failure().map_or(Ok(()), |why| Err(format!("No picture: {why}.")))
 }
 

@@ -21,7 +21,7 @@ const STAGES: [(&str, &str); 8] = [
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().interact_size.y = 14.0;
-    let Some(shot) = context.view.render.shot.clone() else { return };
+    let Some(shot) = context.studio.frame().cloned() else { return };
     let Some(made) = shot.made() else { return };
     let (geometry, shading) = (made.geometry, made.shading);
     rows(
