@@ -4,6 +4,7 @@
 
 pub mod conditions;
 pub mod locus;
+pub mod metrics;
 pub mod orbit;
 pub mod render;
 

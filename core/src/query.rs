@@ -6,6 +6,7 @@
 pub mod ask;
 pub mod compare;
 pub mod loci;
+pub mod metrics;
 pub mod patches;
 pub mod radiances;
 pub mod render;
@@ -17,6 +18,7 @@ pub use loci::{
     Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery, RadiatorSignalsQuery,
     SpectralLocusQuery, Temperatures,
 };
+pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, MetricValue, WhyNot};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;
 pub use shared::Shared;

@@ -14,7 +14,7 @@ mod examples;
 mod light;
 mod locus_table;
 mod math;
-mod paper;
+mod metrics;
 mod query;
 mod reflectance;
 mod render;
