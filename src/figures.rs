@@ -11,9 +11,9 @@ pub mod swatches;
 
 use std::sync::Arc;
 
-use crate::catalog::opened::FilePreview;
-use crate::profiler::Measured;
-use crate::render_service::RenderedFrame;
+use crate::catalog::opened::{FilePreview, Opened};
+use crate::profiler::{Measured, Profiler};
+use crate::render_service::{RenderService, RenderedFrame};
 use crate::scene::Scene;
 use crate::view::View;
 
@@ -33,6 +33,17 @@ pub struct FigureInput<'a> {
 }
 
 impl<'a> FigureInput<'a> {
+    /// A scene with what was last made of it.
+    pub fn of(
+        (scene, view): (&'a Scene<'a>, &'a View),
+        studio: &'a RenderService,
+        laboratory: &'a Profiler,
+        opened: &Opened,
+    ) -> Self {
+        let pictures = studio.frame().map(AsRef::as_ref);
+        Self { scene, view, pictures, measured: &laboratory.measured, preview: opened.preview() }
+    }
+
     /// A scene of which nothing was made beside the window.
     pub fn new(scene: &'a Scene<'a>, view: &'a View) -> Self {
         static NOTHING: Measured = Measured::NOTHING;

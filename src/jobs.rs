@@ -1,6 +1,8 @@
 //! Work beside the window: a named thread for each place on screen that waits for long answers.
 //!
-//! The latest request wins and stops the one before it; the last answer stays on show; a panic stays where it happened. The
+//! The latest request wins and stops the one before it; the last answer stays on show; a panic stays where it happened. A request
+//! is one question in stages from coarse to fine, or a list of questions ([`Background::progress`] counts those answered, and
+//! [`Results::known`] has their answers as they come). The
 //! threads share the answers and, for their loops, the common rayon pool, of which none is a part: no thread of the pool ever
 //! begins a whole job while it waits for a piece of another. Tests run the same work on a [driven](Executor::driven) executor: on
 //! their own thread, when they say so, by a clock that they move.
@@ -69,9 +71,7 @@ pub struct Shown<J: Job> {
     pub job: J,
     /// The answer.
     pub answer: Arc<J::Answer>,
-    /// Which stage of its request it is.
-    pub stage: usize,
-    /// True if it answers the latest request.
+    /// True if it is of the latest request.
     pub current: bool,
     /// How long it took, earlier stages not included.
     pub time: Duration,
@@ -81,9 +81,8 @@ pub struct Shown<J: Job> {
 
 impl<J: Job> Clone for Shown<J> {
     fn clone(&self) -> Self {
-        let Self { job, answer, stage, current, time, serial } = self;
-        let (job, answer) = (job.clone(), Arc::clone(answer));
-        Self { job, answer, stage: *stage, current: *current, time: *time, serial: *serial }
+        let (job, answer) = (self.job.clone(), Arc::clone(&self.answer));
+        Self { job, answer, current: self.current, time: self.time, serial: self.serial }
     }
 }
 
@@ -227,7 +226,7 @@ fn step<J: Job>(desk: &Desk<State<J>>, results: &Results) {
         Ok(answer) => {
             state.serial += 1;
             let (job, serial) = (stages[next].clone(), state.serial);
-            state.shown = Some(Shown { job, answer, stage: next, current: true, time, serial });
+            state.shown = Some(Shown { job, answer, current: true, time, serial });
             state.next = next + 1;
         }
         Err(panic) => {
@@ -274,8 +273,9 @@ mod tests {
         (executor, worker)
     }
 
-    fn shown(worker: &Background<Doubled>) -> Option<(u32, usize, bool)> {
-        worker.shown().map(|shown| (*shown.answer, shown.stage, shown.current))
+    /// The answer on show, whether it is of the latest request, and how many stages of that are made.
+    fn shown(worker: &Background<Doubled>) -> Option<(u32, bool, usize)> {
+        worker.shown().map(|shown| (*shown.answer, shown.current, worker.progress().1))
     }
 
     #[test]
@@ -284,14 +284,25 @@ mod tests {
         worker.ask(vec![Doubled(1), Doubled(2)]);
         assert_eq!((shown(&worker), worker.busy()), (None, Some(Duration::ZERO)));
         assert!(executor.run_one("doubling"));
-        assert_eq!(shown(&worker), Some((2, 0, true)));
+        assert_eq!(shown(&worker), Some((2, true, 1)));
         executor.advance(Duration::from_secs(3));
         assert_eq!(worker.busy(), Some(Duration::from_secs(3)));
         worker.ask(vec![Doubled(5)]);
-        assert_eq!((shown(&worker), worker.busy()), (Some((2, 0, false)), Some(Duration::ZERO)));
+        assert_eq!((shown(&worker), worker.busy()), (Some((2, false, 0)), Some(Duration::ZERO)));
         executor.run_all();
-        assert_eq!((shown(&worker), worker.busy()), (Some((10, 0, true)), None));
+        assert_eq!((shown(&worker), worker.busy()), (Some((10, true, 1)), None));
         assert_eq!(executor.results().counts()["doubled"].misses, 2, "the stage of the request before was not made");
+    }
+
+    #[test]
+    fn of_many_each_answer_is_known_once_it_is_made() {
+        let (executor, worker) = doubling();
+        let all: Vec<Doubled> = (1..=3).map(Doubled).collect();
+        worker.ask(all.clone());
+        executor.run_one("doubling");
+        executor.run_one("doubling");
+        let known: Vec<_> = all.iter().map(|query| executor.results().known(query).as_deref().copied()).collect();
+        assert_eq!((known, worker.progress().1), (vec![Some(2), Some(4), None], 2));
     }
 
     #[test]
@@ -311,7 +322,7 @@ mod tests {
         assert!(worker.failure().is_some_and(|why| why.contains("no luck")) && worker.busy().is_none());
         worker.ask(vec![Doubled(4)]);
         worker.wait();
-        assert_eq!((shown(&worker), worker.failure()), (Some((8, 0, true)), None));
+        assert_eq!((shown(&worker), worker.failure()), (Some((8, true, 1)), None));
     }
 
     #[test]
@@ -319,6 +330,6 @@ mod tests {
         let worker = Background::new("doubling", || ());
         worker.ask(vec![Doubled(1), Doubled(2)]);
         worker.wait();
-        assert_eq!(shown(&worker), Some((4, 1, true)));
+        assert_eq!(shown(&worker), Some((4, true, 2)));
     }
 }

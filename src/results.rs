@@ -140,18 +140,18 @@ impl Ask for Results {
 #[cfg(test)]
 mod tests {
     use std::hash::{Hash, Hasher};
+    use std::sync::Mutex;
     use std::sync::atomic::AtomicBool;
     use std::sync::mpsc::{Receiver, Sender, channel};
-    use std::sync::{Mutex, MutexGuard};
-    use std::thread;
+    use std::thread::{self, Scope, ScopedJoinHandle};
 
     use super::*;
 
-    /// A question whose answers come through a channel: a test decides when it is answered, and by what.
+    /// A question whose answers come through a channel: a test says when it is answered, and by what; by nothing, it fails.
     #[derive(Clone)]
     struct Slow {
         begun: Sender<()>,
-        answers: Arc<Mutex<Receiver<u32>>>,
+        answers: Arc<Mutex<Receiver<Option<u32>>>>,
     }
 
     impl PartialEq for Slow {
@@ -172,30 +172,22 @@ mod tests {
 
         fn answer(&self, _: &impl Ask) -> u32 {
             self.begun.send(()).expect("the test listens");
-            let answers: MutexGuard<'_, _> = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
-            answers.recv().expect("no answer")
+            let answer = self.answers.lock().unwrap_or_else(PoisonError::into_inner).recv();
+            answer.ok().flatten().expect("an answer")
         }
     }
 
-    /// One more than the slow answer.
-    #[derive(Clone, PartialEq, Eq, Hash)]
-    struct Next(Slow);
-
-    impl Query for Next {
-        type Answer = u32;
-        const NAME: &'static str = "next";
-
-        fn answer(&self, ask: &impl Ask) -> u32 {
-            *ask.ask(&self.0) + 1
-        }
-    }
-
-    fn slow() -> (Slow, Sender<u32>, Receiver<()>) {
+    fn slow() -> (Slow, Sender<Option<u32>>, Receiver<()>) {
         let ((begun, begins), (answer, answers)) = (channel(), channel());
         (Slow { begun, answers: Arc::new(Mutex::new(answers)) }, answer, begins)
     }
 
-    fn until_waiting(results: &Results) {
+    fn asks<'s>(scope: &'s Scope<'s, '_>, results: &Results, slow: &Slow) -> ScopedJoinHandle<'s, u32> {
+        let (results, slow) = (results.clone(), slow.clone());
+        scope.spawn(move || *results.ask(&slow))
+    }
+
+    fn until_one_waits(results: &Results) {
         while results.counts().get("slow").is_none_or(|count| count.waits == 0) {
             thread::yield_now();
         }
@@ -205,97 +197,58 @@ mod tests {
     fn two_askers_of_one_question_compute_it_once() {
         let (results, (slow, answer, begins)) = (Results::default(), slow());
         thread::scope(|scope| {
-            let (theirs, first) = (results.clone(), slow.clone());
-            let first = scope.spawn(move || *theirs.ask(&first));
+            let first = asks(scope, &results, &slow);
             begins.recv().unwrap();
-            let (theirs, next) = (results.clone(), Next(slow.clone()));
-            let second = scope.spawn(move || *theirs.ask(&next));
-            until_waiting(&results);
-            answer.send(7).unwrap();
-            assert_eq!((first.join().unwrap(), second.join().unwrap()), (7, 8));
+            let second = asks(scope, &results, &slow);
+            until_one_waits(&results);
+            answer.send(Some(7)).unwrap();
+            assert_eq!([first, second].map(|thread| thread.join().unwrap()), [7, 7]);
         });
-        let counts = results.counts();
-        assert_eq!((counts["slow"].misses, counts["slow"].hits, counts["next"].misses), (1, 1, 1));
-        assert_eq!(results.known(&slow).as_deref(), Some(&7));
+        let count = results.counts()["slow"];
+        assert_eq!((count.misses, count.hits, results.known(&slow).as_deref()), (1, 1, Some(&7)));
     }
 
     #[test]
-    fn a_stopped_answer_is_not_stored_and_who_waits_computes_it() {
-        let (results, (slow, answer, begins)) = (Results::default(), slow());
-        let stop: Arc<AtomicBool> = Arc::default();
-        thread::scope(|scope| {
-            let (theirs, first) = (results.until(Stop::at(Arc::clone(&stop))), slow.clone());
-            let first = scope.spawn(move || *theirs.ask(&first));
-            begins.recv().unwrap();
-            let (theirs, second) = (results.clone(), slow.clone());
-            let second = scope.spawn(move || *theirs.ask(&second));
-            until_waiting(&results);
-            stop.store(true, Ordering::Relaxed);
-            answer.send(0).unwrap();
-            assert_eq!(first.join().unwrap(), 0);
-            begins.recv().unwrap();
-            answer.send(7).unwrap();
-            assert_eq!(second.join().unwrap(), 7);
-        });
-        assert_eq!(*results.ask(&slow), 7);
+    fn who_waits_for_what_is_stopped_or_fails_computes_it() {
+        for is_stopped in [true, false] {
+            let (results, (slow, answer, begins)) = (Results::default(), slow());
+            let stop: Arc<AtomicBool> = Arc::default();
+            thread::scope(|scope| {
+                let first = asks(scope, &results.until(Stop::at(Arc::clone(&stop))), &slow);
+                begins.recv().unwrap();
+                let second = asks(scope, &results, &slow);
+                until_one_waits(&results);
+                stop.store(true, Ordering::Relaxed);
+                answer.send(is_stopped.then_some(0)).unwrap();
+                assert_eq!(first.join().ok(), is_stopped.then_some(0));
+                begins.recv().unwrap();
+                answer.send(Some(7)).unwrap();
+                assert_eq!(second.join().unwrap(), 7, "what was stopped is not stored");
+            });
+        }
     }
 
     #[test]
-    fn who_waits_for_what_fails_computes_it() {
-        let (results, (slow, answer, begins)) = (Results::default(), slow());
-        thread::scope(|scope| {
-            let (theirs, first) = (results.clone(), Slow { begun: channel().0, ..slow.clone() });
-            // Its beginning is told to nobody, which fails.
-            let first = scope.spawn(move || *theirs.ask(&first));
-            assert!(first.join().is_err());
-            let (theirs, second) = (results.clone(), slow.clone());
-            let second = scope.spawn(move || *theirs.ask(&second));
-            begins.recv().unwrap();
-            answer.send(7).unwrap();
-            assert_eq!(second.join().unwrap(), 7);
-        });
-    }
-
-    #[test]
-    fn who_is_stopped_waits_for_nobody() {
-        let (results, (slow, answer, begins)) = (Results::default(), slow());
-        thread::scope(|scope| {
-            let (theirs, first) = (results.clone(), slow.clone());
-            let first = scope.spawn(move || *theirs.ask(&first));
-            begins.recv().unwrap();
-            let stopped = results.until(Stop::at(Arc::new(AtomicBool::new(true))));
-            let (begun, ended) = channel();
-            let second = Slow { begun, answers: Arc::clone(&slow.answers) };
-            let second = scope.spawn(move || *stopped.ask(&second));
-            ended.recv().unwrap();
-            answer.send(7).unwrap();
-            answer.send(8).unwrap();
-            let mut both = [first.join().unwrap(), second.join().unwrap()];
-            both.sort_unstable();
-            assert_eq!(both, [7, 8]);
-        });
-        assert_eq!(results.counts()["slow"].waits, 0);
-    }
-
-    #[test]
-    fn a_thread_of_the_pool_waits_for_nobody() {
-        let (results, (slow, answer, begins)) = (Results::default(), slow());
+    fn who_is_stopped_and_a_thread_of_the_pool_wait_for_nobody() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-        thread::scope(|scope| {
-            let (theirs, first) = (results.clone(), slow.clone());
-            scope.spawn(move || *theirs.ask(&first));
-            begins.recv().unwrap();
-            let (theirs, second) = (results.clone(), slow.clone());
-            let pool = &pool;
-            scope.spawn(move || pool.install(move || *theirs.ask(&second)));
-            begins.recv().unwrap();
-            answer.send(7).unwrap();
-            answer.send(7).unwrap();
-        });
-        assert_eq!((results.counts()["slow"].misses, results.counts()["slow"].waits), (2, 0));
+        for in_pool in [true, false] {
+            let (results, (slow, answer, begins)) = (Results::default(), slow());
+            thread::scope(|scope| {
+                asks(scope, &results, &slow);
+                begins.recv().unwrap();
+                let (theirs, second) = (results.until(Stop::at(Arc::new(AtomicBool::new(!in_pool)))), slow.clone());
+                let ask = move || *theirs.ask(&second);
+                let pool = &pool;
+                scope.spawn(move || if in_pool { pool.install(ask) } else { ask() });
+                begins.recv().unwrap();
+                answer.send(Some(7)).unwrap();
+                answer.send(Some(7)).unwrap();
+            });
+            assert_eq!((results.counts()["slow"].misses, results.counts()["slow"].waits), (2, 0), "{in_pool}");
+        }
     }
 
-    /// A number that takes half of what a kind may take.
+    /// A number; those from 10 on take half of what a kind may take.
     #[derive(Clone, PartialEq, Eq, Hash)]
     struct Large(u8);
 
@@ -316,14 +269,11 @@ mod tests {
     #[test]
     fn what_was_asked_for_least_recently_goes_first() {
         let results = Results::default();
+        let ask = |numbers: &[u8]| numbers.iter().for_each(|number| drop(results.ask(&Large(*number))));
         let known = |numbers: [u8; 4]| numbers.map(|number| results.known(&Large(number)).is_some());
-        for number in [1, 2, 3, 1, 4] {
-            results.ask(&Large(number));
-        }
+        ask(&[1, 2, 3, 1, 4]);
         assert_eq!(known([1, 2, 3, 4]), [true, false, true, true], "by number");
-        for number in [10, 11, 12] {
-            results.ask(&Large(number));
-        }
+        ask(&[10, 11, 12]);
         assert_eq!(known([4, 10, 11, 12]), [false, false, true, true], "by memory");
     }
 }

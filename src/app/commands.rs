@@ -283,13 +283,7 @@ impl ChromascopeApp {
 
     /// What a pane's figure of a scene is made of.
     pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
-        FigureInput {
-            scene,
-            view: &self.view,
-            pictures: self.studio.frame().map(AsRef::as_ref),
-            measured: &self.laboratory.measured,
-            preview: self.opened.preview(),
-        }
+        FigureInput::of((scene, &self.view), &self.studio, &self.laboratory, &self.opened)
     }
 
     /// The pane's figure as on screen, or a message that it has none.

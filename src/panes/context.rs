@@ -79,13 +79,7 @@ impl PaneContext<'_> {
 
     /// What a figure is made of.
     pub fn figure_input(&self) -> FigureInput<'_> {
-        FigureInput {
-            scene: &self.scene,
-            view: self.view,
-            pictures: self.studio.frame().map(AsRef::as_ref),
-            measured: &self.laboratory.measured,
-            preview: self.opened.preview(),
-        }
+        FigureInput::of((&self.scene, self.view), self.studio, self.laboratory, self.opened)
     }
 
     /// Has something done when the frame is over.

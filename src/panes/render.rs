@@ -12,7 +12,7 @@ use egui::{Align2, FontId, Rect, Sense, Ui, Vec2};
 use super::context::{Pane, PaneContext};
 use crate::panes::widgets;
 use crate::theme::{HEADING, UNIT};
-use crate::view::render::{PixelPlace, RenderMode, RenderView};
+use crate::view::render::{PixelPlace, RenderMode};
 use crate::workspaces::PaneKind;
 use cells::PictureLayout;
 
@@ -43,7 +43,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         if let Some(figure) = crate::figures::render::figure(&context.figure_input()) {
             widgets::data_table(ui, body, "render", &figure.table);
         }
-        busy_line(ui, body, context);
+        widgets::busy_line(ui, body, busy, context.theme.surround.label());
         return;
     }
     let painter = ui.painter().with_clip_rect(body.intersect(ui.clip_rect()));
@@ -62,7 +62,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         draw::divider(ui, &stand, context);
         draw::choosers(ui, &stand, &sources, context);
     }
-    busy_line(ui, body, context);
+    widgets::busy_line(ui, body, busy, context.theme.surround.label());
     if response.has_focus() {
         let stroke = egui::Stroke::new(1.0, context.theme.surround.label());
         ui.painter().rect_stroke(body, 0.0, stroke, egui::StrokeKind::Inside);
@@ -105,19 +105,4 @@ fn point_at(ui: &Ui, response: &egui::Response, stand: &PictureLayout, context: 
         context.view.hover(Some(&crate::plot_item::PlotItem::Sensor(source)));
         context.view.render.hovered = Some(place);
     }
-}
-
-/// A thin line along the top while pictures are in the making; words stand in the status bar.
-fn busy_line(ui: &Ui, body: Rect, context: &PaneContext<'_>) {
-    let Some(busy) = context.view.render.busy else { return };
-    if let Some(wait) = RenderView::PATIENCE.checked_sub(busy) {
-        ui.ctx().request_repaint_after(wait);
-        return;
-    }
-    ui.ctx().request_repaint_after(std::time::Duration::from_millis(50));
-    let color = context.theme.surround.label();
-    let seconds = busy.as_secs_f32();
-    let left = body.left() + body.width() * 0.75 * (0.5 - 0.5 * (3.0 * seconds).cos());
-    let line = Rect::from_min_size(egui::pos2(left, body.top()), Vec2::new(0.25 * body.width(), 2.0));
-    ui.painter().rect_filled(line, 0.0, color);
 }
