@@ -198,11 +198,11 @@ mod tests {
         let (results, (slow, answer, begins)) = (Results::default(), slow());
         thread::scope(|scope| {
             let first = asks(scope, &results, &slow);
-            begins.recv().unwrap();
+            begins.recv().expect("asked");
             let second = asks(scope, &results, &slow);
             until_one_waits(&results);
-            answer.send(Some(7)).unwrap();
-            assert_eq!([first, second].map(|thread| thread.join().unwrap()), [7, 7]);
+            answer.send(Some(7)).expect("awaited");
+            assert_eq!([first, second].map(|thread| thread.join().expect("answered")), [7, 7]);
         });
         let count = results.counts()["slow"];
         assert_eq!((count.misses, count.hits, results.known(&slow).as_deref()), (1, 1, Some(&7)));
@@ -215,34 +215,34 @@ mod tests {
             let stop: Arc<AtomicBool> = Arc::default();
             thread::scope(|scope| {
                 let first = asks(scope, &results.until(Stop::at(Arc::clone(&stop))), &slow);
-                begins.recv().unwrap();
+                begins.recv().expect("asked");
                 let second = asks(scope, &results, &slow);
                 until_one_waits(&results);
                 stop.store(true, Ordering::Relaxed);
-                answer.send(is_stopped.then_some(0)).unwrap();
+                answer.send(is_stopped.then_some(0)).expect("awaited");
                 assert_eq!(first.join().ok(), is_stopped.then_some(0));
-                begins.recv().unwrap();
-                answer.send(Some(7)).unwrap();
-                assert_eq!(second.join().unwrap(), 7, "what was stopped is not stored");
+                begins.recv().expect("asked");
+                answer.send(Some(7)).expect("awaited");
+                assert_eq!(second.join().expect("answered"), 7, "what was stopped is not stored");
             });
         }
     }
 
     #[test]
     fn who_is_stopped_and_a_thread_of_the_pool_wait_for_nobody() {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
         for in_pool in [true, false] {
             let (results, (slow, answer, begins)) = (Results::default(), slow());
             thread::scope(|scope| {
                 asks(scope, &results, &slow);
-                begins.recv().unwrap();
+                begins.recv().expect("asked");
                 let (theirs, second) = (results.until(Stop::at(Arc::new(AtomicBool::new(!in_pool)))), slow.clone());
                 let ask = move || *theirs.ask(&second);
                 let pool = &pool;
                 scope.spawn(move || if in_pool { pool.install(ask) } else { ask() });
-                begins.recv().unwrap();
-                answer.send(Some(7)).unwrap();
-                answer.send(Some(7)).unwrap();
+                begins.recv().expect("asked");
+                answer.send(Some(7)).expect("awaited");
+                answer.send(Some(7)).expect("awaited");
             });
             assert_eq!((results.counts()["slow"].misses, results.counts()["slow"].waits), (2, 0), "{in_pool}");
         }
