@@ -279,7 +279,7 @@ mod tests {
             weights: [0.3 * scale, 0.4, -0.1 / scale],
             reference: 0.5,
         };
-        let moments = [1.0, 0.4, -0.1].map(|m: f64| std::array::from_fn(|k| m * 1.1_f64.powi(k as i32)));
+        let moments = [1.0, 0.4, -0.1].map(|m: f64| std::array::from_fn(|k| m * 1.1_f64.powf(k as f64)));
         let kappa = [0.01, 64.0];
         for degree in [3, 5, 7, 9] {
             let (extent, nodes) = (Extent::new(kappa), vec![node(0.7), node(1.4)]);
