@@ -134,8 +134,8 @@ fn by_quality(quality: Quality) -> &'static str {
     match quality {
         Quality::Reference | Quality::Within(_) => EXACT,
         Quality::Regimes => REGIMES,
-        Quality::Preview => "6 wavelengths, 4 moments",
-        Quality::Full => "9 wavelengths, 4 moments",
+        Quality::Preview => "6 wavelengths, 8 moments",
+        Quality::Full => "9 wavelengths, 8 moments",
         Quality::Fine => "15 wavelengths",
     }
 }
