@@ -124,17 +124,17 @@ impl ChromascopeApp {
         self.catalog = catalog;
     }
 
-    /// What is looked at.
+    /// State of the view: selection, zoom, hover and the like.
     pub fn view(&self) -> &View {
         &self.view
     }
 
-    /// The same, for tests to set up.
+    /// Mutable state of the view, for tests to set up.
     pub fn view_mut(&mut self) -> &mut View {
         &mut self.view
     }
 
-    /// What is kept of it between runs.
+    /// Part of the view that is saved between runs.
     pub fn saved_view(&self) -> SavedView {
         let mut saved = self.view.saved.clone();
         saved.import.failing = self.opened.failing();
@@ -167,12 +167,12 @@ impl ChromascopeApp {
         self.files.is_asking()
     }
 
-    /// Where pictures are made.
+    /// Service that renders the pictures.
     pub fn studio(&self) -> &RenderService {
         &self.studio
     }
 
-    /// Where the scene's cost is measured.
+    /// Profiler that measures the scene's cost.
     pub fn laboratory(&self) -> &Profiler {
         &self.laboratory
     }

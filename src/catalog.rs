@@ -20,7 +20,7 @@ use crate::document::SetKind;
 use crate::document::names::{BuiltInNames, caseless};
 use crate::document::own::OwnSet;
 
-/// Where a set's figures are: a file of the program, or a set of the user's, held by value.
+/// Location of a set's figures: a file of the program, or a set of the user's, held by value.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Place {
     /// A built-in file; `column` for files that hold several sets.
@@ -37,7 +37,7 @@ pub enum Place {
 /// One data set in the index.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// What it is of.
+    /// Kind of data.
     pub kind: SetKind,
     /// Its name, unique within its kind.
     pub name: String,
@@ -45,7 +45,7 @@ pub struct Entry {
     pub short: String,
     /// A gloss shown after the name.
     pub also: Option<String>,
-    /// Where its figures are.
+    /// Location of its figures.
     pub place: Place,
     /// The facts about a built-in set.
     pub header: Option<Header>,

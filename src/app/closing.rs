@@ -14,7 +14,7 @@ const DOCUMENT: &str = "the document";
 /// Width of the question.
 const WIDTH: f32 = 420.0;
 
-/// How far closing has come.
+/// Progress of closing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum Closing {
     /// Nobody wants to.

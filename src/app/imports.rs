@@ -215,7 +215,7 @@ impl ChromascopeApp {
         self.follow_selection(&own);
     }
 
-    /// Where a step made a set of the file on show, or took the set away, the same contents stay on show.
+    /// Keeps the same contents visible when a step turned the visible file into a set, or removed that set.
     fn follow_selection(&mut self, before: &[Shared<OwnSet>]) {
         let own = &self.history.document().own;
         let now = match &self.view.import.selected {
@@ -380,7 +380,7 @@ impl ChromascopeApp {
     }
 }
 
-/// Which sets have another name than their files say, because a set had that already.
+/// Names the sets that were renamed because another set already had the name in their files.
 fn renamed(new: &[(&OwnSet, &Shared<OwnSet>)]) -> String {
     let mut renamed = new.iter().filter(|(wanted, set)| wanted.name != set.name);
     let Some((first, set)) = renamed.next() else { return String::new() };
@@ -391,7 +391,7 @@ fn renamed(new: &[(&OwnSet, &Shared<OwnSet>)]) -> String {
     format!("A data set named {} already exists; imported as {}{more}.", first.name, set.name)
 }
 
-/// Which of so many files are those of sets that were there already.
+/// Names the files, of `count`, whose sets were already there.
 fn opened_again(again: &[(&OwnSet, &Shared<OwnSet>)], count: usize) -> String {
     match again {
         [] => String::new(),
@@ -401,7 +401,7 @@ fn opened_again(again: &[(&OwnSet, &Shared<OwnSet>)], count: usize) -> String {
     }
 }
 
-/// What several sets that were opened at once are used as. One alone is used as what it is.
+/// Roles given to several sets that were opened at once. A single set is used in its own role.
 fn put_to_use(before: &Document, after: &Document, brought: &[Shared<OwnSet>]) -> String {
     if brought.len() < 2 {
         return String::new();

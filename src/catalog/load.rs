@@ -25,7 +25,7 @@ pub enum LoadError {
     Damaged {
         /// The file.
         path: &'static str,
-        /// What is wrong.
+        /// Cause.
         error: DatasetError,
     },
     /// A light needs a curve.
@@ -118,7 +118,7 @@ impl LoadedLight {
     }
 }
 
-/// Which light.
+/// Illuminant as a question to the catalog.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum LightQuery {
     /// A data set.

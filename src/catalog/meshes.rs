@@ -24,7 +24,7 @@ use read::{Stamp, file_name};
 /// Meshes that nobody looks at are remembered up to this many bytes, so that undo need not read them again.
 const REMEMBERED_BYTES: usize = 256_000_000;
 
-/// What is known of a mesh file.
+/// State of a mesh file.
 #[derive(Clone, Debug)]
 pub enum MeshState {
     /// It is being read.
@@ -35,7 +35,7 @@ pub enum MeshState {
     Failed(String),
 }
 
-/// What came of opening a file.
+/// Outcome of opening a file.
 #[derive(Clone, Debug)]
 pub struct Opened {
     /// The file.
@@ -50,7 +50,7 @@ pub struct MeshStore {
     executor: Executor,
 }
 
-/// What lies between the window and the threads that read.
+/// State shared by the window and the reading threads.
 struct Desk {
     state: Mutex<State>,
     wake: Box<dyn Fn() + Send + Sync>,
@@ -94,7 +94,7 @@ impl MeshStore {
         Self { desk, executor: executor.clone() }
     }
 
-    /// What is known of a file. Reading begins with the first question; a mesh stays on show while it is read anew.
+    /// State of a file. The first call starts reading; a mesh stays visible while its file is reloaded.
     pub fn get(&self, path: &Path) -> MeshState {
         let mut state = self.desk.lock();
         state.clock += 1;
@@ -141,7 +141,7 @@ impl MeshStore {
         self.begin(&mut state, path, None);
     }
 
-    /// What came of opening, once for each file that was not given up.
+    /// Outcomes of opening, once for each file that was not abandoned.
     pub fn poll(&self) -> Vec<Opened> {
         std::mem::take(&mut self.desk.lock().opened)
     }

@@ -30,23 +30,23 @@ const REMEMBERED_BYTES: usize = 256_000_000;
 /// A file on disk that could not be read, as it is remembered between runs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failing {
-    /// Where it is.
+    /// Path on disk.
     #[serde(with = "crate::document::paths")]
     pub path: PathBuf,
-    /// What tells its contents from others.
+    /// Fingerprint of the contents.
     pub fingerprint: Fingerprint,
-    /// Why, as a sentence with its name.
+    /// Reason, as a sentence that names the file.
     pub why: String,
 }
 
-/// What came of reading.
+/// Outcome of reading.
 #[derive(Debug)]
 pub enum OpenedEvent {
     /// Sets were read.
     Read {
         /// The sets, each with what was guessed on reading.
         sets: Vec<Imported>,
-        /// What was read, and what was decided, in one sentence.
+        /// Summary of the contents and the decisions, in one sentence.
         message: String,
         /// Number of files beside them could not be read, and why the first could not; may be empty.
         failure: String,
@@ -66,11 +66,11 @@ pub enum OpenedEvent {
     },
     /// A file that could not be read has other contents now, which stand in its place.
     Replaced {
-        /// What it held.
+        /// Fingerprint of the former contents.
         old: Fingerprint,
-        /// What it holds.
+        /// Fingerprint of the present contents.
         new: Fingerprint,
-        /// Where it is.
+        /// Path on disk.
         path: PathBuf,
     },
     /// A mesh is to be opened, which is not read yet.
@@ -95,9 +95,9 @@ pub enum Why {
 pub struct Progress {
     /// The file that is being read.
     pub name: String,
-    /// How far it is, as a fraction of one.
+    /// Fraction done, 0 to 1.
     pub share: f32,
-    /// Which of how many files, from 1.
+    /// Number of the file, from 1, and the count of files.
     pub file: [usize; 2],
     /// For how long.
     pub time: Duration,
@@ -110,7 +110,7 @@ pub struct Opened {
     executor: Executor,
 }
 
-/// What lies between the window and the threads that read.
+/// State shared by the window and the reading threads.
 struct Desk {
     state: Mutex<State>,
     /// Told when a reading has ended.
@@ -208,7 +208,7 @@ impl Opened {
         failing.collect()
     }
 
-    /// What came of reading since.
+    /// Outcomes of reading since the last call.
     pub fn poll(&self) -> Vec<OpenedEvent> {
         std::mem::take(&mut self.desk.lock().events)
     }
@@ -261,7 +261,7 @@ impl Opened {
         }
     }
 
-    /// What is understood of a file when it is read with these switches; the last answer while it is being read.
+    /// Preview of a file read with these options; the last preview while it is being read.
     pub fn look(&self, file: &OpenFile, options: &spectral_file::ReadOptions) -> Option<Arc<FilePreview>> {
         self.look.ask(vec![FilePreviewQuery::new(file, options)]);
         let shown = self.look.shown()?;

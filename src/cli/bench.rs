@@ -31,7 +31,7 @@ const JSON: &str = "bench.json";
 /// The table of all measurements.
 const CSV: &str = "bench.csv";
 
-/// What `bench` takes.
+/// Arguments of `bench`.
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "switches of a command line")]
 pub(super) struct BenchArguments {

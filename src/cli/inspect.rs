@@ -39,7 +39,7 @@ enum Failure {
 }
 
 impl Failure {
-    /// The same without the file's name.
+    /// Reason without the file's name.
     fn reason(&self) -> String {
         match self {
             Self::Disk(reason) => reason.clone(),
@@ -154,7 +154,7 @@ fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<Spec
     Ok(table)
 }
 
-/// What a table leaves open, with the options that decide it.
+/// Open question of a table, with the options that decide it.
 fn question(table: &SpectralFile) -> Option<String> {
     let (role, values) = (&table.role, &table.reading.values);
     if role.certainty == Certainty::Open {

@@ -14,9 +14,9 @@ use crate::view::{SwatchLayout, SwatchStyle, View};
 pub struct Built {
     /// The panel, in points.
     pub panel: Panel,
-    /// What its marks stand for.
+    /// Items of the marks.
     pub things: PickIndex,
-    /// How high it wants to be.
+    /// Natural height.
     pub height: f64,
     /// The largest difference: sensor label and patch, with what it is.
     pub worst: Option<(String, PlotItem)>,
@@ -29,7 +29,7 @@ struct Row {
     colors: Result<Vec<(PatchColor, Option<f64>)>, String>,
 }
 
-/// Where swatches go.
+/// Layout of the swatches.
 struct Board<'a> {
     scene: &'a Scene<'a>,
     view: &'a View,

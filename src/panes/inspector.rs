@@ -124,7 +124,7 @@ fn copy_text(ui: &Ui, text: String, context: &mut PaneContext<'_>) {
     context.view.say("Inspector: numbers copied.");
 }
 
-/// What holds beyond the figures of a light or a reflectance.
+/// Assumption about a light or a reflectance beyond its samples.
 fn held_words(what: &str, assumed: Assumed) -> Option<String> {
     match (assumed.below_nm, assumed.above_nm) {
         (None, None) => None,
@@ -148,7 +148,7 @@ fn measured_words(sensor: &Sensor) -> String {
     parts.collect::<Vec<_>>().join(", ")
 }
 
-/// What was assumed about a sensor and the light.
+/// Assumptions about a sensor and the light.
 fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
     let mut words = Vec::new();
     if let Ok(sensor) = scene.sensor(id.kind, &id.name) {

@@ -1,4 +1,4 @@
-//! Who takes a text: a reader of its family, or the general reader of numbers in columns.
+//! Choice of the reader for a text: one for its format family, or the general reader of numbers in columns.
 
 mod camspec;
 mod cgats;

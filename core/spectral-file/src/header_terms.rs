@@ -163,7 +163,7 @@ pub(super) fn names_time(text: &str) -> bool {
         && words(&text).all(|word| TIMES.contains(&word) || BESIDE.contains(&word))
 }
 
-/// Which of several column headers names the wavelengths: those in nanometers before those in other units.
+/// Index of the column header that names the wavelengths: those in nanometers before those in other units.
 pub(super) fn axis(names: &[String]) -> Option<usize> {
     let rank = |name: &str| match x_unit(name) {
         Some(XUnit::Wavelength(WavelengthUnit::Nanometer)) => 0,

@@ -89,11 +89,11 @@ pub struct Decision {
     pub certainty: Certainty,
     /// The evidence: "Cells such as 0,05".
     pub why: String,
-    /// What would be wrong with it.
+    /// Effect of a wrong decision.
     pub effect: Effect,
 }
 
-/// What a wrong decision makes wrong.
+/// Quantity that a wrong decision makes wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effect {
     /// The report alone.
@@ -177,7 +177,7 @@ impl fmt::Display for Orientation {
     }
 }
 
-/// Which reader took the file.
+/// Reader of a file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -309,7 +309,7 @@ impl Steps {
 /// Decisions made while reading a file, from its bytes to its units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadReport {
-    /// Which reader took the file.
+    /// Reader that read the file.
     pub reader: Decided<Reader>,
     /// The encoding of the bytes.
     pub encoding: Encoding,
@@ -333,7 +333,7 @@ pub struct ReadReport {
     pub per_photon: Option<Decided<bool>>,
     /// The tables, blocks or groups of the file that have spectra, in its order; the first thousand. At least one.
     pub parts: Vec<Part>,
-    /// Which of the parts was taken, from 1; 0 where all were, side by side.
+    /// Number of the part that was read, from 1; 0 if all were, side by side.
     pub part: Decided<usize>,
     /// Decisions that only some families of files ask for, such as which block was taken.
     pub notes: Vec<Decision>,

@@ -22,7 +22,7 @@ pub(super) struct Layout {
     pub(super) orientation: Decided<Orientation>,
     /// The first line of values.
     pub(super) first_line: usize,
-    /// Which columns are text, a bit for each.
+    /// Bit mask of the columns that are text.
     pub(super) texts: u128,
     /// Columns, as far as seen.
     pub(super) width: usize,

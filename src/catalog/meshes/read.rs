@@ -14,7 +14,7 @@ use crate::format::{capitalized, io_reason};
 
 /// The largest mesh file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1_000_000_000;
-/// How much is read from the disk between two looks at the stop signal.
+/// Number of bytes read between two checks of the stop signal.
 const CHUNK_BYTES: u64 = 4 << 20;
 /// Endings of mesh files.
 pub const ENDINGS: [&str; 3] = ["obj", "ply", "stl"];
@@ -24,7 +24,7 @@ pub const ENDINGS: [&str; 3] = ["obj", "ply", "stl"];
 pub struct LoadedMesh {
     /// The mesh.
     pub mesh: Shared<Mesh>,
-    /// What was found and tolerated, the gravest first.
+    /// Tolerated findings, most serious first.
     pub notes: Vec<String>,
     /// The file's name and its counts: `head.obj: 4429 vertices, 8812 triangles, open edges 36`.
     pub summary: String,
@@ -47,7 +47,7 @@ pub enum MeshFailure {
     Missing {
         /// The file's name.
         file: String,
-        /// Where it was looked for.
+        /// Folder that was searched.
         folder: String,
     },
     /// The system does not give it out.
@@ -89,7 +89,7 @@ pub enum MeshFailure {
     Mesh {
         /// The file's name.
         file: String,
-        /// Why, and where.
+        /// Cause, with its position.
         error: MeshReadError,
     },
     /// The program broke on it.
@@ -131,7 +131,7 @@ impl MeshFailure {
     }
 }
 
-/// What stands between a file's name and a message, which may begin with a place in the file.
+/// Separator between a file's name and a message, which may begin with a position in the file.
 fn joint(error: &MeshReadError) -> &'static str {
     use MeshReadError as E;
     match error {
@@ -156,7 +156,7 @@ fn joint(error: &MeshReadError) -> &'static str {
     }
 }
 
-/// When a file was changed, and how long it is.
+/// Modification time and length of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Stamp {
     modified: Option<SystemTime>,
@@ -169,7 +169,7 @@ pub fn read(path: &Path, stop: &dyn Fn() -> bool) -> Result<LoadedMesh, MeshFail
     read_unless(path, None, stop)?.map(|(mesh, _)| mesh).ok_or_else(|| MeshFailure::Stopped { file: file_name(path) })
 }
 
-/// The same, unless the file is as it was when it had this stamp.
+/// Reads a file unless its stamp is still this one.
 pub(super) fn read_unless(
     path: &Path,
     unless: Option<Stamp>,

@@ -15,7 +15,7 @@ use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::document::session::is_session;
 use crate::format::io_reason;
 
-/// How much of a file is looked at to tell a mesh from spectra.
+/// Number of bytes examined to distinguish a mesh from spectra.
 const LOOK: usize = 1 << 16;
 /// Largest number of files read from a folder.
 const MAX_FILES: usize = 1000;
@@ -27,7 +27,7 @@ pub enum Request {
     Path(PathBuf),
     /// Bytes from elsewhere: the clipboard, or a drop without a file.
     Bytes {
-        /// What they are called.
+        /// Name of the files together.
         name: String,
         /// The bytes.
         bytes: Arc<[u8]>,
@@ -36,7 +36,7 @@ pub enum Request {
     Known(Fingerprint, Box<ImportOverrides>),
 }
 
-/// What came of some files.
+/// Outcome for several files.
 #[derive(Default)]
 struct Harvest {
     sets: Vec<Imported>,
@@ -133,7 +133,7 @@ fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// Why there are no bytes.
+/// Reason for missing bytes.
 enum Unread {
     /// It is a mesh.
     Mesh(PathBuf),
@@ -268,7 +268,7 @@ impl Harvest {
         events
     }
 
-    /// How many of the files could not be read, and why the first could not.
+    /// Number of files that could not be read, and the reason for the first.
     fn failure(&self) -> Option<String> {
         let first = self.failures.first()?;
         // A folder without files is one of those asked for.

@@ -11,14 +11,14 @@ use crate::theme::{MONO, Theme};
 
 /// A line that was laid out.
 pub(super) struct Line {
-    /// What is drawn.
+    /// Text as displayed.
     shown: Shown,
-    /// What was understood of it.
+    /// Marks: the parts that were understood.
     marks: Vec<Mark>,
     galley: Arc<Galley>,
 }
 
-/// What a line is drawn with.
+/// Style for drawing a line.
 pub(super) struct Pen<'a> {
     /// The colors.
     pub(super) theme: &'a Theme,
@@ -26,7 +26,7 @@ pub(super) struct Pen<'a> {
     pub(super) understood: bool,
     /// The curve under the pointer.
     pub(super) hovered: Option<usize>,
-    /// Which curves are taken, by place in the file.
+    /// Flags for the imported curves, by index in the file.
     pub(super) taken: &'a [bool],
 }
 
@@ -64,7 +64,7 @@ impl Line {
         self.galley.size().y
     }
 
-    /// What is under the pointer, and where that stands.
+    /// Mark under the pointer, and its rectangle.
     pub(super) fn hit(&self, at: Pos2, pointer: Pos2) -> Option<(&Mark, Rect)> {
         let mut found = None;
         for mark in &self.marks {
@@ -80,9 +80,9 @@ impl Line {
         Rect::from_min_size(at, self.galley.size().max(Vec2::new(4.0, 4.0)))
     }
 
-    /// Where a part of the line is drawn, if it is.
+    /// Rectangle of a part of the line, if it is drawn.
     fn place(&self, at: Pos2, range: &Range<usize>) -> Option<Rect> {
-        /// What has no letters is drawn so wide.
+        /// Width for a part without letters.
         const EMPTY: f32 = 6.0;
         let bytes = self.shown.map(range)?;
         let x = |byte: usize| {
@@ -150,7 +150,7 @@ fn form(what: Option<What>, pen: &Pen<'_>) -> TextFormat {
     }
 }
 
-/// What the forms mean, each word in its own, so far apart.
+/// Legend of the styles, each word in its own, separated by `gap`.
 pub(super) fn legend(theme: &Theme, gap: f32) -> LayoutJob {
     let pen = Pen { theme, understood: true, hovered: None, taken: &[] };
     let mut job = LayoutJob::default();

@@ -53,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &m
     }
 }
 
-/// What the forms of the marks mean.
+/// Legend of the marks' styles.
 fn forms(ui: &Ui, rect: Rect, context: &PaneContext<'_>) {
     const GAPS: [f32; 3] = [12.0, 8.0, 4.0];
     let galleys = GAPS.map(|gap| ui.painter().layout_job(legend(&context.theme, gap)));
@@ -94,7 +94,7 @@ fn away(ui: &mut Ui, rect: Rect, set: &OwnSet, context: &mut PaneContext<'_>) {
     }
 }
 
-/// What the text view keeps from frame to frame.
+/// State of the text view between frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Kept {
     /// The error that was brought into sight last, by its line.
@@ -103,7 +103,7 @@ struct Kept {
     line: Option<(Fingerprint, usize)>,
 }
 
-/// Where everything stands.
+/// Layout of the view.
 struct Place {
     rect: Rect,
     /// Left edge of the letters.
@@ -186,12 +186,12 @@ fn target(
     target
 }
 
-/// What is drawn of a text.
+/// Contents of the text view.
 struct View<'a> {
     preview: &'a Preview,
     look: &'a FilePreview,
     shown: &'a ImportSelection,
-    /// Which curves are taken, by place in the file.
+    /// Flags for the imported curves, by index in the file.
     taken: Vec<bool>,
     error: Option<&'a (usize, Range<usize>)>,
     /// The part in sight.

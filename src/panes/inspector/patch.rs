@@ -18,7 +18,7 @@ use crate::theme::{HEADING, ROW, TEXT, Theme, UNIT};
 /// Height of the pair of swatches with its surround.
 const PAIR: f32 = 40.0;
 
-/// Where a patch stands among those on show.
+/// Index of a patch among the visible ones.
 pub(super) fn index_of(scene: &Scene<'_>, patch: &str) -> Option<usize> {
     scene.patches().ok()?.patches().iter().position(|p| p.name == patch)
 }

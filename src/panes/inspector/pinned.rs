@@ -1,4 +1,4 @@
-//! What was pinned, side by side.
+//! Pinned items, side by side.
 
 use chromascope_core::query::PatchColor;
 use egui::{RichText, ScrollArea, Ui};

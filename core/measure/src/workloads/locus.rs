@@ -171,7 +171,7 @@ fn from_nothing(bench: &mut Bench<'_>, name: &str, sensor: &Sensor, count: usize
 /// All answers to some temperatures, with what is made for them.
 type Method<'a> = dyn Fn(&[f64]) -> Vec<Place> + Send + Sync + 'a;
 
-/// Where there is no answer.
+/// Stands for a missing answer.
 const NOWHERE: Place = [f64::NAN; 2];
 
 fn error(found: &[Place], exact: &[[Double; 2]]) -> ErrorOf {

@@ -127,7 +127,7 @@ fn product(spectrum: &[f64], curve: &[f64]) -> Exact {
     (sum, terms().map(|(a, b)| (a * b).abs()).sum())
 }
 
-/// What is multiplied by a kernel: rows of spectra, rows of curves, and where the responses go, rows by spectrum.
+/// Matrix product: rows of spectra, rows of curves, and the responses as output, rows by spectrum.
 type Kernel<T> = fn(&[T], &[T], usize, &mut [T]);
 
 impl<T: Real> Product<T> {

@@ -66,7 +66,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     file.finish(options, log)
 }
 
-/// Which part of a file a token stands in.
+/// Part of a file that a token stands in.
 #[derive(Clone, Copy)]
 enum Place {
     Keywords,
@@ -100,7 +100,7 @@ struct File {
     last_line: usize,
     /// Fields in a set of the table that is kept.
     width: usize,
-    /// Which of the tables with spectral fields is kept, from 1.
+    /// Number of the table with spectral fields that is read, from 1.
     wanted: usize,
     /// True if the table that is kept has begun, and whether it is the one being read.
     done: bool,

@@ -33,7 +33,7 @@ pub enum What {
     },
     /// A value of a curve.
     Value {
-        /// Which of the table's curves, from 0.
+        /// Index of the table's curve, from 0.
         curve: usize,
         /// Wavelength in nanometers.
         nm: f64,
@@ -44,24 +44,24 @@ pub enum What {
     },
     /// The name of a curve.
     Name {
-        /// Which of the table's curves, from 0.
+        /// Index of the table's curve, from 0.
         curve: usize,
     },
     /// A unit, of a curve or of the wavelengths.
     Unit {
-        /// Which of the table's curves, from 0; `None` for the wavelengths.
+        /// Index of the table's curve, from 0; `None` for the wavelengths.
         curve: Option<usize>,
     },
     /// A setting or a remark that was kept with the reading.
     Setting,
     /// A place where a curve has no value.
     Gap {
-        /// Which of the table's curves, from 0.
+        /// Index of the table's curve, from 0.
         curve: usize,
     },
     /// A line of values so compressed that single numbers have no place in it.
     Block {
-        /// Which of the table's curves, from 0.
+        /// Index of the table's curve, from 0.
         curve: usize,
     },
     /// Something that is in no curve.

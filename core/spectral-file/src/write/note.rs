@@ -89,7 +89,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// Why curves cannot be written. Curves count from one.
+/// Reason why curves cannot be written. Curves count from one.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum WriteError {
     /// There is nothing to write.

@@ -30,11 +30,11 @@ impl<'a> From<&'a Curve> for Trace<'a> {
 pub enum Content<'a> {
     /// Sensitivities of a camera.
     Camera {
-        /// Which curves are red, green and blue; there may be others, which only CSV, `.sp` and CGATS can hold.
+        /// Red, green and blue curves; there may be others, which only CSV, `.sp` and CGATS can hold.
         channels: [usize; 3],
         /// True if they are a response to equal numbers of photons (else to equal power); `None` if nobody knows.
         per_photon: Option<bool>,
-        /// Who made the camera, by which rawtoaces finds it.
+        /// Manufacturer of the camera, by which rawtoaces finds it.
         manufacturer: Option<&'a str>,
         /// Its model, by which rawtoaces finds it.
         model: Option<&'a str>,
@@ -75,7 +75,7 @@ pub struct Sheet<'a> {
     pub curves: &'a [Trace<'a>],
     /// The unit of the values. Not looked at for reflectances and transmittances, which have none.
     pub unit: Option<&'a str>,
-    /// When the file is made, as in RFC 3339, for the formats that have a place for it.
+    /// Creation time of the file, as in RFC 3339, for the formats that have a field for it.
     pub created: Option<&'a str>,
     /// More to say, such as `("source", …)`, `("license", …)` and `("note", …)`. What is said elsewhere here (title,
     /// quantity, unit, response) is not taken from it.

@@ -1,4 +1,4 @@
-//! Which fields are spectral, and their wavelengths.
+//! Spectral fields and their wavelengths.
 
 use crate::decimal::clean;
 use crate::report::{Decided, Decision};
