@@ -9,7 +9,7 @@ use chromascope_core::spectral::{
 };
 use chromascope_core::units::Kelvin;
 
-use super::{Place, asset_text};
+use super::{BuiltInFile, Place};
 
 /// The daylight basis among the built-in files.
 pub const DAYLIGHT_BASIS: &str = "illuminants/cie_daylight_basis.csv";
@@ -44,23 +44,25 @@ pub enum LoadError {
 
 /// A built-in file, parsed.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct FileQuery(pub &'static str);
+pub struct FileQuery(pub BuiltInFile);
 
 impl Query for FileQuery {
     type Answer = Result<Dataset, LoadError>;
     const NAME: &'static str = "data file";
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
-        let text = asset_text(self.0).ok_or(LoadError::Missing(self.0))?;
-        Dataset::read(text).map_err(|error| LoadError::Damaged { path: self.0, error })
+        Dataset::read(self.0.text).map_err(|error| LoadError::Damaged { path: self.0.path, error })
     }
 }
 
 /// A set's curves with their names, as measured.
-fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
+///
+/// # Errors
+/// [`LoadError`] if the file is damaged or the user's settings make an impossible spectrum.
+pub fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
     match place {
-        Place::BuiltIn { path, column } => {
-            let file = ask.ask(&FileQuery(path));
+        Place::BuiltIn { file, column } => {
+            let file = ask.ask(&FileQuery(*file));
             let file = (*file).as_ref().map_err(Clone::clone)?;
             let named = file.header.columns.iter().cloned().zip(file.curves.iter().cloned());
             Ok(named
@@ -84,8 +86,8 @@ impl Query for SensorQuery {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let named = curves(&self.0, ask)?;
         let (primaries, response) = match &self.0 {
-            Place::BuiltIn { path, .. } => {
-                let file = ask.ask(&FileQuery(path));
+            Place::BuiltIn { file, .. } => {
+                let file = ask.ask(&FileQuery(*file));
                 let header = &(*file).as_ref().map_err(Clone::clone)?.header;
                 (Primaries::from_columns(&header.columns), header.response())
             }
@@ -145,7 +147,8 @@ impl Query for LightQuery {
                 Ok(LoadedLight::new(SpectralDistribution::new(nm, grid.values().to_vec())?))
             }
             Self::Daylight(temperature) => {
-                let file = ask.ask(&FileQuery(DAYLIGHT_BASIS));
+                let text = chromascope_data::text(DAYLIGHT_BASIS).ok_or(LoadError::Missing(DAYLIGHT_BASIS))?;
+                let file = ask.ask(&FileQuery(BuiltInFile { path: DAYLIGHT_BASIS, text }));
                 let basis = DaylightBasis::new((*file).as_ref().map_err(Clone::clone)?)?;
                 Ok(LoadedLight::new(basis.light(*temperature)?))
             }

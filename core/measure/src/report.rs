@@ -63,6 +63,9 @@ impl Report {
     }
 
     /// The report as JSON, indented.
+    ///
+    /// # Errors
+    /// [`ReportError`] if a value has no JSON form.
     pub fn to_json(&self) -> Result<String, ReportError> {
         Ok(serde_json::to_string_pretty(self)? + "\n")
     }
