@@ -252,7 +252,7 @@ impl State {
         let path = self.opening.take()?;
         let known = self.known_at(&path);
         known.stop();
-        known.failure = Some(MeshFailure::Stopped { file: file_name(&path) }.on_show());
+        known.failure = Some(MeshFailure::Stopped(file_name(&path)).on_show());
         Some(path)
     }
 }
@@ -264,5 +264,5 @@ fn read_once(
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<(LoadedMesh, Stamp)>, MeshFailure> {
     let read = catch_unwind(AssertUnwindSafe(|| read::read_unless(path, unless, stop)));
-    read.unwrap_or_else(|_| Err(MeshFailure::Broken { file: file_name(path) }))
+    read.unwrap_or_else(|_| Err(MeshFailure::Broken(file_name(path))))
 }

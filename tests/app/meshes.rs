@@ -253,7 +253,7 @@ fn reading_stops_when_it_is_no_longer_wanted() {
     let (_folder, path) = folder_with("sheet.obj", &sheet(300));
     let asked = Cell::new(0);
     let stop = || asked.replace(asked.get() + 1) >= 3;
-    assert!(matches!(read(&path, &stop), Err(MeshFailure::Stopped { .. })));
+    assert!(matches!(read(&path, &stop), Err(MeshFailure::Stopped(..))));
     assert_eq!(asked.get(), 4, "once stopped, it is not asked again");
 
     let (executor, store) = driven_store();

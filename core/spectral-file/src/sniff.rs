@@ -127,10 +127,9 @@ pub(super) fn sniff(
     }
     let Some(best) = best else {
         let single = trials.iter().find(|trial| trial.single >= 2);
-        return Err(single.map_or_else(
-            || near_miss::error(section, options),
-            |trial| ReadError::OneColumn { line: trial.single_line },
-        ));
+        return Err(
+            single.map_or_else(|| near_miss::error(section, options), |trial| ReadError::OneColumn(trial.single_line))
+        );
     };
     let orientation = Decided::or_chosen(options.orientation, || orientation(best));
     if orientation.value == Orientation::Across {
@@ -306,7 +305,7 @@ fn marks(
             _ => (DecimalMark::Comma, DecimalMark::Point),
         };
         let why = format!("Numbers such as 1{sign}000 stand next to whole ones of three digits");
-        return (Decided::guess(mark, why), true, Some(Warning::GroupedThousands { fractions }));
+        return (Decided::guess(mark, why), true, Some(Warning::GroupedThousands(fractions)));
     }
     (mark, false, trial.may_be_thousands().then_some(Warning::MaybeThousands))
 }
@@ -330,7 +329,7 @@ fn lay_down(
     let mut warnings = Vec::new();
     if commas_only {
         if let Some(line) = trial.padded_line {
-            return Err(ReadError::AmbiguousCommas { line });
+            return Err(ReadError::AmbiguousCommas(line));
         }
         warnings.push(Warning::CommasOnly);
     }
@@ -411,7 +410,7 @@ fn first_line(section: Section<'_>, trial: &Trial, warnings: &mut Vec<Warning>) 
         None => {}
     }
     if let Some(line) = stray {
-        warnings.push(Warning::NumbersAbove { line });
+        warnings.push(Warning::NumbersAbove(line));
     }
     run.line
 }

@@ -66,7 +66,7 @@ pub struct Sentinel {
     pub curve: String,
 }
 
-/// Something a person should know about a file that was read all the same.
+/// Something a person should know about a file that was read all the same. Numbers alone are lines, unless noted.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
@@ -86,11 +86,8 @@ pub enum Warning {
         /// The first: its name in quotes, and its column if it has one.
         first: String,
     },
-    /// Columns before the wavelengths, such as a pixel number: left out.
-    SkippedColumns {
-        /// The column of the wavelengths, from 1.
-        wavelength_column: usize,
-    },
+    /// Columns before the wavelengths, such as a pixel number: left out. Holds the column of the wavelengths, from 1.
+    SkippedColumns(usize),
     /// Columns that hold text: left out.
     TextColumns {
         /// Number.
@@ -100,38 +97,21 @@ pub enum Warning {
         /// Its name, or an empty text.
         name: String,
     },
-    /// Rows were neither ascending nor descending: sorted.
-    Sorted {
-        /// The first line out of order.
-        line: usize,
-    },
+    /// Rows were neither ascending nor descending: sorted. Holds the first line out of order.
+    Sorted(usize),
     /// Rows that repeat an earlier row exactly: counted once.
-    RepeatedRows {
-        /// Line.
-        lines: LineList,
-    },
+    RepeatedRows(LineList),
     /// Rows with different values at one wavelength: their mean was taken.
-    AveragedRows {
-        /// Line.
-        lines: LineList,
-    },
+    AveragedRows(LineList),
     /// Comments inside the table that look like rows: left out.
-    CommentedRows {
-        /// Line.
-        lines: LineList,
-    },
+    CommentedRows(LineList),
     /// The line of names again, inside the table: left out.
-    RepeatedHeader {
-        /// Line.
-        lines: LineList,
-    },
+    RepeatedHeader(LineList),
     /// All fractions have three digits, so that their marks may group thousands.
     MaybeThousands,
     /// Marks before three digits were taken to group thousands, because whole numbers stand next to them.
-    GroupedThousands {
-        /// The mark before fractions that must be chosen if they have them.
-        fractions: DecimalMark,
-    },
+    /// Holds the mark to choose if they have fractions.
+    GroupedThousands(DecimalMark),
     /// All wavelengths are outside 380 to 780 nm.
     Invisible,
     /// Neighboring wavelengths far further apart than the others: more than 20 nm and ten times the median step.
@@ -144,20 +124,11 @@ pub enum Warning {
         lines: Option<[usize; 2]>,
     },
     /// Rows without a wavelength: left out.
-    NoWavelength {
-        /// Line.
-        lines: LineList,
-    },
+    NoWavelength(LineList),
     /// Numbers above the table that belong to no row.
-    NumbersAbove {
-        /// Line.
-        line: usize,
-    },
-    /// Text after the table: left out.
-    TextBelow {
-        /// Its first line.
-        line: usize,
-    },
+    NumbersAbove(usize),
+    /// Text after the table: left out. Holds its first line.
+    TextBelow(usize),
     /// No number has a decimal point, so the separating commas might be decimal marks.
     CommasOnly,
     /// Several values at one wavelength of a curve: their mean was taken.
@@ -167,11 +138,8 @@ pub enum Warning {
         /// Lines of the repeated values.
         lines: LineList,
     },
-    /// Another table with spectra follows the one that was read.
-    MoreTables {
-        /// Line where it begins.
-        line: usize,
-    },
+    /// Another table with spectra follows the one that was read. Holds its line.
+    MoreTables(usize),
     /// Other spectra of the same samples stand beside those that were read.
     MoreGroups {
         /// Number of groups of columns.
@@ -207,15 +175,9 @@ pub enum Warning {
         error: Box<ReadError>,
     },
     /// Lines out of place: their values are at the abscissas at their heads.
-    PlacedByAbscissa {
-        /// Line.
-        lines: LineList,
-    },
+    PlacedByAbscissa(LineList),
     /// Lines with fewer values than there are places before the next line: left out.
-    ShortLines {
-        /// Line.
-        lines: LineList,
-    },
+    ShortLines(LineList),
     /// A header announces another value than the data hold.
     HeaderDiffers {
         /// Line of the announcement.
@@ -282,16 +244,10 @@ pub enum Warning {
         /// The first of the others.
         other: String,
     },
-    /// The file says percent, but its values would be fractions.
-    SmallPercent {
-        /// The largest value as written, in words.
-        max: String,
-    },
+    /// The file says percent, but its values would be fractions. Holds the largest value as written, in words.
+    SmallPercent(String),
     /// Warnings of kinds that are listed often enough: only counted. Stands last.
-    More {
-        /// Number.
-        count: usize,
-    },
+    More(usize),
 }
 
 impl Warning {
@@ -299,18 +255,18 @@ impl Warning {
     pub fn line(&self) -> Option<usize> {
         match self {
             Self::Gaps { lines, .. }
-            | Self::RepeatedRows { lines }
-            | Self::AveragedRows { lines }
-            | Self::NoWavelength { lines }
-            | Self::CommentedRows { lines }
-            | Self::RepeatedHeader { lines }
-            | Self::PlacedByAbscissa { lines }
-            | Self::ShortLines { lines }
+            | Self::RepeatedRows(lines)
+            | Self::AveragedRows(lines)
+            | Self::NoWavelength(lines)
+            | Self::CommentedRows(lines)
+            | Self::RepeatedHeader(lines)
+            | Self::PlacedByAbscissa(lines)
+            | Self::ShortLines(lines)
             | Self::Averaged { lines, .. } => lines.first().first().copied(),
-            Self::Sorted { line }
-            | Self::NumbersAbove { line }
-            | Self::TextBelow { line }
-            | Self::MoreTables { line }
+            Self::Sorted(line)
+            | Self::NumbersAbove(line)
+            | Self::TextBelow(line)
+            | Self::MoreTables(line)
             | Self::BrokenTable { line, .. }
             | Self::HeaderDiffers { line, .. }
             | Self::BadWavelengths { line, .. }
@@ -321,19 +277,19 @@ impl Warning {
             | Self::MoreGroups { .. }
             | Self::MaybeWavelengths
             | Self::OtherQuantity { .. }
-            | Self::SkippedColumns { .. }
+            | Self::SkippedColumns(..)
             | Self::OtherAxes { .. }
             | Self::MoreQuantities { .. }
             | Self::TextColumns { .. }
             | Self::CommasOnly
             | Self::MaybeThousands
             | Self::Invisible
-            | Self::GroupedThousands { .. }
+            | Self::GroupedThousands(..)
             | Self::NotReflectances { .. }
             | Self::NotSpectra { .. }
             | Self::ScalesDiffer { .. }
-            | Self::SmallPercent { .. }
-            | Self::More { .. } => None,
+            | Self::SmallPercent(..)
+            | Self::More(..) => None,
         }
     }
 }
@@ -426,27 +382,27 @@ impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Gaps { cells, lines, sentinel } => gaps(f, *cells, lines, sentinel.as_ref()),
-            Self::SkippedColumns { wavelength_column } => {
+            Self::SkippedColumns(wavelength_column) => {
                 write!(f, "Wavelengths stand in column {wavelength_column}: the columns before it are left out")
             }
-            Self::Sorted { line } => write!(f, "line {line}: wavelengths out of order: sorted"),
-            Self::RepeatedRows { lines } => write!(f, "{lines}: the same as an earlier row: counted once"),
-            Self::AveragedRows { lines } => {
+            Self::Sorted(line) => write!(f, "line {line}: wavelengths out of order: sorted"),
+            Self::RepeatedRows(lines) => write!(f, "{lines}: the same as an earlier row: counted once"),
+            Self::AveragedRows(lines) => {
                 write!(f, "{lines}: several rows with different values at one wavelength: their mean is taken")
             }
-            Self::ShortLines { lines } => {
+            Self::ShortLines(lines) => {
                 write!(
                     f,
                     "{lines}: fewer values than places before the next line: left out. Which is missing is not known"
                 )
             }
-            Self::NoWavelength { lines } => write!(f, "{lines}: no wavelength: left out"),
-            Self::NumbersAbove { line } => write!(f, "line {line}: numbers above the table: left out"),
-            Self::TextBelow { line } => write!(f, "line {line}: text after the table: left out"),
-            Self::CommentedRows { lines } => {
+            Self::NoWavelength(lines) => write!(f, "{lines}: no wavelength: left out"),
+            Self::NumbersAbove(line) => write!(f, "line {line}: numbers above the table: left out"),
+            Self::TextBelow(line) => write!(f, "line {line}: text after the table: left out"),
+            Self::CommentedRows(lines) => {
                 write!(f, "{lines}: rows that begin with # in the table: left out as comments")
             }
-            Self::RepeatedHeader { lines } => write!(f, "{lines}: the names of the columns again: left out"),
+            Self::RepeatedHeader(lines) => write!(f, "{lines}: the names of the columns again: left out"),
             Self::MaybeThousands => {
                 f.write_str("Every fraction has three digits: if the marks group thousands, the values are wrong")
             }
@@ -457,7 +413,7 @@ impl fmt::Display for Warning {
                 }
                 write!(f, "nothing between {from_nm} and {to_nm} nm, far more than the other steps")
             }
-            Self::GroupedThousands { fractions } => {
+            Self::GroupedThousands(fractions) => {
                 let mark = if *fractions == DecimalMark::Comma { "1,000" } else { "1.000" };
                 write!(f, "Numbers such as {mark} are read as thousands: if they have fractions, choose {fractions}")
             }
@@ -475,8 +431,8 @@ impl fmt::Display for Warning {
                 f.write_str("Nothing names the unit of wave numbers: if they are wavelengths, choose nanometers")
             }
             Self::OtherQuantity { quantity, role } => write!(f, "The numbers look like {quantity}, not like {role}"),
-            Self::MoreTables { line } => write!(f, "line {line}: another table with spectra: left out"),
-            Self::PlacedByAbscissa { lines } => {
+            Self::MoreTables(line) => write!(f, "line {line}: another table with spectra: left out"),
+            Self::PlacedByAbscissa(lines) => {
                 write!(f, "{lines}: not where the line before ends: placed by the wavelength at the head of the line")
             }
             Self::HeaderDiffers { line, label, announced, found } => {
@@ -485,9 +441,9 @@ impl fmt::Display for Warning {
             Self::CountDiffers { line, expected, found } => {
                 write!(f, "line {line} announces {expected} values, but there are {found}")
             }
-            Self::More { count: 1 } => f.write_str("1 more warning like these"),
-            Self::More { count } => write!(f, "{count} more warnings like these"),
-            Self::SmallPercent { max } => {
+            Self::More(1) => f.write_str("1 more warning like these"),
+            Self::More(count) => write!(f, "{count} more warnings like these"),
+            Self::SmallPercent(max) => {
                 write!(
                     f,
                     "The file says percent, but no value exceeds {max}: if they are fractions, choose plain numbers"

@@ -59,11 +59,8 @@ pub enum MeshFailure {
         error: io::Error,
     },
     /// A folder or a device.
-    #[error("{file} is not a file")]
-    NoFile {
-        /// Its name.
-        file: String,
-    },
+    #[error("{0} is not a file")]
+    NoFile(String),
     /// It is larger than what is read.
     #[error(
         "{file}: {} MB, but the limit is {} MB; simplify the mesh or export a part of it",
@@ -93,17 +90,11 @@ pub enum MeshFailure {
         error: MeshReadError,
     },
     /// The program broke on it.
-    #[error("{file} could not be read because of an error in this program; please report it with the file")]
-    Broken {
-        /// The file's name.
-        file: String,
-    },
+    #[error("{0} could not be read because of an error in this program; please report it with the file")]
+    Broken(String),
     /// Nobody wanted it any more.
-    #[error("reading {file} stopped")]
-    Stopped {
-        /// The file's name.
-        file: String,
-    },
+    #[error("reading {0} stopped")]
+    Stopped(String),
 }
 
 impl MeshFailure {
@@ -116,7 +107,7 @@ impl MeshFailure {
     pub fn on_show(&self) -> String {
         let remedy = match self {
             Self::Missing { .. } => "; open it from where it is now, or choose Head or Fern.",
-            Self::Io { .. } | Self::Stopped { .. } => "; open it again, or choose Head or Fern.",
+            Self::Io { .. } | Self::Stopped(..) => "; open it again, or choose Head or Fern.",
             _ => ". Open another mesh, or choose Head or Fern.",
         };
         self.beginning() + remedy
@@ -125,7 +116,7 @@ impl MeshFailure {
     /// The message as the beginning of a sentence: only a sentence's own first word takes a capital, a file's name stays as it is.
     fn beginning(&self) -> String {
         match self {
-            Self::Stopped { .. } => capitalized(&self.to_string()),
+            Self::Stopped(..) => capitalized(&self.to_string()),
             _ => self.to_string(),
         }
     }
@@ -166,7 +157,7 @@ pub(super) struct Stamp {
 /// Reads a mesh file. `stop` is asked now and then, and ends the reading with [`MeshFailure::Stopped`].
 pub fn read(path: &Path, stop: &dyn Fn() -> bool) -> Result<LoadedMesh, MeshFailure> {
     // Nothing to compare with, so there is always something.
-    read_unless(path, None, stop)?.map(|(mesh, _)| mesh).ok_or_else(|| MeshFailure::Stopped { file: file_name(path) })
+    read_unless(path, None, stop)?.map(|(mesh, _)| mesh).ok_or_else(|| MeshFailure::Stopped(file_name(path)))
 }
 
 /// Reads a file unless its stamp is still this one.
@@ -185,7 +176,7 @@ pub(super) fn read_unless(
     };
     // Opening a pipe would wait for somebody to write into it.
     if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(MeshFailure::NoFile { file });
+        return Err(MeshFailure::NoFile(file));
     }
     let source = File::open(path).map_err(failed)?;
     let known = source.metadata().map_err(failed)?;
@@ -198,12 +189,12 @@ pub(super) fn read_unless(
     }
     let bytes = contents(source, stamp.bytes, stop).map_err(|error| match error.kind() {
         io::ErrorKind::OutOfMemory => MeshFailure::NoMemory { file: file.clone(), bytes: stamp.bytes },
-        io::ErrorKind::Interrupted => MeshFailure::Stopped { file: file.clone() },
+        io::ErrorKind::Interrupted => MeshFailure::Stopped(file.clone()),
         _ => failed(error),
     })?;
     match read_mesh(&bytes, path.extension().and_then(OsStr::to_str), stop) {
         Ok(mesh) => Ok(Some((loaded(&file, mesh), stamp))),
-        Err(MeshReadError::Stopped) => Err(MeshFailure::Stopped { file }),
+        Err(MeshReadError::Stopped) => Err(MeshFailure::Stopped(file)),
         Err(error) => Err(MeshFailure::Mesh { file, error }),
     }
 }

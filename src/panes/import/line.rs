@@ -46,7 +46,7 @@ impl Line {
             let fill = theme.error.gamma_multiply(0.16);
             painter.rect(frame, 2.0, fill, Stroke::new(1.5, theme.error), StrokeKind::Outside);
         }
-        for mark in self.marks.iter().filter(|mark| matches!(mark.what, What::Gap { .. })) {
+        for mark in self.marks.iter().filter(|mark| matches!(mark.what, What::Gap(..))) {
             if let Some(frame) = self.place(at, &mark.range) {
                 painter.rect_stroke(
                     frame.shrink2(Vec2::new(0.0, 3.0)),
@@ -135,16 +135,16 @@ fn form(what: Option<What>, pen: &Pen<'_>) -> TextFormat {
     let out = |curve: usize| pen.taken.get(curve) == Some(&false);
     match what {
         None if pen.understood => weak,
-        Some(What::Wavelength { .. }) => TextFormat { underline: line(theme.text), ..bright },
-        Some(What::Value { curve, .. } | What::Block { curve }) if pen.hovered == Some(curve) => {
+        Some(What::Wavelength(..)) => TextFormat { underline: line(theme.text), ..bright },
+        Some(What::Value { curve, .. } | What::Block(curve)) if pen.hovered == Some(curve) => {
             TextFormat { background: theme.hover, ..bright }
         }
-        Some(What::Value { curve, .. } | What::Block { curve } | What::Name { curve }) if out(curve) => weak,
-        Some(What::Unit { curve: Some(curve) }) if out(curve) => TextFormat { italics: true, ..weak },
-        Some(What::Name { .. }) => TextFormat { background: theme.control, expand_bg: 1.5, ..bright },
-        Some(What::Unit { .. }) => TextFormat { italics: true, ..bright },
+        Some(What::Value { curve, .. } | What::Block(curve) | What::Name(curve)) if out(curve) => weak,
+        Some(What::Unit(Some(curve))) if out(curve) => TextFormat { italics: true, ..weak },
+        Some(What::Name(..)) => TextFormat { background: theme.control, expand_bg: 1.5, ..bright },
+        Some(What::Unit(..)) => TextFormat { italics: true, ..bright },
         Some(What::Setting) => TextFormat { italics: true, ..weak },
-        Some(What::LeftOut { .. }) => TextFormat { strikethrough: line(theme.weak), ..weak },
+        Some(What::LeftOut(..)) => TextFormat { strikethrough: line(theme.weak), ..weak },
         // Values, whatever else is a part of a curve, and all of a text of which nothing is known yet.
         _ => bright,
     }
@@ -156,12 +156,12 @@ pub(super) fn legend(theme: &Theme, gap: f32) -> LayoutJob {
     let mut job = LayoutJob::default();
     let mut first = true;
     let value = What::Value { curve: 0, nm: 0.0, value: 0.0, written: 0.0 };
-    let left_out = What::LeftOut { why: spectral_file::LeftOut::Column };
+    let left_out = What::LeftOut(spectral_file::LeftOut::Column);
     for (words, what) in [
-        ("wavelength", Some(What::Wavelength { nm: 0.0 })),
+        ("wavelength", Some(What::Wavelength(0.0))),
         ("value", Some(value)),
-        ("name", Some(What::Name { curve: 0 })),
-        ("unit", Some(What::Unit { curve: None })),
+        ("name", Some(What::Name(0))),
+        ("unit", Some(What::Unit(None))),
         ("setting", Some(What::Setting)),
         ("skipped", Some(left_out)),
         ("not used", None),

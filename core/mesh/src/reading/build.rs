@@ -15,7 +15,7 @@ const MOST_COMPARED: usize = 64;
 /// Makes the mesh.
 pub(super) fn build(soup: &Soup, kind: Kind, stop: &dyn Fn() -> bool) -> Result<ReadMesh, MeshReadError> {
     if soup.faces() == 0 {
-        return Err(MeshReadError::NoFaces { vertices: soup.positions.len() });
+        return Err(MeshReadError::NoFaces(soup.positions.len()));
     }
     let cut = cut(soup, stop)?;
     if cut.triangles.is_empty() {

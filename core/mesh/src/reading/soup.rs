@@ -232,7 +232,7 @@ fn push(to: &mut Vec<Vec3>, xyz: [f64; 3], place: Place) -> Result<(), MeshReadE
     // Not a number is not below the bound either.
     if !(x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.abs() <= FARTHEST) {
         let finite = x.is_finite() && y.is_finite() && z.is_finite();
-        return Err(if finite { MeshReadError::TooFar { place } } else { MeshReadError::NotFinite { place } });
+        return Err(if finite { MeshReadError::TooFar(place) } else { MeshReadError::NotFinite(place) });
     }
     if to.len() >= MAX_VERTICES {
         return Err(MeshReadError::TooLarge { quantity: Quantity::Vertices, limit: MAX_VERTICES, place });

@@ -128,7 +128,7 @@ impl Content {
     fn spectrum(&mut self, element: &Element<'_>, log: &mut Log<'_>) -> Result<(), ReadError> {
         let Some(name) = self.objects.last().cloned() else { return Ok(()) };
         if self.spectra.len() >= MAX_CURVES {
-            return Err(ReadError::TooManyCurves { line: element.line });
+            return Err(ReadError::TooManyCurves(element.line));
         }
         let kind = element.name().trim_end_matches("Spectrum");
         let label = if kind == "Emissive" { "Emission" } else { kind.trim_start_matches("Custom") }.to_owned();
@@ -160,7 +160,7 @@ impl Content {
             let start = list.range.start.or(declared.and_then(|(_, range)| range.start));
             let step = list.range.step.or(declared.and_then(|(_, range)| range.step));
             let (Some(start), Some(step)) = (start, step) else {
-                return Err(ReadError::NoWavelengths { line: list.line });
+                return Err(ReadError::NoWavelengths(list.line));
             };
             let samples = &mut self.spectra[list.spectrum].samples;
             for sample in &mut *samples {
@@ -179,7 +179,7 @@ fn push(samples: &mut Vec<Sample>, total: &mut usize, sample: Sample) -> Result<
     }
     *total += 1;
     if *total > MAX_SAMPLES {
-        return Err(ReadError::TooManySamples { line: sample.line });
+        return Err(ReadError::TooManySamples(sample.line));
     }
     samples.push(sample);
     Ok(())

@@ -220,7 +220,7 @@ impl<'a> Walk<'a> {
             return Err(self.malformed(from));
         }
         if self.open.len() >= DEEPEST {
-            return Err(ReadError::Unsupported { family: Family::Xml });
+            return Err(ReadError::Unsupported(Family::Xml));
         }
         let line = self.line(from);
         let name = tag.name().into_inner();

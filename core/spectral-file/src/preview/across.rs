@@ -58,10 +58,10 @@ impl Across {
     fn header(&self, line: &str, window: &Range<usize>) -> Vec<Mark> {
         let marks = cells::within(self.dialect, line, window).filter_map(|(column, range, cell)| {
             let what = match column.checked_sub(self.start) {
-                None => What::Unit { curve: header_terms::x_unit(cell).map(|_| None)? },
+                None => What::Unit(header_terms::x_unit(cell).map(|_| None)?),
                 Some(index) => match self.wavelengths.get(index)? {
-                    Some(nm) => What::Wavelength { nm: *nm },
-                    None => What::LeftOut { why: LeftOut::Column },
+                    Some(nm) => What::Wavelength(*nm),
+                    None => What::LeftOut(LeftOut::Column),
                 },
             };
             Some(Mark::new(range, what))
@@ -75,13 +75,13 @@ impl Across {
         let name = if named { Some(self.names) } else { leading.position(|cell| !cell.is_empty()) };
         let marks = cells::within(self.dialect, line, window).filter_map(|(column, range, cell)| {
             let what = match column.checked_sub(self.start) {
-                None if name == Some(column) => What::Name { curve },
+                None if name == Some(column) => What::Name(curve),
                 None if cell.is_empty() => return None,
-                None => What::LeftOut { why: LeftOut::Column },
+                None => What::LeftOut(LeftOut::Column),
                 Some(at) => match (self.wavelengths.get(at)?, self.dialect.parse(cell)) {
-                    (None, _) => What::LeftOut { why: LeftOut::Column },
+                    (None, _) => What::LeftOut(LeftOut::Column),
                     (Some(nm), Cell::Number(written)) => value(written, curve, *nm, file),
-                    (Some(_), Cell::Gap | Cell::Text) => What::Gap { curve },
+                    (Some(_), Cell::Gap | Cell::Text) => What::Gap(curve),
                 },
             };
             Some(Mark::new(range, what))

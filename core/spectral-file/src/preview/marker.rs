@@ -112,10 +112,10 @@ fn placed(all: &[Place], start: usize, line: &str, window: &Range<usize>, file: 
 fn what(place: &Place, written: &str, file: &SpectralFile) -> Option<What> {
     let curve = place.origin as usize;
     Some(match place.kind {
-        PlaceKind::Wavelength => What::Wavelength { nm: place.wavelength },
+        PlaceKind::Wavelength => What::Wavelength(place.wavelength),
         PlaceKind::Value => down::value(cells::number(written)?, curve, place.wavelength, file),
-        PlaceKind::Block | PlaceKind::Check => What::Block { curve },
-        PlaceKind::Repeated => What::LeftOut { why: LeftOut::Repeated },
-        PlaceKind::Averaged => What::LeftOut { why: LeftOut::Averaged },
+        PlaceKind::Block | PlaceKind::Check => What::Block(curve),
+        PlaceKind::Repeated => What::LeftOut(LeftOut::Repeated),
+        PlaceKind::Averaged => What::LeftOut(LeftOut::Averaged),
     })
 }

@@ -57,7 +57,7 @@ impl<'a> Data<'a> {
         record.corners.clear();
         let line = self.cursor.first_line();
         let mut found = 0;
-        let syntax = MeshReadError::Syntax { place: self.place(element.content, number) };
+        let syntax = MeshReadError::Syntax(self.place(element.content, number));
         // Words can be missing on a line; in a binary file only its end can.
         let missing = |found| match (self.encoding, element.content) {
             (Encoding::Text, Content::Vertices) if found < 3 => MeshReadError::TooFewNumbers { line, found },

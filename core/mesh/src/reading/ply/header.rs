@@ -126,7 +126,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, Cursor<'_>), MeshReadError> 
     let mut elements: Vec<Element> = Vec::new();
     loop {
         let line = cursor.first_line();
-        let wrong = MeshReadError::Syntax { place: Place::Line(line) };
+        let wrong = MeshReadError::Syntax(Place::Line(line));
         if cursor.is_done() {
             return Err(wrong);
         }
@@ -151,7 +151,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, Cursor<'_>), MeshReadError> 
                 cursor.next_line();
                 let encoding = encoding.ok_or(wrong)?;
                 if let Some(element) = elements.iter().find(|element| element.count > 0 && !element.is_complete()) {
-                    return Err(MeshReadError::Syntax { place: Place::Line(element.line) });
+                    return Err(MeshReadError::Syntax(Place::Line(element.line)));
                 }
                 return Ok((Header { encoding, elements }, cursor));
             }

@@ -147,7 +147,7 @@ impl Block {
         }
         if !self.rows.is_empty() {
             let value = |label| self.number(label).map(|(_, number)| number);
-            let first = value("FIRSTX").ok_or(ReadError::NoWavelengths { line: self.data_line })?;
+            let first = value("FIRSTX").ok_or(ReadError::NoWavelengths(self.data_line))?;
             let (last, delta, points) = (value("LASTX"), self.number("DELTAX"), self.points.1);
             let axis = Axis { first, last, delta, points, factor: x_factor };
             let data = Data { rows: &self.rows, ordinates: &self.ordinates };
