@@ -47,7 +47,6 @@ pub struct Files {
     making: bool,
     /// Number of files being computed that are no longer wanted.
     unwanted: usize,
-    /// The number of the last dialog.
     ticket: u64,
     home: Option<PathBuf>,
     wake: Option<egui::Context>,

@@ -11,7 +11,6 @@ use crate::theme::Theme;
 
 /// Description of the document where it is saved elsewhere.
 const DOCUMENT: &str = "the document";
-/// Width of the question.
 const WIDTH: f32 = 420.0;
 
 /// Progress of closing.

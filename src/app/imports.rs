@@ -49,7 +49,6 @@ impl ChromascopeApp {
         self.open(requests);
     }
 
-    /// Takes in what was read.
     pub(super) fn take_opened(&mut self) {
         for event in self.opened.poll() {
             match event {

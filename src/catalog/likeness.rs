@@ -7,7 +7,6 @@ use crate::document::own::Fingerprint;
 /// Layout of a file's beginning without its figures. Equal on every machine, so that it can be saved.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Likeness {
-    /// The lines.
     shapes: Vec<Fingerprint>,
     /// True if some of them hold words.
     words: bool,

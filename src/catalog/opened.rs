@@ -123,13 +123,11 @@ struct State {
     files: Vec<OpenFile>,
     events: Vec<OpenedEvent>,
     running: Vec<Arc<Job>>,
-    /// Number of files read again.
     tickets: u64,
     /// Files that were looked for on disk and are not there as they were.
     lost: Vec<Fingerprint>,
 }
 
-/// A thread that reads.
 struct Job {
     name: Mutex<String>,
     share: AtomicU32,

@@ -60,7 +60,6 @@ fn workload(name: &str) -> Result<Workload, String> {
     Workload::from_name(name).ok_or_else(|| format!("there are: {}", names()))
 }
 
-/// Measures and writes.
 pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     let (false, Some(folder)) = (arguments.list, &arguments.out) else {
         let lines = Workload::ALL.map(|workload| format!("{:<12} {}\n", workload.name(), workload.title()));

@@ -7,7 +7,6 @@ use chromascope_core::camera::RenderingError;
 
 use crate::scene::SceneError;
 
-/// Failure of a command.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CliError {
     /// A name means no set.

@@ -21,7 +21,6 @@ use crate::view::render::{PixelPlace, RenderMode, RenderView};
 const WIDTH: f64 = 340.0;
 /// The height of the line above a picture.
 const CAPTION: f64 = 20.0;
-/// The gap between pictures.
 const GAP: f64 = 8.0;
 
 /// A sensor's index among the pictures.

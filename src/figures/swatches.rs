@@ -39,9 +39,7 @@ struct Board<'a> {
     things: PickIndex,
 }
 
-/// The gap between swatches.
 const GAP: f64 = 4.0;
-/// The margin around all.
 const MARGIN: f64 = 6.0;
 /// The height of the bar of a difference.
 const BAR: f64 = 3.0;

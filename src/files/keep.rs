@@ -43,7 +43,6 @@ struct State {
     saved: Option<Arc<Document>>,
     /// True while a thread writes, or waits to write again.
     running: bool,
-    /// True if the window is closing.
     closed: bool,
     /// Time at which the last write ended.
     ended: Option<Duration>,
@@ -369,7 +368,6 @@ impl Keeper {
         self.desk.lock().moved.clone()
     }
 
-    /// The folder of the profile.
     pub(super) fn folder(&self) -> Option<&Path> {
         self.profile.first.as_ref()?.parent()
     }

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use super::save::SaveRequest;
 use crate::format::io_reason;
 
-/// Number of completions listed.
 const MOST: usize = 200;
 
 /// A path to be typed, where there is no dialog or what was chosen there cannot be.
@@ -77,7 +76,6 @@ pub(super) fn cannot_open(path: &Path) -> Option<String> {
     tried.err().map(|error| format!("{}: {}.", path.display(), io_reason(&error)))
 }
 
-/// A completed text.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Completed {
     /// The text it was asked for.

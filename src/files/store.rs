@@ -40,7 +40,6 @@ pub(super) enum Unread {
 /// Writes one document, again and again.
 #[derive(Debug, Default)]
 pub(super) struct Store {
-    /// The document's file.
     file: PathBuf,
     /// Contents of that file as this window read or wrote them. Others are another program's.
     seen: Option<Fingerprint>,
@@ -66,7 +65,6 @@ impl Store {
         Self { file, ..Self::default() }
     }
 
-    /// The document's file.
     pub(super) fn file(&self) -> &Path {
         &self.file
     }

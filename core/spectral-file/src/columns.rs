@@ -24,7 +24,6 @@ pub(super) struct Read {
     pub(super) grid: Grid,
     /// The line after it, if another table follows.
     pub(super) next: Option<usize>,
-    /// Bytes that were looked at.
     pub(super) bytes: usize,
     /// Decision on its columns, if there was one.
     pub(super) note: Option<Decision>,
@@ -113,7 +112,6 @@ struct Columns {
     next: Option<usize>,
 }
 
-/// Kind of a line.
 enum Row {
     Blank,
     Numbers { cells: usize, filled: usize },
@@ -197,7 +195,6 @@ impl Columns {
         self.next = self.lines.last().filter(|_| second).map(|line| line + 1);
     }
 
-    /// Parses a line into `row`.
     fn parse(&mut self, number: usize, line: &str) -> Row {
         self.row.clear();
         let (mut cells, mut filled, mut numbers) = (0, 0, 0);

@@ -17,7 +17,6 @@ pub(super) struct Shape {
     pub(super) cells: usize,
     pub(super) filled: usize,
     pub(super) numbers: usize,
-    /// The first number.
     pub(super) first: Option<f64>,
     /// True if that is the first cell.
     pub(super) leads: bool,
@@ -177,7 +176,6 @@ pub(super) struct Across {
     pub(super) first_row: usize,
     pub(super) rows: usize,
     misses: usize,
-    /// Cells of the header.
     pub(super) cells: usize,
     /// Its groups of wavelengths, at least one.
     pub(super) groups: Vec<Group>,

@@ -12,7 +12,6 @@ use crate::watch::Log;
 use crate::wavelength_unit::plausible;
 use crate::{bands, near_miss, thousands};
 
-/// Layout of a text.
 #[derive(Debug)]
 pub(super) struct Layout {
     pub(super) delimiter: Decided<Delimiter>,
@@ -20,7 +19,6 @@ pub(super) struct Layout {
     /// True if the other mark groups thousands even where it stands once.
     pub(super) thousands: bool,
     pub(super) orientation: Decided<Orientation>,
-    /// The first line of values.
     pub(super) first_line: usize,
     /// Bit mask of the columns that are text.
     pub(super) texts: u128,

@@ -181,7 +181,6 @@ pub(super) fn excerpt(text: &str) -> String {
     }
 }
 
-/// The first few of several.
 pub(super) fn listed(all: &[String]) -> String {
     const MOST: usize = 4;
     let first = all[..all.len().min(MOST)].join(", ");

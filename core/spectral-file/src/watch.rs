@@ -65,7 +65,6 @@ impl<'a> Log<'a> {
         }
     }
 
-    /// Adds warnings.
     pub(super) fn extend(&mut self, warnings: impl IntoIterator<Item = Warning>) {
         warnings.into_iter().for_each(|warning| self.push(warning));
     }

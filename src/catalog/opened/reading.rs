@@ -46,7 +46,6 @@ struct Harvest {
     meshes: Vec<PathBuf>,
     documents: Vec<PathBuf>,
     notes: Vec<String>,
-    /// Number of files to be read.
     count: usize,
     /// True if they were known before, such as the parts of one.
     from_memory: bool,

@@ -45,11 +45,8 @@ impl State {
 
 /// One file of the list.
 pub(super) struct Entry {
-    /// Item of the list.
     pub(super) item: ImportItem,
-    /// Name.
     pub(super) name: String,
-    /// State.
     pub(super) state: State,
     /// Contents, or the reason why it was not read.
     pub(super) note: String,

@@ -20,11 +20,9 @@ pub(super) struct Line {
 
 /// Style for drawing a line.
 pub(super) struct Pen<'a> {
-    /// The colors.
     pub(super) theme: &'a Theme,
     /// True if it is known what was understood, so that the rest was not.
     pub(super) understood: bool,
-    /// The curve under the pointer.
     pub(super) hovered: Option<usize>,
     /// Flags for the imported curves, by index in the file.
     pub(super) taken: &'a [bool],

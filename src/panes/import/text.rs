@@ -15,7 +15,6 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::lines;
 use crate::theme::{MONO, ROW, UNIT};
 
-/// Height of a line.
 const LINE: f32 = 18.0;
 /// Height of the legend.
 const LEGEND: f32 = 20.0;
@@ -108,7 +107,6 @@ struct Place {
     rect: Rect,
     /// Left edge of the letters.
     left: f32,
-    /// Width of a letter.
     letter: f32,
     gutter: f32,
 }

@@ -235,7 +235,6 @@ fn dots(spectra: &[f64], curves: &[f64], samples: usize, responses: &mut [f64]) 
     }
 }
 
-/// A tuned matrix product.
 fn tuned<T: Real>(spectra: &[T], curves: &[T], samples: usize, responses: &mut [T]) {
     let (rows, channels) = (spectra.len() / samples, curves.len() / samples);
     let spectra = ArrayView2::from_shape((rows, samples), spectra);

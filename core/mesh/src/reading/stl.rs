@@ -28,7 +28,6 @@ pub(super) fn is_whole_binary(bytes: &[u8]) -> bool {
     })
 }
 
-/// Reads a binary file.
 pub(super) fn read_binary(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshReadError> {
     let announced = announced(bytes).ok_or(MeshReadError::Truncated { place: Place::Face(1), announced: 1 })?;
     if announced > MAX_TRIANGLES {
@@ -55,7 +54,6 @@ pub(super) fn read_binary(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup,
     Ok(soup)
 }
 
-/// Reads a text.
 pub(super) fn read_text(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshReadError> {
     let mut cursor = Cursor::new(bytes);
     let mut soup = Soup::new(Place::Line, 1);

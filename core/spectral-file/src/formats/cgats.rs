@@ -74,7 +74,6 @@ enum Place {
     Data,
 }
 
-/// State of the reader.
 #[derive(Default)]
 struct File {
     header: Header,

@@ -65,12 +65,10 @@ struct List {
     line: usize,
 }
 
-/// State of the reader.
 #[derive(Default)]
 struct Content {
     header: Header,
     spectra: Vec<Spectrum>,
-    /// Samples of all spectra.
     total: usize,
     /// The names of the objects that are open.
     objects: Vec<Option<String>>,
@@ -78,9 +76,7 @@ struct Content {
     points: Vec<Sample>,
     /// Lists wait for the end: the specifications may stand below them.
     lists: Vec<List>,
-    /// The specification that is open.
     specification: Option<String>,
-    /// Ranges that the specifications declare.
     ranges: Vec<(String, Range)>,
 }
 

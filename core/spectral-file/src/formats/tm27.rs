@@ -50,16 +50,12 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     Ok(Found { grid, layout, reader: Decided::certain(Reader::Tm27, why), notes: Vec::new() })
 }
 
-/// State of the reader.
 #[derive(Default)]
 struct Content {
     header: Header,
     spectra: Vec<Spectrum>,
-    /// Quantity of each spectrum.
     quantities: Vec<Option<Decided<Quantity>>>,
-    /// Quantity of the open spectrum.
     quantity: Option<Decided<Quantity>>,
-    /// The spectrum that is open.
     current: Option<Spectrum>,
 }
 

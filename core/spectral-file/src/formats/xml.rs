@@ -80,7 +80,6 @@ impl Element<'_> {
         self.attribute(name)?.map(|text| number(&text, self.line)).transpose()
     }
 
-    /// The text, trimmed.
     pub(super) fn content(&self) -> &str {
         self.text.trim()
     }

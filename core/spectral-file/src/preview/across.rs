@@ -16,13 +16,11 @@ use crate::{dialect_trial, header_terms, wide};
 #[derive(Debug, Clone)]
 pub(super) struct Across {
     dialect: Dialect,
-    /// The line of the wavelengths.
     line: usize,
     /// The column of the first wavelength, from 0.
     start: usize,
     /// The wavelengths in the order of the columns; `None` where none can be read, or again.
     wavelengths: Vec<Option<f64>>,
-    /// The column of the names.
     names: usize,
     /// The line of each curve, in ascending order, and the curve.
     pub(super) rows: Vec<(usize, usize)>,

@@ -18,7 +18,6 @@ pub(super) struct Down {
     dialect: Dialect,
     /// The columns of wavelengths, from 0, and their units.
     axes: Vec<(usize, WavelengthUnit)>,
-    /// The curve of each column.
     pub(super) curves: Vec<Option<usize>>,
     /// The line of names, and how many columns it leaves out at its beginning.
     names: Option<usize>,
@@ -82,7 +81,6 @@ impl Down {
         }
     }
 
-    /// The numbers of a row.
     fn values(&self, line: &str, shared: f64, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
         let mut nm = shared;
         let mut marks = Vec::new();

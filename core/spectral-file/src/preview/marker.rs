@@ -19,7 +19,6 @@ use crate::wavelength_unit::WavelengthUnit;
 pub struct Marker {
     /// The lines of settings, in ascending order.
     settings: Vec<u32>,
-    /// The first line of values.
     first_line: usize,
     /// The curves that were read, by which a marker of another file is known.
     curves: usize,

@@ -24,7 +24,6 @@ pub(super) struct Data<'a> {
 }
 
 impl<'a> Data<'a> {
-    /// Data after a header.
     pub(super) fn new(encoding: Encoding, cursor: Cursor<'a>) -> Self {
         let rest = cursor.left();
         Self { encoding, cursor, rest }
@@ -39,7 +38,6 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// Reads a record.
     pub(super) fn read(&mut self, element: &Element, number: usize, record: &mut Record) -> Result<(), MeshReadError> {
         let truncated = MeshReadError::Truncated {
             place: match element.content {

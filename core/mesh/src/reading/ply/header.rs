@@ -14,7 +14,6 @@ pub(super) enum Encoding {
     Big,
 }
 
-/// The type of a value.
 #[derive(Clone, Copy)]
 pub(super) enum Scalar {
     I8,
@@ -65,21 +64,16 @@ pub(super) enum Role {
 
 /// One value, or one list, of each record.
 pub(super) struct Property {
-    /// Use.
     pub(super) role: Role,
     /// The type of a list's length; none for a single value.
     pub(super) length: Option<Scalar>,
-    /// The type of the values.
     pub(super) scalar: Scalar,
 }
 
 /// A number of records of the same kind.
 pub(super) struct Element {
-    /// Kind of the records.
     pub(super) content: Content,
-    /// Number.
     pub(super) count: usize,
-    /// Properties of each record.
     pub(super) properties: Vec<Property>,
     /// Line that announces the element.
     line: usize,
@@ -113,9 +107,7 @@ impl Element {
 
 /// All that the header says.
 pub(super) struct Header {
-    /// Encoding of the values.
     pub(super) encoding: Encoding,
-    /// Elements in their order.
     pub(super) elements: Vec<Element>,
 }
 

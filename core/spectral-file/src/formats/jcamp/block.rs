@@ -59,13 +59,11 @@ pub(super) struct Block {
     /// True if the last line ended with a difference.
     pub(super) difference: bool,
     pub(super) samples: Vec<Sample>,
-    /// Number of values.
     pub(super) found: usize,
     pub(super) warnings: Vec<Warning>,
     pub(super) comma: bool,
 }
 
-/// Labels of numbers.
 const NUMBERS: [&str; 8] = ["FIRSTX", "LASTX", "DELTAX", "XFACTOR", "YFACTOR", "FIRSTY", "MINY", "MAXY"];
 
 /// A label as labels are compared: capitals and digits only.
