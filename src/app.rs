@@ -248,35 +248,18 @@ impl ChromascopeApp {
     /// The bars and panes of one frame.
     fn show(&mut self, ui: &mut Ui) {
         let theme = Theme::of(ui.visuals()).with_surround(self.view.saved.surround);
-        let Self {
-            history,
-            catalog,
-            results,
-            view,
-            commands,
-            arrangement,
-            files,
-            meshes,
-            opened,
-            radiators,
-            studio,
-            laboratory,
-            curves,
-            ..
-        } = self;
-        let scene = Scene { document: history.document(), catalog, results };
         let mut context = PaneContext {
             panes: panes::ALL,
-            scene,
+            scene: Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results },
             theme,
-            view,
-            meshes,
-            opened,
-            radiators,
-            studio,
-            laboratory,
-            curves,
-            commands,
+            view: &mut self.view,
+            meshes: &self.meshes,
+            opened: &self.opened,
+            radiators: &self.radiators,
+            studio: &mut self.studio,
+            laboratory: &mut self.laboratory,
+            curves: &mut self.curves,
+            commands: &mut self.commands,
         };
         let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
             let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
@@ -291,7 +274,8 @@ impl ChromascopeApp {
         };
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", 48.0, true);
-        let standing: Vec<(Standing, Rect)> = files
+        let standing: Vec<(Standing, Rect)> = self
+            .files
             .standing()
             .into_iter()
             .zip(["first notice", "second notice", "third notice", "fourth notice", "fifth notice"])
@@ -299,29 +283,29 @@ impl ChromascopeApp {
             .collect();
         let status = bar(ui, "status", 24.0, false);
         let area = CentralPanel::default().frame(Frame::NONE.fill(theme.panel)).show(ui, |ui| ui.max_rect()).inner;
-        panes::menu::show(ui, menu, history, &mut context);
+        panes::menu::show(ui, menu, &self.history, &mut context);
         panes::scene_bar::show(ui, conditions, &mut context);
         for (standing, rect) in standing {
             if notice::show(ui, rect, &standing, &theme) {
-                files.dismiss(standing.kind);
+                self.files.dismiss(standing.kind);
             }
         }
         let saved = &context.view.saved;
-        *arrangement = arrange(
+        self.arrangement = arrange(
             saved.workspace,
             &saved.layout,
             area,
-            arrangement.narrow,
+            self.arrangement.narrow,
             context.view.maximized,
             context.view.inspector_over,
         );
-        for (pane, rect) in arrangement.panes.clone() {
+        for (pane, rect) in self.arrangement.panes.clone() {
             panes::show(ui, pane, rect, &mut context);
         }
-        for (splitter, rect) in arrangement.splitters.clone() {
+        for (splitter, rect) in self.arrangement.splitters.clone() {
             drag_border(ui, splitter, rect, area, &mut context);
         }
-        if let Some((pane, rect)) = arrangement.over {
+        if let Some((pane, rect)) = self.arrangement.over {
             let layer =
                 egui::Area::new(egui::Id::unique("column over")).fixed_pos(rect.min).order(egui::Order::Foreground);
             layer.show(ui.ctx(), |ui| {
@@ -330,9 +314,9 @@ impl ChromascopeApp {
                 ui.painter().rect_stroke(rect, 0.0, egui::Stroke::new(1.0, theme.line), egui::StrokeKind::Inside);
             });
         }
-        panes::status_bar::show(ui, status, arrangement, &mut context);
-        panes::help::show(ui, history, &mut context);
-        path_prompt::show(ui, &theme, files);
+        panes::status_bar::show(ui, status, &self.arrangement, &mut context);
+        panes::help::show(ui, &self.history, &mut context);
+        path_prompt::show(ui, &theme, &mut self.files);
         context.studio.end_frame();
         self.ask_about_closing(ui, &theme);
         focus::ring(ui.ctx(), &theme);

@@ -351,7 +351,7 @@ impl ChromascopeApp {
             // It went on meanwhile: what it is now is kept.
             return self.files.open_document(&opened.path, self.history.document().clone());
         }
-        let name = opened.path.file_name().unwrap_or(opened.path.as_os_str()).to_string_lossy().into_owned();
+        let name = crate::format::file_name(&opened.path);
         opened.document.part_names(self.catalog.names());
         self.step(|history| history.replace(format!("Open {name}"), opened.document));
         let words =

@@ -18,8 +18,9 @@ use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 
 use crate::document::render::MeshChoice;
+use crate::format::file_name;
 use crate::jobs::Executor;
-use read::{Stamp, file_name};
+use read::Stamp;
 
 /// Meshes that nobody looks at are remembered up to this many bytes, so that undo need not read them again.
 const REMEMBERED_BYTES: usize = 256_000_000;

@@ -10,7 +10,7 @@ mod reading;
 
 pub use file::OpenFile;
 pub use look::{FilePreview, FilePreviewQuery};
-pub use reading::Request;
+pub use reading::{Request, files_of};
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -21,6 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use super::import::Imported;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
+use crate::format::file_name;
 use crate::jobs::{Background, Clock, Executor};
 use crate::results::Count;
 
@@ -377,8 +378,7 @@ impl Job {
 
     /// Goes on to a file, one of so many.
     fn at(&self, path: &Path, file: usize, count: usize) {
-        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = name;
+        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = file_name(path);
         for (place, number) in self.place.iter().zip([file, count]) {
             place.store(u32::try_from(number).unwrap_or(u32::MAX), Ordering::Relaxed);
         }

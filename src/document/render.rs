@@ -198,7 +198,7 @@ impl MeshChoice {
             Self::Fern => "fern".to_owned(),
             Self::Sphere => "sphere".to_owned(),
             Self::Plane => "plane".to_owned(),
-            Self::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+            Self::File(path) => crate::format::file_name(path),
         }
     }
 }

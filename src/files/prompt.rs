@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::save::SaveRequest;
-use crate::format::io_reason;
+use crate::format::io_failure;
 
 const MOST: usize = 200;
 
@@ -63,7 +63,7 @@ pub(super) fn expanded(text: &str, home: Option<&Path>) -> PathBuf {
 pub(super) fn cannot_open(path: &Path) -> Option<String> {
     let facts = match fs::metadata(path) {
         Ok(facts) => facts,
-        Err(error) => return Some(format!("{}: {}.", path.display(), io_reason(&error))),
+        Err(error) => return Some(format!("{}.", io_failure(path, &error))),
     };
     // Only these are opened on trial: a pipe would wait for its other end.
     let tried = if facts.is_dir() {
@@ -73,7 +73,7 @@ pub(super) fn cannot_open(path: &Path) -> Option<String> {
     } else {
         Ok(())
     };
-    tried.err().map(|error| format!("{}: {}.", path.display(), io_reason(&error)))
+    tried.err().map(|error| format!("{}.", io_failure(path, &error)))
 }
 
 #[derive(Debug, PartialEq, Eq)]

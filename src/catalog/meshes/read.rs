@@ -10,7 +10,7 @@ use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 use chromascope_mesh::reading::{MeshReadError, Note, ReadMesh, read_mesh};
 
-use crate::format::{capitalized, io_reason};
+use crate::format::{capitalized, file_name, io_reason};
 
 /// The largest mesh file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1_000_000_000;
@@ -246,9 +246,4 @@ fn is_vertex(line: &str) -> bool {
     let mut words = line.split_whitespace();
     let numbers = |words: std::str::SplitWhitespace<'_>| words.take_while(|word| word.parse::<f64>().is_ok()).count();
     words.next() == Some("v") && numbers(words) >= 3
-}
-
-/// The last part of a path.
-pub(super) fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }

@@ -13,7 +13,7 @@ use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::document::session::is_session;
-use crate::format::io_reason;
+use crate::format::{file_name, io_failure, io_reason};
 
 /// Number of bytes examined to distinguish a mesh from spectra.
 const LOOK: usize = 1 << 16;
@@ -113,13 +113,14 @@ fn expand(requests: Vec<Request>, harvest: &mut Harvest) -> Vec<Request> {
                 }
                 all.extend(files.into_iter().take(MAX_FILES).map(Request::Path));
             }
-            Err(error) => harvest.failures.push(format!("{}: {}", path.display(), io_reason(&error))),
+            Err(error) => harvest.failures.push(io_failure(&path, &error)),
         }
     }
     all
 }
 
-fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
+/// Files of a folder in order of name, without hidden files and subfolders.
+pub fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
@@ -190,7 +191,7 @@ fn known_path(path: PathBuf, desk: &Desk) -> PathBuf {
 }
 
 fn origin(path: &Path, bytes: &[u8]) -> Origin {
-    Origin { name: name_of(path), path: Some(path.to_owned()), fingerprint: Fingerprint::of(bytes) }
+    Origin { name: file_name(path), path: Some(path.to_owned()), fingerprint: Fingerprint::of(bytes) }
 }
 
 fn take(
@@ -338,7 +339,7 @@ pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Jo
 
 /// A file's bytes; the error is a sentence with its name.
 fn read_bytes(path: &Path) -> Result<Arc<[u8]>, String> {
-    let name = name_of(path);
+    let name = file_name(path);
     let failed = |error: io::Error| format!("{name}: {}", io_reason(&error));
     let known = fs::metadata(path).map_err(failed)?;
     if !known.is_file() {
@@ -363,10 +364,6 @@ fn beginning(path: &Path) -> Vec<u8> {
         bytes.clear();
     }
     bytes
-}
-
-fn name_of(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
 fn unread(name: &str, error: &ReadError) -> String {
