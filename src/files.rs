@@ -16,7 +16,6 @@ mod standing;
 mod store;
 mod watch;
 
-use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -179,11 +178,4 @@ pub fn fitting(stem: &str, ending: &str) -> String {
     const LONGEST: usize = 255;
     let room = LONGEST.saturating_sub(ending.len());
     format!("{}{ending}", &stem[..stem.floor_char_boundary(room)])
-}
-
-/// The processor's name, where the system keeps it in a file.
-pub fn processor() -> Option<String> {
-    let facts = fs::read_to_string("/proc/cpuinfo").ok()?;
-    let line = facts.lines().find(|line| line.starts_with("model name"))?;
-    Some(line.split_once(": ")?.1.trim().to_owned())
 }

@@ -201,10 +201,10 @@ impl Board<'_> {
         if let Some(reference) = reference.filter(|_| !source.is_reference && !self.view.blink) {
             let (w, h) = (x1 - x0, bottom - y0);
             match self.view.saved.swatch_style {
-                SwatchStyle::Split => self.area(tag, "truth", [[x0, y0], [x0 + w / 2.0, bottom]], &reference),
+                SwatchStyle::Split => self.area(tag, "reference", [[x0, y0], [x0 + w / 2.0, bottom]], &reference),
                 SwatchStyle::Inset => {
                     let inner = [[x0 + w * 0.3, y0 + h * 0.25], [x1 - w * 0.3, bottom - h * 0.25]];
-                    self.area(tag, "truth", inner, &reference);
+                    self.area(tag, "reference", inner, &reference);
                 }
                 SwatchStyle::Whole => {}
             }
@@ -299,27 +299,8 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
 }
 
 fn table(scene: &Scene<'_>) -> Table {
-    let mut table = Table::new([
-        "sensor",
-        "patch",
-        "r",
-        "g",
-        "b",
-        "X",
-        "Y",
-        "Z",
-        "x",
-        "y",
-        "L*",
-        "a*",
-        "b*",
-        "srgb_r",
-        "srgb_g",
-        "srgb_b",
-        "clipped",
-        "difference",
-        "measure",
-    ]);
+    let columns = "sensor patch r g b X Y Z x y L* a* b* srgb_r srgb_g srgb_b clipped difference measure";
+    let mut table = Table::new(columns.split(' '));
     let names: Vec<String> =
         scene.patches().map(|set| set.patches().iter().map(|p| p.name.clone()).collect()).unwrap_or_default();
     let measure = scene.difference_name();

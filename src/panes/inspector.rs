@@ -56,9 +56,14 @@ fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
     pinned::show(ui, context);
 }
 
-/// A sensor on show, by kind and name.
+/// A visible sensor, by kind and name.
 fn source_of(scene: &Scene<'_>, id: &SensorId) -> Option<ComparedSensor> {
     scene.sources().into_iter().find(|source| source.kind == id.kind && source.name == id.name)
+}
+
+/// The label of a visible sensor; the name of any other.
+fn label_of(scene: &Scene<'_>, id: &SensorId) -> String {
+    source_of(scene, id).map_or_else(|| id.name.clone(), |source| source.label)
 }
 
 /// The sensor that the others are compared to.
@@ -66,7 +71,7 @@ fn reference_id(scene: &Scene<'_>) -> SensorId {
     SensorId { kind: SetKind::Observer, name: scene.document.reference.clone() }
 }
 
-/// The key and label of a sensor, or its name alone if it is no longer on show.
+/// The key and label of a sensor, or its name alone if it is no longer visible.
 fn head(ui: &mut Ui, id: &SensorId, context: &PaneContext<'_>) {
     match source_of(&context.scene, id) {
         Some(source) => {
@@ -83,7 +88,7 @@ fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
     ui.label(RichText::new(words).small().color(theme.weak));
 }
 
-/// A failure, said once in its place.
+/// A failure, in its place.
 fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
     ui.label(RichText::new(words).color(theme.error));
 }

@@ -175,9 +175,6 @@ type Method<'a> = dyn Fn(&[f64]) -> Vec<Place> + Send + Sync + 'a;
 const NOWHERE: Place = [f64::NAN; 2];
 
 fn error(found: &[Place], exact: &[[Double; 2]]) -> ErrorOf {
-    let mut errors = Errors::default();
-    for (found, exact) in found.iter().zip(exact) {
-        found.iter().zip(exact).for_each(|(&found, &exact)| errors.add(exact.error_of(found), exact.value()));
-    }
-    errors.sum_up("x and y, against the 1 nm sum in 106 bits", ErrorScale::Absolute)
+    let pairs = found.iter().zip(exact).flat_map(|(found, exact)| found.iter().zip(exact));
+    Errors::against(pairs).sum_up("x and y, against the 1 nm sum in 106 bits", ErrorScale::Absolute)
 }
