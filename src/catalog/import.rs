@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use spectral_file::{Certainty, Effect, ReadError, Role, SpectralFile, Values, Warning, Watch};
+use spectral_file::{Certainty, Effect, ReadError, Role, SpectralFile, Values, Watch};
 
 use crate::document::own::{Fingerprint, ImportOverrides, OwnCurve, OwnSet, ReadAs};
 
@@ -40,18 +40,10 @@ impl Origin {
 
 /// Reads a file's bytes; `file` names it. A role that is given is not guessed.
 pub fn import(file: &str, bytes: &[u8], role: Option<Role>) -> Result<Imported, ReadError> {
-    Ok(import_warned(file, bytes, role)?.0)
+    import_as(&Origin::named(file, bytes), bytes, &ImportOverrides::for_role(role), Watch::none())
 }
 
-/// Imports a file, with warnings to check before the curves are trusted; the message reports the first of them.
-pub fn import_warned(file: &str, bytes: &[u8], role: Option<Role>) -> Result<(Imported, Vec<Warning>), ReadError> {
-    let wishes = ImportOverrides::for_role(role);
-    let table = spectral_file::read(bytes, &wishes.options)?;
-    let warnings = table.warnings.clone();
-    Ok((imported(&Origin::named(file, bytes), &table, &wishes), warnings))
-}
-
-/// Reads bytes as a person wishes, in sight of whoever may stop it.
+/// Reads bytes with a person's overrides; the watch may stop it.
 pub fn import_as(
     origin: &Origin,
     bytes: &[u8],

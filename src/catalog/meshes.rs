@@ -47,12 +47,12 @@ pub struct Opened {
 
 /// The mesh files that were asked for.
 pub struct MeshStore {
-    desk: Arc<Desk>,
+    shared: Arc<SharedState>,
     executor: Executor,
 }
 
 /// State shared by the window and the reading threads.
-struct Desk {
+struct SharedState {
     state: Mutex<State>,
     wake: Box<dyn Fn() + Send + Sync>,
 }
@@ -91,13 +91,13 @@ impl MeshStore {
 
     /// Reads files on an executor.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let desk = Arc::new(Desk { state: Mutex::default(), wake: Box::new(wake) });
-        Self { desk, executor: executor.clone() }
+        let shared = Arc::new(SharedState { state: Mutex::default(), wake: Box::new(wake) });
+        Self { shared, executor: executor.clone() }
     }
 
     /// State of a file. The first call starts reading; a mesh stays visible while its file is reloaded.
     pub fn get(&self, path: &Path) -> MeshState {
-        let mut state = self.desk.lock();
+        let mut state = self.shared.lock();
         state.clock += 1;
         let now = state.clock;
         let known = state.known_at(path);
@@ -125,7 +125,7 @@ impl MeshStore {
 
     /// Opens a file for a person: [`MeshStore::poll`] tells what came of it. What was being opened before is given up.
     pub fn open(&self, path: &Path) {
-        let mut state = self.desk.lock();
+        let mut state = self.shared.lock();
         state.give_up_opening();
         state.opening = Some(path.to_owned());
         let known = state.known_at(path);
@@ -137,22 +137,22 @@ impl MeshStore {
 
     /// Outcomes of opening, once for each file that was not abandoned.
     pub fn poll(&self) -> Vec<Opened> {
-        std::mem::take(&mut self.desk.lock().opened)
+        std::mem::take(&mut self.shared.lock().opened)
     }
 
     /// The file that is being opened.
     pub fn opening(&self) -> Option<PathBuf> {
-        self.desk.lock().opening.clone()
+        self.shared.lock().opening.clone()
     }
 
     /// Gives up opening. Returns the file that was being opened.
     pub fn cancel(&self) -> Option<PathBuf> {
-        self.desk.lock().give_up_opening()
+        self.shared.lock().give_up_opening()
     }
 
     /// Stops reading what is neither wanted nor being opened, and lets go of meshes beyond what is worth remembering.
     pub fn keep(&self, wanted: Option<&Path>) {
-        let mut state = self.desk.lock();
+        let mut state = self.shared.lock();
         let opening = state.opening.clone();
         let needed = |path: &Path| Some(path) == wanted || Some(path) == opening.as_deref();
         for (path, known) in &mut state.known {
@@ -177,11 +177,11 @@ impl MeshStore {
     fn begin(&self, state: &mut State, path: &Path, unless: Option<Stamp>) {
         let stop: Arc<AtomicBool> = Arc::default();
         state.known_at(path).reading = Some(Arc::clone(&stop));
-        let (desk, file) = (Arc::clone(&self.desk), path.to_owned());
+        let (shared, file) = (Arc::clone(&self.shared), path.to_owned());
         let work = move || {
             let result = read_once(&file, unless, &|| stop.load(Ordering::Relaxed));
-            desk.lock().take(&file, &stop, result);
-            (desk.wake)();
+            shared.lock().take(&file, &stop, result);
+            (shared.wake)();
         };
         if let Err(error) = self.executor.spawn("meshes", work) {
             let failure = MeshFailure::Io { file: file_name(path), error };
@@ -193,11 +193,11 @@ impl MeshStore {
 
 impl Drop for MeshStore {
     fn drop(&mut self) {
-        self.desk.lock().known.values_mut().for_each(Known::stop);
+        self.shared.lock().known.values_mut().for_each(Known::stop);
     }
 }
 
-impl Desk {
+impl SharedState {
     /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
     fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)

@@ -106,13 +106,13 @@ pub struct Progress {
 
 /// The files that were opened.
 pub struct Opened {
-    desk: Arc<Desk>,
+    shared: Arc<SharedState>,
     look: Background<FilePreviewQuery>,
     executor: Executor,
 }
 
 /// State shared by the window and the reading threads.
-struct Desk {
+struct SharedState {
     state: Mutex<State>,
     /// Told when a reading has ended.
     ended: Condvar,
@@ -149,29 +149,29 @@ impl Opened {
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
         let theirs = Arc::clone(&wake);
         let look = Background::on(executor, "import", move || theirs());
-        let desk = Arc::new(Desk { state: Mutex::default(), ended: Condvar::new(), wake });
-        Self { desk, look, executor: executor.clone() }
+        let shared = Arc::new(SharedState { state: Mutex::default(), ended: Condvar::new(), wake });
+        Self { shared, look, executor: executor.clone() }
     }
 
     /// Reads files, folders or bytes; `remembered` says what a person wished for files like one whose text is given.
     pub fn open(&self, requests: Vec<Request>, remembered: impl Fn(&[u8]) -> ImportOverrides + Send + 'static) {
-        self.begin(move |desk, job| {
-            let events = reading::open(requests, &remembered, desk, job);
-            desk.lock().events.extend(events);
+        self.begin(move |shared, job| {
+            let events = reading::open(requests, &remembered, shared, job);
+            shared.lock().events.extend(events);
         });
     }
 
     /// Reads the files of sets again: those known here from memory if `why` allows, else from disk.
     pub fn reread(&self, sets: Vec<OwnSet>, why: Why) {
         let ticket = {
-            let mut state = self.desk.lock();
+            let mut state = self.shared.lock();
             state.tickets += 1;
             state.tickets
         };
-        self.begin(move |desk, job| {
-            let sets: Vec<_> = sets.iter().filter_map(|set| reading::reread(set, why, desk, job)).collect();
+        self.begin(move |shared, job| {
+            let sets: Vec<_> = sets.iter().filter_map(|set| reading::reread(set, why, shared, job)).collect();
             if !sets.is_empty() {
-                desk.lock().events.push(OpenedEvent::Reread { sets, why, ticket });
+                shared.lock().events.push(OpenedEvent::Reread { sets, why, ticket });
             }
         });
     }
@@ -179,27 +179,27 @@ impl Opened {
     /// Brings back the contents that a set was made of, if its file is still as it was. Asked for once.
     pub fn fetch(&self, set: &OwnSet) {
         let (Some(path), Some(fingerprint)) = (set.path.clone(), set.fingerprint) else { return };
-        let mut state = self.desk.lock();
+        let mut state = self.shared.lock();
         if state.lost.contains(&fingerprint) || state.file(fingerprint).is_some() {
             return;
         }
         // What is being looked for counts as lost until it is found, so that it is looked for once.
         state.lost.push(fingerprint);
         drop(state);
-        self.begin(move |desk, job| reading::fetch(&path, fingerprint, desk, job));
+        self.begin(move |shared, job| reading::fetch(&path, fingerprint, shared, job));
     }
 
     /// Reads files that could not be read in an earlier run, so that their text can be looked at again. Nothing comes of it but
     /// that they are known; those that are no more are not.
     pub fn recall(&self, failing: Vec<Failing>) {
         if !failing.is_empty() {
-            self.begin(move |desk, job| reading::recall(failing, desk, job));
+            self.begin(move |shared, job| reading::recall(failing, shared, job));
         }
     }
 
     /// The files on disk that could not be read.
     pub fn failing(&self) -> Vec<Failing> {
-        let state = self.desk.lock();
+        let state = self.shared.lock();
         let failing = state.files.iter().filter_map(|file| {
             let (path, why) = (file.origin.path.clone()?, file.failure.clone()?);
             Some(Failing { path, fingerprint: file.origin.fingerprint, why })
@@ -209,12 +209,12 @@ impl Opened {
 
     /// Outcomes of reading since the last call.
     pub fn poll(&self) -> Vec<OpenedEvent> {
-        std::mem::take(&mut self.desk.lock().events)
+        std::mem::take(&mut self.shared.lock().events)
     }
 
     /// The reading that has gone on for longest.
     pub fn progress(&self) -> Option<Progress> {
-        let state = self.desk.lock();
+        let state = self.shared.lock();
         let job = state.running.first()?;
         let [file, count] = [0, 1].map(|i| job.place[i].load(Ordering::Relaxed) as usize);
         Some(Progress {
@@ -228,7 +228,7 @@ impl Opened {
     /// Stops whatever is being read. Returns the name of a file that was.
     pub fn stop(&self) -> Option<String> {
         let progress = self.progress()?;
-        for job in &self.desk.lock().running {
+        for job in &self.shared.lock().running {
             job.stop.store(true, Ordering::Relaxed);
         }
         Some(progress.name)
@@ -236,22 +236,22 @@ impl Opened {
 
     /// The files known, in the order in which they were opened.
     pub fn files(&self) -> Vec<OpenFile> {
-        self.desk.lock().files.clone()
+        self.shared.lock().files.clone()
     }
 
     /// A file by its contents.
     pub fn file(&self, fingerprint: Fingerprint) -> Option<OpenFile> {
-        self.desk.lock().file(fingerprint).cloned()
+        self.shared.lock().file(fingerprint).cloned()
     }
 
     /// Forgets a file.
     pub fn forget(&self, fingerprint: Fingerprint) {
-        self.desk.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
+        self.shared.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
     }
 
     /// Forgets the oldest files of which no set is made, beyond what is worth remembering.
     pub fn keep(&self, wanted: &[Fingerprint]) {
-        let mut state = self.desk.lock();
+        let mut state = self.shared.lock();
         let size = |state: &State| state.files.iter().map(|file| file.bytes.len()).sum::<usize>();
         while size(&state) > REMEMBERED_BYTES {
             let spare = |file: &OpenFile| !wanted.contains(&file.origin.fingerprint);
@@ -277,40 +277,35 @@ impl Opened {
         self.look.counts()
     }
 
-    /// Nobody looks.
-    pub fn rest(&self) {
-        self.look.rest();
-    }
-
     /// Waits until everything that was asked for is read. For tests.
     pub fn wait(&self) {
-        let mut state = self.desk.lock();
+        let mut state = self.shared.lock();
         while !state.running.is_empty() {
             if self.executor.is_driven() {
                 drop(state);
                 if !self.executor.run_next() {
                     return;
                 }
-                state = self.desk.lock();
+                state = self.shared.lock();
             } else {
-                state = self.desk.ended.wait(state).unwrap_or_else(PoisonError::into_inner);
+                state = self.shared.ended.wait(state).unwrap_or_else(PoisonError::into_inner);
             }
         }
         drop(state);
         self.look.wait();
     }
 
-    fn begin(&self, work: impl FnOnce(&Desk, &Job) + Send + 'static) {
+    fn begin(&self, work: impl FnOnce(&SharedState, &Job) + Send + 'static) {
         let job = Arc::new(Job::new(self.executor.clock()));
-        self.desk.lock().running.push(Arc::clone(&job));
-        let desk = Arc::clone(&self.desk);
+        self.shared.lock().running.push(Arc::clone(&job));
+        let shared = Arc::clone(&self.shared);
         let theirs = Arc::clone(&job);
         let run = move || {
-            work(&desk, &theirs);
-            desk.end(&theirs);
+            work(&shared, &theirs);
+            shared.end(&theirs);
         };
         if let Err(error) = self.executor.spawn("files", run) {
-            let mut state = self.desk.lock();
+            let mut state = self.shared.lock();
             state.running.retain(|running| !Arc::ptr_eq(running, &job));
             state.events.push(OpenedEvent::Failed(format!("no thread for reading: {error}"), Vec::new()));
         }
@@ -319,11 +314,11 @@ impl Opened {
 
 impl Drop for Opened {
     fn drop(&mut self) {
-        self.desk.lock().running.iter().for_each(|job| job.stop.store(true, Ordering::Relaxed));
+        self.shared.lock().running.iter().for_each(|job| job.stop.store(true, Ordering::Relaxed));
     }
 }
 
-impl Desk {
+impl SharedState {
     /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
     fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
