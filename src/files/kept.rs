@@ -89,7 +89,7 @@ impl Files {
         } else {
             match std::fs::remove_file(path) {
                 Ok(()) => FileEvent::Said(format!("{} was deleted.", path.display())),
-                Err(error) => FileEvent::Failed(format!("{}.", io_failure(&path, &error))),
+                Err(error) => FileEvent::Failed(format!("{}.", io_failure(path, &error))),
             }
         };
         self.note(Note::Event(event));
