@@ -313,7 +313,7 @@ impl ChromascopeApp {
         self.files.ask_to_save(SaveRequest { what, name, forms: forms.collect(), note: String::new() });
     }
 
-    /// What a file of a pane is called, without its ending.
+    /// File name for a pane's export, without extension.
     fn file_stem(&self, pane: PaneKind) -> String {
         let title = panes::title(pane).to_lowercase();
         match (pane, self.view.accuracy.shows) {
@@ -358,7 +358,7 @@ impl ChromascopeApp {
             // It went on meanwhile: what it is now is kept.
             return self.files.open_document(&opened.path, self.history.document().clone());
         }
-        let name = opened.path.file_name().unwrap_or(opened.path.as_os_str()).to_string_lossy().into_owned();
+        let name = crate::format::file_name(&opened.path);
         opened.document.part_names(self.catalog.names());
         self.step(|history| history.replace(format!("Open {name}"), opened.document));
         let words =

@@ -8,7 +8,6 @@ use crate::catalog::meshes::ENDINGS as MESH_ENDINGS;
 
 /// A dialog that closes within this time without an answer was never seen by a person.
 const NO_DIALOG: Duration = Duration::from_millis(300);
-/// Endings offered first when opening.
 const ENDINGS: [&str; 30] = [
     "csv", "txt", "tsv", "dat", "asc", "prn", "trm", "ssm", "abs", "irr", "spectrum", "ttt", "trt", "tat", "jaz",
     "dta", "dpt", "sp", "cmf", "ccss", "ti3", "cgats", "jdx", "dx", "jcm", "spdx", "cxf", "xml", "json", "xls",
