@@ -23,7 +23,7 @@ use crate::terminal::{say, shown};
 pub(super) const EXAMPLES: &str = "Examples:
   chromascope light FL2 LED-B3 D65
   chromascope light lamp.csv --camera \"Nikon D70\" --format csv --out lamp_indices.csv
-  chromascope light blackbody:3200 --filter \"Mired shift \u{2212}131\"
+  chromascope light blackbody:3200 --filter \"Cooling 131 mired\"
 
 CSV columns: light; cct_k, duv (CIE 1931 2\u{b0}, 380-780 nm); ra, r1 to r14 (CIE 13.3); rf, rg (ANSI/IES TM-30, CIE 224); ssi, the
 Academy's spectral similarity to the reference of the same temperature, unrounded; then, in a row for each camera: camera,
