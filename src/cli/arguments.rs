@@ -78,8 +78,8 @@ pub(super) enum Subcommand {
     #[command(after_help = PATCHES_EXAMPLES)]
     Patches(PatchesArguments),
     /// Lights: CCT and Duv, Ra, Rf and Rg, spectral similarity, and how consistent cameras are under them
-    #[command(after_help = super::light::EXAMPLES)]
-    Light(Box<super::light::LightArguments>),
+    #[command(after_help = super::light::arguments::EXAMPLES)]
+    Light(Box<super::light::arguments::LightArguments>),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
