@@ -61,6 +61,7 @@ const PATCHES_EXAMPLES: &str = "Examples:
 
 Columns: sensor, patch; r, g, b after white balance (empty for CIE observers); x_tristimulus, y_tristimulus, z_tristimulus (Y = 1
 for a perfect diffuser, under Eq 13 within 5e-5); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
+cct_k, duv, the nearest blackbody for the CIE 1931 observer;
 delta_…, the differences from the reference, a column for each metric; then the conditions: reference, illuminant,
 white_balance, transform, preset. Undefined values are empty: with the paper's matrix, Eq 13 takes RGB as sRGB
 whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*, and their L*a*b* is not that of the CIE.
@@ -78,8 +79,8 @@ pub(super) enum Subcommand {
     #[command(after_help = PATCHES_EXAMPLES)]
     Patches(PatchesArguments),
     /// Lights: CCT and Duv, Ra, Rf and Rg, spectral similarity, and how consistent cameras are under them
-    #[command(after_help = super::light::EXAMPLES)]
-    Light(Box<super::light::LightArguments>),
+    #[command(after_help = super::light::arguments::EXAMPLES)]
+    Light(Box<super::light::arguments::LightArguments>),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),

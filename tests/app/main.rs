@@ -26,6 +26,7 @@ mod inspector;
 mod keeping;
 mod laboratory;
 mod library;
+mod lights;
 mod meshes;
 mod opened;
 mod own_data;
@@ -43,6 +44,7 @@ mod temperature;
 mod theme;
 mod waiting;
 mod words;
+mod zz_look;
 
 /// Names of the built-in sets.
 fn built_in_names() -> chromascope::document::names::BuiltInNames {
