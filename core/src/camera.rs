@@ -5,6 +5,7 @@ pub mod locus;
 pub mod locus_deviation;
 pub mod locus_table;
 pub mod quality;
+pub mod recorded;
 pub mod rendering;
 pub mod white_balance;
 

@@ -10,6 +10,7 @@ pub mod loci;
 pub mod metrics;
 pub mod patches;
 pub mod radiances;
+pub mod recorded;
 pub mod render;
 pub mod shared;
 
@@ -23,4 +24,5 @@ pub use loci::{
 pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricValue, Replicates, WhyNot};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;
+pub use recorded::{RecordedFitQuery, RecordedSet};
 pub use shared::Shared;

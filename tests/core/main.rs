@@ -18,6 +18,7 @@ mod locus_table;
 mod math;
 mod metrics;
 mod query;
+mod recorded;
 mod reflectance;
 mod render;
 mod rendition;
