@@ -24,6 +24,7 @@ mod render;
 mod rendition;
 mod scene;
 mod spectral;
+mod spectral_image;
 mod stress;
 mod support;
 mod temperature;
