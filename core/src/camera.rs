@@ -1,6 +1,7 @@
 //! From spectra to a camera's signals, and from signals to the diagram.
 
 pub mod batch;
+pub mod chart_grid;
 pub mod locus;
 pub mod locus_deviation;
 pub mod locus_table;

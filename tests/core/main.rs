@@ -8,6 +8,7 @@
 mod accuracy;
 mod batch;
 mod camera;
+mod chart_grid;
 mod colorimetry;
 mod correction;
 mod double;

@@ -69,7 +69,7 @@ fn a_constant_image_equals_patches() {
     let picture =
         develop_signals(&placed, &signals[1], &Development::new(&renderings[1], 1.0, None), &Stop::NEVER).unwrap();
     for (index, pixel) in picture.rgba.chunks_exact(4).enumerate() {
-        let srgb = colors[1][index / 5].srgb.rgb.map(|v| (v * 255.0).round() as i32);
+        let srgb = colors[1][index / 5].srgb.bytes.map(i32::from);
         for c in 0..3 {
             assert!((i32::from(pixel[c]) - srgb[c]).abs() <= 1, "{pixel:?} is not {srgb:?}");
         }
