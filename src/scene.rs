@@ -7,6 +7,7 @@ pub mod light;
 pub mod locus;
 pub mod metrics;
 pub mod orbit;
+pub mod recorded;
 pub mod render;
 
 use std::sync::Arc;
