@@ -1,7 +1,8 @@
-//! `render`: pictures of a mesh, made as in the window and written to files.
+//! `render`: pictures of a mesh or a spectral image, made as in the window and written to files.
 
 mod accuracy;
 pub(super) mod arguments;
+mod image;
 mod setup;
 mod stats;
 
@@ -35,6 +36,9 @@ use crate::terminal::say;
 
 /// Makes the pictures, writes them, and says what came of it.
 pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {
+    if let Some(path) = &arguments.image {
+        return image::run(arguments, path, matches);
+    }
     let start = Instant::now();
     let setup = Setup::new(arguments, matches)?;
     let results = Results::bounded();

@@ -36,7 +36,8 @@ pub(super) fn table(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> Strin
     let mut text = format!("rank  {:widest$}  RMS %    R %    G %    B %  worst patch\n", "camera");
     for (rank, name, fit) in fitted(ranked).take(SHOWN) {
         let [r, g, b] = fit.channel_rms().map(percent);
-        let worst = fit.worst_patches().first().map(|(patch, rms)| format!("{}, {} %", names[*patch], percent(Some(*rms))));
+        let worst =
+            fit.worst_patches().first().map(|(patch, rms)| format!("{}, {} %", names[*patch], percent(Some(*rms))));
         let worst = worst.unwrap_or_default();
         let rms = percent(Some(fit.rms()));
         let _ = writeln!(text, "{rank:>4}  {name:widest$}  {rms:>5}  {r:>5}  {g:>5}  {b:>5}  {worst}");
