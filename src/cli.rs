@@ -1,5 +1,4 @@
-//! The same answers without a window: `locus`, `patches`, `light`, `render`, `inspect`, `bench`, `list`.
-//! The same answers without a window: `locus`, `patches`, `render`, `identify`, `inspect`, `bench`, `list`.
+//! The same answers without a window: `locus`, `patches`, `light`, `render`, `identify`, `inspect`, `bench`, `list`.
 //!
 //! Arguments become a [`Document`](crate::document::Document) and are answered through [`Scene`](crate::scene::Scene), as in the
 //! window, so that the two cannot disagree. Nothing here needs a display or a graphics library.

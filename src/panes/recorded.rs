@@ -107,7 +107,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         return;
     }
     let clip = DragValue::new(&mut view.clip).range(0.0..=1e12).prefix("Clip at ");
-    ui.add(clip).on_hover_text("Raw value from which on a channel is clipped and left out; 0 for none");
+    ui.add(clip).on_hover_text("Raw value from which on a channel is clipped and excluded; 0 for none");
 }
 
 /// Words in the pane's middle, and the way to a file.
@@ -205,7 +205,7 @@ fn words(
     child.spacing_mut().item_spacing.y = 0.0;
     let percent = |log: f64| fixed(log * 100.0, 2);
     let left = names.len() * 3 - fit.values;
-    let left = if left > 0 { format!(", {left} left out") } else { String::new() };
+    let left = if left > 0 { format!(", {left} excluded") } else { String::new() };
     let gains = fit.gains.map(|gain| gain.map_or_else(|| "–".to_owned(), |gain| format!("{gain:.3e}")));
     let line = format!(
         "{}: {name}, RMS {} % ({} % by the degrees of freedom); {} values{left}; gains {}",

@@ -33,6 +33,7 @@ mod own_data;
 mod panes;
 mod path_box;
 mod recompute;
+mod recorded;
 mod reducer;
 mod render;
 mod same_file;

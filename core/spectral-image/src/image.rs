@@ -35,7 +35,7 @@ pub enum Note {
         unit: &'static str,
     },
     /// Bands that the header marks as bad.
-    #[error("{0} bands that `bbl` marks as bad were left out")]
+    #[error("{0} bands that `bbl` marks as bad were skipped")]
     BadBands(usize),
     /// Bands that were not in ascending order.
     #[error("bands were sorted by wavelength")]
@@ -44,7 +44,7 @@ pub enum Note {
     #[error("samples were divided by the `reflectance scale factor` {0}")]
     Scale(f64),
     /// Channels that are not part of the spectrum.
-    #[error("{0} channels that are not spectral were left out")]
+    #[error("{0} channels that are not spectral were skipped")]
     OtherChannels(usize),
 }
 

@@ -140,9 +140,9 @@ pub fn develop_signals(
     let rows_of_task = (4096 / width.max(1)).max(1);
     let xyz: Option<Vec<[f32; 3]>> = development.root_polynomial.as_ref().map(|polynomial| {
         let xyz = |signal: &[f32; 3]| if stop.is_set() { [0.0; 3] } else { straightened(polynomial, *signal) };
-        image.signals().par_iter().with_min_len(512).map(xyz).collect()
+        signals.par_iter().with_min_len(512).map(xyz).collect()
     });
-    let signals = xyz.as_deref().unwrap_or(image.signals());
+    let signals = xyz.as_deref().unwrap_or(signals);
     let task = Task { size, geometry, signals, matrix, background, empty, encoded: &ENCODED };
     let clipped = rgba
         .par_chunks_mut(rows_of_task * width * 4)

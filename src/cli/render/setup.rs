@@ -47,23 +47,6 @@ impl Setup {
         let mut request = compared_request(arguments, matches)?;
         let specular = request.document.render.specular;
         request.document.render = settings(arguments, choice, specular)?;
-        match &arguments.illuminant {
-            Some(illuminant) => request.set_light(illuminant)?,
-            None => request.document.light = Light::Set(SUN.to_owned()),
-        }
-        request.set_filters(&arguments.filter)?;
-        match &arguments.white {
-            Some(white) => request.set_white(white)?,
-            None => request.document.white = WhiteBalanceChoice::Light(BALANCE.to_owned()),
-        }
-        if let Some(metric) = arguments.difference.as_deref().and_then(Metric::by_id) {
-            if !request.document.transform.metrics().contains(&metric) {
-                let reason =
-                    format!("{} has no meaning with the paper's matrix; add --transform fitted", metric.symbol);
-                return Err(CliError::Argument { argument: "--difference", reason });
-            }
-            request.document.difference = metric;
-        }
         request.values = arguments.values;
         if let Some(material) = &arguments.material {
             request.set_material(material)?;
@@ -92,6 +75,7 @@ pub(super) fn compared_request(arguments: &RenderArguments, matches: &ArgMatches
         Some(illuminant) => request.set_light(illuminant)?,
         None => request.document.light = Light::Set(SUN.to_owned()),
     }
+    request.set_filters(&arguments.filter)?;
     match &arguments.white {
         Some(white) => request.set_white(white)?,
         None => request.document.white = WhiteBalanceChoice::Light(BALANCE.to_owned()),
