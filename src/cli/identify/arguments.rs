@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use spectral_file::Values;
 
-use crate::cli::arguments::Per;
+use crate::cli::per::Per;
 
 pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope identify raw.csv --chart \"ColorChecker 24 (Ohta 1997)\" --illuminant D50

@@ -10,6 +10,7 @@ use chromascope_core::render::Stop;
 use clap::ArgMatches;
 
 use super::arguments::{Format, RenderArguments};
+use super::files::{file_names, make_folder, patiently};
 use super::setup::compared_request;
 use crate::catalog::spectral_images;
 use crate::cli::error::CliError;
@@ -43,12 +44,12 @@ pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let sources = scene.sources();
     let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let files = super::file_names(arguments, &name, &sources);
+    let files = file_names(arguments, &name, &sources);
     let inputs: Vec<PathBuf> = request.inputs().into_iter().chain([path.to_owned()]).collect();
     outputs::check(files.iter().map(PathBuf::as_path), &inputs, arguments.force)?;
-    super::make_folder(&arguments.out)?;
+    make_folder(&arguments.out)?;
     let wanted = ImageUse { quantity: wanted, scale: arguments.image_scale, exposure_ev: arguments.exposure };
-    let made = super::patiently("rendering", || scene.image_pictures(&mut image, &sources, wanted, &Stop::NEVER));
+    let made = patiently("rendering", || scene.image_pictures(&mut image, &sources, wanted, &Stop::NEVER));
     let made = made.map_err(|error| failure(path, error))?;
     let mut lines = String::new();
     for (index, file) in files.iter().enumerate() {
