@@ -20,6 +20,7 @@ use crate::action::history::History;
 use crate::catalog::Catalog;
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
+use crate::catalog::recorded_store::RecordedStore;
 use crate::command::{Command, key_bindings};
 use crate::figures::curves::CurveCache;
 use crate::files::Files;
@@ -47,6 +48,7 @@ pub struct ChromascopeApp {
     files: Files,
     meshes: MeshStore,
     opened: Opened,
+    recorded: RecordedStore,
     radiators: Background<NearestBlackBodyQuery>,
     studio: RenderService,
     laboratory: Profiler,
@@ -80,7 +82,7 @@ impl ChromascopeApp {
         saved.layout.retain(|pane| panes::by_kind(pane).is_some());
         theme::apply(ctx);
         files.wake(ctx);
-        let [window, also, third, fourth] = [(); 4].map(|()| ctx.clone());
+        let [window, also, third, fourth, fifth] = [(); 5].map(|()| ctx.clone());
         let opened = Opened::on(executor, move || also.request_repaint());
         opened.recall(saved.import.failing.clone());
         let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
@@ -93,6 +95,7 @@ impl ChromascopeApp {
             files,
             meshes: MeshStore::on(executor, move || window.request_repaint()),
             opened,
+            recorded: RecordedStore::on(executor, move || fifth.request_repaint()),
             radiators: Background::on(executor, "blackbodies", move || third.request_repaint()),
             studio: RenderService::on(executor, ctx),
             laboratory: Profiler::on(executor, move || fourth.request_repaint()),

@@ -47,6 +47,7 @@ pub mod library;
 pub mod light;
 pub mod menu;
 pub mod methods;
+pub mod recorded;
 pub mod render;
 pub mod render_settings;
 pub mod scene_bar;
@@ -81,6 +82,7 @@ pub const ALL: &[&Pane] = &[
     &methods::PANE,
     &work_saved::PANE,
     &tolerance::PANE,
+    &recorded::PANE,
 ];
 
 /// Note where something is measured.

@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod help;
 pub mod import;
+pub mod recorded;
 pub mod render;
 
 use std::collections::BTreeSet;
@@ -19,6 +20,7 @@ use accuracy::AccuracyView;
 use chromascope_figure::Tag;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
+use recorded::RecordedView;
 use render::{RenderLook, RenderView};
 
 /// What is looked at and how.
@@ -51,6 +53,8 @@ pub struct View {
     pub render: RenderView,
     /// What is looked at in Accuracy.
     pub accuracy: AccuracyView,
+    /// What is looked at in Recorded.
+    pub recorded: RecordedView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
     /// The reference stands in for every camera while B is held.

@@ -21,6 +21,7 @@ impl ChromascopeApp {
             view: &mut self.view,
             meshes: &self.meshes,
             opened: &self.opened,
+            recorded: &self.recorded,
             radiators: &self.radiators,
             studio: &mut self.studio,
             laboratory: &mut self.laboratory,

@@ -110,13 +110,24 @@ pub enum JoinError {
         name: String,
     },
     /// Rows without names, and another number of spectra.
-    #[error("{rows} rows of raw values for {spectra} spectra; name the patches in a first column, or give one row for each spectrum")]
+    #[error(
+        "{rows} rows of raw values for {spectra} spectra; name the patches in a first column, or give one row for each spectrum"
+    )]
     Count {
         /// Number of rows.
         rows: usize,
         /// Number of spectra.
         spectra: usize,
     },
+}
+
+/// `S L`.
+pub fn lit(reflectance: &GridSpectrum, light: &GridSpectrum) -> GridSpectrum {
+    let first = chromascope_core::spectral::grid::FIRST_NM;
+    GridSpectrum::from_fn(|nm| {
+        let index = (nm - first).round() as usize;
+        reflectance.values()[index] * light.values()[index]
+    })
 }
 
 /// Separator of cells.
@@ -162,7 +173,8 @@ fn channels(heads: &[String]) -> Option<[usize; 3]> {
 
 /// Column that names the patches: one headed so, or the first that is neither a channel nor a wavelength.
 fn name_column(heads: &[String], channels: [usize; 3], delimiter: char) -> Option<usize> {
-    let headed = heads.iter().position(|head| ["patch", "name", "sample", "label", "id"].contains(&folded(head).as_str()));
+    let headed =
+        heads.iter().position(|head| ["patch", "name", "sample", "label", "id"].contains(&folded(head).as_str()));
     let other = |at: &usize| !channels.contains(at) && number(&heads[*at], delimiter).is_none_or(f64::is_nan);
     headed.or_else(|| (0..heads.len()).find(other))
 }
@@ -180,7 +192,8 @@ pub fn read_table(bytes: &[u8]) -> Result<RawTable, RawTableError> {
     let delimiter = delimiter(head);
     let heads = cells(head, delimiter);
     let headless = heads.len() == 3 && heads.iter().all(|cell| number(cell, delimiter).is_some_and(|v| !v.is_nan()));
-    let columns = if headless { [0, 1, 2] } else { channels(&heads).ok_or(RawTableError::Heads { line: first + 1 })? };
+    let columns =
+        if headless { [0, 1, 2] } else { channels(&heads).ok_or(RawTableError::Heads { line: first + 1 })? };
     let named = if headless { None } else { name_column(&heads, columns, delimiter) };
     let has_spectra = (0..heads.len())
         .filter(|at| !columns.contains(at) && Some(*at) != named)

@@ -9,6 +9,7 @@ use spectral_file::Values;
 use super::bench::BenchArguments;
 use super::identify::arguments::IdentifyArguments;
 use super::inspect::arguments::InspectArguments;
+use super::per::Per;
 use super::render::arguments::RenderArguments;
 use crate::document::SetKind;
 use crate::document::start::Start;
@@ -205,15 +206,6 @@ pub(super) enum Transform {
     /// A 3×3 matrix for each sensor, fitted over 190 training reflectances
     #[value(alias = "observer")]
     Fitted,
-}
-
-/// What sensitivities are a response to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Per {
-    /// Equal energy at each wavelength
-    Energy,
-    /// Equal numbers of photons at each wavelength
-    Photon,
 }
 
 /// A kind of data sets to list.

@@ -15,11 +15,10 @@ use super::error::CliError;
 use super::outputs::{self, put};
 use super::request::{Request, told};
 use crate::catalog::chart_picture::ChartPicture;
-use crate::catalog::recorded::{self, Levels, RawRow, RawTable};
+use crate::catalog::recorded::{self, Levels, RawRow, RawTable, lit};
 use crate::document::own::Role;
 use crate::results::Results;
 use crate::scene::Scene;
-use crate::scene::recorded::lit;
 
 /// Spectra by the names of their patches.
 type Spectra = Vec<(String, GridSpectrum)>;
@@ -69,11 +68,7 @@ fn levels(arguments: &IdentifyArguments) -> Result<Levels, CliError> {
 }
 
 /// The patches with their spectra and raw values.
-fn recorded_set(
-    request: &mut Request,
-    arguments: &IdentifyArguments,
-    levels: Levels,
-) -> Result<RecordedSet, CliError> {
+fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Levels) -> Result<RecordedSet, CliError> {
     if let Some(light) = &arguments.illuminant {
         request.set_light(light)?;
     }
@@ -139,10 +134,8 @@ fn picture_rows(
 ) -> Result<Vec<RawRow>, CliError> {
     let bytes = request.bytes(path)?;
     let said = |error: &dyn std::fmt::Display| CliError::File(format!("{}: {error}", told(path)));
-    let corners = <[[f64; 2]; 4]>::try_from(arguments.corners.as_slice()).map_err(|_| CliError::Argument {
-        argument: "--corners",
-        reason: "expected four corners".to_owned(),
-    })?;
+    let corners = <[[f64; 2]; 4]>::try_from(arguments.corners.as_slice())
+        .map_err(|_| CliError::Argument { argument: "--corners", reason: "expected four corners".to_owned() })?;
     let [columns, rows] = arguments.grid;
     let grid = ChartGrid::new(corners, columns, rows).map_err(|error| said(&error))?;
     let picture = ChartPicture::decode(&bytes).map_err(|error| said(&error))?;
@@ -157,12 +150,7 @@ fn chart_spectra(request: &Request) -> Result<Spectra, CliError> {
 }
 
 /// Radiances of a file's spectra: as they are, or reflectances under the light.
-fn file_spectra(
-    request: &mut Request,
-    path: &Path,
-    text: Option<&str>,
-    radiance: bool,
-) -> Result<Spectra, CliError> {
+fn file_spectra(request: &mut Request, path: &Path, text: Option<&str>, radiance: bool) -> Result<Spectra, CliError> {
     let role = if radiance { Role::Illuminant } else { Role::Reflectance };
     let set = match text {
         Some(text) => request.read_bytes(path, text.as_bytes(), role)?,

@@ -1,6 +1,7 @@
 //! The command line, run as a person runs it, without a display.
 
 mod files;
+mod identify;
 mod inspect;
 mod lights;
 mod manners;

@@ -118,7 +118,7 @@ fn filters_are_ticked_in_the_library_and_removed_beside_the_light() {
 fn whites_and_isotherms_are_drawn_where_they_belong() {
     let mut document = Document::colorimetry();
     let marks = |document: &Document| {
-        with(document, |scene| figures::chromaticity::build(scene, &View::default(), [600.0, 400.0]).panel.marks)
+        with(document, |scene| figures::chromaticity::build(scene, &View::default(), None, [600.0, 400.0]).panel.marks)
     };
     let names = |document: &Document| marks(document).iter().map(|mark| mark.name.clone()).collect::<Vec<_>>();
     assert!(!names(&document).iter().any(|name| name.starts_with("white") || name.starts_with("isotherm")));

@@ -36,7 +36,8 @@ pub(super) fn table(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> Strin
     let mut text = format!("rank  {:widest$}  RMS %    R %    G %    B %  worst patch\n", "camera");
     for (rank, name, fit) in fitted(ranked).take(SHOWN) {
         let [r, g, b] = fit.channel_rms().map(percent);
-        let worst = fit.worst_patches().first().map(|(patch, rms)| format!("{}, {} %", names[*patch], percent(Some(*rms))));
+        let worst =
+            fit.worst_patches().first().map(|(patch, rms)| format!("{}, {} %", names[*patch], percent(Some(*rms))));
         let worst = worst.unwrap_or_default();
         let rms = percent(Some(fit.rms()));
         let _ = writeln!(text, "{rank:>4}  {name:widest$}  {rms:>5}  {r:>5}  {g:>5}  {b:>5}  {worst}");
@@ -61,7 +62,7 @@ pub(super) fn table(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> Strin
     let _ = write!(text, "\nGains {}; {} values, {} fitted parameters, ", gains.join(", "), fit.values, fit.parameters);
     let _ = writeln!(text, "standard deviation {} % by the degrees of freedom", percent(Some(fit.deviation())));
     for (reason, places) in excluded(patches, fit) {
-        let _ = writeln!(text, "Left out, {reason}: {}", places.join(", "));
+        let _ = writeln!(text, "Excluded, {reason}: {}", places.join(", "));
     }
     for link in fit.links.iter().filter(|link| link.share >= NOTABLE) {
         let cause = cause_in_words(link.kind, link.amount, &names);
