@@ -5,6 +5,7 @@
 
 pub mod ask;
 pub mod compare;
+pub mod correction;
 pub mod loci;
 pub mod patches;
 pub mod radiances;
@@ -13,6 +14,9 @@ pub mod shared;
 
 pub use ask::{Ask, Direct, Query};
 pub use compare::DifferenceError;
+pub use correction::{
+    CorrectionReport, CorrectionReportQuery, ErrorSummary, StimulusCheck, TwoLightPoint, TwoLightQuery,
+};
 pub use loci::{
     Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery, RadiatorSignalsQuery,
     SpectralLocusQuery, Temperatures,
