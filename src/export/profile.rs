@@ -76,7 +76,8 @@ impl CorrectionFile {
         })
     }
 
-    fn unders(&self) -> impl Iterator<Item = (&String, &CorrectionUnder)> {
+    /// Lights with the correction under each.
+    pub fn unders(&self) -> impl Iterator<Item = (&String, &CorrectionUnder)> {
         let second = self.sheet.second.as_ref().and_then(|second| second.as_ref().ok());
         self.lights.iter().zip(std::iter::once(&self.sheet.first).chain(second))
     }
@@ -182,29 +183,34 @@ impl CorrectionFile {
 
     fn under(&self, text: &mut String, under: &CorrectionUnder) {
         let report = &under.report;
-        match &report.transform {
-            RgbTransform::Matrix(matrix) => {
-                let _ = writeln!(text, "XYZ from balanced RGB\n{}", aligned(*matrix));
-            }
-            RgbTransform::RootPolynomial(polynomial) => text.push_str(&polynomial_table(polynomial)),
-        }
-        let _ =
-            writeln!(text, "\n{:<28}    mean    95 %     max  at", format!("{} over {}", self.metric, report.count));
-        for (label, summary) in [
-            ("uncorrected (RGB as sRGB)", report.before),
-            ("training", report.training),
-            ("leave-one-out", report.left_out),
-        ] {
-            let _ = writeln!(text, "{label:<28}{}", self.summary(summary));
-        }
+        let _ = writeln!(text, "XYZ from balanced RGB\n{}\n", self.transform_text(under));
+        let _ = writeln!(text, "{}\n", self.errors_text(under));
         for check in std::iter::once(&report.white).chain(&report.blue) {
-            let _ = writeln!(text, "{}", check_line(check, self.metric));
+            let _ = writeln!(text, "{}", check_lines(check, self.metric).join("  "));
         }
         if let Some(dng) = &report.dng {
             let [r, g, b] = dng.balance;
-            let _ = writeln!(text, "balance {r:.6} {g:.6} {b:.6}\nDNG ColorMatrix\n{}", aligned(dng.color));
+            let _ = writeln!(text, "\nbalance {r:.6} {g:.6} {b:.6}\nDNG ColorMatrix\n{}", aligned(dng.color));
             let _ = writeln!(text, "DNG ForwardMatrix\n{}", aligned(dng.forward));
         }
+    }
+
+    /// The transform as aligned numbers.
+    pub fn transform_text(&self, under: &CorrectionUnder) -> String {
+        match &under.report.transform {
+            RgbTransform::Matrix(matrix) => aligned(*matrix),
+            RgbTransform::RootPolynomial(polynomial) => polynomial_table(polynomial),
+        }
+    }
+
+    /// Errors before and after, of training and left out, as aligned lines.
+    pub fn errors_text(&self, under: &CorrectionUnder) -> String {
+        let report = &under.report;
+        let mut lines =
+            vec![format!("{:<16}    mean    95 %     max  at", format!("{} of {}", self.metric, report.count))];
+        let rows = [("uncorrected", report.before), ("training", report.training), ("leave-one-out", report.left_out)];
+        lines.extend(rows.map(|(label, summary)| format!("{label:<16}{}", self.summary(summary))));
+        lines.join("\n")
     }
 
     fn summary(&self, summary: Option<ErrorSummary>) -> String {
@@ -257,25 +263,29 @@ pub fn aligned(matrix: DMat3) -> String {
     [row(0), row(1), row(2)].join("\n")
 }
 
-/// What a correction makes of a stimulus, on one line.
-pub fn check_line(check: &StimulusCheck, metric: &str) -> String {
+/// What a correction makes of a stimulus: its numbers, and what they mean.
+pub fn check_lines(check: &StimulusCheck, metric: &str) -> [String; 2] {
     let Xyz { x, y, z } = check.xyz;
-    let what = check.peak_nm.map_or_else(|| "white".to_owned(), |nm| format!("blue LED {nm:.0} nm"));
+    let what = check.peak_nm.map_or_else(|| "white".to_owned(), |nm| format!("{nm:.0} nm"));
     let remark = match (check.difference, check.is_negative(), check.clips()) {
         (Some(difference), ..) => format!("{metric} {difference:.3} from the reference's white"),
-        (None, true, _) => "a negative tristimulus value: no light has this color".to_owned(),
+        (None, true, _) => "a negative tristimulus value: no light has this color; sRGB clips it".to_owned(),
         (None, false, true) => "outside sRGB, clipped".to_owned(),
         (None, false, false) => "inside sRGB".to_owned(),
     };
-    format!("{what:<16} XYZ {x:9.4}{y:9.4}{z:9.4}  {remark}")
+    [format!("{what:<8}XYZ {x:9.4}{y:9.4}{z:9.4}"), remark]
+}
+
+/// Name of a correction's file.
+pub fn file_name(file: &CorrectionFile, ending: &str) -> String {
+    format!("{}-{}.{ending}", slug(&file.camera), slug(&file.lights.join(" ")))
 }
 
 fn polynomial_table(polynomial: &RootPolynomial) -> String {
-    let mut text = "XYZ from balanced RGB, by terms\n".to_owned();
-    for (index, c) in polynomial.coefficients().iter().enumerate() {
-        let _ = writeln!(text, "{:<12}{:16.7}{:16.7}{:16.7}", RootPolynomial::term_name(index), c.x, c.y, c.z);
-    }
-    text
+    let line = |(index, c): (usize, &DVec3)| {
+        format!("{:<10}{:14.6}{:14.6}{:14.6}", RootPolynomial::term_name(index), c.x, c.y, c.z)
+    };
+    polynomial.coefficients().iter().enumerate().map(line).collect::<Vec<_>>().join("\n")
 }
 
 fn calibration(light: &str, under: &CorrectionUnder) -> Option<Calibration> {

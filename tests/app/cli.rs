@@ -3,6 +3,7 @@
 mod files;
 mod inspect;
 mod manners;
+mod matrix;
 mod names;
 mod outputs;
 mod presets;
