@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod chromaticity;
 pub mod correction;
 pub mod curves;
+pub mod light;
 pub mod render;
 pub mod skipped_work;
 pub mod spectra;

@@ -6,7 +6,9 @@
 pub mod ask;
 pub mod compare;
 pub mod correction;
+pub mod lights;
 pub mod loci;
+pub mod metrics;
 pub mod patches;
 pub mod radiances;
 pub mod render;
@@ -17,10 +19,12 @@ pub use compare::DifferenceError;
 pub use correction::{
     CorrectionReport, CorrectionReportQuery, ErrorSummary, StimulusCheck, TwoLightPoint, TwoLightQuery,
 };
+pub use lights::{Consistency, ConsistencyError, ConsistencyQuery, Rendition, RenditionQuery};
 pub use loci::{
-    Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery, RadiatorSignalsQuery,
-    SpectralLocusQuery, Temperatures,
+    CctQuery, Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery,
+    RadiatorSignalsQuery, SpectralLocusQuery, Temperatures,
 };
+pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricValue, Replicates, WhyNot};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;
 pub use shared::Shared;

@@ -56,6 +56,7 @@ impl Document {
                 self.subset = Subset::All;
             }
             SetKind::Illuminant => self.light = Light::Set(set.name.clone()),
+            SetKind::Filter => self.set_filter(&set.name, true),
             SetKind::Unsorted => {}
         }
     }
@@ -93,6 +94,11 @@ impl Document {
                     self.correction.second_light = Some(new.to_owned());
                 }
             }
+            SetKind::Filter => {
+                for used in self.filters.iter_mut().filter(|used| *used == old) {
+                    new.clone_into(used);
+                }
+            }
             SetKind::Unsorted => {}
         }
     }
@@ -126,6 +132,7 @@ impl Document {
                     self.correction.second_light = None;
                 }
             }
+            SetKind::Filter => self.set_filter(name, false),
             SetKind::Unsorted => {}
         }
     }
