@@ -14,6 +14,7 @@ mod saving;
 mod startup;
 
 use chromascope_core::query::NearestBlackBodyQuery;
+use chromascope_core::query::correction::CorrectionSheetQuery;
 use egui::{Event, Ui};
 
 use crate::action::history::History;
@@ -50,6 +51,7 @@ pub struct ChromascopeApp {
     opened: Opened,
     recorded: RecordedStore,
     radiators: Background<NearestBlackBodyQuery>,
+    corrections: Background<CorrectionSheetQuery>,
     studio: RenderService,
     laboratory: Profiler,
     curves: Option<CurveCache>,
@@ -82,7 +84,7 @@ impl ChromascopeApp {
         saved.layout.retain(|pane| panes::by_kind(pane).is_some());
         theme::apply(ctx);
         files.wake(ctx);
-        let [window, also, third, fourth, fifth] = [(); 5].map(|()| ctx.clone());
+        let [window, also, third, fourth, fifth, sixth] = [(); 6].map(|()| ctx.clone());
         let opened = Opened::on(executor, move || also.request_repaint());
         opened.recall(saved.import.failing.clone());
         let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
@@ -97,6 +99,7 @@ impl ChromascopeApp {
             opened,
             recorded: RecordedStore::on(executor, move || fifth.request_repaint()),
             radiators: Background::on(executor, "blackbodies", move || third.request_repaint()),
+            corrections: Background::on(executor, "color corrections", move || sixth.request_repaint()),
             studio: RenderService::on(executor, ctx),
             laboratory: Profiler::on(executor, move || fourth.request_repaint()),
             curves: None,

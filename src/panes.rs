@@ -38,6 +38,7 @@
 
 pub mod chromaticity;
 pub mod context;
+pub mod correction;
 pub mod curves;
 pub mod help;
 pub mod import;
@@ -83,6 +84,7 @@ pub const ALL: &[&Pane] = &[
     &work_saved::PANE,
     &tolerance::PANE,
     &recorded::PANE,
+    &correction::PANE,
 ];
 
 /// Note where something is measured.

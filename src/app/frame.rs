@@ -23,6 +23,7 @@ impl ChromascopeApp {
             opened: &self.opened,
             recorded: &self.recorded,
             radiators: &self.radiators,
+            corrections: &self.corrections,
             studio: &mut self.studio,
             laboratory: &mut self.laboratory,
             curves: &mut self.curves,

@@ -5,6 +5,7 @@ mod identify;
 mod inspect;
 mod lights;
 mod manners;
+mod matrix;
 mod names;
 mod outputs;
 mod presets;

@@ -10,6 +10,7 @@ mod bench;
 mod cli;
 mod cli_render;
 mod cli_render_image;
+mod correction;
 mod cpu_renderer;
 mod doubt;
 mod exports;
