@@ -16,6 +16,7 @@ mod per;
 mod radiance;
 mod render;
 mod request;
+mod sources;
 mod tables;
 
 use std::ffi::OsString;

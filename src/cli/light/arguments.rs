@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::cli::arguments::SourceArguments;
+use crate::cli::sources::SourceArguments;
 
 pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope light FL2 LED-B3 D65

@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use spectral_file::Values;
 use spectral_image::ImageQuantity;
 
-use crate::cli::arguments::SourceArguments;
+use crate::cli::sources::SourceArguments;
 use crate::document::render::model::{AreaChoice, SpecularChoice};
 use crate::document::render::{ReadingChoice, TOLERANCES};
 use chromascope_core::render::QualityLevel;
