@@ -6,6 +6,7 @@
 pub mod ask;
 pub mod compare;
 pub mod loci;
+pub mod metamers;
 pub mod metrics;
 pub mod patches;
 pub mod radiances;
@@ -18,6 +19,7 @@ pub use loci::{
     Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery, RadiatorSignalsQuery,
     SpectralLocusQuery, Temperatures,
 };
+pub use metamers::{Metamers, MetamersQuery};
 pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricValue, Replicates, WhyNot};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;

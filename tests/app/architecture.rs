@@ -25,6 +25,7 @@ const CORE_LAYERS: &[&str] = &[
     "patch_set",
     "correction",
     "camera",
+    "metamers",
     "reflectance",
     "scene",
     "render",

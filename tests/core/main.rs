@@ -15,6 +15,7 @@ mod examples;
 mod light;
 mod locus_table;
 mod math;
+mod metamers;
 mod metrics;
 mod query;
 mod reflectance;
