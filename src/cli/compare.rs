@@ -27,6 +27,8 @@ struct Comparison {
     /// The metric that orders the rows; none for the order of names.
     sorted_by: Option<CameraMetric>,
     rows: Vec<Row>,
+    /// Names of the patches.
+    patches: Vec<String>,
     /// Conditions by their heads, the temperature among them.
     conditions: Vec<(&'static str, String)>,
 }
@@ -121,7 +123,8 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
     }
     conditions.push(("chart", request.chart_name_on_show()));
     conditions.push(("temperature_k", arguments.temperature.to_string()));
-    Ok(Comparison { rows: rows(found, &metrics, sorted_by), metrics, sorted_by, conditions })
+    let patches = scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect();
+    Ok(Comparison { rows: rows(found, &metrics, sorted_by), metrics, sorted_by, patches, conditions })
 }
 
 /// The rows in order, with ranks.

@@ -52,7 +52,8 @@ the model where there are several, otherwise the pooled spread of those models. 
 the standard uncertainty of their difference. A value that is undefined is –, with the reason below.
 
 CSV: sensor, rank_first, rank_last (by the metric of --sort); for each metric its column and the same with _uncertainty; then the
-conditions. JSON: format, version, conditions, metrics, cameras with value, uncertainty and rank of each metric, or the reason for none."
+conditions. JSON: format, version, conditions, metrics, cameras with value,
+uncertainty and rank of each metric or the reason for none, and worst_patches, those of the largest \u{394}E*00."
     )
 }
 

@@ -73,7 +73,7 @@ fn cell(metric: CameraMetric, value: MetricValue) -> String {
 fn notes(comparison: &Comparison) -> String {
     let mut text = "\n".to_owned();
     for (head, value) in &comparison.conditions {
-        text += &format!("{}: {value}\n", head.replace('_', " "));
+        text += &format!("{}: {value}\n", head.replace("_k", " in kelvins").replace('_', " "));
     }
     if let Some(metric) = comparison.sorted_by {
         text += &format!("Rank by {}; a range where values differ by less than their uncertainty.\n", metric.symbol);
@@ -135,11 +135,13 @@ pub(super) fn json(comparison: &Comparison) -> String {
             };
             (metric.id.to_owned(), told)
         });
+        let worst: Vec<&String> =
+            row.all.worst.iter().take(1).flatten().filter_map(|&patch| comparison.patches.get(patch)).collect();
         json!({
             "name": row.name,
             "kind": row.kind.singular(),
             "values": values.collect::<serde_json::Map<String, Value>>(),
-            "worst_patches": row.all.worst.first(),
+            "worst_patches": worst,
         })
     };
     let conditions = comparison.conditions.iter().map(|(head, value)| ((*head).to_owned(), json!(value)));

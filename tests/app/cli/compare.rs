@@ -1,6 +1,10 @@
 //! Rankings of cameras, as a person asks for them.
 
-use chromascope_core::query::CameraMetric;
+use chromascope::catalog::Catalog;
+use chromascope::document::{Document, SetKind};
+use chromascope::results::Results;
+use chromascope::scene::Scene;
+use chromascope_core::query::{Ask as _, CameraMetric};
 use serde_json::Value;
 
 use super::{column, file, number, refused, run, table};
@@ -42,6 +46,8 @@ fn one_number_in_three_forms() {
     assert!((told["value"].as_f64().unwrap() - mean).abs() < 1e-13);
     assert!(told["uncertainty"].as_f64().unwrap() > 0.0);
     assert_eq!(object["conditions"]["illuminant"], "D65");
+    let worst = object["cameras"][0]["worst_patches"].as_array().unwrap();
+    assert!(worst.len() == 5 && worst.iter().all(Value::is_string), "{worst:?}");
     let aligned = text(&named);
     assert!(aligned.contains(&format!("{mean:.2} ± ")) && aligned.contains("CCT error [K]"), "{aligned}");
     // numpy and colour-science, tests/core/reference/camera_metrics.csv.
@@ -60,6 +66,33 @@ fn aligned_columns_are_aligned() {
     assert!(first.len() > 5);
     for line in &lines[1..] {
         assert_eq!(places(line)[0], first[0]);
+    }
+}
+
+#[test]
+fn the_library_shares_what_does_not_depend_on_the_camera() {
+    let (document, catalog, results) = (Document::default(), Catalog::built_in(), Results::default());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    for entry in catalog.of_kind(SetKind::Camera) {
+        let query = scene.camera_metrics_query(SetKind::Camera, &entry.name).unwrap();
+        assert!(results.ask(&query).values[0].value.is_ok(), "{}", entry.name);
+    }
+    let counts = results.counts();
+    let expected = [
+        ("camera metrics", 58),
+        ("metrics of a table", 3),
+        ("fit targets", 1),
+        ("locus rules", 1),
+        ("reference locus", 1),
+        ("metamerism index samples", 1),
+        ("metamerism index", 58),
+        ("space quality", 58),
+        ("rendering", 59),
+        ("patch colors", 59),
+    ];
+    for (name, misses) in expected {
+        // Two tables of one measurement that differ in rounding are two questions.
+        assert_eq!(counts[name].misses, misses, "{name}");
     }
 }
 
