@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod chromaticity;
 pub mod curves;
+pub mod light;
 pub mod render;
 pub mod skipped_work;
 pub mod spectra;

@@ -44,6 +44,7 @@ pub mod import;
 pub mod inspector;
 pub mod interpretation;
 pub mod library;
+pub mod light;
 pub mod menu;
 pub mod methods;
 pub mod render;
@@ -71,6 +72,7 @@ pub const ALL: &[&Pane] = &[
     &chromaticity::PANE,
     &swatches::PANE,
     &spectra::PANE,
+    &light::PANE,
     &inspector::PANE,
     &render::PANE,
     &render_settings::PANE,

@@ -13,6 +13,7 @@
 //! camera::locus              ∫ C E(T) dλ                                Eq 14, 15
 //! colorimetry                XYZ → xy, u′v′, L*a*b*, ΔE, sRGB
 //! light::temperature         XYZ → nearest black body, Duv
+//! rendition                  light → Ra, Rf and Rg, SSI
 //! camera::locus_table        black bodies → xy, for very many temperatures
 //! camera::quality            Vora, Luther, metamerism index, noise
 //! metamers                   pairs that a camera confuses
@@ -55,6 +56,7 @@ pub mod prelude;
 pub mod query;
 pub mod reflectance;
 pub mod render;
+pub mod rendition;
 pub mod scene;
 pub mod spectral;
 
