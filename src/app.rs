@@ -13,6 +13,7 @@ mod saving;
 mod startup;
 
 use chromascope_core::query::NearestBlackBodyQuery;
+use chromascope_core::query::correction::CorrectionSheetQuery;
 use egui::{Align2, CentralPanel, CursorIcon, Event, Frame, Panel, Rect, Sense, Ui};
 
 use crate::action::history::History;
@@ -49,6 +50,7 @@ pub struct ChromascopeApp {
     meshes: MeshStore,
     opened: Opened,
     radiators: Background<NearestBlackBodyQuery>,
+    corrections: Background<CorrectionSheetQuery>,
     studio: RenderService,
     laboratory: Profiler,
     curves: Option<CurveCache>,
@@ -81,7 +83,7 @@ impl ChromascopeApp {
         saved.layout.retain(|pane| panes::by_kind(pane).is_some());
         theme::apply(ctx);
         files.wake(ctx);
-        let [window, also, third, fourth] = [(); 4].map(|()| ctx.clone());
+        let [window, also, third, fourth, fifth] = [(); 5].map(|()| ctx.clone());
         let opened = Opened::on(executor, move || also.request_repaint());
         opened.recall(saved.import.failing.clone());
         let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
@@ -95,6 +97,7 @@ impl ChromascopeApp {
             meshes: MeshStore::on(executor, move || window.request_repaint()),
             opened,
             radiators: Background::on(executor, "blackbodies", move || third.request_repaint()),
+            corrections: Background::on(executor, "color corrections", move || fifth.request_repaint()),
             studio: RenderService::on(executor, ctx),
             laboratory: Profiler::on(executor, move || fourth.request_repaint()),
             curves: None,
@@ -259,6 +262,7 @@ impl ChromascopeApp {
             meshes,
             opened,
             radiators,
+            corrections,
             studio,
             laboratory,
             curves,
@@ -273,6 +277,7 @@ impl ChromascopeApp {
             meshes,
             opened,
             radiators,
+            corrections,
             studio,
             laboratory,
             curves,

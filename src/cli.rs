@@ -1,4 +1,4 @@
-//! The same answers without a window: `locus`, `patches`, `compare`, `light`, `render`, `inspect`, `bench`, `list`.
+//! The same answers without a window: `locus`, `patches`, `compare`, `matrix`, `light`, `render`, `inspect`, `bench`, `list`.
 //!
 //! Arguments become a [`Document`](crate::document::Document) and are answered through [`Scene`](crate::scene::Scene), as in the
 //! window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
@@ -10,6 +10,7 @@ mod compare;
 mod error;
 mod inspect;
 mod light;
+mod matrix;
 mod outputs;
 mod radiance;
 mod render;
@@ -59,6 +60,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
             tables::patches(&arguments, matches).and_then(|text| put(&text, arguments.common.out.as_deref()))
         }
         Subcommand::Compare(arguments) => compare::run(&arguments, matches),
+        Subcommand::Matrix(arguments) => matrix::run(&arguments),
         Subcommand::Render(arguments) => render::run(&arguments, matches),
         Subcommand::Light(arguments) => light::run(&arguments, matches),
         Subcommand::Inspect(arguments) => inspect::run(&arguments),

@@ -9,6 +9,7 @@ use crate::document::own::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
 use crate::plot_item::SensorId;
 use crate::theme::Surround;
+use crate::view::correction::CorrectionForm;
 use crate::view::import::ImportItem;
 use crate::workspaces::{PaneKind, Workspace};
 
@@ -65,6 +66,8 @@ pub enum Command {
     ExportExr(SensorId),
     /// Save the curves of a set of the library.
     SaveSet(SetKind, String, Form),
+    /// Save the color correction on show.
+    SaveCorrection(CorrectionForm),
     /// Put a pane's picture on the clipboard.
     CopyPicture(PaneKind),
     /// Put a pane's numbers on the clipboard.

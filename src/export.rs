@@ -1,5 +1,6 @@
 //! Figures out of the program: SVG from the figure, PNG from that SVG, both in the bundled fonts.
 
+pub mod profile;
 pub mod render;
 pub mod spectra;
 

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod chromaticity;
+pub mod correction;
 pub mod curves;
 pub mod light;
 pub mod render;

@@ -38,6 +38,7 @@
 
 pub mod chromaticity;
 pub mod context;
+pub mod correction;
 pub mod curves;
 pub mod help;
 pub mod import;
@@ -82,6 +83,7 @@ pub const ALL: &[&Pane] = &[
     &methods::PANE,
     &work_saved::PANE,
     &tolerance::PANE,
+    &correction::PANE,
 ];
 
 /// Note where something is measured.

@@ -3,6 +3,7 @@
 //! Panes, exports and the command line all ask through here, so that they cannot disagree.
 
 pub mod conditions;
+pub mod correction;
 pub mod light;
 pub mod locus;
 pub mod metrics;
@@ -13,6 +14,7 @@ use std::sync::Arc;
 
 use chromascope_core::camera::{RenderingError, WhiteBalanceTarget};
 use chromascope_core::colorimetry::diagram::SpectralPoint;
+use chromascope_core::correction::aces::IdtError;
 use chromascope_core::light::{DaylightError, RadiationConstants, daylight};
 use chromascope_core::patch_set::{PAPER_FIVE, PatchSet};
 use chromascope_core::query::{
@@ -31,8 +33,7 @@ use crate::catalog::load::{
 use crate::catalog::{Catalog, Entry, Place};
 use crate::document::names::caseless;
 use crate::document::{
-    Compared, Document, FIT_TARGET, LOCUS_RANGE_K, Light, SetKind, Subset, TRAINING, TransformChoice,
-    WhiteBalanceChoice,
+    Compared, Document, FIT_TARGET, LOCUS_RANGE_K, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice,
 };
 use crate::results::Results;
 
@@ -57,6 +58,14 @@ pub enum SceneError {
         name: String,
         /// Reason.
         error: LoadError,
+    },
+    /// A camera without an ACES input transform under this light.
+    #[error("{name}: {error}")]
+    Idt {
+        /// Its name.
+        name: String,
+        /// Reason.
+        error: IdtError,
     },
     /// A sensor that cannot be shown under this light.
     #[error("{name}: {error}")]
@@ -222,7 +231,7 @@ impl<'a> Scene<'a> {
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
 
-    fn loaded(&self, of: &LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
+    pub(crate) fn loaded(&self, of: &LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
         let answer = self.results.ask(of);
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
@@ -251,7 +260,11 @@ impl<'a> Scene<'a> {
         })
     }
 
-    fn patch_set(&self, name: &str, names: Option<&'static [&'static str]>) -> Result<Shared<PatchSet>, SceneError> {
+    pub(crate) fn patch_set(
+        &self,
+        name: &str,
+        names: Option<&'static [&'static str]>,
+    ) -> Result<Shared<PatchSet>, SceneError> {
         let place = self.chart_entry(name)?.place;
         self.loaded_patches(place, name, names)
     }
@@ -296,10 +309,12 @@ impl<'a> Scene<'a> {
     pub fn transform(&self) -> Result<ColorTransformSpec, SceneError> {
         match &self.document.transform {
             TransformChoice::Paper => Ok(ColorTransformSpec::Paper),
-            TransformChoice::Observer(reference) => Ok(ColorTransformSpec::Observer {
-                reference: self.sensor(SetKind::Observer, reference)?,
-                training: self.patch_set(TRAINING, None)?,
-            }),
+            TransformChoice::Observer(reference) => {
+                let choice = &self.document.correction;
+                let reference = self.sensor(SetKind::Observer, reference)?;
+                let training = self.patch_set(&choice.training, None)?;
+                Ok(ColorTransformSpec::corrected(reference, training, choice.correction()))
+            }
         }
     }
 

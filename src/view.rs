@@ -1,6 +1,7 @@
 //! What is looked at and how: selection, panes, layout. Not part of the document, no steps of undo.
 
 pub mod accuracy;
+pub mod correction;
 pub mod help;
 pub mod import;
 pub mod render;
@@ -17,6 +18,7 @@ use crate::theme::Surround;
 use crate::workspaces::{Layout, PaneKind, Workspace};
 use accuracy::AccuracyView;
 use chromascope_figure::Tag;
+use correction::CorrectionView;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use render::{RenderLook, RenderView};
@@ -49,6 +51,8 @@ pub struct View {
     pub import: ImportView,
     /// What the Render pane shows now.
     pub render: RenderView,
+    /// What is looked at in Correction.
+    pub correction: CorrectionView,
     /// What is looked at in Accuracy.
     pub accuracy: AccuracyView,
     /// Plots show their own ranges again in this frame.

@@ -5,6 +5,7 @@
 
 pub mod ask;
 pub mod compare;
+pub mod correction;
 pub mod lights;
 pub mod loci;
 pub mod metamers;
@@ -16,6 +17,9 @@ pub mod shared;
 
 pub use ask::{Ask, Direct, Query};
 pub use compare::DifferenceError;
+pub use correction::{
+    CorrectionReport, CorrectionReportQuery, ErrorSummary, StimulusCheck, TwoLightPoint, TwoLightQuery,
+};
 pub use lights::{Consistency, ConsistencyError, ConsistencyQuery, Rendition, RenditionQuery};
 pub use loci::{
     CctQuery, Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery,

@@ -98,6 +98,7 @@ impl ChromascopeApp {
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
+            Command::SaveCorrection(form) => self.save_correction(form),
             Command::CopyPicture(pane) => self.copy_picture(ctx, pane),
             Command::CopyNumbers(pane) => self.copy_numbers(ctx, pane),
             Command::Show(workspace) => {

@@ -3,12 +3,14 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
+use chromascope_core::correction::CorrectionMethod;
 use clap::{Args, Parser, ValueEnum};
 use spectral_file::Values;
 
 use super::bench::BenchArguments;
 use super::compare::arguments::CompareArguments;
 use super::inspect::arguments::InspectArguments;
+use super::matrix::{FitArguments, MatrixArguments};
 use super::render::arguments::RenderArguments;
 use crate::document::SetKind;
 use crate::document::start::Start;
@@ -32,6 +34,7 @@ const EXAMPLES: &str = "Examples:
   chromascope locus --camera \"Nikon D70\" --observer \"CIE 1931 2°\" --temperatures 2856,5500,6504
   chromascope patches --camera \"Canon EOS 10D\" --illuminant D55 --out patches.csv
   chromascope compare --illuminant A --sort metamerism-index
+  chromascope matrix \"Nikon D850\" --illuminant A --second-illuminant D65 --format dcp --out d850.dcp
   chromascope render --mesh head --camera \"Nikon D70\" --out pictures
   chromascope inspect measured.txt --csv measured.csv
   chromascope list cameras
@@ -84,6 +87,9 @@ pub(super) enum Subcommand {
     /// Lights: CCT and Duv, Ra, Rf and Rg, spectral similarity, and how consistent cameras are under them
     #[command(after_help = super::light::EXAMPLES)]
     Light(Box<super::light::LightArguments>),
+    /// Color correction matrix of a camera, with its errors, as text, DNG values, DCP, ICC or CLF
+    #[command(after_help = super::matrix::EXAMPLES)]
+    Matrix(Box<MatrixArguments>),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
@@ -125,9 +131,27 @@ pub(super) struct SourceArguments {
     /// The observer that 3×3 matrices are fitted to [default: the reference if it is an XYZ observer, else CIE 1931 2°]
     #[arg(long, value_name = "OBSERVER")]
     pub(super) fit_to: Option<String>,
+    /// The color correction of a fitted transform [default: matrix]
+    #[arg(long, value_name = "METHOD", value_parser = super::matrix::method())]
+    pub(super) correction: Option<CorrectionMethod>,
+    #[command(flatten)]
+    pub(super) fit: FitArguments,
 }
 
 impl SourceArguments {
+    /// The first argument that only a fitted transform has.
+    pub(super) fn names_fit(&self) -> Option<&'static str> {
+        let FitArguments { training, weights, free_white } = &self.fit;
+        let given = [
+            ("--fit-to", self.fit_to.is_some()),
+            ("--correction", self.correction.is_some()),
+            ("--training", training.is_some()),
+            ("--weights", !weights.is_empty()),
+            ("--free-white", *free_white),
+        ];
+        given.into_iter().find(|(_, given)| *given).map(|(argument, _)| argument)
+    }
+
     /// True if no sensor was named.
     pub(super) fn names_no_sensor(&self) -> bool {
         self.observer.is_empty() && self.camera.is_empty()

@@ -6,17 +6,16 @@ mod output;
 use std::sync::Arc;
 
 use chromascope_core::camera::quality::Electrons;
-use chromascope_core::correction::Correction;
 use chromascope_core::query::metrics::rank_ranges;
-use chromascope_core::query::{Ask as _, CameraMetric, CameraMetrics, ColorTransformSpec, MetricValue};
+use chromascope_core::query::{Ask as _, CameraMetric, CameraMetrics, MetricValue};
 use clap::ArgMatches;
 
-use self::arguments::{ALL, CompareArguments, CorrectionChoice, Format, NAME, USUAL};
+use self::arguments::{ALL, CompareArguments, Format, NAME, USUAL};
 use super::error::CliError;
 use super::outputs;
 use super::request::Request;
 use super::tables;
-use crate::document::{FIT_TARGET, SetKind, TransformChoice};
+use crate::document::SetKind;
 use crate::results::Results;
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
@@ -55,7 +54,6 @@ pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<
         let cameras = request.catalog.of_kind(SetKind::Camera);
         request.sources = cameras.map(|entry| (SetKind::Camera, entry.name.clone())).collect();
     }
-    set_transform(&mut request, arguments.correction);
     if !(1.0..=1e15).contains(&arguments.temperature) {
         let reason = format!("{} is not a temperature; use kelvins from 1 to 1e15", arguments.temperature);
         return Err(CliError::Argument { argument: "--temperature", reason });
@@ -71,18 +69,6 @@ pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<
     };
     tables::say_caution(&scene, &request)?;
     outputs::put(&text, arguments.common.out.as_deref())
-}
-
-/// Eq 13, or a fit to the target of the document; to CIE 1931 where it has none.
-fn set_transform(request: &mut Request, correction: Option<CorrectionChoice>) {
-    match correction {
-        None => {}
-        Some(CorrectionChoice::None) => request.document.set_transform(TransformChoice::Paper),
-        Some(_) if request.document.transform.is_eq_13() => {
-            request.document.set_transform(TransformChoice::Observer(FIT_TARGET.to_owned()));
-        }
-        Some(_) => {}
-    }
 }
 
 fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) -> Result<Comparison, CliError> {
@@ -101,35 +87,22 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
     let electrons = electrons.transpose();
     let electrons =
         electrons.map_err(|error| CliError::Argument { argument: "--full-well", reason: error.to_string() })?;
-    let method = arguments.correction.and_then(CorrectionChoice::method);
     let mut found = Vec::new();
     for (kind, name) in &request.sources {
         let mut query = scene.camera_metrics_query_at(*kind, name, arguments.temperature)?;
         query.electrons = electrons;
-        if let (Some(method), ColorTransformSpec::Observer { reference, training }) =
-            (method, &query.rendering.transform)
-        {
-            let correction = Correction { method, ..Correction::default() };
-            let transform = ColorTransformSpec::corrected(reference.clone(), training.clone(), correction);
-            query.rendering.transform = transform.clone();
-            query.reference.transform = transform;
-        }
         found.push((*kind, name.clone(), scene.results.ask(&query)));
     }
     let mut conditions: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
-    if let (Some(method), TransformChoice::Observer(target)) = (method, &scene.document.transform) {
-        let transform = conditions.iter_mut().filter(|(head, _)| *head == "transform");
-        transform.for_each(|(_, value)| *value = format!("{}, fitted to {target}", method.label()));
-    }
     conditions.push(("chart", request.chart_name_on_show()));
     conditions.push(("temperature_k", arguments.temperature.to_string()));
     let patches = scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect();
-    Ok(Comparison { rows: rows(found, &metrics, sorted_by), metrics, sorted_by, patches, conditions })
+    Ok(Comparison { rows: rows(&found, &metrics, sorted_by), metrics, sorted_by, patches, conditions })
 }
 
 /// The rows in order, with ranks.
 fn rows(
-    found: Vec<(SetKind, String, Arc<CameraMetrics>)>,
+    found: &[(SetKind, String, Arc<CameraMetrics>)],
     metrics: &[CameraMetric],
     sorted_by: Option<CameraMetric>,
 ) -> Vec<Row> {

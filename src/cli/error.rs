@@ -38,6 +38,9 @@ pub(super) enum CliError {
         /// Why, with what would do.
         reason: String,
     },
+    /// A color correction has no file of the kind.
+    #[error(transparent)]
+    Correction(#[from] crate::export::profile::CorrectionFileError),
     /// A picture could not be made into a file.
     #[error("{}: {error}", path.display())]
     Picture {

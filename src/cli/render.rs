@@ -28,6 +28,7 @@ use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
 use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::returned;
 use crate::files::fitting;
+use crate::format::slug;
 use crate::profiler::plans;
 use crate::results::{Count, Results};
 use crate::scene::{ComparedSensor, Scene, SceneError};
@@ -256,11 +257,4 @@ fn file_names(arguments: &RenderArguments, mesh: &str, sources: &[ComparedSensor
         taken.extend(numbers.map(|number| numbered(&number)).find(|name| !taken.contains(name)));
     }
     taken.into_iter().map(|name| if here { PathBuf::from(name) } else { arguments.out.join(name) }).collect()
-}
-
-/// A name that any file system takes: letters and digits, small, other signs as single hyphens.
-fn slug(name: &str) -> String {
-    let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let slug = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
-    if slug.is_empty() { "unnamed".to_owned() } else { slug }
 }

@@ -2,6 +2,7 @@
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::NearestBlackBodyQuery;
+use chromascope_core::query::correction::CorrectionSheetQuery;
 use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::Quality;
 use chromascope_figure::Figure;
@@ -52,6 +53,8 @@ pub struct PaneContext<'a> {
     pub opened: &'a Opened,
     /// Tells the nearest black body of a color, once it is asked.
     pub radiators: &'a Background<NearestBlackBodyQuery>,
+    /// Color corrections with their errors, once they are made.
+    pub corrections: &'a Background<CorrectionSheetQuery>,
     /// Renderer of the pictures.
     pub studio: &'a mut RenderService,
     /// Profiler of the scene.

@@ -1,9 +1,11 @@
 //! All conditions in one bar: reference, light, temperature, patches, white balance, color transform, difference.
 
+use chromascope_core::correction::CorrectionMethod;
 use egui::{Align, ComboBox, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
 use crate::action::{Action, CompareAction, SceneAction};
+use crate::document::correction::CorrectionChoice;
 use crate::document::{Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::signed;
 use crate::panes::widgets::number_field::NumberField;
@@ -234,14 +236,17 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.transform.clone();
+    let correction = context.scene.document.correction.clone();
     let shown = match &now {
         TransformChoice::Paper if ui.available_width() < 130.0 => "Eq 13".to_owned(),
         TransformChoice::Paper => "Paper (Eq 13)".to_owned(),
-        TransformChoice::Observer(name) => format!("Fit {name}"),
+        TransformChoice::Observer(name) if correction.is_default() => format!("Fit {name}"),
+        TransformChoice::Observer(name) => correction.describe(name),
     };
     let hint = "Color transform from camera RGB to XYZ. Paper matrix: camera and RGB observer signals through the \
                 matrix of Eq 13, CIE observers directly. Fitted: a 3×3 matrix for each sensor, fitted to a CIE \
-                observer over 190 training reflectances under the light.";
+                observer over 190 training reflectances under the light, or another correction; training \
+                reflectances and weights are chosen in the pane Correction.";
     choice(ui, "Color transform", hint, &shown, |ui| {
         if ui.selectable_label(now == TransformChoice::Paper, "Paper matrix (Eq 13)").clicked() {
             context.push(Action::Scene(SceneAction::SetWay(TransformChoice::Paper)));
@@ -251,6 +256,14 @@ fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
             let transform = TransformChoice::Observer(entry.name.clone());
             if ui.selectable_label(now == transform, format!("Fitted to {}", entry.name)).clicked() {
                 context.push(Action::Scene(SceneAction::SetWay(transform)));
+            }
+        }
+        ui.separator();
+        for method in CorrectionMethod::ALL {
+            let chosen = !now.is_eq_13() && correction.method == method;
+            if ui.selectable_label(chosen, method.label()).clicked() {
+                let correction = CorrectionChoice { method, ..correction.clone() };
+                context.push(Action::Scene(SceneAction::SetCorrection(correction)));
             }
         }
     });

@@ -4,6 +4,7 @@ mod compare;
 mod files;
 mod inspect;
 mod manners;
+mod matrix;
 mod names;
 mod outputs;
 mod presets;

@@ -9,6 +9,7 @@ mod assets;
 mod bench;
 mod cli;
 mod cli_render;
+mod correction;
 mod cpu_renderer;
 mod doubt;
 mod exports;

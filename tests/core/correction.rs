@@ -1,6 +1,7 @@
 //! Color correction against SciPy, colour-science, published matrices, and a second way of computing.
 
 mod aces;
+mod lights;
 mod root_polynomial;
 
 use chromascope_core::colorimetry::{Metric, Stimulus, Xyz};
@@ -66,6 +67,12 @@ fn through(set: &Set, fit: &RgbTransform) -> Vec<DVec3> {
     set.samples.iter().map(|rgb| fit.xyz(*rgb)).collect()
 }
 
+/// Rounding error of a root polynomial at white: its coefficients grow with the degree and cancel.
+pub(super) fn rounding(fit: &RgbTransform) -> f64 {
+    let RgbTransform::RootPolynomial(polynomial) = fit else { return 0.0 };
+    22.0 * f64::EPSILON * polynomial.coefficients().iter().map(|c| c.abs().max_element()).sum::<f64>()
+}
+
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
@@ -124,7 +131,7 @@ fn white_is_kept_exactly_where_it_is_asked_for() {
     for method in CorrectionMethod::ALL {
         let fit = set.training().fit(&correction(method, true), white()).unwrap();
         let error = (fit.xyz(DVec3::ONE) - white().to_vector()).abs().max_element();
-        assert!(error < 1e-12, "{method:?}: {error:e}");
+        assert!(error < 1e-12_f64.max(rounding(&fit)), "{method:?}: {error:e}");
     }
     let free = set.training().fit(&correction(CorrectionMethod::LeastSquares, false), white()).unwrap();
     assert!(

@@ -78,7 +78,7 @@ pub struct MetamerPair {
     pub observer_difference: f64,
 }
 
-/// S_L of CIEDE2000 is below this, so that `|ΔL*| ≤ 1.75 ΔE*00`: 1 + 0.015·50²/√(20 + 50²).
+/// `S_L` of CIEDE2000 is below this, so that `|ΔL*| ≤ 1.75 ΔE*00`: 1 + 0.015·50²/√(20 + 50²).
 const LARGEST_S_L: f64 = 1.75;
 
 /// Pairs that one confuses and the other separates, worst first, at most `most`.
@@ -87,7 +87,7 @@ const LARGEST_S_L: f64 = 1.75;
 /// Camera:    max_c |L*(I_c) − L*(I'_c)| ≤ confused   and   ΔE*00 ≥ separated,   largest ΔE*00 first
 /// Observer:  ΔE*00 ≤ confused   and   max_c |L*(I_c) − L*(I'_c)| ≥ separated,   largest of that first
 /// ```
-/// L*(I) is the CIE lightness of a balanced channel. The list is sorted by one coordinate in which confused colors are near (green, or
+/// `L*(I)` is the CIE lightness of a balanced channel. The list is sorted by one coordinate in which confused colors are near (green, or
 /// L* by `|ΔL*| ≤ 1.75 ΔE*00`), so that only neighbors are compared: about `n² w` pairs for windows of a share w of the range, and ΔE*00 of
 /// those alone whose channels decide nothing. Every pair within the limits is found. Colors that are not finite are left out.
 pub fn search(colors: &[Seen], confusion: Confusion, limits: MetamerLimits, most: usize) -> Vec<MetamerPair> {

@@ -37,7 +37,7 @@ pub fn synthetic_metamer(
         let length = dot(product.as_slice(), product.as_slice()).sqrt();
         let black = metameric_black(sensor, light, product)?;
         // What is left of a curve that the sensor sees whole is rounding.
-        if !(dot(&black, &black).sqrt() > 1e-9 * length) {
+        if dot(&black, &black).sqrt() <= 1e-9 * length {
             continue;
         }
         for sign in [1.0, -1.0] {
@@ -47,7 +47,8 @@ pub fn synthetic_metamer(
                 _ => f64::INFINITY,
             };
             let most = reflectance.values().iter().zip(&black).map(room).fold(f64::INFINITY, f64::min);
-            if !(most > 0.0 && most.is_finite()) {
+            let room = most > 0.0 && most.is_finite();
+            if !room {
                 continue;
             }
             let step: Vec<f64> = black.iter().map(|v| v * sign * most).collect();

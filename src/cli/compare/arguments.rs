@@ -3,7 +3,6 @@
 use std::ffi::OsString;
 
 use chromascope_core::colorimetry::Metric;
-use chromascope_core::correction::CorrectionMethod;
 use chromascope_core::query::CameraMetric;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
@@ -30,10 +29,10 @@ pub(super) const NAME: &str = "name";
 /// Examples and what the numbers mean, with every metric.
 pub(in crate::cli) fn examples() -> String {
     let statistics = Metric::ALL.len() * 4;
-    let list: String =
-        CameraMetric::ALL[statistics..].iter().map(|metric| format!("\n  {:22} {}", metric.id, metric.label)).collect();
-    let differences: String =
-        Metric::ALL.iter().map(|metric| format!("\n  {:22} {}", metric.id, metric.label)).collect();
+    let line = |(id, label): (&str, &str)| format!("\n  {id:22} {label}");
+    let named = |metric: &CameraMetric| line((metric.id, metric.label));
+    let list = CameraMetric::ALL[statistics..].iter().map(named).collect::<Vec<_>>().concat();
+    let differences = Metric::ALL.iter().map(|metric| line((metric.id, metric.label))).collect::<Vec<_>>().concat();
     format!(
         "Examples:
   chromascope compare
@@ -68,9 +67,6 @@ pub(in crate::cli) struct CompareArguments {
     /// Scale of the values in a file of reflectances that does not state it
     #[arg(long, value_name = "VALUES", value_parser = crate::cli::inspect::arguments::values(), requires = "chart")]
     pub(super) values: Option<Values>,
-    /// Color correction, fitted over the 190 training reflectances with white kept
-    #[arg(long, value_enum, conflicts_with = "transform")]
-    pub(super) correction: Option<CorrectionChoice>,
     /// Metrics in the order of the columns, or `all` [default: the usual eight]
     #[arg(long, value_name = "a,b,c", value_delimiter = ',', value_parser = metric_names([ALL]), hide_possible_values = true)]
     pub(super) metrics: Vec<String>,
@@ -104,25 +100,4 @@ pub(in crate::cli) enum Format {
     Csv,
     /// One object with conditions, metrics and values
     Json,
-}
-
-/// A color correction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum CorrectionChoice {
-    /// None: Eq 13, RGB as sRGB
-    None,
-    /// 3×3 by least squares in XYZ
-    Matrix,
-    /// 3×3 of minimum mean ΔE*00
-    MinDeltaE,
-    /// Root polynomial of degree 2 (6 terms)
-    RootPolynomial,
-}
-
-impl CorrectionChoice {
-    /// The method that is fitted; none for Eq 13.
-    pub(super) fn method(self) -> Option<CorrectionMethod> {
-        let id = self.to_possible_value()?;
-        CorrectionMethod::by_id(id.get_name()).filter(|_| self != Self::None)
-    }
 }

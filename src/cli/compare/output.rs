@@ -1,5 +1,6 @@
 //! A ranking as an aligned table, as CSV and as JSON.
 
+use chromascope_core::query::metrics::Better;
 use chromascope_core::query::{CameraMetric, MetricValue};
 use serde_json::{Value, json};
 
@@ -76,7 +77,8 @@ fn notes(comparison: &Comparison) -> String {
         text += &format!("{}: {value}\n", head.replace("_k", " in kelvins").replace('_', " "));
     }
     if let Some(metric) = comparison.sorted_by {
-        text += &format!("Rank by {}; a range where values differ by less than their uncertainty.\n", metric.symbol);
+        let _ =
+            write!(text, "Rank by {}; a range where values differ by less than their uncertainty.\n", metric.symbol);
     }
     text += "±: standard uncertainty from independent tables of the same model, or pooled from those models.\n";
     let mut reasons: Vec<(String, Vec<&str>)> = Vec::new();
@@ -121,9 +123,9 @@ pub(super) fn json(comparison: &Comparison) -> String {
         json!({
             "id": metric.id, "label": metric.label, "symbol": metric.symbol, "unit": metric.unit,
             "better": match metric.better {
-                chromascope_core::query::metrics::Better::Lower => "lower",
-                chromascope_core::query::metrics::Better::Higher => "higher",
-                chromascope_core::query::metrics::Better::Neither => "neither",
+                Better::Lower => "lower",
+                Better::Higher => "higher",
+                Better::Neither => "neither",
             },
         })
     };

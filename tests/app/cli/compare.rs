@@ -105,9 +105,23 @@ fn corrections_are_those_named() {
         (value("delta-e2000-mean"), value("xy-mean"), object["conditions"]["transform"].as_str().unwrap().to_owned())
     };
     let [none, matrix, least, roots] = ["none", "matrix", "min-delta-e", "root-polynomial"].map(mean);
-    assert!(none.0.is_none() && none.2.contains("Eq 13"), "{none:?}");
-    assert!(least.0 < matrix.0 && roots.0.is_some() && roots.0 != matrix.0, "{matrix:?} {least:?} {roots:?}");
-    assert!(matrix.2.contains("CIE 1931 2°") && least.2 != matrix.2 && roots.2.contains("polynomial"));
+    assert!(least.0 < matrix.0 && matrix.0 < none.0, "{matrix:?} {least:?} {none:?}");
+    assert!(roots.0.is_some() && roots.0 != matrix.0, "{matrix:?} {roots:?}");
+    assert!([&none, &matrix, &least].iter().all(|other| other.2 != roots.2) && matrix.2.contains("CIE 1931 2°"));
+    let paper = json(&["compare", "--camera", "Kodak DCS200", "--transform", "paper", "--metrics", "delta-e2000-mean"]);
+    assert!(paper["cameras"][0]["values"]["delta-e2000-mean"]["reason"].as_str().is_some());
+}
+
+#[test]
+fn a_filter_changes_what_depends_on_the_light() {
+    let values = |more: &[&str]| {
+        let named = ["compare", "--camera", "Kodak DCS200", "--metrics", "delta-e2000-mean,vora,metamerism-index"];
+        let object = json(&[&named[..], more].concat());
+        ["delta-e2000-mean", "vora", "metamerism-index"].map(|id| object["cameras"][0]["values"][id]["value"].as_f64())
+    };
+    let filter = file("green.csv", "wavelength_nm,transmittance\n380,0.1\n480,0.2\n540,0.9\n600,0.3\n780,0.1\n");
+    let (plain, green) = (values(&[]), values(&["--filter", filter.to_str().unwrap()]));
+    assert!(plain[0] != green[0] && plain[1..] == green[1..], "{plain:?} {green:?}");
 }
 
 #[test]
@@ -142,6 +156,6 @@ fn what_cannot_be_asked_is_refused_with_a_remedy() {
     refused(&["compare", "--temperature", "0"], &["--temperature", "kelvins"]);
     refused(&["compare", "--full-well", "-5"], &["--full-well"]);
     refused(&["compare", "--full-well", "100", "--read-noise", "200"], &["read noise"]);
-    refused(&["compare", "--correction", "matrix", "--transform", "paper"], &["--transform"]);
+    refused(&["compare", "--correction", "min-delta-e", "--transform", "paper"], &["--transform"]);
     refused(&["compare", "--camera", "Polaroid"], &["Polaroid"]);
 }

@@ -9,7 +9,7 @@ const DEPENDENT: f64 = 1e-10;
 
 /// Agreement of a sensor's space with an observer's, independent of light, balance and color transform.
 ///
-/// Curves are taken at 380, 381, …, 780 nm without weights. P_C and P_A project onto the spaces of the sensor's curves C and the
+/// Curves are taken at 380, 381, …, 780 nm without weights. `P_C` and `P_A` project onto the spaces of the sensor's curves C and the
 /// observer's A.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpaceQuality {
@@ -61,8 +61,7 @@ pub(crate) fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
         let length = dot(curve, curve).sqrt();
         let rest = remove(&remove(curve, &found), &found);
         let left = dot(&rest, &rest).sqrt();
-        // Written so that a length that is not a number is refused too.
-        if !(left > DEPENDENT * length) {
+        if left.is_nan() || left <= DEPENDENT * length {
             return None;
         }
         found.push(rest.iter().map(|v| v / left).collect());
