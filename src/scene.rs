@@ -214,6 +214,15 @@ impl<'a> Scene<'a> {
             Light::BlackBody => (LightQuery::BlackBody(self.temperature()?), "blackbody"),
             Light::Daylight => (LightQuery::Daylight(self.temperature()?), "daylight"),
         };
+        self.filtered(light, name)
+    }
+
+    /// An illuminant of the catalog through the document's filters.
+    pub(crate) fn illuminant(&self, name: &str) -> Result<LoadedLight, SceneError> {
+        self.filtered(LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place), name)
+    }
+
+    fn filtered(&self, light: LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
         if self.document.filters.is_empty() {
             return self.loaded(&light, name);
         }
@@ -222,7 +231,7 @@ impl<'a> Scene<'a> {
         names.sort();
         let filters = names.iter().map(|name| self.filter(name)).collect::<Result<_, _>>()?;
         let answer = self.results.ask(&FilteredLightQuery { light, filters });
-        (*answer).clone().map_err(|error| SceneError::Load { name: self.light_name(), error })
+        (*answer).clone().map_err(|error| SceneError::Load { name: self.with_filters(name.to_owned()), error })
     }
 
     /// Transmittance of a filter.
@@ -231,7 +240,7 @@ impl<'a> Scene<'a> {
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
 
-    pub(crate) fn loaded(&self, of: &LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
+    fn loaded(&self, of: &LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
         let answer = self.results.ask(of);
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
@@ -243,6 +252,11 @@ impl<'a> Scene<'a> {
             Light::BlackBody => format!("blackbody {:.0} K", self.document.temperature_k),
             Light::Daylight => format!("daylight {:.0} K", self.document.temperature_k),
         };
+        self.with_filters(light)
+    }
+
+    /// The name of a light with the filters in front of it.
+    pub(crate) fn with_filters(&self, light: String) -> String {
         self.document.filters.iter().fold(light, |name, filter| format!("{name} × {filter}"))
     }
 

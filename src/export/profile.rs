@@ -69,7 +69,9 @@ impl CorrectionFile {
             camera: camera.to_owned(),
             model: model.unwrap_or(camera).to_owned(),
             correction: choice.describe(scene.fit_target()),
-            lights: std::iter::once(scene.light_name()).chain(choice.second_light.clone()).collect(),
+            lights: std::iter::once(scene.light_name())
+                .chain(choice.second_light.clone().map(|light| scene.with_filters(light)))
+                .collect(),
             metric: scene.correction_metric().symbol,
             training: training.patches().iter().map(|patch| patch.name.clone()).collect(),
             sheet,

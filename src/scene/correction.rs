@@ -5,11 +5,9 @@ use std::sync::Arc;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::correction::aces::{Idt, IdtExposure};
 use chromascope_core::query::correction::{CorrectionSheetQuery, IdtQuery};
-use chromascope_core::query::{Ask as _, CorrectionReportQuery, RenderingQuery, Shared};
-use chromascope_core::spectral::GridSpectrum;
+use chromascope_core::query::{Ask as _, CorrectionReportQuery, RenderingQuery};
 
 use super::{Scene, SceneError};
-use crate::catalog::load::LightQuery;
 use crate::document::{CIE_1931, FIT_TARGET, SetKind, TRAINING, TransformChoice};
 
 /// EXIF's codes of lights by the names of their sets (`LightSource`).
@@ -35,7 +33,7 @@ impl Scene<'_> {
         let first = self.rendering_of(kind, name)?;
         let metric = self.correction_metric();
         let second = match &self.document.correction.second_light {
-            Some(light) => Some(RenderingQuery { light: self.illuminant(light)?, ..first.clone() }),
+            Some(light) => Some(RenderingQuery { light: self.illuminant(light)?.grid, ..first.clone() }),
             None => None,
         };
         let report = |rendering| CorrectionReportQuery { rendering, metric };
@@ -46,11 +44,6 @@ impl Scene<'_> {
     /// Metric of corrections' errors: the document's, where it is one of L\*a\*b\*.
     pub fn correction_metric(&self) -> Metric {
         Some(self.document.difference).filter(|metric| metric.needs_adopted_white()).unwrap_or(Metric::DELTA_E_2000)
-    }
-
-    fn illuminant(&self, name: &str) -> Result<Shared<GridSpectrum>, SceneError> {
-        let place = self.entry(SetKind::Illuminant, name)?.place;
-        Ok(self.loaded(&LightQuery::Set(place), name)?.grid)
     }
 
     /// A camera's ACES input transform under the light on the scene.

@@ -58,36 +58,3 @@ fn the_pane_shows_matrix_errors_and_checks() {
         assert!(harness.query_all_by_label_contains(words).next().is_some(), "{words}");
     }
 }
-
-#[test]
-fn zz_look() {
-    for (theme, tname) in [(egui::Theme::Dark, "dark"), (egui::Theme::Light, "light")] {
-        for size in [[900.0, 600.0], [1280.0, 800.0]] {
-            let mut document = Document::colorimetry();
-            document.correction.second_light = Some("A".to_owned());
-            document.light = chromascope::document::Light::Set("D65".to_owned());
-            let mut harness = open_with(document, size, theme);
-            harness.state_mut().push(Command::Maximize(PANE));
-            for _ in 0..400 {
-                harness.step();
-                if harness.query_by_label_contains("leave-one-out").is_some() {
-                    break;
-                }
-                std::thread::sleep(std::time::Duration::from_millis(10));
-            }
-            harness.run();
-            for page in 0..3 {
-                harness.render().unwrap().save(format!("/tmp/corr/look-{tname}-{}-{page}.png", size[0])).unwrap();
-                harness.hover_at(egui::pos2(size[0] / 2.0, size[1] / 2.0));
-                harness.event(egui::Event::MouseWheel {
-                    unit: egui::MouseWheelUnit::Point,
-                    delta: egui::vec2(0.0, -420.0),
-                    phase: egui::TouchPhase::Move,
-                    modifiers: egui::Modifiers::NONE,
-                });
-                harness.run();
-                harness.run();
-            }
-        }
-    }
-}

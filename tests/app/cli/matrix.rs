@@ -57,9 +57,12 @@ fn dcp_and_icc_are_files_of_their_kinds() {
     assert!(dng.contains("IlluminantData2: 0.37"), "{dng}");
 }
 
+fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&D200[..], more].concat()
+}
+
 #[test]
 fn what_means_nothing_is_refused_with_a_remedy() {
-    let with = |more: &[&'static str]| [&D200[..], more].concat();
     refused(&with(&["--format", "dcp", "--fit", "root-polynomial"]), &["DCP", "choose a matrix"]);
     refused(&with(&["--format", "icc", "--second-illuminant", "A"]), &["--second-illuminant", "one light"]);
     refused(&with(&["--weights", "hair=2"]), &["neutrals, skin, foliage, sky"]);
