@@ -77,8 +77,7 @@ fn notes(comparison: &Comparison) -> String {
         text += &format!("{}: {value}\n", head.replace("_k", " in kelvins").replace('_', " "));
     }
     if let Some(metric) = comparison.sorted_by {
-        let _ =
-            write!(text, "Rank by {}; a range where values differ by less than their uncertainty.\n", metric.symbol);
+        text += &format!("Rank by {}; a range where values differ by less than their uncertainty.\n", metric.symbol);
     }
     text += "±: standard uncertainty from independent tables of the same model, or pooled from those models.\n";
     let mut reasons: Vec<(String, Vec<&str>)> = Vec::new();
