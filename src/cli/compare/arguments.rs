@@ -1,14 +1,9 @@
 //! What `compare` takes.
 
-use std::ffi::OsString;
-
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::CameraMetric;
+use clap::ValueEnum;
 use clap::builder::PossibleValuesParser;
-use clap::{Args, ValueEnum};
-use spectral_file::Values;
-
-use crate::cli::arguments::CommonArguments;
 
 /// Metrics of the table unless some are named.
 pub(super) const USUAL: [&str; 8] = [
@@ -22,9 +17,9 @@ pub(super) const USUAL: [&str; 8] = [
     "noise-gain",
 ];
 /// All metrics, in the place of their names.
-pub(super) const ALL: &str = "all";
+pub(in crate::cli) const ALL: &str = "all";
 /// The order of names, in the place of a metric.
-pub(super) const NAME: &str = "name";
+pub(in crate::cli) const NAME: &str = "name";
 
 /// Examples and what the numbers mean, with every metric.
 pub(in crate::cli) fn examples() -> String {
@@ -56,38 +51,8 @@ uncertainty and rank of each metric or the reason for none, and worst_patches, t
     )
 }
 
-/// What `compare` takes.
-#[derive(Debug, Args)]
-pub(in crate::cli) struct CompareArguments {
-    #[command(flatten)]
-    pub(super) common: CommonArguments,
-    /// A chart, a material, or a file with reflectances [default: the preset's]
-    #[arg(long, value_name = "NAME|FILE")]
-    pub(super) chart: Option<OsString>,
-    /// Scale of the values in a file of reflectances that does not state it
-    #[arg(long, value_name = "VALUES", value_parser = crate::cli::inspect::arguments::values(), requires = "chart")]
-    pub(super) values: Option<Values>,
-    /// Metrics in the order of the columns, or `all` [default: the usual eight]
-    #[arg(long, value_name = "a,b,c", value_delimiter = ',', value_parser = metric_names([ALL]), hide_possible_values = true)]
-    pub(super) metrics: Vec<String>,
-    /// Metric that orders the rows, best first, or `name` [default: the first of --metrics]
-    #[arg(long, value_name = "METRIC", value_parser = metric_names([NAME]), hide_possible_values = true)]
-    pub(super) sort: Option<String>,
-    /// Form of the output
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    pub(super) format: Format,
-    /// Temperature in kelvins of the blackbody whose place on the locus is compared
-    #[arg(long, value_name = "K", default_value_t = 2856.0)]
-    pub(super) temperature: f64,
-    /// Full-well capacity of a pixel in electrons, for gray-snr
-    #[arg(long, value_name = "ELECTRONS")]
-    pub(super) full_well: Option<f64>,
-    /// Read noise of a pixel in electrons (RMS)
-    #[arg(long, value_name = "ELECTRONS", default_value_t = 0.0, requires = "full_well")]
-    pub(super) read_noise: f64,
-}
-
-fn metric_names(more: [&'static str; 1]) -> PossibleValuesParser {
+/// Names of all metrics and one more word.
+pub(in crate::cli) fn metric_names(more: [&'static str; 1]) -> PossibleValuesParser {
     PossibleValuesParser::new(CameraMetric::ALL.iter().map(|metric| metric.id).chain(more))
 }
 

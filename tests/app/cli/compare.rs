@@ -1,7 +1,7 @@
 //! Rankings of cameras, as a person asks for them.
 
 use chromascope::catalog::Catalog;
-use chromascope::document::{Document, SetKind};
+use chromascope::document::{Document, SetKind, TRAINING};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope_core::query::{Ask as _, CameraMetric};
@@ -99,7 +99,8 @@ fn the_library_shares_what_does_not_depend_on_the_camera() {
 #[test]
 fn corrections_are_those_named() {
     let mean = |correction: &str| {
-        let arguments = ["compare", "--camera", "Kodak DCS200", "--metrics", "delta-e2000-mean,xy-mean"];
+        let arguments =
+            ["compare", "--camera", "Kodak DCS200", "--metrics", "delta-e2000-mean,xy-mean", "--chart", TRAINING];
         let object = json(&[&arguments[..], &["--correction", correction]].concat());
         let value = |id: &str| object["cameras"][0]["values"][id]["value"].as_f64();
         (value("delta-e2000-mean"), value("xy-mean"), object["conditions"]["transform"].as_str().unwrap().to_owned())
@@ -154,7 +155,7 @@ fn what_cannot_be_asked_is_refused_with_a_remedy() {
     refused(&["compare", "--metrics", "delta-e2000-men"], &["delta-e2000-mean"]);
     refused(&["compare", "--sort", "beauty"], &["beauty"]);
     refused(&["compare", "--temperature", "0"], &["--temperature", "kelvins"]);
-    refused(&["compare", "--full-well", "-5"], &["--full-well"]);
+    refused(&["compare", "--full-well=-5"], &["--full-well"]);
     refused(&["compare", "--full-well", "100", "--read-noise", "200"], &["read noise"]);
     refused(&["compare", "--correction", "min-delta-e", "--transform", "paper"], &["--transform"]);
     refused(&["compare", "--camera", "Polaroid"], &["Polaroid"]);
