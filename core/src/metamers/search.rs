@@ -43,7 +43,7 @@ impl Eq for MetamerLimits {}
 
 impl Hash for MetamerLimits {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        [self.confused, self.separated].iter().for_each(|v| v.to_bits().hash(state));
+        (self.confused.to_bits(), self.separated.to_bits()).hash(state);
     }
 }
 

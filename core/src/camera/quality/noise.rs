@@ -50,7 +50,7 @@ fn condition(matrix: DMat3) -> f64 {
     spectral_norm(matrix) * spectral_norm(matrix.inverse())
 }
 
-/// Largest singular value, from the largest eigenvalue of AᵀA in closed form (Smith 1961, Commun. ACM 4, 168).
+/// Largest singular value, from the largest eigenvalue of `AᵀA` in closed form (Smith 1961, Commun. ACM 4, 168).
 fn spectral_norm(matrix: DMat3) -> f64 {
     let scale = matrix.to_cols_array().iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if scale.is_nan() || scale == 0.0 || scale.is_infinite() {
@@ -77,7 +77,7 @@ impl Eq for Electrons {}
 
 impl std::hash::Hash for Electrons {
     fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
-        [self.full_well, self.read_noise].iter().for_each(|v| (v + 0.0).to_bits().hash(state));
+        (self.full_well.to_bits(), (self.read_noise + 0.0).to_bits()).hash(state);
     }
 }
 
