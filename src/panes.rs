@@ -48,6 +48,7 @@ pub mod library;
 pub mod light;
 pub mod menu;
 pub mod methods;
+pub mod recorded;
 pub mod render;
 pub mod render_settings;
 pub mod scene_bar;
@@ -63,8 +64,7 @@ use egui::{Rect, Ui};
 
 use context::{Pane, PaneContext};
 
-use crate::scene::Scene;
-use crate::view::View;
+use crate::figures::FigureInput;
 use crate::workspaces::PaneKind;
 
 /// All panes, in the order they are listed.
@@ -83,6 +83,7 @@ pub const ALL: &[&Pane] = &[
     &methods::PANE,
     &work_saved::PANE,
     &tolerance::PANE,
+    &recorded::PANE,
     &correction::PANE,
 ];
 
@@ -107,6 +108,6 @@ pub fn show(ui: &mut Ui, kind: PaneKind, rect: Rect, context: &mut PaneContext<'
 }
 
 /// A pane's figure as it would be saved: the same as on screen, with its numbers. None for panes without one.
-pub fn figure(kind: PaneKind, scene: &Scene<'_>, view: &View) -> Option<Figure> {
-    (by_kind(kind)?.figure?)(scene, view)
+pub fn figure(kind: PaneKind, input: &FigureInput<'_>) -> Option<Figure> {
+    (by_kind(kind)?.figure?)(input)
 }

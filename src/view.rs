@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod correction;
 pub mod help;
 pub mod import;
+pub mod recorded;
 pub mod render;
 
 use std::collections::BTreeSet;
@@ -21,6 +22,7 @@ use chromascope_figure::Tag;
 use correction::CorrectionView;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
+use recorded::RecordedView;
 use render::{RenderLook, RenderView};
 
 /// What is looked at and how.
@@ -55,6 +57,8 @@ pub struct View {
     pub correction: CorrectionView,
     /// What is looked at in Accuracy.
     pub accuracy: AccuracyView,
+    /// What is looked at in Recorded.
+    pub recorded: RecordedView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
     /// The reference stands in for every camera while B is held.

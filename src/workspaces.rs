@@ -39,6 +39,8 @@ impl PaneKind {
     pub const METHODS: Self = Self::new("Accuracy");
     /// Skipped work, and the time it saved.
     pub const WORK_SAVED: Self = Self::new("SkippedWork");
+    /// Raw values of a real camera against the library.
+    pub const RECORDED: Self = Self::new("Recorded");
     /// Allowed error.
     pub const TOLERANCE: Self = Self::new("Tolerance");
 

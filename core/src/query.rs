@@ -12,6 +12,7 @@ pub mod metamers;
 pub mod metrics;
 pub mod patches;
 pub mod radiances;
+pub mod recorded;
 pub mod render;
 pub mod shared;
 
@@ -29,4 +30,5 @@ pub use metamers::{Metamers, MetamersQuery};
 pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricValue, Replicates, WhyNot};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;
+pub use recorded::{RecordedFitQuery, RecordedSet};
 pub use shared::Shared;

@@ -9,8 +9,10 @@ use spectral_file::Values;
 
 use super::bench::BenchArguments;
 use super::compare::arguments as compare;
+use super::identify::arguments::IdentifyArguments;
 use super::inspect::arguments::InspectArguments;
 use super::matrix::{FitArguments, MatrixArguments};
+use super::per::Per;
 use super::render::arguments::RenderArguments;
 use crate::document::SetKind;
 use crate::document::start::Start;
@@ -65,6 +67,7 @@ const PATCHES_EXAMPLES: &str = "Examples:
 
 Columns: sensor, patch; r, g, b after white balance (empty for CIE observers); x_tristimulus, y_tristimulus, z_tristimulus (Y = 1
 for a perfect diffuser, under Eq 13 within 5e-5); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
+cct_k, duv, the nearest blackbody for the CIE 1931 observer;
 delta_…, the differences from the reference, a column for each metric; then the conditions: reference, illuminant,
 white_balance, transform, preset. Undefined values are empty: with the paper's matrix, Eq 13 takes RGB as sRGB
 whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*, and their L*a*b* is not that of the CIE.
@@ -85,14 +88,17 @@ pub(super) enum Subcommand {
     #[command(after_help = compare::examples())]
     Compare(Box<CompareArguments>),
     /// Lights: CCT and Duv, Ra, Rf and Rg, spectral similarity, and how consistent cameras are under them
-    #[command(after_help = super::light::EXAMPLES)]
-    Light(Box<super::light::LightArguments>),
+    #[command(after_help = super::light::arguments::EXAMPLES)]
+    Light(Box<super::light::arguments::LightArguments>),
     /// Color correction matrix of a camera, with its errors, as text, DNG values, DCP, ICC or CLF
     #[command(after_help = super::matrix::EXAMPLES)]
     Matrix(Box<MatrixArguments>),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
+    /// Which table of sensitivities is a camera's: raw RGB of known patches against all cameras, ranked by log error
+    #[command(after_help = super::identify::arguments::EXAMPLES)]
+    Identify(Box<IdentifyArguments>),
     /// Contents of files of spectra and the decisions made when reading them; curves as CSV or JSON
     #[command(after_help = super::inspect::arguments::EXAMPLES)]
     Inspect(Box<InspectArguments>),
@@ -260,15 +266,6 @@ pub(super) enum Transform {
     /// A 3×3 matrix for each sensor, fitted over 190 training reflectances
     #[value(alias = "observer")]
     Fitted,
-}
-
-/// What sensitivities are a response to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Per {
-    /// Equal energy at each wavelength
-    Energy,
-    /// Equal numbers of photons at each wavelength
-    Photon,
 }
 
 /// A kind of data sets to list.

@@ -12,7 +12,7 @@ use crate::workspaces::PaneKind;
 
 /// The least height of a panel before the pane scrolls.
 const LEAST: f32 = 64.0;
-/// How near the pointer must be, in points.
+/// Largest distance of the pointer, in points.
 const REACH: f32 = 8.0;
 
 /// The pane.
@@ -20,7 +20,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::SPECTRA,
     title: "Spectra",
     show,
-    figure: Some(|scene, view| Some(crate::figures::spectra::figure(scene, view))),
+    figure: Some(|input| Some(crate::figures::spectra::figure(input.scene, input.view))),
     under_conditions: false,
     table: true,
 };

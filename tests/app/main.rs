@@ -9,6 +9,7 @@ mod assets;
 mod bench;
 mod cli;
 mod cli_render;
+mod cli_render_image;
 mod correction;
 mod cpu_renderer;
 mod doubt;
@@ -27,12 +28,14 @@ mod inspector;
 mod keeping;
 mod laboratory;
 mod library;
+mod lights;
 mod meshes;
 mod opened;
 mod own_data;
 mod panes;
 mod path_box;
 mod recompute;
+mod recorded;
 mod reducer;
 mod render;
 mod same_file;
@@ -44,6 +47,7 @@ mod temperature;
 mod theme;
 mod waiting;
 mod words;
+mod zz_look;
 
 /// Names of the built-in sets.
 fn built_in_names() -> chromascope::document::names::BuiltInNames {

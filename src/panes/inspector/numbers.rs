@@ -16,7 +16,7 @@ const NAMES: f32 = 40.0;
 
 /// A row: its name, how many decimals, and a number for each column.
 pub(super) struct Row {
-    /// What it is.
+    /// Name of the quantity.
     pub(super) name: &'static str,
     /// Number of decimals shown.
     pub(super) decimals: usize,
@@ -90,7 +90,7 @@ fn cell_words(cell: Option<f64>, decimals: usize) -> String {
     cell.map_or_else(|| "–".to_owned(), |value| fixed(value, decimals))
 }
 
-/// The same for a spreadsheet, in full precision.
+/// Rows for a spreadsheet, in full precision.
 pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
     let mut text = format!("quantity\t{}\n", heads.join("\t"));
     for row in rows {
