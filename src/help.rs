@@ -12,7 +12,7 @@ use crate::document::SetKind;
 use markdown::{Block, Inline};
 
 /// Pages in the order of the list: the file name without its ending, which is also the target of links.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 14] = [
     "getting-started",
     "window",
     "own-spectra",
@@ -20,6 +20,7 @@ const ORDER: [&str; 13] = [
     "command-line",
     "keyboard",
     "model",
+    "metrics",
     "correction",
     "accuracy",
     "measured",

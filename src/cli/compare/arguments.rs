@@ -1,0 +1,68 @@
+//! What `compare` takes.
+
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::CameraMetric;
+use clap::ValueEnum;
+use clap::builder::PossibleValuesParser;
+
+/// Metrics of the table unless some are named.
+pub(super) const USUAL: [&str; 8] = [
+    "delta-e2000-mean",
+    "delta-e2000-p95",
+    "delta-e2000-max",
+    "metamerism-index",
+    "vora",
+    "luther",
+    "cct-error",
+    "noise-gain",
+];
+/// All metrics, in the place of their names.
+pub(in crate::cli) const ALL: &str = "all";
+/// The order of names, in the place of a metric.
+pub(in crate::cli) const NAME: &str = "name";
+
+/// Examples and what the numbers mean, with every metric.
+pub(in crate::cli) fn examples() -> String {
+    let statistics = Metric::ALL.len() * 4;
+    let line = |(id, label): (&str, &str)| format!("\n  {id:22} {label}");
+    let named = |metric: &CameraMetric| line((metric.id, metric.label));
+    let list = CameraMetric::ALL[statistics..].iter().map(named).collect::<Vec<_>>().concat();
+    let differences = Metric::ALL.iter().map(|metric| line((metric.id, metric.label))).collect::<Vec<_>>().concat();
+    format!(
+        "Examples:
+  chromascope compare
+  chromascope compare --camera \"Nikon D70 (A.M.P.A.S.)\" --camera mine.csv --illuminant A --metrics all
+  chromascope compare --sort metamerism-index --metrics metamerism-index,metamerism-index-min,vora,luther
+  chromascope compare --correction min-delta-e --chart leaves.csv --format csv --out ranking.csv
+
+Without --camera and --observer: all built-in cameras. Metrics of the chart's patches, each followed by -mean, -median, -p95 or -max:
+{differences}
+
+Other metrics:
+{list}
+
+The number after ± is the standard uncertainty that the sensitivities' own uncertainty causes: the spread of independent tables of
+the model where there are several, otherwise the pooled spread of those models. A rank is a range where values differ by less than
+the standard uncertainty of their difference. A value that is undefined is –, with the reason below.
+
+CSV: sensor, rank_first, rank_last (by the metric of --sort); for each metric its column and the same with _uncertainty; then the
+conditions. JSON: format, version, conditions, metrics, cameras with value,
+uncertainty and rank of each metric or the reason for none, and worst_patches, those of the largest \u{394}E*00."
+    )
+}
+
+/// Names of all metrics and one more word.
+pub(in crate::cli) fn metric_names(more: [&'static str; 1]) -> PossibleValuesParser {
+    PossibleValuesParser::new(CameraMetric::ALL.iter().map(|metric| metric.id).chain(more))
+}
+
+/// Form of the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Format {
+    /// Aligned columns for reading
+    Table,
+    /// One row for each sensor, with 15 significant digits
+    Csv,
+    /// One object with conditions, metrics and values
+    Json,
+}
