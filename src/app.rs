@@ -211,7 +211,7 @@ impl ChromascopeApp {
         for event in events {
             match event {
                 Event::Paste(text) if !typing => self.commands.push(Command::Paste(text)),
-                Event::Copy if !typing => self.commands.push(Command::CopyNumbers(focused)),
+                Event::Copy if !typing && !self.view.table_copies => self.commands.push(Command::CopyNumbers(focused)),
                 _ => {}
             }
         }
@@ -403,6 +403,7 @@ impl eframe::App for ChromascopeApp {
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.view.point = None;
+        self.view.table_copies = false;
         self.show(ui);
         self.view.reset_plots = false;
         let hovered = self.view.next_hovered.take();

@@ -4,8 +4,9 @@ pub mod accuracy;
 pub mod help;
 pub mod import;
 pub mod render;
+pub mod table;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
@@ -20,6 +21,7 @@ use chromascope_figure::Tag;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use render::{RenderLook, RenderView};
+use table::TableLook;
 
 /// What is looked at and how.
 #[derive(Debug, Default)]
@@ -59,6 +61,8 @@ pub struct View {
     pub focus_search: bool,
     /// A field in which Esc takes back what is typed has the keyboard.
     pub keeps_escape: bool,
+    /// A table is on show in the pane that keys mean: it copies its own rows.
+    pub table_copies: bool,
     /// The temperature field takes the keyboard in this frame.
     pub focus_temperature: bool,
     /// The help window.
@@ -83,6 +87,8 @@ pub struct SavedView {
     pub layout: Layout,
     /// Panes that show their numbers instead of their picture.
     pub tables: BTreeSet<PaneKind>,
+    /// Order and columns of tables, by table.
+    pub looks: BTreeMap<String, TableLook>,
     /// The gray around swatches.
     pub surround: Surround,
     /// True if the diagram fits the data or shows all.
@@ -112,6 +118,7 @@ impl Default for SavedView {
             workspace: Workspace::default(),
             layout: Layout::default(),
             tables: BTreeSet::new(),
+            looks: BTreeMap::new(),
             surround: Surround::default(),
             diagram_fit: DiagramFit::default(),
             swatch_layout: SwatchLayout::default(),

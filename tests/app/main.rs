@@ -39,6 +39,7 @@ mod save_prompt;
 mod save_set;
 mod screenshots;
 mod starts;
+mod table;
 mod temperature;
 mod theme;
 mod waiting;
