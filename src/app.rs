@@ -25,7 +25,9 @@ use crate::files::{Files, Standing};
 use crate::jobs::{Background, Executor};
 use crate::panes;
 use crate::panes::context::PaneContext;
+use crate::plot_item::PlotItem;
 use crate::profiler::Profiler;
+use crate::ranking::Ranking;
 use crate::render_service::RenderService;
 use crate::results::Results;
 use crate::scene::Scene;
@@ -51,6 +53,7 @@ pub struct ChromascopeApp {
     radiators: Background<NearestBlackBodyQuery>,
     studio: RenderService,
     laboratory: Profiler,
+    ranking: Ranking,
     curves: Option<CurveCache>,
     commands: Vec<Command>,
     /// The latest reading of each set that was read again.
@@ -81,7 +84,7 @@ impl ChromascopeApp {
         saved.layout.retain(|pane| panes::by_kind(pane).is_some());
         theme::apply(ctx);
         files.wake(ctx);
-        let [window, also, third, fourth] = [(); 4].map(|()| ctx.clone());
+        let [window, also, third, fourth, fifth] = [(); 5].map(|()| ctx.clone());
         let opened = Opened::on(executor, move || also.request_repaint());
         opened.recall(saved.import.failing.clone());
         let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
@@ -97,6 +100,7 @@ impl ChromascopeApp {
             radiators: Background::on(executor, "blackbodies", move || third.request_repaint()),
             studio: RenderService::on(executor, ctx),
             laboratory: Profiler::on(executor, move || fourth.request_repaint()),
+            ranking: Ranking::on(executor, move || fifth.request_repaint()),
             curves: None,
             commands: Vec::new(),
             last_read: std::collections::HashMap::new(),
@@ -175,6 +179,11 @@ impl ChromascopeApp {
     /// Where the scene's cost is measured.
     pub fn laboratory(&self) -> &Profiler {
         &self.laboratory
+    }
+
+    /// Where cameras are ranked.
+    pub fn ranking(&self) -> &Ranking {
+        &self.ranking
     }
 
     /// Has something done in the next frame.
@@ -261,6 +270,7 @@ impl ChromascopeApp {
             radiators,
             studio,
             laboratory,
+            ranking,
             curves,
             ..
         } = self;
@@ -275,6 +285,7 @@ impl ChromascopeApp {
             radiators,
             studio,
             laboratory,
+            ranking,
             curves,
             commands,
         };
@@ -334,6 +345,7 @@ impl ChromascopeApp {
         panes::help::show(ui, history, &mut context);
         path_prompt::show(ui, &theme, files);
         context.studio.end_frame();
+        context.ranking.end_frame();
         self.ask_about_closing(ui, &theme);
         focus::ring(ui.ctx(), &theme);
         drop_veil(ui, theme);
@@ -404,6 +416,9 @@ impl eframe::App for ChromascopeApp {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.view.point = None;
         self.view.table_copies = false;
+        let document = self.history.document();
+        let source = self.view.selected.as_ref().and_then(PlotItem::source);
+        self.view.selected_elsewhere = source.is_some_and(|id| document.compared(id.kind, &id.name).is_none());
         self.show(ui);
         self.view.reset_plots = false;
         let hovered = self.view.next_hovered.take();

@@ -3,7 +3,9 @@
 pub mod accuracy;
 pub mod chromaticity;
 pub mod curves;
+pub mod metrics;
 pub mod render;
+pub mod report_card;
 pub mod skipped_work;
 pub mod spectra;
 pub mod strip;

@@ -39,6 +39,7 @@
 pub mod chromaticity;
 pub mod context;
 pub mod curves;
+pub mod head_to_head;
 pub mod help;
 pub mod import;
 pub mod inspector;
@@ -46,8 +47,10 @@ pub mod interpretation;
 pub mod library;
 pub mod menu;
 pub mod methods;
+pub mod metrics;
 pub mod render;
 pub mod render_settings;
+pub mod report_card;
 pub mod scene_bar;
 pub mod spectra;
 pub mod status_bar;
@@ -74,6 +77,9 @@ pub const ALL: &[&Pane] = &[
     &inspector::PANE,
     &render::PANE,
     &render_settings::PANE,
+    &metrics::PANE,
+    &head_to_head::PANE,
+    &report_card::PANE,
     &import::PANE,
     &curves::PANE,
     &interpretation::PANE,

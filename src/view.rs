@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod help;
 pub mod import;
+pub mod metrics;
 pub mod render;
 pub mod table;
 
@@ -20,6 +21,7 @@ use accuracy::AccuracyView;
 use chromascope_figure::Tag;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
+use metrics::MetricsLook;
 use render::{RenderLook, RenderView};
 use table::TableLook;
 
@@ -37,6 +39,8 @@ pub struct View {
     pub point: Option<String>,
     /// Chosen by a click.
     pub selected: Option<PlotItem>,
+    /// The selection belongs to a sensor that is not compared: nothing that is drawn fades beside it.
+    pub selected_elsewhere: bool,
     /// Kept beside each other, A, B, …
     pub pinned: Vec<PlotItem>,
     /// What is typed into the library's search.
@@ -89,6 +93,8 @@ pub struct SavedView {
     pub tables: BTreeSet<PaneKind>,
     /// Order and columns of tables, by table.
     pub looks: BTreeMap<String, TableLook>,
+    /// What is looked at in Metrics.
+    pub metrics: MetricsLook,
     /// The gray around swatches.
     pub surround: Surround,
     /// True if the diagram fits the data or shows all.
@@ -119,6 +125,7 @@ impl Default for SavedView {
             layout: Layout::default(),
             tables: BTreeSet::new(),
             looks: BTreeMap::new(),
+            metrics: MetricsLook::default(),
             surround: Surround::default(),
             diagram_fit: DiagramFit::default(),
             swatch_layout: SwatchLayout::default(),
@@ -254,7 +261,7 @@ impl View {
             (_, Some(Relation::Same)) => Emphasis::Selected,
             (Some(Relation::Same), _) => Emphasis::Hovered,
             _ if pinned => Emphasis::Selected,
-            (_, Some(Relation::Other)) => Emphasis::Faded,
+            (_, Some(Relation::Other)) if !self.selected_elsewhere => Emphasis::Faded,
             _ => Emphasis::Normal,
         }
     }

@@ -103,6 +103,7 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
             ("Figure as SVG…", Command::Export(kind, Format::Svg)),
             ("Figure as PNG…", Command::Export(kind, Format::Png)),
             ("Numbers as CSV…", Command::Export(kind, Format::Csv)),
+            ("Numbers as JSON…", Command::Export(kind, Format::Json)),
             ("Copy picture", Command::CopyPicture(kind)),
             ("Copy numbers", Command::CopyNumbers(kind)),
         ] {

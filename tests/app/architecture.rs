@@ -53,6 +53,7 @@ const APP_LAYERS: &[&str] = &[
     "profiler",
     "view",
     "command",
+    "ranking",
     "figures",
     "panes",
     "cli",

@@ -27,6 +27,7 @@ mod keeping;
 mod laboratory;
 mod library;
 mod meshes;
+mod metrics;
 mod opened;
 mod own_data;
 mod panes;

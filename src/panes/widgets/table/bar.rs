@@ -6,8 +6,9 @@ use super::{Column, DataTable, TableLook, cut};
 use crate::panes::context::PaneContext;
 use crate::theme::UNIT;
 
-/// Width of the filter.
-const FILTER: f32 = 132.0;
+/// Width of the filter, at most and at least, and of what stands beside it.
+const FILTER: [f32; 2] = [132.0, 48.0];
+const BESIDE: f32 = 192.0;
 /// Height of the menu of columns before it scrolls.
 const MENU: f32 = 360.0;
 
@@ -40,7 +41,10 @@ impl DataTable<'_> {
 
     fn filter(&self, ui: &mut Ui, look: &mut TableLook, context: &mut PaneContext<'_>) {
         let id = ui.scope_id().with((self.id, "filter"));
-        let edit = TextEdit::singleline(&mut look.filter).id(id).hint_text("Filter").desired_width(FILTER);
+        let edit = TextEdit::singleline(&mut look.filter)
+            .id(id)
+            .hint_text("Filter")
+            .desired_width((ui.available_width() - BESIDE).clamp(FILTER[1], FILTER[0]));
         let response = ui.add(edit.align(egui::Align2::LEFT_CENTER).margin(egui::Margin::symmetric(4, 3)));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Filter rows"));
         let escaped = response.lost_focus() && ui.input(|input| input.key_down(egui::Key::Escape));

@@ -1,7 +1,7 @@
 //! Head and rows of a table; only those in sight are laid out.
 
 use chromascope_figure::Cell;
-use egui::{Id, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo};
+use egui::{Id, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, UiBuilder, Vec2, WidgetInfo};
 use egui_table::{CellInfo, HeaderCellInfo, HeaderRow, PrefetchInfo, TableDelegate};
 
 use super::columns::{Form, Layout, air, uncertainty_words, words};
@@ -114,6 +114,7 @@ impl<'a> Body<'a> {
         let mut widths: Vec<f32> = self.shown.iter().map(|&column| self.layouts[column].width).collect();
         if self.of.compact {
             fit(&mut widths, rect.width());
+            return self.lay_out(&mut child, rect, &widths);
         }
         self.sticks = widths.len() > 1 && widths[0] < WIDEST_FROZEN * rect.width();
         let page = ((rect.height() - self.head_height()) / self.default_row_height()).floor() as usize;
@@ -129,6 +130,33 @@ impl<'a> Body<'a> {
             table = table.scroll_to_row(row as u64, None);
         }
         table.show(&mut child, self);
+    }
+
+    /// Lays out all rows, in sight or not: a few between other lines of text.
+    fn lay_out(&mut self, ui: &mut Ui, rect: Rect, widths: &[f32]) {
+        let edges: Vec<f32> = std::iter::once(rect.left())
+            .chain(widths.iter().scan(rect.left(), |x, width| {
+                *x += width;
+                Some(*x)
+            }))
+            .collect();
+        let cell = |ui: &mut Ui, x: std::ops::Range<usize>, top: f32, height: f32| {
+            let place = Rect::from_x_y_ranges(edges[x.start]..=edges[x.end], top..=top + height);
+            ui.new_child(UiBuilder::new().max_rect(place))
+        };
+        let head = self.head_height();
+        if head > 0.0 {
+            for column in 0..widths.len() {
+                self.head(&cell(ui, column..column + 1, rect.top(), head), column);
+            }
+        }
+        for row in 0..self.order.len() {
+            let top = rect.top() + head + COMPACT_LINE * row as f32;
+            self.row(&cell(ui, 0..widths.len(), top, COMPACT_LINE), row);
+            for column in 0..widths.len() {
+                self.cell(&cell(ui, column..column + 1, top, COMPACT_LINE), row, column);
+            }
+        }
     }
 
     fn note(&self, row: usize, column: usize) -> CellNote {
@@ -226,7 +254,22 @@ impl TableDelegate for Body<'_> {
     fn header_cell_ui(&mut self, ui: &mut Ui, cell: &HeaderCellInfo) {
         // Heads come between the cells that scroll and those that stay.
         self.frozen = true;
-        let index = self.shown[cell.col_range.start];
+        self.head(ui, cell.col_range.start);
+    }
+
+    fn row_ui(&mut self, ui: &mut Ui, row_nr: u64) {
+        self.row(ui, row_nr as usize);
+    }
+
+    fn cell_ui(&mut self, ui: &mut Ui, cell: &CellInfo) {
+        self.cell(ui, cell.row_nr as usize, cell.col_nr);
+    }
+}
+
+impl Body<'_> {
+    /// A column's head; a click sorts.
+    fn head(&mut self, ui: &Ui, place: usize) {
+        let index = self.shown[place];
         let (column, layout) = (&self.of.columns[index], self.layouts[index]);
         let rect = ui.max_rect();
         let sense = if self.of.compact { Sense::hover() } else { Sense::click() };
@@ -271,8 +314,9 @@ impl TableDelegate for Body<'_> {
         }
     }
 
-    fn row_ui(&mut self, ui: &mut Ui, row_nr: u64) {
-        let Some(&row) = self.order.get(row_nr as usize) else { return };
+    /// A row behind its cells; a click selects.
+    fn row(&mut self, ui: &Ui, place: usize) {
+        let Some(&row) = self.order.get(place) else { return };
         let rect = ui.max_rect();
         let sense = if self.of.compact && self.of.item.is_none() { Sense::hover() } else { Sense::CLICK };
         let response = ui.interact(rect, self.id.with(("row", row, self.frozen)), sense);
@@ -294,10 +338,8 @@ impl TableDelegate for Body<'_> {
         }
     }
 
-    fn cell_ui(&mut self, ui: &mut Ui, cell: &CellInfo) {
-        let (Some(&row), Some(&column)) = (self.order.get(cell.row_nr as usize), self.shown.get(cell.col_nr)) else {
-            return;
-        };
+    fn cell(&self, ui: &Ui, row: usize, column: usize) {
+        let (Some(&row), Some(&column)) = (self.order.get(row), self.shown.get(column)) else { return };
         let (layout, note) = (self.layouts[column], self.note(row, column));
         let whole = ui.max_rect();
         let rect = self.inner(whole);
