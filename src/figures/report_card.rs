@@ -3,6 +3,7 @@
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::metrics::MetricGroup;
 use chromascope_core::query::{Ask, CameraMetric, CameraMetrics};
+use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
     Anchor, Axis, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks,
@@ -99,10 +100,10 @@ fn title(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
 /// Sensitivities over the wavelength, scaled to the largest.
 fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let x = Axis::new("nm", [FIRST_NM, LAST_NM]);
-    let mut panel = Panel::new("sensitivities", area, x, Axis::new("", [0.0, 1.1]));
-    panel.note = "sensitivities, largest = 1".to_owned();
+    let note = "sensitivities, largest = 1".to_owned();
+    let mut panel = Panel { note, ..Panel::new("sensitivities", area, x, Axis::new("", [0.0, 1.1])) };
     let Ok(sensor) = scene.sensor(id.kind, &id.name) else { return panel };
-    let peak = sensor.curves().iter().flat_map(|curve| curve.values()).copied().fold(f64::MIN_POSITIVE, f64::max);
+    let peak = sensor.curves().iter().flat_map(SpectralDistribution::values).copied().fold(f64::MIN_POSITIVE, f64::max);
     let inks = [[0xC0, 0x30, 0x30], [0x30, 0x90, 0x30], [0x30, 0x50, 0xC0]].map(Ink::rgb);
     for ((curve, ink), name) in sensor.curves().iter().zip(inks).zip(sensor.primaries().channels()) {
         let samples = curve.wavelengths_nm().iter().zip(curve.values());

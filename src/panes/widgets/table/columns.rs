@@ -142,7 +142,7 @@ fn form(column: &Column, numbers: impl Iterator<Item = f64> + Clone, has_text: b
         _ if has_text || none => Form::Text,
         Some(decimals) => Form::Fixed(decimals),
         None if whole && largest < 1e9 => Form::Fixed(0),
-        None if largest >= 1e6 || largest < 1e-3 || (least < 1e-5 && largest / least > 1e7) => Form::Scientific,
+        None if !(1e-3..1e6).contains(&largest) || (least < 1e-5 && largest / least > 1e7) => Form::Scientific,
         None => Form::Fixed((DIGITS - 1 - largest.log10().floor() as i32).clamp(0, DIGITS) as usize),
     }
 }

@@ -86,8 +86,8 @@ mod tests {
     #[test]
     fn the_first_column_stays() {
         let (_, mut all) = table();
-        let mut look = TableLook::default();
-        look.columns = [("camera".to_owned(), false), ("error".to_owned(), false)].into();
+        let hidden = [("camera".to_owned(), false), ("error".to_owned(), false)].into();
+        let look = TableLook { columns: hidden, ..TableLook::default() };
         assert_eq!(columns(&all, &look), [0]);
         all[1].starts_hidden = true;
         assert_eq!(columns(&all, &TableLook::default()), [0]);
