@@ -8,6 +8,7 @@
 //! spectral::dataset          bytes → curves with units
 //! spectral                   curves → the 1 nm grid, with what was assumed
 //! light · patch_set · camera    L, S, C
+//! correction                 fits of XYZ to RGB: 3×3, root polynomial; DNG and ACES matrices
 //! camera::rendering          ∫ C S L dλ → balanced RGB → XYZ           Eq 11, 13, 16
 //! camera::locus              ∫ C E(T) dλ                                Eq 14, 15
 //! colorimetry                XYZ → xy, u′v′, L*a*b*, ΔE, sRGB
@@ -40,6 +41,7 @@ pub use glam;
 pub mod accuracy;
 pub mod camera;
 pub mod colorimetry;
+pub mod correction;
 #[cfg(feature = "data")]
 pub mod data;
 

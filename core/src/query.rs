@@ -18,7 +18,7 @@ pub use loci::{
     Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery, RadiatorSignalsQuery,
     SpectralLocusQuery, Temperatures,
 };
-pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, MetricValue, WhyNot};
+pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricValue, Replicates, WhyNot};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;
 pub use shared::Shared;

@@ -23,6 +23,7 @@ const CORE_LAYERS: &[&str] = &[
     "colorimetry",
     "light",
     "patch_set",
+    "correction",
     "camera",
     "reflectance",
     "scene",

@@ -9,6 +9,7 @@ mod accuracy;
 mod batch;
 mod camera;
 mod colorimetry;
+mod correction;
 mod double;
 mod examples;
 mod light;
