@@ -1,7 +1,7 @@
 //! Figures of merit of cameras: tables, ranks, the differences of two cameras, and cameras in order of one metric.
 
-use chromascope_core::query::metrics::Better;
-use chromascope_core::query::{CameraMetric, MetricValue};
+use chromascope_core::query::metrics::{Better, distinguishable, rank_ranges};
+use chromascope_core::query::{CameraMetric, MetricValue, WhyNot};
 use chromascope_figure::{Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize};
 
 use super::chromaticity::conditions;
@@ -42,7 +42,7 @@ pub fn value(ranked: &Ranked, camera: usize, metric: CameraMetric) -> Option<Met
 /// True if two values differ by more than the standard uncertainty of their difference; none where a value is missing.
 pub fn differ(a: MetricValue, b: MetricValue) -> Option<bool> {
     let (x, y) = (a.value.ok()?, b.value.ok()?);
-    Some((x - y).abs() > a.uncertainty.unwrap_or(0.0).hypot(b.uncertainty.unwrap_or(0.0)))
+    Some(distinguishable((x, a.uncertainty), (y, b.uncertainty)))
 }
 
 /// True if the first of two values is better; none where the metric ranks nothing or a value is missing.
@@ -57,17 +57,9 @@ pub fn is_better(metric: CameraMetric, a: MetricValue, b: MetricValue) -> Option
 
 /// Ranks of cameras as ranges from 1: no rank is claimed among values that do not differ.
 pub fn ranks(ranked: &Ranked, metric: CameraMetric) -> Vec<Option<[usize; 2]>> {
-    let values: Vec<Option<MetricValue>> =
-        (0..ranked.cameras.len()).map(|camera| value(ranked, camera, metric).filter(|v| v.value.is_ok())).collect();
-    let all = values.iter().flatten().count();
-    let range = |own: MetricValue| {
-        let count = |better: bool| {
-            let apart = values.iter().flatten().filter(|other| differ(own, **other) == Some(true));
-            apart.filter(|other| is_better(metric, **other, own) == Some(better)).count()
-        };
-        (metric.better != Better::Neither).then(|| [1 + count(true), all - count(false)])
-    };
-    values.iter().map(|own| own.and_then(range)).collect()
+    let missing = MetricValue { value: Err(WhyNot::NoPatches), uncertainty: None };
+    let values = (0..ranked.cameras.len()).map(|camera| value(ranked, camera, metric).unwrap_or(missing));
+    rank_ranges(metric.better, &values.collect::<Vec<_>>())
 }
 
 /// All figures of merit of all cameras, each with its uncertainty, as files hold them.

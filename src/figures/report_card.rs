@@ -51,7 +51,7 @@ pub fn page(scene: &Scene<'_>, view: &View, width: f64) -> Option<Figure> {
     let query = scene.camera_metrics_query(id.kind, &id.name).ok()?;
     let metrics = scene.results.ask(&query);
     let columns = if width < TWO_COLUMNS { 1 } else { 2 };
-    let rows = (CameraMetric::ALL.len() + groups().len()).div_ceil(columns);
+    let rows = (CameraMetric::ALL.len() + MetricGroup::ALL.len()).div_ceil(columns);
     let mut top = 0.0;
     let mut place = |height: f64| {
         top += height;
@@ -177,17 +177,10 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
     panel
 }
 
-/// Groups of metrics, in the order of the table.
-fn groups() -> Vec<MetricGroup> {
-    let mut groups: Vec<MetricGroup> = CameraMetric::ALL.iter().map(|metric| metric.group).collect();
-    groups.dedup();
-    groups
-}
-
 /// All figures of merit in columns, by group.
 fn values(metrics: &CameraMetrics, area: Rect, columns: usize) -> Panel {
     let mut panel = Panel::board("figures of merit", area, Ink::new(InkRole::Plot));
-    let lines: Vec<Option<usize>> = groups()
+    let lines: Vec<Option<usize>> = MetricGroup::ALL
         .iter()
         .flat_map(|group| {
             let of_group = (0..CameraMetric::ALL.len()).filter(|&at| CameraMetric::ALL[at].group == *group);
@@ -195,7 +188,7 @@ fn values(metrics: &CameraMetrics, area: Rect, columns: usize) -> Panel {
         })
         .collect();
     let rows = lines.len().div_ceil(columns);
-    let mut groups = groups().into_iter();
+    let mut groups = MetricGroup::ALL.iter();
     for (index, entry) in lines.into_iter().enumerate() {
         let left = 8.0 + (index / rows) as f64 * area.width() / columns as f64;
         let y = LINE * ((index % rows) as f64 + 0.7);
