@@ -159,13 +159,13 @@ pub fn licenses() -> impl Iterator<Item = (&'static str, &'static str)> {
     chromascope_data::files("licenses").map(|(path, text)| (path.rsplit('/').next().unwrap_or(path), text))
 }
 
-/// A file is one set, or, with several value columns of lights or materials, as many.
+/// A file is one set, or, with several value columns of lights, filters or materials, as many.
 fn add_entries(entries: &mut Vec<Entry>, kind: SetKind, path: &'static str, header: &Header) {
     // Coefficients from which daylight of any temperature is made; no light themselves.
     if path == load::DAYLIGHT_BASIS {
         return;
     }
-    let many = matches!(kind, SetKind::Illuminant | SetKind::Material) && header.columns.len() > 1;
+    let many = matches!(kind, SetKind::Illuminant | SetKind::Filter | SetKind::Material) && header.columns.len() > 1;
     let names: Vec<(String, Option<usize>)> = if many {
         header.columns.iter().enumerate().map(|(column, name)| (name.clone(), Some(column))).collect()
     } else {

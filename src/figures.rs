@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod chromaticity;
 pub mod curves;
+pub mod light;
 pub mod metrics;
 pub mod render;
 pub mod report_card;

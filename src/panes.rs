@@ -45,6 +45,7 @@ pub mod import;
 pub mod inspector;
 pub mod interpretation;
 pub mod library;
+pub mod light;
 pub mod menu;
 pub mod methods;
 pub mod metrics;
@@ -74,6 +75,7 @@ pub const ALL: &[&Pane] = &[
     &chromaticity::PANE,
     &swatches::PANE,
     &spectra::PANE,
+    &light::PANE,
     &inspector::PANE,
     &render::PANE,
     &render_settings::PANE,

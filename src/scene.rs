@@ -3,6 +3,7 @@
 //! Panes, exports and the command line all ask through here, so that they cannot disagree.
 
 pub mod conditions;
+pub mod light;
 pub mod locus;
 pub mod metrics;
 pub mod orbit;
@@ -20,11 +21,13 @@ use chromascope_core::query::{
 };
 use chromascope_core::reflectance::SurfaceError;
 use chromascope_core::scene::lighting::LightingError;
-use chromascope_core::spectral::Sensor;
+use chromascope_core::spectral::{GridSpectrum, Sensor};
 use chromascope_core::units::{Kelvin, NotPositive};
 use chromascope_figure::{InkRole, Marker};
 
-use crate::catalog::load::{LightQuery, LoadError, LoadedLight, PatchesQuery, SensorQuery};
+use crate::catalog::load::{
+    FilterQuery, FilteredLightQuery, LightQuery, LoadError, LoadedLight, PatchesQuery, SensorQuery,
+};
 use crate::catalog::{Catalog, Entry, Place};
 use crate::document::names::caseless;
 use crate::document::{
@@ -177,9 +180,10 @@ impl<'a> Scene<'a> {
             .ok_or_else(|| SceneError::NoSet { kind, name: name.to_owned() })
     }
 
-    /// The chart or, failing that, the material set of this name.
+    /// The chart or, failing that, the material set of this name. Transmittances can be seen as patches too.
     pub fn chart_entry(&self, name: &str) -> Result<Entry, SceneError> {
-        self.entry(SetKind::Chart, name).or_else(|e| self.entry(SetKind::Material, name).map_err(|_| e))
+        let other = |kind| move |e| self.entry(kind, name).map_err(|_| e);
+        self.entry(SetKind::Chart, name).or_else(other(SetKind::Material)).or_else(other(SetKind::Filter))
     }
 
     /// A camera's or observer's sensitivities.
@@ -196,12 +200,26 @@ impl<'a> Scene<'a> {
 
     /// The light on the scene.
     pub fn light(&self) -> Result<LoadedLight, SceneError> {
-        let (of, name) = match &self.document.light {
+        let (light, name) = match &self.document.light {
             Light::Set(name) => (LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place), name.as_str()),
             Light::BlackBody => (LightQuery::BlackBody(self.temperature()?), "blackbody"),
             Light::Daylight => (LightQuery::Daylight(self.temperature()?), "daylight"),
         };
-        self.loaded(&of, name)
+        if self.document.filters.is_empty() {
+            return self.loaded(&light, name);
+        }
+        // Sorted, so that the order of the filters makes no other question.
+        let mut names = self.document.filters.clone();
+        names.sort();
+        let filters = names.iter().map(|name| self.filter(name)).collect::<Result<_, _>>()?;
+        let answer = self.results.ask(&FilteredLightQuery { light, filters });
+        (*answer).clone().map_err(|error| SceneError::Load { name: self.light_name(), error })
+    }
+
+    /// Transmittance of a filter.
+    pub fn filter(&self, name: &str) -> Result<Shared<GridSpectrum>, SceneError> {
+        let answer = self.results.ask(&FilterQuery(self.entry(SetKind::Filter, name)?.place));
+        (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
 
     fn loaded(&self, of: &LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
@@ -209,13 +227,14 @@ impl<'a> Scene<'a> {
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
 
-    /// The name of the light with its temperature.
+    /// The name of the light with its temperature and the filters in front of it: `D65 × ND 0.3`.
     pub fn light_name(&self) -> String {
-        match &self.document.light {
+        let light = match &self.document.light {
             Light::Set(name) => name.clone(),
             Light::BlackBody => format!("blackbody {:.0} K", self.document.temperature_k),
             Light::Daylight => format!("daylight {:.0} K", self.document.temperature_k),
-        }
+        };
+        self.document.filters.iter().fold(light, |name, filter| format!("{name} × {filter}"))
     }
 
     /// The patches on show.

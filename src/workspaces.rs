@@ -45,6 +45,8 @@ impl PaneKind {
     pub const HEAD_TO_HEAD: Self = Self::new("HeadToHead");
     /// One camera on one page.
     pub const REPORT_CARD: Self = Self::new("ReportCard");
+    /// The light judged.
+    pub const LIGHT: Self = Self::new("Light");
     /// Allowed error.
     pub const TOLERANCE: Self = Self::new("Tolerance");
 
@@ -204,7 +206,7 @@ impl Default for Layout {
             ],
             spectra: [Some(PaneKind::SPECTRA), None, Some(PaneKind::INSPECTOR), None],
             render: [Some(PaneKind::RENDER), None, Some(PaneKind::RENDER_SETTINGS), None],
-            metrics: [Some(PaneKind::METRICS), None, Some(PaneKind::HEAD_TO_HEAD), Some(PaneKind::REPORT_CARD)],
+            metrics: [Some(PaneKind::METRICS), None, Some(PaneKind::HEAD_TO_HEAD), Some(PaneKind::LIGHT)],
             import: [Some(PaneKind::IMPORT), Some(PaneKind::CURVES), Some(PaneKind::INTERPRETATION), None],
             accuracy: [Some(PaneKind::METHODS), Some(PaneKind::WORK_SAVED), Some(PaneKind::TOLERANCE), None],
         }

@@ -13,6 +13,7 @@
 //! camera::locus              ∫ C E(T) dλ                                Eq 14, 15
 //! colorimetry                XYZ → xy, u′v′, L*a*b*, ΔE, sRGB
 //! light::temperature         XYZ → nearest black body, Duv
+//! rendition                  light → Ra, Rf and Rg, SSI
 //! camera::locus_table        black bodies → xy, for very many temperatures
 //! camera::batch              ∫ C S L dλ for very many S and C
 //! reflectance                Fresnel, geometric attenuation, mean scattered power      Eq 1-4
@@ -52,6 +53,7 @@ pub mod prelude;
 pub mod query;
 pub mod reflectance;
 pub mod render;
+pub mod rendition;
 pub mod scene;
 pub mod spectral;
 

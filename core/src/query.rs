@@ -5,6 +5,7 @@
 
 pub mod ask;
 pub mod compare;
+pub mod lights;
 pub mod loci;
 pub mod metrics;
 pub mod patches;
@@ -14,9 +15,10 @@ pub mod shared;
 
 pub use ask::{Ask, Direct, Query};
 pub use compare::DifferenceError;
+pub use lights::{Consistency, ConsistencyError, ConsistencyQuery, Rendition, RenditionQuery};
 pub use loci::{
-    Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery, RadiatorSignalsQuery,
-    SpectralLocusQuery, Temperatures,
+    CctQuery, Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery,
+    RadiatorSignalsQuery, SpectralLocusQuery, Temperatures,
 };
 pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricValue, Replicates, WhyNot};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};

@@ -50,6 +50,7 @@ impl Request {
         if let Some(illuminant) = &arguments.illuminant {
             request.set_light(illuminant)?;
         }
+        request.set_filters(&arguments.filter)?;
         if let Some(white) = &arguments.white {
             request.set_white(white)?;
         }
@@ -174,6 +175,23 @@ impl Request {
             self.illuminant("--illuminant", illuminant)?
         };
         self.document.light = Light::Set(name);
+        Ok(())
+    }
+
+    /// Puts filters in front of the light.
+    pub(super) fn set_filters(&mut self, filters: &[OsString]) -> Result<(), CliError> {
+        for given in filters {
+            let name = if self.means_file("--filter", &[SetKind::Filter], given) {
+                self.open(Path::new(given), Role::Transmittance)?.name.clone()
+            } else {
+                self.name("--filter", SetKind::Filter, &given.to_string_lossy())?
+            };
+            if self.document.filters.contains(&name) {
+                let reason = format!("{name} is there already; a filter can be used once");
+                return Err(CliError::Argument { argument: "--filter", reason });
+            }
+            self.document.filters.push(name);
+        }
         Ok(())
     }
 

@@ -5,6 +5,7 @@ mod ground;
 mod loci;
 mod pixel;
 mod points;
+mod whites;
 
 use std::collections::BTreeSet;
 
@@ -62,6 +63,7 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
         data: Vec::new(),
     };
     ground::add(&mut drawing);
+    whites::add(&mut drawing);
     let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
     if scene.document.overlays.camera_spectral_loci {
         loci::add_monochromatic(&mut drawing, &sources);

@@ -84,6 +84,8 @@ fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
         (&mut overlays.patches, "Patches"),
         (&mut overlays.camera_spectral_loci, "Cameras' spectral loci: errors that no 3×3 matrix can correct"),
         (&mut overlays.daylight, "Daylight locus"),
+        (&mut overlays.whites, "Standard whites and the light"),
+        (&mut overlays.isotherms, "Isotherms: lines of equal CCT, to Duv ±0.05"),
         (&mut overlays.srgb, "sRGB"),
         (&mut overlays.dci_p3, "DCI-P3"),
         (&mut overlays.rec2020, "Rec. 2020"),

@@ -9,6 +9,7 @@ use egui::{Align2, FontId, Rect, RichText, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, CompareAction};
+use crate::command::Command;
 use crate::document::SetKind;
 use crate::figures::metrics::{self, TABLE};
 use crate::panes::widgets;
@@ -94,6 +95,9 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         };
         if ui.button(words).on_hover_text(hint).clicked() {
             compare(&id, context);
+        }
+        if ui.button("Report card").on_hover_text("The selected camera on one page (Esc returns)").clicked() {
+            context.push(Command::Maximize(PaneKind::REPORT_CARD));
         }
     }
     let slow = context.ranking.busy().is_some_and(|busy| busy >= PATIENCE);

@@ -24,6 +24,7 @@ const CORE_LAYERS: &[&str] = &[
     "light",
     "patch_set",
     "correction",
+    "rendition",
     "camera",
     "reflectance",
     "scene",

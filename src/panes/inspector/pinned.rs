@@ -92,7 +92,7 @@ fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneCo
         &context.theme,
         format!("{} from the reference: {}", context.scene.difference_name(), differences.join(", ")),
     );
-    numbers::show(ui, "pinned patches", &heads, &numbers::of_patches(&colors), context);
+    numbers::show(ui, "pinned patches", &heads, &numbers::of_patches(scene, &colors), context);
 }
 
 /// Pinned black bodies; the reference stands first where all have the same temperature.
@@ -111,5 +111,5 @@ fn radiators(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &Pane
         heads.insert(0, "reference".to_owned());
         points.insert(0, radiator::point_of(scene, &reference_id(scene), first).ok().flatten());
     }
-    numbers::show(ui, "pinned blackbodies", &heads, &radiator::rows_of(&points), context);
+    numbers::show(ui, "pinned blackbodies", &heads, &radiator::rows_of(scene, &points), context);
 }
