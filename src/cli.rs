@@ -1,4 +1,4 @@
-//! The same answers without a window: `locus`, `patches`, `light`, `render`, `inspect`, `bench`, `list`.
+//! The same answers without a window: `locus`, `patches`, `compare`, `light`, `render`, `inspect`, `bench`, `list`.
 //!
 //! Arguments become a [`Document`](crate::document::Document) and are answered through [`Scene`](crate::scene::Scene), as in the
 //! window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
@@ -6,6 +6,7 @@
 mod arguments;
 mod bench;
 mod checks;
+mod compare;
 mod error;
 mod inspect;
 mod light;
@@ -57,6 +58,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         Subcommand::Patches(arguments) => {
             tables::patches(&arguments, matches).and_then(|text| put(&text, arguments.common.out.as_deref()))
         }
+        Subcommand::Compare(arguments) => compare::run(&arguments, matches),
         Subcommand::Render(arguments) => render::run(&arguments, matches),
         Subcommand::Light(arguments) => light::run(&arguments, matches),
         Subcommand::Inspect(arguments) => inspect::run(&arguments),

@@ -12,13 +12,14 @@ use crate::document::SetKind;
 use markdown::{Block, Inline};
 
 /// Pages in the order of the list: the file name without its ending, which is also the target of links.
-const ORDER: [&str; 10] = [
+const ORDER: [&str; 11] = [
     "getting-started",
     "window",
     "own-spectra",
     "command-line",
     "keyboard",
     "model",
+    "metrics",
     "accuracy",
     "paper",
     "glossary",

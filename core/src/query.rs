@@ -7,6 +7,7 @@ pub mod ask;
 pub mod compare;
 pub mod lights;
 pub mod loci;
+pub mod metamers;
 pub mod metrics;
 pub mod patches;
 pub mod radiances;
@@ -20,6 +21,7 @@ pub use loci::{
     CctQuery, Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery,
     RadiatorSignalsQuery, SpectralLocusQuery, Temperatures,
 };
+pub use metamers::{Metamers, MetamersQuery};
 pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricValue, Replicates, WhyNot};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;

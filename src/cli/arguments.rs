@@ -7,6 +7,7 @@ use clap::{Args, Parser, ValueEnum};
 use spectral_file::Values;
 
 use super::bench::BenchArguments;
+use super::compare::arguments::CompareArguments;
 use super::inspect::arguments::InspectArguments;
 use super::render::arguments::RenderArguments;
 use crate::document::SetKind;
@@ -30,6 +31,7 @@ const EXAMPLES: &str = "Examples:
   chromascope leaf.csv
   chromascope locus --camera \"Nikon D70\" --observer \"CIE 1931 2°\" --temperatures 2856,5500,6504
   chromascope patches --camera \"Canon EOS 10D\" --illuminant D55 --out patches.csv
+  chromascope compare --illuminant A --sort metamerism-index
   chromascope render --mesh head --camera \"Nikon D70\" --out pictures
   chromascope inspect measured.txt --csv measured.csv
   chromascope list cameras
@@ -76,6 +78,9 @@ pub(super) enum Subcommand {
     /// Chart patches or measured radiances as CSV: RGB, XYZ, xy, u′v′, L*a*b* and differences from the reference
     #[command(after_help = PATCHES_EXAMPLES)]
     Patches(PatchesArguments),
+    /// Cameras ranked by figures of merit, with uncertainties: a table, CSV or JSON
+    #[command(after_help = super::compare::arguments::examples())]
+    Compare(Box<CompareArguments>),
     /// Lights: CCT and Duv, Ra, Rf and Rg, spectral similarity, and how consistent cameras are under them
     #[command(after_help = super::light::EXAMPLES)]
     Light(Box<super::light::LightArguments>),

@@ -215,6 +215,15 @@ impl Request {
         Ok(())
     }
 
+    /// The name of the patches that are compared.
+    pub(super) fn chart_name_on_show(&self) -> String {
+        if self.document.subset == Subset::Five && self.document.chart == CHART {
+            FIVE.to_owned()
+        } else {
+            self.document.chart.clone()
+        }
+    }
+
     /// Chooses the reflectance of what is rendered.
     pub(super) fn set_material(&mut self, given: &OsStr) -> Result<(), CliError> {
         let material = &*given.to_string_lossy();

@@ -95,7 +95,7 @@ fn locus_rows(
 }
 
 /// Refuses an output before anything is computed.
-fn check_out(arguments: &CommonArguments, request: &Request) -> Result<(), CliError> {
+pub(super) fn check_out(arguments: &CommonArguments, request: &Request) -> Result<(), CliError> {
     outputs::check(arguments.out.as_deref(), &request.inputs(), arguments.force)
 }
 
@@ -110,7 +110,7 @@ fn head(columns: &str) -> String {
 }
 
 /// Says once what keeps differences from the reference empty, or from being those of the color transform alone.
-fn say_caution(scene: &Scene<'_>, request: &Request) -> Result<(), SceneError> {
+pub(super) fn say_caution(scene: &Scene<'_>, request: &Request) -> Result<(), SceneError> {
     let Some(caution) = scene.caution() else { return Ok(()) };
     let remedy = match caution {
         Caution::FitDiffers { .. } => "",

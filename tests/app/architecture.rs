@@ -26,6 +26,7 @@ const CORE_LAYERS: &[&str] = &[
     "correction",
     "rendition",
     "camera",
+    "metamers",
     "reflectance",
     "scene",
     "render",

@@ -1,5 +1,6 @@
 //! The command line, run as a person runs it, without a display.
 
+mod compare;
 mod files;
 mod inspect;
 mod manners;

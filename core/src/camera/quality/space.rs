@@ -55,7 +55,7 @@ fn curves(sensor: &Sensor) -> [Vec<f64>; 3] {
 }
 
 /// Orthonormal basis of the space of three curves, by Gram and Schmidt's method done twice.
-fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
+pub(crate) fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
     let mut found: Vec<Vec<f64>> = Vec::with_capacity(3);
     for curve in curves {
         let length = dot(curve, curve).sqrt();
@@ -71,7 +71,7 @@ fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
 }
 
 /// A curve without its components in a space.
-fn remove(curve: &[f64], space: &[Vec<f64>]) -> Vec<f64> {
+pub(crate) fn remove(curve: &[f64], space: &[Vec<f64>]) -> Vec<f64> {
     let mut rest = curve.to_vec();
     for axis in space {
         let along = dot(&rest, axis);
