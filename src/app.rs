@@ -92,7 +92,7 @@ impl ChromascopeApp {
         Self {
             history: history.with_names_apart(catalog.names()),
             catalog,
-            results: Results::default(),
+            results: executor.results(),
             view: View { saved, import, kept: files.kept_documents(), ..View::default() },
             files,
             meshes: MeshStore::on(executor, move || window.request_repaint()),
@@ -184,6 +184,11 @@ impl ChromascopeApp {
     /// Where cameras are ranked.
     pub fn ranking(&self) -> &Ranking {
         &self.ranking
+    }
+
+    /// The same, for tests to set up.
+    pub fn laboratory_mut(&mut self) -> &mut Profiler {
+        &mut self.laboratory
     }
 
     /// Has something done in the next frame.

@@ -3,12 +3,15 @@
 //! The index is made of headers alone; a set's figures are parsed when a question first asks for them
 //! ([`load`]), and kept by whoever keeps answers.
 
+pub mod chart_picture;
 pub mod import;
 pub mod likeness;
 pub mod load;
 pub mod meshes;
 pub mod names;
 pub mod opened;
+pub mod recorded;
+pub mod spectral_images;
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};

@@ -5,7 +5,8 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use chromascope_core::query::{Ask, CameraMetrics, CameraMetricsQuery, Query, Shared};
+use chromascope_core::metamers::{Confusion, MetamerPair};
+use chromascope_core::query::{Ask, CameraMetrics, CameraMetricsQuery, Metamers, MetamersQuery, Query, Shared, WhyNot};
 
 use crate::catalog::Entry;
 use crate::document::{Document, SetKind};
@@ -54,9 +55,31 @@ impl Query for FirstQuery {
     }
 }
 
+/// Two reflectances that are confused: set and name of each, and what each set is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MetamerRow {
+    /// The pair.
+    pub pair: MetamerPair,
+    /// Name of its set, and of each in it.
+    pub names: [[String; 2]; 2],
+    /// What each set is.
+    pub kinds: [SetKind; 2],
+}
+
+/// Metamers of a camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundMetamers {
+    /// What was found, or the reason that nothing could be.
+    pub metamers: Arc<Result<Metamers, WhyNot>>,
+    /// The pairs by name, worst first.
+    pub rows: Vec<MetamerRow>,
+}
+
 /// Where cameras are ranked, and the last ranking.
 pub struct Ranking {
     worker: Background<FirstQuery>,
+    searcher: Background<MetamersQuery>,
+    is_searching: bool,
     asked: Option<Arc<Vec<RankedCamera>>>,
     /// Document and choice of cameras that they were asked for.
     of: Option<(Document, RankedCameras)>,
@@ -69,8 +92,10 @@ pub struct Ranking {
 
 impl Ranking {
     /// Ranks on an executor; `wake` is called after each few cameras.
-    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
+    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
         Self {
+            searcher: Background::on(executor, "metamers", wake.clone()),
+            is_searching: false,
             worker: Background::on(executor, "ranking", wake),
             asked: None,
             of: None,
@@ -95,6 +120,40 @@ impl Ranking {
             self.take_in(&made.answer);
         }
         Arc::clone(&self.shown)
+    }
+
+    /// Searches all reflectances for pairs that a camera or the reference confuses; none until they are found.
+    ///
+    /// # Errors
+    ///
+    /// A sentence that says why there is no such question.
+    pub fn metamers(
+        &mut self,
+        scene: &Scene<'_>,
+        camera: &SensorId,
+        confusion: Confusion,
+    ) -> Result<Option<FoundMetamers>, String> {
+        self.is_searching = true;
+        let (query, sets) =
+            scene.metamers_query(camera.kind, &camera.name, confusion).map_err(|error| error.to_string())?;
+        self.searcher.ask(vec![query.clone()]);
+        if let Some(why) = self.searcher.failure() {
+            return Err(why);
+        }
+        let Some(shown) = self.searcher.shown().filter(|shown| shown.current) else { return Ok(None) };
+        let row = |pair: &MetamerPair| {
+            let [a, b] = pair.places.map(|place| {
+                let [set, patch] = query.at(place)?;
+                let name = query.sets.get(set)?.patches().get(patch)?.name.clone();
+                let kind =
+                    if scene.entry(SetKind::Chart, &sets[set]).is_ok() { SetKind::Chart } else { SetKind::Material };
+                Some(([sets[set].clone(), name], kind))
+            });
+            let ((first, a), (second, b)) = a.zip(b)?;
+            Some(MetamerRow { pair: *pair, names: [first, second], kinds: [a, b] })
+        };
+        let rows = (*shown.answer).as_ref().map_or_else(|_| Vec::new(), |m| m.pairs.iter().filter_map(row).collect());
+        Ok(Some(FoundMetamers { metamers: shown.answer, rows }))
     }
 
     fn ask_for(&mut self, cameras: Vec<RankedCamera>) {
@@ -155,14 +214,11 @@ impl Ranking {
         self.worker.failure()
     }
 
-    /// Number of questions of each camera that were computed.
-    pub fn computed(&self) -> u64 {
-        let counts = self.worker.counts().into_iter();
-        counts.filter(|(name, _)| *name == CameraMetricsQuery::NAME).map(|(_, count)| count.misses).sum()
-    }
-
     /// Ends a frame: what was not asked for in it is stopped, and asked for again once somebody looks.
     pub fn end_frame(&mut self) {
+        if !std::mem::take(&mut self.is_searching) {
+            self.searcher.rest();
+        }
         if !std::mem::take(&mut self.is_asked) && self.progress().is_some() {
             self.worker.rest();
             (self.asked, self.of) = (None, None);
@@ -172,6 +228,7 @@ impl Ranking {
     /// Waits until all is done. For tests.
     pub fn wait(&self) {
         self.worker.wait();
+        self.searcher.wait();
     }
 }
 

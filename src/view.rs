@@ -41,6 +41,8 @@ pub struct View {
     pub selected: Option<PlotItem>,
     /// The selection belongs to a sensor that is not compared: nothing that is drawn fades beside it.
     pub selected_elsewhere: bool,
+    /// Pair of metamers that was clicked, as a row.
+    pub metamers: Option<usize>,
     /// Kept beside each other, A, B, …
     pub pinned: Vec<PlotItem>,
     /// What is typed into the library's search.

@@ -11,14 +11,14 @@ pub use read::{ENDINGS, LoadedMesh, MAX_FILE_BYTES, MeshFailure, is_mesh, read};
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 
 use crate::document::render::MeshChoice;
-use crate::jobs::Executor;
+use crate::jobs::{Desk, Executor};
 use read::{Stamp, file_name};
 
 /// Meshes that nobody looks at are remembered up to this many bytes, so that undo need not read them again.
@@ -46,14 +46,8 @@ pub struct Opened {
 
 /// The mesh files that were asked for.
 pub struct MeshStore {
-    desk: Arc<Desk>,
+    desk: Arc<Desk<State>>,
     executor: Executor,
-}
-
-/// What lies between the window and the threads that read.
-struct Desk {
-    state: Mutex<State>,
-    wake: Box<dyn Fn() + Send + Sync>,
 }
 
 #[derive(Default)]
@@ -90,8 +84,7 @@ impl MeshStore {
 
     /// Reads files on an executor.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let desk = Arc::new(Desk { state: Mutex::default(), wake: Box::new(wake) });
-        Self { desk, executor: executor.clone() }
+        Self { desk: Arc::new(Desk::new(executor, State::default(), wake)), executor: executor.clone() }
     }
 
     /// What is known of a file. Reading begins with the first question; a mesh stays on show while it is read anew.
@@ -187,7 +180,7 @@ impl MeshStore {
         let work = move || {
             let result = read_once(&file, unless, &|| stop.load(Ordering::Relaxed));
             desk.lock().take(&file, &stop, result);
-            (desk.wake)();
+            desk.tell();
         };
         if let Err(error) = self.executor.spawn("meshes", work) {
             let failure = MeshFailure::Io { file: file_name(path), error };
@@ -200,13 +193,6 @@ impl MeshStore {
 impl Drop for MeshStore {
     fn drop(&mut self) {
         self.desk.lock().known.values_mut().for_each(Known::stop);
-    }
-}
-
-impl Desk {
-    /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -8,6 +8,7 @@ use spectral_file::Values;
 
 use super::bench::BenchArguments;
 use super::compare::arguments::CompareArguments;
+use super::identify::arguments::IdentifyArguments;
 use super::inspect::arguments::InspectArguments;
 use super::render::arguments::RenderArguments;
 use crate::document::SetKind;
@@ -87,6 +88,9 @@ pub(super) enum Subcommand {
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
+    /// Which table of sensitivities is a camera's: raw RGB of known patches against all cameras, ranked by log error
+    #[command(after_help = super::identify::arguments::EXAMPLES)]
+    Identify(Box<IdentifyArguments>),
     /// Contents of files of spectra and the decisions made when reading them; curves as CSV or JSON
     #[command(after_help = super::inspect::arguments::EXAMPLES)]
     Inspect(Box<InspectArguments>),

@@ -4,11 +4,11 @@ use chromascope_core::query::metrics::{Better, distinguishable, rank_ranges};
 use chromascope_core::query::{CameraMetric, MetricValue, WhyNot};
 use chromascope_figure::{Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize};
 
+use super::FigureInput;
 use super::chromaticity::conditions;
 use crate::format::fixed;
 use crate::ranking::{Ranked, ranked};
 use crate::scene::Scene;
-use crate::view::View;
 use crate::view::table::Sorting;
 
 /// Id of the table of cameras in what is kept between runs.
@@ -121,7 +121,8 @@ const NAMES: f64 = 220.0;
 const ROW: f64 = 16.0;
 
 /// Cameras in order of the metric that the table is sorted by, with uncertainties; all numbers beside it.
-pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
+pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
+    let (scene, view) = (input.scene, input.view);
     let ranked = ranked(scene, view.saved.metrics.cameras);
     let sorting = view.saved.looks.get(TABLE).and_then(|look| look.sorting.as_ref());
     let metric = sorted_by(scene, sorting).or_else(|| first(scene))?;

@@ -9,6 +9,7 @@ use chromascope_figure::{
     Anchor, Axis, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks,
 };
 
+use super::FigureInput;
 use super::chromaticity::{conditions, distance_symbol};
 use super::metrics::unit;
 use crate::document::{LOCUS_RANGE_K, SetKind};
@@ -41,8 +42,8 @@ pub fn camera(scene: &Scene<'_>, view: &View) -> Option<SensorId> {
 }
 
 /// The page of the camera of the card as it is saved; none without a camera that can be shown.
-pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
-    page(scene, view, WIDTH)
+pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
+    page(input.scene, input.view, WIDTH)
 }
 
 /// The page in a width; a narrow one has one column.

@@ -22,7 +22,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::LIGHT,
     title: "Light",
     show,
-    figure: Some(|scene, _| light::figure(scene)),
+    figure: Some(|input| light::figure(input.scene)),
     under_conditions: true,
     table: true,
 };

@@ -1,5 +1,6 @@
 //! What is looked at in Metrics.
 
+use chromascope_core::metamers::Confusion;
 use serde::{Deserialize, Serialize};
 
 use crate::plot_item::SensorId;
@@ -10,6 +11,8 @@ use crate::plot_item::SensorId;
 pub struct MetricsLook {
     /// Cameras that are ranked.
     pub cameras: RankedCameras,
+    /// Metamers that are searched for.
+    pub confusion: Confuses,
     /// The two that stand head to head; none for the selected one and the first compared one beside it.
     #[serde(skip)]
     pub pair: [Option<SensorId>; 2],
@@ -28,4 +31,24 @@ pub enum RankedCameras {
     Compared,
     /// The user's.
     Yours,
+}
+
+/// The one that takes two reflectances for one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Confuses {
+    /// The camera.
+    #[default]
+    Camera,
+    /// The reference observer.
+    Reference,
+}
+
+impl Confuses {
+    /// The same as the search calls it.
+    pub const fn confusion(self) -> Confusion {
+        match self {
+            Self::Camera => Confusion::Camera,
+            Self::Reference => Confusion::Observer,
+        }
+    }
 }

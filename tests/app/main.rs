@@ -45,7 +45,6 @@ mod temperature;
 mod theme;
 mod waiting;
 mod words;
-mod zz_look;
 
 /// Names of the built-in sets.
 fn built_in_names() -> chromascope::document::names::BuiltInNames {

@@ -6,6 +6,7 @@ use chromascope::catalog::Catalog;
 use chromascope::command::Command;
 use chromascope::document::{Document, Light, SetKind};
 use chromascope::export;
+use chromascope::figures::FigureInput;
 use chromascope::jobs::Executor;
 use chromascope::panes;
 use chromascope::plot_item::{PlotItem, SensorId};
@@ -129,7 +130,8 @@ fn nothing_is_ranked_while_hidden() {
     assert!(window.state().ranking().progress().is_some());
     window.state_mut().push(Command::Show(Workspace::Compare));
     window.run_steps(3);
-    let computed = |window: &Window| window.state().ranking().computed();
+    let computed =
+        |window: &Window| window.state().results().counts().get("camera metrics").map_or(0, |count| count.misses);
     executor.run_all();
     let at_first = computed(&window);
     for light in ["A", "D65"] {
@@ -219,7 +221,7 @@ fn a_report_card_is_a_figure_like_others() {
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let mut view = View::default();
     view.saved.metrics.card = Some(camera("Kodak DCS200"));
-    let figure = panes::figure(PaneKind::REPORT_CARD, &scene, &view).expect("a page");
+    let figure = panes::figure(PaneKind::REPORT_CARD, &FigureInput::new(&scene, &view)).expect("a page");
     assert_eq!(figure.title, "Report card: Kodak DCS200");
     assert_eq!(figure.table.rows.len(), CameraMetric::ALL.len());
     let svg = export::svg(&figure, &Theme::LIGHT, export::Paper::default());
@@ -234,7 +236,7 @@ fn a_report_card_is_a_figure_like_others() {
     assert!(svg.contains("ΔE*00 mean") && export::png(&svg, 1.0).is_ok());
     view.selected = Some(PlotItem::Sensor(camera("Canon EOS 5D")));
     view.saved.metrics.card = None;
-    let figure = panes::figure(PaneKind::REPORT_CARD, &scene, &view).expect("a page");
+    let figure = panes::figure(PaneKind::REPORT_CARD, &FigureInput::new(&scene, &view)).expect("a page");
     assert_eq!(figure.title, "Report card: Canon EOS 5D", "follows the selection");
 }
 
@@ -242,7 +244,7 @@ fn a_report_card_is_a_figure_like_others() {
 fn all_numbers_go_out_as_csv_and_json() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::METRICS, &scene, &View::default()).expect("a figure");
+    let figure = panes::figure(PaneKind::METRICS, &FigureInput::new(&scene, &View::default())).expect("a figure");
     let cameras = catalog.of_kind(SetKind::Camera).count();
     assert_eq!(figure.table.rows.len(), cameras);
     assert_eq!(figure.table.columns.len(), 1 + 2 * CameraMetric::ALL.len());
@@ -260,4 +262,49 @@ fn layouts_from_before_the_workspace_open_with_it() {
     assert_eq!(layout.metrics, Layout::default().metrics);
     assert_eq!(layout.metrics[0], Some(PaneKind::METRICS));
     assert_eq!(Workspace::ALL.iter().position(|workspace| *workspace == Workspace::Metrics), Some(3), "after Render");
+}
+
+#[test]
+fn metamers_are_found_marked_and_put_on_the_mesh() {
+    let (executor, mut window) = open();
+    assert!(!executor.run_one("metamers"), "nobody looks");
+    window.state_mut().view_mut().saved.metrics.card = Some(camera("Kodak DCS200"));
+    window.state_mut().push(Command::Maximize(PaneKind::new("Metamers")));
+    window.run_steps(3);
+    assert!(window.query_by_label("Searching…").is_some());
+    window.state().ranking().wait();
+    window.run_steps(3);
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let document = window.state().history().document().clone();
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let confusion = chromascope_core::metamers::Confusion::Camera;
+    let (query, sets) = scene.metamers_query(SetKind::Camera, "Kodak DCS200", confusion).unwrap();
+    let found = (*results.ask(&query)).clone().expect("searched");
+    let [set, patch] = query.at(found.pairs[0].places[0]).unwrap();
+    let first = query.sets[set].patches()[patch].name.clone();
+    let row = window.query_all_by_role(Role::Row).find(|row| row.rect().top() < 400.0).expect("the worst pair");
+    assert!(row.accesskit_node().label().unwrap_or_default().starts_with(&first), "{first}");
+    row.click();
+    window.run_steps(3);
+    let view = window.state().view();
+    assert_eq!((view.metamers, view.pinned.len()), (Some(0), 2), "both are marked");
+    assert_eq!(view.selected.as_ref().and_then(PlotItem::patch), Some(first.as_str()));
+    let is_material = |place: usize| {
+        let set = query.at(place).unwrap()[0];
+        scene.entry(SetKind::Chart, &sets[set]).is_err().then(|| sets[set].clone())
+    };
+    let names = found.pairs[0].places.map(is_material);
+    if let Some(name) = names.into_iter().flatten().next() {
+        window.get_by_role_and_label(Role::Button, &format!("{name} on the mesh")).click();
+        window.run_steps(2);
+        assert_eq!(window.state().history().document().render.material, name);
+    } else {
+        window
+            .query_all_by_role(Role::Button)
+            .find(|b| b.accesskit_node().label().unwrap_or_default().starts_with("Show "))
+            .expect("a chart")
+            .click();
+        window.run_steps(2);
+        assert!(sets.contains(&window.state().history().document().chart));
+    }
 }

@@ -230,7 +230,7 @@ fn take(
             harvest.failed.push(fingerprint);
         }
     }
-    desk.know(OpenFile { origin, bytes, failure });
+    desk.lock().know(OpenFile { origin, bytes, failure });
 }
 
 /// Reads; a panic comes out as a failure of this file alone.
@@ -296,7 +296,7 @@ pub(super) fn recall(failing: Vec<Failing>, desk: &Desk, job: &Job) {
         if !job.go_on(0.0) {
             return;
         }
-        desk.know(OpenFile { origin, bytes, failure });
+        desk.lock().know(OpenFile { origin, bytes, failure });
     }
 }
 
@@ -313,11 +313,12 @@ pub(super) fn reread(set: &OwnSet, why: Why, desk: &Desk, job: &Job) -> Option<(
                 .and_then(|bytes| {
                     let origin = origin(path, &bytes);
                     if why == Why::Changed && Some(origin.fingerprint) == set.fingerprint {
-                        desk.know(OpenFile { origin, bytes, failure: None });
+                        desk.lock().know(OpenFile { origin, bytes, failure: None });
                         return Ok(None);
                     }
                     let read = read_once(&origin, &bytes, &set.wishes, job);
-                    desk.know(OpenFile { origin, bytes, failure: read.as_ref().err().cloned() });
+                    let file = OpenFile { origin, bytes, failure: read.as_ref().err().cloned() };
+                    desk.lock().know(file);
                     read.map(Some)
                 })
                 .transpose()?
@@ -333,7 +334,8 @@ pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Jo
     if let Ok(bytes) = read_bytes(path)
         && Fingerprint::of(&bytes) == fingerprint
     {
-        desk.know(OpenFile { origin: origin(path, &bytes), bytes, failure: None });
+        let file = OpenFile { origin: origin(path, &bytes), bytes, failure: None };
+        desk.lock().know(file);
     }
 }
 
