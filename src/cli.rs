@@ -12,6 +12,7 @@ mod identify;
 mod inspect;
 mod light;
 mod outputs;
+mod per;
 mod radiance;
 mod render;
 mod request;

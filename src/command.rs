@@ -23,6 +23,8 @@ pub enum Command {
     Redo,
     /// Ask for files to open.
     Open,
+    /// Ask for a file of recorded raw values.
+    OpenRecorded,
     /// Ask for a folder whose files are to be opened.
     OpenFolder,
     /// Open a document in place of this one, which is kept.

@@ -5,6 +5,7 @@ pub mod chromaticity;
 pub mod curves;
 pub mod light;
 pub mod metrics;
+pub mod recorded;
 pub mod render;
 pub mod report_card;
 pub mod skipped_work;

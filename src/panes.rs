@@ -50,6 +50,7 @@ pub mod menu;
 pub mod metamers;
 pub mod methods;
 pub mod metrics;
+pub mod recorded;
 pub mod render;
 pub mod render_settings;
 pub mod report_card;
@@ -89,6 +90,7 @@ pub const ALL: &[&Pane] = &[
     &methods::PANE,
     &work_saved::PANE,
     &tolerance::PANE,
+    &recorded::PANE,
 ];
 
 /// Note where something is measured.

@@ -9,6 +9,7 @@ pub mod metrics;
 pub mod orbit;
 pub mod recorded;
 pub mod render;
+pub mod spectral_image;
 
 use std::borrow::Cow;
 use std::sync::Arc;

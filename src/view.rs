@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod help;
 pub mod import;
 pub mod metrics;
+pub mod recorded;
 pub mod render;
 pub mod table;
 
@@ -22,6 +23,7 @@ use chromascope_figure::Tag;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use metrics::MetricsLook;
+use recorded::RecordedView;
 use render::{RenderLook, RenderView};
 use table::TableLook;
 
@@ -59,6 +61,8 @@ pub struct View {
     pub render: RenderView,
     /// What is looked at in Accuracy.
     pub accuracy: AccuracyView,
+    /// What is looked at in Recorded.
+    pub recorded: RecordedView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
     /// The reference stands in for every camera while B is held.

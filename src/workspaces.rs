@@ -47,6 +47,8 @@ impl PaneKind {
     pub const REPORT_CARD: Self = Self::new("ReportCard");
     /// The light judged.
     pub const LIGHT: Self = Self::new("Light");
+    /// Raw values of a real camera against the library.
+    pub const RECORDED: Self = Self::new("Recorded");
     /// Allowed error.
     pub const TOLERANCE: Self = Self::new("Tolerance");
 

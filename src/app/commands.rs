@@ -33,6 +33,10 @@ impl ChromascopeApp {
     pub(super) fn take_files(&mut self, ctx: &egui::Context) {
         for event in self.files.poll() {
             match event {
+                FileEvent::Open(paths) if std::mem::take(&mut self.view.recorded.opening) => {
+                    self.view.recorded.corners.clear();
+                    paths.first().into_iter().for_each(|path| self.recorded.open(path));
+                }
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
                 FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
@@ -64,8 +68,14 @@ impl ChromascopeApp {
                 let step = self.history.redo_name().map(|name| format!("Redone: {name}."));
                 self.travel(History::redo, step);
             }
-            Command::Open => self.files.ask_to_open(),
-            Command::OpenFolder => self.files.ask_for_folder(),
+            Command::Open | Command::OpenRecorded => {
+                self.view.recorded.opening = command == Command::OpenRecorded;
+                self.files.ask_to_open();
+            }
+            Command::OpenFolder => {
+                self.view.recorded.opening = false;
+                self.files.ask_for_folder();
+            }
             Command::OpenDocument(path) => self.files.open_document(&path, self.history.document().clone()),
             Command::RemoveDocument(path) => {
                 self.files.remove_document(&path);
@@ -313,7 +323,7 @@ impl ChromascopeApp {
         self.files.ask_to_save(SaveRequest { what, name, forms: forms.collect(), note: String::new() });
     }
 
-    /// What a file of a pane is called, without its ending.
+    /// File name for a pane's export, without extension.
     fn file_stem(&self, pane: PaneKind) -> String {
         let title = panes::title(pane).to_lowercase();
         match (pane, self.view.accuracy.shows) {
@@ -358,7 +368,7 @@ impl ChromascopeApp {
             // It went on meanwhile: what it is now is kept.
             return self.files.open_document(&opened.path, self.history.document().clone());
         }
-        let name = opened.path.file_name().unwrap_or(opened.path.as_os_str()).to_string_lossy().into_owned();
+        let name = crate::format::file_name(&opened.path);
         opened.document.part_names(self.catalog.names());
         self.step(|history| history.replace(format!("Open {name}"), opened.document));
         let words =

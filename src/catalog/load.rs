@@ -11,7 +11,7 @@ use chromascope_core::spectral::{
 };
 use chromascope_core::units::Kelvin;
 
-use super::{Place, asset_text};
+use super::{BuiltInFile, Place};
 
 /// The daylight basis among the built-in files.
 pub const DAYLIGHT_BASIS: &str = "illuminants/cie_daylight_basis.csv";
@@ -27,7 +27,7 @@ pub enum LoadError {
     Damaged {
         /// The file.
         path: &'static str,
-        /// What is wrong.
+        /// Cause.
         error: DatasetError,
     },
     /// A light needs a curve.
@@ -46,23 +46,31 @@ pub enum LoadError {
 
 /// A built-in file, parsed.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct FileQuery(pub &'static str);
+pub struct FileQuery(pub BuiltInFile);
 
 impl Query for FileQuery {
     type Answer = Result<Dataset, LoadError>;
     const NAME: &'static str = "data file";
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
-        let text = asset_text(self.0).ok_or(LoadError::Missing(self.0))?;
-        Dataset::read(text).map_err(|error| LoadError::Damaged { path: self.0, error })
+        Dataset::read(self.0.text).map_err(|error| LoadError::Damaged { path: self.0.path, error })
     }
 }
 
+/// A file of the program by its path.
+fn asset(path: &'static str, ask: &impl Ask) -> Result<Dataset, LoadError> {
+    let text = chromascope_data::text(path).ok_or(LoadError::Missing(path))?;
+    (*ask.ask(&FileQuery(BuiltInFile { path, text }))).clone()
+}
+
 /// A set's curves with their names, as measured.
-fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
+///
+/// # Errors
+/// [`LoadError`] if the file is damaged or the user's settings make an impossible spectrum.
+pub fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
     match place {
-        Place::BuiltIn { path, column } => {
-            let file = ask.ask(&FileQuery(path));
+        Place::BuiltIn { file, column } => {
+            let file = ask.ask(&FileQuery(*file));
             let file = (*file).as_ref().map_err(Clone::clone)?;
             let named = file.header.columns.iter().cloned().zip(file.curves.iter().cloned());
             Ok(named
@@ -86,8 +94,8 @@ impl Query for SensorQuery {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let named = curves(&self.0, ask)?;
         let (primaries, response) = match &self.0 {
-            Place::BuiltIn { path, .. } => {
-                let file = ask.ask(&FileQuery(path));
+            Place::BuiltIn { file, .. } => {
+                let file = ask.ask(&FileQuery(*file));
                 let header = &(*file).as_ref().map_err(Clone::clone)?.header;
                 (Primaries::from_columns(&header.columns), header.response())
             }
@@ -135,7 +143,7 @@ impl LoadedLight {
     }
 }
 
-/// Which light.
+/// Illuminant as a question to the catalog.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum LightQuery {
     /// A data set.
@@ -162,8 +170,7 @@ impl Query for LightQuery {
                 Ok(LoadedLight::new(SpectralDistribution::new(nm, grid.values().to_vec())?))
             }
             Self::Daylight(temperature) => {
-                let file = ask.ask(&FileQuery(DAYLIGHT_BASIS));
-                let basis = DaylightBasis::new((*file).as_ref().map_err(Clone::clone)?)?;
+                let basis = DaylightBasis::new(&asset(DAYLIGHT_BASIS, ask)?)?;
                 Ok(LoadedLight::new(basis.light(*temperature)?))
             }
         }
@@ -214,7 +221,7 @@ impl Query for StandardsQuery {
     const NAME: &'static str = "rendition standards";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let file = |path| (*ask.ask(&FileQuery(path))).clone();
+        let file = |path| asset(path, ask);
         let patches = |path| file(path).map(|file| PatchSet::from_dataset(&file));
         let observer = |path| Ok::<_, LoadError>(Sensor::from_dataset(&file(path)?)?);
         Ok(Shared::new(Standards {

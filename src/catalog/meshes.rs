@@ -18,13 +18,14 @@ use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 
 use crate::document::render::MeshChoice;
+use crate::format::file_name;
 use crate::jobs::{Desk, Executor};
-use read::{Stamp, file_name};
+use read::Stamp;
 
 /// Meshes that nobody looks at are remembered up to this many bytes, so that undo need not read them again.
 const REMEMBERED_BYTES: usize = 256_000_000;
 
-/// What is known of a mesh file.
+/// State of a mesh file.
 #[derive(Clone, Debug)]
 pub enum MeshState {
     /// It is being read.
@@ -35,7 +36,7 @@ pub enum MeshState {
     Failed(String),
 }
 
-/// What came of opening a file.
+/// Outcome of opening a file.
 #[derive(Clone, Debug)]
 pub struct Opened {
     /// The file.
@@ -87,7 +88,7 @@ impl MeshStore {
         Self { desk: Arc::new(Desk::new(executor, State::default(), wake)), executor: executor.clone() }
     }
 
-    /// What is known of a file. Reading begins with the first question; a mesh stays on show while it is read anew.
+    /// State of a file. The first call starts reading; a mesh stays visible while its file is reloaded.
     pub fn get(&self, path: &Path) -> MeshState {
         let mut state = self.desk.lock();
         state.clock += 1;
@@ -238,7 +239,7 @@ impl State {
         let path = self.opening.take()?;
         let known = self.known_at(&path);
         known.stop();
-        known.failure = Some(MeshFailure::Stopped { file: file_name(&path) }.on_show());
+        known.failure = Some(MeshFailure::Stopped(file_name(&path)).on_show());
         Some(path)
     }
 }
@@ -250,5 +251,5 @@ fn read_once(
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<(LoadedMesh, Stamp)>, MeshFailure> {
     let read = catch_unwind(AssertUnwindSafe(|| read::read_unless(path, unless, stop)));
-    read.unwrap_or_else(|_| Err(MeshFailure::Broken { file: file_name(path) }))
+    read.unwrap_or_else(|_| Err(MeshFailure::Broken(file_name(path))))
 }

@@ -10,7 +10,7 @@ mod reading;
 
 pub use file::OpenFile;
 pub use look::{FilePreview, FilePreviewQuery};
-pub use reading::Request;
+pub use reading::{Request, files_of};
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -21,6 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use super::import::Imported;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
+use crate::format::file_name;
 use crate::jobs::{self, Background, Executor};
 
 /// Files that no set is made of are forgotten, the oldest first, beyond so many bytes in all.
@@ -32,20 +33,20 @@ pub struct Failing {
     /// Where it is.
     #[serde(with = "crate::document::paths")]
     pub path: PathBuf,
-    /// What tells its contents from others.
+    /// Fingerprint of the contents.
     pub fingerprint: Fingerprint,
-    /// Why, as a sentence with its name.
+    /// Reason, as a sentence that names the file.
     pub why: String,
 }
 
-/// What came of reading.
+/// Outcome of reading.
 #[derive(Debug)]
 pub enum OpenedEvent {
     /// Sets were read.
     Read {
         /// The sets, each with what was guessed on reading.
         sets: Vec<Imported>,
-        /// What was read, and what was decided, in one sentence.
+        /// Summary of the contents and the decisions, in one sentence.
         message: String,
         /// Number of files beside them could not be read, and why the first could not; may be empty.
         failure: String,
@@ -65,11 +66,11 @@ pub enum OpenedEvent {
     },
     /// A file that could not be read has other contents now, which stand in its place.
     Replaced {
-        /// What it held.
+        /// Fingerprint of the former contents.
         old: Fingerprint,
-        /// What it holds.
+        /// Fingerprint of the present contents.
         new: Fingerprint,
-        /// Where it is.
+        /// Path on disk.
         path: PathBuf,
     },
     /// A mesh is to be opened, which is not read yet.
@@ -94,9 +95,9 @@ pub enum Why {
 pub struct Progress {
     /// The file that is being read.
     pub name: String,
-    /// How far it is, as a fraction of one.
+    /// Fraction done, 0 to 1.
     pub share: f32,
-    /// Which of how many files, from 1.
+    /// Number of the file, from 1, and the count of files.
     pub file: [usize; 2],
     /// For how long.
     pub time: Duration,
@@ -201,7 +202,7 @@ impl Opened {
         failing.collect()
     }
 
-    /// What came of reading since.
+    /// Outcomes of reading since the last call.
     pub fn poll(&self) -> Vec<OpenedEvent> {
         std::mem::take(&mut self.desk.lock().events)
     }
@@ -254,7 +255,7 @@ impl Opened {
         }
     }
 
-    /// What is understood of a file when it is read with these switches; the last answer while it is being read.
+    /// Preview of a file read with these options; the last preview while it is being read.
     pub fn look(&self, file: &OpenFile, options: &spectral_file::ReadOptions) -> Option<Arc<FilePreview>> {
         self.look.ask(vec![FilePreviewQuery::new(file, options)]);
         self.preview().filter(|preview| preview.fingerprint == file.origin.fingerprint)
@@ -345,8 +346,7 @@ impl Job {
 
     /// Goes on to a file, one of so many.
     fn at(&self, path: &Path, file: usize, count: usize) {
-        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = name;
+        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = file_name(path);
         for (place, number) in self.place.iter().zip([file, count]) {
             place.store(u32::try_from(number).unwrap_or(u32::MAX), Ordering::Relaxed);
         }

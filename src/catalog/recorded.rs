@@ -121,6 +121,15 @@ pub enum JoinError {
     },
 }
 
+/// `S L`.
+pub fn lit(reflectance: &GridSpectrum, light: &GridSpectrum) -> GridSpectrum {
+    let first = chromascope_core::spectral::grid::FIRST_NM;
+    GridSpectrum::from_fn(|nm| {
+        let index = (nm - first).round() as usize;
+        reflectance.values()[index] * light.values()[index]
+    })
+}
+
 /// Separator of cells.
 fn delimiter(line: &str) -> char {
     [',', ';', '\t'].into_iter().max_by_key(|c| line.matches(*c).count()).unwrap_or(',')

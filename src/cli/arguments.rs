@@ -10,6 +10,7 @@ use super::bench::BenchArguments;
 use super::compare::arguments::CompareArguments;
 use super::identify::arguments::IdentifyArguments;
 use super::inspect::arguments::InspectArguments;
+use super::per::Per;
 use super::render::arguments::RenderArguments;
 use crate::document::SetKind;
 use crate::document::start::Start;
@@ -63,6 +64,7 @@ const PATCHES_EXAMPLES: &str = "Examples:
 
 Columns: sensor, patch; r, g, b after white balance (empty for CIE observers); x_tristimulus, y_tristimulus, z_tristimulus (Y = 1
 for a perfect diffuser, under Eq 13 within 5e-5); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
+cct_k, duv, the nearest blackbody for the CIE 1931 observer;
 delta_…, the differences from the reference, a column for each metric; then the conditions: reference, illuminant,
 white_balance, transform, preset. Undefined values are empty: with the paper's matrix, Eq 13 takes RGB as sRGB
 whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*, and their L*a*b* is not that of the CIE.
@@ -83,8 +85,8 @@ pub(super) enum Subcommand {
     #[command(after_help = super::compare::arguments::examples())]
     Compare(Box<CompareArguments>),
     /// Lights: CCT and Duv, Ra, Rf and Rg, spectral similarity, and how consistent cameras are under them
-    #[command(after_help = super::light::EXAMPLES)]
-    Light(Box<super::light::LightArguments>),
+    #[command(after_help = super::light::arguments::EXAMPLES)]
+    Light(Box<super::light::arguments::LightArguments>),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
@@ -209,15 +211,6 @@ pub(super) enum Transform {
     /// A 3×3 matrix for each sensor, fitted over 190 training reflectances
     #[value(alias = "observer")]
     Fitted,
-}
-
-/// What sensitivities are a response to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Per {
-    /// Equal energy at each wavelength
-    Energy,
-    /// Equal numbers of photons at each wavelength
-    Photon,
 }
 
 /// A kind of data sets to list.

@@ -15,11 +15,10 @@ use super::error::CliError;
 use super::outputs::{self, put};
 use super::request::{Request, told};
 use crate::catalog::chart_picture::ChartPicture;
-use crate::catalog::recorded::{self, Levels, RawRow, RawTable};
+use crate::catalog::recorded::{self, Levels, RawRow, RawTable, lit};
 use crate::document::own::Role;
 use crate::results::Results;
 use crate::scene::Scene;
-use crate::scene::recorded::lit;
 
 /// Spectra by the names of their patches.
 type Spectra = Vec<(String, GridSpectrum)>;

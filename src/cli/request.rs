@@ -10,10 +10,11 @@ use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 use spectral_file::{Certainty, MAX_BYTES, Values};
 
-use super::arguments::{CommonArguments, Per, SourceArguments, Transform};
+use super::arguments::{CommonArguments, SourceArguments, Transform};
 use super::checks;
 use super::error::CliError;
 use super::outputs::is_descriptor;
+use super::per::Per;
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry};

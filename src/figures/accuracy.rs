@@ -58,7 +58,7 @@ fn role(family: Family) -> InkRole {
     }
 }
 
-/// What is known about a method, a line each.
+/// Facts about a method, a line each.
 pub fn describe(trial: &Trial, point: &Point) -> Vec<String> {
     let index = trial.points.iter().position(|other| other == point);
     let mut lines = vec![index.map_or_else(|| point.name.clone(), |index| trial.name(index))];
@@ -124,7 +124,7 @@ fn with_conditions(mut table: Table, trial: &Trial, conditions: &Conditions) -> 
     table
 }
 
-/// What the marks stand for.
+/// Legend of the marks.
 pub fn legend(trial: &Trial) -> Vec<LegendEntry> {
     let families: std::collections::BTreeSet<Family> = trial.points.iter().map(|point| point.family).collect();
     families.into_iter().map(entry).collect()
@@ -165,7 +165,7 @@ pub fn table(trial: &Trial) -> Table {
     table
 }
 
-/// What is known about a method of the bench, a line each.
+/// Facts about a benchmarked method, a line each.
 pub fn describe_measurement(m: &Measurement) -> Vec<String> {
     let threads = if m.threads == 1 { "one thread".to_owned() } else { format!("{} threads", m.threads) };
     let mut lines = vec![

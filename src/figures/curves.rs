@@ -62,7 +62,7 @@ fn round_above(value: f64) -> Option<f64> {
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|nice| nice.is_finite() && *nice >= value)
 }
 
-/// What a curve is in a panel. The first tag stands for nothing.
+/// Tag of a curve in a panel. The first tag stands for nothing.
 fn tag(place: usize) -> Tag {
     Tag(u32::try_from(place).unwrap_or(u32::MAX - 1) + 1)
 }
@@ -112,7 +112,7 @@ fn ink(curve: &Curve, count: usize, on: bool) -> Ink {
     if count > 20 && !on { ink.faded(0.6) } else { ink }
 }
 
-/// Where light is seen.
+/// Band of visible wavelengths.
 fn visible(range: [f64; 2]) -> Mark {
     let shape = Shape::Rect { min: [FIRST_NM, range[0]], max: [LAST_NM, range[1]] };
     let name = format!("visible range, {FIRST_NM:.0} to {LAST_NM:.0} nm");
@@ -124,7 +124,7 @@ fn zero(range: [f64; 2]) -> Mark {
     Mark::new(PickIndex::NONE, "zero", Shape::Line { points, closed: false }).with_stroke(InkRole::Weak, 1.0)
 }
 
-/// What a curve reads near a wavelength: lines of text.
+/// Values of a curve near a wavelength: lines of text.
 pub fn describe(curves: &Curves, place: usize, nm: f64) -> Vec<String> {
     let Some(curve) = curves.drawn.iter().find(|curve| curve.place == place) else { return Vec::new() };
     let there = curve.points.iter().filter(|point| point[1].is_finite());

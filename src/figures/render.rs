@@ -21,7 +21,6 @@ use crate::view::render::{PixelPlace, RenderMode};
 const WIDTH: f64 = 340.0;
 /// The height of the line above a picture.
 const CAPTION: f64 = 20.0;
-/// The gap between pictures.
 const GAP: f64 = 8.0;
 
 /// A sensor's index among the pictures.
@@ -121,20 +120,9 @@ fn caption(scene: &Scene<'_>) -> String {
 }
 
 fn table(shot: &RenderedFrame, measure: &str) -> Table {
-    let mut table = Table::new([
-        "sensor",
-        "mean_of_lit",
-        "max_of_lit",
-        "clipped_samples",
-        "pixels_across",
-        "pixels_down",
-        "time_ms",
-        "measure",
-        "facing_light",
-        "median_above_l20",
-        "p95_above_l20",
-        "samples_above_l20",
-    ]);
+    let columns = "sensor mean_of_lit max_of_lit clipped_samples pixels_across pixels_down time_ms measure facing_light \
+                   median_above_l20 p95_above_l20 samples_above_l20";
+    let mut table = Table::new(columns.split(' '));
     let Some(made) = shot.made() else { return table };
     for (at, source) in shot.sources.iter().enumerate() {
         let difference = made.differences.get(at).and_then(Option::as_ref);

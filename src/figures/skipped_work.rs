@@ -1,4 +1,4 @@
-//! What was not computed, and the time that this saved: as a run measured it, and by memory since the start.
+//! Skipped work and the time it saved: as measured by a run, and by caching since the start.
 
 use chromascope_figure::{Anchor, Axis, Cell, Figure, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks};
 use chromascope_measure::pareto::duration;
@@ -12,7 +12,7 @@ const WIDTH: f64 = 640.0;
 const ROW: f64 = 24.0;
 const AROUND: f64 = 60.0;
 
-/// What is said of all rows.
+/// Note that holds for all rows.
 pub const OVERLAP: &str = "Rows overlap: their times do not add up.";
 
 const SINCE_THE_START: &str = "counted since the start";
@@ -20,7 +20,7 @@ const SINCE_THE_START: &str = "counted since the start";
 /// Rows that were found alike.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
-    /// When that was.
+    /// Period that the rows cover.
     pub when: &'static str,
     /// True if it is of the scene as it was.
     pub is_old: bool,
@@ -28,7 +28,7 @@ pub struct Section {
     pub rows: Vec<SkippedWork>,
 }
 
-/// What was left out: as the last run measured it, and what was remembered since the start. Sections without rows are none.
+/// Sections: work skipped in the last run, and work saved by caching since the start. Sections without rows are left out.
 pub fn sections(measured: &Measured) -> Vec<Section> {
     let at_the_run = if measured.is_current { "measured by Run" } else { "measured by Run for an earlier scene" };
     let run = measured.run.as_ref().map_or_else(Vec::new, |run| run.skipped_work.clone());
@@ -81,7 +81,6 @@ pub fn figure(measured: &Measured) -> Option<Figure> {
     Some(figure)
 }
 
-/// A row's time in words.
 fn time(row: &SkippedWork) -> String {
     if row.saved > 0.0 { duration(row.saved) } else { "time not measured".to_owned() }
 }
@@ -104,7 +103,7 @@ pub fn table(sections: &[Section]) -> Table {
     table
 }
 
-/// What was remembered since the start, by kind of question. What a run measures from nothing, `run` says the time of.
+/// Work saved by caching since the start, by kind of question. Times are those that `run` measured without a cache.
 pub fn remembered(counts: &[(&'static str, Count)], run: &[SkippedWork]) -> Vec<SkippedWork> {
     let reused = |&(name, count): &(&'static str, Count)| {
         let what = STAGES.iter().find(|(stage, _)| *stage == name)?.1;

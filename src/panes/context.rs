@@ -8,6 +8,7 @@ use egui::{Rect, Ui};
 
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
+use crate::catalog::recorded_store::RecordedStore;
 use crate::command::Command;
 use crate::figures::FigureInput;
 use crate::figures::curves::CurveCache;
@@ -55,6 +56,8 @@ pub struct PaneContext<'a> {
     pub meshes: &'a MeshStore,
     /// The spectral files that were opened.
     pub opened: &'a Opened,
+    /// The file of recorded raw values.
+    pub recorded: &'a RecordedStore,
     /// Tells the nearest black body of a color, once it is asked.
     pub radiators: &'a Background<NearestBlackBodyQuery>,
     /// Renderer of the pictures.

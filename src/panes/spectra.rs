@@ -12,7 +12,7 @@ use crate::workspaces::PaneKind;
 
 /// The least height of a panel before the pane scrolls.
 const LEAST: f32 = 64.0;
-/// How near the pointer must be, in points.
+/// Largest distance of the pointer, in points.
 const REACH: f32 = 8.0;
 
 /// The pane.

@@ -9,6 +9,7 @@ mod assets;
 mod bench;
 mod cli;
 mod cli_render;
+mod cli_render_image;
 mod cpu_renderer;
 mod doubt;
 mod exports;
@@ -26,6 +27,7 @@ mod inspector;
 mod keeping;
 mod laboratory;
 mod library;
+mod lights;
 mod meshes;
 mod metrics;
 mod opened;
@@ -33,6 +35,7 @@ mod own_data;
 mod panes;
 mod path_box;
 mod recompute;
+mod recorded;
 mod reducer;
 mod render;
 mod same_file;
@@ -45,6 +48,7 @@ mod temperature;
 mod theme;
 mod waiting;
 mod words;
+mod zz_look;
 
 /// Names of the built-in sets.
 fn built_in_names() -> chromascope::document::names::BuiltInNames {

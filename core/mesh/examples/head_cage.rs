@@ -124,7 +124,7 @@ impl Cage {
         firsts.into_iter().find_map(around)
     }
 
-    /// What is on the crown's side of a loop of edges, and that loop's new indices.
+    /// Part on the crown's side of a loop of edges, and that loop's new indices.
     fn above(&self, ring: &[usize]) -> Option<(Self, Vec<usize>)> {
         let cut: BTreeSet<[usize; 2]> = (0..ring.len()).map(|i| ends(ring[i], ring[(i + 1) % ring.len()])).collect();
         let edges = self.edges();

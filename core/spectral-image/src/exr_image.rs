@@ -11,7 +11,7 @@ use exr::meta::attribute::{ChannelList, SampleType};
 use exr::meta::header::Header;
 use exr::prelude::f16;
 
-use crate::ImageError;
+use crate::error::ImageError;
 use crate::image::{ImageInfo, ImageQuantity, MAX_ROW_BYTES, Note, ascending};
 use crate::names::SpectralChannel;
 

@@ -12,20 +12,20 @@ use crate::scene::Scene;
 use crate::view::View;
 use crate::view::import::ImportItem;
 
-/// What Import shows.
+/// Contents of the Import pane.
 #[derive(Clone, Debug)]
 pub struct ImportSelection {
-    /// Which.
+    /// Selected item.
     pub item: ImportItem,
     /// The document's set.
     pub set: Option<Shared<OwnSet>>,
-    /// How it is, or is to be, read.
+    /// Overrides with which it is, or is to be, read.
     pub wishes: ImportOverrides,
     /// True if that is not yet so in the document.
     pub pending: bool,
     /// The file's contents, if they are at hand.
     pub file: Option<OpenFile>,
-    /// What the contents were understood as, now or just before.
+    /// Preview of the contents, present or last.
     pub look: Option<Arc<FilePreview>>,
 }
 
@@ -53,7 +53,7 @@ impl ImportSelection {
         Some(shown)
     }
 
-    /// The same, as far as it is known: `last` is what a file was last understood as.
+    /// Contents of the Import pane, as far as they are known; `last` is the last preview of a file.
     pub fn of(scene: &Scene<'_>, view: &View, last: Option<Arc<FilePreview>>) -> Option<Self> {
         let item = view.import.selected.clone()?;
         let (set, fingerprint) = match &item {
@@ -88,7 +88,7 @@ impl ImportSelection {
         self.look.as_ref().is_some_and(|look| look.options == self.wishes.options)
     }
 
-    /// What the contents were understood as.
+    /// Table read from the contents.
     pub fn table(&self) -> Option<&SpectralFile> {
         self.look.as_ref()?.table.as_deref().ok()
     }

@@ -88,7 +88,6 @@ const UPRIGHT: [(&str, &str); 20] = [
 /// Commands for sums and integrals.
 const LARGE: [(&str, &str); 3] = [("sum", "∑"), ("prod", "∏"), ("int", "∫")];
 
-/// Functions with upright names.
 const FUNCTIONS: [&str; 9] = ["sin", "cos", "tan", "exp", "ln", "log", "min", "max", "arcsin"];
 
 /// Symbol of a command, if it is in the subset.

@@ -52,7 +52,7 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
     });
 }
 
-/// What the marks before the files mean.
+/// Legend of the marks before the files.
 fn legend(ui: &mut Ui, theme: &Theme) {
     for state in State::ALL {
         ui.horizontal(|ui| {
@@ -257,7 +257,7 @@ fn draw_mark(painter: &Painter, at: Pos2, state: State, on: bool, theme: &Theme)
     }
 }
 
-/// What can be done with a file.
+/// Context menu of a file.
 fn menu(ui: &Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
     let entry = &entries[index];
     let button = lines::dots(ui, rect, id(index).with("dots"), &format!("Menu of {}", entry.name));

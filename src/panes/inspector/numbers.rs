@@ -13,7 +13,7 @@ use crate::workspaces::PaneKind;
 
 /// A row: its name, how many decimals, and a number for each column.
 pub(super) struct Row {
-    /// What it is.
+    /// Name of the quantity.
     pub(super) name: &'static str,
     /// Number of decimals shown.
     pub(super) decimals: usize,
@@ -65,7 +65,7 @@ pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], contex
     shown.show_compact(ui, context);
 }
 
-/// The same for a spreadsheet, in full precision.
+/// Rows for a spreadsheet, in full precision.
 pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
     table(heads, rows).to_tsv()
 }

@@ -1,13 +1,13 @@
-//! What was pinned, side by side.
+//! Pinned items, side by side.
 
 use chromascope_core::query::PatchColor;
 use egui::{RichText, ScrollArea, Ui};
 
-use super::{difference_words, note, numbers, patch, radiator, reference_id, source_of};
+use super::{difference_words, label_of, note, numbers, patch, radiator, reference_id};
 use crate::format::fixed;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{Icon, icon_button};
-use crate::plot_item::{PlotItem, SensorId};
+use crate::plot_item::PlotItem;
 use crate::scene::Scene;
 
 /// The letter of a pinned thing.
@@ -16,7 +16,7 @@ fn letter(index: usize) -> String {
     letters.clone().nth(index).map_or_else(|| (index + 1).to_string(), String::from)
 }
 
-/// Shows the list of what was pinned and its numbers.
+/// Shows the pinned items and their numbers.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if context.view.pinned.is_empty() {
         return;
@@ -52,13 +52,12 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 fn name(scene: &Scene<'_>, thing: &PlotItem) -> String {
-    let label = |id: &SensorId| source_of(scene, id).map_or_else(|| id.name.clone(), |source| source.label);
     match thing {
         PlotItem::Light => format!("light {}", scene.light_name()),
-        PlotItem::Sensor(id) => label(id),
+        PlotItem::Sensor(id) => label_of(scene, id),
         PlotItem::Patch { source: None, patch } => format!("patch {patch}"),
-        PlotItem::Patch { source: Some(id), patch } => format!("{}, {patch}", label(id)),
-        PlotItem::Radiator { source, kelvin } => format!("{}, {} K", label(source), fixed(*kelvin, 0)),
+        PlotItem::Patch { source: Some(id), patch } => format!("{}, {patch}", label_of(scene, id)),
+        PlotItem::Radiator { source, kelvin } => format!("{}, {} K", label_of(scene, source), fixed(*kelvin, 0)),
     }
 }
 

@@ -1,4 +1,4 @@
-//! What should be looked at, what was decided, and where the numbers are from.
+//! Warnings, decisions, and the origin of the numbers.
 
 use egui::{Align, Id, RichText, Ui};
 use spectral_file::SpectralFile;
@@ -83,7 +83,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
     }
 }
 
-/// Where the numbers are from, a line each.
+/// Origin of the numbers, a line each.
 fn facts(shown: &ImportSelection, table: &SpectralFile) -> Vec<String> {
     let reading = &table.reading;
     let step = reading.step_nm;

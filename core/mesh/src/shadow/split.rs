@@ -21,7 +21,6 @@ const DEEPEST: u32 = 31;
 /// Triangles from which both halves are built side by side.
 const PARALLEL: usize = 4096;
 
-/// A triangle's box.
 #[derive(Clone, Copy)]
 struct Item {
     aabb: Aabb,
