@@ -398,6 +398,7 @@ fn file_of(figure: &Figure, numbers: &Table, format: Format) -> Result<Vec<u8>, 
     match format {
         Format::Svg => Ok(svg().into_bytes()),
         Format::Csv => Ok(numbers.to_csv().into_bytes()),
+        Format::Json => Ok(export::json(&figure.title, numbers).into_bytes()),
         Format::Png => {
             let file = export::png(&svg(), PICTURE_SCALE).and_then(|picture| export::png_file(&picture));
             file.map_err(|error| error.to_string())

@@ -26,6 +26,7 @@ impl ChromascopeApp {
             corrections: &self.corrections,
             studio: &mut self.studio,
             laboratory: &mut self.laboratory,
+            ranking: &mut self.ranking,
             curves: &mut self.curves,
             commands: &mut self.commands,
         };
@@ -86,6 +87,7 @@ impl ChromascopeApp {
         panes::help::show(ui, &self.history, &mut context);
         path_prompt::show(ui, &theme, &mut self.files);
         context.studio.end_frame();
+        context.ranking.end_frame();
         self.ask_about_closing(ui, &theme);
         focus::ring(ui.ctx(), &theme);
         drop_veil(ui, theme);

@@ -3,7 +3,7 @@
 use chromascope_core::light::filter::{filtered, transmittance};
 use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants, planckian::black_body};
 use chromascope_core::patch_set::PatchSet;
-use chromascope_core::query::{Ask, Query, Shared};
+use chromascope_core::query::{Ask, Query, Replicates, Shared};
 use chromascope_core::rendition::Standards;
 use chromascope_core::spectral::{
     Dataset, DatasetError, DistributionError, GridSpectrum, Primaries, Quantity, Sensor, SensorError,
@@ -109,6 +109,21 @@ impl Query for SensorQuery {
             .try_into()
             .map_err(|_| SensorError::NotThree { found })?;
         Ok(Shared::new(Sensor::new(primaries, three, response)?))
+    }
+}
+
+/// The tables of each of some camera models. All cameras of a ranking ask for the same ones.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ReplicatesQuery(pub Vec<Vec<Place>>);
+
+impl Query for ReplicatesQuery {
+    type Answer = Result<Shared<Replicates>, LoadError>;
+    const NAME: &'static str = "replicates";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let sensor = |place: &Place| (*ask.ask(&SensorQuery(place.clone()))).clone();
+        let models = self.0.iter().map(|places| places.iter().map(sensor).collect());
+        Ok(Shared::new(Replicates::new(models.collect::<Result<Vec<Vec<_>>, LoadError>>()?)))
     }
 }
 

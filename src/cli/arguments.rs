@@ -7,7 +7,7 @@ use clap::{Args, Parser, ValueEnum};
 use spectral_file::Values;
 
 use super::bench::BenchArguments;
-use super::compare::arguments as compare;
+use super::compare::arguments::CompareArguments;
 use super::identify::arguments::IdentifyArguments;
 use super::inspect::arguments::InspectArguments;
 use super::matrix::MatrixArguments;
@@ -83,7 +83,7 @@ pub(super) enum Subcommand {
     #[command(after_help = PATCHES_EXAMPLES)]
     Patches(PatchesArguments),
     /// Cameras ranked by figures of merit, with uncertainties: a table, CSV or JSON
-    #[command(after_help = compare::examples())]
+    #[command(after_help = super::compare::arguments::examples())]
     Compare(Box<CompareArguments>),
     /// Lights: CCT and Duv, Ra, Rf and Rg, spectral similarity, and how consistent cameras are under them
     #[command(after_help = super::light::arguments::EXAMPLES)]
@@ -171,37 +171,6 @@ pub(super) struct PatchesArguments {
     /// The radiance of a perfect diffuser among those of the file: it takes the white-balance target and Y = 1
     #[arg(long, value_name = "NAME", requires = "radiance")]
     pub(super) radiance_white: Option<String>,
-}
-
-/// What `compare` takes.
-#[derive(Debug, Args)]
-pub(super) struct CompareArguments {
-    #[command(flatten)]
-    pub(super) common: CommonArguments,
-    /// A chart, a material, or a file with reflectances [default: the preset's]
-    #[arg(long, value_name = "NAME|FILE")]
-    pub(super) chart: Option<OsString>,
-    /// Scale of the values in a file of reflectances that does not state it
-    #[arg(long, value_name = "VALUES", value_parser = super::inspect::arguments::values(), requires = "chart")]
-    pub(super) values: Option<Values>,
-    /// Metrics in the order of the columns, or `all` [default: the usual eight]
-    #[arg(long, value_name = "a,b,c", value_delimiter = ',', value_parser = compare::metric_names([compare::ALL]), hide_possible_values = true)]
-    pub(super) metrics: Vec<String>,
-    /// Metric that orders the rows, best first, or `name` [default: the first of --metrics]
-    #[arg(long, value_name = "METRIC", value_parser = compare::metric_names([compare::NAME]), hide_possible_values = true)]
-    pub(super) sort: Option<String>,
-    /// Form of the output
-    #[arg(long, value_enum, default_value_t = compare::Format::Table)]
-    pub(super) format: compare::Format,
-    /// Temperature in kelvins of the blackbody whose place on the locus is compared
-    #[arg(long, value_name = "K", default_value_t = 2856.0)]
-    pub(super) temperature: f64,
-    /// Full-well capacity of a pixel in electrons, for gray-snr
-    #[arg(long, value_name = "ELECTRONS")]
-    pub(super) full_well: Option<f64>,
-    /// Read noise of a pixel in electrons (RMS)
-    #[arg(long, value_name = "ELECTRONS", default_value_t = 0.0, requires = "full_well")]
-    pub(super) read_noise: f64,
 }
 
 /// A kind of data sets to list.

@@ -10,8 +10,7 @@ use chromascope_core::query::metrics::rank_ranges;
 use chromascope_core::query::{Ask as _, CameraMetric, CameraMetrics, MetricValue};
 use clap::ArgMatches;
 
-use self::arguments::{ALL, Format, NAME, USUAL};
-use super::arguments::CompareArguments;
+use self::arguments::{ALL, CompareArguments, Format, NAME, USUAL};
 use super::error::CliError;
 use super::outputs;
 use super::request::Request;

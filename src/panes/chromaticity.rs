@@ -42,7 +42,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     if context.view.saved.tables.contains(&PaneKind::CHROMATICITY) {
         let figure = chromaticity::figure(&context.scene, context.view);
-        widgets::data_table(ui, body, "chromaticity", &figure.table);
+        widgets::table::show_numbers(ui, body, PaneKind::CHROMATICITY, &figure.table, context);
         return;
     }
     let body = widgets::caution::show(ui, body, context);

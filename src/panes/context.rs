@@ -16,6 +16,7 @@ use crate::figures::curves::CurveCache;
 use crate::jobs::Background;
 use crate::profiler::plans::PlanAnswer;
 use crate::profiler::{Profiler, SceneRunJob};
+use crate::ranking::Ranking;
 use crate::render_service::RenderService;
 use crate::results::Count;
 use crate::scene::Scene;
@@ -66,6 +67,8 @@ pub struct PaneContext<'a> {
     pub studio: &'a mut RenderService,
     /// Profiler of the scene.
     pub laboratory: &'a mut Profiler,
+    /// Ranks cameras.
+    pub ranking: &'a mut Ranking,
     /// The curves that Import drew last.
     pub curves: &'a mut Option<CurveCache>,
     /// Commands carried out after the frame.

@@ -2,18 +2,20 @@
 
 use chromascope_core::camera::recorded::RecordedFit;
 use chromascope_core::query::Shared;
-use chromascope_figure::{Axis, Image, InkRole, Mark, Marker, Panel, Shape, Tag};
+use chromascope_figure::{Axis, Cell, Image, InkRole, Mark, Marker, Panel, Shape, Table, Tag};
 use egui::{DragValue, Id, Label, Rect, RichText, Sense, Ui, UiBuilder, Vec2};
-use egui_extras::{Column, TableBuilder};
 
 use super::context::{Pane, PaneContext};
 use crate::catalog::recorded::Levels;
 use crate::catalog::recorded_store::{RecordedContent, RecordedFile, RecordedState};
 use crate::command::Command;
+use crate::document::SetKind;
 use crate::figures::recorded;
 use crate::format::fixed;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
+use crate::panes::widgets::table::{CellNote, Column, DataTable};
+use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::recorded::{RankedCamera, cause_in_words};
 use crate::theme::{ROW, UNIT};
 use crate::workspaces::PaneKind;
@@ -169,7 +171,7 @@ fn ranking_and_residuals(
     let (plot, list) = body.split_top_bottom_at_fraction(0.55);
     if context.view.saved.tables.contains(&PaneKind::RECORDED) {
         if let Some(figure) = recorded::figure(&context.scene, context.view) {
-            widgets::data_table(ui, plot, "recorded", &figure.table);
+            widgets::table::show_numbers(ui, plot, PaneKind::RECORDED, &figure.table, context);
         }
     } else {
         let size = [plot.width(), plot.height()].map(f64::from);
@@ -185,7 +187,7 @@ fn ranking_and_residuals(
         }
     }
     let list = Rect::from_min_max(list.min + Vec2::new(0.0, UNIT), list.max);
-    if let Some(camera) = ranking(ui, list, ranked, name, &names) {
+    if let Some(camera) = ranking(ui, list, ranked, &names, context) {
         context.view.recorded.camera = Some(camera);
     }
 }
@@ -232,55 +234,33 @@ fn words(
 }
 
 /// All cameras, best first. Returns the one clicked.
-fn ranking(ui: &mut Ui, rect: Rect, ranked: &[RankedCamera], shown: &str, names: &[String]) -> Option<String> {
-    let mut child = ui.new_child(UiBuilder::new().id_salt("ranking").max_rect(rect));
-    child.set_clip_rect(rect.intersect(ui.clip_rect()));
-    let mut clicked = None;
-    let heads = ["rank", "camera", "RMS %", "red %", "green %", "blue %", "worst patch"];
-    egui::ScrollArea::horizontal().id_salt("ranking across").auto_shrink(false).show(&mut child, |ui| {
-        TableBuilder::new(ui)
-            .id_salt("ranking table")
-            .auto_shrink(false)
-            .sense(Sense::click())
-            .column(Column::exact(36.0))
-            .column(Column::auto().at_least(180.0))
-            .columns(Column::auto().at_least(56.0), heads.len() - 2)
-            .header(ROW, |mut header| {
-                for head in heads {
-                    header.col(|ui| {
-                        ui.add(Label::new(RichText::new(head).small()).extend());
-                    });
-                }
-            })
-            .body(|body| {
-                body.rows(ROW - 4.0, ranked.len(), |mut row| {
-                    let (index, camera) = (row.index(), &ranked[row.index()]);
-                    row.set_selected(camera.name == shown);
-                    for text in cells(index, camera, names) {
-                        row.col(|ui| {
-                            ui.add(Label::new(RichText::new(text).monospace()).selectable(false).extend());
-                        });
-                    }
-                    if row.response().clicked() {
-                        clicked = Some(camera.name.clone());
-                    }
-                });
-            });
+fn ranking(
+    ui: &mut Ui,
+    rect: Rect,
+    ranked: &[RankedCamera],
+    names: &[String],
+    context: &mut PaneContext<'_>,
+) -> Option<String> {
+    let mut table = Table::new(["camera", "rank", "RMS (%)", "red (%)", "green (%)", "blue (%)", "worst patch"]);
+    for (index, camera) in ranked.iter().enumerate() {
+        let fit = camera.fit.as_ref().ok();
+        let percent = |log: Option<f64>| Cell::from(log.map(|log| 100.0 * log));
+        let worst = fit.and_then(|fit| names.get(fit.worst_patches().first()?.0)).map_or("", String::as_str);
+        let channels = fit.map_or([None; 3], RecordedFit::channel_rms).map(percent);
+        let first =
+            [Cell::from(camera.name.as_str()), Cell::from((index + 1) as f64), percent(fit.map(RecordedFit::rms))];
+        table.push(first.into_iter().chain(channels).chain([Cell::from(worst)]));
+    }
+    let columns = table.columns.iter().map(|head| {
+        let column = Column::from_head(head);
+        Column { decimals: (column.unit == "%").then_some(2), shaded: column.unit == "%", ..column }
     });
-    clicked
-}
-
-/// Cells of a camera's row.
-fn cells(index: usize, camera: &RankedCamera, names: &[String]) -> Vec<String> {
-    let head = [(index + 1).to_string(), camera.name.clone()];
-    let rest = match &camera.fit {
-        Ok(fit) => {
-            let percent = |log: Option<f64>| log.map_or_else(|| "–".to_owned(), |log| fixed(log * 100.0, 2));
-            let worst = fit.worst_patches().first().map(|(patch, _)| names.get(*patch).cloned().unwrap_or_default());
-            let logs = [Some(fit.rms())].into_iter().chain(fit.channel_rms());
-            logs.map(percent).chain(worst).collect()
-        }
-        Err(why) => vec![why.to_string()],
+    let note = |row: usize, column: usize| CellNote {
+        hint: ranked[row].fit.as_ref().err().filter(|_| column > 0).map_or_else(String::new, ToString::to_string),
+        ..CellNote::default()
     };
-    head.into_iter().chain::<Vec<String>>(rest).collect()
+    let item = |row: usize| Some(PlotItem::Sensor(SensorId { kind: SetKind::Camera, name: ranked[row].name.clone() }));
+    let shown = DataTable::new(PaneKind::RECORDED, "Recorded: cameras", &table).with_columns(columns.collect());
+    let output = shown.with_notes(&note).with_items(&item).show(ui, rect, context);
+    output.clicked.map(|row| ranked[row].name.clone())
 }

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use chromascope_core::metamers::{Confusion, MetamerLimits};
 use chromascope_core::patch_set::COLOR_CHECKER_CHROMATIC;
-use chromascope_core::query::{CameraMetricsQuery, IndexConditions, MetamersQuery, Replicates, Shared};
+use chromascope_core::query::{Ask as _, CameraMetricsQuery, IndexConditions, MetamersQuery, Replicates, Shared};
 use chromascope_core::units::Kelvin;
 
 use super::{Scene, SceneError};
-use crate::catalog::Entry;
-use crate::catalog::load::LightQuery;
+use crate::catalog::load::{LightQuery, ReplicatesQuery};
+use crate::catalog::{Entry, Place};
 use crate::document::{CHART, CIE_1931, SetKind};
 
 /// The light of the sensitivity metamerism index (ISO 17321-1).
@@ -76,14 +76,15 @@ impl Scene<'_> {
 
     /// The camera models with more than one built-in table, and those tables.
     fn replicates(&self) -> Result<(Vec<&str>, Shared<Replicates>), SceneError> {
-        let mut tables: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+        let mut tables: BTreeMap<&str, Vec<Place>> = BTreeMap::new();
         for entry in self.catalog.of_kind(SetKind::Camera) {
-            tables.entry(model_of(&entry.name)).or_default().push(&entry.name);
+            tables.entry(model_of(&entry.name)).or_default().push(entry.place.clone());
         }
-        tables.retain(|_, names| names.len() > 1);
-        let sensors = |names: &Vec<&str>| names.iter().map(|name| self.sensor(SetKind::Camera, name)).collect();
-        let models = tables.values().map(sensors).collect::<Result<Vec<_>, _>>()?;
-        Ok((tables.into_keys().collect(), Shared::new(Replicates::new(models))))
+        tables.retain(|_, places| places.len() > 1);
+        let (models, places): (Vec<_>, Vec<_>) = tables.into_iter().unzip();
+        let answer = self.results.ask(&ReplicatesQuery(places));
+        let failed = |error| SceneError::Load { name: "cameras with several tables".to_owned(), error };
+        Ok((models, (*answer).clone().map_err(failed)?))
     }
 }
 

@@ -56,6 +56,7 @@ const APP_LAYERS: &[&str] = &[
     "profiler",
     "view",
     "command",
+    "ranking",
     "figures",
     "panes",
     "cli",

@@ -1,9 +1,45 @@
-//! What `compare` takes.
+//! Arguments of `compare`.
+
+use std::ffi::OsString;
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::CameraMetric;
-use clap::ValueEnum;
 use clap::builder::PossibleValuesParser;
+use clap::{Args, ValueEnum};
+use spectral_file::Values;
+
+use crate::cli::arguments::CommonArguments;
+
+/// Arguments of `compare`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct CompareArguments {
+    #[command(flatten)]
+    pub(in crate::cli) common: CommonArguments,
+    /// A chart, a material, or a file with reflectances [default: the preset's]
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(in crate::cli) chart: Option<OsString>,
+    /// Scale of the values in a file of reflectances that does not state it
+    #[arg(long, value_name = "VALUES", value_parser = super::super::inspect::arguments::values(), requires = "chart")]
+    pub(in crate::cli) values: Option<Values>,
+    /// Metrics in the order of the columns, or `all` [default: the usual eight]
+    #[arg(long, value_name = "a,b,c", value_delimiter = ',', value_parser = metric_names([ALL]), hide_possible_values = true)]
+    pub(in crate::cli) metrics: Vec<String>,
+    /// Metric that orders the rows, best first, or `name` [default: the first of --metrics]
+    #[arg(long, value_name = "METRIC", value_parser = metric_names([NAME]), hide_possible_values = true)]
+    pub(in crate::cli) sort: Option<String>,
+    /// Form of the output
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    pub(in crate::cli) format: Format,
+    /// Temperature in kelvins of the blackbody whose place on the locus is compared
+    #[arg(long, value_name = "K", default_value_t = 2856.0)]
+    pub(in crate::cli) temperature: f64,
+    /// Full-well capacity of a pixel in electrons, for gray-snr
+    #[arg(long, value_name = "ELECTRONS")]
+    pub(in crate::cli) full_well: Option<f64>,
+    /// Read noise of a pixel in electrons (RMS)
+    #[arg(long, value_name = "ELECTRONS", default_value_t = 0.0, requires = "full_well")]
+    pub(in crate::cli) read_noise: f64,
+}
 
 /// Metrics of the table unless some are named.
 pub(super) const USUAL: [&str; 8] = [
