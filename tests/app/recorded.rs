@@ -195,19 +195,3 @@ proptest! {
         }
     }
 }
-
-#[test]
-#[ignore = "throw-away: saves pictures"]
-fn zz_look() {
-    for (name, size, theme) in [
-        ("1280-dark", [1280.0, 800.0], egui::Theme::Dark),
-        ("900-light", [900.0, 600.0], egui::Theme::Light),
-        ("900-dark", [900.0, 600.0], egui::Theme::Dark),
-        ("1280-light", [1280.0, 800.0], egui::Theme::Light),
-    ] {
-        let mut window = window(&table(), size, theme);
-        window.render().unwrap().save(format!("/tmp/r7/empty-{name}.png")).unwrap();
-        open(&mut window);
-        window.render().unwrap().save(format!("/tmp/r7/table-{name}.png")).unwrap();
-    }
-}
