@@ -72,6 +72,7 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
     if let Some(light) = &arguments.illuminant {
         request.set_light(light)?;
     }
+    request.set_filters(&arguments.filter)?;
     let own = arguments.image.is_some() || arguments.raw.is_some();
     let (spectra, rows) = match (&arguments.chart, &arguments.file) {
         (Some(_), Some(file)) if own => {

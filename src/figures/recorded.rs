@@ -35,7 +35,7 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
     let (name, fit) = chosen(&ranked, view)?;
     let names: Vec<String> = view.recorded.set.as_ref()?.iter().map(|patch| patch.name.clone()).collect();
     let mut figure = Figure::new(format!("Residuals of {name}"), SIZE);
-    figure.panels.push(panel(name, fit, &names, SIZE));
+    figure.panels.push(panel(fit, &names, SIZE));
     figure.legend = legend();
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(
@@ -60,16 +60,16 @@ pub fn legend() -> Vec<LegendEntry> {
 }
 
 /// Plot of the residuals in percent over the patches.
-pub fn panel(name: &str, fit: &RecordedFit, names: &[String], size: [f64; 2]) -> Panel {
+pub fn panel(fit: &RecordedFit, names: &[String], size: [f64; 2]) -> Panel {
     let percent = |row: usize, channel: usize| fit.residuals[row][channel].ok().map(|log| log * 100.0);
     let largest = fit.residuals.iter().flatten().flatten().fold(0.0, |most: f64, log| most.max(log.abs() * 100.0));
     let reach = (largest * 1.15).max(0.1);
     let count = names.len().max(1) as f64;
     let ticks = (0..names.len()).map(|i| (i as f64, (i + 1).to_string())).collect();
     let x = Axis::new("patch", [-0.6, count - 0.4]).with_ticks(Ticks::At(ticks));
-    let y = Axis::new("recorded / modeled (%)", [-reach, reach]);
+    // Room above for the names of the worst patches.
+    let y = Axis::new("recorded / modeled (%)", [-reach, 1.35 * reach]);
     let mut panel = Panel::new("residuals", Rect::from_min_size([0.0, 0.0], size), x, y);
-    panel.note = format!("{name}, RMS {} %", fixed(fit.rms() * 100.0, 2));
     let zero = Shape::Segments { segments: vec![[[-0.6, 0.0], [count - 0.4, 0.0]]] };
     panel.marks.push(Mark::new(Tag::default(), "no residual", zero).with_stroke(InkRole::Line, 1.0));
     for (channel, (marker, rgb)) in MARKS.into_iter().enumerate() {
@@ -86,7 +86,7 @@ pub fn panel(name: &str, fit: &RecordedFit, names: &[String], size: [f64; 2]) ->
         let shape = Shape::Text {
             at: [patch as f64, top],
             text: names[patch].clone(),
-            anchor: Anchor::BOTTOM,
+            anchor: Anchor(patch as f64 / (count - 1.0).max(1.0), 1.0),
             offset: [0.0, -6.0],
             size: TextSize::Small,
             ink: InkRole::Weak.into(),

@@ -11,7 +11,7 @@ use crate::catalog::recorded_store::{RecordedContent, RecordedFile, RecordedStat
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::figures::recorded;
-use crate::format::fixed;
+use crate::format::{fixed, number};
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
@@ -175,7 +175,7 @@ fn ranking_and_residuals(
         }
     } else {
         let size = [plot.width(), plot.height()].map(f64::from);
-        let panel = recorded::panel(name, fit, &names, size);
+        let panel = recorded::panel(fit, &names, size);
         let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
         let shown = paint::plot(ui, Id::unique("residuals"), &panel, &context.theme, plot, options);
         shown
@@ -208,7 +208,7 @@ fn words(
     let percent = |log: f64| fixed(log * 100.0, 2);
     let left = names.len() * 3 - fit.values;
     let left = if left > 0 { format!(", {left} excluded") } else { String::new() };
-    let gains = fit.gains.map(|gain| gain.map_or_else(|| "–".to_owned(), |gain| format!("{gain:.3e}")));
+    let gains = fit.gains.map(|gain| gain.map_or_else(|| "–".to_owned(), number));
     let line = format!(
         "{}: {name}, RMS {} % ({} % by the degrees of freedom); {} values{left}; gains {}",
         file.name,

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
+use chromascope::catalog::chart_picture::ChartPicture;
+use chromascope::catalog::recorded::read_table;
 use chromascope::command::Command;
 use chromascope::document::Document;
 use chromascope::files::{Answer, Dialogs, Files, Question};
@@ -15,6 +17,7 @@ use chromascope::workspaces::PaneKind;
 use chromascope_core::spectral::{Dataset, GridSpectrum, Sensor};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
+use proptest::prelude::*;
 
 use crate::cpu_renderer::Cpu;
 use crate::waiting;
@@ -165,18 +168,30 @@ fn corners_of_a_picture_are_clicked() {
     assert!(window.query_by_label_contains("recorded.png: Nikon D70 (A.M.P.A.S.)").is_some());
 }
 
-#[test]
-#[ignore = "throw-away: saves pictures"]
-fn zz_look() {
-    for (name, size, theme) in [
-        ("1280-dark", [1280.0, 800.0], egui::Theme::Dark),
-        ("900-light", [900.0, 600.0], egui::Theme::Light),
-        ("900-dark", [900.0, 600.0], egui::Theme::Dark),
-        ("1280-light", [1280.0, 800.0], egui::Theme::Light),
-    ] {
-        let mut window = window(&table(), size, theme);
-        window.render().unwrap().save(format!("/tmp/r7/empty-{name}.png")).unwrap();
-        open(&mut window);
-        window.render().unwrap().save(format!("/tmp/r7/table-{name}.png")).unwrap();
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Any text is a table or refused; its rows are those of the file.
+    #[test]
+    fn any_table_is_read_or_refused(text in "(patch,R,G,B(,4[0-9]0){0,3}|R;G;B|1\\t2\\t3)\n([a-z\"#é,;\\t0-9.\\-]{0,20}\n){0,6}") {
+        if let Ok(table) = read_table(text.as_bytes()) {
+            let lines = text.lines().count();
+            prop_assert!(table.rows.len() <= lines && table.rows.iter().all(|row| row.line <= lines));
+            prop_assert!(table.rows.iter().flat_map(|row| row.rgb).all(|value| value.is_nan() || value.is_finite()));
+        }
+    }
+
+    /// A picture that is cut or changed is decoded or refused.
+    #[test]
+    fn any_picture_is_decoded_or_refused(cut in 0_usize..2000, at in 0_usize..2000, byte: u8) {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        image::ImageBuffer::<image::Rgb<u16>, Vec<u16>>::new(16, 12).write_to(&mut bytes, image::ImageFormat::Tiff).unwrap();
+        let mut bytes = bytes.into_inner();
+        let length = bytes.len();
+        bytes[at % length] = byte;
+        bytes.truncate(length - cut.min(length));
+        if let Ok(picture) = ChartPicture::decode(&bytes) {
+            prop_assert!(picture.size().iter().all(|side| *side < 1 << 20));
+        }
     }
 }

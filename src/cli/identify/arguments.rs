@@ -47,6 +47,9 @@ pub(in crate::cli) struct IdentifyArguments {
     /// The light that the patches were recorded under: a name, a file with one curve, `daylight:K` or `blackbody:K`
     #[arg(long, value_name = "NAME|FILE", required_unless_present = "radiance", conflicts_with = "radiance")]
     pub(super) illuminant: Option<OsString>,
+    /// A filter in front of the light: a name, or a file with a transmittance; may be repeated
+    #[arg(long, value_name = "NAME|FILE", conflicts_with = "radiance")]
+    pub(super) filter: Vec<OsString>,
     /// The file's spectra are radiances, not reflectances: there is no light to name
     #[arg(long, conflicts_with = "chart", requires = "file")]
     pub(super) radiance: bool,

@@ -71,7 +71,7 @@ pub(super) fn table(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> Strin
     text
 }
 
-/// Values that were left out, by reason.
+/// Excluded values, by reason.
 fn excluded(patches: &[RecordedPatch], fit: &RecordedFit) -> Vec<(String, Vec<String>)> {
     let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
     for (patch, row) in patches.iter().zip(&fit.residuals) {

@@ -83,7 +83,6 @@ fn spectra_beside_the_raw_values_and_radiances_give_the_same() {
     let radiance = [&arguments[..2], &["--radiance", "--format", "csv", "--camera", "Nikon D70 (A.M.P.A.S.)"]].concat();
     let found = table(&radiance);
     assert!(number(column(&found, "rms_percent")[0]) > 0.5, "{found:?}");
-    assert!(column(&found, "cause")[0].starts_with("light tilted by −"), "{found:?}");
 }
 
 #[test]
@@ -130,6 +129,6 @@ fn what_is_missing_is_named_with_its_remedy() {
     refused(&[&["identify", unknown.to_str().unwrap()], &CHART[..]].concat(), &["line 2", "\"no such\"", "dark skin"]);
     let few = file("identify_few.csv", "patch,R,G,B\nwhite,1,2,3\n");
     refused(&[&["identify", few.to_str().unwrap()], &CHART[..]].concat(), &["3 usable values for 3 fitted"]);
-    refused(&[&["identify", good, "--clip", "-1"], &CHART[..]].concat(), &["--clip"]);
+    refused(&[&["identify", good, "--clip", "0"], &CHART[..]].concat(), &["--clip"]);
     refused(&[&["identify", good, "--raw", good], &CHART[..]].concat(), &["leave out"]);
 }
