@@ -6,6 +6,7 @@ use chromascope_core::light::{Cct, CctError};
 use chromascope_core::query::{Consistency, Rendition};
 use clap::ArgMatches;
 use serde_json::{Value, json};
+use std::fmt::Write as _;
 
 use arguments::{LightArguments, TableFormat};
 
@@ -106,13 +107,10 @@ fn csv(answers: &[Answer]) -> String {
     let rest = "camera,consistency_mean,consistency_p95,consistency_max,worst_patch";
     let mut text = format!("light,{},{rest}\n", heads().join(","));
     for answer in answers {
-        let cells: String = numbers(answer)
-            .into_iter()
-            .map(|value| format!(",{}", value.map_or_else(String::new, significant)))
-            .collect();
-        let start = format!("{}{cells}", field(&answer.name));
+        let cells = numbers(answer).into_iter().map(|value| value.map_or_else(String::new, significant));
+        let start = std::iter::once(field(&answer.name)).chain(cells).collect::<Vec<_>>().join(",");
         if answer.cameras.is_empty() {
-            text += &format!("{start},,,,,\n");
+            let _ = write!(text, "{start},,,,,\n");
         }
         for (camera, consistency) in &answer.cameras {
             let values = consistency.as_ref().map_or_else(
@@ -122,7 +120,7 @@ fn csv(answers: &[Answer]) -> String {
                     format!("{mean},{p95},{max},{}", field(&answer.patches[c.worst]))
                 },
             );
-            text += &format!("{start},{},{values}\n", field(camera));
+            let _ = write!(text, "{start},{},{values}\n", field(camera));
         }
     }
     text
@@ -158,9 +156,9 @@ fn table(answers: &[Answer]) -> String {
         let numbers = numbers(answer);
         let [cct, duv, ra] = [(0, 0), (1, 4), (2, 1)].map(|(place, decimals)| cell(numbers[place], decimals));
         let [rf, rg, ssi] = [(17, 1), (18, 1), (19, 0)].map(|(place, decimals)| cell(numbers[place], decimals));
-        text += &format!("{}\n  CCT {cct} K   Duv {duv}   Ra {ra}   Rf {rf}   Rg {rg}   SSI {ssi}\n ", answer.name);
+        let _ = write!(text, "{}\n  CCT {cct} K   Duv {duv}   Ra {ra}   Rf {rf}   Rg {rg}   SSI {ssi}\n ", answer.name);
         for (index, value) in numbers[3..17].iter().enumerate() {
-            text += &format!(" R{} {}", index + 1, cell(*value, 0));
+            let _ = write!(text, " R{} {}", index + 1, cell(*value, 0));
         }
         text.push('\n');
         for (camera, consistency) in &answer.cameras {

@@ -3,6 +3,7 @@
 use chromascope_core::correction::classes::{ClassWeights, ColorClass};
 use chromascope_core::correction::{Correction, CorrectionMethod};
 use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
 
 use super::TRAINING;
 
@@ -59,11 +60,11 @@ impl CorrectionChoice {
             words += "; white not kept";
         }
         if self.training != TRAINING {
-            words += &format!("; training {}", self.training);
+            let _ = write!(words, "; training {}", self.training);
         }
         if self.weights != [1.0; 4] {
             let [neutrals, skin, foliage, sky] = self.weights;
-            words += &format!("; weights neutrals {neutrals}, skin {skin}, foliage {foliage}, sky {sky}");
+            let _ = write!(words, "; weights neutrals {neutrals}, skin {skin}, foliage {foliage}, sky {sky}");
         }
         words
     }

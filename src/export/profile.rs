@@ -97,7 +97,8 @@ impl CorrectionFile {
     pub fn dcp(&self) -> Result<Vec<u8>, CorrectionFileError> {
         let mut unders: Vec<_> = self.unders().collect();
         unders.sort_by(|(_, a), (_, b)| {
-            let mired = |under: &CorrectionUnder| under.temperature.map_or(0.0, |kelvin| kelvin.mired());
+            let mired =
+                |under: &CorrectionUnder| under.temperature.map_or(0.0, chromascope_core::prelude::Kelvin::mired);
             mired(b).total_cmp(&mired(a))
         });
         let calibrations: Option<Vec<Calibration>> =

@@ -118,7 +118,9 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let mut hint =
         "The light on the scene. Blackbody and Daylight follow the temperature. Filters are ticked in the Library."
             .to_owned();
-    filters.iter().for_each(|filter| hint += &format!("\nFilter: {filter}"));
+    for filter in filters {
+        hint.extend(["\nFilter: ", filter]);
+    }
     let filtered = !filters.is_empty();
     choice(ui, "Light", &hint, &shown, |ui| {
         if filtered && ui.button("Remove filters").clicked() {

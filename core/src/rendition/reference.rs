@@ -48,7 +48,7 @@ pub(super) fn nearest(standards: &Standards, color: Xyz) -> Result<Cct, Renditio
         }
     }
     let mired = golden(best.0, &distance)?;
-    if mired < MIRED[0] || mired > MIRED[1] {
+    if !(MIRED[0]..=MIRED[1]).contains(&mired) {
         let colder = mired > MIRED[1];
         return Err(if colder { CctError::TooCold } else { CctError::TooHot }.into());
     }

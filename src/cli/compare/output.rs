@@ -3,6 +3,7 @@
 use chromascope_core::query::metrics::Better;
 use chromascope_core::query::{CameraMetric, MetricValue};
 use serde_json::{Value, json};
+use std::fmt::Write as _;
 
 use super::{Comparison, Row};
 use crate::cli::tables::{field, significant};
@@ -32,7 +33,8 @@ pub(super) fn table(comparison: &Comparison) -> String {
         for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
             let pad = " ".repeat(width - length(cell));
             // Names begin on the left, all else ends on the right, so that digits stand below digits.
-            line += &if column == 1 { format!("{cell}{pad}") } else { format!("{pad}{cell}") };
+            let (first, second) = if column == 1 { (cell, &pad) } else { (&pad, cell) };
+            line.extend([first.as_str(), second.as_str()]);
             line += "  ";
         }
         text += line.trim_end();
@@ -74,10 +76,11 @@ fn cell(metric: CameraMetric, value: MetricValue) -> String {
 fn notes(comparison: &Comparison) -> String {
     let mut text = "\n".to_owned();
     for (head, value) in &comparison.conditions {
-        text += &format!("{}: {value}\n", head.replace("_k", " in kelvins").replace('_', " "));
+        let _ = write!(text, "{}: {value}\n", head.replace("_k", " in kelvins").replace('_', " "));
     }
     if let Some(metric) = comparison.sorted_by {
-        text += &format!("Rank by {}; a range where values differ by less than their uncertainty.\n", metric.symbol);
+        let _ =
+            write!(text, "Rank by {}; a range where values differ by less than their uncertainty.\n", metric.symbol);
     }
     text += "±: standard uncertainty from independent tables of the same model, or pooled from those models.\n";
     let mut reasons: Vec<(String, Vec<&str>)> = Vec::new();
@@ -93,7 +96,7 @@ fn notes(comparison: &Comparison) -> String {
     }
     for (reason, names) in reasons {
         let who = if names.len() == comparison.rows.len() { "all".to_owned() } else { names.join(", ") };
-        text += &format!("– {reason} ({who})\n");
+        let _ = write!(text, "– {reason} ({who})\n");
     }
     text
 }
