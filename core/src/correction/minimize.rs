@@ -115,8 +115,7 @@ pub(super) fn minimize_near(
             problem.reweight(training.weights);
             (problem, _) = optimizer.with_tol(1e-12).with_patience(2).minimize(problem);
             let value = problem.value(training.weights);
-            // Written so that a value that is not finite ends the search too.
-            if !(value < best) {
+            if value.is_nan() || value >= best {
                 problem.set(&before);
                 break;
             }
