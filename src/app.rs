@@ -3,6 +3,7 @@
 mod closing;
 mod commands;
 mod focus;
+mod frame;
 mod imports;
 mod layout;
 mod meshes;
@@ -14,26 +15,27 @@ mod startup;
 
 use chromascope_core::query::NearestBlackBodyQuery;
 use chromascope_core::query::correction::CorrectionSheetQuery;
-use egui::{Align2, CentralPanel, CursorIcon, Event, Frame, Panel, Rect, Sense, Ui};
+use egui::{Event, Ui};
 
 use crate::action::history::History;
 use crate::catalog::Catalog;
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
+use crate::catalog::recorded_store::RecordedStore;
 use crate::command::{Command, key_bindings};
 use crate::figures::curves::CurveCache;
-use crate::files::{Files, Standing};
+use crate::files::Files;
 use crate::jobs::{Background, Executor};
 use crate::panes;
-use crate::panes::context::PaneContext;
+use crate::plot_item::PlotItem;
 use crate::profiler::Profiler;
+use crate::ranking::Ranking;
 use crate::render_service::RenderService;
 use crate::results::Results;
-use crate::scene::Scene;
-use crate::theme::{self, Theme};
+use crate::theme;
 use crate::view::import::{ImportItem, ImportView};
 use crate::view::{SavedView, View};
-use crate::workspaces::{Arrangement, PaneKind, Splitter, arrange};
+use crate::workspaces::{Arrangement, PaneKind};
 
 pub use startup::{WindowError, run};
 
@@ -49,10 +51,12 @@ pub struct ChromascopeApp {
     files: Files,
     meshes: MeshStore,
     opened: Opened,
+    recorded: RecordedStore,
     radiators: Background<NearestBlackBodyQuery>,
     corrections: Background<CorrectionSheetQuery>,
     studio: RenderService,
     laboratory: Profiler,
+    ranking: Ranking,
     curves: Option<CurveCache>,
     commands: Vec<Command>,
     /// The latest reading of each set that was read again.
@@ -83,7 +87,7 @@ impl ChromascopeApp {
         saved.layout.retain(|pane| panes::by_kind(pane).is_some());
         theme::apply(ctx);
         files.wake(ctx);
-        let [window, also, third, fourth, fifth] = [(); 5].map(|()| ctx.clone());
+        let [window, also, third, fourth, fifth, sixth, seventh] = [(); 7].map(|()| ctx.clone());
         let opened = Opened::on(executor, move || also.request_repaint());
         opened.recall(saved.import.failing.clone());
         let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
@@ -91,15 +95,17 @@ impl ChromascopeApp {
         Self {
             history: history.with_names_apart(catalog.names()),
             catalog,
-            results: Results::default(),
+            results: executor.results(),
             view: View { saved, import, kept: files.kept_documents(), ..View::default() },
             files,
             meshes: MeshStore::on(executor, move || window.request_repaint()),
             opened,
+            recorded: RecordedStore::on(executor, move || fifth.request_repaint()),
             radiators: Background::on(executor, "blackbodies", move || third.request_repaint()),
-            corrections: Background::on(executor, "color corrections", move || fifth.request_repaint()),
+            corrections: Background::on(executor, "color corrections", move || sixth.request_repaint()),
             studio: RenderService::on(executor, ctx),
             laboratory: Profiler::on(executor, move || fourth.request_repaint()),
+            ranking: Ranking::on(executor, move || seventh.request_repaint()),
             curves: None,
             commands: Vec::new(),
             last_read: std::collections::HashMap::new(),
@@ -127,17 +133,17 @@ impl ChromascopeApp {
         self.catalog = catalog;
     }
 
-    /// What is looked at.
+    /// State of the view: selection, zoom, hover and the like.
     pub fn view(&self) -> &View {
         &self.view
     }
 
-    /// The same, for tests to set up.
+    /// Mutable state of the view, for tests to set up.
     pub fn view_mut(&mut self) -> &mut View {
         &mut self.view
     }
 
-    /// What is kept of it between runs.
+    /// Part of the view that is saved between runs.
     pub fn saved_view(&self) -> SavedView {
         let mut saved = self.view.saved.clone();
         saved.import.failing = self.opened.failing();
@@ -170,14 +176,24 @@ impl ChromascopeApp {
         self.files.is_asking()
     }
 
-    /// Where pictures are made.
+    /// Service that renders the pictures.
     pub fn studio(&self) -> &RenderService {
         &self.studio
     }
 
-    /// Where the scene's cost is measured.
+    /// Profiler that measures the scene's cost.
     pub fn laboratory(&self) -> &Profiler {
         &self.laboratory
+    }
+
+    /// Where cameras are ranked.
+    pub fn ranking(&self) -> &Ranking {
+        &self.ranking
+    }
+
+    /// The same, for tests to set up.
+    pub fn laboratory_mut(&mut self) -> &mut Profiler {
+        &mut self.laboratory
     }
 
     /// Has something done in the next frame.
@@ -214,7 +230,7 @@ impl ChromascopeApp {
         for event in events {
             match event {
                 Event::Paste(text) if !typing => self.commands.push(Command::Paste(text)),
-                Event::Copy if !typing => self.commands.push(Command::CopyNumbers(focused)),
+                Event::Copy if !typing && !self.view.table_copies => self.commands.push(Command::CopyNumbers(focused)),
                 _ => {}
             }
         }
@@ -247,145 +263,6 @@ impl ChromascopeApp {
             self.history.end_gesture();
         }
     }
-
-    /// The bars and panes of one frame.
-    fn show(&mut self, ui: &mut Ui) {
-        let theme = Theme::of(ui.visuals()).with_surround(self.view.saved.surround);
-        let Self {
-            history,
-            catalog,
-            results,
-            view,
-            commands,
-            arrangement,
-            files,
-            meshes,
-            opened,
-            radiators,
-            corrections,
-            studio,
-            laboratory,
-            curves,
-            ..
-        } = self;
-        let scene = Scene { document: history.document(), catalog, results };
-        let mut context = PaneContext {
-            panes: panes::ALL,
-            scene,
-            theme,
-            view,
-            meshes,
-            opened,
-            radiators,
-            corrections,
-            studio,
-            laboratory,
-            curves,
-            commands,
-        };
-        let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
-            let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
-            let frame = Frame::NONE.fill(theme.panel);
-            panel
-                .exact_size(height)
-                .resizable(false)
-                .frame(frame)
-                .show_separator_line(true)
-                .show(ui, |ui| ui.max_rect())
-                .inner
-        };
-        let menu = bar(ui, "menu", 30.0, true);
-        let conditions = bar(ui, "conditions", 48.0, true);
-        let standing: Vec<(Standing, Rect)> = files
-            .standing()
-            .into_iter()
-            .zip(["first notice", "second notice", "third notice", "fourth notice", "fifth notice"])
-            .map(|(standing, id)| (standing, bar(ui, id, notice::HEIGHT, true)))
-            .collect();
-        let status = bar(ui, "status", 24.0, false);
-        let area = CentralPanel::default().frame(Frame::NONE.fill(theme.panel)).show(ui, |ui| ui.max_rect()).inner;
-        panes::menu::show(ui, menu, history, &mut context);
-        panes::scene_bar::show(ui, conditions, &mut context);
-        for (standing, rect) in standing {
-            if notice::show(ui, rect, &standing, &theme) {
-                files.dismiss(standing.kind);
-            }
-        }
-        let saved = &context.view.saved;
-        *arrangement = arrange(
-            saved.workspace,
-            &saved.layout,
-            area,
-            arrangement.narrow,
-            context.view.maximized,
-            context.view.inspector_over,
-        );
-        for (pane, rect) in arrangement.panes.clone() {
-            panes::show(ui, pane, rect, &mut context);
-        }
-        for (splitter, rect) in arrangement.splitters.clone() {
-            drag_border(ui, splitter, rect, area, &mut context);
-        }
-        if let Some((pane, rect)) = arrangement.over {
-            let layer =
-                egui::Area::new(egui::Id::unique("column over")).fixed_pos(rect.min).order(egui::Order::Foreground);
-            layer.show(ui.ctx(), |ui| {
-                ui.set_min_size(rect.size());
-                panes::show(ui, pane, rect, &mut context);
-                ui.painter().rect_stroke(rect, 0.0, egui::Stroke::new(1.0, theme.line), egui::StrokeKind::Inside);
-            });
-        }
-        panes::status_bar::show(ui, status, arrangement, &mut context);
-        panes::help::show(ui, history, &mut context);
-        path_prompt::show(ui, &theme, files);
-        context.studio.end_frame();
-        self.ask_about_closing(ui, &theme);
-        focus::ring(ui.ctx(), &theme);
-        drop_veil(ui, theme);
-    }
-}
-
-/// A border between panes, which can be dragged and, with a double click, put back.
-fn drag_border(ui: &mut Ui, splitter: Splitter, rect: Rect, area: Rect, context: &mut PaneContext<'_>) {
-    let upright = rect.height() > rect.width();
-    let response = ui.interact(rect.expand(2.0), ui.scope_id().with(("border", splitter)), Sense::click_and_drag());
-    let middle = rect.center();
-    let stroke = egui::Stroke::new(
-        1.0,
-        if response.hovered() || response.dragged() { context.theme.weak } else { context.theme.line },
-    );
-    if upright {
-        ui.painter().vline(middle.x.round() + 0.5, rect.y_range(), stroke);
-    } else {
-        ui.painter().hline(rect.x_range(), middle.y.round() + 0.5, stroke);
-    }
-    let layout = &mut context.view.saved.layout;
-    if response.double_clicked() {
-        let fresh = crate::workspaces::Layout::default();
-        match splitter {
-            Splitter::Library => layout.library_width = None,
-            Splitter::Right => layout.right_width = None,
-            Splitter::Center => layout.lower_share = fresh.lower_share,
-            Splitter::RightRows => layout.right_lower_share = fresh.right_lower_share,
-        }
-    } else if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
-        layout.drag(splitter, at, area);
-    }
-    response.on_hover_and_drag_cursor(if upright { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical });
-}
-
-/// While files hang over the window: where they may fall.
-fn drop_veil(ui: &Ui, theme: Theme) {
-    if ui.input(|input| input.raw.hovered_files.is_empty()) {
-        return;
-    }
-    let screen = ui.ctx().content_rect();
-    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop veil"));
-    let painter = ui.ctx().layer_painter(layer);
-    painter.rect_filled(screen, 0.0, theme.panel.gamma_multiply(0.85));
-    painter.rect_stroke(screen.shrink(12.0), 4.0, egui::Stroke::new(2.0, theme.text), egui::StrokeKind::Inside);
-    let font = egui::FontId::proportional(theme::HEADING);
-    painter.text(screen.center(), Align2::CENTER_CENTER, "Drop to open", font, theme.text);
 }
 
 impl eframe::App for ChromascopeApp {
@@ -408,6 +285,10 @@ impl eframe::App for ChromascopeApp {
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.view.point = None;
+        self.view.table_copies = false;
+        let document = self.history.document();
+        let source = self.view.selected.as_ref().and_then(PlotItem::source);
+        self.view.selected_elsewhere = source.is_some_and(|id| document.compared(id.kind, &id.name).is_none());
         self.show(ui);
         self.view.reset_plots = false;
         let hovered = self.view.next_hovered.take();

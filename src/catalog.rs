@@ -1,17 +1,20 @@
 //! The data sets there are: built in, and the user's own.
 //!
 //! The index is made of headers alone; a set's figures are parsed when a question first asks for them
-//! ([`load`]), and kept by whoever keeps answers.
+//! ([`load`]), and cached with the other answers.
 
+pub mod chart_picture;
 pub mod import;
 pub mod likeness;
 pub mod load;
 pub mod meshes;
 pub mod names;
 pub mod opened;
+pub mod recorded;
+pub mod recorded_store;
+pub mod spectral_images;
 
-use std::collections::BTreeMap;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::hash::{Hash, Hasher};
 
 use chromascope_core::query::Shared;
 use chromascope_core::spectral::{Dataset, Header};
@@ -20,13 +23,13 @@ use crate::document::SetKind;
 use crate::document::names::{BuiltInNames, caseless};
 use crate::document::own::OwnSet;
 
-/// Where a set's figures are: a file of the program, or a set of the user's, held by value.
+/// Location of a set's figures: a file of the program, or a set of the user's, held by value.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Place {
     /// A built-in file; `column` for files that hold several sets.
     BuiltIn {
-        /// Its path below `assets`.
-        path: &'static str,
+        /// The file.
+        file: BuiltInFile,
         /// The value column, if the file holds several sets.
         column: Option<usize>,
     },
@@ -34,10 +37,32 @@ pub enum Place {
     Own(Shared<OwnSet>),
 }
 
+/// A data file that is part of the program.
+#[derive(Clone, Copy, Debug, Eq)]
+pub struct BuiltInFile {
+    /// Its path below `assets`.
+    pub path: &'static str,
+    /// Its contents.
+    pub text: &'static str,
+}
+
+impl PartialEq for BuiltInFile {
+    fn eq(&self, other: &Self) -> bool {
+        // Files of one catalog share their text, so it is rarely compared.
+        self.path == other.path && (std::ptr::eq(self.text, other.text) || self.text == other.text)
+    }
+}
+
+impl Hash for BuiltInFile {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.path.hash(state);
+    }
+}
+
 /// One data set in the index.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// What it is of.
+    /// Kind of data.
     pub kind: SetKind,
     /// Its name, unique within its kind.
     pub name: String,
@@ -45,7 +70,7 @@ pub struct Entry {
     pub short: String,
     /// A gloss shown after the name.
     pub also: Option<String>,
-    /// Where its figures are.
+    /// Location of its figures.
     pub place: Place,
     /// The facts about a built-in set.
     pub header: Option<Header>,
@@ -89,23 +114,20 @@ pub struct Catalog {
 }
 
 impl Catalog {
-    /// Reads the headers of all built-in files; their figures are not looked at.
+    /// Reads the headers of all built-in files; their figures are not parsed.
     pub fn built_in() -> Self {
         Self::built_in_with(&[])
     }
 
-    /// The built-in sets and those of further data files, each a path below `assets` with its text: the catalog of a program that
-    /// was built with these files in `assets`.
-    pub fn built_in_with(further: &[(&'static str, &'static str)]) -> Self {
-        further_files().extend(further.iter().copied());
+    /// The built-in sets and those of further data files: the catalog of a program that was built with these files in `assets`.
+    pub fn built_in_with(further: &[BuiltInFile]) -> Self {
         let mut entries = Vec::new();
         for kind in SetKind::ALL {
-            let built_in = chromascope_data::files(kind.plural());
-            let is_of_kind = |path: &str| path.split('/').next() == Some(kind.plural());
-            let further = further.iter().copied().filter(|(path, _)| is_of_kind(path));
-            for (path, text) in built_in.chain(further) {
-                if let Ok(header) = Dataset::read_header(text) {
-                    add_entries(&mut entries, kind, path, &header);
+            let built_in = chromascope_data::files(kind.plural()).map(|(path, text)| BuiltInFile { path, text });
+            let is_of_kind = |file: &BuiltInFile| file.path.split('/').next() == Some(kind.plural());
+            for file in built_in.chain(further.iter().copied().filter(is_of_kind)) {
+                if let Ok(header) = Dataset::read_header(file.text) {
+                    add_entries(&mut entries, kind, file, &header);
                 }
             }
         }
@@ -143,26 +165,15 @@ impl Catalog {
     }
 }
 
-/// The text of a built-in file.
-pub fn asset_text(path: &str) -> Option<&'static str> {
-    chromascope_data::text(path).or_else(|| further_files().get(path).copied())
-}
-
-/// Texts of data files that a catalog has beside the built-in ones, by path.
-fn further_files() -> MutexGuard<'static, BTreeMap<&'static str, &'static str>> {
-    static FURTHER: Mutex<BTreeMap<&'static str, &'static str>> = Mutex::new(BTreeMap::new());
-    FURTHER.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// File name and text of each license and notice.
 pub fn licenses() -> impl Iterator<Item = (&'static str, &'static str)> {
     chromascope_data::files("licenses").map(|(path, text)| (path.rsplit('/').next().unwrap_or(path), text))
 }
 
 /// A file is one set, or, with several value columns of lights, filters or materials, as many.
-fn add_entries(entries: &mut Vec<Entry>, kind: SetKind, path: &'static str, header: &Header) {
+fn add_entries(entries: &mut Vec<Entry>, kind: SetKind, file: BuiltInFile, header: &Header) {
     // Coefficients from which daylight of any temperature is made; no light themselves.
-    if path == load::DAYLIGHT_BASIS {
+    if file.path == load::DAYLIGHT_BASIS {
         return;
     }
     let many = matches!(kind, SetKind::Illuminant | SetKind::Filter | SetKind::Material) && header.columns.len() > 1;
@@ -174,7 +185,7 @@ fn add_entries(entries: &mut Vec<Entry>, kind: SetKind, path: &'static str, head
     for (name, column) in names {
         let short = header.short.clone().filter(|_| column.is_none()).unwrap_or_else(|| name.clone());
         let also = header.also.clone().or_else(|| column.map(|_| header.title.clone()));
-        let place = Place::BuiltIn { path, column };
+        let place = Place::BuiltIn { file, column };
         entries.push(Entry { kind, name, short, also, place, header: Some(header.clone()) });
     }
 }

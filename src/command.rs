@@ -24,6 +24,8 @@ pub enum Command {
     Redo,
     /// Ask for files to open.
     Open,
+    /// Ask for a file of recorded raw values.
+    OpenRecorded,
     /// Ask for a folder whose files are to be opened.
     OpenFolder,
     /// Open a document in place of this one, which is kept.
@@ -117,13 +119,15 @@ pub enum Format {
     Svg,
     /// Pixels.
     Png,
-    /// Numbers.
+    /// Numbers, separated by commas.
     Csv,
+    /// Numbers for programs.
+    Json,
 }
 
 impl Format {
     /// All forms.
-    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Csv];
+    pub const ALL: [Self; 4] = [Self::Svg, Self::Png, Self::Csv, Self::Json];
 
     /// The ending of its files.
     pub const fn extension(self) -> &'static str {
@@ -131,6 +135,7 @@ impl Format {
             Self::Svg => "svg",
             Self::Png => "png",
             Self::Csv => "csv",
+            Self::Json => "json",
         }
     }
 }

@@ -16,7 +16,6 @@ mod standing;
 mod store;
 mod watch;
 
-use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -47,7 +46,6 @@ pub struct Files {
     making: bool,
     /// Number of files being computed that are no longer wanted.
     unwanted: usize,
-    /// The number of the last dialog.
     ticket: u64,
     home: Option<PathBuf>,
     wake: Option<egui::Context>,
@@ -180,11 +178,4 @@ pub fn fitting(stem: &str, ending: &str) -> String {
     const LONGEST: usize = 255;
     let room = LONGEST.saturating_sub(ending.len());
     format!("{}{ending}", &stem[..stem.floor_char_boundary(room)])
-}
-
-/// The processor's name, where the system keeps it in a file.
-pub fn processor() -> Option<String> {
-    let facts = fs::read_to_string("/proc/cpuinfo").ok()?;
-    let line = facts.lines().find(|line| line.starts_with("model name"))?;
-    Some(line.split_once(": ")?.1.trim().to_owned())
 }

@@ -1,5 +1,7 @@
 //! Numbers, times and messages of libraries as text for people.
 
+use std::path::Path;
+
 use spectral_file::{Dropped, DroppedRow};
 
 /// A number for reading: six significant digits at most, a true minus sign.
@@ -37,6 +39,16 @@ pub(crate) fn capitalized(words: &str) -> String {
 /// A message of a library as a sentence: with a capital at its start and a full stop.
 pub(crate) fn sentence(words: &str) -> String {
     format!("{}.", capitalized(words))
+}
+
+/// The last part of a path; the whole path if it has none.
+pub(crate) fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// The system's reason for a failure at a path, after the path.
+pub(crate) fn io_failure(path: &Path, error: &std::io::Error) -> String {
+    format!("{}: {}", path.display(), io_reason(error))
 }
 
 /// The system's reason for a failure, without its error number.

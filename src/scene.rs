@@ -8,8 +8,11 @@ pub mod light;
 pub mod locus;
 pub mod metrics;
 pub mod orbit;
+pub mod recorded;
 pub mod render;
+pub mod spectral_image;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use chromascope_core::camera::{RenderingError, WhiteBalanceTarget};
@@ -176,12 +179,17 @@ impl<'a> Scene<'a> {
 
     /// The set of this name; the user's own win.
     pub fn entry(&self, kind: SetKind, name: &str) -> Result<Entry, SceneError> {
+        self.find(kind, name).map(Cow::into_owned)
+    }
+
+    /// The same without a copy of a built-in set's header, which may name thousands of columns.
+    fn find(&self, kind: SetKind, name: &str) -> Result<Cow<'a, Entry>, SceneError> {
         let own = |is_it: &dyn Fn(&str) -> bool| {
             let mut sets = self.document.own.iter().filter(|set| SetKind::of_own(set) == kind);
-            sets.find(|set| is_it(&set.name)).map(Entry::from_own)
+            sets.find(|set| is_it(&set.name)).map(|set| Cow::Owned(Entry::from_own(set)))
         };
         own(&|known| known == name)
-            .or_else(|| self.catalog.get(kind, name).cloned())
+            .or_else(|| self.catalog.get(kind, name).map(Cow::Borrowed))
             .or_else(|| {
                 let wanted = caseless(name);
                 own(&|known| caseless(known) == wanted)
@@ -191,14 +199,18 @@ impl<'a> Scene<'a> {
 
     /// The chart or, failing that, the material set of this name. Transmittances can be seen as patches too.
     pub fn chart_entry(&self, name: &str) -> Result<Entry, SceneError> {
-        let other = |kind| move |e| self.entry(kind, name).map_err(|_| e);
-        self.entry(SetKind::Chart, name).or_else(other(SetKind::Material)).or_else(other(SetKind::Filter))
+        self.find_chart(name).map(Cow::into_owned)
+    }
+
+    fn find_chart(&self, name: &str) -> Result<Cow<'a, Entry>, SceneError> {
+        let other = |kind| move |e| self.find(kind, name).map_err(|_| e);
+        self.find(SetKind::Chart, name).or_else(other(SetKind::Material)).or_else(other(SetKind::Filter))
     }
 
     /// A camera's or observer's sensitivities.
     pub fn sensor(&self, kind: SetKind, name: &str) -> Result<Shared<Sensor>, SceneError> {
-        let entry = self.entry(kind, name)?;
-        let answer = self.results.ask(&SensorQuery(entry.place));
+        let place = self.find(kind, name)?.place.clone();
+        let answer = self.results.ask(&SensorQuery(place));
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
 
@@ -210,7 +222,7 @@ impl<'a> Scene<'a> {
     /// The light on the scene.
     pub fn light(&self) -> Result<LoadedLight, SceneError> {
         let (light, name) = match &self.document.light {
-            Light::Set(name) => (LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place), name.as_str()),
+            Light::Set(name) => (LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name.as_str()),
             Light::BlackBody => (LightQuery::BlackBody(self.temperature()?), "blackbody"),
             Light::Daylight => (LightQuery::Daylight(self.temperature()?), "daylight"),
         };
@@ -268,9 +280,11 @@ impl<'a> Scene<'a> {
 
     /// True if the chart has the paper's five patches and more.
     pub fn has_five(&self) -> bool {
-        self.chart_entry(&self.document.chart).ok().and_then(|entry| entry.header).is_some_and(|header| {
-            header.columns.len() > PAPER_FIVE.len()
-                && PAPER_FIVE.iter().all(|name| header.columns.iter().any(|c| c == name))
+        self.find_chart(&self.document.chart).is_ok_and(|entry| {
+            entry.header.as_ref().is_some_and(|header| {
+                header.columns.len() > PAPER_FIVE.len()
+                    && PAPER_FIVE.iter().all(|name| header.columns.iter().any(|c| c == name))
+            })
         })
     }
 
@@ -279,7 +293,7 @@ impl<'a> Scene<'a> {
         name: &str,
         names: Option<&'static [&'static str]>,
     ) -> Result<Shared<PatchSet>, SceneError> {
-        let place = self.chart_entry(name)?.place;
+        let place = self.find_chart(name)?.place.clone();
         self.loaded_patches(place, name, names)
     }
 
@@ -298,7 +312,7 @@ impl<'a> Scene<'a> {
         match &self.document.white {
             WhiteBalanceChoice::Unity => Ok(WhiteBalanceTarget::UNITY),
             WhiteBalanceChoice::Light(name) => {
-                let light = self.loaded(&LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place), name)?;
+                let light = self.loaded(&LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name)?;
                 self.white_of(&light, name)
             }
             WhiteBalanceChoice::Daylight(kelvin) => {
@@ -401,7 +415,7 @@ impl<'a> Scene<'a> {
     /// The condition to warn of, if there is one.
     pub fn caution(&self) -> Option<Caution> {
         let reference = self.document.reference.clone();
-        let counts_in_xyz = self.entry(SetKind::Observer, &reference).is_ok_and(|entry| entry.counts_in_xyz());
+        let counts_in_xyz = self.find(SetKind::Observer, &reference).is_ok_and(|entry| entry.counts_in_xyz());
         match &self.document.transform {
             TransformChoice::Paper => counts_in_xyz.then_some(Caution::NotComparable { reference }),
             TransformChoice::Observer(target) if *target == reference => None,
@@ -436,7 +450,7 @@ impl<'a> Scene<'a> {
 
     /// How one sensor is drawn. Observers beside the reference are told apart by markers alone.
     fn source(&self, compared: &Compared, observers: &mut u8) -> ComparedSensor {
-        let entry = self.entry(compared.kind, &compared.name).ok();
+        let entry = self.find(compared.kind, &compared.name).ok();
         let short = entry.as_ref().map_or_else(|| compared.name.clone(), |entry| entry.short.clone());
         let is_reference = self.document.is_reference(compared);
         let (role, marker, width) = match compared.kind {

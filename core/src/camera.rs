@@ -1,10 +1,12 @@
 //! From spectra to a camera's signals, and from signals to the diagram.
 
 pub mod batch;
+pub mod chart_grid;
 pub mod locus;
 pub mod locus_deviation;
 pub mod locus_table;
 pub mod quality;
+pub mod recorded;
 pub mod rendering;
 pub mod white_balance;
 

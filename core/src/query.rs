@@ -8,9 +8,11 @@ pub mod compare;
 pub mod correction;
 pub mod lights;
 pub mod loci;
+pub mod metamers;
 pub mod metrics;
 pub mod patches;
 pub mod radiances;
+pub mod recorded;
 pub mod render;
 pub mod shared;
 
@@ -24,7 +26,9 @@ pub use loci::{
     CctQuery, Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery,
     RadiatorSignalsQuery, SpectralLocusQuery, Temperatures,
 };
+pub use metamers::{Metamers, MetamersQuery};
 pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricValue, Replicates, WhyNot};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;
+pub use recorded::{RecordedFitQuery, RecordedSet};
 pub use shared::Shared;

@@ -11,10 +11,9 @@ use crate::theme::Theme;
 
 /// Description of the document where it is saved elsewhere.
 const DOCUMENT: &str = "the document";
-/// Width of the question.
 const WIDTH: f32 = 420.0;
 
-/// How far closing has come.
+/// Progress of closing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum Closing {
     /// Nobody wants to.

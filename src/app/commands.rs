@@ -12,9 +12,10 @@ use crate::catalog::opened::Request;
 use crate::command::{Command, Format};
 use crate::document::SetKind;
 use crate::export;
+use crate::figures::FigureInput;
 use crate::files::{FileEvent, FileForm, SaveRequest};
 use crate::panes;
-use crate::profiler::SceneRunQuery;
+use crate::profiler::SceneRunJob;
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
 use crate::theme::Theme;
@@ -32,6 +33,10 @@ impl ChromascopeApp {
     pub(super) fn take_files(&mut self, ctx: &egui::Context) {
         for event in self.files.poll() {
             match event {
+                FileEvent::Open(paths) if std::mem::take(&mut self.view.recorded.opening) => {
+                    self.view.recorded.corners.clear();
+                    paths.first().into_iter().for_each(|path| self.recorded.open(path));
+                }
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
                 FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
@@ -63,8 +68,14 @@ impl ChromascopeApp {
                 let step = self.history.redo_name().map(|name| format!("Redone: {name}."));
                 self.travel(History::redo, step);
             }
-            Command::Open => self.files.ask_to_open(),
-            Command::OpenFolder => self.files.ask_for_folder(),
+            Command::Open | Command::OpenRecorded => {
+                self.view.recorded.opening = command == Command::OpenRecorded;
+                self.files.ask_to_open();
+            }
+            Command::OpenFolder => {
+                self.view.recorded.opening = false;
+                self.files.ask_for_folder();
+            }
             Command::OpenDocument(path) => self.files.open_document(&path, self.history.document().clone()),
             Command::RemoveDocument(path) => {
                 self.files.remove_document(&path);
@@ -248,7 +259,7 @@ impl ChromascopeApp {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
-        self.laboratory.run(SceneRunQuery::of(&scene, own.as_ref(), self.view.saved.render.orbit));
+        self.laboratory.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Accuracy;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();
@@ -259,7 +270,8 @@ impl ChromascopeApp {
     fn next_pane(&mut self, ctx: &egui::Context) {
         let shown: Vec<PaneKind> = self.arrangement.panes.iter().map(|(pane, _)| *pane).collect();
         let import = &mut self.view.import;
-        let picks = import.look.as_ref().and_then(|look| look.table.as_ref().ok()).is_some_and(|t| t.curves.len() > 1);
+        let picks =
+            self.opened.preview().and_then(|preview| preview.table.clone().ok()).is_some_and(|t| t.curves.len() > 1);
         if self.view.focused == Some(PaneKind::INTERPRETATION) && import.stop == Some(Stop::Switches) && picks {
             (import.stop, import.focus) = (Some(Stop::Picker), Some(Stop::Picker));
             return;
@@ -280,10 +292,15 @@ impl ChromascopeApp {
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 
+    /// What a pane's figure of a scene is made of.
+    pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
+        FigureInput::of((scene, &self.view), &self.studio, &self.laboratory, &self.opened)
+    }
+
     /// The pane's figure as on screen, or a message that it has none.
     fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let figure = panes::figure(pane, &scene, &self.view);
+        let figure = panes::figure(pane, &self.figure_input(&scene));
         if figure.is_none() {
             let others = panes::ALL.iter().filter(|pane| pane.figure.is_some()).map(|pane| pane.title);
             let others = others.collect::<Vec<_>>().join(", ");
@@ -307,7 +324,7 @@ impl ChromascopeApp {
         self.files.ask_to_save(SaveRequest { what, name, forms: forms.collect(), note: String::new() });
     }
 
-    /// What a file of a pane is called, without its ending.
+    /// File name for a pane's export, without extension.
     fn file_stem(&self, pane: PaneKind) -> String {
         let title = panes::title(pane).to_lowercase();
         match (pane, self.view.accuracy.shows) {
@@ -352,7 +369,7 @@ impl ChromascopeApp {
             // It went on meanwhile: what it is now is kept.
             return self.files.open_document(&opened.path, self.history.document().clone());
         }
-        let name = opened.path.file_name().unwrap_or(opened.path.as_os_str()).to_string_lossy().into_owned();
+        let name = crate::format::file_name(&opened.path);
         opened.document.part_names(self.catalog.names());
         self.step(|history| history.replace(format!("Open {name}"), opened.document));
         let words =
@@ -381,6 +398,7 @@ fn file_of(figure: &Figure, numbers: &Table, format: Format) -> Result<Vec<u8>, 
     match format {
         Format::Svg => Ok(svg().into_bytes()),
         Format::Csv => Ok(numbers.to_csv().into_bytes()),
+        Format::Json => Ok(export::json(&figure.title, numbers).into_bytes()),
         Format::Png => {
             let file = export::png(&svg(), PICTURE_SCALE).and_then(|picture| export::png_file(&picture));
             file.map_err(|error| error.to_string())

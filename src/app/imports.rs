@@ -1,5 +1,7 @@
 //! Opening the user's spectra: read first, then put to use; and reading them otherwise, or again.
 
+mod words;
+
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -12,11 +14,11 @@ use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{OpenFile, OpenedEvent, Request, Why};
 use crate::command::Command;
-use crate::document::Document;
-use crate::document::own::{Fingerprint, ImportOverrides, OwnSet, Role};
+use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::view::import::{ImportItem, of_a_kind};
 use crate::view::{Status, Weight};
 use crate::workspaces::Workspace;
+use words::{opened_again, put_to_use, renamed};
 
 impl ChromascopeApp {
     /// Begins to read. The document stays as it is until that is done.
@@ -49,7 +51,6 @@ impl ChromascopeApp {
         self.open(requests);
     }
 
-    /// Takes in what was read.
     pub(super) fn take_opened(&mut self) {
         for event in self.opened.poll() {
             match event {
@@ -215,7 +216,7 @@ impl ChromascopeApp {
         self.follow_selection(&own);
     }
 
-    /// Where a step made a set of the file on show, or took the set away, the same contents stay on show.
+    /// Keeps the same contents visible when a step turned the visible file into a set, or removed that set.
     fn follow_selection(&mut self, before: &[Shared<OwnSet>]) {
         let own = &self.history.document().own;
         let now = match &self.view.import.selected {
@@ -378,40 +379,4 @@ impl ChromascopeApp {
         self.view.say(format!("Reading {name} stopped. Nothing was changed."));
         true
     }
-}
-
-/// Which sets have another name than their files say, because a set had that already.
-fn renamed(new: &[(&OwnSet, &Shared<OwnSet>)]) -> String {
-    let mut renamed = new.iter().filter(|(wanted, set)| wanted.name != set.name);
-    let Some((first, set)) = renamed.next() else { return String::new() };
-    let more = match renamed.count() {
-        0 => String::new(),
-        count => format!(" ({count} others renamed)"),
-    };
-    format!("A data set named {} already exists; imported as {}{more}.", first.name, set.name)
-}
-
-/// Which of so many files are those of sets that were there already.
-fn opened_again(again: &[(&OwnSet, &Shared<OwnSet>)], count: usize) -> String {
-    match again {
-        [] => String::new(),
-        [(_, set)] if count == 1 => format!("This data set is already open as {}.", set.name),
-        [(wanted, set)] => format!("{} is already open as {}.", wanted.file, set.name),
-        many => format!("{} of them were already open.", many.len()),
-    }
-}
-
-/// What several sets that were opened at once are used as. One alone is used as what it is.
-fn put_to_use(before: &Document, after: &Document, brought: &[Shared<OwnSet>]) -> String {
-    if brought.len() < 2 {
-        return String::new();
-    }
-    let cameras = brought.iter().filter(|set| set.role == Role::Camera).count();
-    let shown = after.compared.len() - before.compared.len();
-    let shown = match (shown, cameras) {
-        (_, 0) => "None is a camera".to_owned(),
-        (shown, cameras) if shown == cameras => format!("{shown} added to the comparison"),
-        (shown, cameras) => format!("{shown} of {cameras} cameras added to the comparison"),
-    };
-    format!("{shown}; illuminant and patches are unchanged. Choose others in the Library.")
 }

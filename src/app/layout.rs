@@ -12,7 +12,7 @@ pub(super) const WINDOW_KEY: &str = "window";
 /// eframe's key of egui's memory.
 const MEMORY_KEY: &str = "egui";
 
-/// What is written.
+/// Values to be written.
 #[derive(Default)]
 struct Values(BTreeMap<String, String>);
 
@@ -32,14 +32,14 @@ impl eframe::Storage for Values {
     fn flush(&mut self) {}
 }
 
-/// What egui knows of the window's place, by which a change is told.
+/// Window geometry as egui reports it, compared to detect a change.
 #[derive(Clone, Copy, Default, PartialEq)]
 struct Seen {
     rects: [Option<egui::Rect>; 2],
     fills: [Option<bool>; 2],
 }
 
-/// Where the window is.
+/// Position and size of the window.
 #[derive(Default)]
 pub(super) struct WindowPlace {
     settings: Option<WindowSettings>,

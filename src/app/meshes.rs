@@ -5,6 +5,7 @@ use std::path::Path;
 use super::ChromascopeApp;
 use crate::action::{Action, RenderAction};
 use crate::document::render::MeshChoice;
+use crate::format::file_name;
 use crate::workspaces::Workspace;
 
 impl ChromascopeApp {
@@ -12,8 +13,9 @@ impl ChromascopeApp {
     pub(super) fn open_mesh(&mut self, path: &Path) {
         let before = self.meshes.opening().filter(|before| before != path);
         self.meshes.open(path);
-        let given_up = before.map(|before| format!(" {} was canceled: one mesh is shown at a time.", name_of(&before)));
-        self.view.say(format!("Reading {}… Esc stops.{}", name_of(path), given_up.unwrap_or_default()));
+        let given_up =
+            before.map(|before| format!(" {} was canceled: one mesh is shown at a time.", file_name(&before)));
+        self.view.say(format!("Reading {}… Esc stops.{}", file_name(path), given_up.unwrap_or_default()));
     }
 
     /// Shows meshes that were read, and stops reading what nobody wants any more.
@@ -41,11 +43,7 @@ impl ChromascopeApp {
     /// Stops reading a mesh, if one is being opened.
     pub(super) fn stop_opening(&mut self) -> bool {
         let Some(path) = self.meshes.cancel() else { return false };
-        self.view.say(format!("Reading {} stopped. Nothing was changed.", name_of(&path)));
+        self.view.say(format!("Reading {} stopped. Nothing was changed.", file_name(&path)));
         true
     }
-}
-
-fn name_of(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

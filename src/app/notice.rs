@@ -6,7 +6,6 @@ use crate::files::{Standing, StandingKind};
 use crate::panes::widgets::lines;
 use crate::theme::{Theme, UNIT};
 
-/// Height of a line.
 pub(super) const HEIGHT: f32 = 24.0;
 /// Width of the button that takes a line away.
 const DISMISS: f32 = 72.0;

@@ -5,7 +5,6 @@ use egui::{Align2, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui, Vec2, Win
 use crate::files::{Files, PathPrompt};
 use crate::theme::{ROW, Theme};
 
-/// Width of the field.
 const WIDTH: f32 = 420.0;
 /// So many rows of completions are in sight.
 const ROWS: f32 = 5.0;
@@ -64,7 +63,6 @@ fn content(ui: &mut Ui, theme: &Theme, prompt: &mut PathPrompt) -> Option<Step> 
     step
 }
 
-/// The field and its button.
 fn field(ui: &mut Ui, prompt: &mut PathPrompt) -> Option<Step> {
     let id = ui.scope_id().with("path");
     // Tab stays here instead of going to the next control.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use spectral_file::{Certainty, Effect, ReadError, Role, SpectralFile, Values, Warning, Watch};
+use spectral_file::{Certainty, Effect, ReadError, Role, SpectralFile, Values, Watch};
 
 use crate::document::own::{Fingerprint, ImportOverrides, OwnCurve, OwnSet, ReadAs};
 
@@ -14,20 +14,20 @@ pub const TAKEN_AT_FIRST: usize = 200;
 pub struct Imported {
     /// The set.
     pub set: OwnSet,
-    /// What was read, in one sentence, with what a person should know first.
+    /// Summary of the import in one sentence, with what a person should know first.
     pub message: String,
     /// True if something that changes numbers was guessed.
     pub guessed: bool,
 }
 
-/// Where bytes are from.
+/// Origin of bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// What it is called: a file's name, or `clipboard`.
+    /// Name: a file's name, or `clipboard`.
     pub name: String,
-    /// Where it is on disk, if it is.
+    /// Path on disk, if there is one.
     pub path: Option<PathBuf>,
-    /// What tells its contents from others.
+    /// Fingerprint of the contents.
     pub fingerprint: Fingerprint,
 }
 
@@ -40,18 +40,10 @@ impl Origin {
 
 /// Reads a file's bytes; `file` names it. A role that is given is not guessed.
 pub fn import(file: &str, bytes: &[u8], role: Option<Role>) -> Result<Imported, ReadError> {
-    Ok(import_warned(file, bytes, role)?.0)
+    import_as(&Origin::named(file, bytes), bytes, &ImportOverrides::for_role(role), Watch::none())
 }
 
-/// The same, with what should be looked at before the curves are trusted; the message tells the first of it.
-pub fn import_warned(file: &str, bytes: &[u8], role: Option<Role>) -> Result<(Imported, Vec<Warning>), ReadError> {
-    let wishes = ImportOverrides::for_role(role);
-    let table = spectral_file::read(bytes, &wishes.options)?;
-    let warnings = table.warnings.clone();
-    Ok((imported(&Origin::named(file, bytes), &table, &wishes), warnings))
-}
-
-/// Reads bytes as a person wishes, in sight of whoever may stop it.
+/// Reads bytes with a person's overrides; the watch may stop it.
 pub fn import_as(
     origin: &Origin,
     bytes: &[u8],
@@ -61,7 +53,7 @@ pub fn import_as(
     Ok(imported(origin, &spectral_file::read_watched(bytes, &wishes.options, watch)?, wishes))
 }
 
-/// What is made of a table that was read with the options of these wishes.
+/// Import of a table that was read with the options of these overrides.
 pub fn imported(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides) -> Imported {
     let guesses: Vec<_> = weighty_guesses(table);
     let file = &origin.name;
@@ -89,7 +81,7 @@ pub fn weighty_guesses(table: &SpectralFile) -> Vec<spectral_file::Decision> {
     decisions.filter(|decision| decision.certainty.is_doubtful() && decision.effect != Effect::Report).collect()
 }
 
-/// Which curves of a table are taken: those wished for, which may be none, else the first of them.
+/// Indices of the curves to import: those chosen, which may be none, else the first of the table.
 pub fn taken(table: &SpectralFile, wishes: &ImportOverrides) -> Vec<usize> {
     let count = table.curves.len();
     if let Some(wished) = &wishes.taken {
@@ -148,14 +140,14 @@ fn own_set(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides, take
     }
 }
 
-/// What the part of a file is called that a person chose of several.
+/// Name of the part of a file that a person chose of several.
 fn part_name(table: &SpectralFile, wishes: &ImportOverrides) -> Option<String> {
     let part = wishes.options.part.filter(|_| table.reading.parts.len() > 1)?;
     let known = table.reading.parts.get(part.checked_sub(1)?)?;
     Some(if known.name.is_empty() { format!("part {part}") } else { known.name.clone() })
 }
 
-/// Which of the curves taken are red, green and blue.
+/// Indices of red, green and blue among the chosen curves.
 fn channels(table: &SpectralFile, wishes: &ImportOverrides, taken: &[usize]) -> [usize; 3] {
     let wanted = wishes.channels.or(table.reading.camera_columns).unwrap_or([0, 1, 2]);
     let place = |index: usize| taken.iter().position(|taken| *taken == index);

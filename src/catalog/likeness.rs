@@ -1,19 +1,18 @@
-//! Which files are of one kind: written by the same program in the same layout.
+//! Files of one kind: written by the same program in the same layout.
 
 use serde::{Deserialize, Serialize};
 
 use crate::document::own::Fingerprint;
 
-/// What the beginning of a file looks like without its figures. The same on every machine, so that it can be kept.
+/// Layout of a file's beginning without its figures. Equal on every machine, so that it can be saved.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Likeness {
-    /// The lines.
     shapes: Vec<Fingerprint>,
     /// True if some of them hold words.
     words: bool,
 }
 
-/// How much of a file is looked at.
+/// Number of bytes examined.
 const LOOK: usize = 1 << 14;
 /// So many lines with something in them are enough.
 const LINES: usize = 24;

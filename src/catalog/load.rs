@@ -3,7 +3,7 @@
 use chromascope_core::light::filter::{filtered, transmittance};
 use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants, planckian::black_body};
 use chromascope_core::patch_set::PatchSet;
-use chromascope_core::query::{Ask, Query, Shared};
+use chromascope_core::query::{Ask, Query, Replicates, Shared};
 use chromascope_core::rendition::Standards;
 use chromascope_core::spectral::{
     Dataset, DatasetError, DistributionError, GridSpectrum, Primaries, Quantity, Sensor, SensorError,
@@ -11,7 +11,7 @@ use chromascope_core::spectral::{
 };
 use chromascope_core::units::Kelvin;
 
-use super::{Place, asset_text};
+use super::{BuiltInFile, Place};
 
 /// The daylight basis among the built-in files.
 pub const DAYLIGHT_BASIS: &str = "illuminants/cie_daylight_basis.csv";
@@ -27,7 +27,7 @@ pub enum LoadError {
     Damaged {
         /// The file.
         path: &'static str,
-        /// What is wrong.
+        /// Cause.
         error: DatasetError,
     },
     /// A light needs a curve.
@@ -46,23 +46,31 @@ pub enum LoadError {
 
 /// A built-in file, parsed.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct FileQuery(pub &'static str);
+pub struct FileQuery(pub BuiltInFile);
 
 impl Query for FileQuery {
     type Answer = Result<Dataset, LoadError>;
     const NAME: &'static str = "data file";
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
-        let text = asset_text(self.0).ok_or(LoadError::Missing(self.0))?;
-        Dataset::read(text).map_err(|error| LoadError::Damaged { path: self.0, error })
+        Dataset::read(self.0.text).map_err(|error| LoadError::Damaged { path: self.0.path, error })
     }
 }
 
+/// A file of the program by its path.
+fn asset(path: &'static str, ask: &impl Ask) -> Result<Dataset, LoadError> {
+    let text = chromascope_data::text(path).ok_or(LoadError::Missing(path))?;
+    (*ask.ask(&FileQuery(BuiltInFile { path, text }))).clone()
+}
+
 /// A set's curves with their names, as measured.
-fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
+///
+/// # Errors
+/// [`LoadError`] if the file is damaged or the user's settings make an impossible spectrum.
+pub fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
     match place {
-        Place::BuiltIn { path, column } => {
-            let file = ask.ask(&FileQuery(path));
+        Place::BuiltIn { file, column } => {
+            let file = ask.ask(&FileQuery(*file));
             let file = (*file).as_ref().map_err(Clone::clone)?;
             let named = file.header.columns.iter().cloned().zip(file.curves.iter().cloned());
             Ok(named
@@ -86,8 +94,8 @@ impl Query for SensorQuery {
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let named = curves(&self.0, ask)?;
         let (primaries, response) = match &self.0 {
-            Place::BuiltIn { path, .. } => {
-                let file = ask.ask(&FileQuery(path));
+            Place::BuiltIn { file, .. } => {
+                let file = ask.ask(&FileQuery(*file));
                 let header = &(*file).as_ref().map_err(Clone::clone)?.header;
                 (Primaries::from_columns(&header.columns), header.response())
             }
@@ -101,6 +109,21 @@ impl Query for SensorQuery {
             .try_into()
             .map_err(|_| SensorError::NotThree { found })?;
         Ok(Shared::new(Sensor::new(primaries, three, response)?))
+    }
+}
+
+/// The tables of each of some camera models. All cameras of a ranking ask for the same ones.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ReplicatesQuery(pub Vec<Vec<Place>>);
+
+impl Query for ReplicatesQuery {
+    type Answer = Result<Shared<Replicates>, LoadError>;
+    const NAME: &'static str = "replicates";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let sensor = |place: &Place| (*ask.ask(&SensorQuery(place.clone()))).clone();
+        let models = self.0.iter().map(|places| places.iter().map(sensor).collect());
+        Ok(Shared::new(Replicates::new(models.collect::<Result<Vec<Vec<_>>, LoadError>>()?)))
     }
 }
 
@@ -120,7 +143,7 @@ impl LoadedLight {
     }
 }
 
-/// Which light.
+/// Illuminant as a question to the catalog.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum LightQuery {
     /// A data set.
@@ -147,8 +170,7 @@ impl Query for LightQuery {
                 Ok(LoadedLight::new(SpectralDistribution::new(nm, grid.values().to_vec())?))
             }
             Self::Daylight(temperature) => {
-                let file = ask.ask(&FileQuery(DAYLIGHT_BASIS));
-                let basis = DaylightBasis::new((*file).as_ref().map_err(Clone::clone)?)?;
+                let basis = DaylightBasis::new(&asset(DAYLIGHT_BASIS, ask)?)?;
                 Ok(LoadedLight::new(basis.light(*temperature)?))
             }
         }
@@ -199,7 +221,7 @@ impl Query for StandardsQuery {
     const NAME: &'static str = "rendition standards";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let file = |path| (*ask.ask(&FileQuery(path))).clone();
+        let file = |path| asset(path, ask);
         let patches = |path| file(path).map(|file| PatchSet::from_dataset(&file));
         let observer = |path| Ok::<_, LoadError>(Sensor::from_dataset(&file(path)?)?);
         Ok(Shared::new(Standards {

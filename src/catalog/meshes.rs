@@ -11,20 +11,21 @@ pub use read::{ENDINGS, LoadedMesh, MAX_FILE_BYTES, MeshFailure, is_mesh, read};
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 
 use crate::document::render::MeshChoice;
-use crate::jobs::Executor;
-use read::{Stamp, file_name};
+use crate::format::file_name;
+use crate::jobs::{Desk, Executor};
+use read::Stamp;
 
 /// Meshes that nobody looks at are remembered up to this many bytes, so that undo need not read them again.
 const REMEMBERED_BYTES: usize = 256_000_000;
 
-/// What is known of a mesh file.
+/// State of a mesh file.
 #[derive(Clone, Debug)]
 pub enum MeshState {
     /// It is being read.
@@ -35,7 +36,7 @@ pub enum MeshState {
     Failed(String),
 }
 
-/// What came of opening a file.
+/// Outcome of opening a file.
 #[derive(Clone, Debug)]
 pub struct Opened {
     /// The file.
@@ -46,14 +47,8 @@ pub struct Opened {
 
 /// The mesh files that were asked for.
 pub struct MeshStore {
-    desk: Arc<Desk>,
+    desk: Arc<Desk<State>>,
     executor: Executor,
-}
-
-/// What lies between the window and the threads that read.
-struct Desk {
-    state: Mutex<State>,
-    wake: Box<dyn Fn() + Send + Sync>,
 }
 
 #[derive(Default)]
@@ -90,11 +85,10 @@ impl MeshStore {
 
     /// Reads files on an executor.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let desk = Arc::new(Desk { state: Mutex::default(), wake: Box::new(wake) });
-        Self { desk, executor: executor.clone() }
+        Self { desk: Arc::new(Desk::new(executor, State::default(), wake)), executor: executor.clone() }
     }
 
-    /// What is known of a file. Reading begins with the first question; a mesh stays on show while it is read anew.
+    /// State of a file. The first call starts reading; a mesh stays visible while its file is reloaded.
     pub fn get(&self, path: &Path) -> MeshState {
         let mut state = self.desk.lock();
         state.clock += 1;
@@ -187,7 +181,7 @@ impl MeshStore {
         let work = move || {
             let result = read_once(&file, unless, &|| stop.load(Ordering::Relaxed));
             desk.lock().take(&file, &stop, result);
-            (desk.wake)();
+            desk.tell();
         };
         if let Err(error) = self.executor.spawn("meshes", work) {
             let failure = MeshFailure::Io { file: file_name(path), error };
@@ -200,13 +194,6 @@ impl MeshStore {
 impl Drop for MeshStore {
     fn drop(&mut self) {
         self.desk.lock().known.values_mut().for_each(Known::stop);
-    }
-}
-
-impl Desk {
-    /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -252,7 +239,7 @@ impl State {
         let path = self.opening.take()?;
         let known = self.known_at(&path);
         known.stop();
-        known.failure = Some(MeshFailure::Stopped { file: file_name(&path) }.on_show());
+        known.failure = Some(MeshFailure::Stopped(file_name(&path)).on_show());
         Some(path)
     }
 }
@@ -264,5 +251,5 @@ fn read_once(
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<(LoadedMesh, Stamp)>, MeshFailure> {
     let read = catch_unwind(AssertUnwindSafe(|| read::read_unless(path, unless, stop)));
-    read.unwrap_or_else(|_| Err(MeshFailure::Broken { file: file_name(path) }))
+    read.unwrap_or_else(|_| Err(MeshFailure::Broken(file_name(path))))
 }

@@ -8,9 +8,9 @@ pub enum NameError {
     /// Nothing of that name.
     #[error("no {kind} is named \"{name}\"{}", suggest(.nearest))]
     Unknown {
-        /// What was looked for.
+        /// Kind of thing that was looked for.
         kind: &'static str,
-        /// What was typed.
+        /// Name as typed.
         name: String,
         /// The nearest names.
         nearest: Vec<String>,
@@ -18,7 +18,7 @@ pub enum NameError {
     /// Several names contain it.
     #[error("\"{name}\" could be {}; type more of the name", .candidates.join(", "))]
     Ambiguous {
-        /// What was typed.
+        /// Name as typed.
         name: String,
         /// The names that contain it, the first few.
         candidates: Vec<String>,

@@ -10,19 +10,19 @@ mod reading;
 
 pub use file::OpenFile;
 pub use look::{FilePreview, FilePreviewQuery};
-pub use reading::Request;
+pub use reading::{Request, files_of};
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use super::import::Imported;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
-use crate::jobs::{Background, Clock, Executor};
-use crate::results::Count;
+use crate::format::file_name;
+use crate::jobs::{self, Background, Executor};
 
 /// Files that no set is made of are forgotten, the oldest first, beyond so many bytes in all.
 const REMEMBERED_BYTES: usize = 256_000_000;
@@ -33,20 +33,20 @@ pub struct Failing {
     /// Where it is.
     #[serde(with = "crate::document::paths")]
     pub path: PathBuf,
-    /// What tells its contents from others.
+    /// Fingerprint of the contents.
     pub fingerprint: Fingerprint,
-    /// Why, as a sentence with its name.
+    /// Reason, as a sentence that names the file.
     pub why: String,
 }
 
-/// What came of reading.
+/// Outcome of reading.
 #[derive(Debug)]
 pub enum OpenedEvent {
     /// Sets were read.
     Read {
         /// The sets, each with what was guessed on reading.
         sets: Vec<Imported>,
-        /// What was read, and what was decided, in one sentence.
+        /// Summary of the contents and the decisions, in one sentence.
         message: String,
         /// Number of files beside them could not be read, and why the first could not; may be empty.
         failure: String,
@@ -66,11 +66,11 @@ pub enum OpenedEvent {
     },
     /// A file that could not be read has other contents now, which stand in its place.
     Replaced {
-        /// What it held.
+        /// Fingerprint of the former contents.
         old: Fingerprint,
-        /// What it holds.
+        /// Fingerprint of the present contents.
         new: Fingerprint,
-        /// Where it is.
+        /// Path on disk.
         path: PathBuf,
     },
     /// A mesh is to be opened, which is not read yet.
@@ -95,9 +95,9 @@ pub enum Why {
 pub struct Progress {
     /// The file that is being read.
     pub name: String,
-    /// How far it is, as a fraction of one.
+    /// Fraction done, 0 to 1.
     pub share: f32,
-    /// Which of how many files, from 1.
+    /// Number of the file, from 1, and the count of files.
     pub file: [usize; 2],
     /// For how long.
     pub time: Duration,
@@ -111,12 +111,7 @@ pub struct Opened {
 }
 
 /// What lies between the window and the threads that read.
-struct Desk {
-    state: Mutex<State>,
-    /// Told when a reading has ended.
-    ended: Condvar,
-    wake: Arc<dyn Fn() + Send + Sync>,
-}
+type Desk = jobs::Desk<State>;
 
 #[derive(Default)]
 struct State {
@@ -136,7 +131,6 @@ struct Job {
     place: [AtomicU32; 2],
     stop: AtomicBool,
     begun: Duration,
-    clock: Clock,
 }
 
 impl Opened {
@@ -150,8 +144,8 @@ impl Opened {
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
         let theirs = Arc::clone(&wake);
         let look = Background::on(executor, "import", move || theirs());
-        let desk = Arc::new(Desk { state: Mutex::default(), ended: Condvar::new(), wake });
-        Self { desk, look, executor: executor.clone() }
+        let desk = Desk::new(executor, State::default(), move || wake());
+        Self { desk: Arc::new(desk), look, executor: executor.clone() }
     }
 
     /// Reads files, folders or bytes; `remembered` says what a person wished for files like one whose text is given.
@@ -208,7 +202,7 @@ impl Opened {
         failing.collect()
     }
 
-    /// What came of reading since.
+    /// Outcomes of reading since the last call.
     pub fn poll(&self) -> Vec<OpenedEvent> {
         std::mem::take(&mut self.desk.lock().events)
     }
@@ -222,7 +216,7 @@ impl Opened {
             name: job.name.lock().unwrap_or_else(PoisonError::into_inner).clone(),
             share: f32::from_bits(job.share.load(Ordering::Relaxed)),
             file: [file, count],
-            time: job.clock.since(job.begun),
+            time: self.desk.clock().since(job.begun),
         })
     }
 
@@ -261,21 +255,20 @@ impl Opened {
         }
     }
 
-    /// What is understood of a file when it is read with these switches; the last answer while it is being read.
+    /// Preview of a file read with these options; the last preview while it is being read.
     pub fn look(&self, file: &OpenFile, options: &spectral_file::ReadOptions) -> Option<Arc<FilePreview>> {
         self.look.ask(vec![FilePreviewQuery::new(file, options)]);
-        let shown = self.look.shown()?;
-        (shown.answer.fingerprint == file.origin.fingerprint).then_some(shown.answer)
+        self.preview().filter(|preview| preview.fingerprint == file.origin.fingerprint)
+    }
+
+    /// What [`look`](Self::look) last found, whatever the file.
+    pub fn preview(&self) -> Option<Arc<FilePreview>> {
+        self.look.shown().map(|shown| shown.answer)
     }
 
     /// For how long [`look`](Self::look) has been at it.
     pub fn looking(&self) -> Option<Duration> {
         self.look.busy()
-    }
-
-    /// Hits, misses and times of each kind of question that [`look`](Self::look) asks.
-    pub fn counts(&self) -> Vec<(&'static str, Count)> {
-        self.look.counts()
     }
 
     /// Nobody looks.
@@ -285,30 +278,19 @@ impl Opened {
 
     /// Waits until everything that was asked for is read. For tests.
     pub fn wait(&self) {
-        let mut state = self.desk.lock();
-        while !state.running.is_empty() {
-            if self.executor.is_driven() {
-                drop(state);
-                if !self.executor.run_next() {
-                    return;
-                }
-                state = self.desk.lock();
-            } else {
-                state = self.desk.ended.wait(state).unwrap_or_else(PoisonError::into_inner);
-            }
-        }
-        drop(state);
+        self.desk.settle(&self.executor, |state| state.running.is_empty());
         self.look.wait();
     }
 
     fn begin(&self, work: impl FnOnce(&Desk, &Job) + Send + 'static) {
-        let job = Arc::new(Job::new(self.executor.clock()));
+        let job = Arc::new(Job::new(self.desk.clock().now()));
         self.desk.lock().running.push(Arc::clone(&job));
         let desk = Arc::clone(&self.desk);
         let theirs = Arc::clone(&job);
         let run = move || {
             work(&desk, &theirs);
-            desk.end(&theirs);
+            desk.lock().running.retain(|running| !Arc::ptr_eq(running, &theirs));
+            desk.tell();
         };
         if let Err(error) = self.executor.spawn("files", run) {
             let mut state = self.desk.lock();
@@ -324,18 +306,12 @@ impl Drop for Opened {
     }
 }
 
-impl Desk {
-    /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
+impl State {
     /// Takes a file in, in place of one with the same contents, and of what could not be read at the same place.
-    fn know(&self, file: OpenFile) {
-        let mut state = self.lock();
-        let State { files, events, .. } = &mut *state;
+    fn know(&mut self, file: OpenFile) {
+        let Self { files, events, .. } = self;
+        let new = file.origin.fingerprint;
         if let Some(path) = &file.origin.path {
-            let new = file.origin.fingerprint;
             files.retain(|known| {
                 let old = known.origin.fingerprint;
                 let gone = known.failure.is_some() && known.origin.path.as_ref() == Some(path) && old != new;
@@ -345,42 +321,32 @@ impl Desk {
                 !gone
             });
         }
-        state.lost.retain(|lost| *lost != file.origin.fingerprint);
-        match state.files.iter_mut().find(|known| known.origin.fingerprint == file.origin.fingerprint) {
+        self.lost.retain(|lost| *lost != new);
+        match self.files.iter_mut().find(|known| known.origin.fingerprint == new) {
             Some(known) => *known = file,
-            None => state.files.push(file),
+            None => self.files.push(file),
         }
     }
 
-    fn end(&self, job: &Arc<Job>) {
-        self.lock().running.retain(|running| !Arc::ptr_eq(running, job));
-        self.ended.notify_all();
-        (self.wake)();
-    }
-}
-
-impl State {
     fn file(&self, fingerprint: Fingerprint) -> Option<&OpenFile> {
         self.files.iter().find(|file| file.origin.fingerprint == fingerprint)
     }
 }
 
 impl Job {
-    fn new(clock: Clock) -> Self {
+    fn new(begun: Duration) -> Self {
         Self {
             name: Mutex::default(),
             share: AtomicU32::new(0),
             place: [AtomicU32::new(1), AtomicU32::new(1)],
             stop: AtomicBool::new(false),
-            begun: clock.now(),
-            clock,
+            begun,
         }
     }
 
     /// Goes on to a file, one of so many.
     fn at(&self, path: &Path, file: usize, count: usize) {
-        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = name;
+        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = file_name(path);
         for (place, number) in self.place.iter().zip([file, count]) {
             place.store(u32::try_from(number).unwrap_or(u32::MAX), Ordering::Relaxed);
         }

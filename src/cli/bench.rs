@@ -31,7 +31,7 @@ const JSON: &str = "bench.json";
 /// The table of all measurements.
 const CSV: &str = "bench.csv";
 
-/// What `bench` takes.
+/// Arguments of `bench`.
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "switches of a command line")]
 pub(super) struct BenchArguments {
@@ -60,7 +60,6 @@ fn workload(name: &str) -> Result<Workload, String> {
     Workload::from_name(name).ok_or_else(|| format!("there are: {}", names()))
 }
 
-/// Measures and writes.
 pub(super) fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     let (false, Some(folder)) = (arguments.list, &arguments.out) else {
         let lines = Workload::ALL.map(|workload| format!("{:<12} {}\n", workload.name(), workload.title()));

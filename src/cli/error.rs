@@ -7,7 +7,6 @@ use chromascope_core::camera::RenderingError;
 
 use crate::scene::SceneError;
 
-/// Failure of a command.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CliError {
     /// A name means no set.
@@ -33,9 +32,9 @@ pub(super) enum CliError {
     /// An argument that means nothing.
     #[error("{argument}: {reason}")]
     Argument {
-        /// Which.
+        /// Name of the argument.
         argument: &'static str,
-        /// Why, with what would do.
+        /// Reason, with the remedy.
         reason: String,
     },
     /// A color correction has no file of the kind.
@@ -44,7 +43,7 @@ pub(super) enum CliError {
     /// A picture could not be made into a file.
     #[error("{}: {error}", path.display())]
     Picture {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
         /// Reason.
         error: crate::export::render::PictureError,
@@ -55,7 +54,7 @@ pub(super) enum CliError {
     /// This build has no benchmark.
     #[error("this build has no benchmark; build it with it: {} -- bench …", crate::profiler::bench::BUILD)]
     NoBench,
-    /// What was measured cannot be written down.
+    /// The measurements cannot be written.
     #[error(transparent)]
     Report(#[from] chromascope_measure::ReportError),
     /// A figure cannot be drawn.
@@ -73,7 +72,7 @@ pub(super) enum CliError {
     /// The output could not be written.
     #[error("cannot write {}: {}", path.display(), crate::format::io_reason(error))]
     Output {
-        /// Where.
+        /// Path of the file.
         path: PathBuf,
         /// Reason.
         error: io::Error,

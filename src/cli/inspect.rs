@@ -6,7 +6,6 @@ mod out;
 mod report;
 mod samples;
 
-use std::fs;
 use std::io::{self, IsTerminal as _, Read as _};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,7 +21,8 @@ use self::out::Out;
 use super::error::CliError;
 use super::outputs::{Stop, put, show, stream};
 use super::request::read;
-use crate::format::io_reason;
+use crate::catalog::opened::files_of;
+use crate::format::{io_failure, io_reason};
 use crate::terminal::say;
 
 /// Reason that a file could not be read or written.
@@ -39,7 +39,7 @@ enum Failure {
 }
 
 impl Failure {
-    /// The same without the file's name.
+    /// Reason without the file's name.
     fn reason(&self) -> String {
         match self {
             Self::Disk(reason) => reason.clone(),
@@ -154,7 +154,7 @@ fn inspect(file: &Path, name: &str, arguments: &InspectArguments) -> Result<Spec
     Ok(table)
 }
 
-/// What a table leaves open, with the options that decide it.
+/// Open question of a table, with the options that decide it.
 fn question(table: &SpectralFile) -> Option<String> {
     let (role, values) = (&table.role, &table.reading.values);
     if role.certainty == Certainty::Open {
@@ -235,28 +235,13 @@ fn files(named: &[PathBuf]) -> Result<(Vec<PathBuf>, bool), CliError> {
             continue;
         }
         several = true;
-        let cannot = |error: &io::Error| CliError::File(format!("{}: {}", path.display(), io_reason(error)));
-        let within = files_of(path).map_err(|error| cannot(&error))?;
+        let within = files_of(path).map_err(|error| CliError::File(io_failure(path, &error)))?;
         if within.is_empty() {
             return Err(CliError::File(format!("{}: no files in it", path.display())));
         }
         files.extend(within);
     }
     Ok((files, several))
-}
-
-/// Files of a folder, without hidden files and subfolders.
-fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?;
-        let hidden = entry.file_name().to_string_lossy().starts_with('.');
-        if !hidden && entry.path().is_file() {
-            files.push(entry.path());
-        }
-    }
-    files.sort();
-    Ok(files)
 }
 
 #[cfg(test)]

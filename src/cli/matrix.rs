@@ -10,9 +10,9 @@ use chromascope_core::query::Ask as _;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use clap::{Args, ValueEnum};
 
-use super::arguments::Per;
 use super::error::CliError;
 use super::outputs;
+use super::per::Per;
 use super::request::Request;
 use crate::document::SetKind;
 use crate::export::profile::{CorrectionFile, clf, idt_note};

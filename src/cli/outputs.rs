@@ -102,7 +102,7 @@ pub(super) fn put(text: &str, out: Option<&Path>) -> Result<(), CliError> {
     stream(out, |out| Ok(out.write_all(text.as_bytes())?))
 }
 
-/// Why writing ended early.
+/// Reason why writing ended early.
 pub(super) enum Stop {
     /// The output takes no more.
     Output(io::Error),

@@ -11,11 +11,12 @@ use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 use spectral_file::{Certainty, MAX_BYTES, Values};
 
-use super::arguments::{CommonArguments, Per, SourceArguments, Transform};
+use super::arguments::{CommonArguments, SourceArguments, Transform};
 use super::checks;
 use super::error::CliError;
 use super::matrix::FitArguments;
 use super::outputs::is_descriptor;
+use super::per::Per;
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry};
@@ -77,6 +78,16 @@ impl Request {
             request.sources = request.presets_sources();
         }
         Ok(request)
+    }
+
+    /// A request that compares nothing: the preset's conditions, and cameras by name.
+    pub(super) fn of_cameras(per: Option<Per>, cameras: &[OsString]) -> Result<(Self, Vec<String>), CliError> {
+        let preset = Start::Colorimetry;
+        let document = Document { compared: Vec::new(), ..preset.document() };
+        let (catalog, sources, read) = (Catalog::built_in(), Vec::new(), Vec::new());
+        let mut request = Self { document, catalog, sources, preset, values: None, per, read };
+        let names = cameras.iter().map(|name| request.camera("--camera", name)).collect::<Result<_, _>>()?;
+        Ok((request, names))
     }
 
     /// The preset's sensors, with the reference that was named in the place of the preset's.
@@ -280,6 +291,15 @@ impl Request {
         Ok(())
     }
 
+    /// The name of the patches that are compared.
+    pub(super) fn chart_name_on_show(&self) -> String {
+        if self.document.subset == Subset::Five && self.document.chart == CHART {
+            FIVE.to_owned()
+        } else {
+            self.document.chart.clone()
+        }
+    }
+
     /// Chooses the reflectance of what is rendered.
     pub(super) fn set_material(&mut self, given: &OsStr) -> Result<(), CliError> {
         let material = &*given.to_string_lossy();
@@ -364,21 +384,31 @@ impl Request {
 
     /// Reads a file with all its curves; says what had to be guessed.
     pub(super) fn read(&mut self, path: &Path, role: Role) -> Result<OwnSet, CliError> {
+        let bytes = self.bytes(path)?;
+        self.read_bytes(path, &bytes, role)
+    }
+
+    /// The bytes of a file that is then an input.
+    pub(super) fn bytes(&mut self, path: &Path) -> Result<Vec<u8>, CliError> {
         self.read.push(path.to_owned());
+        read(path).map_err(|error| CliError::File(format!("{}: {}", told(path), io_reason(&error))))
+    }
+
+    /// Reads bytes of a file with all its curves; says what had to be guessed.
+    pub(super) fn read_bytes(&mut self, path: &Path, bytes: &[u8], role: Role) -> Result<OwnSet, CliError> {
         let file = told(path);
-        let bytes = read(path).map_err(|error| CliError::File(format!("{file}: {}", io_reason(&error))))?;
         let mut wishes = ImportOverrides::for_role(Some(role));
         wishes.options.values = self.values.filter(|_| role.is_fraction());
         let table =
-            spectral_file::read(&bytes, &wishes.options).map_err(|error| CliError::File(format!("{file}: {error}")))?;
+            spectral_file::read(bytes, &wishes.options).map_err(|error| CliError::File(format!("{file}: {error}")))?;
         checks::reflectances(&file, role, &table)?;
         checks::channels(&file, role, &table)?;
-        checks::say_role(&file, role, &table, &bytes);
+        checks::say_role(&file, role, &table, bytes);
         wishes.taken = Some((0..table.curves.len()).collect());
         if role == Role::Camera {
             wishes.per_photon = self.per.map(|per| per == Per::Photon);
         }
-        let origin = Origin { path: Some(path.to_owned()), ..Origin::named(&file, &bytes) };
+        let origin = Origin { path: Some(path.to_owned()), ..Origin::named(&file, bytes) };
         let imported = imported(&origin, &table, &wishes);
         if imported.guessed || !table.warnings.is_empty() {
             say(&format!("chromascope: {}\n", imported.message));

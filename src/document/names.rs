@@ -10,11 +10,6 @@ pub fn caseless(name: &str) -> String {
     name.chars().flat_map(char::to_uppercase).flat_map(char::to_lowercase).collect()
 }
 
-/// True if two names are one.
-pub fn is_same_name(a: &str, b: &str) -> bool {
-    a == b || caseless(a) == caseless(b)
-}
-
 /// Names of the built-in sets, which no imported set of the same kind may have. A clone shares them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BuiltInNames(Arc<HashSet<(SetKind, String)>>);

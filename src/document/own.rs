@@ -30,13 +30,13 @@ fn numbers<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Err
     Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
 }
 
-/// How a person wants a file to be read. What is open is decided by its content.
+/// A person's overrides for reading a file. What is open is decided by its content.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ImportOverrides {
     /// The switches of the reader.
     pub options: ReadOptions,
-    /// Which of the file's curves are taken, by their place in it, from 0.
+    /// Indices of the file's curves to import, from 0.
     pub taken: Option<Vec<usize>>,
     /// For a camera: which of the file's curves are red, green and blue.
     pub channels: Option<[usize; 3]>,
@@ -51,7 +51,7 @@ impl ImportOverrides {
     }
 }
 
-/// What the reader took a file's units to be, and converted from.
+/// Units of the file as the reader understood them, before conversion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct ReadAs {
     /// The unit of the wavelengths.
@@ -67,16 +67,16 @@ pub struct OwnSet {
     pub name: String,
     /// The file it came from, or `clipboard`.
     pub file: String,
-    /// Where that file was, if it was on disk.
+    /// Path of that file, if it was on disk.
     #[serde(default, skip_serializing_if = "Option::is_none", with = "super::paths::option")]
     pub path: Option<PathBuf>,
-    /// What tells that file's contents from others.
+    /// Fingerprint of that file's contents.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fingerprint: Option<Fingerprint>,
-    /// How a person wanted it read.
+    /// A person's overrides for reading it.
     #[serde(default)]
     pub wishes: ImportOverrides,
-    /// What it is used as.
+    /// Role it is used in.
     pub role: Role,
     /// The units that the curves were converted from on reading.
     pub read_as: ReadAs,
@@ -92,7 +92,7 @@ pub struct OwnSet {
     pub channels: [usize; 3],
     /// The curves, as read.
     pub curves: Vec<OwnCurve>,
-    /// What was decided on reading, one line each, for people.
+    /// Decisions made on reading, one line each, for people.
     #[serde(default)]
     pub decisions: Vec<String>,
 }
@@ -139,7 +139,7 @@ impl OwnSet {
         used.into_iter().map(|curve| Ok((curve.name.clone(), self.spectrum(curve)?))).collect()
     }
 
-    /// What its sensitivities are a response to.
+    /// Quantity that its sensitivities respond to.
     pub fn response(&self) -> Response {
         if self.per_photon { Response::PerPhoton } else { Response::PerEnergy }
     }

@@ -1,4 +1,4 @@
-//! What the Render pane looks at: mesh, material, surface, light's place, quality. Part of the document.
+//! Settings of the Render pane: mesh, material, surface, direction of the light, quality. Part of the document.
 
 pub mod model;
 
@@ -44,7 +44,7 @@ pub fn decade(tolerance: f64) -> f64 {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RenderSettings {
-    /// What is looked at.
+    /// Mesh to render.
     pub mesh: MeshChoice,
     /// About how many triangles the program's own meshes have.
     pub triangles: usize,
@@ -52,7 +52,7 @@ pub struct RenderSettings {
     pub material: String,
     /// Height deviation σ in micrometers.
     pub sigma_um: f64,
-    /// Where σ and τ are from.
+    /// Origin of σ and τ.
     pub roughness: RoughnessChoice,
     /// Correlation length τ in micrometers.
     pub tau_um: f64,
@@ -62,7 +62,7 @@ pub struct RenderSettings {
     pub area: AreaChoice,
     /// Refractive index.
     pub index: f64,
-    /// How Eq 1 is read.
+    /// Normalization of the reflectance (Eq 1).
     pub reading: ReadingChoice,
     /// The reflectance factor of the coherent component.
     #[serde(default = "SpecularChoice::before")]
@@ -173,7 +173,7 @@ impl RenderSettings {
     }
 }
 
-/// What is looked at.
+/// Mesh to render.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MeshChoice {
@@ -198,12 +198,12 @@ impl MeshChoice {
             Self::Fern => "fern".to_owned(),
             Self::Sphere => "sphere".to_owned(),
             Self::Plane => "plane".to_owned(),
-            Self::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+            Self::File(path) => crate::format::file_name(path),
         }
     }
 }
 
-/// Where σ and τ are from.
+/// Origin of σ and τ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RoughnessChoice {
@@ -232,7 +232,7 @@ impl RoughnessChoice {
     }
 }
 
-/// How Eq 1 is read.
+/// Normalization of the reflectance (Eq 1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ReadingChoice {
@@ -261,7 +261,7 @@ impl ReadingChoice {
         }
     }
 
-    /// What it is called.
+    /// Label in the window.
     pub const fn label(self) -> &'static str {
         match self {
             Self::Radiometric => "Radiometric",

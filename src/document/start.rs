@@ -36,7 +36,7 @@ impl Start {
         }
     }
 
-    /// What it sets up, in one sentence.
+    /// Summary of the setup in one sentence.
     pub const fn summary(self) -> &'static str {
         match self {
             Self::Colorimetry => "CIE 1931 2° under D65; cameras through 3×3 matrices fitted to it; ColorChecker 24.",

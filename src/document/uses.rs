@@ -1,4 +1,4 @@
-//! Which names the user's own sets may have, and what a document uses them as.
+//! Names available to the user's own sets, and their uses in a document.
 
 use super::kind::SetKind;
 use super::names::{BuiltInNames, caseless};
@@ -11,7 +11,7 @@ use std::collections::{HashMap, HashSet};
 /// So many cameras at once have a color and a marker of their own.
 pub const PLACES: usize = 8;
 
-/// What has a name already.
+/// Holder of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Holder {
     /// Another own set.
@@ -21,7 +21,7 @@ pub enum Holder {
 }
 
 impl Document {
-    /// What has a name that an own set of a kind is to have; none if it is free. `except` is the place of the set itself.
+    /// Holder of the name wanted for an own set of a kind; `None` if it is free. `except` is the index of the set itself.
     pub fn holder_of(
         &self,
         kind: SetKind,

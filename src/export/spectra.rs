@@ -4,7 +4,7 @@ use chromascope_core::query::Ask;
 use chromascope_core::spectral::{Header, Response, SpectralDistribution};
 use spectral_file::write::{Content, Format, Grid, Note, Sheet, Trace, WriteError, write};
 
-use crate::catalog::load::{FileQuery, LoadError};
+use crate::catalog::load::{self, LoadError};
 use crate::catalog::{Entry, Place};
 use crate::document::SetKind;
 use crate::document::own::{OwnSet, Role};
@@ -110,18 +110,11 @@ pub fn file(entry: &Entry, form: Form, ask: &impl Ask) -> Result<SpectraFile, Sp
 /// All curves of a set, in nanometers and fractions, but else as measured.
 fn curves(place: &Place, ask: &impl Ask) -> Result<Vec<(String, SpectralDistribution)>, LoadError> {
     match place {
-        Place::BuiltIn { path, column } => {
-            let file = ask.ask(&FileQuery(path));
-            let file = (*file).as_ref().map_err(Clone::clone)?;
-            let named = file.header.columns.iter().cloned().zip(file.curves.iter().cloned()).enumerate();
-            let wanted = named.filter(|(index, _)| column.is_none_or(|column| column == *index));
-            Ok(wanted.map(|(_, curve)| curve).collect())
-        }
         // A camera would give its red, green and blue alone.
         Place::Own(set) if set.role == Role::Camera => {
             Ok(OwnSet { role: Role::Unknown, ..OwnSet::clone(set) }.curves_in_nm()?)
         }
-        Place::Own(set) => Ok(set.curves_in_nm()?),
+        place => load::curves(place, ask),
     }
 }
 

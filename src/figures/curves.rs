@@ -14,10 +14,9 @@ pub use drawn::{Curve, Curves, DRAWN};
 pub use kept::CurveCache;
 pub use on_show::{ImportSelection, places};
 
+use super::FigureInput;
 use crate::format::number;
 use crate::plot_item::PickIndex;
-use crate::scene::Scene;
-use crate::view::View;
 
 /// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 360.0];
@@ -63,7 +62,7 @@ fn round_above(value: f64) -> Option<f64> {
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|nice| nice.is_finite() && *nice >= value)
 }
 
-/// What a curve is in a panel. The first tag stands for nothing.
+/// Tag of a curve in a panel. The first tag stands for nothing.
 fn tag(place: usize) -> Tag {
     Tag(u32::try_from(place).unwrap_or(u32::MAX - 1) + 1)
 }
@@ -113,7 +112,7 @@ fn ink(curve: &Curve, count: usize, on: bool) -> Ink {
     if count > 20 && !on { ink.faded(0.6) } else { ink }
 }
 
-/// Where light is seen.
+/// Band of visible wavelengths.
 fn visible(range: [f64; 2]) -> Mark {
     let shape = Shape::Rect { min: [FIRST_NM, range[0]], max: [LAST_NM, range[1]] };
     let name = format!("visible range, {FIRST_NM:.0} to {LAST_NM:.0} nm");
@@ -125,7 +124,7 @@ fn zero(range: [f64; 2]) -> Mark {
     Mark::new(PickIndex::NONE, "zero", Shape::Line { points, closed: false }).with_stroke(InkRole::Weak, 1.0)
 }
 
-/// What a curve reads near a wavelength: lines of text.
+/// Values of a curve near a wavelength: lines of text.
 pub fn describe(curves: &Curves, place: usize, nm: f64) -> Vec<String> {
     let Some(curve) = curves.drawn.iter().find(|curve| curve.place == place) else { return Vec::new() };
     let there = curve.points.iter().filter(|point| point[1].is_finite());
@@ -137,8 +136,8 @@ pub fn describe(curves: &Curves, place: usize, nm: f64) -> Vec<String> {
 }
 
 /// The figure as it is saved, with the values of all curves that are taken.
-pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
-    let shown = ImportSelection::of(scene, view)?;
+pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
+    let shown = ImportSelection::of(input.scene, input.view, input.preview.clone())?;
     let curves = Curves::of(&shown, usize::MAX).ok()?;
     let mut drawn = curves.clone();
     drawn.cut(DRAWN);

@@ -1,19 +1,18 @@
-//! What was not computed, and the time that this saved: as a run measured it, and by memory since the start.
+//! Skipped work and the time it saved: as measured by a run, and by caching since the start.
 
 use chromascope_figure::{Anchor, Axis, Cell, Figure, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks};
 use chromascope_measure::pareto::duration;
 
 use crate::format::capitalized;
-use crate::profiler::{LOCI, PATCHES, SkippedWork};
+use crate::profiler::{LOCI, Measured, PATCHES, SkippedWork};
 use crate::results::Count;
-use crate::view::View;
 
 /// The width of a saved figure, and the height of a row and of what is around them, in points.
 const WIDTH: f64 = 640.0;
 const ROW: f64 = 24.0;
 const AROUND: f64 = 60.0;
 
-/// What is said of all rows.
+/// Note that holds for all rows.
 pub const OVERLAP: &str = "Rows overlap: their times do not add up.";
 
 const SINCE_THE_START: &str = "counted since the start";
@@ -21,7 +20,7 @@ const SINCE_THE_START: &str = "counted since the start";
 /// Rows that were found alike.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
-    /// When that was.
+    /// Period that the rows cover.
     pub when: &'static str,
     /// True if it is of the scene as it was.
     pub is_old: bool,
@@ -29,21 +28,20 @@ pub struct Section {
     pub rows: Vec<SkippedWork>,
 }
 
-/// What was left out: as the last run measured it, and what was remembered since the start. Sections without rows are none.
-pub fn sections(view: &View) -> Vec<Section> {
-    let accuracy = &view.accuracy;
-    let at_the_run = if accuracy.is_current { "measured by Run" } else { "measured by Run for an earlier scene" };
-    let run = accuracy.run.as_ref().map_or_else(Vec::new, |run| run.skipped_work.clone());
+/// Sections: work skipped in the last run, and work saved by caching since the start. Sections without rows are left out.
+pub fn sections(measured: &Measured) -> Vec<Section> {
+    let at_the_run = if measured.is_current { "measured by Run" } else { "measured by Run for an earlier scene" };
+    let run = measured.run.as_ref().map_or_else(Vec::new, |run| run.skipped_work.clone());
     let sections = [
-        Section { when: at_the_run, is_old: !accuracy.is_current, rows: run },
-        Section { when: SINCE_THE_START, is_old: false, rows: accuracy.remembered.clone() },
+        Section { when: at_the_run, is_old: !measured.is_current, rows: run },
+        Section { when: SINCE_THE_START, is_old: false, rows: measured.remembered.clone() },
     ];
     sections.into_iter().filter(|section| !section.rows.is_empty()).collect()
 }
 
 /// As bars over time; none before anything was measured or remembered.
-pub fn figure(view: &View) -> Option<Figure> {
-    let sections = sections(view);
+pub fn figure(measured: &Measured) -> Option<Figure> {
+    let sections = sections(measured);
     let rows = || sections.iter().flat_map(|section| &section.rows);
     let lines = rows().count() + sections.len();
     if sections.is_empty() {
@@ -83,7 +81,6 @@ pub fn figure(view: &View) -> Option<Figure> {
     Some(figure)
 }
 
-/// A row's time in words.
 fn time(row: &SkippedWork) -> String {
     if row.saved > 0.0 { duration(row.saved) } else { "time not measured".to_owned() }
 }
@@ -106,7 +103,7 @@ pub fn table(sections: &[Section]) -> Table {
     table
 }
 
-/// What was remembered since the start, by kind of question. What a run measures from nothing, `run` says the time of.
+/// Work saved by caching since the start, by kind of question. Times are those that `run` measured without a cache.
 pub fn remembered(counts: &[(&'static str, Count)], run: &[SkippedWork]) -> Vec<SkippedWork> {
     let reused = |&(name, count): &(&'static str, Count)| {
         let what = STAGES.iter().find(|(stage, _)| *stage == name)?.1;
@@ -162,8 +159,10 @@ mod tests {
     #[test]
     fn a_locus_takes_one_time_whoever_tells() {
         let time = Duration::from_micros(100);
-        let counts =
-            [("locus", Count { hits: 10, misses: 2, time, own_time: time }), ("patch colors", Count::default())];
+        let counts = [
+            ("locus", Count { hits: 10, misses: 2, time, own_time: time, ..Count::default() }),
+            ("patch colors", Count::default()),
+        ];
         let run = SkippedWork { what: LOCI.into(), count: 4, of: None, saved: 0.02, how: String::new() };
         let rows = remembered(&counts, &[run]);
         assert_eq!(rows.len(), 1, "what was not asked for again saved nothing");

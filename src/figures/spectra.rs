@@ -21,9 +21,9 @@ use crate::view::{SpectraLayout, View};
 pub struct Built {
     /// The panels, from the light down, the wavelengths written under the last.
     pub panels: Vec<Panel>,
-    /// What the curves stand for.
+    /// Items of the curves.
     pub things: PickIndex,
-    /// What could not be drawn, with why.
+    /// Items that could not be drawn, with the reasons.
     pub refused: Vec<String>,
 }
 
@@ -278,7 +278,7 @@ fn table(scene: &Scene<'_>) -> Table {
     table
 }
 
-/// What a thing's curves read at a wavelength: lines of text.
+/// Values of an item's curves at a wavelength: lines of text.
 pub fn describe(scene: &Scene<'_>, thing: &PlotItem, nm: f64) -> Vec<String> {
     let index = ((nm - FIRST_NM).round().max(0.0) as usize).min(COUNT - 1);
     let at = format!("{:.0} nm", wavelength_nm(index));

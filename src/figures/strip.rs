@@ -15,7 +15,7 @@ use crate::scene::{ComparedSensor, Scene};
 pub struct Strip {
     /// The panel; its horizontal axis is in mired.
     pub panel: Panel,
-    /// What its lines stand for.
+    /// Items of the lines.
     pub things: PickIndex,
 }
 

@@ -14,9 +14,9 @@ use crate::view::{SwatchLayout, SwatchStyle, View};
 pub struct Built {
     /// The panel, in points.
     pub panel: Panel,
-    /// What its marks stand for.
+    /// Items of the marks.
     pub things: PickIndex,
-    /// How high it wants to be.
+    /// Natural height.
     pub height: f64,
     /// The largest difference: sensor label and patch, with what it is.
     pub worst: Option<(String, PlotItem)>,
@@ -29,7 +29,7 @@ struct Row {
     colors: Result<Vec<(PatchColor, Option<f64>)>, String>,
 }
 
-/// Where swatches go.
+/// Layout of the swatches.
 struct Board<'a> {
     scene: &'a Scene<'a>,
     view: &'a View,
@@ -39,9 +39,7 @@ struct Board<'a> {
     things: PickIndex,
 }
 
-/// The gap between swatches.
 const GAP: f64 = 4.0;
-/// The margin around all.
 const MARGIN: f64 = 6.0;
 /// The height of the bar of a difference.
 const BAR: f64 = 3.0;
@@ -203,10 +201,10 @@ impl Board<'_> {
         if let Some(reference) = reference.filter(|_| !source.is_reference && !self.view.blink) {
             let (w, h) = (x1 - x0, bottom - y0);
             match self.view.saved.swatch_style {
-                SwatchStyle::Split => self.area(tag, "truth", [[x0, y0], [x0 + w / 2.0, bottom]], &reference),
+                SwatchStyle::Split => self.area(tag, "reference", [[x0, y0], [x0 + w / 2.0, bottom]], &reference),
                 SwatchStyle::Inset => {
                     let inner = [[x0 + w * 0.3, y0 + h * 0.25], [x1 - w * 0.3, bottom - h * 0.25]];
-                    self.area(tag, "truth", inner, &reference);
+                    self.area(tag, "reference", inner, &reference);
                 }
                 SwatchStyle::Whole => {}
             }
@@ -301,27 +299,8 @@ pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
 }
 
 fn table(scene: &Scene<'_>) -> Table {
-    let mut table = Table::new([
-        "sensor",
-        "patch",
-        "r",
-        "g",
-        "b",
-        "X",
-        "Y",
-        "Z",
-        "x",
-        "y",
-        "L*",
-        "a*",
-        "b*",
-        "srgb_r",
-        "srgb_g",
-        "srgb_b",
-        "clipped",
-        "difference",
-        "measure",
-    ]);
+    let columns = "sensor patch r g b X Y Z x y L* a* b* srgb_r srgb_g srgb_b clipped difference measure";
+    let mut table = Table::new(columns.split(' '));
     let names: Vec<String> =
         scene.patches().map(|set| set.patches().iter().map(|p| p.name.clone()).collect()).unwrap_or_default();
     let measure = scene.difference_name();

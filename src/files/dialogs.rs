@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use crate::catalog::meshes::ENDINGS as MESH_ENDINGS;
+use crate::catalog::recorded_store::PICTURES;
 
 /// A dialog that closes within this time without an answer was never seen by a person.
 const NO_DIALOG: Duration = Duration::from_millis(300);
-/// Endings offered first when opening.
 const ENDINGS: [&str; 30] = [
     "csv", "txt", "tsv", "dat", "asc", "prn", "trm", "ssm", "abs", "irr", "spectrum", "ttt", "trt", "tat", "jaz",
     "dta", "dpt", "sp", "cmf", "ccss", "ti3", "cgats", "jdx", "dx", "jcm", "spdx", "cxf", "xml", "json", "xls",
@@ -62,6 +62,7 @@ impl Dialogs for System {
                 .add_filter("Spectra and meshes", &[&ENDINGS[..], &MESH_ENDINGS].concat())
                 .add_filter("Text and CSV", &ENDINGS)
                 .add_filter("Meshes", &MESH_ENDINGS)
+                .add_filter("Pictures of charts", &PICTURES)
                 .add_filter("All files", &["*"])
                 .pick_files(),
             Question::Folder => rfd::FileDialog::new()

@@ -24,7 +24,6 @@ pub enum FileEvent {
     Failed(String),
 }
 
-/// Message of a thread.
 pub(super) enum Note {
     Event(FileEvent),
     Answered(u64, Answer, Option<SaveRequest>),

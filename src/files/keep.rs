@@ -1,57 +1,25 @@
 //! Keeping the document between runs: each change is on disk within a second, whatever ends the program.
 
+mod shared_state;
+
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, SystemTime};
+use std::sync::{Arc, Condvar, Mutex};
+use std::time::SystemTime;
 
-use super::last::{self, within_moments};
+pub(super) use shared_state::SharedState;
+
+use super::last;
 use super::profile::{self, Copy, OtherWindow, Profile};
-use super::store::{Store, Unread, Written};
+use super::store::{Store, Unread};
 use crate::document::Document;
-use crate::jobs::{Clock, Executor};
-
-/// A change is written at once, those that follow no sooner than so long after it.
-const PAUSE: Duration = Duration::from_millis(150);
-/// A document that could not be written is tried again after so long.
-const RETRY: Duration = Duration::from_secs(2);
+use crate::jobs::Executor;
+use shared_state::State;
 
 /// Writes the document to the program's folder.
 pub(super) struct Keeper {
     profile: Profile,
-    desk: Arc<Desk>,
+    shared: Arc<SharedState>,
     executor: Executor,
-}
-
-/// State shared by the window and the thread that writes.
-pub(super) struct Desk {
-    state: Mutex<State>,
-    /// Held while something is written.
-    store: Mutex<Store>,
-    /// Told when there is nothing to wait for any more.
-    closing: Condvar,
-    clock: Clock,
-    is_driven: bool,
-    /// True if there is a file to save the document in.
-    keeps: bool,
-}
-
-#[derive(Default)]
-struct State {
-    /// The document as it is.
-    newest: Option<Arc<Document>>,
-    /// The document as it is on disk; the same one where there is nothing to write.
-    saved: Option<Arc<Document>>,
-    /// True while a thread writes, or waits to write again.
-    running: bool,
-    /// True if the window is closing.
-    closed: bool,
-    /// Time at which the last write ended.
-    ended: Option<Duration>,
-    /// The reason why the last writing did not save all.
-    failure: Option<String>,
-    /// The file that the document was moved to, because another program wrote to the one before.
-    moved: Option<PathBuf>,
-    wake: Option<egui::Context>,
 }
 
 /// Result of reading the saved document.
@@ -62,147 +30,11 @@ pub(super) struct Loaded {
     pub(super) complaint: Option<(String, PathBuf)>,
 }
 
-impl State {
-    fn is_clean(&self) -> bool {
-        match (&self.newest, &self.saved) {
-            (Some(newest), Some(saved)) => Arc::ptr_eq(newest, saved),
-            (newest, _) => newest.is_none(),
-        }
-    }
-
-    /// Takes a document in. One that is as it is on disk needs no writing.
-    fn see(&mut self, document: &Document) {
-        let is = |known: &Option<Arc<Document>>| known.as_deref() == Some(document);
-        if is(&self.newest) {
-            return;
-        }
-        // What kills are judged by (`.ci/kills`).
-        log::debug!("changed: {} K", document.temperature_k);
-        self.newest =
-            Some(if is(&self.saved) { self.saved.clone() } else { None }.unwrap_or_else(|| Arc::new(document.clone())));
-    }
-
-    /// Time to rest after the last write.
-    fn pause(&self) -> Duration {
-        if self.failure.is_some() { RETRY } else { PAUSE }
-    }
-
-    /// Takes in what came of writing a document.
-    fn written(&mut self, document: Arc<Document>, result: Result<Written, String>, store: &Store, now: Duration) {
-        self.ended = Some(now);
-        let before = self.failure.take();
-        // What is in a file that is left is saved no more.
-        if self.moved.as_ref() != store.moved() {
-            self.saved = None;
-            self.moved = store.moved().cloned();
-        }
-        match result {
-            Ok(Written { skipped_work }) if skipped_work.is_empty() => self.saved = Some(document),
-            // The file holds neither this document nor the one before.
-            Ok(Written { skipped_work }) => (self.saved, self.failure) = (None, Some(skipped_work)),
-            Err(why) => self.failure = Some(why),
-        }
-        if before != self.failure {
-            match &self.failure {
-                Some(why) => log::warn!("the document is not saved: {why}"),
-                None => log::info!("the document is saved again"),
-            }
-            if let Some(ctx) = &self.wake {
-                ctx.request_repaint();
-            }
-        }
-    }
-}
-
-impl Desk {
-    /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn store(&self) -> MutexGuard<'_, Store> {
-        self.store.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Writes what is newest, and what comes after, until there is nothing new for a while.
-    fn work(&self) {
-        let _told = Breakdown(self);
-        loop {
-            if !self.lock().closed {
-                self.write_newest();
-            }
-            let mut state = self.lock();
-            if self.is_driven || state.closed {
-                state.running = false;
-                return;
-            }
-            let pause = state.pause();
-            let waited = self.closing.wait_timeout_while(state, pause, |state| !state.closed);
-            state = waited.unwrap_or_else(PoisonError::into_inner).0;
-            if state.is_clean() || state.closed {
-                state.running = false;
-                return;
-            }
-        }
-    }
-
-    fn write_newest(&self) {
-        let mut store = self.store();
-        let newest = {
-            let state = self.lock();
-            if state.is_clean() {
-                return;
-            }
-            state.newest.clone()
-        };
-        if let Some(document) = newest {
-            let result = store.write(&document);
-            self.lock().written(document, result, &store, self.clock.now());
-        }
-    }
-
-    /// Writes what is newest as the program ends. Never waits for long: the thread that holds a lock may be the one that broke.
-    /// Returns the file, if all is in it.
-    pub(super) fn save_last(&self) -> Option<PathBuf> {
-        if !self.keeps {
-            return None;
-        }
-        let mut store = within_moments(&self.store)?;
-        let newest = {
-            let state = within_moments(&self.state)?;
-            if state.is_clean() { None } else { state.newest.clone() }
-        };
-        if let Some(document) = newest {
-            let result = store.write(&document);
-            let file = result.is_ok().then(|| store.file().to_owned());
-            within_moments(&self.state)?.written(document, result, &store, self.clock.now());
-            return file;
-        }
-        Some(store.file().to_owned())
-    }
-}
-
-/// Tells that the thread that writes broke off, where it did, so that another one is started.
-struct Breakdown<'a>(&'a Desk);
-
-impl Drop for Breakdown<'_> {
-    fn drop(&mut self) {
-        if std::thread::panicking() {
-            let mut state = self.0.lock();
-            (state.running, state.ended) = (false, Some(self.0.clock.now()));
-            state.failure = Some("the program was interrupted while writing".to_owned());
-            if let Some(ctx) = &state.wake {
-                ctx.request_repaint();
-            }
-        }
-    }
-}
-
 impl Keeper {
     pub(super) fn new(executor: &Executor, folder: Option<PathBuf>) -> Self {
         let profile = Profile::claim(folder);
         let failure = profile.closed.clone();
-        let desk = Arc::new(Desk {
+        let shared = Arc::new(SharedState {
             state: Mutex::new(State { failure, ..State::default() }),
             store: Mutex::new(Store::new(profile.file.clone().unwrap_or_default())),
             closing: Condvar::new(),
@@ -210,8 +42,8 @@ impl Keeper {
             is_driven: executor.is_driven(),
             keeps: profile.file.is_some(),
         });
-        last::remember(&desk);
-        Self { profile, desk, executor: executor.clone() }
+        last::remember(&shared);
+        Self { profile, shared, executor: executor.clone() }
     }
 
     /// The window that has the profile, where it is not this one, and the file of this one's copy.
@@ -239,7 +71,7 @@ impl Keeper {
         let Some(first) = self.profile.first.clone() else {
             return Loaded { document: Document::default(), complaint: None };
         };
-        let mut store = self.desk.store();
+        let mut store = self.shared.store();
         let read = store.read(&first);
         let is_by_value = store.is_by_value();
         drop(store);
@@ -272,7 +104,7 @@ impl Keeper {
         self.profile.tidy(SystemTime::now());
         // What is opened before the first frame is a change already.
         let document = Arc::new(loaded.document.clone());
-        let mut state = self.desk.lock();
+        let mut state = self.shared.lock();
         state.newest = Some(Arc::clone(&document));
         // A large document of an earlier version is taken apart now, so that the first change need not wait for that.
         state.saved = (!is_by_value).then_some(document);
@@ -293,7 +125,7 @@ impl Keeper {
             Err(error) => {
                 self.profile.leave_document();
                 let own = self.profile.file.clone().unwrap_or_default();
-                self.desk.store().move_to(own.clone());
+                self.shared.store().move_to(own.clone());
                 let words = format!(
                     "{what} stays {}; this window's is {} ({why}; it could not be moved: {}).",
                     file.display(),
@@ -307,10 +139,10 @@ impl Keeper {
 
     /// Takes in the document as it is, and has it written beside the window.
     pub(super) fn watch(&mut self, document: &Document, ctx: &egui::Context) {
-        if !self.desk.keeps {
+        if !self.shared.keeps {
             return;
         }
-        let mut state = self.desk.lock();
+        let mut state = self.shared.lock();
         state.see(document);
         if state.wake.is_none() {
             state.wake = Some(ctx.clone());
@@ -325,29 +157,29 @@ impl Keeper {
         if state.running {
             return;
         }
-        let rested = state.ended.map(|ended| self.desk.clock.since(ended));
+        let rested = state.ended.map(|ended| self.shared.clock.since(ended));
         if let Some(left) = rested.and_then(|rested| state.pause().checked_sub(rested)).filter(|left| !left.is_zero()) {
             ctx.request_repaint_after(left);
             return;
         }
         state.running = true;
         drop(state);
-        let desk = Arc::clone(&self.desk);
-        if let Err(error) = self.executor.spawn("keep", move || desk.work()) {
-            let mut state = self.desk.lock();
-            (state.running, state.ended) = (false, Some(self.desk.clock.now()));
+        let shared = Arc::clone(&self.shared);
+        if let Err(error) = self.executor.spawn("keep", move || shared.work()) {
+            let mut state = self.shared.lock();
+            (state.running, state.ended) = (false, Some(self.shared.clock.now()));
             state.failure = Some(format!("no thread for writing: {error}"));
         }
     }
 
     /// Writes the document now, unless it is as it was written. The error says why not all of it is saved.
     pub(super) fn save(&mut self, document: &Document) -> Result<(), String> {
-        if !self.desk.keeps {
+        if !self.shared.keeps {
             return Ok(());
         }
-        self.desk.lock().see(document);
-        self.desk.write_newest();
-        let state = self.desk.lock();
+        self.shared.lock().see(document);
+        self.shared.write_newest();
+        let state = self.shared.lock();
         match &state.failure {
             Some(why) if !state.is_clean() => Err(why.clone()),
             _ => Ok(()),
@@ -356,20 +188,19 @@ impl Keeper {
 
     /// The reason why the document is not saved, while it is not.
     pub(super) fn failure(&self) -> Option<String> {
-        self.desk.lock().failure.clone()
+        self.shared.lock().failure.clone()
     }
 
     /// True if all is on disk.
     pub(super) fn is_saved(&self) -> bool {
-        self.desk.lock().is_clean()
+        self.shared.lock().is_clean()
     }
 
     /// The file that the document is kept in because another program wrote to the one before.
     pub(super) fn moved(&self) -> Option<PathBuf> {
-        self.desk.lock().moved.clone()
+        self.shared.lock().moved.clone()
     }
 
-    /// The folder of the profile.
     pub(super) fn folder(&self) -> Option<&Path> {
         self.profile.first.as_ref()?.parent()
     }
@@ -396,15 +227,16 @@ impl Aside {
 
 impl Drop for Keeper {
     fn drop(&mut self) {
-        self.desk.lock().closed = true;
-        self.desk.closing.notify_all();
+        self.shared.lock().closed = true;
+        self.shared.closing.notify_all();
         // A window that went without closing, because its display did.
-        self.desk.save_last();
+        self.shared.save_last();
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::shared_state::{Breakdown, RETRY};
     use super::*;
 
     #[test]
@@ -413,9 +245,9 @@ mod tests {
         let executor = Executor::driven();
         let mut keeper = Keeper::new(&executor, Some(folder.path().to_owned()));
         let document = keeper.load().document;
-        keeper.desk.lock().running = true;
+        keeper.shared.lock().running = true;
         let broken = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-            let _told = Breakdown(&keeper.desk);
+            let _told = Breakdown(&keeper.shared);
             panic!("as an error in writing");
         }));
         assert!(broken.is_err() && keeper.failure().is_some());

@@ -10,7 +10,7 @@ use super::event::{FileEvent, Note, OpenedDocument};
 use super::store::{Unread, read};
 use crate::document::Document;
 use crate::document::start::Start;
-use crate::format::io_reason;
+use crate::format::{file_name, io_failure};
 
 /// The file of the window's place and layout, which eframe reads.
 const LAYOUT: &str = "app.ron";
@@ -58,7 +58,7 @@ impl Files {
     pub fn open_document(&self, path: &Path, before: Document) {
         let (path, keeper) = (path.to_owned(), self.keeper.aside());
         self.in_background(move || {
-            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+            let name = file_name(&path);
             let event = match read(&path) {
                 Ok((kept, _)) if kept.document == before => FileEvent::Said(format!("{name} is the current document.")),
                 Ok((kept, _)) => {
@@ -89,7 +89,7 @@ impl Files {
         } else {
             match std::fs::remove_file(path) {
                 Ok(()) => FileEvent::Said(format!("{} was deleted.", path.display())),
-                Err(error) => FileEvent::Failed(format!("{}: {}.", path.display(), io_reason(&error))),
+                Err(error) => FileEvent::Failed(format!("{}.", io_failure(path, &error))),
             }
         };
         self.note(Note::Event(event));

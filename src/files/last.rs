@@ -6,17 +6,17 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::keep::Desk;
+use super::keep::SharedState;
 
 /// A program that ends waits so long for a disk.
 const WAIT: Duration = Duration::from_secs(3);
 
 /// The window's document.
-static LAST: Mutex<Weak<Desk>> = Mutex::new(Weak::new());
+static LAST: Mutex<Weak<SharedState>> = Mutex::new(Weak::new());
 
-/// Takes in the desk of the window that was opened last.
-pub(super) fn remember(desk: &Arc<Desk>) {
-    *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Arc::downgrade(desk);
+/// Remembers the state of the window that was opened last.
+pub(super) fn remember(shared: &Arc<SharedState>) {
+    *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Arc::downgrade(shared);
 }
 
 /// Locks what another thread may hold for good.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use super::atomic::{TEMPORARY, is_older, sweep};
-use crate::format::io_reason;
+use crate::format::io_failure;
 
 /// The file that the first window's document is kept in.
 const DOCUMENT: &str = "document.json";
@@ -65,7 +65,7 @@ impl Profile {
         let first = Some(folder.join(DOCUMENT));
         let of_first = Self { file: first.clone(), first: first.clone(), ..Self::default() };
         if let Err(error) = writable(&folder) {
-            return Self { closed: Some(format!("{}: {}", folder.display(), io_reason(&error))), ..of_first };
+            return Self { closed: Some(io_failure(&folder, &error)), ..of_first };
         }
         match lock(&folder.join(LOCK)) {
             Ok(file) => {

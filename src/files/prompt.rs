@@ -4,9 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::save::SaveRequest;
-use crate::format::io_reason;
+use crate::format::io_failure;
 
-/// Number of completions listed.
 const MOST: usize = 200;
 
 /// A path to be typed, where there is no dialog or what was chosen there cannot be.
@@ -64,7 +63,7 @@ pub(super) fn expanded(text: &str, home: Option<&Path>) -> PathBuf {
 pub(super) fn cannot_open(path: &Path) -> Option<String> {
     let facts = match fs::metadata(path) {
         Ok(facts) => facts,
-        Err(error) => return Some(format!("{}: {}.", path.display(), io_reason(&error))),
+        Err(error) => return Some(format!("{}.", io_failure(path, &error))),
     };
     // Only these are opened on trial: a pipe would wait for its other end.
     let tried = if facts.is_dir() {
@@ -74,10 +73,9 @@ pub(super) fn cannot_open(path: &Path) -> Option<String> {
     } else {
         Ok(())
     };
-    tried.err().map(|error| format!("{}: {}.", path.display(), io_reason(&error)))
+    tried.err().map(|error| format!("{}.", io_failure(path, &error)))
 }
 
-/// A completed text.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Completed {
     /// The text it was asked for.

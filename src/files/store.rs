@@ -19,7 +19,7 @@ use crate::document::kept::{self, Kept, Place};
 use crate::document::own::{Fingerprint, OwnCurve, OwnSet};
 use crate::document::session::SessionError;
 use crate::document::{Document, VERSION};
-use crate::format::io_reason;
+use crate::format::{io_failure, io_reason};
 
 /// Result of writing a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -40,7 +40,6 @@ pub(super) enum Unread {
 /// Writes one document, again and again.
 #[derive(Debug, Default)]
 pub(super) struct Store {
-    /// The document's file.
     file: PathBuf,
     /// Contents of that file as this window read or wrote them. Others are another program's.
     seen: Option<Fingerprint>,
@@ -66,7 +65,6 @@ impl Store {
         Self { file, ..Self::default() }
     }
 
-    /// The document's file.
     pub(super) fn file(&self) -> &Path {
         &self.file
     }
@@ -105,7 +103,7 @@ impl Store {
     /// Writes the document. A set that cannot be written does not stop the rest.
     pub(super) fn write(&mut self, document: &Document) -> Result<Written, String> {
         let folder = self.file.parent().map(Path::to_owned).unwrap_or_default();
-        fs::create_dir_all(&folder).map_err(|error| format!("{}: {}", folder.display(), io_reason(&error)))?;
+        fs::create_dir_all(&folder).map_err(|error| io_failure(&folder, &error))?;
         if self.is_foreign()? {
             let copy = free_copy(&folder);
             self.moved = Some(copy.clone());
@@ -132,8 +130,7 @@ impl Store {
             (None, _) => String::new(),
         };
         self.tried = Some(Fingerprint::of(json.as_bytes()));
-        write_atomically(&self.file, json.as_bytes())
-            .map_err(|error| format!("{}: {}", self.file.display(), io_reason(&error)))?;
+        write_atomically(&self.file, json.as_bytes()).map_err(|error| io_failure(&self.file, &error))?;
         (self.seen, self.by_value) = (self.tried, false);
         let present: HashSet<usize> = document.own.iter().map(address).collect();
         if skipped_work.is_empty() && self.known.len() > present.len() {
@@ -148,7 +145,7 @@ impl Store {
         let bytes = match fs::read(&self.file) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
-            Err(error) => return Err(format!("{}: {}", self.file.display(), io_reason(&error))),
+            Err(error) => return Err(io_failure(&self.file, &error)),
         };
         let there = Some(Fingerprint::of(&bytes));
         if there == self.tried {
@@ -201,7 +198,7 @@ impl Store {
         let keys: Vec<u8> = fresh.iter().flat_map(|(_, key, _)| key.to_le_bytes()).collect();
         let name = format!("{:032x}.json", fingerprint(&keys));
         let folder = folder.join(CURVES);
-        let failed = |error: io::Error| format!("{}: {}", folder.display(), io_reason(&error));
+        let failed = |error: io::Error| io_failure(&folder, &error);
         fs::create_dir_all(&folder).map_err(failed)?;
         write_atomically(&folder.join(&name), &text).map_err(failed)?;
         for (index, (set, key, _)) in fresh.into_iter().enumerate() {
@@ -224,7 +221,7 @@ fn keep_earlier(file: &Path, bytes: &[u8]) -> Result<(), String> {
     if fs::symlink_metadata(&beside).is_ok() {
         return Ok(());
     }
-    write_atomically(&beside, bytes).map_err(|error| format!("{}: {}", beside.display(), io_reason(&error)))
+    write_atomically(&beside, bytes).map_err(|error| io_failure(&beside, &error))
 }
 
 /// Reads a document with the curves it names.
@@ -255,7 +252,7 @@ fn read_curves(folder: &Path, name: &str) -> Result<Vec<Vec<OwnCurve>>, String> 
         return Err(format!("{name} is not a file name"));
     }
     let path = folder.join(name);
-    let bytes = fs::read(&path).map_err(|error| format!("{}: {}", path.display(), io_reason(&error)))?;
+    let bytes = fs::read(&path).map_err(|error| io_failure(&path, &error))?;
     serde_json::from_slice(&bytes).map_err(|error| format!("{}: {error}", path.display()))
 }
 

@@ -34,7 +34,6 @@ pub(super) struct Watch {
 /// Events since the last query, on the thread that receives them.
 #[derive(Default)]
 struct Heard {
-    /// Watched paths.
     files: BTreeSet<PathBuf>,
     folders: BTreeSet<PathBuf>,
     changes: BTreeMap<PathBuf, Change>,

@@ -28,7 +28,7 @@ pub enum Node {
     Symbol {
         /// The characters.
         text: String,
-        /// How they are set.
+        /// Style of the symbols.
         kind: SymbolKind,
     },
     /// Numerator over denominator.

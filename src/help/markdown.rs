@@ -41,7 +41,7 @@ pub enum Inline {
         text: String,
         /// Their style.
         style: Style,
-        /// What a click opens.
+        /// Target of a click.
         link: Option<String>,
     },
     /// A formula within a line.

@@ -17,7 +17,6 @@ struct Brush<'a> {
     emphasis: Emphasis,
 }
 
-/// Draws one mark.
 pub(super) fn mark(painter: &Painter, mark: &Mark, view: &View, theme: &Theme, emphasis: Emphasis) {
     let brush = Brush { painter, view, theme, emphasis };
     match &mark.shape {
@@ -218,7 +217,6 @@ fn clipped(a: Pos2, b: Pos2, rect: Rect) -> Option<[Pos2; 2]> {
     (from < to).then(|| [a + from * d, a + to * d])
 }
 
-/// Draws a marker.
 fn outline(painter: &Painter, at: Pos2, marker: Marker, radius: f32, fill: Color32, rim: Stroke) {
     let place = |p: &[f64; 2]| at + radius * Vec2::new(p[0] as f32, p[1] as f32);
     match marker.outline() {
@@ -238,7 +236,6 @@ fn outline(painter: &Painter, at: Pos2, marker: Marker, radius: f32, fill: Color
     }
 }
 
-/// Draws a legend key.
 pub(super) fn key(painter: &Painter, rect: Rect, entry: &LegendEntry, theme: &Theme) {
     let middle = rect.center();
     let view = View { rect, x: [0.0, 1.0], y: [0.0, 1.0] };
@@ -266,7 +263,6 @@ pub(super) struct TextStyle {
     pub(super) halo: Option<Ink>,
 }
 
-/// Draws a line of text.
 pub(super) fn text(painter: &Painter, at: Pos2, words: &str, style: TextStyle, theme: &Theme) {
     text_inside(painter, at, words, style, theme, Rect::EVERYTHING);
 }

@@ -25,7 +25,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::new("Correction"),
     title: "Correction",
     show,
-    figure: Some(|_, view| figure::figure(view)),
+    figure: Some(|input| figure::figure(input.view)),
     under_conditions: true,
     table: false,
 };

@@ -19,7 +19,6 @@ use text::Ink;
 const LIST: f32 = 224.0;
 /// Largest width of a page's text.
 const TEXT_WIDTH: f32 = 720.0;
-/// Results listed at once.
 const MOST_HITS: usize = 100;
 
 /// Shows the help window and the palette while they are open.

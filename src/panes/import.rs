@@ -23,7 +23,7 @@ use entries::Entry;
 const FILES: f32 = 184.0;
 /// In a narrower pane the files are a list that drops down.
 const NARROW: f32 = 480.0;
-/// Who waits so long is told that something is going on.
+/// Delay after which a progress message appears.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// The pane.
@@ -40,7 +40,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     }
     if context.view.saved.tables.contains(&PaneKind::IMPORT) {
-        widgets::data_table(ui, body, "import", &entries::table(&entries));
+        widgets::table::show_numbers(ui, body, PaneKind::IMPORT, &entries::table(&entries), context);
         return;
     }
     keep_selected(ui, &entries, context);
@@ -99,7 +99,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.add(egui::Label::new(RichText::new(words).small().color(context.theme.weak)).truncate());
 }
 
-/// What can be done where there is no file yet.
+/// Draws the available actions while there is no file.
 fn nothing(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) {
     let size = Vec2::new(280.0_f32.min(body.width()), 96.0);
     let place = Rect::from_center_size(body.center(), size).intersect(body);

@@ -56,9 +56,14 @@ fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
     pinned::show(ui, context);
 }
 
-/// A sensor on show, by kind and name.
+/// A visible sensor, by kind and name.
 fn source_of(scene: &Scene<'_>, id: &SensorId) -> Option<ComparedSensor> {
     scene.sources().into_iter().find(|source| source.kind == id.kind && source.name == id.name)
+}
+
+/// The label of a visible sensor; the name of any other.
+fn label_of(scene: &Scene<'_>, id: &SensorId) -> String {
+    source_of(scene, id).map_or_else(|| id.name.clone(), |source| source.label)
 }
 
 /// The sensor that the others are compared to.
@@ -66,7 +71,7 @@ fn reference_id(scene: &Scene<'_>) -> SensorId {
     SensorId { kind: SetKind::Observer, name: scene.document.reference.clone() }
 }
 
-/// The key and label of a sensor, or its name alone if it is no longer on show.
+/// The key and label of a sensor, or its name alone if it is no longer visible.
 fn head(ui: &mut Ui, id: &SensorId, context: &PaneContext<'_>) {
     match source_of(&context.scene, id) {
         Some(source) => {
@@ -83,7 +88,7 @@ fn note(ui: &mut Ui, theme: &Theme, words: impl Into<String>) {
     ui.label(RichText::new(words).small().color(theme.weak));
 }
 
-/// A failure, said once in its place.
+/// A failure, in its place.
 fn failure(ui: &mut Ui, theme: &Theme, words: &str) {
     ui.label(RichText::new(words).color(theme.error));
 }
@@ -124,7 +129,7 @@ fn copy_text(ui: &Ui, text: String, context: &mut PaneContext<'_>) {
     context.view.say("Inspector: numbers copied.");
 }
 
-/// What holds beyond the figures of a light or a reflectance.
+/// Assumption about a light or a reflectance beyond its samples.
 fn held_words(what: &str, assumed: Assumed) -> Option<String> {
     match (assumed.below_nm, assumed.above_nm) {
         (None, None) => None,
@@ -148,7 +153,7 @@ fn measured_words(sensor: &Sensor) -> String {
     parts.collect::<Vec<_>>().join(", ")
 }
 
-/// What was assumed about a sensor and the light.
+/// Assumptions about a sensor and the light.
 fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
     let mut words = Vec::new();
     if let Ok(sensor) = scene.sensor(id.kind, &id.name) {

@@ -1,4 +1,4 @@
-//! What is compared, which is the only legend, and all data sets.
+//! Compared sensors, which are the only legend, and all data sets.
 
 mod compared;
 mod save;

@@ -98,7 +98,9 @@ fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn light_caption(context: &PaneContext<'_>, wide: bool) -> String {
     let filters = if context.scene.document.filters.is_empty() { "Light" } else { "Filtered" };
     match context.scene.light_temperature() {
-        Ok(Ok(cct)) if wide => format!("{filters} {:.0} K, Duv {}", cct.temperature.get(), signed(cct.duv)),
+        Ok(Ok(cct)) if wide && context.scene.document.filters.is_empty() => {
+            format!("{filters} {:.0} K, Duv {}", cct.temperature.get(), signed(cct.duv))
+        }
         Ok(Ok(cct)) => format!("{filters} {:.0} K", cct.temperature.get()),
         _ => filters.to_owned(),
     }

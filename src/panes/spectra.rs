@@ -12,7 +12,7 @@ use crate::workspaces::PaneKind;
 
 /// The least height of a panel before the pane scrolls.
 const LEAST: f32 = 64.0;
-/// How near the pointer must be, in points.
+/// Largest distance of the pointer, in points.
 const REACH: f32 = 8.0;
 
 /// The pane.
@@ -20,7 +20,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::SPECTRA,
     title: "Spectra",
     show,
-    figure: Some(|scene, view| Some(crate::figures::spectra::figure(scene, view))),
+    figure: Some(|input| Some(crate::figures::spectra::figure(input.scene, input.view))),
     under_conditions: false,
     table: true,
 };
@@ -40,7 +40,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
     if context.view.saved.tables.contains(&PaneKind::SPECTRA) {
         let figure = spectra::figure(&context.scene, context.view);
-        widgets::data_table(ui, body, "spectra", &figure.table);
+        widgets::table::show_numbers(ui, body, PaneKind::SPECTRA, &figure.table, context);
         return;
     }
     if context.scene.sources().iter().all(|source| !source.visible) {

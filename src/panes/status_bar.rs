@@ -16,7 +16,7 @@ use crate::theme::UNIT;
 use crate::view::Weight;
 use crate::workspaces::{Arrangement, PaneKind};
 
-/// What the bar says when there is nothing else.
+/// Text of the bar when there is nothing else.
 const READY: &str = "Ready. Drop a spectrum or camera file anywhere.";
 /// Pictures that take longer are told of.
 const LONG: Duration = Duration::from_millis(500);
@@ -24,11 +24,11 @@ const LONG: Duration = Duration::from_millis(500);
 const PATIENCE: Duration = Duration::from_millis(100);
 /// The width of the button after a message.
 const CHANGE: f32 = 76.0;
-/// What the facts at the right mean.
+/// Tooltip of the facts at the right.
 const FACTS: &str = "Computation time of the last change; largest error of the visible loci, relative to the largest \
                      signal and checked against sums at 1 nm; number of cameras computed. What is not visible is not \
                      computed.";
-/// The same where pictures are rendered.
+/// Tooltip of the facts while pictures are rendered.
 const RENDER_FACTS: &str = "Time of the last rendering stage; error of integrals over wavelength, relative to the \
                             brightest pixel; number of cameras rendered. What is not visible is not computed.";
 
@@ -41,7 +41,7 @@ pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut Pa
     let response = ui.interact(right, ui.scope_id().with("facts"), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
     response.on_hover_text(
-        if context.view.render.shot.is_some() && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {
+        if context.studio.frame().is_some() && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {
             RENDER_FACTS
         } else {
             FACTS
@@ -132,7 +132,7 @@ fn reading(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut PaneConte
     line(ui, rect, &words, context.theme.text, Some(button), context);
 }
 
-/// What is read, and how far that is.
+/// File being read, and its progress.
 fn reading_words(progress: &Progress) -> String {
     let [file, count] = progress.file;
     let of = if count > 1 { format!(", {file} of {count}") } else { String::new() };
@@ -212,9 +212,9 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
     facts
 }
 
-/// The same where pictures are rendered.
+/// Facts while pictures are rendered.
 fn render_facts(context: &PaneContext<'_>) -> Vec<String> {
-    let Some(shot) = context.view.render.shot.as_deref() else { return Vec::new() };
+    let Some(shot) = context.studio.frame() else { return Vec::new() };
     let mut facts = Vec::new();
     let long = context.view.render.busy.filter(|busy| *busy >= LONG);
     if let Some(busy) = long {

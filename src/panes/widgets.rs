@@ -4,19 +4,21 @@ pub mod caution;
 pub mod facts;
 pub mod lines;
 pub mod number_field;
+pub mod table;
 pub mod tolerance;
 
-use chromascope_figure::{Cell, Ink, LegendEntry, Stroke, Table};
-use egui::{Align, Button, Label, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
-use egui_extras::{Column, TableBuilder};
+use std::time::Duration;
+
+use chromascope_figure::{Ink, LegendEntry, Stroke};
+use egui::{Align, Button, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
 
 use crate::command::{Command, Format};
-use crate::format::number;
 use crate::paint;
 use crate::panes::context::{Pane, PaneContext};
 use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
 use crate::theme::{ROW, Theme, UNIT};
+use crate::view::render::RenderView;
 use crate::workspaces::PaneKind;
 
 /// The sentence that says what the window is about.
@@ -104,6 +106,7 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
             ("Figure as SVG…", Command::Export(kind, Format::Svg)),
             ("Figure as PNG…", Command::Export(kind, Format::Png)),
             ("Numbers as CSV…", Command::Export(kind, Format::Csv)),
+            ("Numbers as JSON…", Command::Export(kind, Format::Json)),
             ("Copy picture", Command::CopyPicture(kind)),
             ("Copy numbers", Command::CopyNumbers(kind)),
         ] {
@@ -112,9 +115,9 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
                 ui.close();
             }
         }
-        if let Some(shot) = context.view.render.shot.clone().filter(|_| kind == PaneKind::RENDER) {
+        if let Some(shot) = context.studio.frame().cloned().filter(|_| kind == PaneKind::RENDER) {
             ui.separator();
-            for source in &shot.sources {
+            for source in shot.sources.iter() {
                 if ui.button(format!("{} as OpenEXR…", source.label)).clicked() {
                     let id = SensorId { kind: source.kind, name: source.name.clone() };
                     context.push(Command::ExportExr(id));
@@ -123,6 +126,19 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
             }
         }
     });
+}
+
+/// A thin line along the top while something has been in the making for long enough to be told of; words stand in the status bar.
+pub fn busy_line(ui: &Ui, body: Rect, busy: Option<Duration>, color: egui::Color32) {
+    let Some(busy) = busy else { return };
+    if let Some(wait) = RenderView::PATIENCE.checked_sub(busy) {
+        ui.ctx().request_repaint_after(wait);
+        return;
+    }
+    ui.ctx().request_repaint_after(Duration::from_millis(50));
+    let left = body.left() + body.width() * 0.75 * (0.5 - 0.5 * (3.0 * busy.as_secs_f32()).cos());
+    let line = Rect::from_min_size(egui::pos2(left, body.top()), Vec2::new(0.25 * body.width(), 2.0));
+    ui.painter().rect_filled(line, 0.0, color);
 }
 
 /// Small pictures drawn with lines, so that no font needs them.
@@ -223,46 +239,6 @@ pub fn source_key(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Respon
     let (rect, response) = ui.allocate_exact_size(Vec2::new(26.0, ROW), Sense::hover());
     paint::key(ui.painter(), rect, &legend_entry(source), theme);
     response
-}
-
-/// Numbers in rows, for screen readers and for those who want them.
-pub fn data_table(ui: &mut Ui, rect: Rect, id: &str, table: &Table) {
-    let mut child = ui.new_child(UiBuilder::new().id_salt(id).max_rect(rect.shrink2(Vec2::new(2.0 * UNIT, 0.0))));
-    child.set_clip_rect(rect.intersect(ui.clip_rect()));
-    egui::ScrollArea::horizontal().id_salt((id, "across")).auto_shrink(false).show(&mut child, |ui| {
-        TableBuilder::new(ui)
-            .id_salt((id, "table"))
-            .striped(false)
-            .vscroll(true)
-            .auto_shrink(false)
-            .columns(Column::auto().at_least(72.0).clip(false), table.columns.len().max(1))
-            .header(ROW, |mut header| {
-                for name in &table.columns {
-                    header.col(|ui| {
-                        ui.add(Label::new(RichText::new(name).small()).extend());
-                    });
-                }
-            })
-            .body(|body| {
-                body.rows(ROW - 4.0, table.rows.len(), |mut row| {
-                    for cell in &table.rows[row.index()] {
-                        row.col(|ui| {
-                            let text = RichText::new(cell_text(cell)).monospace();
-                            ui.add(Label::new(text).extend());
-                        });
-                    }
-                });
-            });
-    });
-}
-
-/// A cell for reading: six significant digits.
-fn cell_text(cell: &Cell) -> String {
-    match cell {
-        Cell::Empty => "–".to_owned(),
-        Cell::Text(text) => text.clone(),
-        Cell::Number(value) => number(*value),
-    }
 }
 
 /// Lines of text at the pointer, the first one strong.

@@ -1,6 +1,6 @@
 //! A camera is one data file: a catalog with one more has it everywhere, without any other change.
 
-use chromascope::catalog::Catalog;
+use chromascope::catalog::{BuiltInFile, Catalog};
 use chromascope::cli;
 use chromascope::document::{Document, SetKind};
 use chromascope::results::Results;
@@ -14,7 +14,8 @@ const NAME: &str = "One More Camera";
 
 /// The program's data sets with the file added to `assets/cameras`.
 fn catalog() -> Catalog {
-    Catalog::built_in_with(&[("cameras/one_more_camera.csv", include_str!("data/one_more_camera.csv"))])
+    let text = include_str!("data/one_more_camera.csv");
+    Catalog::built_in_with(&[BuiltInFile { path: "cameras/one_more_camera.csv", text }])
 }
 
 #[test]

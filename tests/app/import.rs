@@ -1,6 +1,6 @@
 //! From the bytes of a user's file to a set: names, roles, units and percent that can be flipped, channels, decisions.
 
-use chromascope::catalog::import::{import, import_warned};
+use chromascope::catalog::import::import;
 use chromascope::document::own::{OwnSet, Role, WavelengthUnit};
 
 fn set(file: &str, text: &str, role: Option<Role>) -> OwnSet {
@@ -88,7 +88,8 @@ fn sensitivities_per_photon_are_known_by_their_header() {
 #[test]
 fn every_decision_and_warning_is_kept() {
     let text = "600;50,5\n500;10,0\n500;10,0\n400;5,5\n";
-    let (imported, warnings) = import_warned("leaf.txt", text.as_bytes(), None).unwrap();
+    let imported = import("leaf.txt", text.as_bytes(), None).unwrap();
+    let warnings = spectral_file::read(text.as_bytes(), &spectral_file::ReadOptions::default()).unwrap().warnings;
     let all = imported.set.decisions.join("\n");
     for said in ["decimal commas", "semicolon separated", "nanometers", "percent"] {
         assert!(all.contains(said), "{said} is not in:\n{all}");

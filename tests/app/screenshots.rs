@@ -33,8 +33,17 @@ pub(crate) fn open_with(document: Document, size: [f32; 2], theme: egui::Theme) 
 
 /// The paper's start with an executor that the test drives.
 pub(crate) fn driven(size: [f32; 2], theme: egui::Theme) -> (Executor, Harness<'static, ChromascopeApp>) {
+    driven_with(Document::paper(), size, theme)
+}
+
+/// A document with an executor that the test drives.
+pub(crate) fn driven_with(
+    document: Document,
+    size: [f32; 2],
+    theme: egui::Theme,
+) -> (Executor, Harness<'static, ChromascopeApp>) {
     let executor = Executor::driven();
-    let harness = open_on(&executor, Document::paper(), size, theme);
+    let harness = open_on(&executor, document, size, theme);
     (executor, harness)
 }
 
@@ -225,9 +234,9 @@ impl Measured {
             harness.run_steps(2);
             harness.state().laboratory().wait();
             harness.run_steps(3);
-            let view = &harness.state().view().accuracy;
-            let run = SceneRun::clone(view.run.as_ref().expect("measured"));
-            let measured = Self { run, remembered: view.remembered.clone() };
+            let measured = &harness.state().laboratory().measured;
+            let run = SceneRun::clone(measured.run.as_ref().expect("measured"));
+            let measured = Self { run, remembered: measured.remembered.clone() };
             std::fs::write(&path, serde_json::to_string_pretty(&measured).unwrap() + "\n").unwrap();
         }
         serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap()
@@ -241,8 +250,9 @@ pub(crate) fn accuracy(size: [f32; 2], theme: egui::Theme) -> Harness<'static, C
     let view = harness.state_mut().view_mut();
     view.saved.workspace = Workspace::Accuracy;
     view.fixed_clock = true;
-    (view.accuracy.run, view.accuracy.remembered) = (Some(std::sync::Arc::new(run)), remembered);
-    view.accuracy.is_current = true;
+    let measured = &mut harness.state_mut().laboratory_mut().measured;
+    (measured.run, measured.remembered) = (Some(std::sync::Arc::new(run)), remembered);
+    measured.is_current = true;
     for _ in 0..3 {
         harness.run_steps(2);
         harness.state().laboratory().wait();

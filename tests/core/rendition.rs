@@ -1,9 +1,12 @@
 //! Rendition indices against independent programs, with laws and hostile lights.
 
-use chromascope_core::colorimetry::Xyz;
 use chromascope_core::colorimetry::ciecam02::Ciecam02;
+use chromascope_core::colorimetry::{Uv60, Xyz};
+use chromascope_core::light::temperature::single::nearest_blackbody;
 use chromascope_core::light::temperature::tabulated::Robertson;
-use chromascope_core::light::{CctError, DaylightBasis, RadiationConstants, planckian::black_body};
+use chromascope_core::light::{
+    Cct, CctError, DaylightBasis, PlanckianLocus, RadiationConstants, planckian::black_body,
+};
 use chromascope_core::patch_set::PatchSet;
 use chromascope_core::rendition::cri::rendering_indices;
 use chromascope_core::rendition::fidelity::color_fidelity;
@@ -91,8 +94,31 @@ fn indices_of_all_lights_are_those_of_another_program() {
         note(6, ninth.hue_shift, &expected[21]);
         note(7, spectral_similarity(&spectrum, &light("d50.csv", 1)).unwrap(), &expected[22]);
     }
-    let tolerances = [1e-4, 1e-3, 1e-3, 1e-2, 1e-5, 1e-5, 1e-4, 1e-5];
+    let tolerances = [1e-6, 1e-6, 1e-3, 1e-2, 1e-5, 1e-5, 1e-4, 1e-6];
     assert!(worst.iter().zip(tolerances).all(|(worst, tolerance)| *worst <= tolerance), "{worst:?} {which:?}");
+}
+
+#[test]
+fn one_color_has_the_temperature_that_the_table_gives() {
+    let observer = sensor(CIE_1931);
+    let locus = PlanckianLocus::new(&observer, RadiationConstants::Paper).unwrap();
+    let one = |color| nearest_blackbody(&observer, RadiationConstants::Paper, color);
+    for kelvins in [1001.0, 1500.0, 2856.0, 4000.0, 6504.0, 10_000.0, 19_990.0] {
+        for duv in [-0.049, -0.01, 0.0, 0.002, 0.049] {
+            let color = locus.off(Cct { temperature: kelvin(kelvins), duv }).unwrap();
+            let found = one(color).unwrap();
+            assert_near(&format!("{kelvins} K, {duv}"), found.temperature.mired(), 1e6 / kelvins, 1e-6);
+            assert_near("Duv", found.duv, duv, 1e-12);
+        }
+    }
+    let far = [Uv60 { u: 0.1, v: 0.38 }, Uv60 { u: 0.45, v: 0.3 }, Uv60 { u: 50.0, v: 0.3 }];
+    assert!(
+        far.into_iter().all(|color| one(color) == Err(CctError::TooFar) && locus.cct(color) == Err(CctError::TooFar))
+    );
+    let hot = Uv60 { u: 0.180, v: 0.264 };
+    assert_eq!((one(hot), locus.cct(hot)), (Err(CctError::TooHot), Err(CctError::TooHot)));
+    let none = Uv60 { u: f64::NAN, v: 0.3 };
+    assert_eq!(one(none), Err(CctError::NoChromaticity));
 }
 
 /// Table 1 of Robertson 1968, as Wyszecki and Stiles 1982 reprint it (Table 1(3.11)).

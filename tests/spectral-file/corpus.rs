@@ -176,7 +176,7 @@ fn every_value_is_marked_where_it_stands() {
         let preview = Preview::new(&bytes).expect("it was read");
         let (mut found, mut compressed) = (BTreeSet::new(), false);
         for mark in (1..=preview.line_count()).flat_map(|line| preview.marks(line, &table, &marker)) {
-            compressed |= matches!(mark.what, What::Block { .. });
+            compressed |= matches!(mark.what, What::Block(..));
             if let What::Value { curve, nm, .. } = mark.what {
                 assert!(found.insert((curve, nm.to_bits())), "{name}: {nm} nm of curve {curve} twice");
             }

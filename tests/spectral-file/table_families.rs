@@ -104,14 +104,14 @@ fn cgats_in_pairs_and_its_errors() {
     let text = "x".to_owned();
     assert_eq!(error(&format!("{start}1 5 x\nEND_DATA\n")), ReadError::NotANumber { line: 6, column: 3, text });
     let bare = "CTI3\nBEGIN_DATA_FORMAT\nSAMPLE_ID RGB_R RGB_G\nEND_DATA_FORMAT\nBEGIN_DATA\n1 2 3\nEND_DATA\n";
-    assert_eq!(error(bare), ReadError::NoWavelengths { line: 2 });
+    assert_eq!(error(bare), ReadError::NoWavelengths(2));
     let gap = ok(&format!("{start}1 5 6\n2 -9999 7\n3 0,5 7\nEND_DATA\n"));
     assert_eq!((names(&gap), gap.curves[1].values[0]), (vec!["1", "3"], 0.5));
     let second = format!(
         "{start}1 5 6\nEND_DATA\nCAL\nBEGIN_DATA_FORMAT\nSPEC_400 SPEC_410\nEND_DATA_FORMAT\nBEGIN_DATA\n1 2\nEND_DATA\n"
     );
     let second = ok(&second);
-    assert_eq!((second.curves.len(), &second.warnings[0]), (1, &Warning::MoreTables { line: 13 }));
+    assert_eq!((second.curves.len(), &second.warnings[0]), (1, &Warning::MoreTables(13)));
 }
 
 #[test]
@@ -193,7 +193,7 @@ fn cxf() {
     assert_eq!(table.warnings.len(), 2, "{:?}", table.warnings);
     assert!(table.warnings[1].to_string().starts_with("line 23: “twice” has several values"));
     let nowhere = layouts::CXF.replace(" Increment=\"3.3\"", "");
-    assert!(matches!(error(&nowhere), ReadError::NoWavelengths { .. }));
+    assert!(matches!(error(&nowhere), ReadError::NoWavelengths(..)));
 }
 
 #[test]
@@ -232,7 +232,7 @@ fn dcamprof() {
     let short = layouts::DCAMPROF.replace("0.3, 0.2", "0.3");
     let wrong = ReadError::WrongCount { line: 11, name: "green_ssf".to_owned(), found: 2, expected: 3 };
     assert_eq!(error(&short), wrong);
-    assert_eq!(error("[1, 2]"), ReadError::Unsupported { family: Family::Json });
+    assert_eq!(error("[1, 2]"), ReadError::Unsupported(Family::Json));
     assert!(matches!(error("{ // cut\n \"ssf_bands\": [400"), ReadError::Malformed { line: 2, .. }));
 }
 
@@ -288,7 +288,7 @@ fn the_reader_can_be_chosen() {
     let said: Vec<_> = table.decisions().iter().map(|decision| decision.what).collect();
     assert_eq!(said[1], "Layout");
     let options = ReadOptions { reader: Some(Reader::Cgats), ..ReadOptions::default() };
-    assert_eq!(read(b"400,1\n500,2\n", &options), Err(ReadError::OtherLayout { reader: Reader::Cgats }));
+    assert_eq!(read(b"400,1\n500,2\n", &options), Err(ReadError::OtherLayout(Reader::Cgats)));
 }
 
 #[test]
@@ -307,7 +307,7 @@ fn blocks_in_other_units_are_other_parts() {
         let table = ok(&text);
         assert_eq!((table.curves.len(), samples(&table, 0)), (1, vec![(400.0, 0.5), (500.0, 0.6)]), "{other}");
         assert_eq!((table.reading.parts.len(), table.reading.part.value), (2, 1));
-        assert_eq!(table.warnings, [Warning::MoreTables { line: 14 }]);
+        assert_eq!(table.warnings, [Warning::MoreTables(14)]);
         assert_eq!(samples(&second(&part, &text), 0), wanted, "{other}");
     }
     let same = ok(&format!("{start}{}", block("nm", "Transmittance", "400,0.7\n500,0.8")));
@@ -326,7 +326,7 @@ fn distributions_of_other_quantities_are_not_mixed() {
     let mixed = file(&[one("transmittance", 0.5), one("irradiance", 55.0)]);
     assert_eq!((mixed.curves.len(), samples(&mixed, 0)), (1, vec![(400.0, 0.5), (500.0, 0.5)]));
     assert_eq!((mixed.role.value, mixed.reading.values.value), (Role::Transmittance, Values::Plain));
-    assert_eq!(mixed.warnings, [Warning::MoreTables { line: 5 }]);
+    assert_eq!(mixed.warnings, [Warning::MoreTables(5)]);
     let same = file(&[one("irradiance", 55.0), one("Irradiance", 66.0)]);
     assert_eq!((same.curves.len(), same.warnings.len(), same.role.value), (2, 0, Role::Illuminant));
 }
@@ -341,6 +341,6 @@ fn warnings_of_one_kind_are_counted_where_there_are_many() {
     };
     let table = ok(&format!("<CxF>{}</CxF>", (0..300).map(object).collect::<Vec<_>>().concat()));
     assert_eq!(table.curves.len(), 300);
-    assert_eq!(table.warnings.last(), Some(&Warning::More { count: 280 }));
+    assert_eq!(table.warnings.last(), Some(&Warning::More(280)));
     assert!(table.warnings.len() <= 22, "{}", table.warnings.len());
 }

@@ -133,7 +133,7 @@ fn encodings_do_not_move_the_marks() {
     for bytes in [text.as_bytes(), &utf16, &latin] {
         let seen = whole(bytes);
         assert_eq!(seen.pieces(1), [("# Gerät: Größe", What::Setting)]);
-        assert_eq!(seen.pieces(2).last(), Some(&("Äpfel", What::Name { curve: 0 })));
+        assert_eq!(seen.pieces(2).last(), Some(&("Äpfel", What::Name(0))));
         assert_eq!(seen.pieces(3)[1].0, "0,5");
     }
 }
@@ -152,9 +152,9 @@ fn settings_are_kept_whole_and_their_numbers_are_not_marked() {
 fn gaps_and_dropped_rows() {
     let text = "nm,A,B\n400,0.1,0.2\n410,,0.3\n,0.5,0.6\n420,0.4,NaN\n400,0.1,0.2\n430,0.7,0.8\nEnd of data\n";
     let seen = whole(text.as_bytes());
-    assert_eq!(seen.pieces(3)[1], ("", What::Gap { curve: 0 }));
+    assert_eq!(seen.pieces(3)[1], ("", What::Gap(0)));
     assert_eq!(seen.said(4), [",0.5,0.6 = left out: no wavelength"]);
-    assert_eq!(seen.pieces(5)[2], ("NaN", What::Gap { curve: 1 }));
+    assert_eq!(seen.pieces(5)[2], ("NaN", What::Gap(1)));
     assert_eq!(seen.said(6), ["400,0.1,0.2 = left out: the same as an earlier row"]);
     assert_eq!(seen.said(8), ["End of data = left out: no row of this table"]);
     assert_eq!(seen.said(5)[2], "NaN = B: no value here");
@@ -188,19 +188,19 @@ fn columns_that_are_in_no_curve() {
         ]
     );
     assert_eq!(seen.pieces(1).len(), 5);
-    assert_eq!(seen.pieces(1)[4].1, What::Name { curve: 0 });
+    assert_eq!(seen.pieces(1)[4].1, What::Name(0));
 }
 
 #[test]
 fn units_below_the_names() {
     let seen = whole(b"Wavelength\tSample\n[nm]\t[%]\n400\t50\n410\t51\n420\t52\n430\t60\n");
-    assert_eq!(seen.pieces(2), [("[nm]", What::Unit { curve: None }), ("[%]", What::Unit { curve: Some(0) })]);
+    assert_eq!(seen.pieces(2), [("[nm]", What::Unit(None)), ("[%]", What::Unit(Some(0)))]);
 }
 
 #[test]
 fn names_without_one_for_the_wavelengths() {
     let seen = whole(b"A;B\n400;0.1;0.2\n410;0.3;0.4\n420;0.5;0.6\n");
-    assert_eq!(seen.pieces(1), [("A", What::Name { curve: 0 }), ("B", What::Name { curve: 1 })]);
+    assert_eq!(seen.pieces(1), [("A", What::Name(0)), ("B", What::Name(1))]);
 }
 
 #[test]
@@ -209,12 +209,12 @@ fn a_table_across_is_marked_cell_by_cell() {
         "ID;Name;400;410;420;430;440\n1;\"a \"\"b\"\"\";5;6;;8;9\n2;empty;;;3;;\n3;c;15;16;17;18;19\nText below\n";
     let seen = whole(text.as_bytes());
     assert_eq!(seen.table.curves.len(), 2);
-    assert_eq!(seen.pieces(1)[0], ("400", What::Wavelength { nm: 400.0 }));
+    assert_eq!(seen.pieces(1)[0], ("400", What::Wavelength(400.0)));
     let row = seen.pieces(2);
-    assert_eq!(row[1], ("a \"\"b\"\"", What::Name { curve: 0 }));
-    assert_eq!(row[4], ("", What::Gap { curve: 0 }));
+    assert_eq!(row[1], ("a \"\"b\"\"", What::Name(0)));
+    assert_eq!(row[4], ("", What::Gap(0)));
     assert_eq!(seen.said(3), ["2;empty;;;3;; = left out: no row of this table"]);
-    assert_eq!(seen.pieces(4)[1].1, What::Name { curve: 1 });
+    assert_eq!(seen.pieces(4)[1].1, What::Name(1));
     assert_eq!(seen.said(5), ["Text below = left out: no row of this table"]);
 }
 
@@ -227,7 +227,7 @@ fn across_and_descending_with_units_in_the_cells() {
 fn a_choice_moves_the_marks() {
     let options = ReadOptions { wavelength_column: Some(2), ..ReadOptions::default() };
     let seen = whole_with(b"1,400,0.1\n2,410,0.2\n3,420,0.3\n", &options);
-    assert_eq!(seen.pieces(1)[1], ("400", What::Wavelength { nm: 400.0 }));
+    assert_eq!(seen.pieces(1)[1], ("400", What::Wavelength(400.0)));
     let options = ReadOptions { values: Some(spectral_file::Values::Absorbance), ..ReadOptions::default() };
     let seen = whole_with(b"400,1\n410,2\n420,0.3\n", &options);
     assert_eq!(seen.said(1)[1], "1 = Column 2: 0.1 at 400 nm (written 1, absorbance)");

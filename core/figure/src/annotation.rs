@@ -12,7 +12,7 @@ pub struct Annotation {
     pub at: [f64; 2],
     /// The text.
     pub text: String,
-    /// Which point of the text lies there.
+    /// Anchor: the point of the text that lies at the position.
     pub anchor: Anchor,
 }
 

@@ -6,7 +6,7 @@ use super::table::Table;
 /// A figure: everything that is needed to show it, print it, and write its numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// What the figure shows, in a few words. Read by screen readers and written as the SVG's title.
+    /// Title in a few words. Read by screen readers and written as the SVG's title.
     pub title: String,
     /// Width and height in points, without caption and margins.
     pub size: [f64; 2],
@@ -14,7 +14,7 @@ pub struct Figure {
     pub panels: Vec<Panel>,
     /// Keys of the legend; empty for none.
     pub legend: Vec<LegendEntry>,
-    /// Where the legend stands.
+    /// Position of the legend.
     pub legend_place: LegendPlace,
     /// Text below the figure: conditions and sources. Empty for none.
     pub caption: String,

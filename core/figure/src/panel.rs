@@ -18,13 +18,13 @@ pub struct Panel {
     pub y: Axis,
     /// One unit is as long on x as on y. The ranges are enlarged to fill the area, never cropped.
     pub equal_aspect: bool,
-    /// What lies behind the marks.
+    /// Ink behind the marks.
     pub background: Ink,
     /// Small text in the upper right corner.
     pub note: String,
     /// A thin frame around the plot.
     pub framed: bool,
-    /// What is drawn, from back to front.
+    /// Marks, drawn from back to front.
     pub marks: Vec<Mark>,
 }
 
@@ -61,11 +61,11 @@ pub struct LegendEntry {
     pub stroke: Option<Stroke>,
     /// Its marker; `None` for a key with a line only.
     pub marker: Option<Marker>,
-    /// What fills the marker; `None` for a hollow one.
+    /// Ink that fills the marker; `None` for a hollow one.
     pub fill: Option<Ink>,
 }
 
-/// Where a legend stands.
+/// Position of a legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum LegendPlace {
     /// Inside the first panel, upper right, below the panel's note.

@@ -12,7 +12,7 @@ pub(crate) const PANEL: [f64; 2] = [420.0, 320.0];
 const ACROSS: usize = 2;
 const ACROSS_OF_MANY: usize = 3;
 const MANY: usize = 7;
-/// What stands for 1, 2, 4 and more threads: not what stands for cameras, so without their colors, and with the markers of the
+/// Markers for 1, 2, 4 and more threads: distinct from those of cameras, so without their colors, and with those of the
 /// first three last.
 const MARKERS: [Marker; 8] = [
     Marker::Diamond,
@@ -83,7 +83,7 @@ fn panel(case: &[Numbered<'_>], area: Rect) -> Panel {
     pareto::panel(name, labels.each_ref().map(String::as_str), name.clone(), &places, area)
 }
 
-/// What stands before a comma, a parenthesis: the rest is in the table.
+/// Part of a name before the first comma, semicolon or parenthesis: the rest is in the table.
 fn short(what: &str) -> &str {
     what.split([',', '(', ';']).next().unwrap_or(what).trim_end()
 }

@@ -123,6 +123,13 @@ impl Errors {
         self.checked += 1;
     }
 
+    /// Differences of answers from exact ones, and relative to these.
+    pub(crate) fn against<'a>(pairs: impl Iterator<Item = (&'a f64, &'a chromascope_math::double::Double)>) -> Self {
+        let mut errors = Self::default();
+        pairs.for_each(|(&found, exact)| errors.add(exact.error_of(found), exact.value()));
+        errors
+    }
+
     /// Adds an item that the method gives no answer to.
     pub(crate) fn refuse(&mut self) {
         self.refused += 1;

@@ -63,6 +63,9 @@ impl Report {
     }
 
     /// The report as JSON, indented.
+    ///
+    /// # Errors
+    /// [`ReportError`] if a value has no JSON form.
     pub fn to_json(&self) -> Result<String, ReportError> {
         Ok(serde_json::to_string_pretty(self)? + "\n")
     }
@@ -70,35 +73,12 @@ impl Report {
 
 /// Measurements of a report as a table, each row with what and when it was measured on.
 pub(crate) fn table<'a>(report: &Report, measurements: impl Iterator<Item = &'a Measurement>) -> Table {
-    let columns = [
-        "workload",
-        "case",
-        "method",
-        "threads",
-        "item",
-        "items",
-        "rounds",
-        "time per item (s)",
-        "shortest time per item (s)",
-        "spread (quartiles / median)",
-        "time to build (s)",
-        "error of",
-        "max abs error",
-        "rms abs error",
-        "max rel error",
-        "rms rel error",
-        "checked",
-        "refused",
-        "baseline",
-        "time / baseline",
-        "share of memory limit",
-        "share of arithmetic limit",
-        "machine",
-        "program",
-        "began",
-    ];
+    let columns = "workload; case; method; threads; item; items; rounds; time per item (s); \
+                   shortest time per item (s); spread (quartiles / median); time to build (s); error of; \
+                   max abs error; rms abs error; max rel error; rms rel error; checked; refused; baseline; \
+                   time / baseline; share of memory limit; share of arithmetic limit; machine; program; began";
     let machine = report.machine.to_string();
-    let mut table = Table::new(columns);
+    let mut table = Table::new(columns.split("; "));
     for m in measurements {
         let count = |number: usize| Cell::from(number as f64);
         table.push([

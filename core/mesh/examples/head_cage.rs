@@ -1,7 +1,7 @@
-//! Writes the head's control cage, `assets/meshes/head.obj`, from a head that ends with a jagged neck.
+//! Writes the head's control cage, `core/mesh/src/head.obj`, from a head that ends with a jagged neck.
 //!
 //! ```text
-//! cargo run -p chromascope-mesh --example head_cage -- head.obj > assets/meshes/head.obj
+//! cargo run -p chromascope-mesh --example head_cage -- head.obj > core/mesh/src/head.obj
 //! ```
 //!
 //! The given OBJ file is the head of `MakeHuman`'s base mesh with the target `caucasian-male-young`, in meters, y up and z
@@ -124,7 +124,7 @@ impl Cage {
         firsts.into_iter().find_map(around)
     }
 
-    /// What is on the crown's side of a loop of edges, and that loop's new indices.
+    /// Part on the crown's side of a loop of edges, and that loop's new indices.
     fn above(&self, ring: &[usize]) -> Option<(Self, Vec<usize>)> {
         let cut: BTreeSet<[usize; 2]> = (0..ring.len()).map(|i| ends(ring[i], ring[(i + 1) % ring.len()])).collect();
         let edges = self.edges();

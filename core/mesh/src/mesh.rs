@@ -79,6 +79,9 @@ impl Hash for Mesh {
 
 impl Mesh {
     /// Takes vertices with their normals, which are brought to unit length (a zero normal becomes +z), and triangles.
+    ///
+    /// # Errors
+    /// [`MeshError`] if the counts of positions and normals differ, a triangle names a missing vertex, or a vertex is not finite.
     pub fn new(positions: Vec<Vec3>, normals: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         if positions.len() != normals.len() {
             return Err(MeshError::Normals { positions: positions.len(), normals: normals.len() });
@@ -93,6 +96,9 @@ impl Mesh {
     }
 
     /// Takes vertices and triangles; each vertex's normal is the mean of its triangles' by area and angle at the vertex.
+    ///
+    /// # Errors
+    /// [`MeshError`] as for [`Mesh::new`].
     pub fn with_smooth_normals(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         check(&positions, &triangles)?;
         let normals = smooth_normals(&positions, &triangles);

@@ -90,9 +90,12 @@ pub struct ReadMesh {
 
 /// Reads the bytes of a file as a mesh.
 ///
-/// The format is told by the content; the file name's extension (without the dot, in any case) decides only where the
+/// The format is recognized by the content; the file name's extension (without the dot, in any case) decides only where the
 /// content leaves it open. `stop` is asked every few thousand lines, and ends the reading with
 /// [`MeshReadError::Stopped`]. The same bytes always give the same mesh.
+///
+/// # Errors
+/// [`MeshReadError`] names the line or byte of what cannot be read, or says that `stop` ended the reading.
 ///
 /// ```
 /// use chromascope_mesh::reading::read_mesh;

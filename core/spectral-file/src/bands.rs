@@ -49,7 +49,6 @@ impl Group {
         self.start + self.wavelengths.len()
     }
 
-    /// Number of wavelengths.
     pub(super) fn count(&self) -> usize {
         self.wavelengths.iter().filter(|wavelength| !wavelength.is_nan()).count()
     }

@@ -24,7 +24,6 @@ pub(super) struct Read {
     pub(super) grid: Grid,
     /// The line after it, if another table follows.
     pub(super) next: Option<usize>,
-    /// Bytes that were looked at.
     pub(super) bytes: usize,
     /// Decision on its columns, if there was one.
     pub(super) note: Option<Decision>,
@@ -64,13 +63,13 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
         if broken.begins_with_number {
             return Err(broken.error);
         }
-        log.push(Warning::TextBelow { line: broken.line });
+        log.push(Warning::TextBelow(broken.line));
     }
     if !commented.is_empty() {
-        log.push(Warning::CommentedRows { lines: commented });
+        log.push(Warning::CommentedRows(commented));
     }
     if !columns.repeated_headers.is_empty() {
-        log.push(Warning::RepeatedHeader { lines: std::mem::take(&mut columns.repeated_headers) });
+        log.push(Warning::RepeatedHeader(std::mem::take(&mut columns.repeated_headers)));
     }
     let found = columns.finish(header, layout, log)?;
     Ok(Read { bytes: read - section.byte, ..found })
@@ -113,7 +112,6 @@ struct Columns {
     next: Option<usize>,
 }
 
-/// Kind of a line.
 enum Row {
     Blank,
     Numbers { cells: usize, filled: usize },
@@ -197,7 +195,6 @@ impl Columns {
         self.next = self.lines.last().filter(|_| second).map(|line| line + 1);
     }
 
-    /// Parses a line into `row`.
     fn parse(&mut self, number: usize, line: &str) -> Row {
         self.row.clear();
         let (mut cells, mut filled, mut numbers) = (0, 0, 0);
@@ -249,10 +246,10 @@ impl Columns {
             return Err(ReadError::UnevenRow { line: number, found: cells, expected: self.width });
         }
         if self.width > MAX_CURVES + 1 {
-            return Err(ReadError::TooManyCurves { line: number });
+            return Err(ReadError::TooManyCurves(number));
         }
         if (rows + 1) * (self.width - 1) > MAX_SAMPLES {
-            return Err(ReadError::TooManySamples { line: number });
+            return Err(ReadError::TooManySamples(number));
         }
         if rows == 0 {
             self.reserve();
@@ -305,7 +302,7 @@ impl Columns {
         let (left, skipped): (Vec<_>, Vec<_>) =
             before.filter(|(column, _)| !(texts.contains(column) || axes.left.contains(column))).partition(is_left);
         if skipped.iter().any(|(_, column)| !is_empty(column)) {
-            log.push(Warning::SkippedColumns { wavelength_column: at + 1 });
+            log.push(Warning::SkippedColumns(at + 1));
         }
         if !axes.left.is_empty() {
             let named = axes::told(&header, &axes.left);
@@ -378,6 +375,6 @@ fn drop_without_wavelength(grid: &mut Grid, log: &mut Log<'_>) {
     }
     if !list.is_empty() {
         grid.remove(&marked);
-        log.push(Warning::NoWavelength { lines: list });
+        log.push(Warning::NoWavelength(list));
     }
 }

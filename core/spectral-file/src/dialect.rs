@@ -4,7 +4,6 @@ use crate::separators::{DecimalMark, Delimiter};
 use crate::unit_text;
 use crate::wavelength_unit::WavelengthUnit;
 
-/// Content of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Cell {
     Number(f64),
@@ -52,7 +51,6 @@ impl Dialect {
         Cells { rest: (!spaces_only).then_some(rest), delimiter: self.delimiter, quotes: true, joined, at: 0 }
     }
 
-    /// Content of a cell.
     #[inline]
     pub(super) fn parse(self, cell: &str) -> Cell {
         match self.number(cell) {

@@ -17,15 +17,14 @@ pub(super) struct Shape {
     pub(super) cells: usize,
     pub(super) filled: usize,
     pub(super) numbers: usize,
-    /// The first number.
     pub(super) first: Option<f64>,
     /// True if that is the first cell.
     pub(super) leads: bool,
     /// True if any cell is text (a wavelength with its unit in the first cell is a number).
     pub(super) text: bool,
-    /// Which of the first columns are text, a bit for each; all bits where a later one is.
+    /// Bit mask of the first columns that are text; all bits are set if a later one is.
     pub(super) texts: u128,
-    /// Which of the first columns are empty.
+    /// Bit mask of the first columns that are empty.
     gaps: u128,
     /// Texts that are a number with a unit.
     united: u128,
@@ -100,7 +99,7 @@ pub(super) struct Run {
     pub(super) rows: usize,
     pub(super) cells: usize,
     pub(super) filled: usize,
-    /// Which columns are text, and which are empty in all rows.
+    /// Bit masks of the columns that are text, and of those that are empty in all rows.
     pub(super) texts: u128,
     gaps: u128,
     united: u128,
@@ -177,7 +176,6 @@ pub(super) struct Across {
     pub(super) first_row: usize,
     pub(super) rows: usize,
     misses: usize,
-    /// Cells of the header.
     pub(super) cells: usize,
     /// Its groups of wavelengths, at least one.
     pub(super) groups: Vec<Group>,

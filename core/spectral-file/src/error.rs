@@ -8,7 +8,8 @@ use crate::markup::Family;
 use crate::report::Reader;
 use crate::switch::Switch;
 
-/// Reason that a file could not be read: where, what, and what helps. Lines and columns count from 1.
+/// Reason that a file could not be read: where, what, and what helps. Lines and columns count from 1; a
+/// number alone is a line.
 ///
 /// The application adds the name of the file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -23,17 +24,11 @@ pub enum ReadError {
         limit: usize,
     },
     /// The file is binary.
-    #[error("this is {kind}, not text: {}", kind.remedy())]
-    Binary {
-        /// Its meaning.
-        kind: BinaryKind,
-    },
+    #[error("this is {}, not text: {}", .0, .0.remedy())]
+    Binary(BinaryKind),
     /// The file is of a known family, but of a layout that no reader takes.
-    #[error("line 1: this is {family}, but of no layout that holds spectra: export the measurement as text or CSV")]
-    Unsupported {
-        /// Its meaning.
-        family: Family,
-    },
+    #[error("line 1: this is {0}, but of no layout that holds spectra: export the measurement as text or CSV")]
+    Unsupported(Family),
     /// The file breaks the rules of its family.
     #[error("line {line}: from column {column} on this breaks the rules of {family}: is the file cut short or edited?")]
     Malformed {
@@ -45,11 +40,8 @@ pub enum ReadError {
         column: usize,
     },
     /// Values whose wavelengths are given nowhere.
-    #[error("line {line}: the file does not say at which wavelengths these values are: export them with wavelengths")]
-    NoWavelengths {
-        /// The line of the values.
-        line: usize,
-    },
+    #[error("line {0}: the file does not say at which wavelengths these values are: export them with wavelengths")]
+    NoWavelengths(usize),
     /// A line of values begins at another abscissa than its place in the file and the header say.
     #[error(
         "line {line}: begins at {found}, but the header and the lines before put it at {expected}: correct the line or the \
@@ -161,11 +153,8 @@ pub enum ReadError {
         feature: &'static str,
     },
     /// Every line holds one number only.
-    #[error("line {line}: only one number in each line: expected a wavelength and at least one value")]
-    OneColumn {
-        /// The first such line.
-        line: usize,
-    },
+    #[error("line {0}: only one number in each line: expected a wavelength and at least one value")]
+    OneColumn(usize),
     /// Text where a number must be.
     #[error("line {line}: no number in column {column} (\"{text}\"): correct it, or leave it empty if it is missing")]
     NotANumber {
@@ -187,11 +176,8 @@ pub enum ReadError {
         expected: usize,
     },
     /// Rows of a table that each name their wavelengths have other ones than the first.
-    #[error("line {line}: a second table begins here: put each table into a file of its own")]
-    SecondTable {
-        /// The first row of the second table.
-        line: usize,
-    },
+    #[error("line {0}: a second table begins here: put each table into a file of its own")]
+    SecondTable(usize),
     /// The file has fewer tables, blocks or groups than the caller chose from.
     #[error("the file has no part {part}: it has {parts}")]
     NoSuchPart {
@@ -201,11 +187,8 @@ pub enum ReadError {
         parts: usize,
     },
     /// The file is not of the family that the chosen reader is for.
-    #[error("this is no file of the chosen layout ({reader}): choose another, or let the content decide")]
-    OtherLayout {
-        /// The chosen reader.
-        reader: Reader,
-    },
+    #[error("this is no file of the chosen layout ({0}): choose another, or let the content decide")]
+    OtherLayout(Reader),
     /// The column that was chosen for the wavelengths holds no numbers, or is not there.
     #[error("column {column} holds no wavelengths: the table has {columns} columns")]
     NotWavelengthColumn {
@@ -227,23 +210,14 @@ pub enum ReadError {
         max: f64,
     },
     /// Commas separate the cells and mark the fractions.
-    #[error("line {line}: commas separate numbers and seem to mark fractions: choose decimal commas, or points if not")]
-    AmbiguousCommas {
-        /// The line that shows it.
-        line: usize,
-    },
+    #[error("line {0}: commas separate numbers and seem to mark fractions: choose decimal commas, or points if not")]
+    AmbiguousCommas(usize),
     /// The header gives photon energies, or another scale that is not converted.
-    #[error("line {line}: the header gives neither wavelengths nor wave numbers nor THz: convert to wavelengths in nm")]
-    NotWavelengths {
-        /// The header line.
-        line: usize,
-    },
+    #[error("line {0}: the header gives neither wavelengths nor wave numbers nor THz: convert to wavelengths in nm")]
+    NotWavelengths(usize),
     /// Only one sample, or no curve with two.
-    #[error("line {line}: a curve needs values at two wavelengths or more: check the columns")]
-    TooFewSamples {
-        /// The line where the numbers begin.
-        line: usize,
-    },
+    #[error("line {0}: a curve needs values at two wavelengths or more: check the columns")]
+    TooFewSamples(usize),
     /// A wavelength that no instrument for light measures.
     #[error("line {line}: wavelength {wavelength_nm} nm is outside 100 to 25000 nm: check the unit and the column")]
     WavelengthOutOfRange {
@@ -253,17 +227,11 @@ pub enum ReadError {
         wavelength_nm: f64,
     },
     /// More than [`MAX_CURVES`] curves.
-    #[error("line {line}: more than {MAX_CURVES} curves: split the file")]
-    TooManyCurves {
-        /// The line where the limit is passed.
-        line: usize,
-    },
+    #[error("line {0}: more than {MAX_CURVES} curves: split the file")]
+    TooManyCurves(usize),
     /// More than [`MAX_SAMPLES`] samples.
-    #[error("line {line}: more than {MAX_SAMPLES} samples: split the file")]
-    TooManySamples {
-        /// The line where the limit is passed.
-        line: usize,
-    },
+    #[error("line {0}: more than {MAX_SAMPLES} samples: split the file")]
+    TooManySamples(usize),
 }
 
 impl ReadError {
@@ -271,21 +239,21 @@ impl ReadError {
     pub fn line(&self) -> Option<usize> {
         match *self {
             Self::TooLarge { .. }
-            | Self::Binary { .. }
+            | Self::Binary(..)
             | Self::Empty
             | Self::NotBuilt { .. }
             | Self::Stopped
             | Self::NoNumbers
             | Self::NoSuchPart { .. }
-            | Self::OtherLayout { .. }
+            | Self::OtherLayout(..)
             | Self::NotWavelengthColumn { .. } => None,
-            Self::Unsupported { .. } => Some(1),
+            Self::Unsupported(..) => Some(1),
             Self::AsChosen { ref error, .. } => error.line(),
-            Self::OneColumn { line }
+            Self::OneColumn(line)
             | Self::NearlyRow { line, .. }
             | Self::Malformed { line, .. }
             | Self::WrongCount { line, .. }
-            | Self::NoWavelengths { line }
+            | Self::NoWavelengths(line)
             | Self::Misplaced { line, .. }
             | Self::CheckFails { line, .. }
             | Self::TwoValues { line, .. }
@@ -293,14 +261,14 @@ impl ReadError {
             | Self::ScaleContradicts { line, .. }
             | Self::NotANumber { line, .. }
             | Self::UnevenRow { line, .. }
-            | Self::SecondTable { line }
-            | Self::AmbiguousCommas { line }
+            | Self::SecondTable(line)
+            | Self::AmbiguousCommas(line)
             | Self::AmbiguousUnit { line, .. }
-            | Self::NotWavelengths { line }
-            | Self::TooFewSamples { line }
+            | Self::NotWavelengths(line)
+            | Self::TooFewSamples(line)
             | Self::WavelengthOutOfRange { line, .. }
-            | Self::TooManyCurves { line }
-            | Self::TooManySamples { line } => Some(line),
+            | Self::TooManyCurves(line)
+            | Self::TooManySamples(line) => Some(line),
         }
     }
 

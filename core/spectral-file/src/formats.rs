@@ -1,4 +1,4 @@
-//! Who takes a text: a reader of its family, or the general reader of numbers in columns.
+//! Choice of the reader for a text: one for its format family, or the general reader of numbers in columns.
 
 mod camspec;
 mod cgats;
@@ -34,7 +34,7 @@ use crate::{columns, instrument, markup, raw, sniff, wide};
 pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let reader = match options.reader {
         Some(reader) if fits(reader, text) => reader,
-        Some(reader) => return Err(ReadError::OtherLayout { reader }),
+        Some(reader) => return Err(ReadError::OtherLayout(reader)),
         None => recognize(text)?,
     };
     let mut found = match reader {
@@ -59,7 +59,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     }?;
     match options.reader {
         Some(chosen) if chosen == found.reader.value => found.reader = Decided::chosen(chosen),
-        Some(reader) => return Err(ReadError::OtherLayout { reader }),
+        Some(reader) => return Err(ReadError::OtherLayout(reader)),
         None => {}
     }
     Ok(found)
@@ -88,7 +88,7 @@ fn recognize(text: &str) -> Result<Reader, ReadError> {
         Some(Family::Cgats) => Ok(Reader::Cgats),
         Some(Family::Jcamp) => Ok(Reader::Jcamp),
         Some(Family::Json) => Ok(Reader::Rawtoaces),
-        Some(Family::Xml) => xml_reader(text).ok_or(ReadError::Unsupported { family: Family::Xml }),
+        Some(Family::Xml) => xml_reader(text).ok_or(ReadError::Unsupported(Family::Xml)),
         None if macam::recognize(text) => Ok(Reader::Alternate),
         None if camspec::recognize(text) => Ok(Reader::Camspec),
         None if lamp_meter::recognize(text) => Ok(Reader::Labels),
@@ -129,9 +129,7 @@ fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, 
                 }
                 break;
             }
-            Err(ReadError::NoNumbers | ReadError::NearlyRow { .. } | ReadError::OneColumn { .. })
-                if !parts.is_empty() =>
-            {
+            Err(ReadError::NoNumbers | ReadError::NearlyRow { .. } | ReadError::OneColumn(..)) if !parts.is_empty() => {
                 break;
             }
             Err(error) => return Err(error),
@@ -166,7 +164,7 @@ fn table(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, 
     if let [_, second, ..] = parts.as_slice() {
         grid.part = Some(Decided::guess(wanted, format!("{} tables stand below one another", parts.len())));
         if options.part.is_none() {
-            log.push(Warning::MoreTables { line: second.line });
+            log.push(Warning::MoreTables(second.line));
         }
         grid.parts = parts;
     }

@@ -143,7 +143,6 @@ impl Grid {
         self.dropped.push(DroppedRow { line, why });
     }
 
-    /// Removes the marked samples.
     pub(super) fn remove(&mut self, marked: &[bool]) {
         if self.lines.len() == marked.len() {
             retain(&mut self.lines, marked);

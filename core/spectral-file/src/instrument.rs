@@ -1,4 +1,4 @@
-//! Which program wrote a table, and what it says about the values in its own words.
+//! Program that wrote a table, and its own words about the values.
 
 use crate::grid::Grid;
 use crate::report::{Decided, Decision};

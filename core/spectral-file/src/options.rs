@@ -26,11 +26,11 @@ pub struct ReadOptions {
     /// Scale of the values. Left open, only reflectances and transmittances are scaled. [`Values::Plain`] keeps lights in
     /// photons or per frequency as they are written, too.
     pub values: Option<Values>,
-    /// Which of several tables, blocks or groups in one file is taken, from 1 in the order of the file.
+    /// Number of the table, block or group to read of several in one file, from 1 in the order of the file.
     pub part: Option<usize>,
     /// Role of the curves.
     pub role: Option<Role>,
-    /// Which reader takes the file; [`Reader::Table`] reads numbers in columns whatever stands around them.
+    /// Reader for the file; [`Reader::Table`] reads numbers in columns whatever stands around them.
     pub reader: Option<Reader>,
     /// True if raw curves (dark, reference and sample counts) and what is recorded beside spectra (temperatures, times) are
     /// kept; together with a chosen wavelength column, every other column.

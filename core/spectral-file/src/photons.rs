@@ -47,7 +47,6 @@ struct Conversion {
     size: f64,
     /// The unit of the result, if it has one.
     unit: Option<String>,
-    /// Evidence.
     why: String,
 }
 

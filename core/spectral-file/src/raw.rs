@@ -24,7 +24,7 @@ pub(super) fn leave_out(grid: &mut Grid, options: &ReadOptions) -> Option<Decisi
     Some(Decision::new("Columns", &decided))
 }
 
-/// Which curves are raw; `None` if none is, or all are.
+/// Flags for the curves that are raw; `None` if none is, or all are.
 fn mark(curves: &[RawCurve]) -> Option<Vec<bool>> {
     const LETTERS: [&str; 3] = ["D", "R", "S"];
     let letters = curves.iter().all(|curve| curve.name == "P" || LETTERS.contains(&curve.name.as_str()));

@@ -23,10 +23,10 @@ pub(super) fn blame(bytes: &[u8], options: &ReadOptions, error: ReadError, watch
         error,
         ReadError::Stopped
             | ReadError::TooLarge { .. }
-            | ReadError::Binary { .. }
+            | ReadError::Binary(..)
             | ReadError::Empty
             | ReadError::NoSuchPart { .. }
-            | ReadError::OtherLayout { .. }
+            | ReadError::OtherLayout(..)
             | ReadError::NotWavelengthColumn { .. }
     );
     if own || bytes.len() > LONGEST {
@@ -126,7 +126,7 @@ fn finish(
 ) -> Result<(SpectralFile, Option<Marker>), ReadError> {
     let Found { mut grid, layout, reader, mut notes } = found;
     if grid.wavelengths.len() < 2 {
-        return Err(ReadError::TooFewSamples { line: grid.line(0).max(layout.first_line) });
+        return Err(ReadError::TooFewSamples(grid.line(0).max(layout.first_line)));
     }
     let (parts, part) = grid.settle_parts(options.part, layout.first_line)?;
     let wavelength_unit = wavelengths::unit(&grid, options)?;
@@ -166,7 +166,7 @@ fn finish(
     dropped_rows.truncate(MAX_DROPPED);
     let (curves, origins) = grid.into_curves(&mut warnings);
     if curves.is_empty() {
-        return Err(ReadError::TooFewSamples { line: layout.first_line });
+        return Err(ReadError::TooFewSamples(layout.first_line));
     }
     if let Some(marker) = &mut marker {
         marker.take_curves(&origins);

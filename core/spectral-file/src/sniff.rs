@@ -1,8 +1,9 @@
 //! Decides how a text is laid out: separators, decimal mark, orientation, and the line where the numbers begin.
 
 use crate::dialect::{Cell, Dialect};
-use crate::dialect_trial::{Across, Shape, Trial};
+use crate::dialect_trial::{Shape, Trial};
 use crate::error::ReadError;
+pub(super) use crate::layout::Layout;
 use crate::options::ReadOptions;
 use crate::report::{Decided, Orientation};
 use crate::separators::{DecimalMark, Delimiter};
@@ -11,62 +12,6 @@ use crate::warning::Warning;
 use crate::watch::Log;
 use crate::wavelength_unit::plausible;
 use crate::{bands, near_miss, thousands};
-
-/// Layout of a text.
-#[derive(Debug)]
-pub(super) struct Layout {
-    pub(super) delimiter: Decided<Delimiter>,
-    pub(super) decimal_mark: Decided<DecimalMark>,
-    /// True if the other mark groups thousands even where it stands once.
-    pub(super) thousands: bool,
-    pub(super) orientation: Decided<Orientation>,
-    /// The first line of values.
-    pub(super) first_line: usize,
-    /// Which columns are text, a bit for each.
-    pub(super) texts: u128,
-    /// Columns, as far as seen.
-    pub(super) width: usize,
-    /// The header of wavelengths, if they run across.
-    pub(super) across: Option<Across>,
-    /// The column of the wavelengths, from 1, if the caller chose one.
-    pub(super) wavelength_column: Option<usize>,
-    /// True if all other columns are curves, whatever they look like.
-    pub(super) every_column: bool,
-    pub(super) warnings: Vec<Warning>,
-}
-
-impl Layout {
-    /// The layout of a family that leaves nothing to decide.
-    pub(super) fn fixed(
-        (delimiter, mark): (Delimiter, DecimalMark),
-        orientation: Orientation,
-        first_line: usize,
-        why: &str,
-    ) -> Self {
-        Self {
-            delimiter: Decided::certain(delimiter, why),
-            decimal_mark: Decided::certain(mark, why),
-            thousands: false,
-            orientation: Decided::certain(orientation, why),
-            first_line,
-            texts: 0,
-            width: 0,
-            across: None,
-            wavelength_column: None,
-            every_column: false,
-            warnings: Vec::new(),
-        }
-    }
-
-    pub(super) fn dialect(&self) -> Dialect {
-        Dialect { delimiter: self.delimiter.value, mark: self.decimal_mark.value, thousands: self.thousands }
-    }
-
-    /// The line before which comments and names stand.
-    pub(super) fn header_end(&self) -> usize {
-        self.across.as_ref().map_or(self.first_line, |across| across.line)
-    }
-}
 
 /// Lines that are tried before deciding, if enough of them are rows of numbers.
 const SAMPLE_LINES: usize = 200;
@@ -127,10 +72,9 @@ pub(super) fn sniff(
     }
     let Some(best) = best else {
         let single = trials.iter().find(|trial| trial.single >= 2);
-        return Err(single.map_or_else(
-            || near_miss::error(section, options),
-            |trial| ReadError::OneColumn { line: trial.single_line },
-        ));
+        return Err(
+            single.map_or_else(|| near_miss::error(section, options), |trial| ReadError::OneColumn(trial.single_line))
+        );
     };
     let orientation = Decided::or_chosen(options.orientation, || orientation(best));
     if orientation.value == Orientation::Across {
@@ -306,7 +250,7 @@ fn marks(
             _ => (DecimalMark::Comma, DecimalMark::Point),
         };
         let why = format!("Numbers such as 1{sign}000 stand next to whole ones of three digits");
-        return (Decided::guess(mark, why), true, Some(Warning::GroupedThousands { fractions }));
+        return (Decided::guess(mark, why), true, Some(Warning::GroupedThousands(fractions)));
     }
     (mark, false, trial.may_be_thousands().then_some(Warning::MaybeThousands))
 }
@@ -330,7 +274,7 @@ fn lay_down(
     let mut warnings = Vec::new();
     if commas_only {
         if let Some(line) = trial.padded_line {
-            return Err(ReadError::AmbiguousCommas { line });
+            return Err(ReadError::AmbiguousCommas(line));
         }
         warnings.push(Warning::CommasOnly);
     }
@@ -411,7 +355,7 @@ fn first_line(section: Section<'_>, trial: &Trial, warnings: &mut Vec<Warning>) 
         None => {}
     }
     if let Some(line) = stray {
-        warnings.push(Warning::NumbersAbove { line });
+        warnings.push(Warning::NumbersAbove(line));
     }
     run.line
 }

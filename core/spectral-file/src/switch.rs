@@ -1,4 +1,4 @@
-//! Which chosen setting an error is due to.
+//! Chosen setting that causes an error.
 
 use std::fmt;
 

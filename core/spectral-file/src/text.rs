@@ -15,7 +15,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Encoding), ReadError
         return Err(ReadError::TooLarge { megabytes: bytes.len().div_ceil(1 << 20), limit: MAX_BYTES >> 20 });
     }
     if let Some(kind) = binary(bytes) {
-        return Err(ReadError::Binary { kind });
+        return Err(ReadError::Binary(kind));
     }
     #[cfg(feature = "encodings")]
     let (text, encoding) = decode_any(bytes);
@@ -181,7 +181,6 @@ pub(super) fn excerpt(text: &str) -> String {
     }
 }
 
-/// The first few of several.
 pub(super) fn listed(all: &[String]) -> String {
     const MOST: usize = 4;
     let first = all[..all.len().min(MOST)].join(", ");

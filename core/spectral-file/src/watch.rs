@@ -55,17 +55,16 @@ impl<'a> Log<'a> {
     pub(super) fn push(&mut self, warning: Warning) {
         let kind = discriminant(&warning);
         let same = self.warnings.iter().filter(|other| discriminant(*other) == kind).count();
-        let counted = matches!(self.warnings.last(), Some(Warning::More { .. }));
+        let counted = matches!(self.warnings.last(), Some(Warning::More(..)));
         match self.warnings.last_mut() {
-            Some(Warning::More { count }) if same >= Self::MOST_ALIKE => *count += 1,
-            _ if same >= Self::MOST_ALIKE => self.warnings.push(Warning::More { count: 1 }),
+            Some(Warning::More(count)) if same >= Self::MOST_ALIKE => *count += 1,
+            _ if same >= Self::MOST_ALIKE => self.warnings.push(Warning::More(1)),
             // The count of those that are not listed stays the last.
             _ if counted => self.warnings.insert(self.warnings.len() - 1, warning),
             _ => self.warnings.push(warning),
         }
     }
 
-    /// Adds warnings.
     pub(super) fn extend(&mut self, warnings: impl IntoIterator<Item = Warning>) {
         warnings.into_iter().for_each(|warning| self.push(warning));
     }

@@ -22,7 +22,7 @@ pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<Wavelen
     }
     match grid.header.x_unit {
         Some((line, XUnit::Wavelength(unit))) => Ok(Decided::certain(unit, format!("Line {line} names the unit"))),
-        Some((line, XUnit::Other)) => Err(ReadError::NotWavelengths { line }),
+        Some((line, XUnit::Other)) => Err(ReadError::NotWavelengths(line)),
         None => unit_from_range(grid),
     }
 }
@@ -74,7 +74,7 @@ pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> bool {
     if falls > 0 && rises > 0 {
         let wrong = |pair: &[f64]| if descending { pair[1] > pair[0] } else { pair[1] < pair[0] };
         let at = wavelengths.windows(2).position(wrong).unwrap_or(0);
-        log.push(Warning::Sorted { line: grid.line(at + 1) });
+        log.push(Warning::Sorted(grid.line(at + 1)));
     }
     if falls > 0 {
         let mut order: Vec<usize> = (0..wavelengths.len()).collect();
@@ -144,8 +144,8 @@ fn merge_repeats(grid: &mut Grid, log: &mut Log<'_>) {
         }
         match why {
             _ if list.is_empty() => {}
-            Dropped::Averaged => log.push(Warning::AveragedRows { lines: list }),
-            _ => log.push(Warning::RepeatedRows { lines: list }),
+            Dropped::Averaged => log.push(Warning::AveragedRows(list)),
+            _ => log.push(Warning::RepeatedRows(list)),
         }
     }
 }

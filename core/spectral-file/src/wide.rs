@@ -185,7 +185,7 @@ impl<'a> Rows<'a> {
             if is_row {
                 return Err(error);
             }
-            log.push(Warning::TextBelow { line });
+            log.push(Warning::TextBelow(line));
         }
         if self.gaps > 0 {
             let lines = std::mem::take(&mut self.gap_lines);
@@ -297,10 +297,10 @@ impl<'a> Rows<'a> {
             self.gap_lines.add(number);
         }
         if self.curves.len() >= MAX_CURVES {
-            return Err(ReadError::TooManyCurves { line: number });
+            return Err(ReadError::TooManyCurves(number));
         }
         if (self.curves.len() + 1) * wavelengths.len() > MAX_SAMPLES {
-            return Err(ReadError::TooManySamples { line: number });
+            return Err(ReadError::TooManySamples(number));
         }
         self.curves.push(curve);
         Ok(())

@@ -88,7 +88,7 @@ impl Format {
         let found = sheet.curves.len();
         let wanted = match (self, sheet.content) {
             (Self::ArgyllCmf, Content::Reflectance | Content::Transmittance | Content::Illuminant) => {
-                return Err(WriteError::OtherContent { format: self });
+                return Err(WriteError::OtherContent(self));
             }
             // The three channels of a camera are among its curves, or the check of the sheet would have failed.
             (_, Content::Camera { .. }) => None,

@@ -272,6 +272,9 @@ impl Query for CameraImageQuery {
 
 impl CameraImageQuery {
     /// The plan that the image is made by, where its shading and measure are known.
+    ///
+    /// # Errors
+    /// [`RenderingError`] if no plan exists for the camera's spectral weights.
     pub fn plan(
         &self,
         shading: &ShadingImage,

@@ -121,7 +121,16 @@ fn encode(linear: f32) -> u8 {
 
 /// Shows a camera's picture on a screen; none if stopped. A pixel is the mean of its samples in linear light.
 pub fn develop(image: &CameraImage, development: &Development, stop: &Stop) -> Option<Picture> {
-    let geometry = image.placed();
+    develop_signals(image.placed(), image.signals(), development, stop)
+}
+
+/// [`develop`] of signals at the places of `geometry`, one for each of its lit samples.
+pub fn develop_signals(
+    geometry: &LitSamples,
+    signals: &[[f32; 3]],
+    development: &Development,
+    stop: &Stop,
+) -> Option<Picture> {
     let size = geometry.size();
     let (width, height) = (size.width as usize, size.height as usize);
     let background = development.background.map(|color| Vec3::from_array(color).clamp(Vec3::ZERO, Vec3::ONE));
@@ -131,9 +140,9 @@ pub fn develop(image: &CameraImage, development: &Development, stop: &Stop) -> O
     let rows_of_task = (4096 / width.max(1)).max(1);
     let xyz: Option<Vec<[f32; 3]>> = development.root_polynomial.as_ref().map(|polynomial| {
         let xyz = |signal: &[f32; 3]| if stop.is_set() { [0.0; 3] } else { straightened(polynomial, *signal) };
-        image.signals().par_iter().with_min_len(512).map(xyz).collect()
+        signals.par_iter().with_min_len(512).map(xyz).collect()
     });
-    let signals = xyz.as_deref().unwrap_or(image.signals());
+    let signals = xyz.as_deref().unwrap_or(signals);
     let task = Task { size, geometry, signals, matrix, background, empty, encoded: &ENCODED };
     let clipped = rgba
         .par_chunks_mut(rows_of_task * width * 4)
@@ -268,13 +277,24 @@ pub fn differences(
     stride: usize,
     stop: &Stop,
 ) -> Option<(Vec<f32>, Vec<f32>)> {
+    signal_differences(metric, [image.signals(), reference.signals()], [measured, measured_reference], stride, stop)
+}
+
+/// [`differences`] of signals, a sensor's and then the reference's, with their scales.
+pub fn signal_differences(
+    metric: Metric,
+    [image, reference]: [&[[f32; 3]]; 2],
+    [measured, measured_reference]: [&ColorimetricScale; 2],
+    stride: usize,
+    stop: &Stop,
+) -> Option<(Vec<f32>, Vec<f32>)> {
     let stride = stride.max(1);
-    let count = image.signals().len().min(reference.signals().len()).div_ceil(stride);
+    let count = image.len().min(reference.len()).div_ceil(stride);
     let at = |index: usize| {
         if index.is_multiple_of(1024) && stop.is_set() {
             return (0.0, 0.0);
         }
-        let (a, b) = (image.signals()[index * stride], reference.signals()[index * stride]);
+        let (a, b) = (image[index * stride], reference[index * stride]);
         let (sample, reference) = (measured.color(a), measured_reference.color(b));
         let lightness = reference.lab.map_or(0.0, |lab| lab.l as f32);
         (metric.between(&reference, &sample).unwrap_or(0.0) as f32, lightness)

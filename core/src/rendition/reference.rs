@@ -1,7 +1,8 @@
 //! Reference illuminants: blackbodies and daylight at the temperature of the light in question.
 
+use super::standards::{RenditionError, Standards};
+use super::sums;
 use super::sums::{Sums, wavelengths};
-use super::{RenditionError, Standards, sums};
 use crate::colorimetry::{Uv60, Xyz};
 use crate::light::planckian::{RadiationConstants, relative_exitance};
 use crate::light::temperature::MAX_DUV;

@@ -10,11 +10,11 @@ use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 use chromascope_mesh::reading::{MeshReadError, Note, ReadMesh, read_mesh};
 
-use crate::format::{capitalized, io_reason};
+use crate::format::{capitalized, file_name, io_reason};
 
 /// The largest mesh file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1_000_000_000;
-/// How much is read from the disk between two looks at the stop signal.
+/// Number of bytes read between two checks of the stop signal.
 const CHUNK_BYTES: u64 = 4 << 20;
 /// Endings of mesh files.
 pub const ENDINGS: [&str; 3] = ["obj", "ply", "stl"];
@@ -24,7 +24,7 @@ pub const ENDINGS: [&str; 3] = ["obj", "ply", "stl"];
 pub struct LoadedMesh {
     /// The mesh.
     pub mesh: Shared<Mesh>,
-    /// What was found and tolerated, the gravest first.
+    /// Tolerated findings, most serious first.
     pub notes: Vec<String>,
     /// The file's name and its counts: `head.obj: 4429 vertices, 8812 triangles, open edges 36`.
     pub summary: String,
@@ -47,7 +47,7 @@ pub enum MeshFailure {
     Missing {
         /// The file's name.
         file: String,
-        /// Where it was looked for.
+        /// Folder that was searched.
         folder: String,
     },
     /// The system does not give it out.
@@ -59,11 +59,8 @@ pub enum MeshFailure {
         error: io::Error,
     },
     /// A folder or a device.
-    #[error("{file} is not a file")]
-    NoFile {
-        /// Its name.
-        file: String,
-    },
+    #[error("{0} is not a file")]
+    NoFile(String),
     /// It is larger than what is read.
     #[error(
         "{file}: {} MB, but the limit is {} MB; simplify the mesh or export a part of it",
@@ -89,21 +86,15 @@ pub enum MeshFailure {
     Mesh {
         /// The file's name.
         file: String,
-        /// Why, and where.
+        /// Cause, with its position.
         error: MeshReadError,
     },
     /// The program broke on it.
-    #[error("{file} could not be read because of an error in this program; please report it with the file")]
-    Broken {
-        /// The file's name.
-        file: String,
-    },
+    #[error("{0} could not be read because of an error in this program; please report it with the file")]
+    Broken(String),
     /// Nobody wanted it any more.
-    #[error("reading {file} stopped")]
-    Stopped {
-        /// The file's name.
-        file: String,
-    },
+    #[error("reading {0} stopped")]
+    Stopped(String),
 }
 
 impl MeshFailure {
@@ -116,7 +107,7 @@ impl MeshFailure {
     pub fn on_show(&self) -> String {
         let remedy = match self {
             Self::Missing { .. } => "; open it from where it is now, or choose Head or Fern.",
-            Self::Io { .. } | Self::Stopped { .. } => "; open it again, or choose Head or Fern.",
+            Self::Io { .. } | Self::Stopped(..) => "; open it again, or choose Head or Fern.",
             _ => ". Open another mesh, or choose Head or Fern.",
         };
         self.beginning() + remedy
@@ -125,13 +116,13 @@ impl MeshFailure {
     /// The message as the beginning of a sentence: only a sentence's own first word takes a capital, a file's name stays as it is.
     fn beginning(&self) -> String {
         match self {
-            Self::Stopped { .. } => capitalized(&self.to_string()),
+            Self::Stopped(..) => capitalized(&self.to_string()),
             _ => self.to_string(),
         }
     }
 }
 
-/// What stands between a file's name and a message, which may begin with a place in the file.
+/// Separator between a file's name and a message, which may begin with a position in the file.
 fn joint(error: &MeshReadError) -> &'static str {
     use MeshReadError as E;
     match error {
@@ -156,7 +147,7 @@ fn joint(error: &MeshReadError) -> &'static str {
     }
 }
 
-/// When a file was changed, and how long it is.
+/// Modification time and length of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Stamp {
     modified: Option<SystemTime>,
@@ -166,10 +157,10 @@ pub(super) struct Stamp {
 /// Reads a mesh file. `stop` is asked now and then, and ends the reading with [`MeshFailure::Stopped`].
 pub fn read(path: &Path, stop: &dyn Fn() -> bool) -> Result<LoadedMesh, MeshFailure> {
     // Nothing to compare with, so there is always something.
-    read_unless(path, None, stop)?.map(|(mesh, _)| mesh).ok_or_else(|| MeshFailure::Stopped { file: file_name(path) })
+    read_unless(path, None, stop)?.map(|(mesh, _)| mesh).ok_or_else(|| MeshFailure::Stopped(file_name(path)))
 }
 
-/// The same, unless the file is as it was when it had this stamp.
+/// Reads a file unless its stamp is still this one.
 pub(super) fn read_unless(
     path: &Path,
     unless: Option<Stamp>,
@@ -185,7 +176,7 @@ pub(super) fn read_unless(
     };
     // Opening a pipe would wait for somebody to write into it.
     if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(MeshFailure::NoFile { file });
+        return Err(MeshFailure::NoFile(file));
     }
     let source = File::open(path).map_err(failed)?;
     let known = source.metadata().map_err(failed)?;
@@ -198,12 +189,12 @@ pub(super) fn read_unless(
     }
     let bytes = contents(source, stamp.bytes, stop).map_err(|error| match error.kind() {
         io::ErrorKind::OutOfMemory => MeshFailure::NoMemory { file: file.clone(), bytes: stamp.bytes },
-        io::ErrorKind::Interrupted => MeshFailure::Stopped { file: file.clone() },
+        io::ErrorKind::Interrupted => MeshFailure::Stopped(file.clone()),
         _ => failed(error),
     })?;
     match read_mesh(&bytes, path.extension().and_then(OsStr::to_str), stop) {
         Ok(mesh) => Ok(Some((loaded(&file, mesh), stamp))),
-        Err(MeshReadError::Stopped) => Err(MeshFailure::Stopped { file }),
+        Err(MeshReadError::Stopped) => Err(MeshFailure::Stopped(file)),
         Err(error) => Err(MeshFailure::Mesh { file, error }),
     }
 }
@@ -255,9 +246,4 @@ fn is_vertex(line: &str) -> bool {
     let mut words = line.split_whitespace();
     let numbers = |words: std::str::SplitWhitespace<'_>| words.take_while(|word| word.parse::<f64>().is_ok()).count();
     words.next() == Some("v") && numbers(words) >= 3
-}
-
-/// The last part of a path.
-pub(super) fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }

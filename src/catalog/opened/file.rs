@@ -7,7 +7,7 @@ use crate::catalog::import::Origin;
 /// A file's contents.
 #[derive(Clone, Debug)]
 pub struct OpenFile {
-    /// Where they are from.
+    /// Origin of the bytes.
     pub origin: Origin,
     /// The bytes.
     pub bytes: Arc<[u8]>,

@@ -13,9 +13,9 @@ use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::document::session::is_session;
-use crate::format::io_reason;
+use crate::format::{file_name, io_failure, io_reason};
 
-/// How much of a file is looked at to tell a mesh from spectra.
+/// Number of bytes examined to distinguish a mesh from spectra.
 const LOOK: usize = 1 << 16;
 /// Largest number of files read from a folder.
 const MAX_FILES: usize = 1000;
@@ -27,7 +27,7 @@ pub enum Request {
     Path(PathBuf),
     /// Bytes from elsewhere: the clipboard, or a drop without a file.
     Bytes {
-        /// What they are called.
+        /// Name of the files together.
         name: String,
         /// The bytes.
         bytes: Arc<[u8]>,
@@ -36,7 +36,7 @@ pub enum Request {
     Known(Fingerprint, Box<ImportOverrides>),
 }
 
-/// What came of some files.
+/// Outcome for several files.
 #[derive(Default)]
 struct Harvest {
     sets: Vec<Imported>,
@@ -114,13 +114,14 @@ fn expand(requests: Vec<Request>, harvest: &mut Harvest) -> Vec<Request> {
                 }
                 all.extend(files.into_iter().take(MAX_FILES).map(Request::Path));
             }
-            Err(error) => harvest.failures.push(format!("{}: {}", path.display(), io_reason(&error))),
+            Err(error) => harvest.failures.push(io_failure(&path, &error)),
         }
     }
     all
 }
 
-fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
+/// Files of a folder in order of name, without hidden files and subfolders.
+pub fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
@@ -133,7 +134,7 @@ fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// Why there are no bytes.
+/// Reason for missing bytes.
 enum Unread {
     /// It is a mesh.
     Mesh(PathBuf),
@@ -191,7 +192,7 @@ fn known_path(path: PathBuf, desk: &Desk) -> PathBuf {
 }
 
 fn origin(path: &Path, bytes: &[u8]) -> Origin {
-    Origin { name: name_of(path), path: Some(path.to_owned()), fingerprint: Fingerprint::of(bytes) }
+    Origin { name: file_name(path), path: Some(path.to_owned()), fingerprint: Fingerprint::of(bytes) }
 }
 
 fn take(
@@ -230,7 +231,7 @@ fn take(
             harvest.failed.push(fingerprint);
         }
     }
-    desk.know(OpenFile { origin, bytes, failure });
+    desk.lock().know(OpenFile { origin, bytes, failure });
 }
 
 /// Reads; a panic comes out as a failure of this file alone.
@@ -268,7 +269,7 @@ impl Harvest {
         events
     }
 
-    /// How many of the files could not be read, and why the first could not.
+    /// Number of files that could not be read, and the reason for the first.
     fn failure(&self) -> Option<String> {
         let first = self.failures.first()?;
         // A folder without files is one of those asked for.
@@ -296,7 +297,7 @@ pub(super) fn recall(failing: Vec<Failing>, desk: &Desk, job: &Job) {
         if !job.go_on(0.0) {
             return;
         }
-        desk.know(OpenFile { origin, bytes, failure });
+        desk.lock().know(OpenFile { origin, bytes, failure });
     }
 }
 
@@ -313,11 +314,12 @@ pub(super) fn reread(set: &OwnSet, why: Why, desk: &Desk, job: &Job) -> Option<(
                 .and_then(|bytes| {
                     let origin = origin(path, &bytes);
                     if why == Why::Changed && Some(origin.fingerprint) == set.fingerprint {
-                        desk.know(OpenFile { origin, bytes, failure: None });
+                        desk.lock().know(OpenFile { origin, bytes, failure: None });
                         return Ok(None);
                     }
                     let read = read_once(&origin, &bytes, &set.wishes, job);
-                    desk.know(OpenFile { origin, bytes, failure: read.as_ref().err().cloned() });
+                    let file = OpenFile { origin, bytes, failure: read.as_ref().err().cloned() };
+                    desk.lock().know(file);
                     read.map(Some)
                 })
                 .transpose()?
@@ -333,13 +335,14 @@ pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Jo
     if let Ok(bytes) = read_bytes(path)
         && Fingerprint::of(&bytes) == fingerprint
     {
-        desk.know(OpenFile { origin: origin(path, &bytes), bytes, failure: None });
+        let file = OpenFile { origin: origin(path, &bytes), bytes, failure: None };
+        desk.lock().know(file);
     }
 }
 
 /// A file's bytes; the error is a sentence with its name.
 fn read_bytes(path: &Path) -> Result<Arc<[u8]>, String> {
-    let name = name_of(path);
+    let name = file_name(path);
     let failed = |error: io::Error| format!("{name}: {}", io_reason(&error));
     let known = fs::metadata(path).map_err(failed)?;
     if !known.is_file() {
@@ -364,10 +367,6 @@ fn beginning(path: &Path) -> Vec<u8> {
         bytes.clear();
     }
     bytes
-}
-
-fn name_of(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
 fn unread(name: &str, error: &ReadError) -> String {

@@ -1,4 +1,4 @@
-//! What `inspect` takes.
+//! Arguments of `inspect`.
 
 use std::path::PathBuf;
 
@@ -33,7 +33,7 @@ decisions [{what, value, certainty, why}], warnings [{line, text}], reading {...
 
 A file that cannot be read is reported on standard error; the others are still read, and the exit code is 1.";
 
-/// What `inspect` takes.
+/// Arguments of `inspect`.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct InspectArguments {
     /// Files with spectra, or folders of them
@@ -123,7 +123,7 @@ fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
     })
 }
 
-/// The same for units, which have symbols too.
+/// Parser of units, which have symbols besides names.
 fn unit() -> impl TypedValueParser<Value = WavelengthUnit> {
     let names = UNITS.map(|(name, symbols)| PossibleValue::new(name).aliases(symbols));
     PossibleValuesParser::new(names).try_map(|typed| {

@@ -1,4 +1,4 @@
-//! What was understood, for programs.
+//! Import report as JSON, for programs.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,4 @@
-//! Where the tables go.
+//! Destinations of the tables.
 
 use std::collections::HashSet;
 use std::fs;
@@ -10,7 +10,7 @@ use crate::cli::error::CliError;
 use crate::cli::outputs::{self, is_standard_output};
 use crate::files::fitting;
 
-/// Where the tables of files go.
+/// Destination of the files' tables.
 pub(super) enum Out {
     Nowhere,
     StandardOutput,
@@ -52,7 +52,7 @@ impl Out {
         matches!(self, Self::StandardOutput)
     }
 
-    /// Where the table of the file goes that is read in this place, if anywhere; `-` for standard output.
+    /// Destination of the table of the file with this index, if any; `-` for standard output.
     pub(super) fn place(&self, index: usize) -> Option<&Path> {
         match self {
             Self::Nowhere => None,
@@ -62,7 +62,7 @@ impl Out {
     }
 }
 
-/// What is read; standard input too, which may have been led there from a file.
+/// Files that are read; standard input too, which may be redirected from a file.
 fn inputs(files: &[PathBuf]) -> Vec<PathBuf> {
     let place = |file: &PathBuf| if is_standard_input(file) { PathBuf::from("/dev/stdin") } else { file.clone() };
     files.iter().map(place).collect()

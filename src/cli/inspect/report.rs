@@ -1,4 +1,4 @@
-//! What was understood, in lines for a person.
+//! Import report in lines for a person.
 
 use std::fmt::{Display, Write as _};
 

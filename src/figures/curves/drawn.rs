@@ -30,11 +30,11 @@ pub struct Curve {
 /// The curves of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
-    /// What they are called together.
+    /// Common title.
     pub title: String,
     /// The curves to draw.
     pub drawn: Vec<Curve>,
-    /// What the values are, with their unit.
+    /// Quantity of the values, with its unit.
     pub quantity: String,
     /// Their unit, where all have the same.
     pub unit: Option<String>,
@@ -170,7 +170,7 @@ impl Curves {
         (low <= high).then(|| [low, high.max(0.0)])
     }
 
-    /// What lies beyond what is shown, if something does.
+    /// Note on samples beyond the visible range, if there are any.
     pub fn beyond(&self) -> Option<String> {
         let ([low, high], [least, most]) = (self.span(), self.span_in(f64::NEG_INFINITY..=f64::INFINITY)?);
         (least < low || most > high)
@@ -187,7 +187,7 @@ fn channel(role: Role, channels: &[usize; 3], place: usize) -> Option<usize> {
     channels.iter().position(|channel| *channel == place).filter(|_| role == Role::Camera)
 }
 
-/// What all say, if they agree.
+/// Unit that all curves share, if they do.
 fn common<'a>(mut units: impl Iterator<Item = Option<&'a str>>) -> Option<String> {
     let first = units.next()??;
     units.all(|unit| unit == Some(first)).then(|| first.to_owned())

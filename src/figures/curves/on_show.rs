@@ -12,27 +12,27 @@ use crate::scene::Scene;
 use crate::view::View;
 use crate::view::import::ImportItem;
 
-/// What Import shows.
+/// Contents of the Import pane.
 #[derive(Clone, Debug)]
 pub struct ImportSelection {
-    /// Which.
+    /// Selected item.
     pub item: ImportItem,
     /// The document's set.
     pub set: Option<Shared<OwnSet>>,
-    /// How it is, or is to be, read.
+    /// Overrides with which it is, or is to be, read.
     pub wishes: ImportOverrides,
     /// True if that is not yet so in the document.
     pub pending: bool,
     /// The file's contents, if they are at hand.
     pub file: Option<OpenFile>,
-    /// What the contents were understood as, now or just before.
+    /// Preview of the contents, present or last.
     pub look: Option<Arc<FilePreview>>,
 }
 
 impl ImportSelection {
-    /// The selected item; asks for what is not known yet, and keeps the answer for [`figure`](super::figure).
-    pub fn refresh(scene: &Scene<'_>, view: &mut View, opened: &Opened) -> Option<Self> {
-        let mut shown = Self::of(scene, view)?;
+    /// The selected item; asks for what is not known yet.
+    pub fn refresh(scene: &Scene<'_>, view: &View, opened: &Opened) -> Option<Self> {
+        let mut shown = Self::of(scene, view, opened.preview())?;
         let fingerprint = match &shown.item {
             ImportItem::File(fingerprint) => Some(*fingerprint),
             ImportItem::Set(_) => shown.set.as_ref().and_then(|set| set.fingerprint),
@@ -50,12 +50,11 @@ impl ImportSelection {
             }
             (None, None) => return None,
         }
-        view.import.look.clone_from(&shown.look);
         Some(shown)
     }
 
-    /// The same, as far as it is known.
-    pub fn of(scene: &Scene<'_>, view: &View) -> Option<Self> {
+    /// Contents of the Import pane, as far as they are known; `last` is the last preview of a file.
+    pub fn of(scene: &Scene<'_>, view: &View, last: Option<Arc<FilePreview>>) -> Option<Self> {
         let item = view.import.selected.clone()?;
         let (set, fingerprint) = match &item {
             ImportItem::Set(name) => {
@@ -67,7 +66,7 @@ impl ImportSelection {
         let tried = view.import.pending(&item).cloned();
         let pending = tried.is_some();
         let wishes = tried.or_else(|| set.as_ref().map(|set| set.wishes.clone())).unwrap_or_default();
-        let look = view.import.look.clone().filter(|look| Some(look.fingerprint) == fingerprint);
+        let look = last.filter(|look| Some(look.fingerprint) == fingerprint);
         Some(Self { item, set, wishes, pending, file: None, look })
     }
 
@@ -89,7 +88,7 @@ impl ImportSelection {
         self.look.as_ref().is_some_and(|look| look.options == self.wishes.options)
     }
 
-    /// What the contents were understood as.
+    /// Table read from the contents.
     pub fn table(&self) -> Option<&SpectralFile> {
         self.look.as_ref()?.table.as_deref().ok()
     }

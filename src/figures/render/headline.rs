@@ -41,11 +41,6 @@ impl Measure {
         Self { metric: pictures.metric, by_eq_13 }
     }
 
-    /// Metric.
-    pub const fn metric(self) -> Metric {
-        self.metric
-    }
-
     /// Name of the metric.
     pub const fn name(self) -> &'static str {
         self.metric.name(self.by_eq_13)

@@ -62,12 +62,13 @@ const RELATIONS: [(&str, &str); 18] = [
 ];
 
 /// Commands for upright symbols.
-const UPRIGHT: [(&str, &str); 20] = [
+const UPRIGHT: [(&str, &str); 23] = [
     ("Gamma", "Γ"),
     ("Delta", "Δ"),
     ("Lambda", "Λ"),
     ("Sigma", "Σ"),
     ("Phi", "Φ"),
+    ("Psi", "Ψ"),
     ("Omega", "Ω"),
     ("infty", "∞"),
     ("partial", "∂"),
@@ -79,6 +80,8 @@ const UPRIGHT: [(&str, &str); 20] = [
     ("%", "%"),
     ("{", "{"),
     ("}", "}"),
+    ("lvert", "|"),
+    ("rvert", "|"),
     ("lVert", "‖"),
     ("rVert", "‖"),
     ("lbrace", "{"),
@@ -88,7 +91,6 @@ const UPRIGHT: [(&str, &str); 20] = [
 /// Commands for sums and integrals.
 const LARGE: [(&str, &str); 3] = [("sum", "∑"), ("prod", "∏"), ("int", "∫")];
 
-/// Functions with upright names.
 const FUNCTIONS: [&str; 9] = ["sin", "cos", "tan", "exp", "ln", "log", "min", "max", "arcsin"];
 
 /// Symbol of a command, if it is in the subset.

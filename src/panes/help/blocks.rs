@@ -10,7 +10,6 @@ use crate::theme::{HEADING, MONO, TEXT, UNIT};
 
 /// Font size of a formula on a line of its own.
 const FORMULA: f32 = 16.0;
-/// Indent of lists and formulas.
 const INDENT: f32 = 5.0 * UNIT;
 /// Space between columns of a table.
 const COLUMN_GAP: f32 = 4.0 * UNIT;

@@ -14,7 +14,6 @@ use crate::theme::ROW;
 use crate::view::import::ImportItem;
 use crate::workspaces::{PaneKind, Workspace};
 
-/// A result of the palette.
 struct Found {
     words: String,
     note: String,

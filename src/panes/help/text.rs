@@ -18,7 +18,6 @@ const SPACE: f32 = 0.32;
 
 /// Colors, and the words to highlight.
 pub(super) struct Ink<'a> {
-    /// The colors.
     pub(super) theme: Theme,
     /// Folded words of the search.
     pub(super) terms: &'a [String],
@@ -84,7 +83,6 @@ impl Flow {
         flow
     }
 
-    /// Width on one line.
     pub(super) fn width(&self) -> f32 {
         self.place(f32::INFINITY).2
     }

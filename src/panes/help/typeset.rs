@@ -11,9 +11,7 @@ use crate::help::formula::{Node, SymbolKind};
 const AXIS: f32 = 0.32;
 /// Size of scripts relative to their base.
 const SCRIPT: f32 = 0.74;
-/// Smallest font size.
 const SMALLEST: f32 = 8.5;
-/// Thickness of rules.
 const RULE: f32 = 1.0;
 
 /// A laid-out formula or part of one. The origin is the left end of the baseline; y points down.
@@ -67,7 +65,6 @@ impl Typeset {
     }
 }
 
-/// Lays out a formula.
 pub(super) fn typeset(painter: &Painter, root: &Node, size: f32, display: bool) -> Typeset {
     Setter { painter }.set(root, size, display)
 }

@@ -9,7 +9,7 @@ use crate::document::own::{OwnSet, Role};
 use crate::panes::context::PaneContext;
 use crate::view::import::ImportItem;
 
-/// How a file fares.
+/// State of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum State {
     /// Read without a doubt.
@@ -45,15 +45,12 @@ impl State {
 
 /// One file of the list.
 pub(super) struct Entry {
-    /// Which.
     pub(super) item: ImportItem,
-    /// What it is called.
     pub(super) name: String,
-    /// How it fares.
     pub(super) state: State,
-    /// What it holds, or why it was not read.
+    /// Contents, or the reason why it was not read.
     pub(super) note: String,
-    /// Where it is on disk, if it is.
+    /// Path on disk, if there is one.
     pub(super) path: Option<PathBuf>,
     /// True if its contents are at hand.
     pub(super) at_hand: bool,

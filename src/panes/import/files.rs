@@ -52,7 +52,7 @@ pub(super) fn column(ui: &mut Ui, rect: Rect, entries: &[Entry], context: &mut P
     });
 }
 
-/// What the marks before the files mean.
+/// Legend of the marks before the files.
 fn legend(ui: &mut Ui, theme: &Theme) {
     for state in State::ALL {
         ui.horizontal(|ui| {
@@ -125,7 +125,7 @@ fn select(ui: &Ui, entries: &[Entry], index: usize, context: &mut PaneContext<'_
 
 /// Makes a set of the file on show, if it is none and can be read as it is wished.
 fn take(context: &mut PaneContext<'_>) {
-    let Some(shown) = ImportSelection::of(&context.scene, context.view) else { return };
+    let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
     match shown.item {
         ImportItem::File(file) if shown.is_fresh() && !shown.taken().is_empty() => {
             context.push(Command::UseFile(file, Box::new(shown.wishes)));
@@ -257,7 +257,7 @@ fn draw_mark(painter: &Painter, at: Pos2, state: State, on: bool, theme: &Theme)
     }
 }
 
-/// What can be done with a file.
+/// Context menu of a file.
 fn menu(ui: &Ui, rect: Rect, index: usize, entries: &[Entry], context: &mut PaneContext<'_>) {
     let entry = &entries[index];
     let button = lines::dots(ui, rect, id(index).with("dots"), &format!("Menu of {}", entry.name));

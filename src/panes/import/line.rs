@@ -11,22 +11,20 @@ use crate::theme::{MONO, Theme};
 
 /// A line that was laid out.
 pub(super) struct Line {
-    /// What is drawn.
+    /// Text as displayed.
     shown: Shown,
-    /// What was understood of it.
+    /// Marks: the parts that were understood.
     marks: Vec<Mark>,
     galley: Arc<Galley>,
 }
 
-/// What a line is drawn with.
+/// Style for drawing a line.
 pub(super) struct Pen<'a> {
-    /// The colors.
     pub(super) theme: &'a Theme,
     /// True if it is known what was understood, so that the rest was not.
     pub(super) understood: bool,
-    /// The curve under the pointer.
     pub(super) hovered: Option<usize>,
-    /// Which curves are taken, by place in the file.
+    /// Flags for the imported curves, by index in the file.
     pub(super) taken: &'a [bool],
 }
 
@@ -46,7 +44,7 @@ impl Line {
             let fill = theme.error.gamma_multiply(0.16);
             painter.rect(frame, 2.0, fill, Stroke::new(1.5, theme.error), StrokeKind::Outside);
         }
-        for mark in self.marks.iter().filter(|mark| matches!(mark.what, What::Gap { .. })) {
+        for mark in self.marks.iter().filter(|mark| matches!(mark.what, What::Gap(..))) {
             if let Some(frame) = self.place(at, &mark.range) {
                 painter.rect_stroke(
                     frame.shrink2(Vec2::new(0.0, 3.0)),
@@ -64,7 +62,7 @@ impl Line {
         self.galley.size().y
     }
 
-    /// What is under the pointer, and where that stands.
+    /// Mark under the pointer, and its rectangle.
     pub(super) fn hit(&self, at: Pos2, pointer: Pos2) -> Option<(&Mark, Rect)> {
         let mut found = None;
         for mark in &self.marks {
@@ -80,9 +78,9 @@ impl Line {
         Rect::from_min_size(at, self.galley.size().max(Vec2::new(4.0, 4.0)))
     }
 
-    /// Where a part of the line is drawn, if it is.
+    /// Rectangle of a part of the line, if it is drawn.
     fn place(&self, at: Pos2, range: &Range<usize>) -> Option<Rect> {
-        /// What has no letters is drawn so wide.
+        /// Width for a part without letters.
         const EMPTY: f32 = 6.0;
         let bytes = self.shown.map(range)?;
         let x = |byte: usize| {
@@ -135,33 +133,33 @@ fn form(what: Option<What>, pen: &Pen<'_>) -> TextFormat {
     let out = |curve: usize| pen.taken.get(curve) == Some(&false);
     match what {
         None if pen.understood => weak,
-        Some(What::Wavelength { .. }) => TextFormat { underline: line(theme.text), ..bright },
-        Some(What::Value { curve, .. } | What::Block { curve }) if pen.hovered == Some(curve) => {
+        Some(What::Wavelength(..)) => TextFormat { underline: line(theme.text), ..bright },
+        Some(What::Value { curve, .. } | What::Block(curve)) if pen.hovered == Some(curve) => {
             TextFormat { background: theme.hover, ..bright }
         }
-        Some(What::Value { curve, .. } | What::Block { curve } | What::Name { curve }) if out(curve) => weak,
-        Some(What::Unit { curve: Some(curve) }) if out(curve) => TextFormat { italics: true, ..weak },
-        Some(What::Name { .. }) => TextFormat { background: theme.control, expand_bg: 1.5, ..bright },
-        Some(What::Unit { .. }) => TextFormat { italics: true, ..bright },
+        Some(What::Value { curve, .. } | What::Block(curve) | What::Name(curve)) if out(curve) => weak,
+        Some(What::Unit(Some(curve))) if out(curve) => TextFormat { italics: true, ..weak },
+        Some(What::Name(..)) => TextFormat { background: theme.control, expand_bg: 1.5, ..bright },
+        Some(What::Unit(..)) => TextFormat { italics: true, ..bright },
         Some(What::Setting) => TextFormat { italics: true, ..weak },
-        Some(What::LeftOut { .. }) => TextFormat { strikethrough: line(theme.weak), ..weak },
+        Some(What::LeftOut(..)) => TextFormat { strikethrough: line(theme.weak), ..weak },
         // Values, whatever else is a part of a curve, and all of a text of which nothing is known yet.
         _ => bright,
     }
 }
 
-/// What the forms mean, each word in its own, so far apart.
+/// Legend of the styles, each word in its own, separated by `gap`.
 pub(super) fn legend(theme: &Theme, gap: f32) -> LayoutJob {
     let pen = Pen { theme, understood: true, hovered: None, taken: &[] };
     let mut job = LayoutJob::default();
     let mut first = true;
     let value = What::Value { curve: 0, nm: 0.0, value: 0.0, written: 0.0 };
-    let left_out = What::LeftOut { why: spectral_file::LeftOut::Column };
+    let left_out = What::LeftOut(spectral_file::LeftOut::Column);
     for (words, what) in [
-        ("wavelength", Some(What::Wavelength { nm: 0.0 })),
+        ("wavelength", Some(What::Wavelength(0.0))),
         ("value", Some(value)),
-        ("name", Some(What::Name { curve: 0 })),
-        ("unit", Some(What::Unit { curve: None })),
+        ("name", Some(What::Name(0))),
+        ("unit", Some(What::Unit(None))),
         ("setting", Some(What::Setting)),
         ("skipped", Some(left_out)),
         ("not used", None),

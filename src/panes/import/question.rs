@@ -36,7 +36,7 @@ const SCALES: [Answer; 2] = [
     ("As written", "Use the numbers as fractions of one", None, Values::Plain),
 ];
 
-/// What the file on show leaves open, and the answers.
+/// Open question about the visible file, and the answers.
 fn question(table: &SpectralFile) -> Option<(&str, &'static [Answer])> {
     let open = |certainty| certainty == Certainty::Open;
     match (&table.role, &table.reading.values) {

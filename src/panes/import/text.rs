@@ -15,7 +15,6 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::lines;
 use crate::theme::{MONO, ROW, UNIT};
 
-/// Height of a line.
 const LINE: f32 = 18.0;
 /// Height of the legend.
 const LEGEND: f32 = 20.0;
@@ -53,7 +52,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &m
     }
 }
 
-/// What the forms of the marks mean.
+/// Legend of the marks' styles.
 fn forms(ui: &Ui, rect: Rect, context: &PaneContext<'_>) {
     const GAPS: [f32; 3] = [12.0, 8.0, 4.0];
     let galleys = GAPS.map(|gap| ui.painter().layout_job(legend(&context.theme, gap)));
@@ -94,7 +93,7 @@ fn away(ui: &mut Ui, rect: Rect, set: &OwnSet, context: &mut PaneContext<'_>) {
     }
 }
 
-/// What the text view keeps from frame to frame.
+/// State of the text view between frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Kept {
     /// The error that was brought into sight last, by its line.
@@ -103,12 +102,11 @@ struct Kept {
     line: Option<(Fingerprint, usize)>,
 }
 
-/// Where everything stands.
+/// Layout of the view.
 struct Place {
     rect: Rect,
     /// Left edge of the letters.
     left: f32,
-    /// Width of a letter.
     letter: f32,
     gutter: f32,
 }
@@ -186,12 +184,12 @@ fn target(
     target
 }
 
-/// What is drawn of a text.
+/// Contents of the text view.
 struct View<'a> {
     preview: &'a Preview,
     look: &'a FilePreview,
     shown: &'a ImportSelection,
-    /// Which curves are taken, by place in the file.
+    /// Flags for the imported curves, by index in the file.
     taken: Vec<bool>,
     error: Option<&'a (usize, Range<usize>)>,
     /// The part in sight.

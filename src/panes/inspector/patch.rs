@@ -6,8 +6,8 @@ use egui::text::LayoutJob;
 use egui::{FontId, Rect, Sense, TextFormat, TextStyle, Ui, Vec2};
 
 use super::{
-    assumptions, buttons, copy_text, difference_words, failure, head, held_words, no_difference, note, numbers,
-    reference_id, show_assumptions,
+    assumptions, buttons, copy_text, difference_words, failure, head, held_words, label_of, no_difference, note,
+    numbers, reference_id, show_assumptions,
 };
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
@@ -18,7 +18,7 @@ use crate::theme::{HEADING, ROW, TEXT, Theme, UNIT};
 /// Height of the pair of swatches with its surround.
 const PAIR: f32 = 40.0;
 
-/// Where a patch stands among those on show.
+/// Index of a patch among the visible ones.
 pub(super) fn index_of(scene: &Scene<'_>, patch: &str) -> Option<usize> {
     scene.patches().ok()?.patches().iter().position(|p| p.name == patch)
 }
@@ -27,6 +27,13 @@ pub(super) fn index_of(scene: &Scene<'_>, patch: &str) -> Option<usize> {
 pub(super) fn color_of(scene: &Scene<'_>, id: &SensorId, patch: &str) -> Result<Option<PatchColor>, SceneError> {
     let colors = scene.patch_colors(id.kind, &id.name)?;
     Ok(index_of(scene, patch).and_then(|index| colors.get(index).copied()))
+}
+
+/// Assumption about a patch beyond its samples.
+fn held_of(scene: &Scene<'_>, patch: &str) -> Option<String> {
+    let set = scene.patches().ok()?;
+    let found = set.patches().iter().find(|p| p.name == patch)?;
+    held_words(&format!("Patch {patch}"), found.grid.assumed())
 }
 
 /// The number a patch has in its whole chart, with its name.
@@ -41,7 +48,7 @@ fn title(scene: &Scene<'_>, patch: &str) -> String {
     }
 }
 
-/// Swatches on the surround: left the reference, right the sensor; one if there is no truth beside it.
+/// Swatches on the surround: left the reference, right the sensor; one if there is no reference beside it.
 fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor>, height: f32, width: f32) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(width, height), Sense::hover());
     response.widget_info(|| {
@@ -74,14 +81,8 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
     let colors = color_of(&scene, id, patch).and_then(|own| Ok((own, color_of(&scene, &reference, patch)?)));
     let (own, seen) = match colors {
         Ok((Some(own), Some(seen))) => (own, seen),
-        Ok(_) => {
-            note(ui, &theme, "This patch is not visible.");
-            return;
-        }
-        Err(error) => {
-            failure(ui, &theme, &error.to_string());
-            return;
-        }
+        Ok(_) => return note(ui, &theme, "This patch is not visible."),
+        Err(error) => return failure(ui, &theme, &error.to_string()),
     };
     let right = if context.view.blink || is_reference { None } else { Some(&own) };
     let width = ui.available_width();
@@ -98,16 +99,13 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
         (vec!["reference".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
     };
     let rows = numbers::of_patches(&scene, &colors);
-    numbers::show(ui, &theme, &heads, &rows, 84.0);
+    numbers::show(ui, "patch", &heads, &rows, context);
     if buttons(ui, context) {
         copy_text(ui, numbers::to_tsv(&heads, &rows), context);
     }
-    let label = super::source_of(&scene, id).map_or_else(|| id.name.clone(), |source| source.label);
+    let label = label_of(&scene, id);
     let mut words = assumptions(&scene, id, &label);
-    if let Ok(set) = scene.patches() {
-        let found = set.patches().iter().find(|p| p.name == patch);
-        words.extend(found.and_then(|p| held_words(&format!("Patch {patch}"), p.grid.assumed())));
-    }
+    words.extend(held_of(&scene, patch));
     show_assumptions(ui, &theme, words);
 }
 
@@ -162,24 +160,14 @@ pub(super) fn across(ui: &mut Ui, patch: &str, context: &mut PaneContext<'_>) {
     note(ui, &theme, format!("{}, light {}", scene.document.chart, scene.light_name()));
     let seen = match color_of(&scene, &reference_id(&scene), patch) {
         Ok(Some(seen)) => seen,
-        Ok(None) => {
-            note(ui, &theme, "This patch is not visible.");
-            return;
-        }
-        Err(error) => {
-            failure(ui, &theme, &error.to_string());
-            return;
-        }
+        Ok(None) => return note(ui, &theme, "This patch is not visible."),
+        Err(error) => return failure(ui, &theme, &error.to_string()),
     };
     note(ui, &theme, format!("left: reference; right: sensor; {}", scene.difference_name()));
     for source in scene.sources().into_iter().filter(|source| source.visible) {
         source_row(ui, &source, patch, &seen, context);
     }
-    let mut words = Vec::new();
-    if let Ok(set) = scene.patches() {
-        let found = set.patches().iter().find(|p| p.name == patch);
-        words.extend(found.and_then(|p| held_words(&format!("Patch {patch}"), p.grid.assumed())));
-    }
+    let mut words: Vec<String> = held_of(&scene, patch).into_iter().collect();
     if let Ok(light) = scene.light() {
         words.extend(held_words(&format!("Light {}", scene.light_name()), light.grid.assumed()));
     }

@@ -1,17 +1,14 @@
-//! What was pinned, side by side.
+//! Pinned items, side by side.
 
 use chromascope_core::query::PatchColor;
 use egui::{RichText, ScrollArea, Ui};
 
-use super::{difference_words, note, numbers, patch, radiator, reference_id, source_of};
+use super::{difference_words, label_of, note, numbers, patch, radiator, reference_id};
 use crate::format::fixed;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{Icon, icon_button};
-use crate::plot_item::{PlotItem, SensorId};
+use crate::plot_item::PlotItem;
 use crate::scene::Scene;
-
-/// Width of a column of numbers.
-const COLUMN: f32 = 56.0;
 
 /// The letter of a pinned thing.
 fn letter(index: usize) -> String {
@@ -19,7 +16,7 @@ fn letter(index: usize) -> String {
     letters.clone().nth(index).map_or_else(|| (index + 1).to_string(), String::from)
 }
 
-/// Shows the list of what was pinned and its numbers.
+/// Shows the pinned items and their numbers.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if context.view.pinned.is_empty() {
         return;
@@ -55,13 +52,12 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 fn name(scene: &Scene<'_>, thing: &PlotItem) -> String {
-    let label = |id: &SensorId| source_of(scene, id).map_or_else(|| id.name.clone(), |source| source.label);
     match thing {
         PlotItem::Light => format!("light {}", scene.light_name()),
-        PlotItem::Sensor(id) => label(id),
+        PlotItem::Sensor(id) => label_of(scene, id),
         PlotItem::Patch { source: None, patch } => format!("patch {patch}"),
-        PlotItem::Patch { source: Some(id), patch } => format!("{}, {patch}", label(id)),
-        PlotItem::Radiator { source, kelvin } => format!("{}, {} K", label(source), fixed(*kelvin, 0)),
+        PlotItem::Patch { source: Some(id), patch } => format!("{}, {patch}", label_of(scene, id)),
+        PlotItem::Radiator { source, kelvin } => format!("{}, {} K", label_of(scene, source), fixed(*kelvin, 0)),
     }
 }
 
@@ -95,7 +91,7 @@ fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneCo
         &context.theme,
         format!("{} from the reference: {}", context.scene.difference_name(), differences.join(", ")),
     );
-    numbers::show(ui, &context.theme, &heads, &numbers::of_patches(scene, &colors), COLUMN);
+    numbers::show(ui, "pinned patches", &heads, &numbers::of_patches(scene, &colors), context);
 }
 
 /// Pinned black bodies; the reference stands first where all have the same temperature.
@@ -114,5 +110,5 @@ fn radiators(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &Pane
         heads.insert(0, "reference".to_owned());
         points.insert(0, radiator::point_of(scene, &reference_id(scene), first).ok().flatten());
     }
-    numbers::show(ui, &context.theme, &heads, &radiator::rows_of(scene, &points), COLUMN);
+    numbers::show(ui, "pinned blackbodies", &heads, &radiator::rows_of(scene, &points), context);
 }

@@ -7,7 +7,8 @@ use egui::Ui;
 
 use super::numbers::Row;
 use super::{
-    assumptions, buttons, copy_text, failure, head, no_difference, note, numbers, reference_id, show_assumptions,
+    assumptions, buttons, copy_text, failure, head, label_of, no_difference, note, numbers, reference_id,
+    show_assumptions,
 };
 use crate::document::Light;
 use crate::format::fixed;
@@ -49,10 +50,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
     let (own, seen) = match points {
         Ok((Some(own), Some(seen))) => (own, seen),
         Ok(_) => return,
-        Err(error) => {
-            failure(ui, &theme, &error.to_string());
-            return;
-        }
+        Err(error) => return failure(ui, &theme, &error.to_string()),
     };
     if own.xy.is_none() {
         note(ui, &theme, "Chromaticity undefined (X + Y + Z = 0).");
@@ -66,7 +64,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
         distance(ui, id, &own, &seen, context);
     }
     let rows = rows_of(&scene, &points);
-    numbers::show(ui, &theme, &heads, &rows, 84.0);
+    numbers::show(ui, "blackbody", &heads, &rows, context);
     match scene.document.light {
         Light::BlackBody => note(ui, &theme, "The light on the scene is a blackbody of the marked temperature."),
         Light::Daylight => {
@@ -81,7 +79,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
     if buttons(ui, context) {
         copy_text(ui, numbers::to_tsv(&heads, &rows), context);
     }
-    let label = super::source_of(&scene, id).map_or_else(|| id.name.clone(), |source| source.label);
+    let label = label_of(&scene, id);
     show_assumptions(ui, &theme, assumptions(&scene, id, &label));
 }
 

@@ -4,8 +4,8 @@ use chromascope_core::spectral::{Primaries, Quantity};
 use egui::{RichText, Ui};
 
 use super::{
-    assumptions, buttons, copy_text, difference_words, failure, head, held_words, measured_words, no_difference, note,
-    reference_id, show_assumptions,
+    assumptions, buttons, copy_text, difference_words, failure, head, held_words, label_of, measured_words,
+    no_difference, note, reference_id, show_assumptions,
 };
 use crate::catalog::Place;
 use crate::command::Command;
@@ -24,10 +24,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
     head(ui, id, context);
     let entry = match scene.entry(id.kind, &id.name) {
         Ok(entry) => entry,
-        Err(error) => {
-            failure(ui, &theme, &error.to_string());
-            return;
-        }
+        Err(error) => return failure(ui, &theme, &error.to_string()),
     };
     let also = entry.also.as_ref().map_or_else(String::new, |also| format!(", {also}"));
     note(ui, &theme, format!("{}: {}{also}", id.kind.singular(), entry.name));
@@ -50,7 +47,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
         let all = measured.iter().map(|(caption, words)| format!("{caption}\t{words}\n"));
         copy_text(ui, all.collect(), context);
     }
-    let label = super::source_of(&scene, id).map_or_else(|| id.name.clone(), |source| source.label);
+    let label = label_of(&scene, id);
     show_assumptions(ui, &theme, assumptions(&scene, id, &label));
     if matches!(entry.place, Place::Own(_))
         && ui.button("Reading…").on_hover_text("Check and correct how its file was read").clicked()
@@ -59,7 +56,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, context: &mut PaneContext<'_>) {
     }
 }
 
-/// How far the sensor is from the reference, in a few numbers.
+/// Deviation of the sensor from the reference, in a few numbers.
 fn measures(scene: &Scene<'_>, id: &SensorId) -> Vec<Fact> {
     let mut facts: Vec<Fact> = Vec::new();
     let reference = reference_id(scene);
@@ -111,10 +108,7 @@ pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.label(RichText::new(format!("Light {}", scene.light_name())).strong());
     let light = match scene.light() {
         Ok(light) => light,
-        Err(error) => {
-            failure(ui, &theme, &error.to_string());
-            return;
-        }
+        Err(error) => return failure(ui, &theme, &error.to_string()),
     };
     let mut measured: Vec<Fact> = vec![
         ("Range", range_words(light.measured.range_nm())),

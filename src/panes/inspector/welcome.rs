@@ -1,4 +1,4 @@
-//! What a newcomer needs: what the window is about, and the key.
+//! Introduction for a newcomer: the window's purpose, and the key.
 
 use chromascope_core::spectral::Primaries;
 use chromascope_figure::{InkRole, LegendEntry, Marker, Stroke};
@@ -91,7 +91,7 @@ fn swatch(ui: &Ui, rect: Rect, theme: &Theme) {
     painter.rect_filled(bar, 0.0, theme.surround.label());
 }
 
-/// What to know about the settings, if they make the picture mislead.
+/// Caveat about settings that make the picture misleading.
 fn caveat(context: &PaneContext<'_>) -> Option<&'static str> {
     let scene = &context.scene;
     let sources = scene.sources();

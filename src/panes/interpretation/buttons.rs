@@ -1,4 +1,4 @@
-//! What can be done with the file as a whole.
+//! Actions on the file as a whole.
 
 use egui::Ui;
 

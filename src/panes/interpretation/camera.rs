@@ -12,6 +12,12 @@ use crate::theme::{Theme, UNIT};
 /// So many curves can be chosen from.
 const LISTED: usize = 500;
 
+/// Responses per energy and per photon.
+pub(super) const RESPONSES: [(bool, &str, &str); 2] = [
+    (false, "per energy", "To equal power at each wavelength"),
+    (true, "per photon", "To equal numbers of photons, as quantum efficiencies are given"),
+];
+
 /// Shows the switches, if the file is a camera's.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, theme: &Theme) {
     let Some(table) = shown.table().filter(|table| table.role.value == Role::Camera) else { return };
@@ -61,11 +67,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOver
     ui.horizontal(|ui| {
         caption(ui, theme, if guess { "Response (guess)" } else { "Response" }, guess);
         ui.add_space(3.0 * UNIT);
-        let responses = [
-            (false, "per energy", "To equal power at each wavelength"),
-            (true, "per photon", "To equal numbers of photons, as quantum efficiencies are given"),
-        ];
-        if let Some(per_photon) = segmented(ui, &responses, per_photon) {
+        if let Some(per_photon) = segmented(ui, &RESPONSES, per_photon) {
             wishes.per_photon = Some(per_photon);
         }
     });

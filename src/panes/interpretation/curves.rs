@@ -1,4 +1,4 @@
-//! Which of the file's curves are taken.
+//! Choice of the file's curves.
 
 use egui::{Id, RichText, ScrollArea, TextEdit, Ui};
 

@@ -3,6 +3,7 @@
 use egui::{RichText, Ui};
 use spectral_file::Values;
 
+use super::camera::RESPONSES;
 use super::{Closed, caption, list, name, note, switches};
 use crate::action::{Action, OwnAction};
 use crate::document::SetKind;
@@ -101,11 +102,7 @@ fn camera(ui: &mut Ui, set: &mut OwnSet, theme: &Theme) {
     }
     ui.horizontal(|ui| {
         caption(ui, theme, "Response", false);
-        let responses = [
-            (false, "per energy", "To equal power at each wavelength"),
-            (true, "per photon", "To equal numbers of photons, as quantum efficiencies are given"),
-        ];
-        if let Some(per_photon) = segmented(ui, &responses, set.per_photon) {
+        if let Some(per_photon) = segmented(ui, &RESPONSES, set.per_photon) {
             set.per_photon = per_photon;
         }
     });

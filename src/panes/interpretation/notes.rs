@@ -1,4 +1,4 @@
-//! What should be looked at, what was decided, and where the numbers are from.
+//! Warnings, decisions, and the origin of the numbers.
 
 use egui::{Align, Id, RichText, Ui};
 use spectral_file::SpectralFile;
@@ -20,7 +20,7 @@ fn led_to() -> Id {
 
 /// In the head of the pane, where nothing has to be scrolled: how many notes there are, and the way to them.
 pub(super) fn button(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let Some(shown) = ImportSelection::of(&context.scene, context.view) else { return };
+    let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
     let Some(count) = shown.table().map(|table| table.warnings.len()).filter(|count| *count > 0) else { return };
     ui.add_space(UNIT);
     let words = RichText::new(counted(count)).color(context.theme.warning);
@@ -83,7 +83,7 @@ pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneConte
     }
 }
 
-/// Where the numbers are from, a line each.
+/// Origin of the numbers, a line each.
 fn facts(shown: &ImportSelection, table: &SpectralFile) -> Vec<String> {
     let reading = &table.reading;
     let step = reading.step_nm;

@@ -14,7 +14,7 @@ use crate::theme::{ROW, UNIT};
 /// So many rows are seen at once.
 const ROWS: usize = 5;
 
-/// What a part is called; parts count from 1.
+/// Name of a part; parts count from 1.
 pub(super) fn name(part: usize, known: Option<&Part>) -> String {
     match known {
         Some(known) if !known.name.is_empty() => format!("{part}: {}", known.name),

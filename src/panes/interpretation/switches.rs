@@ -121,7 +121,7 @@ fn short(words: &str) -> &str {
     ["Down", "Across", "Table"].into_iter().find(|short| words.starts_with(short)).unwrap_or(words)
 }
 
-/// The same words within a sentence.
+/// Words as they read within a sentence.
 fn lower(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
@@ -239,7 +239,7 @@ fn header(shown: &ImportSelection) -> Vec<String> {
     cells.iter().map(tidy).collect()
 }
 
-/// Which of several tables in one file.
+/// Choice of one of several tables in a file.
 fn part(ui: &mut Ui, table: Option<&SpectralFile>, wish: &mut Option<usize>, theme: &Theme, width: f32) {
     let known = table.map_or(&[][..], |table| &table.reading.parts);
     if known.len() < 2 && wish.is_none() {

@@ -82,7 +82,7 @@ fn thing(source: &ComparedSensor) -> PlotItem {
     PlotItem::Sensor(SensorId { kind: source.kind, name: source.name.clone() })
 }
 
-/// What the sensor is besides; returns the width it takes.
+/// Draws the sensor's further roles; returns the width used.
 fn tag(ui: &Ui, rect: Rect, source: &ComparedSensor, context: &PaneContext<'_>) -> f32 {
     let words = match (source.is_reference, source.is_own) {
         (true, _) => "reference",
@@ -145,7 +145,7 @@ fn hint(response: Response, source: &ComparedSensor, context: &PaneContext<'_>) 
     });
 }
 
-/// What can be done with a sensor.
+/// Context menu of a sensor.
 fn menu(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     ui.set_min_width(150.0);
     let name = source.name.clone();

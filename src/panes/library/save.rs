@@ -45,7 +45,7 @@ pub(super) fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, contex
     shown
 }
 
-/// What can be done with a set.
+/// Context menu of a set.
 fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     if entry.is_own() && ui.button("Reading…").clicked() {
         context.push(Command::ShowImport(ImportItem::Set(entry.name.clone()), None));

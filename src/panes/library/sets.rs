@@ -26,7 +26,7 @@ const DIGITIZED: f32 = 64.0;
 pub(super) enum Row<'a> {
     /// The head of a group.
     Group {
-        /// What it is of.
+        /// Kind of data.
         kind: SetKind,
         /// Number of sets; while searching, of matches.
         count: usize,

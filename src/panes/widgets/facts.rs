@@ -6,11 +6,11 @@ use chromascope_core::spectral::{Evidence, Header, Interpolation, Quantity, Resp
 use egui::text::LayoutJob;
 use egui::{TextFormat, Ui};
 
-use super::number;
 use crate::catalog::load::FileQuery;
 use crate::catalog::{Entry, Place};
 use crate::document::SetKind;
 use crate::document::own::Role;
+use crate::format::number;
 use crate::scene::Scene;
 use crate::theme::{SMALL, Theme, UNIT};
 
@@ -66,8 +66,8 @@ pub fn range_words([first, last]: [f64; 2]) -> String {
 fn range(scene: &Scene<'_>, entry: &Entry) -> Option<([f64; 2], SpectralDistribution)> {
     let union = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
     match &entry.place {
-        Place::BuiltIn { path, column } => {
-            let file = scene.results.ask(&FileQuery(path));
+        Place::BuiltIn { file, column } => {
+            let file = scene.results.ask(&FileQuery(*file));
             let curves = &(*file).as_ref().ok()?.curves;
             let curves = column.map_or(&curves[..], |column| curves.get(column).map_or(&[], std::slice::from_ref));
             let range = curves.iter().map(SpectralDistribution::range_nm).reduce(union)?;

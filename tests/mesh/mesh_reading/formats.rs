@@ -134,7 +134,7 @@ fn what_is_wrong_in_a_ply_file() {
     let line = |text: String| open(text.as_bytes()).unwrap_err();
     let text = text_ply();
     // The header has 14 lines, the vertices begin on line 15, the faces on line 24.
-    let syntax = |line| MeshReadError::Syntax { place: Place::Line(line) };
+    let syntax = |line| MeshReadError::Syntax(Place::Line(line));
     assert_eq!(line(text.replace("ascii", "html")), syntax(2));
     assert_eq!(line(text.replace("property short z", "property short w")), syntax(4));
     assert_eq!(line(text.replace("property short z", "property shirt z")), syntax(7));
@@ -143,13 +143,13 @@ fn what_is_wrong_in_a_ply_file() {
     assert_eq!(line(text.replace("end_header\n", "")), syntax(14));
     assert_eq!(line(text.replace("1 0 0 255", "1 0 x 255")), MeshReadError::Number { line: 16, column: 5 });
     assert_eq!(line(text.replace("1 0 0 255", "1 0")), MeshReadError::TooFewNumbers { line: 16, found: 2 });
-    assert_eq!(line(text.replace("1 0 0 255", "1 nan 0 255")), MeshReadError::NotFinite { place: Place::Line(16) });
+    assert_eq!(line(text.replace("1 0 0 255", "1 nan 0 255")), MeshReadError::NotFinite(Place::Line(16)));
     let place = Place::Line(24);
     let missing = |index| MeshReadError::NoSuchVertex { place, index, count: 8 };
     assert_eq!(line(text.replace("4 0 2 3 1", "4 0 2 3 8")), missing(8));
     assert_eq!(line(text.replace("4 0 2 3 1", "4 0 2 3 -1")), missing(-1));
     assert_eq!(line(text.replace("4 0 2 3 1", "2 0 2")), MeshReadError::FaceTooShort { place, corners: 2 });
-    assert_eq!(line(text.replace("4 0 2 3 1", "-4 0 2")), MeshReadError::Syntax { place });
+    assert_eq!(line(text.replace("4 0 2 3 1", "-4 0 2")), MeshReadError::Syntax(place));
     assert_eq!(
         line(text.replace("face 6", "face 9")),
         MeshReadError::Truncated { place: Place::Face(7), announced: 9 }
@@ -161,7 +161,7 @@ fn what_is_wrong_in_a_ply_file() {
     let endless = text.replace("uchar uint vertex", "uint uint vertex").replace("4 0 2 3 1", "4000000000 0 2 3 1");
     assert!(matches!(line(endless), MeshReadError::TooLarge { place: Place::Line(24), .. }));
     let cloud = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
-    assert_eq!(line(cloud.to_owned()), MeshReadError::NoFaces { vertices: 1 });
+    assert_eq!(line(cloud.to_owned()), MeshReadError::NoFaces(1));
 }
 
 #[test]
@@ -176,16 +176,16 @@ fn what_is_wrong_in_an_stl_file() {
         line(text.replacen("vertex 0e0 0 0", "vertex 0e0 0 O", 1)),
         MeshReadError::Number { line: 4, column: 20 }
     );
-    assert_eq!(line(text.replacen("endfacet", "", 1)), MeshReadError::Unfinished { line: 2 });
+    assert_eq!(line(text.replacen("endfacet", "", 1)), MeshReadError::Unfinished(2));
     assert_eq!(
         line(text.replacen("outer", "inner", 1).replacen("OUTER", "inner", 1)),
-        MeshReadError::Syntax { place: Place::Line(3) }
+        MeshReadError::Syntax(Place::Line(3))
     );
-    assert_eq!(line(text[..text.len() - 60].to_owned()), MeshReadError::Unfinished { line: 79 });
-    assert_eq!(line(text.replacen("vertex", "remark", 1)), MeshReadError::Syntax { place: Place::Line(4) });
+    assert_eq!(line(text[..text.len() - 60].to_owned()), MeshReadError::Unfinished(79));
+    assert_eq!(line(text.replacen("vertex", "remark", 1)), MeshReadError::Syntax(Place::Line(4)));
     let mut binary = binary_stl();
     let cut = read_mesh(&binary[..binary.len() - 1], Some("STL"), &|| false).unwrap_err();
     assert_eq!(cut, MeshReadError::Truncated { place: Place::Face(12), announced: 12 });
     binary[84 + 50 + 12..84 + 50 + 16].copy_from_slice(&f32::NAN.to_le_bytes());
-    assert_eq!(open(&binary).unwrap_err(), MeshReadError::NotFinite { place: Place::Face(2) });
+    assert_eq!(open(&binary).unwrap_err(), MeshReadError::NotFinite(Place::Face(2)));
 }

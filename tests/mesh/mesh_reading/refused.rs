@@ -35,10 +35,10 @@ fn words_that_are_no_numbers() {
 fn numbers_beyond_all_bounds() {
     let place = Place::Line(4);
     for text in ["v NaN 0 0\n", "v 0 inf 0\n", "v 0 0 -infinity\n", "v 0 0 1e999\n", "vn 0 nan 0\n"] {
-        assert_eq!(after_corners(text), MeshReadError::NotFinite { place }, "{text}");
+        assert_eq!(after_corners(text), MeshReadError::NotFinite(place), "{text}");
     }
     for text in ["v 1.0001e15 0 0\n", "v 0 -1e300 0\n", "v 0 0 99999999999999999999\n"] {
-        assert_eq!(after_corners(text), MeshReadError::TooFar { place }, "{text}");
+        assert_eq!(after_corners(text), MeshReadError::TooFar(place), "{text}");
     }
 }
 
@@ -85,7 +85,7 @@ fn faces_that_are_none() {
     for (text, corners) in [("f\n", 0), ("f 1\n", 1), ("f 1 2\n", 2)] {
         assert_eq!(after_corners(text), MeshReadError::FaceTooShort { place, corners });
     }
-    assert_eq!(after_corners("l 1 2\n"), MeshReadError::NoFaces { vertices: 3 });
+    assert_eq!(after_corners("l 1 2\n"), MeshReadError::NoFaces(3));
     assert_eq!(after_corners("f 1 2 2\nf 1 1 1\n"), MeshReadError::NoArea { triangles: 2, place });
     let mut long: String = (0..5000).fold(String::new(), |mut text, i| {
         writeln!(text, "v {i} {} 0", i % 2).unwrap();
@@ -111,12 +111,12 @@ fn files_of_other_kinds() {
         (b"\x7fELF\0\0\0", Alien::Binary),
         (b"wavelength,value\n400,1\n", Alien::Text),
     ] {
-        assert_eq!(alien(bytes, None), MeshReadError::NotAMesh { looks_like });
+        assert_eq!(alien(bytes, None), MeshReadError::NotAMesh(looks_like));
     }
     for empty in [&b""[..], b" \r\n\t", b"\xEF\xBB\xBF\n"] {
         assert_eq!(alien(empty, Some("obj")), MeshReadError::Empty);
     }
-    assert_eq!(alien(b"# nothing\n", Some("OBJ")), MeshReadError::NoFaces { vertices: 0 });
+    assert_eq!(alien(b"# nothing\n", Some("OBJ")), MeshReadError::NoFaces(0));
 }
 
 #[test]

@@ -68,7 +68,7 @@ fn groups_with_different_names_are_parts() {
         });
         assert_eq!(values.collect::<Vec<_>>(), table.curves[1].values);
         let header = preview.marks(1, table, &marker);
-        assert_eq!(header.iter().filter(|mark| matches!(mark.what, What::Wavelength { .. })).count(), 5);
+        assert_eq!(header.iter().filter(|mark| matches!(mark.what, What::Wavelength(..))).count(), 5);
     }
 }
 

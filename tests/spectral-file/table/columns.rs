@@ -55,7 +55,7 @@ fn names_with_a_number_sign_are_rows() {
 fn rows_behind_a_number_sign_are_told() {
     let table = ok("nm,a\n540,0.5\n#550,0.55\n560,0.6\n# a remark\n570,0.7\n");
     assert_eq!(table.curves[0].values.len(), 3);
-    let [Warning::CommentedRows { lines }] = table.warnings.as_slice() else { panic!("{:?}", table.warnings) };
+    let [Warning::CommentedRows(lines)] = table.warnings.as_slice() else { panic!("{:?}", table.warnings) };
     assert_eq!((lines.first(), table.warnings[0].line()), (&[3][..], Some(3)));
 }
 
@@ -80,9 +80,7 @@ fn marks_next_to_whole_numbers_of_three_digits_group_thousands() {
         let table = ok(text);
         assert_eq!(table.curves[0].values, counts, "{text}");
         assert_eq!(table.reading.decimal_mark.certainty, Certainty::Guess);
-        let [Warning::GroupedThousands { fractions }] = table.warnings.as_slice() else {
-            panic!("{:?}", table.warnings)
-        };
+        let [Warning::GroupedThousands(fractions)] = table.warnings.as_slice() else { panic!("{:?}", table.warnings) };
         let chosen = ReadOptions { decimal_mark: Some(*fractions), ..ReadOptions::default() };
         assert_eq!(read(text.as_bytes(), &chosen).unwrap().curves[0].values, [980.0, 990.0, 1.0, 1.01], "{text}");
     }
@@ -147,7 +145,7 @@ fn columns_before_the_wavelengths_are_curves_too() {
 fn names_that_come_again_are_left_out() {
     let table = ok("nm,a\n400,1\n410,2\nnm,a\n420,3\n430,4\n");
     assert_eq!(table.curves[0].values.len(), 4);
-    let [Warning::RepeatedHeader { lines }] = table.warnings.as_slice() else { panic!("{:?}", table.warnings) };
+    let [Warning::RepeatedHeader(lines)] = table.warnings.as_slice() else { panic!("{:?}", table.warnings) };
     assert_eq!(lines.first(), [4]);
     assert!(matches!(error("nm,a\n400,1\n410,2\noops,a\n420,3\n"), ReadError::NotANumber { line: 4, .. }));
 }

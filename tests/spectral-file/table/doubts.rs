@@ -57,7 +57,7 @@ fn with_commas(text: &str) -> Result<SpectralFile, ReadError> {
 fn commas_that_separate_and_mark_are_read_where_chosen() {
     let text = "400,0,060\n410,0,070\n420,0,085\n";
     let refused = read(text.as_bytes(), &ReadOptions::default()).unwrap_err();
-    assert_eq!(refused, ReadError::AmbiguousCommas { line: 1 });
+    assert_eq!(refused, ReadError::AmbiguousCommas(1));
     assert!(refused.to_string().ends_with("choose decimal commas, or points if not"), "{refused}");
     assert_eq!(samples(&with_commas(text).unwrap().curves[0]), [(400.0, 0.06), (410.0, 0.07), (420.0, 0.085)]);
     let both = with_commas("nm,A\n400,5,0,060\n401,0,0,070\n401,5,0,085\n").unwrap();

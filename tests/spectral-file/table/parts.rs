@@ -22,7 +22,7 @@ fn tables_below_one_another() {
     let text = "nm,a\n380,1\n390,2\n400,3\nnm,b\n380,4\n390,5\n";
     let first = ok(text);
     assert_eq!((names(&first), first.reading.parts.len()), (vec!["a"], 2));
-    assert_eq!(first.warnings, [Warning::MoreTables { line: 6 }]);
+    assert_eq!(first.warnings, [Warning::MoreTables(6)]);
     assert_eq!((first.reading.part.value, first.reading.part.certainty), (1, Certainty::Guess));
     let said = first.decisions().into_iter().find(|decision| decision.what == "Part").unwrap().to_string();
     assert_eq!(said, "2 tables stand below one another: read as part 1 of 2, from line 2.");
@@ -54,7 +54,7 @@ fn the_same_wavelengths_again_are_another_table() {
     let text = format!("{}\n{}{}", pass(1), pass(5), pass(9));
     let table = ok(&text);
     assert_eq!((table.curves[0].values.len(), table.reading.parts.len()), (8, 3));
-    assert_eq!(table.warnings, [Warning::MoreTables { line: 10 }]);
+    assert_eq!(table.warnings, [Warning::MoreTables(10)]);
     assert_eq!(part(&text, 3).unwrap().curves[0].values[0], 9.0);
     let other = text.replace(',', ";");
     assert_eq!(part(&other, 2).unwrap().curves, part(&text, 2).unwrap().curves);
@@ -129,7 +129,7 @@ fn tables_of_cgats_and_groups_of_json() {
     let text = table("one", 10) + &table("two", 20).replace(" \"20\"", " \"40\"");
     let first = ok(&text);
     assert_eq!((first.curves[0].values[0], first.reading.comment("title")), (1.0, Some("one")));
-    assert_eq!(first.warnings, [Warning::MoreTables { line: 18 }]);
+    assert_eq!(first.warnings, [Warning::MoreTables(18)]);
     let second = part(&text, 2).unwrap();
     assert_eq!((second.curves[0].values[0], second.reading.comment("title")), (0.5, Some("two")));
     assert_eq!((second.reading.parts.clone(), second.reading.parts[1].curves), (first.reading.parts, 2));
@@ -156,11 +156,11 @@ fn the_reader_of_another_layout() {
         Reader::Camspec,
     ] {
         let options = ReadOptions { reader: Some(reader), ..ReadOptions::default() };
-        assert_eq!(with("nm,a\n400,1\n500,2\n", &options), Err(ReadError::OtherLayout { reader }));
+        assert_eq!(with("nm,a\n400,1\n500,2\n", &options), Err(ReadError::OtherLayout(reader)));
     }
     let options = ReadOptions { reader: Some(Reader::Rawtoaces), ..ReadOptions::default() };
     let other = with("{\"bands\": [400, 420, 10], \"spectrum\": [1, 2, 3]}", &options);
-    assert_eq!(other, Err(ReadError::OtherLayout { reader: Reader::Rawtoaces }));
+    assert_eq!(other, Err(ReadError::OtherLayout(Reader::Rawtoaces)));
 }
 
 #[test]

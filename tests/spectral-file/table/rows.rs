@@ -59,10 +59,10 @@ fn one_wavelength_with_several_values_has_their_mean() {
     let table = ok(text);
     assert_eq!(table.curves[0].values, [1.5, 2.25, 3.0, 3.0]);
     assert_eq!(table.curves[1].values, [1.0, 4.0, 3.0, 3.0]);
-    let [Warning::AveragedRows { lines }] = table.warnings.as_slice() else { panic!("{:?}", table.warnings) };
+    let [Warning::AveragedRows(lines)] = table.warnings.as_slice() else { panic!("{:?}", table.warnings) };
     assert_eq!(lines.first(), [3, 4]);
     assert!(table.reading.dropped_rows.iter().all(|row| row.why == Dropped::Averaged));
-    assert_eq!(marks(text, 4)[0].what, What::LeftOut { why: LeftOut::Averaged });
+    assert_eq!(marks(text, 4)[0].what, What::LeftOut(LeftOut::Averaged));
     assert_eq!(ok("nm,a\n400,2\n390,2\n390,3\n380,1\n").curves[0].values, [1.0, 2.5, 2.0]);
     let pairs = ok("nm,a\n400,1\n400,2\n410,2\n410,3\n420,3\n420,4\n");
     assert_eq!(pairs.curves[0].values, [1.5, 2.5, 3.5]);

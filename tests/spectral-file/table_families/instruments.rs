@@ -43,7 +43,7 @@ fn ocean_programs_in_any_language() {
     let table = ok(&english);
     assert_eq!((table.curves[0].values.len(), table.curves[0].values[0]), (9, 0.1025));
     assert_eq!(note(&table, "Program"), Some("a file of Ocean SpectraSuite"));
-    assert_eq!(table.warnings, [Warning::TextBelow { line: 15 }]);
+    assert_eq!(table.warnings, [Warning::TextBelow(15)]);
     let spanish = format!(
         "Archivo De Datos\r\n+++++++\r\nFecha: x\r\nIntegraci\u{f3}n (usec): 50 (USB4A1)\r\n\
          >>>>> Comienza Data<<<<< Espectral Procesado\r\n{}>>>>> Termine Data<<<<<\r\n",

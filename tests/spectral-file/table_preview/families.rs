@@ -83,7 +83,7 @@ fn cgats_fields_and_sets() {
 fn cgats_pairs() {
     let seen = whole(PAIRS.as_bytes());
     assert_eq!(seen.pieces(6).len(), 6);
-    assert_eq!(seen.pieces(6)[0].1, What::Wavelength { nm: 400.0 });
+    assert_eq!(seen.pieces(6)[0].1, What::Wavelength(400.0));
 }
 
 #[test]
@@ -91,14 +91,14 @@ fn only_the_finer_block_of_labels_is_marked() {
     let seen = whole(LABELS.as_bytes());
     assert_eq!(seen.table.curves[0].values.len(), 6);
     assert_eq!(seen.pieces(3), []);
-    assert_eq!(seen.pieces(8)[0], ("400", What::Wavelength { nm: 400.0 }));
+    assert_eq!(seen.pieces(8)[0], ("400", What::Wavelength(400.0)));
     assert!(!seen.pieces(14).iter().any(|(_, what)| *what != What::Setting));
 }
 
 #[test]
 fn alternate_lines() {
     let seen = whole(ALTERNATE.as_bytes());
-    assert_eq!(seen.pieces(4), [("400", What::Wavelength { nm: 400.0 })]);
+    assert_eq!(seen.pieces(4), [("400", What::Wavelength(400.0))]);
     assert_eq!(seen.pieces(2), [("@400", What::Setting)]);
 }
 
@@ -122,21 +122,21 @@ fn jcamp_blocks_that_begin_alike() {
 #[test]
 fn jcamp_ordinates() {
     let seen = whole(JCAMP_ORDINATES.as_bytes());
-    assert_eq!(seen.pieces(12)[0], ("430", What::Wavelength { nm: 430.0 }));
+    assert_eq!(seen.pieces(12)[0], ("430", What::Wavelength(430.0)));
     assert_eq!(seen.pieces(12).len(), 4);
 }
 
 #[test]
 fn squeezed_jcamp_is_marked_by_lines() {
     let seen = super::Seen::new(JCAMP_SQUEEZED.as_bytes());
-    assert_eq!(seen.pieces(11), [("400A0J0J0", What::Block { curve: 0 })]);
+    assert_eq!(seen.pieces(11), [("400A0J0J0", What::Block(0))]);
     assert_eq!(seen.said(12), ["430D0J0J0 = lamp: compressed values"]);
 }
 
 #[test]
 fn xml_attributes_and_lists() {
     let seen = whole(TM27.as_bytes());
-    assert_eq!(seen.pieces(6)[0], ("400", What::Wavelength { nm: 400.0 }));
+    assert_eq!(seen.pieces(6)[0], ("400", What::Wavelength(400.0)));
     let seen = whole(CXF.as_bytes());
     assert_eq!(seen.pieces(4).len(), 3);
 }

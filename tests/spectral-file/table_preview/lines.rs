@@ -27,7 +27,7 @@ fn the_longest_line_is_counted_in_characters() {
 #[test]
 fn what_no_reader_takes_has_no_preview() {
     assert_eq!(Preview::new(b" \n ").unwrap_err(), ReadError::Empty);
-    assert!(matches!(Preview::new(b"PK\x03\x04").unwrap_err(), ReadError::Binary { .. }));
+    assert!(matches!(Preview::new(b"PK\x03\x04").unwrap_err(), ReadError::Binary(..)));
     assert!(matches!(Preview::new(&vec![b' '; MAX_BYTES + 1]).unwrap_err(), ReadError::TooLarge { .. }));
 }
 
@@ -71,7 +71,7 @@ fn a_failure_is_found_in_its_line() {
 fn an_error_of_the_whole_file_has_no_range() {
     let seen = preview("no numbers");
     assert_eq!(seen.error_range(&ReadError::NoNumbers), None);
-    assert_eq!(seen.error_range(&ReadError::OneColumn { line: 7 }), None);
+    assert_eq!(seen.error_range(&ReadError::OneColumn(7)), None);
     let error = ReadError::NotANumber { line: 1, column: usize::MAX, text: "absent".into() };
     assert_eq!(seen.error_range(&error), Some((1, 0..10)));
 }
@@ -81,5 +81,5 @@ fn a_header_in_the_first_line_is_marked() {
     let seen = Seen::new("nm;leaf (%)\n400;5,0\n500;10,0\n600;20,0\n".as_bytes());
     let said = seen.said(1);
     assert_eq!(said.len(), 2, "{said:?}");
-    assert!(seen.pieces(1)[1].1 == What::Name { curve: 0 }, "{said:?}");
+    assert!(seen.pieces(1)[1].1 == What::Name(0), "{said:?}");
 }

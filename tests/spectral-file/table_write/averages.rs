@@ -22,7 +22,7 @@ fn averages_keep_what_points_lose() {
     let bands = written(&sheet(Content::Illuminant, &traces), Format::Csv, Grid::Average(5.0));
     let told = "# resampling: band averages every 5 nm: means of the linear interpolant over ±2.5 nm\n";
     assert!(bands.text.contains(told), "{}", bands.text);
-    assert!(has(&bands.notes, |note| matches!(note, Note::Averaged { step_nm: 5.0 })));
+    assert!(has(&bands.notes, |note| matches!(note, Note::Averaged(5.0))));
     assert!(!has(&bands.notes, |note| matches!(note, Note::Thinned { .. })));
     let curve = &back(&bands.text).curves[0];
     // The triangle of height 100 over 436 to 438 nm: its area to the left and the right of 437.5 nm is 87.5 and 12.5.

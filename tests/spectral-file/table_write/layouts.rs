@@ -58,16 +58,13 @@ fn csv_of_several_grids_and_odd_names() {
     let out = canonical_csv(&sheet, Grid::Native).unwrap();
     let rows = "401,0.1,,\n405,0.5,0.25,\n411,,,1\n412,0.2,,2\n500.5,,1,\n";
     assert_eq!(out.text, format!("wavelength_nm,\"say \"\"a, b\"\"\",two  lines,Curve 3\n{rows}"));
-    assert_eq!(out.notes, [Note::Renamed { count: 2 }]);
+    assert_eq!(out.notes, [Note::Renamed(2)]);
     let out = canonical_csv(&sheet, Grid::Step(7.0)).unwrap();
     let rows: Vec<&str> = out.text.lines().skip(1).collect();
     assert_eq!((rows.len(), rows[0].split(',').next(), rows[13].split(',').next()), (14, Some("406"), Some("497")));
     assert!(rows[0].ends_with(','), "the third begins at 411: {}", rows[0]);
     assert!(rows[1].starts_with("413,,0.31"), "the first ends at 412: {}", rows[1]);
-    assert!(
-        out.notes.contains(&Note::Blank { count: 1 })
-            && out.notes.contains(&Note::Clipped { from_nm: 406.0, to_nm: 497.0 })
-    );
+    assert!(out.notes.contains(&Note::Blank(1)) && out.notes.contains(&Note::Clipped { from_nm: 406.0, to_nm: 497.0 }));
 }
 
 #[test]
@@ -200,7 +197,7 @@ fn cgats() {
         SAMPLE_ID SAMPLE_NAME SPECTRAL_NM_400 SPECTRAL_NM_410 SPECTRAL_NM_420\nEND_DATA_FORMAT\n\nNUMBER_OF_SETS 3\n\
         BEGIN_DATA\n1 \"red\" 0.0 0.25 1.0\n2 \"5\"\"  green\" 0.1 1.0 1.0e-7\n3 \"blue\" 1.0 0.5 -0.0\nEND_DATA\n";
     assert!(out.text.ends_with(table), "{}", out.text);
-    assert_eq!(out.notes, [Note::Renamed { count: 1 }]);
+    assert_eq!(out.notes, [Note::Renamed(1)]);
 }
 
 /// Argyll computes the wavelength of each band from the ends and looks for a field with that number, rounded.

@@ -18,12 +18,12 @@ fn error(content: Content<'_>, curves: &[Trace<'_>], format: Format, grid: Grid)
 fn what_is_no_curve() {
     let bad = |curve: Trace<'_>| error(Content::Other, &[trace(&W, &V), curve], Format::Csv, Grid::Native);
     assert_eq!(error(Content::Other, &[], Format::Csv, Grid::Native), WriteError::NoCurves);
-    assert_eq!(bad(trace(&W, &V[1..])), WriteError::Lengths { curve: 2 });
-    assert_eq!(bad(trace(&W[1..2], &V[1..2])), WriteError::TooShort { curve: 2 });
+    assert_eq!(bad(trace(&W, &V[1..])), WriteError::Lengths(2));
+    assert_eq!(bad(trace(&W[1..2], &V[1..2])), WriteError::TooShort(2));
     for wavelengths in [[2.0, 1.0], [1.0, 1.0], [0.0, 1.0], [1.0, f64::INFINITY], [f64::NAN, 1.0]] {
-        assert_eq!(bad(trace(&wavelengths, &[1.0, 2.0])), WriteError::Wavelengths { curve: 2 }, "{wavelengths:?}");
+        assert_eq!(bad(trace(&wavelengths, &[1.0, 2.0])), WriteError::Wavelengths(2), "{wavelengths:?}");
     }
-    assert_eq!(bad(trace(&W[..2], &[1.0, f64::NAN])), WriteError::NotFinite { curve: 2 });
+    assert_eq!(bad(trace(&W[..2], &[1.0, f64::NAN])), WriteError::NotFinite(2));
     for step in [0.0, -1.0, 1e-4, f64::NAN, f64::INFINITY] {
         assert_eq!(error(Content::Other, &[trace(&W, &V)], Format::Csv, Grid::Step(step)), WriteError::Step);
     }
@@ -33,7 +33,7 @@ fn what_is_no_curve() {
 fn what_a_format_does_not_take() {
     let [one, two] = [1, 2].map(|count| vec![trace(&W, &V); count]);
     for content in [Content::Reflectance, Content::Transmittance, Content::Illuminant] {
-        let wanted = WriteError::OtherContent { format: Format::ArgyllCmf };
+        let wanted = WriteError::OtherContent(Format::ArgyllCmf);
         assert_eq!(error(content, &one, Format::ArgyllCmf, Grid::Native), wanted);
     }
     let count = |format, found, wanted| WriteError::Count { format, found, wanted };
@@ -101,7 +101,7 @@ fn a_camera_with_more_channels_and_per_photon() {
     let content = Content::Camera { channels: [3, 2, 0], per_photon: Some(true), manufacturer: None, model: None };
     for format in [Format::RawtoacesJson, Format::DcamprofJson, Format::ArgyllCmf] {
         let out = written(&sheet(content, &traces), format, Grid::Native);
-        assert!(out.notes.contains(&Note::PerEnergy) && out.notes.contains(&Note::LeftOut { count: 1 }));
+        assert!(out.notes.contains(&Note::PerEnergy) && out.notes.contains(&Note::LeftOut(1)));
         assert_eq!(out.notes.contains(&Note::Unidentified), format == Format::RawtoacesJson);
         let table = back(&out.text);
         let wanted = |index: usize, i: usize| traces[index].values[i] * (traces[index].wavelengths_nm[i] / 550.0);

@@ -192,7 +192,7 @@ fn names_that_mean_other_values_are_replaced() {
         let full = written(&sheet(content, &traces), Format::Csv, Grid::Native);
         let sp = written(&sheet(content, &traces), Format::Cgats, Grid::Native);
         for written in [plain, full, sp] {
-            assert!(written.notes.contains(&Note::Renamed { count: 5 }), "{:?}", written.notes);
+            assert!(written.notes.contains(&Note::Renamed(5)), "{:?}", written.notes);
             let table = back(&written.text);
             assert_eq!(table.curves.len(), 6, "{content:?}");
             for (curve, (_, _, values)) in table.curves.iter().zip(&curves.0) {

@@ -27,7 +27,6 @@ const COLUMNS: usize = 3;
 type Area = [f64; 4];
 type Line = [[f64; 2]; 2];
 
-/// A place for a name.
 struct Choice {
     anchor: Anchor,
     /// The anchored point of the text, in points from the marker.
@@ -37,7 +36,6 @@ struct Choice {
     cost: f64,
 }
 
-/// Obstacles.
 struct Taken {
     markers: Vec<Area>,
     texts: Vec<Area>,
@@ -283,7 +281,6 @@ fn passes([from, to]: Line, area: &Area) -> bool {
     enter < leave
 }
 
-/// True if two lines cross.
 fn cross([a, b]: Line, [c, d]: Line) -> bool {
     let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0

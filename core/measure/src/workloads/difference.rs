@@ -9,7 +9,7 @@ use super::Numbers;
 use super::exact;
 use super::timing::{Bench, Candidate, Case, Room, each, spaced};
 use crate::measurement::Errors;
-use crate::{ErrorOf, ErrorScale, Workload};
+use crate::{ErrorScale, Workload};
 
 pub(super) fn run(bench: &mut Bench<'_>) {
     let items = bench.pick(300, 1_000_000, 1_000_000);
@@ -27,7 +27,10 @@ pub(super) fn run(bench: &mut Bench<'_>) {
     let exact: Vec<Double> = bench.pools.on(bench.pools.most(), || {
         some.par_iter().map(|&[first, second]| exact::delta_e_2000(first, second)).collect()
     });
-    let error = |found: &[f64]| error(found, &exact);
+    let error = |found: &[f64]| {
+        Errors::against(found.iter().zip(&exact))
+            .sum_up("\u{394}E*00, against its definition in 106 bits", ErrorScale::Absolute)
+    };
     let room = Room::new(items, &0.0);
     let [firsts, seconds] = [0, 1].map(|k: usize| pairs.iter().map(|pair| pair[k]).collect::<Vec<Lab>>());
     let [some_firsts, some_seconds] = [0, 1].map(|k: usize| some.iter().map(|pair| pair[k]).collect::<Vec<Lab>>());
@@ -47,10 +50,4 @@ pub(super) fn run(bench: &mut Bench<'_>) {
         candidates.push(Candidate::new("side by side", items, error(&found), work).on(threads));
     }
     bench.compare(Case { workload: Workload::Difference, name: "a million pairs", item: "pair" }, candidates);
-}
-
-fn error(found: &[f64], exact: &[Double]) -> ErrorOf {
-    let mut errors = Errors::default();
-    found.iter().zip(exact).for_each(|(&found, &exact)| errors.add(exact.error_of(found), exact.value()));
-    errors.sum_up("\u{394}E*00, against its definition in 106 bits", ErrorScale::Absolute)
 }

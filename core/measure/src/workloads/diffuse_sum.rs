@@ -8,7 +8,7 @@ use super::Numbers;
 use super::exact;
 use super::timing::{Bench, Case, Room, each, spaced};
 use crate::measurement::Errors;
-use crate::{ErrorOf, ErrorScale, Workload};
+use crate::{ErrorScale, Workload};
 
 pub(super) fn run(bench: &mut Bench<'_>) {
     let cases = [
@@ -52,7 +52,10 @@ fn one(bench: &mut Bench<'_>, name: &str, low: f64, high: f64) {
     let exact: Vec<Double> = bench
         .pools
         .on(bench.pools.most(), || some.par_iter().map(|&(g, b)| exact::diffuse_sum(g.into(), b.into())).collect());
-    let error = |found: &[f64]| error(found, &exact);
+    let error = |found: &[f64]| {
+        Errors::against(found.iter().zip(&exact))
+            .sum_up("S, relative, against the sum in 106 bits", ErrorScale::Relative)
+    };
     let room = Room::new(items, &0.0);
     let mut candidates = vec![
         each("term by term", [1, checked], &points, &room, error, |&(g, b)| term_by_term(g, b)),
@@ -71,10 +74,4 @@ fn one(bench: &mut Bench<'_>, name: &str, low: f64, high: f64) {
         }
     }
     bench.compare(Case { workload: Workload::DiffuseSum, name, item: "sum" }, candidates);
-}
-
-fn error(found: &[f64], exact: &[Double]) -> ErrorOf {
-    let mut errors = Errors::default();
-    found.iter().zip(exact).for_each(|(&found, &exact)| errors.add(exact.error_of(found), exact.value()));
-    errors.sum_up("S, relative, against the sum in 106 bits", ErrorScale::Relative)
 }

@@ -72,7 +72,7 @@ impl RenderService {
         Ok(Some(Self { mesh, tree, eye, lighting, surface, sources: Arc::new(sources) }))
     }
 
-    /// What is seen, with what of it depends on the surface.
+    /// Shading of the visible surface: everything in it that depends on the surface's material.
     fn shading(&self, side: u32, quality: Quality, stop: &Stop) -> Option<ShadingImage> {
         let eye = self.eye.eye(self.mesh.bounds());
         let visibility = Visibility::new(&self.mesh, eye, RasterSize::new(side, side), stop)?;

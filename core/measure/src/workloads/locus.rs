@@ -171,13 +171,10 @@ fn from_nothing(bench: &mut Bench<'_>, name: &str, sensor: &Sensor, count: usize
 /// All answers to some temperatures, with what is made for them.
 type Method<'a> = dyn Fn(&[f64]) -> Vec<Place> + Send + Sync + 'a;
 
-/// Where there is no answer.
+/// Stands for a missing answer.
 const NOWHERE: Place = [f64::NAN; 2];
 
 fn error(found: &[Place], exact: &[[Double; 2]]) -> ErrorOf {
-    let mut errors = Errors::default();
-    for (found, exact) in found.iter().zip(exact) {
-        found.iter().zip(exact).for_each(|(&found, &exact)| errors.add(exact.error_of(found), exact.value()));
-    }
-    errors.sum_up("x and y, against the 1 nm sum in 106 bits", ErrorScale::Absolute)
+    let pairs = found.iter().zip(exact).flat_map(|(found, exact)| found.iter().zip(exact));
+    Errors::against(pairs).sum_up("x and y, against the 1 nm sum in 106 bits", ErrorScale::Absolute)
 }

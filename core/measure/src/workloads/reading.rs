@@ -42,7 +42,7 @@ fn of_table(table: &SpectralFile) -> Curves {
     table.curves.iter().map(|curve| curve.values.clone()).collect()
 }
 
-/// What the cells are if one knows that a file holds curves side by side, or one below the other; else nothing.
+/// Curves of the cells, if it is known that a file holds curves side by side, or one below the other; else nothing.
 fn of_rows(file: &File, rows: &[Vec<f64>]) -> Curves {
     let wide = |count: usize| -> Curves {
         let rows = rows.iter().filter(|row| row.len() == count + 1 && row[1..].iter().all(|cell| cell.is_finite()));

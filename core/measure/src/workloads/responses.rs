@@ -127,7 +127,7 @@ fn product(spectrum: &[f64], curve: &[f64]) -> Exact {
     (sum, terms().map(|(a, b)| (a * b).abs()).sum())
 }
 
-/// What is multiplied by a kernel: rows of spectra, rows of curves, and where the responses go, rows by spectrum.
+/// Matrix product: rows of spectra, rows of curves, and the responses as output, rows by spectrum.
 type Kernel<T> = fn(&[T], &[T], usize, &mut [T]);
 
 impl<T: Real> Product<T> {
@@ -235,7 +235,6 @@ fn dots(spectra: &[f64], curves: &[f64], samples: usize, responses: &mut [f64]) 
     }
 }
 
-/// A tuned matrix product.
 fn tuned<T: Real>(spectra: &[T], curves: &[T], samples: usize, responses: &mut [T]) {
     let (rows, channels) = (spectra.len() / samples, curves.len() / samples);
     let spectra = ArrayView2::from_shape((rows, samples), spectra);

@@ -99,11 +99,8 @@ fn xy(color: Uv60) -> Option<Xy> {
 }
 
 fn error(judged: Judged, found: &[Answer], exact: &[[Double; 2]]) -> ErrorOf {
-    let mut errors = Errors::default();
     let which = judged as usize;
-    found.iter().zip(exact).for_each(|(found, exact)| {
-        errors.add(exact[which].error_of(found[which]), exact[which].value());
-    });
+    let errors = Errors::against(found.iter().zip(exact).map(|(found, exact)| (&found[which], &exact[which])));
     let what = match judged {
         Judged::Temperature => "temperature in kelvins, where it answers, against the nearest point in 106 bits",
         Judged::Duv => "Duv, where it answers, against the nearest point in 106 bits",

@@ -30,7 +30,6 @@ impl Pools {
         self.0.iter().map(|(threads, _)| *threads).collect()
     }
 
-    /// The largest.
     pub(crate) fn most(&self) -> usize {
         self.0.last().map_or(1, |(threads, _)| *threads)
     }
@@ -136,7 +135,6 @@ struct Batch {
     repeats: usize,
 }
 
-/// A run.
 pub(super) struct Bench<'a> {
     pub(super) effort: Effort,
     pub(super) stop: &'a Stop,
@@ -146,7 +144,6 @@ pub(super) struct Bench<'a> {
     pub(super) measurements: Vec<Measurement>,
 }
 
-/// Comparison.
 #[derive(Clone, Copy)]
 pub(super) struct Case<'a> {
     pub(super) workload: Workload,

@@ -12,10 +12,9 @@ use glam::Vec3;
 /// Largest number of vertices at one position that are compared: keeps the time proportional.
 const MOST_COMPARED: usize = 64;
 
-/// Makes the mesh.
 pub(super) fn build(soup: &Soup, kind: Kind, stop: &dyn Fn() -> bool) -> Result<ReadMesh, MeshReadError> {
     if soup.faces() == 0 {
-        return Err(MeshReadError::NoFaces { vertices: soup.positions.len() });
+        return Err(MeshReadError::NoFaces(soup.positions.len()));
     }
     let cut = cut(soup, stop)?;
     if cut.triangles.is_empty() {
@@ -60,7 +59,6 @@ struct Vertices {
     positions: Vec<u32>,
     /// The normal of each vertex, as an index among the soup's, or [`NONE`].
     normals: Vec<u32>,
-    /// The fan of each vertex.
     fans: Vec<u32>,
     /// The vertex made before at the same position, or [`NONE`].
     before: Vec<u32>,
@@ -69,7 +67,6 @@ struct Vertices {
 }
 
 impl Vertices {
-    /// None yet.
     fn new(positions: usize) -> Self {
         let last = vec![NONE; positions];
         Self { positions: Vec::new(), normals: Vec::new(), fans: Vec::new(), before: Vec::new(), last }

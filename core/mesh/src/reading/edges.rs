@@ -14,7 +14,6 @@ const CREASE_COSINE: f32 = 0.5;
 /// Positions between two looks at whether to stop.
 const STOP_EVERY: usize = 1 << 16;
 
-/// Findings about the edges.
 pub(super) struct Edges {
     /// Edges of more than two triangles.
     pub(super) non_manifold: Tally,
@@ -24,7 +23,6 @@ pub(super) struct Edges {
     pub(super) boundary: usize,
     /// Edges whose two triangles run along them the same way.
     pub(super) flipped: Tally,
-    /// Positions without triangles.
     pub(super) unused: usize,
     /// For each corner of each triangle the parent in its fan's tree, in the end the root; empty where the file has all
     /// normals.
@@ -46,7 +44,6 @@ impl Edges {
 /// One side of an edge: the vertex of higher index, and the corner at which the triangle comes to it.
 type Side = (u32, u32);
 
-/// Looks at all edges.
 pub(super) fn survey(soup: &Soup, cut: &Cut, stop: &dyn Fn() -> bool) -> Result<Edges, MeshReadError> {
     let (starts, mut sides) = sides(soup, cut);
     let needed = cut.triangles.as_flattened().iter().any(|&c| usable(soup, soup.corners[c as usize].normal) == NONE);

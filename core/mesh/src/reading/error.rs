@@ -82,11 +82,8 @@ pub enum MeshReadError {
     #[error("the file is empty; export the mesh again")]
     Empty,
     /// The file is of another kind.
-    #[error("this is no OBJ, PLY or STL file (it looks like {looks_like}); export the mesh as OBJ")]
-    NotAMesh {
-        /// Format that it seems to be.
-        looks_like: Alien,
-    },
+    #[error("this is no OBJ, PLY or STL file (it looks like {0}); export the mesh as OBJ")]
+    NotAMesh(Alien),
     /// A word stands where a number should.
     #[error("line {line}, column {column}: not a number; write numbers like 0.25 or 1e-3, with a decimal point")]
     Number {
@@ -96,17 +93,11 @@ pub enum MeshReadError {
         column: usize,
     },
     /// A coordinate is NaN or infinite.
-    #[error("{place}: a coordinate is not finite; remove or repair that vertex")]
-    NotFinite {
-        /// The line or vertex.
-        place: Place,
-    },
+    #[error("{0}: a coordinate is not finite; remove or repair that vertex")]
+    NotFinite(Place),
     /// A coordinate is beyond ±1e15.
-    #[error("{place}: a coordinate is beyond ±1e15; rescale the mesh or repair that vertex")]
-    TooFar {
-        /// The line or vertex.
-        place: Place,
-    },
+    #[error("{0}: a coordinate is beyond ±1e15; rescale the mesh or repair that vertex")]
+    TooFar(Place),
     /// A vertex or normal has fewer than three numbers.
     #[error("line {line}: {found} numbers where three are needed (x y z); repair or remove that line")]
     TooFewNumbers {
@@ -166,11 +157,8 @@ pub enum MeshReadError {
         limit: usize,
     },
     /// There are vertices but no faces.
-    #[error("{vertices} vertices but no faces; export a surface, not a point cloud or curves")]
-    NoFaces {
-        /// Number of vertices.
-        vertices: usize,
-    },
+    #[error("{0} vertices but no faces; export a surface, not a point cloud or curves")]
+    NoFaces(usize),
     /// All triangles are without area.
     #[error("none of the {triangles} triangles has an area (the first at {place}); check the export's scale and axes")]
     NoArea {
@@ -198,17 +186,11 @@ pub enum MeshReadError {
         announced: usize,
     },
     /// A text ends within a face.
-    #[error("the file ends within the face that begins on line {line}; it was not copied whole, get it again")]
-    Unfinished {
-        /// The line, from 1.
-        line: usize,
-    },
+    #[error("the file ends within the face that begins on line {0}; it was not copied whole, get it again")]
+    Unfinished(usize),
     /// A line of a header, or a record, is not what the format asks for there.
-    #[error("{place}: not what the format has here; the file is damaged or of a rare variant, export it as OBJ")]
-    Syntax {
-        /// The line, vertex or face.
-        place: Place,
-    },
+    #[error("{0}: not what the format has here; the file is damaged or of a rare variant, export it as OBJ")]
+    Syntax(Place),
     /// The caller asked to stop.
     #[error("stopped before the mesh was read")]
     Stopped,

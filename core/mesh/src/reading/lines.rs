@@ -21,7 +21,6 @@ pub(super) struct Cursor<'a> {
 pub(super) struct Word<'a> {
     /// The word's bytes; never empty.
     pub(super) text: &'a [u8],
-    /// The line, from 1.
     pub(super) line: usize,
     /// The byte in the line, from 1.
     pub(super) column: usize,
@@ -108,7 +107,6 @@ impl<'a> Cursor<'a> {
         Ok(xyz)
     }
 
-    /// Unread rest.
     pub(super) fn left(&self) -> &'a [u8] {
         &self.bytes[self.at..]
     }

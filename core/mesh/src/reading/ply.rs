@@ -13,7 +13,6 @@ use super::soup::{Corner, NONE, Soup};
 use data::{Data, Record};
 use header::{Content, Element, Encoding};
 
-/// Reads a file.
 pub(super) fn read(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshReadError> {
     let (header, cursor) = header::read(bytes)?;
     let mut soup = Soup::new(if header.encoding == Encoding::Text { Place::Line } else { Place::Face }, 0);

@@ -14,12 +14,10 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Counts one more.
     pub(super) fn add(&mut self, place: Place) {
         self.merge(Self { count: 1, first: Some(place) });
     }
 
-    /// Counts others.
     pub(super) fn merge(&mut self, other: Self) {
         self.count += other.count;
         self.first = [self.first, other.first].into_iter().flatten().min();

@@ -29,14 +29,10 @@ pub(super) fn kind(bytes: &[u8], extension_hint: Option<&str>) -> Result<Kind, M
         return if looks_like == Alien::Binary && hint("stl") {
             Ok(Kind::Stl)
         } else {
-            Err(MeshReadError::NotAMesh { looks_like })
+            Err(MeshReadError::NotAMesh(looks_like))
         };
     }
-    if hint("obj") || has_vertex(text) {
-        Ok(Kind::Obj)
-    } else {
-        Err(MeshReadError::NotAMesh { looks_like: Alien::Text })
-    }
+    if hint("obj") || has_vertex(text) { Ok(Kind::Obj) } else { Err(MeshReadError::NotAMesh(Alien::Text)) }
 }
 
 /// True if a text begins as STL does.

@@ -30,12 +30,10 @@ pub(super) enum Smoothing {
     Group(u32),
 }
 
-/// The names of a group.
 #[derive(Clone, Default, PartialEq, Eq)]
 pub(super) struct Names {
     /// The object's and group's name.
     pub(super) name: String,
-    /// The material's name.
     pub(super) material: String,
 }
 
@@ -46,7 +44,6 @@ impl Names {
 
 /// Vertices, normals and polygons as they stand in the file.
 pub(super) struct Soup {
-    /// The positions.
     pub(super) positions: Vec<Vec3>,
     /// The normals, of any length.
     pub(super) normals: Vec<Vec3>,
@@ -56,7 +53,6 @@ pub(super) struct Soup {
     ends: Vec<u32>,
     /// For each face its line or its number.
     places: Vec<u32>,
-    /// Place of that number.
     place: fn(usize) -> Place,
     /// The number of the first vertex.
     first_index: i64,
@@ -68,7 +64,6 @@ pub(super) struct Soup {
     triangles: usize,
     /// Statements read over.
     pub(super) skipped: [Tally; Skipped::COUNT],
-    /// Groups without a name kept.
     pub(super) unnamed_groups: usize,
 }
 
@@ -91,7 +86,6 @@ impl Soup {
         }
     }
 
-    /// Number of faces.
     pub(super) fn faces(&self) -> usize {
         self.ends.len()
     }
@@ -119,13 +113,11 @@ impl Soup {
         if after == 0 { Smoothing::Auto } else { self.smoothing[after - 1].1 }
     }
 
-    /// Takes a position.
     #[inline]
     pub(super) fn add_position(&mut self, xyz: [f64; 3], place: Place) -> Result<(), MeshReadError> {
         push(&mut self.positions, xyz, place)
     }
 
-    /// Takes a normal.
     #[inline]
     pub(super) fn add_normal(&mut self, xyz: [f64; 3], place: Place) -> Result<(), MeshReadError> {
         push(&mut self.normals, xyz, place)
@@ -232,7 +224,7 @@ fn push(to: &mut Vec<Vec3>, xyz: [f64; 3], place: Place) -> Result<(), MeshReadE
     // Not a number is not below the bound either.
     if !(x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.abs() <= FARTHEST) {
         let finite = x.is_finite() && y.is_finite() && z.is_finite();
-        return Err(if finite { MeshReadError::TooFar { place } } else { MeshReadError::NotFinite { place } });
+        return Err(if finite { MeshReadError::TooFar(place) } else { MeshReadError::NotFinite(place) });
     }
     if to.len() >= MAX_VERTICES {
         return Err(MeshReadError::TooLarge { quantity: Quantity::Vertices, limit: MAX_VERTICES, place });

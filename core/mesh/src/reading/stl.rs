@@ -28,7 +28,6 @@ pub(super) fn is_whole_binary(bytes: &[u8]) -> bool {
     })
 }
 
-/// Reads a binary file.
 pub(super) fn read_binary(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshReadError> {
     let announced = announced(bytes).ok_or(MeshReadError::Truncated { place: Place::Face(1), announced: 1 })?;
     if announced > MAX_TRIANGLES {
@@ -55,7 +54,6 @@ pub(super) fn read_binary(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup,
     Ok(soup)
 }
 
-/// Reads a text.
 pub(super) fn read_text(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, MeshReadError> {
     let mut cursor = Cursor::new(bytes);
     let mut soup = Soup::new(Place::Line, 1);
@@ -69,16 +67,16 @@ pub(super) fn read_text(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, M
                 add_corner(&mut soup, xyz, Place::Line(keyword.line))?;
             } else if is(b"facet") {
                 if let Some(line) = facet.replace(keyword.line) {
-                    return Err(MeshReadError::Unfinished { line });
+                    return Err(MeshReadError::Unfinished(line));
                 }
             } else if is(b"endfacet") {
-                let line = facet.take().ok_or(MeshReadError::Syntax { place: Place::Line(keyword.line) })?;
+                let line = facet.take().ok_or(MeshReadError::Syntax(Place::Line(keyword.line)))?;
                 soup.end_face(line)?;
             } else if is(b"solid") {
                 let name = String::from_utf8_lossy(cursor.rest()).chars().take(Names::LONGEST).collect();
                 soup.name(Names { name, material: String::new() });
             } else if ![&b"outer"[..], b"endloop", b"endsolid"].iter().any(|word| is(word)) {
-                return Err(MeshReadError::Syntax { place: Place::Line(keyword.line) });
+                return Err(MeshReadError::Syntax(Place::Line(keyword.line)));
             }
         }
         cursor.next_line();
@@ -88,7 +86,7 @@ pub(super) fn read_text(bytes: &[u8], stop: &dyn Fn() -> bool) -> Result<Soup, M
         }
     }
     if let Some(line) = facet {
-        return Err(MeshReadError::Unfinished { line });
+        return Err(MeshReadError::Unfinished(line));
     }
     soup.weld();
     Ok(soup)

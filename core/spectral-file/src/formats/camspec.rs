@@ -73,7 +73,7 @@ pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
         };
         cameras.push((name.trim().to_owned(), [channel()?, channel()?, channel()?]));
         if cameras.len() > MAX_CURVES / CHANNELS.len() {
-            return Err(ReadError::TooManyCurves { line: first_line });
+            return Err(ReadError::TooManyCurves(first_line));
         }
     }
     let mut header = Header::default();

@@ -66,7 +66,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     file.finish(options, log)
 }
 
-/// Which part of a file a token stands in.
+/// Part of a file that a token stands in.
 #[derive(Clone, Copy)]
 enum Place {
     Keywords,
@@ -74,7 +74,6 @@ enum Place {
     Data,
 }
 
-/// State of the reader.
 #[derive(Default)]
 struct File {
     header: Header,
@@ -100,7 +99,7 @@ struct File {
     last_line: usize,
     /// Fields in a set of the table that is kept.
     width: usize,
-    /// Which of the tables with spectral fields is kept, from 1.
+    /// Number of the table with spectral fields that is read, from 1.
     wanted: usize,
     /// True if the table that is kept has begun, and whether it is the one being read.
     done: bool,
@@ -165,7 +164,7 @@ impl File {
             self.field_places.push(place.unwrap_or_default());
         }
         if self.fields.len() > MAX_CURVES {
-            return Err(ReadError::TooManyCurves { line });
+            return Err(ReadError::TooManyCurves(line));
         }
         Ok(Place::Format)
     }
@@ -234,20 +233,20 @@ impl File {
         self.at = 0;
         self.names.push(std::mem::take(&mut self.row_name));
         if self.values.len() > MAX_SAMPLES {
-            return Err(ReadError::TooManySamples { line });
+            return Err(ReadError::TooManySamples(line));
         }
         if self.names.len() > MAX_CURVES {
-            return Err(ReadError::TooManyCurves { line });
+            return Err(ReadError::TooManyCurves(line));
         }
         let row = std::mem::take(&mut self.row_wavelengths);
         let agrees = self.bands.as_mut().is_none_or(|bands| bands.agrees(row));
-        if agrees { Ok(()) } else { Err(ReadError::SecondTable { line }) }
+        if agrees { Ok(()) } else { Err(ReadError::SecondTable(line)) }
     }
 
     fn finish(mut self, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
         self.end_data();
         let parts = self.settle_parts(options, log)?;
-        let bands = self.bands.ok_or(ReadError::NoWavelengths { line: self.format_line.max(1) })?;
+        let bands = self.bands.ok_or(ReadError::NoWavelengths(self.format_line.max(1)))?;
         if self.at > 0 {
             let (found, expected) = (self.at, self.width);
             return Err(ReadError::UnevenRow { line: self.last_line, found, expected });
@@ -311,7 +310,7 @@ impl File {
             kept.curves = self.names.len();
         }
         if let Some(second) = parts.get(1).filter(|_| options.part.is_none()) {
-            log.push(Warning::MoreTables { line: second.line });
+            log.push(Warning::MoreTables(second.line));
         }
         Ok(parts)
     }

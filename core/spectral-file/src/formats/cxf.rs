@@ -65,12 +65,10 @@ struct List {
     line: usize,
 }
 
-/// State of the reader.
 #[derive(Default)]
 struct Content {
     header: Header,
     spectra: Vec<Spectrum>,
-    /// Samples of all spectra.
     total: usize,
     /// The names of the objects that are open.
     objects: Vec<Option<String>>,
@@ -78,9 +76,7 @@ struct Content {
     points: Vec<Sample>,
     /// Lists wait for the end: the specifications may stand below them.
     lists: Vec<List>,
-    /// The specification that is open.
     specification: Option<String>,
-    /// Ranges that the specifications declare.
     ranges: Vec<(String, Range)>,
 }
 
@@ -128,7 +124,7 @@ impl Content {
     fn spectrum(&mut self, element: &Element<'_>, log: &mut Log<'_>) -> Result<(), ReadError> {
         let Some(name) = self.objects.last().cloned() else { return Ok(()) };
         if self.spectra.len() >= MAX_CURVES {
-            return Err(ReadError::TooManyCurves { line: element.line });
+            return Err(ReadError::TooManyCurves(element.line));
         }
         let kind = element.name().trim_end_matches("Spectrum");
         let label = if kind == "Emissive" { "Emission" } else { kind.trim_start_matches("Custom") }.to_owned();
@@ -160,7 +156,7 @@ impl Content {
             let start = list.range.start.or(declared.and_then(|(_, range)| range.start));
             let step = list.range.step.or(declared.and_then(|(_, range)| range.step));
             let (Some(start), Some(step)) = (start, step) else {
-                return Err(ReadError::NoWavelengths { line: list.line });
+                return Err(ReadError::NoWavelengths(list.line));
             };
             let samples = &mut self.spectra[list.spectrum].samples;
             for sample in &mut *samples {
@@ -179,7 +175,7 @@ fn push(samples: &mut Vec<Sample>, total: &mut usize, sample: Sample) -> Result<
     }
     *total += 1;
     if *total > MAX_SAMPLES {
-        return Err(ReadError::TooManySamples { line: sample.line });
+        return Err(ReadError::TooManySamples(sample.line));
     }
     samples.push(sample);
     Ok(())

@@ -93,7 +93,7 @@ fn leave_other_units(
 ) -> Decided<usize> {
     let Some(units) = blocks.first().map(Block::units) else { return part };
     let Some(other) = blocks.iter().find(|block| block.units() != units) else { return part };
-    log.push(Warning::MoreTables { line: other.data_line + 1 });
+    log.push(Warning::MoreTables(other.data_line + 1));
     blocks.retain(|block| block.units() == units);
     let why = format!("{}, not all in the same units", part.why);
     let alone = parts.iter().position(|listed| listed.line == blocks[0].data_line + 1).map_or(0, |at| at + 1);
@@ -114,7 +114,7 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
             if key == "TITLE" || all.is_empty() {
                 close(&mut all)?;
                 if all.len() >= MAX_CURVES {
-                    return Err(ReadError::TooManyCurves { line: number });
+                    return Err(ReadError::TooManyCurves(number));
                 }
                 all.push(Block::default());
             }
@@ -128,7 +128,7 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
             block.data(number, line, log)?;
             total += block.samples.len() + block.ordinates.len() - before;
             if total > most {
-                return Err(ReadError::TooManySamples { line: number });
+                return Err(ReadError::TooManySamples(number));
             }
         }
     }

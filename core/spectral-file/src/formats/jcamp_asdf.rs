@@ -2,7 +2,6 @@
 
 use crate::decimal::last_digit;
 
-/// Content of a line.
 #[derive(Debug, PartialEq)]
 pub(super) struct Ordinates {
     /// The abscissa at its head, and the unit of its last digit.
@@ -13,7 +12,6 @@ pub(super) struct Ordinates {
     pub(super) ends_in_difference: bool,
 }
 
-/// Kind of an entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kind {
     /// The abscissa or a value, with an ordinary sign or none, or the sign in its first letter.

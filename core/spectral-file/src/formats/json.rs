@@ -37,7 +37,7 @@ const FEWEST_BYTES: usize = 5;
 pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     // Every list and every text has a name of its own; hostile text, which has nothing else, would need many times its size.
     if text.bytes().filter(|byte| *byte == b'"').count() > text.len() / FEWEST_BYTES + 1000 {
-        return Err(ReadError::Unsupported { family: Family::Json });
+        return Err(ReadError::Unsupported(Family::Json));
     }
     let bare = comments::blank(text, log)?;
     let file = parse(text, &bare, log)?;
@@ -61,7 +61,7 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
                 content
             })
         }
-        _ => return Err(ReadError::Unsupported { family: Family::Json }),
+        _ => return Err(ReadError::Unsupported(Family::Json)),
     };
     let Content { curves, mut header, reader, role, notes, parts, part } =
         content.map_err(|error| placed(text, error))?;
@@ -110,7 +110,7 @@ fn placed(text: &str, error: ReadError) -> ReadError {
 fn malformed(text: &str, error: &serde_json::Error) -> ReadError {
     // A list at the top, or members of other types than the known layouts have, is sound JSON of another layout.
     if error.is_data() && (text.trim_start().starts_with('[') || !has_marks(text)) {
-        return ReadError::Unsupported { family: Family::Json };
+        return ReadError::Unsupported(Family::Json);
     }
     ReadError::Malformed { family: Family::Json, line: error.line().max(1), column: error.column().max(1) }
 }
@@ -185,8 +185,8 @@ fn on_one_grid(rows: Rows, names: &[String], header: Header, log: &Log<'_>) -> R
         Some(Fault::Count { key, found }) => {
             return Err(ReadError::WrongCount { line: 1, name: key, found, expected: width });
         }
-        None if width > MAX_CURVES => return Err(ReadError::TooManyCurves { line: 1 }),
-        None if values.len() > MAX_SAMPLES => return Err(ReadError::TooManySamples { line: 1 }),
+        None if width > MAX_CURVES => return Err(ReadError::TooManyCurves(1)),
+        None if values.len() > MAX_SAMPLES => return Err(ReadError::TooManySamples(1)),
         None => {}
     }
     let gaps: Vec<bool> = values.chunks(width.max(1)).map(|row| row.iter().all(|value| value.is_nan())).collect();
@@ -292,7 +292,7 @@ fn wavelengths(text: &str, bands: &[f64], key: &str) -> Result<(Vec<f64>, Decisi
     if step > last || step <= 0.0 {
         return listed(bands);
     }
-    let grid = range(bands).ok_or(ReadError::NoWavelengths { line: 1 })?;
+    let grid = range(bands).ok_or(ReadError::NoWavelengths(1))?;
     let range = Decided::certain(
         format!("{first} to {last} nm in steps of {step}"),
         format!("{}, and three numbers are a range", says(text, key)),

@@ -26,7 +26,6 @@ const LOOK: usize = 1 << 20;
 struct Labeled<'a> {
     label: &'a str,
     wavelength: f64,
-    /// The wavelength as written.
     written: &'a str,
     delimiter: Delimiter,
     value: &'a str,

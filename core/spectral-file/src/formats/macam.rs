@@ -36,7 +36,6 @@ fn number(cell: &str) -> Option<f64> {
     }
 }
 
-/// Reads the pairs of lines.
 pub(super) fn read(text: &str, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut header = Header::default();
     let mut samples = Vec::new();

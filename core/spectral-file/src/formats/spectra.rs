@@ -43,7 +43,7 @@ impl Spectrum {
         if !self.falls()
             && let Some(at) = self.samples.windows(2).position(back)
         {
-            log.push(Warning::Sorted { line: self.samples[at + 1].line });
+            log.push(Warning::Sorted(self.samples[at + 1].line));
         }
         self.samples.sort_by(|a, b| a.wavelength.total_cmp(&b.wavelength));
         let mut lines = Vec::new();
@@ -94,7 +94,7 @@ pub(crate) fn grid(mut spectra: Vec<Spectrum>, header: Header, log: &mut Log<'_>
     let rows = spectra.iter().map(|spectrum| spectrum.samples.len()).sum();
     let line = spectra.first().map_or(1, Spectrum::line);
     if spectra.len() > MAX_CURVES {
-        return Err(ReadError::TooManyCurves { line: spectra[MAX_CURVES].line() });
+        return Err(ReadError::TooManyCurves(spectra[MAX_CURVES].line()));
     }
     let falls = !spectra.is_empty() && spectra.iter().all(|spectrum| spectrum.samples.len() > 1 && spectrum.falls());
     let title = header.comment("title").filter(|_| spectra.len() == 1).map(str::to_owned);
@@ -113,7 +113,7 @@ pub(crate) fn grid(mut spectra: Vec<Spectrum>, header: Header, log: &mut Log<'_>
     wavelengths.dedup();
     log.look(usize::MAX)?;
     if wavelengths.len().saturating_mul(spectra.len()) > MAX_SAMPLES {
-        return Err(ReadError::TooManySamples { line });
+        return Err(ReadError::TooManySamples(line));
     }
     let mut lines = vec![line];
     if let [only] = spectra.as_slice() {

@@ -50,16 +50,12 @@ pub(super) fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Resu
     Ok(Found { grid, layout, reader: Decided::certain(Reader::Tm27, why), notes: Vec::new() })
 }
 
-/// State of the reader.
 #[derive(Default)]
 struct Content {
     header: Header,
     spectra: Vec<Spectrum>,
-    /// Quantity of each spectrum.
     quantities: Vec<Option<Decided<Quantity>>>,
-    /// Quantity of the open spectrum.
     quantity: Option<Decided<Quantity>>,
-    /// The spectrum that is open.
     current: Option<Spectrum>,
 }
 
@@ -85,7 +81,7 @@ impl Content {
                     self.quantities.push(quantity);
                 }
                 if self.spectra.len() > MAX_CURVES {
-                    return Err(ReadError::TooManyCurves { line: element.line });
+                    return Err(ReadError::TooManyCurves(element.line));
                 }
             }
             _ => {}
@@ -133,7 +129,7 @@ impl Content {
         let wanted = part.checked_sub(1).and_then(|at| parts.get(at));
         let wanted = wanted.ok_or(ReadError::NoSuchPart { part, parts: parts.len() })?;
         if let Some(other) = parts.get(1).filter(|_| chosen.is_none()) {
-            log.push(Warning::MoreTables { line: other.line });
+            log.push(Warning::MoreTables(other.line));
         }
         let is_wanted = |spectrum: &Spectrum| spectrum.label.to_lowercase() == wanted.name;
         let first = self.spectra.iter().position(is_wanted).unwrap_or(0);

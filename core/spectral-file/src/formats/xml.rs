@@ -80,7 +80,6 @@ impl Element<'_> {
         self.attribute(name)?.map(|text| number(&text, self.line)).transpose()
     }
 
-    /// The text, trimmed.
     pub(super) fn content(&self) -> &str {
         self.text.trim()
     }
@@ -220,7 +219,7 @@ impl<'a> Walk<'a> {
             return Err(self.malformed(from));
         }
         if self.open.len() >= DEEPEST {
-            return Err(ReadError::Unsupported { family: Family::Xml });
+            return Err(ReadError::Unsupported(Family::Xml));
         }
         let line = self.line(from);
         let name = tag.name().into_inner();

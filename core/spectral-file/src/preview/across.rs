@@ -16,13 +16,11 @@ use crate::{dialect_trial, header_terms, wide};
 #[derive(Debug, Clone)]
 pub(super) struct Across {
     dialect: Dialect,
-    /// The line of the wavelengths.
     line: usize,
     /// The column of the first wavelength, from 0.
     start: usize,
     /// The wavelengths in the order of the columns; `None` where none can be read, or again.
     wavelengths: Vec<Option<f64>>,
-    /// The column of the names.
     names: usize,
     /// The line of each curve, in ascending order, and the curve.
     pub(super) rows: Vec<(usize, usize)>,
@@ -58,10 +56,10 @@ impl Across {
     fn header(&self, line: &str, window: &Range<usize>) -> Vec<Mark> {
         let marks = cells::within(self.dialect, line, window).filter_map(|(column, range, cell)| {
             let what = match column.checked_sub(self.start) {
-                None => What::Unit { curve: header_terms::x_unit(cell).map(|_| None)? },
+                None => What::Unit(header_terms::x_unit(cell).map(|_| None)?),
                 Some(index) => match self.wavelengths.get(index)? {
-                    Some(nm) => What::Wavelength { nm: *nm },
-                    None => What::LeftOut { why: LeftOut::Column },
+                    Some(nm) => What::Wavelength(*nm),
+                    None => What::LeftOut(LeftOut::Column),
                 },
             };
             Some(Mark::new(range, what))
@@ -75,13 +73,13 @@ impl Across {
         let name = if named { Some(self.names) } else { leading.position(|cell| !cell.is_empty()) };
         let marks = cells::within(self.dialect, line, window).filter_map(|(column, range, cell)| {
             let what = match column.checked_sub(self.start) {
-                None if name == Some(column) => What::Name { curve },
+                None if name == Some(column) => What::Name(curve),
                 None if cell.is_empty() => return None,
-                None => What::LeftOut { why: LeftOut::Column },
+                None => What::LeftOut(LeftOut::Column),
                 Some(at) => match (self.wavelengths.get(at)?, self.dialect.parse(cell)) {
-                    (None, _) => What::LeftOut { why: LeftOut::Column },
+                    (None, _) => What::LeftOut(LeftOut::Column),
                     (Some(nm), Cell::Number(written)) => value(written, curve, *nm, file),
-                    (Some(_), Cell::Gap | Cell::Text) => What::Gap { curve },
+                    (Some(_), Cell::Gap | Cell::Text) => What::Gap(curve),
                 },
             };
             Some(Mark::new(range, what))

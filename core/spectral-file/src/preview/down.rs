@@ -18,7 +18,6 @@ pub(super) struct Down {
     dialect: Dialect,
     /// The columns of wavelengths, from 0, and their units.
     axes: Vec<(usize, WavelengthUnit)>,
-    /// The curve of each column.
     pub(super) curves: Vec<Option<usize>>,
     /// The line of names, and how many columns it leaves out at its beginning.
     names: Option<usize>,
@@ -82,7 +81,6 @@ impl Down {
         }
     }
 
-    /// The numbers of a row.
     fn values(&self, line: &str, shared: f64, window: &Range<usize>, file: &SpectralFile) -> Vec<Mark> {
         let mut nm = shared;
         let mut marks = Vec::new();
@@ -100,11 +98,11 @@ impl Down {
             }
             let what = match (self.curves.get(column).copied().flatten(), cells::parse(self.dialect, cell)) {
                 _ if axis.is_some() && nm.is_nan() => continue,
-                _ if axis.is_some() => What::Wavelength { nm },
+                _ if axis.is_some() => What::Wavelength(nm),
                 (None, Cell::Gap) if cell.is_empty() => continue,
-                (None, _) => What::LeftOut { why: LeftOut::Column },
+                (None, _) => What::LeftOut(LeftOut::Column),
                 (Some(curve), Cell::Number(written)) => value(written, curve, nm, file),
-                (Some(curve), Cell::Gap | Cell::Text) => What::Gap { curve },
+                (Some(curve), Cell::Gap | Cell::Text) => What::Gap(curve),
             };
             marks.push(Mark::new(range, what));
         }
@@ -116,19 +114,19 @@ impl Down {
         self.pieces(line, body, self.shift, window, |column, cell| match self.curves.get(column) {
             _ if self.axis(column).is_some() => {
                 let unit = header_terms::x_unit(cell).is_some() || header_terms::names_wavelengths(cell);
-                unit.then_some(What::Unit { curve: None })
+                unit.then_some(What::Unit(None))
             }
-            Some(Some(curve)) => Some(What::Name { curve: *curve }),
-            _ => Some(What::LeftOut { why: LeftOut::Column }),
+            Some(Some(curve)) => Some(What::Name(*curve)),
+            _ => Some(What::LeftOut(LeftOut::Column)),
         })
     }
 
     fn units(&self, line: &str, window: &Range<usize>) -> Vec<Mark> {
         let body = text::comment(line).unwrap_or(line);
         self.pieces(line, body, 0, window, |column, _| match self.curves.get(column) {
-            _ if self.axis(column).is_some() => Some(What::Unit { curve: None }),
-            Some(Some(curve)) => Some(What::Unit { curve: Some(*curve) }),
-            _ => Some(What::LeftOut { why: LeftOut::Column }),
+            _ if self.axis(column).is_some() => Some(What::Unit(None)),
+            Some(Some(curve)) => Some(What::Unit(Some(*curve))),
+            _ => Some(What::LeftOut(LeftOut::Column)),
         })
     }
 
@@ -153,7 +151,7 @@ impl Down {
 
 /// The mark of a line that is in no curve.
 pub(super) fn whole(line: &str, window: &Range<usize>, why: LeftOut) -> Vec<Mark> {
-    let mark = Mark::new(cells::trimmed(line), What::LeftOut { why });
+    let mark = Mark::new(cells::trimmed(line), What::LeftOut(why));
     Some(mark).filter(|mark| cells::touches(&mark.range, window)).into_iter().collect()
 }
 
@@ -161,7 +159,7 @@ pub(super) fn whole(line: &str, window: &Range<usize>, why: LeftOut) -> Vec<Mark
 pub(super) fn value(written: f64, curve: usize, nm: f64, file: &SpectralFile) -> What {
     match file.curves.get(curve).and_then(|curve| cells::sample(curve, nm)) {
         Some((nm, value)) => What::Value { curve, nm, value, written },
-        None => What::Gap { curve },
+        None => What::Gap(curve),
     }
 }
 

@@ -22,18 +22,15 @@ impl Mark {
     }
 }
 
-/// Meaning of a piece of a line.
+/// Meaning of a piece of a line. Curves are indices in the table, from 0; wavelengths are in nanometers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum What {
     /// A wavelength of the table.
-    Wavelength {
-        /// In nanometers, whatever unit it is written in.
-        nm: f64,
-    },
+    Wavelength(f64),
     /// A value of a curve.
     Value {
-        /// Which of the table's curves, from 0.
+        /// Index of the table's curve, from 0.
         curve: usize,
         /// Wavelength in nanometers.
         nm: f64,
@@ -43,32 +40,17 @@ pub enum What {
         written: f64,
     },
     /// The name of a curve.
-    Name {
-        /// Which of the table's curves, from 0.
-        curve: usize,
-    },
-    /// A unit, of a curve or of the wavelengths.
-    Unit {
-        /// Which of the table's curves, from 0; `None` for the wavelengths.
-        curve: Option<usize>,
-    },
+    Name(usize),
+    /// A unit, of a curve or of the wavelengths. `None` for the wavelengths.
+    Unit(Option<usize>),
     /// A setting or a remark that was kept with the reading.
     Setting,
     /// A place where a curve has no value.
-    Gap {
-        /// Which of the table's curves, from 0.
-        curve: usize,
-    },
+    Gap(usize),
     /// A line of values so compressed that single numbers have no place in it.
-    Block {
-        /// Which of the table's curves, from 0.
-        curve: usize,
-    },
+    Block(usize),
     /// Something that is in no curve.
-    LeftOut {
-        /// Reason.
-        why: LeftOut,
-    },
+    LeftOut(LeftOut),
 }
 
 /// Reason that something is in no curve.
@@ -103,11 +85,9 @@ impl What {
     /// The curve it belongs to, from 0, if it belongs to one.
     pub fn curve(self) -> Option<usize> {
         match self {
-            Self::Value { curve, .. } | Self::Name { curve } | Self::Gap { curve } | Self::Block { curve } => {
-                Some(curve)
-            }
-            Self::Unit { curve } => curve,
-            Self::Wavelength { .. } | Self::Setting | Self::LeftOut { .. } => None,
+            Self::Value { curve, .. } | Self::Name(curve) | Self::Gap(curve) | Self::Block(curve) => Some(curve),
+            Self::Unit(curve) => curve,
+            Self::Wavelength(..) | Self::Setting | Self::LeftOut(..) => None,
         }
     }
 
@@ -116,21 +96,21 @@ impl What {
         let curve = |index: usize| table.curves.get(index);
         let name = |index: usize| curve(index).map_or("a curve", |curve: &Curve| curve.name.as_str());
         match *self {
-            Self::Wavelength { nm } => format!("{} nm", short(nm, 6)),
+            Self::Wavelength(nm) => format!("{} nm", short(nm, 6)),
             Self::Value { curve, nm, value, written } => {
                 let place = format!("{}: {} at {} nm", name(curve), short(value, 6), short(nm, 6));
                 if written == value { place } else { format!("{place} (written {}{})", short(written, 6), how(table)) }
             }
-            Self::Name { curve } => format!("name of curve {}", curve + 1),
-            Self::Unit { curve: None } => format!("unit of the wavelengths: {}", table.reading.wavelength_unit.value),
-            Self::Unit { curve: Some(index) } => match curve(index).and_then(|curve| curve.unit.as_deref()) {
+            Self::Name(curve) => format!("name of curve {}", curve + 1),
+            Self::Unit(None) => format!("unit of the wavelengths: {}", table.reading.wavelength_unit.value),
+            Self::Unit(Some(index)) => match curve(index).and_then(|curve| curve.unit.as_deref()) {
                 Some(unit) => format!("unit of {}: {unit}", name(index)),
                 None => format!("unit of {}", name(index)),
             },
             Self::Setting => "kept as a setting".to_owned(),
-            Self::Gap { curve } => format!("{}: no value here", name(curve)),
-            Self::Block { curve } => format!("{}: compressed values", name(curve)),
-            Self::LeftOut { why } => format!("left out: {why}"),
+            Self::Gap(curve) => format!("{}: no value here", name(curve)),
+            Self::Block(curve) => format!("{}: compressed values", name(curve)),
+            Self::LeftOut(why) => format!("left out: {why}"),
         }
     }
 }

@@ -19,7 +19,6 @@ use crate::wavelength_unit::WavelengthUnit;
 pub struct Marker {
     /// The lines of settings, in ascending order.
     settings: Vec<u32>,
-    /// The first line of values.
     first_line: usize,
     /// The curves that were read, by which a marker of another file is known.
     curves: usize,
@@ -112,10 +111,10 @@ fn placed(all: &[Place], start: usize, line: &str, window: &Range<usize>, file: 
 fn what(place: &Place, written: &str, file: &SpectralFile) -> Option<What> {
     let curve = place.origin as usize;
     Some(match place.kind {
-        PlaceKind::Wavelength => What::Wavelength { nm: place.wavelength },
+        PlaceKind::Wavelength => What::Wavelength(place.wavelength),
         PlaceKind::Value => down::value(cells::number(written)?, curve, place.wavelength, file),
-        PlaceKind::Block | PlaceKind::Check => What::Block { curve },
-        PlaceKind::Repeated => What::LeftOut { why: LeftOut::Repeated },
-        PlaceKind::Averaged => What::LeftOut { why: LeftOut::Averaged },
+        PlaceKind::Block | PlaceKind::Check => What::Block(curve),
+        PlaceKind::Repeated => What::LeftOut(LeftOut::Repeated),
+        PlaceKind::Averaged => What::LeftOut(LeftOut::Averaged),
     })
 }

@@ -9,7 +9,7 @@ use crate::role::Role;
 /// Channels that a camera may have.
 pub(super) const MOST_CHANNELS: usize = 4;
 
-/// Which of three or four names are red, green and blue, and whether all are letters. A fourth curve may be beside
+/// Indices of red, green and blue among three or four names, and true if all are letters. A fourth curve may be beside
 /// them, such as an infrared or a clear channel; of the two greens of a Bayer pattern the first is taken.
 pub(super) fn channels(names: &[&str]) -> Option<([usize; 3], bool)> {
     if !(3..=MOST_CHANNELS).contains(&names.len()) {
@@ -39,7 +39,7 @@ pub(super) fn channels(names: &[&str]) -> Option<([usize; 3], bool)> {
     Some(([found[0]?, found[1]?, found[2]?], letters))
 }
 
-/// Which curves of a camera are red, green and blue: by name, or by where three curves peak.
+/// Indices of a camera's red, green and blue curves: by name, or by the peaks of three curves.
 pub(crate) fn camera_columns(role: Role, curves: &[Curve]) -> Option<[usize; 3]> {
     if role != Role::Camera {
         return None;

@@ -9,7 +9,6 @@ pub(crate) struct Scale {
     pub(crate) role: Decided<Role>,
     /// Scale of most curves.
     pub(crate) values: Decided<Values>,
-    /// Scale of each curve.
     pub(super) columns: Vec<Values>,
 }
 

@@ -141,6 +141,6 @@ fn doubt_percent(values: Values, evidence: &Evidence, log: &mut Log<'_>) {
     const LARGEST_FRACTION: f64 = 1.2;
     let (_, max) = evidence.range();
     if values == Values::Percent && max <= LARGEST_FRACTION && max > 0.0 {
-        log.push(Warning::SmallPercent { max: short(max, 4) });
+        log.push(Warning::SmallPercent(short(max, 4)));
     }
 }

@@ -9,7 +9,6 @@ use crate::role::{Quantity, Values};
 /// Quantity of a row.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Label {
-    /// As written.
     text: String,
     line: usize,
     quantity: Option<Quantity>,

@@ -107,7 +107,7 @@ impl<'a> Prepared<'a> {
         if let (Some(step), Some(first), Some(last)) = (self.step, self.rows.first(), self.rows.last()) {
             self.changes.note(Some(step), [*first, *last], &mut notes);
         }
-        notes.extend((self.blank > 0).then_some(Note::Blank { count: self.blank }));
+        notes.extend((self.blank > 0).then_some(Note::Blank(self.blank)));
         notes
     }
 }

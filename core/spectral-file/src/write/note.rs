@@ -21,11 +21,8 @@ pub enum Note {
         /// The step in nanometers.
         to_nm: f64,
     },
-    /// Values are means over bands around multiples of a step.
-    Averaged {
-        /// The step and the width of the bands, in nanometers.
-        step_nm: f64,
-    },
+    /// Values are means over bands around multiples of a step. Holds the step and the width of the bands, in nanometers.
+    Averaged(f64),
     /// Some curves go on beyond what is written.
     Clipped {
         /// The first wavelength written, in nanometers.
@@ -36,20 +33,11 @@ pub enum Note {
     /// Sensitivities per photon were multiplied by λ / 550 nm, because the format means sensitivities per energy.
     PerEnergy,
     /// Curves other than red, green and blue are not in the file.
-    LeftOut {
-        /// Number.
-        count: usize,
-    },
+    LeftOut(usize),
     /// Curves have no sample at any multiple of the step; their columns are blank.
-    Blank {
-        /// Number.
-        count: usize,
-    },
+    Blank(usize),
     /// Names of curves were blank, did not fit on a line, or would have been read as another quantity.
-    Renamed {
-        /// Number.
-        count: usize,
-    },
+    Renamed(usize),
     /// The format has no place for the names of curves, or for one beside the title.
     NoNames,
     /// rawtoaces finds cameras by maker and model, which are not both known.
@@ -67,20 +55,20 @@ impl fmt::Display for Note {
                 let from_nm = (from_nm * 1e3).round() / 1e3;
                 write!(f, "steps of {from_nm} nm became {to_nm} nm without averaging: narrow lines may be lost")
             }
-            Self::Averaged { step_nm } => {
+            Self::Averaged(step_nm) => {
                 write!(f, "averaged over bands of {step_nm} nm (means of the linear interpolant)")
             }
             Self::Clipped { from_nm, to_nm } => write!(f, "only {from_nm} to {to_nm} nm is written"),
             Self::PerEnergy => f.write_str("sensitivities per photon became sensitivities per energy"),
-            Self::LeftOut { count: 1 } => f.write_str("one curve beside red, green and blue is not in the file"),
-            Self::LeftOut { count } => write!(f, "{count} curves beside red, green and blue are not in the file"),
-            Self::Blank { count } => {
+            Self::LeftOut(1) => f.write_str("one curve beside red, green and blue is not in the file"),
+            Self::LeftOut(count) => write!(f, "{count} curves beside red, green and blue are not in the file"),
+            Self::Blank(count) => {
                 write!(f, "{count} of the columns are blank: no wavelength of the grid is in range")
             }
-            Self::Renamed { count: 1 } => {
+            Self::Renamed(1) => {
                 f.write_str("one name was blank, did not fit on a line or meant other values: it was replaced")
             }
-            Self::Renamed { count } => {
+            Self::Renamed(count) => {
                 write!(f, "{count} names were blank, did not fit on a line or meant other values: they were replaced")
             }
             Self::NoNames => f.write_str("names of curves are not in the file: the format has no place for them"),
@@ -89,36 +77,24 @@ impl fmt::Display for Note {
     }
 }
 
-/// Why curves cannot be written. Curves count from one.
+/// Reason why curves cannot be written. Curves count from one.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum WriteError {
     /// There is nothing to write.
     #[error("there are no curves")]
     NoCurves,
     /// A curve has more or fewer values than wavelengths.
-    #[error("curve {curve} has not one value for each wavelength")]
-    Lengths {
-        /// The curve.
-        curve: usize,
-    },
+    #[error("curve {0} has not one value for each wavelength")]
+    Lengths(usize),
     /// A curve has fewer than two samples.
-    #[error("curve {curve} has fewer than two samples")]
-    TooShort {
-        /// The curve.
-        curve: usize,
-    },
+    #[error("curve {0} has fewer than two samples")]
+    TooShort(usize),
     /// Wavelengths are not finite, not above zero or not ascending.
-    #[error("the wavelengths of curve {curve} do not ascend from above zero")]
-    Wavelengths {
-        /// The curve.
-        curve: usize,
-    },
+    #[error("the wavelengths of curve {0} do not ascend from above zero")]
+    Wavelengths(usize),
     /// A value is not finite.
-    #[error("curve {curve} has a value that is no finite number")]
-    NotFinite {
-        /// The curve.
-        curve: usize,
-    },
+    #[error("curve {0} has a value that is no finite number")]
+    NotFinite(usize),
     /// Red, green and blue are not three of the curves.
     #[error("red, green and blue are not three of the curves")]
     Channels,
@@ -136,11 +112,8 @@ pub enum WriteError {
         wanted: usize,
     },
     /// A format is for something else.
-    #[error("{} is not for curves of this kind", format.name())]
-    OtherContent {
-        /// The format.
-        format: Format,
-    },
+    #[error("{} is not for curves of this kind", .0.name())]
+    OtherContent(Format),
     /// The program that the format is for would not read this step.
     #[error("{} cannot be written in steps of {step_nm} nm", format.name())]
     StepOfFormat {

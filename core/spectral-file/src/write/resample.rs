@@ -221,7 +221,7 @@ impl Changes {
     /// Notes for a step (none for the curves' own wavelengths) and the range that was written.
     pub(super) fn note(&self, step: Option<f64>, [from_nm, to_nm]: [f64; 2], notes: &mut Vec<Note>) {
         if let Some(Sampling::Bands(step_nm)) = self.sampling {
-            notes.push(Note::Averaged { step_nm });
+            notes.push(Note::Averaged(step_nm));
         } else if let Some(step_nm) = step {
             if self.interpolated {
                 notes.push(Note::Resampled { step_nm, smooth: self.smooth });

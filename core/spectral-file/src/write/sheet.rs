@@ -30,11 +30,11 @@ impl<'a> From<&'a Curve> for Trace<'a> {
 pub enum Content<'a> {
     /// Sensitivities of a camera.
     Camera {
-        /// Which curves are red, green and blue; there may be others, which only CSV, `.sp` and CGATS can hold.
+        /// Red, green and blue curves; there may be others, which only CSV, `.sp` and CGATS can hold.
         channels: [usize; 3],
         /// True if they are a response to equal numbers of photons (else to equal power); `None` if nobody knows.
         per_photon: Option<bool>,
-        /// Who made the camera, by which rawtoaces finds it.
+        /// Manufacturer of the camera, by which rawtoaces finds it.
         manufacturer: Option<&'a str>,
         /// Its model, by which rawtoaces finds it.
         model: Option<&'a str>,
@@ -75,7 +75,7 @@ pub struct Sheet<'a> {
     pub curves: &'a [Trace<'a>],
     /// The unit of the values. Not looked at for reflectances and transmittances, which have none.
     pub unit: Option<&'a str>,
-    /// When the file is made, as in RFC 3339, for the formats that have a place for it.
+    /// Creation time of the file, as in RFC 3339, for the formats that have a field for it.
     pub created: Option<&'a str>,
     /// More to say, such as `("source", …)`, `("license", …)` and `("note", …)`. What is said elsewhere here (title,
     /// quantity, unit, response) is not taken from it.
@@ -180,7 +180,7 @@ impl<'a> Sheet<'a> {
         });
         let pieces = pieces.collect();
         if renamed > 0 {
-            notes.push(Note::Renamed { count: renamed });
+            notes.push(Note::Renamed(renamed));
         }
         pieces
     }
@@ -203,7 +203,7 @@ impl<'a> Sheet<'a> {
         let pieces = self.energy_pieces(notes);
         let Content::Camera { channels, .. } = self.content else { return pieces };
         if pieces.len() > channels.len() {
-            notes.push(Note::LeftOut { count: pieces.len() - channels.len() });
+            notes.push(Note::LeftOut(pieces.len() - channels.len()));
         }
         channels.iter().filter_map(|&channel| pieces.get(channel).cloned()).collect()
     }
@@ -234,17 +234,17 @@ impl Piece<'_> {
 fn check(trace: &Trace<'_>, curve: usize) -> Result<(), WriteError> {
     let (wavelengths, values) = (trace.wavelengths_nm, trace.values);
     if wavelengths.len() != values.len() {
-        return Err(WriteError::Lengths { curve });
+        return Err(WriteError::Lengths(curve));
     }
     if wavelengths.len() < 2 {
-        return Err(WriteError::TooShort { curve });
+        return Err(WriteError::TooShort(curve));
     }
     if wavelengths.len() > MAX_SAMPLES {
         return Err(WriteError::TooLarge);
     }
     let ascending = wavelengths.windows(2).all(|pair| pair[0] < pair[1]);
     if !(ascending && wavelengths[0] > 0.0 && wavelengths.iter().all(|w| w.is_finite())) {
-        return Err(WriteError::Wavelengths { curve });
+        return Err(WriteError::Wavelengths(curve));
     }
-    if values.iter().all(|value| value.is_finite()) { Ok(()) } else { Err(WriteError::NotFinite { curve }) }
+    if values.iter().all(|value| value.is_finite()) { Ok(()) } else { Err(WriteError::NotFinite(curve)) }
 }

@@ -10,7 +10,10 @@ use crate::units::Kelvin;
 /// T = −449 n³ + 3525 n² − 6823.3 n + 5520.33,   n = (x − 0.3320) / (y − 0.1858)
 /// ```
 /// Claimed to be off by less than 2 K from illuminant A to D65, and refused where the result lies further beyond those than
-/// 2 K. Measured against the locus of today's constants it is off by up to 10 K (0.28 %, at 3475 K), and it knows no Duv.
+/// 2 K. Measured against the locus of today's constants it is off by up to 10 K (0.28 %, at 3475 K), and it gives no Duv.
+///
+/// # Errors
+/// [`CctError`] if the slope is undefined or the temperature outside the range.
 pub fn mccamy_1992(color: Xy) -> Result<Kelvin, CctError> {
     let n = slope(color, 0.3320, 0.1858)?;
     within(((-449.0 * n + 3525.0) * n - 6823.3) * n + 5520.33, 2854.0, 6506.0)
@@ -21,7 +24,10 @@ pub fn mccamy_1992(color: Xy) -> Result<Kelvin, CctError> {
 /// ```text
 /// T = A₀ + Σ A_i exp(−n / t_i),   n = (x − x_e) / (y − y_e)
 /// ```
-/// Made for daylight and skylight; measured on the Planckian locus up to 20 000 K it is within 1.4 %. It knows no Duv.
+/// Made for daylight and skylight; measured on the Planckian locus up to 20 000 K it is within 1.4 %. It gives no Duv.
+///
+/// # Errors
+/// [`CctError`] if the slope is undefined or the temperature outside the range.
 pub fn hernandez_andres_1999(color: Xy) -> Result<Kelvin, CctError> {
     let n = slope(color, 0.3366, 0.1735)?;
     let terms = [(6_253.803_38, 0.921_59), (28.705_99, 0.200_39), (0.000_04, 0.071_25)];

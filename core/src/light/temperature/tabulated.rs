@@ -46,6 +46,9 @@ impl Isotherm {
 
 impl Robertson {
     /// The isotherms of an observer: 31 sums.
+    ///
+    /// # Errors
+    /// [`LocusError`] if the observer's Planckian locus has no chromaticity or no direction at an isotherm.
     pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, LocusError> {
         let locus = locus(observer, constants)?;
         let isotherm = |index| {
@@ -95,6 +98,9 @@ impl Robertson {
     }
 
     /// The temperature by his interpolation; the distance, which he did not give, by the same from the tangents of both.
+    ///
+    /// # Errors
+    /// [`CctError`] if the color is not finite, too far from the locus, or beyond its ends.
     pub fn cct(&self, color: Uv60) -> Result<Cct, CctError> {
         finite(color)?;
         let side = |isotherm: &Isotherm| isotherm.beyond(color);
@@ -156,6 +162,9 @@ const TRIANGLE_TO: f64 = 0.002;
 
 impl Ohno {
     /// The table of an observer: 305 sums.
+    ///
+    /// # Errors
+    /// [`LocusError`] if the observer's Planckian locus has no chromaticity at an entry.
     pub fn new(observer: &Sensor, constants: RadiationConstants) -> Result<Self, LocusError> {
         let locus = locus(observer, constants)?;
         let point = |index| {
@@ -167,6 +176,9 @@ impl Ohno {
     }
 
     /// The temperature and Duv of a color.
+    ///
+    /// # Errors
+    /// [`CctError`] if the color is not finite, too far from the locus, or beyond its ends.
     pub fn cct(&self, color: Uv60) -> Result<Cct, CctError> {
         finite(color)?;
         let distance = |at: Uv60| (at.u - color.u).hypot(at.v - color.v);

@@ -24,7 +24,6 @@ pub(super) struct Data<'a> {
 }
 
 impl<'a> Data<'a> {
-    /// Data after a header.
     pub(super) fn new(encoding: Encoding, cursor: Cursor<'a>) -> Self {
         let rest = cursor.left();
         Self { encoding, cursor, rest }
@@ -39,7 +38,6 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// Reads a record.
     pub(super) fn read(&mut self, element: &Element, number: usize, record: &mut Record) -> Result<(), MeshReadError> {
         let truncated = MeshReadError::Truncated {
             place: match element.content {
@@ -57,7 +55,7 @@ impl<'a> Data<'a> {
         record.corners.clear();
         let line = self.cursor.first_line();
         let mut found = 0;
-        let syntax = MeshReadError::Syntax { place: self.place(element.content, number) };
+        let syntax = MeshReadError::Syntax(self.place(element.content, number));
         // Words can be missing on a line; in a binary file only its end can.
         let missing = |found| match (self.encoding, element.content) {
             (Encoding::Text, Content::Vertices) if found < 3 => MeshReadError::TooFewNumbers { line, found },

@@ -14,7 +14,6 @@ pub(super) enum Encoding {
     Big,
 }
 
-/// The type of a value.
 #[derive(Clone, Copy)]
 pub(super) enum Scalar {
     I8,
@@ -65,21 +64,16 @@ pub(super) enum Role {
 
 /// One value, or one list, of each record.
 pub(super) struct Property {
-    /// Use.
     pub(super) role: Role,
     /// The type of a list's length; none for a single value.
     pub(super) length: Option<Scalar>,
-    /// The type of the values.
     pub(super) scalar: Scalar,
 }
 
 /// A number of records of the same kind.
 pub(super) struct Element {
-    /// Kind of the records.
     pub(super) content: Content,
-    /// Number.
     pub(super) count: usize,
-    /// Properties of each record.
     pub(super) properties: Vec<Property>,
     /// Line that announces the element.
     line: usize,
@@ -113,9 +107,7 @@ impl Element {
 
 /// All that the header says.
 pub(super) struct Header {
-    /// Encoding of the values.
     pub(super) encoding: Encoding,
-    /// Elements in their order.
     pub(super) elements: Vec<Element>,
 }
 
@@ -126,7 +118,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, Cursor<'_>), MeshReadError> 
     let mut elements: Vec<Element> = Vec::new();
     loop {
         let line = cursor.first_line();
-        let wrong = MeshReadError::Syntax { place: Place::Line(line) };
+        let wrong = MeshReadError::Syntax(Place::Line(line));
         if cursor.is_done() {
             return Err(wrong);
         }
@@ -151,7 +143,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, Cursor<'_>), MeshReadError> 
                 cursor.next_line();
                 let encoding = encoding.ok_or(wrong)?;
                 if let Some(element) = elements.iter().find(|element| element.count > 0 && !element.is_complete()) {
-                    return Err(MeshReadError::Syntax { place: Place::Line(element.line) });
+                    return Err(MeshReadError::Syntax(Place::Line(element.line)));
                 }
                 return Ok((Header { encoding, elements }, cursor));
             }

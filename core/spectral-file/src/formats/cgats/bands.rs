@@ -1,4 +1,4 @@
-//! Which fields are spectral, and their wavelengths.
+//! Spectral fields and their wavelengths.
 
 use crate::decimal::clean;
 use crate::report::{Decided, Decision};
@@ -67,7 +67,6 @@ impl Bands {
         kinds.contains(&Kind::Value).then_some(Self { wavelengths: Vec::new(), percent, kinds, why, in_rows: true })
     }
 
-    /// Number of bands.
     pub(super) fn count(&self) -> usize {
         self.kinds.iter().filter(|kind| **kind == Kind::Value).count()
     }

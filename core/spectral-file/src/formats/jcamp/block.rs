@@ -59,13 +59,11 @@ pub(super) struct Block {
     /// True if the last line ended with a difference.
     pub(super) difference: bool,
     pub(super) samples: Vec<Sample>,
-    /// Number of values.
     pub(super) found: usize,
     pub(super) warnings: Vec<Warning>,
     pub(super) comma: bool,
 }
 
-/// Labels of numbers.
 const NUMBERS: [&str; 8] = ["FIRSTX", "LASTX", "DELTAX", "XFACTOR", "YFACTOR", "FIRSTY", "MINY", "MAXY"];
 
 /// A label as labels are compared: capitals and digits only.
@@ -147,7 +145,7 @@ impl Block {
         }
         if !self.rows.is_empty() {
             let value = |label| self.number(label).map(|(_, number)| number);
-            let first = value("FIRSTX").ok_or(ReadError::NoWavelengths { line: self.data_line })?;
+            let first = value("FIRSTX").ok_or(ReadError::NoWavelengths(self.data_line))?;
             let (last, delta, points) = (value("LASTX"), self.number("DELTAX"), self.points.1);
             let axis = Axis { first, last, delta, points, factor: x_factor };
             let data = Data { rows: &self.rows, ordinates: &self.ordinates };

@@ -145,12 +145,12 @@ impl Data<'_> {
         }
         if let Some(mut placed) = moved {
             let (lines, short) = (std::mem::take(&mut placed.moved), std::mem::take(&mut placed.short));
-            let moved = (!lines.is_empty()).then_some(Warning::PlacedByAbscissa { lines });
-            let short = (!short.is_empty()).then_some(Warning::ShortLines { lines: short });
+            let moved = (!lines.is_empty()).then_some(Warning::PlacedByAbscissa(lines));
+            let short = (!short.is_empty()).then_some(Warning::ShortLines(short));
             placed.warnings.splice(0..0, short.into_iter().chain(moved));
             return Ok(placed);
         }
-        let error = error.unwrap_or(ReadError::NoWavelengths { line });
+        let error = error.unwrap_or(ReadError::NoWavelengths(line));
         self.points(axis).ok_or(error)
     }
 
@@ -334,7 +334,7 @@ impl Grid<'_> {
             }
             all.sort_by_key(|(index, _)| *index);
             let again = merge(&mut all)?;
-            warnings.extend((!again.is_empty()).then_some(Warning::RepeatedRows { lines: again }));
+            warnings.extend((!again.is_empty()).then_some(Warning::RepeatedRows(again)));
         }
         let samples = all.into_iter().map(|(_, sample)| sample).filter(|sample| !sample.value.is_nan()).collect();
         Ok(Placed { samples, warnings, moved, short })

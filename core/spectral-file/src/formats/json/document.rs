@@ -11,7 +11,6 @@ use crate::formats::json::rows::Rows;
 /// Most entries of a header that are kept.
 const MAX_ENTRIES: usize = 1000;
 
-/// A document of either layout.
 #[derive(Deserialize)]
 pub(super) struct File {
     pub(super) header: Option<Texts>,

@@ -25,7 +25,7 @@ pub(super) fn read(
     let own = at.map(|at| curves.remove(at).1.into_iter().map(|nm| nm.unwrap_or(f64::NAN)).collect());
     let wavelengths: Option<Vec<f64>> = own.or(settings.and_then(|settings| settings.wavelengths));
     let line = line_of(text, "spectrum").unwrap_or(1);
-    let wavelengths = wavelengths.filter(|all| !all.is_empty()).ok_or(ReadError::NoWavelengths { line })?;
+    let wavelengths = wavelengths.filter(|all| !all.is_empty()).ok_or(ReadError::NoWavelengths(line))?;
     let mut header = Header::default();
     for (key, value) in metadata {
         header.note(0, key, value);

@@ -1,0 +1,138 @@
+//! One frame: bars, panes, the borders between them, and what lies over them.
+
+use egui::{Align2, CentralPanel, CursorIcon, Frame, Panel, Rect, Sense, Ui};
+
+use super::{ChromascopeApp, focus, notice, path_prompt};
+use crate::files::Standing;
+use crate::panes;
+use crate::panes::context::PaneContext;
+use crate::scene::Scene;
+use crate::theme::{self, Theme};
+use crate::workspaces::{Splitter, arrange};
+
+impl ChromascopeApp {
+    /// The bars and panes of one frame.
+    pub(super) fn show(&mut self, ui: &mut Ui) {
+        let theme = Theme::of(ui.visuals()).with_surround(self.view.saved.surround);
+        let mut context = PaneContext {
+            panes: panes::ALL,
+            scene: Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results },
+            theme,
+            view: &mut self.view,
+            meshes: &self.meshes,
+            opened: &self.opened,
+            recorded: &self.recorded,
+            radiators: &self.radiators,
+            corrections: &self.corrections,
+            studio: &mut self.studio,
+            laboratory: &mut self.laboratory,
+            ranking: &mut self.ranking,
+            curves: &mut self.curves,
+            commands: &mut self.commands,
+        };
+        let bar = |ui: &mut Ui, id: &'static str, height: f32, top: bool| {
+            let panel = if top { Panel::top(id) } else { Panel::bottom(id) };
+            let frame = Frame::NONE.fill(theme.panel);
+            panel
+                .exact_size(height)
+                .resizable(false)
+                .frame(frame)
+                .show_separator_line(true)
+                .show(ui, |ui| ui.max_rect())
+                .inner
+        };
+        let menu = bar(ui, "menu", 30.0, true);
+        let conditions = bar(ui, "conditions", 48.0, true);
+        let standing: Vec<(Standing, Rect)> = self
+            .files
+            .standing()
+            .into_iter()
+            .zip(["first notice", "second notice", "third notice", "fourth notice", "fifth notice"])
+            .map(|(standing, id)| (standing, bar(ui, id, notice::HEIGHT, true)))
+            .collect();
+        let status = bar(ui, "status", 24.0, false);
+        let area = CentralPanel::default().frame(Frame::NONE.fill(theme.panel)).show(ui, |ui| ui.max_rect()).inner;
+        panes::menu::show(ui, menu, &self.history, &mut context);
+        panes::scene_bar::show(ui, conditions, &mut context);
+        for (standing, rect) in standing {
+            if notice::show(ui, rect, &standing, &theme) {
+                self.files.dismiss(standing.kind);
+            }
+        }
+        let saved = &context.view.saved;
+        self.arrangement = arrange(
+            saved.workspace,
+            &saved.layout,
+            area,
+            self.arrangement.narrow,
+            context.view.maximized,
+            context.view.inspector_over,
+        );
+        for (pane, rect) in self.arrangement.panes.clone() {
+            panes::show(ui, pane, rect, &mut context);
+        }
+        for (splitter, rect) in self.arrangement.splitters.clone() {
+            drag_border(ui, splitter, rect, area, &mut context);
+        }
+        if let Some((pane, rect)) = self.arrangement.over {
+            let layer =
+                egui::Area::new(egui::Id::unique("column over")).fixed_pos(rect.min).order(egui::Order::Foreground);
+            layer.show(ui.ctx(), |ui| {
+                ui.set_min_size(rect.size());
+                panes::show(ui, pane, rect, &mut context);
+                ui.painter().rect_stroke(rect, 0.0, egui::Stroke::new(1.0, theme.line), egui::StrokeKind::Inside);
+            });
+        }
+        panes::status_bar::show(ui, status, &self.arrangement, &mut context);
+        panes::help::show(ui, &self.history, &mut context);
+        path_prompt::show(ui, &theme, &mut self.files);
+        context.studio.end_frame();
+        context.ranking.end_frame();
+        self.ask_about_closing(ui, &theme);
+        focus::ring(ui.ctx(), &theme);
+        drop_veil(ui, theme);
+    }
+}
+
+/// A border between panes, which can be dragged and, with a double click, put back.
+fn drag_border(ui: &mut Ui, splitter: Splitter, rect: Rect, area: Rect, context: &mut PaneContext<'_>) {
+    let upright = rect.height() > rect.width();
+    let response = ui.interact(rect.expand(2.0), ui.scope_id().with(("border", splitter)), Sense::click_and_drag());
+    let middle = rect.center();
+    let stroke = egui::Stroke::new(
+        1.0,
+        if response.hovered() || response.dragged() { context.theme.weak } else { context.theme.line },
+    );
+    if upright {
+        ui.painter().vline(middle.x.round() + 0.5, rect.y_range(), stroke);
+    } else {
+        ui.painter().hline(rect.x_range(), middle.y.round() + 0.5, stroke);
+    }
+    let layout = &mut context.view.saved.layout;
+    if response.double_clicked() {
+        let fresh = crate::workspaces::Layout::default();
+        match splitter {
+            Splitter::Library => layout.library_width = None,
+            Splitter::Right => layout.right_width = None,
+            Splitter::Center => layout.lower_share = fresh.lower_share,
+            Splitter::RightRows => layout.right_lower_share = fresh.right_lower_share,
+        }
+    } else if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+        layout.drag(splitter, at, area);
+    }
+    response.on_hover_and_drag_cursor(if upright { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical });
+}
+
+/// While files hang over the window: where they may fall.
+fn drop_veil(ui: &Ui, theme: Theme) {
+    if ui.input(|input| input.raw.hovered_files.is_empty()) {
+        return;
+    }
+    let screen = ui.ctx().content_rect();
+    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop veil"));
+    let painter = ui.ctx().layer_painter(layer);
+    painter.rect_filled(screen, 0.0, theme.panel.gamma_multiply(0.85));
+    painter.rect_stroke(screen.shrink(12.0), 4.0, egui::Stroke::new(2.0, theme.text), egui::StrokeKind::Inside);
+    let font = egui::FontId::proportional(theme::HEADING);
+    painter.text(screen.center(), Align2::CENTER_CENTER, "Drop to open", font, theme.text);
+}
