@@ -68,13 +68,13 @@ impl CorrectionMethod {
     pub const fn label(self) -> &'static str {
         match self {
             Self::None => "None (RGB as sRGB)",
-            Self::LeastSquares => "Matrix, least squares in XYZ",
-            Self::Minimize(Objective::LabSquares) => "Matrix, least squares in L*a*b*",
-            Self::Minimize(Objective::DeltaE1976) => "Matrix, minimum mean ΔE*ab",
-            Self::Minimize(Objective::DeltaE2000) => "Matrix, minimum mean ΔE*00",
-            Self::RootPolynomial(Degree::Two) => "Root polynomial, degree 2 (6 terms)",
-            Self::RootPolynomial(Degree::Three) => "Root polynomial, degree 3 (13 terms)",
-            Self::RootPolynomial(Degree::Four) => "Root polynomial, degree 4 (22 terms)",
+            Self::LeastSquares => "Matrix by least squares in XYZ",
+            Self::Minimize(Objective::LabSquares) => "Matrix by least squares in L*a*b*",
+            Self::Minimize(Objective::DeltaE1976) => "Matrix by minimum mean ΔE*ab",
+            Self::Minimize(Objective::DeltaE2000) => "Matrix by minimum mean ΔE*00",
+            Self::RootPolynomial(Degree::Two) => "Root polynomial of degree 2 (6 terms)",
+            Self::RootPolynomial(Degree::Three) => "Root polynomial of degree 3 (13 terms)",
+            Self::RootPolynomial(Degree::Four) => "Root polynomial of degree 4 (22 terms)",
         }
     }
 

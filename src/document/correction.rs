@@ -38,6 +38,11 @@ impl CorrectionChoice {
         *self == Self::default()
     }
 
+    /// True for the default fit, whatever the second light of profiles.
+    pub fn is_default_fit(&self) -> bool {
+        Self { second_light: None, ..self.clone() }.is_default()
+    }
+
     /// The correction, without its training reflectances.
     pub fn correction(&self) -> Correction {
         Correction { method: self.method, keeps_white: self.keeps_white, weights: ClassWeights::new(self.weights) }
@@ -64,7 +69,7 @@ impl CorrectionChoice {
         }
         if self.weights != [1.0; 4] {
             let [neutrals, skin, foliage, sky] = self.weights;
-            let _ = write!(words, "; weights neutrals {neutrals}, skin {skin}, foliage {foliage}, sky {sky}");
+            let _ = write!(words, "; weights neutrals {neutrals} skin {skin} foliage {foliage} sky {sky}");
         }
         words
     }

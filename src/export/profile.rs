@@ -10,6 +10,7 @@ use chromascope_core::correction::root_polynomial::RootPolynomial;
 use chromascope_core::glam::{DMat3, DVec3};
 use chromascope_core::query::ErrorSummary;
 use chromascope_core::query::correction::{CorrectionSheet, CorrectionUnder, StimulusCheck};
+use chromascope_core::units::Kelvin;
 use chromascope_profile::clf::Clf;
 use chromascope_profile::dcp::{Calibration, CalibrationIlluminant, Dcp};
 use chromascope_profile::icc::{D50, IccProfile};
@@ -89,18 +90,21 @@ impl CorrectionFile {
         format!("Chromascope {}", lights.join(" + "))
     }
 
+    /// Lights by color temperature, as DNG numbers them.
+    fn warmer_first(&self) -> Vec<(&String, &CorrectionUnder)> {
+        let mut unders: Vec<_> = self.unders().collect();
+        let mired = |under: &CorrectionUnder| under.temperature.map_or(0.0, Kelvin::mired);
+        unders.sort_by(|(_, a), (_, b)| mired(b).total_cmp(&mired(a)));
+        unders
+    }
+
     /// DNG camera profile; of two lights, the warmer first.
     ///
     /// # Errors
     ///
     /// [`CorrectionFileError`] for a root polynomial, a singular matrix, or a name that the format cannot hold.
     pub fn dcp(&self) -> Result<Vec<u8>, CorrectionFileError> {
-        let mut unders: Vec<_> = self.unders().collect();
-        unders.sort_by(|(_, a), (_, b)| {
-            let mired =
-                |under: &CorrectionUnder| under.temperature.map_or(0.0, chromascope_core::prelude::Kelvin::mired);
-            mired(b).total_cmp(&mired(a))
-        });
+        let unders = self.warmer_first();
         let calibrations: Option<Vec<Calibration>> =
             unders.iter().map(|(name, under)| calibration(name, under)).collect();
         let dcp = Dcp {
@@ -132,14 +136,14 @@ impl CorrectionFile {
         Ok(icc.to_bytes()?)
     }
 
-    /// DNG's matrices as `Tag: values` lines.
+    /// DNG's matrices as `Tag: values` lines; of two lights, the warmer first.
     ///
     /// # Errors
     ///
     /// [`CorrectionFileError::NoMatrix`] for a root polynomial or a singular matrix.
     pub fn dng(&self) -> Result<String, CorrectionFileError> {
         let mut text = format!("UniqueCameraModel: {}\n", self.model);
-        for (index, (name, under)) in self.unders().enumerate() {
+        for (index, (name, under)) in self.warmer_first().into_iter().enumerate() {
             let number = index + 1;
             let dng = under.report.dng.ok_or(CorrectionFileError::NoMatrix("DNG"))?;
             let neutral = DVec3::from_array(dng.balance).recip();

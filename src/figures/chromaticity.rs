@@ -183,7 +183,7 @@ pub fn caption(scene: &Scene<'_>) -> String {
 pub fn conditions(scene: &Scene<'_>) -> String {
     let transform = match &scene.document.transform {
         TransformChoice::Paper => "Paper matrix (Eq 13), CIE observers drawn directly".to_owned(),
-        TransformChoice::Observer(name) if scene.document.correction.is_default() => {
+        TransformChoice::Observer(name) if scene.document.correction.is_default_fit() => {
             format!("3×3 matrices fitted to {name} over 190 training reflectances")
         }
         TransformChoice::Observer(name) => scene.document.correction.describe(name),

@@ -4,7 +4,8 @@ mod controls;
 
 use std::sync::Arc;
 
-use chromascope_core::query::correction::CorrectionSheet;
+use chromascope_core::correction::aces::IdtExposure;
+use chromascope_core::query::correction::{CorrectionSheet, CorrectionUnder};
 use egui::{Id, Label, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
@@ -18,7 +19,6 @@ use crate::scene::SceneError;
 use crate::theme::UNIT;
 use crate::view::correction::CorrectionForm;
 use crate::workspaces::PaneKind;
-use chromascope_core::correction::aces::IdtExposure;
 
 /// The pane.
 pub const PANE: Pane = Pane {
@@ -87,20 +87,8 @@ fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<C
 /// Numbers, checks, figure and files of a correction.
 fn sheet(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
     let theme = context.theme;
-    for (name, under) in file.unders() {
-        let kelvin = under.temperature.map_or(String::new(), |kelvin| format!(", {:.0} K", kelvin.get()));
-        let matrix = file.transform_text(under);
-        section(ui, &format!("XYZ from balanced RGB under {name}{kelvin}"), Some(&matrix), "Copy the matrix");
-        mono(ui, &matrix);
-        section(ui, "Errors over the training reflectances", None, "");
-        mono(ui, &file.errors_text(under));
-        section(ui, "White, and narrow blue LEDs (20 nm)", None, "");
-        for check in std::iter::once(&under.report.white).chain(&under.report.blue) {
-            let [numbers, remark] = check_lines(check, file.metric);
-            mono(ui, &numbers);
-            let color = if check.is_negative() { theme.warning } else { theme.weak };
-            ui.add(Label::new(RichText::new(remark).small().color(color)).wrap());
-        }
+    for (index, (name, under)) in file.unders().enumerate() {
+        ui.push_id(index, |ui| under_light(ui, file, name, under, context));
     }
     controls::second_light(ui, context);
     if let Some(Err(error)) = &file.sheet.second {
@@ -125,6 +113,24 @@ fn sheet(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
         }
     });
     ui.add_space(2.0 * UNIT);
+}
+
+/// Matrix, errors and checks under a light.
+fn under_light(ui: &mut Ui, file: &CorrectionFile, name: &str, under: &CorrectionUnder, context: &PaneContext<'_>) {
+    let theme = context.theme;
+    let kelvin = under.temperature.map_or(String::new(), |kelvin| format!(", {:.0} K", kelvin.get()));
+    let matrix = file.transform_text(under);
+    section(ui, &format!("XYZ from balanced RGB under {name}{kelvin}"), Some(&matrix), "Copy the matrix");
+    mono(ui, &matrix);
+    section(ui, "Errors over the training reflectances", None, "");
+    mono(ui, &file.errors_text(under));
+    section(ui, "White, and narrow blue LEDs (20 nm)", None, "");
+    for check in std::iter::once(&under.report.white).chain(&under.report.blue) {
+        let [numbers, remark] = check_lines(check, file.metric);
+        mono(ui, &numbers);
+        let color = if check.is_negative() { theme.warning } else { theme.weak };
+        ui.add(Label::new(RichText::new(remark).small().color(color)).wrap());
+    }
 }
 
 /// A caption, with a button that copies a text.

@@ -244,7 +244,7 @@ fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let shown = match &now {
         TransformChoice::Paper if ui.available_width() < 130.0 => "Eq 13".to_owned(),
         TransformChoice::Paper => "Paper (Eq 13)".to_owned(),
-        TransformChoice::Observer(name) if correction.is_default() => format!("Fit {name}"),
+        TransformChoice::Observer(name) if correction.is_default_fit() => format!("Fit {name}"),
         TransformChoice::Observer(name) => correction.describe(name),
     };
     let hint = "Color transform from camera RGB to XYZ. Paper matrix: camera and RGB observer signals through the \

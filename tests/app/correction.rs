@@ -49,7 +49,7 @@ fn the_pane_shows_matrix_errors_and_checks() {
     harness.state_mut().push(Command::Maximize(PANE));
     for _ in 0..400 {
         harness.step();
-        if harness.query_by_label_contains("leave-one-out").is_some() {
+        if harness.query_all_by_label_contains("leave-one-out").next().is_some() {
             break;
         }
         std::thread::sleep(std::time::Duration::from_millis(10));

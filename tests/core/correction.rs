@@ -1,4 +1,4 @@
-//! Color correction against SciPy, colour-science, published matrices, and a second way of computing.
+//! Color correction against `SciPy`, colour-science, published matrices, and a second way of computing.
 
 mod aces;
 mod lights;
@@ -77,7 +77,7 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Means by SciPy 1.16's Nelder–Mead, run to 1e-13 from the least-squares matrix and again from its own result, with ΔE of
+/// Means by `SciPy`'s Nelder–Mead, run to 1e-13 from the least-squares matrix and again from its own result, with ΔE of
 /// colour-science 0.4.7.
 const MINIMA: [(Objective, bool, f64); 6] = [
     (Objective::LabSquares, true, 1_481.025_856_034_291_3),

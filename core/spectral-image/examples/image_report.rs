@@ -1,4 +1,5 @@
 //! Prints size, bands and mean spectrum of a spectral image: `image_report cube.hdr cube.img` or `image_report image.exr`.
+#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "an example reads its file")]
 #![allow(clippy::print_stdout, reason = "an example that prints")]
 
 use spectral_image::{EnviHeader, EnviImage, ExrImage, SpectralImage};

@@ -36,8 +36,8 @@ impl<R: Read + Seek> ExrImage<R> {
         let length = data.seek(SeekFrom::End(0))?;
         data.seek(SeekFrom::Start(0))?;
         let meta = MetaData::read_from_buffered(std::io::BufReader::new(&mut data), false)?;
-        let spectra = meta.headers.iter().map(|header| spectrum(header, wanted)).enumerate();
-        let found = spectra.filter_map(|(layer, found)| found.transpose().map(|found| (layer, found))).next();
+        let mut spectra = meta.headers.iter().map(|header| spectrum(header, wanted)).enumerate();
+        let found = spectra.find_map(|(layer, found)| found.transpose().map(|found| (layer, found)));
         let (layer, found) = found.ok_or(ImageError::NoSpectrum)?;
         let (quantity, found) = found?;
         let header = &meta.headers[layer];
@@ -83,7 +83,7 @@ impl<R: Read + Seek> ExrImage<R> {
         };
         let reader = exr::block::read(std::io::BufReader::new(&mut self.data), false)?;
         let mut blocks = reader.filter_chunks(false, within)?.sequential_decompressor(false);
-        let into = Rows { info: &self.info, channels: &self.channels, places: &self.places, rows: &rows };
+        let into = Rows { info: &self.info, channels: &self.channels, places: &self.places, wanted: &rows };
         while let Some(block) = blocks.decompress_next_block() {
             into.take(&block?, samples)?;
         }
@@ -96,7 +96,7 @@ struct Rows<'a> {
     info: &'a ImageInfo,
     channels: &'a ChannelList,
     places: &'a [Option<usize>],
-    rows: &'a Range<usize>,
+    wanted: &'a Range<usize>,
 }
 
 impl Rows<'_> {
@@ -110,10 +110,10 @@ impl Rows<'_> {
             let at = line.location;
             let Some(place) = self.places.get(at.channel).copied().flatten() else { continue };
             let row = at.position.y();
-            if !self.rows.contains(&row) || at.position.x() + at.sample_count > self.info.width {
+            if !self.wanted.contains(&row) || at.position.x() + at.sample_count > self.info.width {
                 continue;
             }
-            let first = ((row - self.rows.start) * self.info.width + at.position.x()) * bands;
+            let first = ((row - self.wanted.start) * self.info.width + at.position.x()) * bands;
             let pixels = samples[first..first + at.sample_count * bands].chunks_exact_mut(bands);
             let finite = |value: f32| if value.is_finite() { value } else { f32::NAN };
             match self.channels.list[at.channel].sample_type {

@@ -115,8 +115,7 @@ pub(super) fn minimize_near(
             problem.reweight(training.weights);
             (problem, _) = optimizer.with_tol(1e-12).with_patience(2).minimize(problem);
             let value = problem.value(training.weights);
-            // Written so that a value that is not finite ends the search too.
-            if !(value < best) {
+            if value.is_nan() || value >= best {
                 problem.set(&before);
                 break;
             }
@@ -179,10 +178,7 @@ impl<'a> Problem<'a> {
     }
 
     fn params_now(&self) -> DVector<f64> {
-        DVector::from_iterator(
-            3 * (3 - self.first),
-            self.columns[self.first..].iter().flat_map(|column| column.to_array()),
-        )
+        DVector::from_iterator(3 * (3 - self.first), self.columns[self.first..].iter().flat_map(DVec3::to_array))
     }
 
     fn set(&mut self, params: &DVector<f64>) {

@@ -6,7 +6,9 @@ use chromascope_core::correction::dng::{D50, DngMatrices, first_weight};
 use chromascope_core::correction::root_polynomial::Degree;
 use chromascope_core::correction::{Correction, CorrectionMethod};
 use chromascope_core::query::correction::{CorrectionSheetQuery, dng_matrices};
-use chromascope_core::query::{Ask as _, ColorTransformSpec, CorrectionReportQuery, Direct, RenderingQuery, Shared};
+use chromascope_core::query::{
+    Ask as _, ColorTransformSpec, CorrectionReportQuery, Direct, RenderingQuery, Shared, StimulusCheck,
+};
 use chromascope_core::render::ColorimetricScale;
 use glam::DVec3;
 
@@ -88,7 +90,7 @@ fn a_report_says_what_a_matrix_does_to_white_and_blue() {
     let free = report(CorrectionMethod::LeastSquares, false);
     assert!(free.white.difference.unwrap() > 0.05, "{:?}", free.white.difference);
     assert_eq!(kept.blue.len(), 4);
-    assert!(kept.blue.iter().all(|led| led.clips()), "narrow blue lights are outside sRGB");
+    assert!(kept.blue.iter().all(StimulusCheck::clips), "narrow blue lights are outside sRGB");
     // Summaries are what they are called.
     for summary in [kept.before.unwrap(), kept.training.unwrap(), kept.left_out.unwrap()] {
         assert!(summary.mean < summary.p95 && summary.p95 <= summary.max, "{summary:?}");
