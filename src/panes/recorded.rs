@@ -61,14 +61,12 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return sentence(ui, body, &format!("{}: {why}.", file.name), true, context);
     }
     let Some(ranked) = recorded::ranked(&context.scene, context.view) else { return };
-    match recorded::chosen(&ranked, context.view) {
-        Some((name, fit)) => ranking_and_residuals(ui, body, &file, &ranked, (name, fit), context),
-        None => {
-            let why = ranked.first().and_then(|camera| camera.fit.as_ref().err());
-            let why = why.map_or_else(|| "there are no cameras".to_owned(), ToString::to_string);
-            sentence(ui, body, &format!("{}: {why}.", file.name), true, context);
-        }
+    if let Some((name, fit)) = recorded::chosen(&ranked, context.view) {
+        return ranking_and_residuals(ui, body, &file, &ranked, (name, fit), context);
     }
+    let why = ranked.first().and_then(|camera| camera.fit.as_ref().err());
+    let why = why.map_or_else(|| "there are no cameras".to_owned(), ToString::to_string);
+    sentence(ui, body, &format!("{}: {why}.", file.name), true, context);
 }
 
 /// Brings the patches on show up to date with the file, chart and light.

@@ -189,7 +189,9 @@ fn gone_through(
         }
         image.read_rows(first..(first + rows).min(info.height), &mut tile)?;
         if scale != 1.0 {
-            tile.iter_mut().for_each(|sample| *sample *= factor);
+            for sample in &mut tile {
+                *sample *= factor;
+            }
         }
         signals.push(&tile);
     }

@@ -13,7 +13,7 @@ use crate::image::ImageInfo;
 pub enum SpectralImage<R> {
     /// ENVI.
     Envi(EnviImage<R>),
-    /// OpenEXR.
+    /// `OpenEXR`.
     Exr(ExrImage<R>),
 }
 

@@ -1,4 +1,4 @@
-//! OpenEXR images with spectral channels.
+//! `OpenEXR` images with spectral channels.
 
 use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
@@ -15,7 +15,7 @@ use crate::error::ImageError;
 use crate::image::{ImageInfo, ImageQuantity, MAX_ROW_BYTES, Note, ascending};
 use crate::names::SpectralChannel;
 
-/// OpenEXR image whose rows are read when asked for.
+/// `OpenEXR` image whose rows are read when asked for.
 #[derive(Debug)]
 pub struct ExrImage<R> {
     info: ImageInfo,
@@ -92,14 +92,14 @@ impl<R: Read + Seek> ExrImage<R> {
 }
 
 /// Rows that are filled.
-struct Rows<'a> {
+struct Filled<'a> {
     info: &'a ImageInfo,
     channels: &'a ChannelList,
     places: &'a [Option<usize>],
     wanted: &'a Range<usize>,
 }
 
-impl Rows<'_> {
+impl Filled<'_> {
     /// Takes the lines of a block that lie within the rows.
     fn take(&self, block: &UncompressedBlock, samples: &mut [f32]) -> Result<(), ImageError> {
         let bands = self.info.wavelengths_nm.len();

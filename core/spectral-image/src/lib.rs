@@ -1,4 +1,4 @@
-//! Spectral images by rows: ENVI cubes and OpenEXR with spectral channels.
+//! Spectral images by rows: ENVI cubes and `OpenEXR` with spectral channels.
 //!
 //! [`EnviImage`] and [`ExrImage`] read any rows of an image through `Read + Seek` into one block of `f32`, pixel by pixel, bands in
 //! ascending wavelength. Only that block and one buffer of the file's bytes are held, so a cube of any size can be gone through in

@@ -1,4 +1,4 @@
-//! Names of spectral channels in OpenEXR (Fichet, Pacanowski and Wilkie 2021, JCGT 10(3)).
+//! Names of spectral channels in `OpenEXR` (Fichet, Pacanowski and Wilkie 2021, JCGT 10(3)).
 
 use crate::image::ImageQuantity;
 

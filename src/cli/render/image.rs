@@ -1,5 +1,6 @@
 //! `render --image`: a spectral image through cameras and observers.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -9,7 +10,7 @@ use chromascope_core::query::DifferenceError;
 use chromascope_core::render::Stop;
 use clap::ArgMatches;
 
-use super::arguments::{Format, RenderArguments};
+use super::arguments::{Format, ImageQuantityName, RenderArguments};
 use super::files::{file_names, make_folder, patiently};
 use super::setup::compared_request;
 use crate::catalog::spectral_images;
@@ -27,7 +28,7 @@ use crate::terminal::say;
 /// Makes the pictures of an image, writes them, and says what came of it.
 pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches) -> Result<(), CliError> {
     let start = Instant::now();
-    let wanted = arguments.image_quantity.map(|name| name.quantity());
+    let wanted = arguments.image_quantity.map(ImageQuantityName::quantity);
     let mut image = spectral_images::open(path, wanted).map_err(|error| CliError::File(error.to_string()))?;
     let info = image.info().clone();
     for note in &info.notes {
@@ -55,15 +56,17 @@ pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches
     for (index, file) in files.iter().enumerate() {
         let bytes = bytes(&scene, &sources[index], &made, index, arguments, &name)?;
         write_to(file, &bytes).map_err(|error| CliError::Output { path: file.clone(), error })?;
-        lines += &format!("{}: {}\n", file.display(), difference(&scene, &sources[index], &made.differences[index]));
+        let words = difference(&scene, &sources[index], made.differences[index].as_ref());
+        let _ = writeln!(lines, "{}: {words}", file.display());
     }
     let (count, pixels) = (files.len(), made.placed.samples().len());
     let plural = if count == 1 { "" } else { "s" };
     let time = start.elapsed().as_secs_f64() * 1e3;
     let white =
         if made.white == 1.0 { String::new() } else { format!("; white at Y = {:.6e} of the image", made.white) };
-    lines += &format!(
-        "{count} picture{plural} of {}x{}, {} bands, {pixels} of {} pixels with values{white}: {time:.0} ms, {:.1} MB of samples at once\n",
+    let _ = writeln!(
+        lines,
+        "{count} picture{plural} of {}x{}, {} bands, {pixels} of {} pixels with values{white}: {time:.0} ms, {:.1} MB of samples at once",
         info.width,
         info.height,
         info.wavelengths_nm.len(),
@@ -107,7 +110,7 @@ fn bytes(
 }
 
 /// Difference of a picture from the reference in words.
-fn difference(scene: &Scene<'_>, source: &ComparedSensor, difference: &Option<ImageDifference>) -> String {
+fn difference(scene: &Scene<'_>, source: &ComparedSensor, difference: Option<&ImageDifference>) -> String {
     let by_eq_13 = scene.document.transform == TransformChoice::Paper;
     let metric: Metric = scene.document.difference;
     match difference {

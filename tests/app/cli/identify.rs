@@ -1,5 +1,7 @@
 //! `identify`: synthetic recordings with known answers, from tables and from a picture.
 
+use std::fmt::Write as _;
+
 use chromascope_core::spectral::{Dataset, GridSpectrum, Quantity, Sensor};
 use serde_json::Value;
 
@@ -68,7 +70,7 @@ fn spectra_beside_the_raw_values_and_radiances_give_the_same() {
     let mut text = format!("patch,R,G,B,{}\n", nm.iter().map(f64::to_string).collect::<Vec<_>>().join(","));
     for ((name, [r, g, b]), curve) in recording().iter().zip(&asset.curves) {
         let values = curve.values().iter().map(f64::to_string).collect::<Vec<_>>().join(",");
-        text += &format!("{name},{r},{g},{b},{values}\n");
+        writeln!(text, "{name},{r},{g},{b},{values}").unwrap();
     }
     let path = file("identify_both.csv", &text);
     let arguments =
