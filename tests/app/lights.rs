@@ -88,7 +88,7 @@ fn an_imported_transmittance_is_a_filter() {
     let mut document = Document::colorimetry();
     let name = set.name.clone();
     crate::import_sets(vec![set]).apply(&mut document);
-    assert_eq!(document.filters, [name.clone()]);
+    assert_eq!(document.filters, std::slice::from_ref(&name));
     with(&document, |scene| {
         let (light, d65) = (scene.light().unwrap(), with(&Document::colorimetry(), |scene| scene.light().unwrap()));
         assert!((light.grid.values()[120] / d65.grid.values()[120] - 0.5).abs() < 1e-12);

@@ -140,8 +140,8 @@ fn all_metrics_are_told_and_missing_ones_explained() {
 
 #[test]
 fn a_camera_of_the_user_s_is_ranked_with_the_others() {
-    let rows: String =
-        (0..36).map(|i| format!("{},{},{},{}\n", 380 + 10 * i, i % 7, (i + 2) % 5, (i * i) % 11)).collect();
+    let row = |i: u32| format!("{},{},{},{}", 380 + 10 * i, i % 7, (i + 2) % 5, (i * i) % 11);
+    let rows = (0..36).map(row).collect::<Vec<_>>().join("\n");
     let path = file("compared.csv", &format!("wavelength,red,green,blue\n{rows}"));
     let path = path.to_str().unwrap();
     let rows =
