@@ -58,6 +58,10 @@ pub enum CompareAction {
 pub enum SceneAction {
     /// Another light.
     SetLight(Light),
+    /// Puts a filter in front of the light, or takes it away.
+    SetFilter(String, bool),
+    /// Takes all filters away.
+    ClearFilters,
     /// Another temperature, in kelvins.
     SetTemperature(f64),
     /// Another chart.
@@ -239,6 +243,8 @@ impl SceneAction {
     fn name(&self) -> &'static str {
         match self {
             Self::SetLight(_) => "Light",
+            Self::SetFilter(_, true) => "Add filter",
+            Self::SetFilter(_, false) | Self::ClearFilters => "Remove filter",
             Self::SetTemperature(_) => "Temperature",
             Self::SetChart(_) => "Patches",
             Self::SetSubset(_) => "Number of patches",
@@ -259,6 +265,8 @@ impl SceneAction {
                     document.temperature_k = document.temperature_k.max(4000.0);
                 }
             }
+            Self::SetFilter(name, on) => document.set_filter(name, *on),
+            Self::ClearFilters => document.filters.clear(),
             Self::SetTemperature(kelvin) if kelvin.is_finite() => {
                 let low = if document.light == Light::Daylight { 4000.0 } else { LOCUS_RANGE_K[0] };
                 document.temperature_k = kelvin.clamp(low, LOCUS_RANGE_K[1]);

@@ -88,7 +88,7 @@ impl ChromascopeApp {
         Self {
             history: history.with_names_apart(catalog.names()),
             catalog,
-            results: Results::default(),
+            results: executor.results(),
             view: View { saved, import, kept: files.kept_documents(), ..View::default() },
             files,
             meshes: MeshStore::on(executor, move || window.request_repaint()),
@@ -174,6 +174,11 @@ impl ChromascopeApp {
     /// Profiler that measures the scene's cost.
     pub fn laboratory(&self) -> &Profiler {
         &self.laboratory
+    }
+
+    /// The same, for tests to set up.
+    pub fn laboratory_mut(&mut self) -> &mut Profiler {
+        &mut self.laboratory
     }
 
     /// Has something done in the next frame.

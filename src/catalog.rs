@@ -3,12 +3,15 @@
 //! The index is made of headers alone; a set's figures are parsed when a question first asks for them
 //! ([`load`]), and cached with the other answers.
 
+pub mod chart_picture;
 pub mod import;
 pub mod likeness;
 pub mod load;
 pub mod meshes;
 pub mod names;
 pub mod opened;
+pub mod recorded;
+pub mod spectral_images;
 
 use std::hash::{Hash, Hasher};
 
@@ -166,13 +169,13 @@ pub fn licenses() -> impl Iterator<Item = (&'static str, &'static str)> {
     chromascope_data::files("licenses").map(|(path, text)| (path.rsplit('/').next().unwrap_or(path), text))
 }
 
-/// A file is one set, or, with several value columns of lights or materials, as many.
+/// A file is one set, or, with several value columns of lights, filters or materials, as many.
 fn add_entries(entries: &mut Vec<Entry>, kind: SetKind, file: BuiltInFile, header: &Header) {
     // Coefficients from which daylight of any temperature is made; no light themselves.
     if file.path == load::DAYLIGHT_BASIS {
         return;
     }
-    let many = matches!(kind, SetKind::Illuminant | SetKind::Material) && header.columns.len() > 1;
+    let many = matches!(kind, SetKind::Illuminant | SetKind::Filter | SetKind::Material) && header.columns.len() > 1;
     let names: Vec<(String, Option<usize>)> = if many {
         header.columns.iter().enumerate().map(|(column, name)| (name.clone(), Some(column))).collect()
     } else {

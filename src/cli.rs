@@ -1,4 +1,4 @@
-//! The same answers without a window: `locus`, `patches`, `render`, `inspect`, `bench`, `list`.
+//! The same answers without a window: `locus`, `patches`, `light`, `render`, `identify`, `inspect`, `bench`, `list`.
 //!
 //! Arguments become a [`Document`](crate::document::Document) and are answered through [`Scene`](crate::scene::Scene), as in the
 //! window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
@@ -7,7 +7,9 @@ mod arguments;
 mod bench;
 mod checks;
 mod error;
+mod identify;
 mod inspect;
+mod light;
 mod outputs;
 mod radiance;
 mod render;
@@ -57,6 +59,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
             tables::patches(&arguments, matches).and_then(|text| put(&text, arguments.common.out.as_deref()))
         }
         Subcommand::Render(arguments) => render::run(&arguments, matches),
+        Subcommand::Light(arguments) => light::run(&arguments, matches),
+        Subcommand::Identify(arguments) => identify::run(&arguments),
         Subcommand::Inspect(arguments) => inspect::run(&arguments),
         Subcommand::Bench(arguments) => bench::run(&arguments),
         Subcommand::List { kind } => show(&list(&Catalog::built_in(), kind.map(ListKind::of_sets))),

@@ -40,6 +40,9 @@ pub struct Document {
     pub reference: String,
     /// The light on the scene.
     pub light: Light,
+    /// The filters in front of the light, in the order they were added; the order changes no number.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub filters: Vec<String>,
     /// Marks the loci; the light's own temperature where that has one. In kelvins.
     pub temperature_k: f64,
     /// The patches.
@@ -206,6 +209,10 @@ pub struct Overlays {
     pub camera_spectral_loci: bool,
     /// The daylight locus.
     pub daylight: bool,
+    /// Standard whites and the light.
+    pub whites: bool,
+    /// Lines of equal correlated color temperature.
+    pub isotherms: bool,
     /// The outline of sRGB.
     pub srgb: bool,
     /// The outline of DCI-P3.
@@ -221,6 +228,8 @@ impl Default for Overlays {
             patches: true,
             camera_spectral_loci: false,
             daylight: false,
+            whites: false,
+            isotherms: false,
             srgb: false,
             dci_p3: false,
             rec2020: false,
@@ -261,6 +270,7 @@ impl Document {
             compared: Vec::new(),
             reference: PAPER_REFERENCE.to_owned(),
             light: Light::Set(LIGHT.to_owned()),
+            filters: Vec::new(),
             temperature_k: 5500.0,
             chart: CHART.to_owned(),
             subset: Subset::Five,
@@ -311,6 +321,14 @@ impl Document {
             self.difference = transform.preferred_metric(self.diagram);
         }
         self.transform = transform;
+    }
+
+    /// Puts a filter in front of the light or takes it away.
+    pub fn set_filter(&mut self, name: &str, on: bool) {
+        self.filters.retain(|filter| filter != name);
+        if on {
+            self.filters.push(name.to_owned());
+        }
     }
 
     /// Shows other coordinates; a distance in the former diagram becomes that in the new one under Eq 13.

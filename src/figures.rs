@@ -3,8 +3,51 @@
 pub mod accuracy;
 pub mod chromaticity;
 pub mod curves;
+pub mod light;
 pub mod render;
 pub mod skipped_work;
 pub mod spectra;
 pub mod strip;
 pub mod swatches;
+
+use std::sync::Arc;
+
+use crate::catalog::opened::{FilePreview, Opened};
+use crate::profiler::{Measured, Profiler};
+use crate::render_service::{RenderService, RenderedFrame};
+use crate::scene::Scene;
+use crate::view::View;
+
+/// What a saved figure is made of: the scene, how it is looked at, and what was last made of it beside the window.
+#[derive(Clone)]
+pub struct FigureInput<'a> {
+    /// The scene.
+    pub scene: &'a Scene<'a>,
+    /// How it is looked at.
+    pub view: &'a View,
+    /// The pictures on show.
+    pub pictures: Option<&'a RenderedFrame>,
+    /// What was measured.
+    pub measured: &'a Measured,
+    /// What the file in Import was last understood as.
+    pub preview: Option<Arc<FilePreview>>,
+}
+
+impl<'a> FigureInput<'a> {
+    /// A scene with what was last made of it.
+    pub fn of(
+        (scene, view): (&'a Scene<'a>, &'a View),
+        studio: &'a RenderService,
+        laboratory: &'a Profiler,
+        opened: &Opened,
+    ) -> Self {
+        let pictures = studio.frame().map(AsRef::as_ref);
+        Self { scene, view, pictures, measured: &laboratory.measured, preview: opened.preview() }
+    }
+
+    /// A scene of which nothing was made beside the window.
+    pub fn new(scene: &'a Scene<'a>, view: &'a View) -> Self {
+        static NOTHING: Measured = Measured::NOTHING;
+        Self { scene, view, pictures: None, measured: &NOTHING, preview: None }
+    }
+}

@@ -24,6 +24,12 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     if is_zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
 }
 
+/// Duv and other signed numbers with four decimals: `+0.0032`.
+pub(crate) fn signed(value: f64) -> String {
+    let text = fixed(value, 4);
+    if text.starts_with('−') { text } else { format!("+{text}") }
+}
+
 /// A text with a capital at its start.
 pub(crate) fn capitalized(words: &str) -> String {
     let mut letters = words.chars();

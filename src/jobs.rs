@@ -1,62 +1,77 @@
 //! Work beside the window: a named thread for each place on screen that waits for long answers.
 //!
-//! The latest request wins and stops the one before it; the last answer stays on show; a panic stays where it happened. Tests run
-//! the same work on a [driven](Executor::driven) executor: on their own thread, when they say so, by a clock that they move.
+//! The latest request wins and stops the one before it; the last answer stays on show; a panic stays where it happened. A request
+//! is one question in stages from coarse to fine, or a list of questions ([`Background::progress`] counts those answered, and
+//! [`Results::known`] has their answers as they come). The
+//! threads share the answers and, for their loops, the common rayon pool, of which none is a part: no thread of the pool ever
+//! begins a whole job while it waits for a piece of another. Tests run the same work on a [driven](Executor::driven) executor: on
+//! their own thread, when they say so, by a clock that they move.
 
+mod desk;
 mod executor;
 
+pub use desk::Desk;
 pub use executor::{Clock, Executor};
 
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::rc::Rc;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use chromascope_core::query::{Ask, Query};
+use chromascope_core::query::{Ask as _, Query};
 use chromascope_core::render::Stop;
 
-use crate::results::{Count, Results};
+use crate::results::Results;
 
-/// Answers of one kind of question, made on a thread of their own.
-pub struct Background<Q: Query> {
-    desk: Arc<Desk<Q>>,
+/// Something to be done beside the window. Every [`Query`] is one; what is measured is another, as asking again measures again.
+pub trait Job: Clone + PartialEq + Send + Sync + 'static {
+    /// Its outcome.
+    type Answer: Send + Sync + 'static;
+
+    /// Does it, with answers that all share. What comes of it once [`Results::stop`](chromascope_core::query::Ask::stop) is set is
+    /// thrown away.
+    fn run(&self, results: &Results) -> Arc<Self::Answer>;
+}
+
+impl<Q: Query> Job for Q {
+    type Answer = <Q as Query>::Answer;
+
+    fn run(&self, results: &Results) -> Arc<Self::Answer> {
+        results.ask(self)
+    }
+}
+
+/// Answers of one kind of job, made on a thread of their own.
+pub struct Background<J: Job> {
+    desk: Arc<Desk<State<J>>>,
     name: String,
     executor: Executor,
-    /// The worker where no thread has one, and whether it is queued.
-    driven: Rc<(RefCell<Worker>, Cell<bool>)>,
+    /// True if a driven executor has the work in its queue.
+    is_queued: Rc<Cell<bool>>,
 }
 
-/// What lies between the window and the worker.
-struct Desk<Q: Query> {
-    state: Mutex<State<Q>>,
-    news: Condvar,
-    wake: Box<dyn Fn() + Send + Sync>,
-    clock: Clock,
-}
-
-struct State<Q: Query> {
+struct State<J: Job> {
     /// The stages of the latest request, from coarse to fine; what is to be made next.
-    stages: Arc<[Q]>,
+    stages: Arc<[J]>,
     next: usize,
     stop: Arc<AtomicBool>,
     begun: Option<Duration>,
-    shown: Option<Shown<Q::Answer>>,
-    /// What is answered by what is shown.
-    question: Option<Q>,
+    shown: Option<Shown<J>>,
+    /// Number of answers so far.
+    serial: u64,
     failure: Option<String>,
-    counts: Vec<(&'static str, Count)>,
     closed: bool,
 }
 
 /// An answer on show.
-pub struct Shown<A> {
+pub struct Shown<J: Job> {
+    /// What it answers.
+    pub job: J,
     /// The answer.
-    pub answer: Arc<A>,
-    /// Which stage of its request it is.
-    pub stage: usize,
-    /// True if it answers the latest request.
+    pub answer: Arc<J::Answer>,
+    /// True if it is of the latest request.
     pub current: bool,
     /// How long it took, earlier stages not included.
     pub time: Duration,
@@ -64,18 +79,14 @@ pub struct Shown<A> {
     pub serial: u64,
 }
 
-impl<A> Clone for Shown<A> {
+impl<J: Job> Clone for Shown<J> {
     fn clone(&self) -> Self {
-        let Self { answer, stage, current, time, serial } = self;
-        Self { answer: Arc::clone(answer), stage: *stage, current: *current, time: *time, serial: *serial }
+        let (job, answer) = (self.job.clone(), Arc::clone(&self.answer));
+        Self { job, answer, current: self.current, time: self.time, serial: self.serial }
     }
 }
 
-impl<Q> Background<Q>
-where
-    Q: Query + Send + Sync,
-    Q::Answer: Send + Sync,
-{
+impl<J: Job> Background<J> {
     /// Starts the worker. `wake` is called after each answer, from the worker's thread.
     pub fn new(name: &str, wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self::on(&Executor::default(), name, wake)
@@ -89,31 +100,38 @@ where
             stop: Arc::default(),
             begun: None,
             shown: None,
-            question: None,
+            serial: 0,
             failure: None,
-            counts: Vec::new(),
             closed: false,
         };
-        let clock = executor.clock();
-        let desk = Arc::new(Desk { state: Mutex::new(state), news: Condvar::new(), wake: Box::new(wake), clock });
+        let desk = Arc::new(Desk::new(executor, state, wake));
         if !executor.is_driven() {
-            let theirs = Arc::clone(&desk);
-            if let Err(error) = executor.spawn(name, move || work(&theirs)) {
+            let (theirs, results) = (Arc::clone(&desk), executor.results());
+            let work = move || {
+                while theirs.wait_for(|state| state.closed || state.has_work(), |state| !state.closed) {
+                    step(&theirs, &results);
+                }
+            };
+            if let Err(error) = executor.spawn(name, work) {
                 desk.lock().failure = Some(format!("no thread could be started: {error}"));
             }
         }
-        Self { desk, name: name.to_owned(), executor: executor.clone(), driven: Rc::default() }
+        Self { desk, name: name.to_owned(), executor: executor.clone(), is_queued: Rc::default() }
     }
 
     /// Asks for stages from coarse to fine. The same request again changes nothing; another stops the one before it.
-    pub fn ask(&self, stages: Vec<Q>) {
-        let mut state = self.desk.lock();
-        if *state.stages == *stages {
-            return;
+    pub fn ask(&self, stages: Vec<J>) {
+        if *self.desk.lock().stages != *stages {
+            self.ask_anew(stages);
         }
+    }
+
+    /// Asks for stages even if they are those of the latest request.
+    pub fn ask_anew(&self, stages: Vec<J>) {
+        let mut state = self.desk.lock();
         state.stop.store(true, Ordering::Relaxed);
         state.stop = Arc::default();
-        state.begun = (!stages.is_empty()).then(|| self.desk.clock.now());
+        state.begun = (!stages.is_empty()).then(|| self.desk.clock().now());
         state.stages = stages.into();
         state.next = 0;
         state.failure = None;
@@ -121,22 +139,21 @@ where
             shown.current = false;
         }
         drop(state);
-        self.desk.news.notify_all();
+        self.desk.notify();
         self.queue();
     }
 
     /// Has a driven executor make the stages, one at each step.
     fn queue(&self) {
-        let (_, queued) = &*self.driven;
-        if !self.executor.is_driven() || queued.replace(true) {
+        if !self.executor.is_driven() || self.is_queued.replace(true) {
             return;
         }
-        let (desk, driven) = (Arc::clone(&self.desk), Rc::clone(&self.driven));
+        let (desk, results) = (Arc::clone(&self.desk), self.executor.results());
+        let is_queued = Rc::clone(&self.is_queued);
         self.executor.queue(&self.name, move || {
-            let (worker, queued) = &*driven;
-            worker.borrow_mut().step(&desk);
-            queued.set(desk.has_work());
-            queued.get()
+            step(&desk, &results);
+            is_queued.set(desk.lock().has_work());
+            is_queued.get()
         });
     }
 
@@ -145,20 +162,20 @@ where
         self.ask(Vec::new());
     }
 
-    /// The last answer.
-    pub fn shown(&self) -> Option<Shown<Q::Answer>> {
-        self.desk.lock().shown.clone()
-    }
-
     /// The last answer with its question, which may not be the latest that was asked.
-    pub fn answered(&self) -> Option<(Q, Arc<Q::Answer>)> {
-        let state = self.desk.lock();
-        Some((state.question.clone()?, Arc::clone(&state.shown.as_ref()?.answer)))
+    pub fn shown(&self) -> Option<Shown<J>> {
+        self.desk.lock().shown.clone()
     }
 
     /// For how long the latest request has been worked on, if it still is.
     pub fn busy(&self) -> Option<Duration> {
-        self.desk.lock().begun.map(|begun| self.desk.clock.since(begun))
+        self.desk.lock().begun.map(|begun| self.desk.clock().since(begun))
+    }
+
+    /// The stages of the latest request, and how many of them are made.
+    pub fn progress(&self) -> (Arc<[J]>, usize) {
+        let state = self.desk.lock();
+        (Arc::clone(&state.stages), state.next)
     }
 
     /// Reason that the latest request has no answer, if it failed.
@@ -166,128 +183,62 @@ where
         self.desk.lock().failure.clone()
     }
 
-    /// Hits, misses and times of each kind of question on the worker.
-    pub fn counts(&self) -> Vec<(&'static str, Count)> {
-        self.desk.lock().counts.clone()
-    }
-
     /// Waits until the latest request is answered or has failed. For tests and programs without a window.
     pub fn wait(&self) {
-        if self.executor.is_driven() {
-            while self.desk.has_work() && self.executor.run_next() {}
-            return;
-        }
-        let mut state = self.desk.lock();
-        while state.begun.is_some() && state.failure.is_none() {
-            let (next, _) =
-                self.desk.news.wait_timeout(state, Duration::from_millis(20)).unwrap_or_else(PoisonError::into_inner);
-            state = next;
-        }
+        self.desk.settle(&self.executor, |state| state.begun.is_none() || state.failure.is_some());
     }
 }
 
-impl<Q: Query> Drop for Background<Q> {
+impl<J: Job> Drop for Background<J> {
     fn drop(&mut self) {
         let mut state = self.desk.lock();
         state.closed = true;
         state.stop.store(true, Ordering::Relaxed);
         drop(state);
-        self.desk.news.notify_all();
+        self.desk.notify();
     }
 }
 
-impl<Q: Query> Desk<Q> {
-    /// A panic elsewhere leaves nothing half done here: each change is one assignment.
-    fn lock(&self) -> MutexGuard<'_, State<Q>> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Waits for a stage that is to be made. Returns false when the window has gone.
-    fn wait_for_work(&self) -> bool {
-        let mut state = self.lock();
-        while !state.closed && !state.has_work() {
-            state = self.news.wait(state).unwrap_or_else(PoisonError::into_inner);
-        }
-        !state.closed
-    }
-
+impl<J: Job> State<J> {
     fn has_work(&self) -> bool {
-        self.lock().has_work()
-    }
-
-    /// The stages, which of them is to be made next, and the signal that it is no longer wanted.
-    fn next(&self) -> Option<(Arc<[Q]>, usize, Arc<AtomicBool>)> {
-        let state = self.lock();
-        (!state.closed && state.has_work()).then(|| (Arc::clone(&state.stages), state.next, Arc::clone(&state.stop)))
+        self.next < self.stages.len() && !self.closed
     }
 }
 
-impl<Q: Query> State<Q> {
-    fn has_work(&self) -> bool {
-        self.next < self.stages.len()
-    }
-}
-
-/// The life of a worker on a thread of its own.
-fn work<Q: Query>(desk: &Desk<Q>) {
-    // The worker is one of the threads that compute: handing each small piece over to others and waiting costs a fifth of a
-    // frame. Without a pool of its own it uses the common one.
-    let _pool = rayon::ThreadPoolBuilder::new().use_current_thread().build();
-    let mut worker = Worker::default();
-    while desk.wait_for_work() {
-        worker.step(desk);
-    }
-}
-
-/// What a worker keeps from one answer to the next.
-struct Worker {
-    results: Results,
-    serial: u64,
-}
-
-impl Default for Worker {
-    fn default() -> Self {
-        Self { results: Results::bounded(), serial: 0 }
-    }
-}
-
-impl Worker {
-    /// Makes the next stage, if there is one.
-    fn step<Q: Query>(&mut self, desk: &Desk<Q>) {
-        let Some((stages, next, stop)) = desk.next() else { return };
-        self.results.stop_at(Stop::at(Arc::clone(&stop)));
-        let start = desk.clock.now();
-        let answer = catch_unwind(AssertUnwindSafe(|| self.results.ask(&stages[next])));
-        let time = desk.clock.since(start);
-        self.serial += 1;
-        let serial = self.serial;
-        if answer.is_err() {
-            // What it was in the middle of is not to be trusted.
-            self.results = Results::bounded();
-        }
-        let mut state = desk.lock();
-        if stop.load(Ordering::Relaxed) || !Arc::ptr_eq(&state.stages, &stages) {
+/// Makes the next stage, if there is one.
+fn step<J: Job>(desk: &Desk<State<J>>, results: &Results) {
+    let (stages, next, stop) = {
+        let state = desk.lock();
+        if !state.has_work() {
             return;
         }
-        match answer {
-            Ok(answer) => {
-                state.shown = Some(Shown { answer, stage: next, current: true, time, serial });
-                state.question = Some(stages[next].clone());
-                state.next = next + 1;
-            }
-            Err(panic) => {
-                state.failure = Some(said(panic.as_ref()));
-                state.next = stages.len();
-            }
-        }
-        if state.next >= stages.len() {
-            state.begun = None;
-        }
-        state.counts = self.results.counts().into_iter().collect();
-        drop(state);
-        desk.news.notify_all();
-        (desk.wake)();
+        (Arc::clone(&state.stages), state.next, Arc::clone(&state.stop))
+    };
+    let results = results.until(Stop::at(Arc::clone(&stop)));
+    let start = desk.clock().now();
+    let answer = catch_unwind(AssertUnwindSafe(|| stages[next].run(&results)));
+    let time = desk.clock().since(start);
+    let mut state = desk.lock();
+    if stop.load(Ordering::Relaxed) {
+        return;
     }
+    match answer {
+        Ok(answer) => {
+            state.serial += 1;
+            let (job, serial) = (stages[next].clone(), state.serial);
+            state.shown = Some(Shown { job, answer, current: true, time, serial });
+            state.next = next + 1;
+        }
+        Err(panic) => {
+            state.failure = Some(said(panic.as_ref()));
+            state.next = stages.len();
+        }
+    }
+    if state.next >= stages.len() {
+        state.begun = None;
+    }
+    drop(state);
+    desk.tell();
 }
 
 /// What a panic said.
@@ -298,6 +249,8 @@ fn said(panic: &(dyn std::any::Any + Send)) -> String {
 
 #[cfg(test)]
 mod tests {
+    use chromascope_core::query::Ask;
+
     use super::*;
 
     /// Twice a number; 13 cannot be doubled.
@@ -320,8 +273,9 @@ mod tests {
         (executor, worker)
     }
 
-    fn shown(worker: &Background<Doubled>) -> Option<(u32, usize, bool)> {
-        worker.shown().map(|shown| (*shown.answer, shown.stage, shown.current))
+    /// The answer on show, whether it is of the latest request, and how many stages of that are made.
+    fn shown(worker: &Background<Doubled>) -> Option<(u32, bool, usize)> {
+        worker.shown().map(|shown| (*shown.answer, shown.current, worker.progress().1))
     }
 
     #[test]
@@ -330,15 +284,25 @@ mod tests {
         worker.ask(vec![Doubled(1), Doubled(2)]);
         assert_eq!((shown(&worker), worker.busy()), (None, Some(Duration::ZERO)));
         assert!(executor.run_one("doubling"));
-        assert_eq!(shown(&worker), Some((2, 0, true)));
+        assert_eq!(shown(&worker), Some((2, true, 1)));
         executor.advance(Duration::from_secs(3));
         assert_eq!(worker.busy(), Some(Duration::from_secs(3)));
         worker.ask(vec![Doubled(5)]);
-        assert_eq!((shown(&worker), worker.busy()), (Some((2, 0, false)), Some(Duration::ZERO)));
+        assert_eq!((shown(&worker), worker.busy()), (Some((2, false, 0)), Some(Duration::ZERO)));
         executor.run_all();
-        assert_eq!((shown(&worker), worker.busy()), (Some((10, 0, true)), None));
-        let computed: Vec<_> = worker.counts().into_iter().map(|(name, count)| (name, count.misses)).collect();
-        assert_eq!(computed, [("doubled", 2)], "the stage of the request before was not made");
+        assert_eq!((shown(&worker), worker.busy()), (Some((10, true, 1)), None));
+        assert_eq!(executor.results().counts()["doubled"].misses, 2, "the stage of the request before was not made");
+    }
+
+    #[test]
+    fn of_many_each_answer_is_known_once_it_is_made() {
+        let (executor, worker) = doubling();
+        let all: Vec<Doubled> = (1..=3).map(Doubled).collect();
+        worker.ask(all.clone());
+        executor.run_one("doubling");
+        executor.run_one("doubling");
+        let known: Vec<_> = all.iter().map(|query| executor.results().known(query).as_deref().copied()).collect();
+        assert_eq!((known, worker.progress().1), (vec![Some(2), Some(4), None], 2));
     }
 
     #[test]
@@ -347,7 +311,7 @@ mod tests {
         worker.ask(vec![Doubled(1)]);
         worker.rest();
         executor.run_all();
-        assert_eq!((shown(&worker), worker.busy(), worker.counts().len()), (None, None, 0));
+        assert_eq!((shown(&worker), worker.busy(), executor.results().counts().len()), (None, None, 0));
     }
 
     #[test]
@@ -358,7 +322,7 @@ mod tests {
         assert!(worker.failure().is_some_and(|why| why.contains("no luck")) && worker.busy().is_none());
         worker.ask(vec![Doubled(4)]);
         worker.wait();
-        assert_eq!((shown(&worker), worker.failure()), (Some((8, 0, true)), None));
+        assert_eq!((shown(&worker), worker.failure()), (Some((8, true, 1)), None));
     }
 
     #[test]
@@ -366,6 +330,6 @@ mod tests {
         let worker = Background::new("doubling", || ());
         worker.ask(vec![Doubled(1), Doubled(2)]);
         worker.wait();
-        assert_eq!(shown(&worker), Some((4, 1, true)));
+        assert_eq!(shown(&worker), Some((4, true, 2)));
     }
 }

@@ -44,6 +44,7 @@ pub mod import;
 pub mod inspector;
 pub mod interpretation;
 pub mod library;
+pub mod light;
 pub mod menu;
 pub mod methods;
 pub mod render;
@@ -61,8 +62,7 @@ use egui::{Rect, Ui};
 
 use context::{Pane, PaneContext};
 
-use crate::scene::Scene;
-use crate::view::View;
+use crate::figures::FigureInput;
 use crate::workspaces::PaneKind;
 
 /// All panes, in the order they are listed.
@@ -71,6 +71,7 @@ pub const ALL: &[&Pane] = &[
     &chromaticity::PANE,
     &swatches::PANE,
     &spectra::PANE,
+    &light::PANE,
     &inspector::PANE,
     &render::PANE,
     &render_settings::PANE,
@@ -103,6 +104,6 @@ pub fn show(ui: &mut Ui, kind: PaneKind, rect: Rect, context: &mut PaneContext<'
 }
 
 /// A pane's figure as it would be saved: the same as on screen, with its numbers. None for panes without one.
-pub fn figure(kind: PaneKind, scene: &Scene<'_>, view: &View) -> Option<Figure> {
-    (by_kind(kind)?.figure?)(scene, view)
+pub fn figure(kind: PaneKind, input: &FigureInput<'_>) -> Option<Figure> {
+    (by_kind(kind)?.figure?)(input)
 }

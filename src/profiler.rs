@@ -1,7 +1,7 @@
 //! What the scene on show costs by each method, with its error, and what was left out of it: measured, not estimated.
 //!
-//! A run computes with answers of its own, so that nothing remembered makes it look cheap. It is a question like any other,
-//! except that asking again measures again: [`SceneRunQuery::run`] tells runs apart.
+//! A run computes with answers of its own, so that nothing remembered makes it look cheap. It is a job, not a question: asking
+//! again measures again.
 
 mod asked;
 pub mod bench;
@@ -11,25 +11,27 @@ mod loci;
 pub mod plans;
 mod skipped_work;
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::Duration;
 
 use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
-use chromascope_core::query::{Ask, LocusQuery, PatchColorsQuery, Query, Shared};
+use chromascope_core::query::{Ask, LocusQuery, PatchColorsQuery, Shared};
 use chromascope_core::spectral::Sensor;
 use chromascope_measure::harness::timed;
 use chromascope_measure::method::Point;
 use chromascope_measure::{Effort, Report, Workload};
 use serde::{Deserialize, Serialize};
 
-use crate::jobs::{Background, Executor};
+use crate::jobs::{Background, Executor, Job};
 use crate::results::Results;
 pub use conditions::Conditions;
 use plans::{PlanAnswer, PlansQuery};
 pub use skipped_work::{LOCI, PATCHES, SkippedWork};
 
-/// What does the scene cost by each method, and what was left out?
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct SceneRunQuery {
+/// Measures what the scene costs by each method, and what was left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneRunJob {
     /// What is rendered, in words.
     pub scene: String,
     /// The pictures; none where there is nothing to render.
@@ -42,8 +44,6 @@ pub struct SceneRunQuery {
     pub loci: Vec<LocusQuery>,
     /// The patches of the diagram and the swatches.
     pub patches: Vec<PatchColorsQuery>,
-    /// Tells runs of the same scene apart.
-    pub run: u64,
 }
 
 /// What was measured.
@@ -122,52 +122,63 @@ impl Subject {
     }
 }
 
-impl Query for SceneRunQuery {
+impl Job for SceneRunJob {
     type Answer = SceneRun;
-    const NAME: &'static str = "scene run";
-    const KEPT: usize = 1;
 
-    fn answer(&self, ask: &impl Ask) -> SceneRun {
-        let (conditions, ask) = (Conditions::now(self), &fresh(ask));
+    fn run(&self, results: &Results) -> Arc<SceneRun> {
+        let (conditions, ask) = (Conditions::now(self), &fresh(results));
         let ((trials, skipped_work), seconds) = timed(|| {
             let trials = [integral::trial(self, ask), loci::trial(self, ask)].into_iter().flatten().collect();
             (trials, skipped_work::rows(self, ask))
         });
-        SceneRun { conditions, trials, skipped_work, time: Duration::from_secs_f64(seconds) }
+        Arc::new(SceneRun { conditions, trials, skipped_work, time: Duration::from_secs_f64(seconds) })
     }
 }
 
 /// Answers of their own: whoever asks remembers those of runs before, whose times would be those of looking them up.
 fn fresh(ask: &impl Ask) -> Results {
-    let results = Results::bounded();
-    results.stop_at(ask.stop());
-    results
+    Results::default().until(ask.stop())
 }
 
-/// What does the program cost on a workload of its own, whatever the scene?
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct BenchQuery {
-    workload: Workload,
-    run: u64,
-}
+/// Measures what the program costs on a workload of its own, whatever the scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct BenchJob(Workload);
 
-impl Query for BenchQuery {
+impl Job for BenchJob {
     type Answer = Result<Report, String>;
-    const NAME: &'static str = "bench";
-    const KEPT: usize = 1;
 
-    fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let Some(bench) = bench::bench() else { return Err("this build has no benchmark".to_owned()) };
-        bench(&[self.workload], Effort::Quick, &ask.stop(), &mut |_| ()).map_err(|error| error.to_string())
+    fn run(&self, results: &Results) -> Arc<Self::Answer> {
+        let Some(bench) = bench::bench() else { return Arc::new(Err("this build has no benchmark".to_owned())) };
+        let report = bench(&[self.0], Effort::Quick, &results.stop(), &mut |_| ());
+        Arc::new(report.map_err(|error| error.to_string()))
     }
+}
+
+/// What was measured last.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// The last run on the scene.
+    pub run: Option<Arc<SceneRun>>,
+    /// True if it is of the scene as it is now.
+    pub is_current: bool,
+    /// What was remembered since the start.
+    pub remembered: Vec<SkippedWork>,
+    /// The last reports of the bench, or why there is none.
+    pub reports: BTreeMap<Workload, Arc<Result<Report, String>>>,
+}
+
+impl Measured {
+    /// Before anything was measured.
+    pub const NOTHING: Self = Self { run: None, is_current: false, remembered: Vec::new(), reports: BTreeMap::new() };
 }
 
 /// Where runs are made, and the last ones.
 pub struct Profiler {
-    worker: Background<SceneRunQuery>,
-    bench: Background<BenchQuery>,
+    /// What was measured last.
+    pub measured: Measured,
+    worker: Background<SceneRunJob>,
+    bench: Background<BenchJob>,
     plans: Background<PlansQuery>,
-    runs: u64,
 }
 
 impl Profiler {
@@ -180,50 +191,49 @@ impl Profiler {
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
         let (also, third) = (wake.clone(), wake.clone());
         Self {
+            measured: Measured::NOTHING,
             worker: Background::on(executor, "scene runs", wake),
             bench: Background::on(executor, "bench", third),
             plans: Background::on(executor, "plans", also),
-            runs: 0,
         }
+    }
+
+    /// Begins to make the plans of these pictures' sources.
+    pub fn plan(&self, pictures: &PicturesQuery) {
+        self.plans.ask(vec![PlansQuery(pictures.clone())]);
     }
 
     /// The plan of each of these pictures' sources, in their order. Until it is made, the last one that was made for the same
     /// camera, light and material; none while there is a source without one.
     pub fn plans(&self, pictures: &PicturesQuery) -> Option<Vec<PlanAnswer>> {
-        self.plans.ask(vec![PlansQuery(pictures.clone())]);
-        let (of, plans) = self.plans.answered()?;
-        of.plans_for(pictures, &plans)
+        let plans = self.plans.shown()?;
+        plans.job.plans_for(pictures, &plans.answer)
     }
 
     /// Measures a scene, anew even if it is the same.
-    pub fn run(&mut self, scene: SceneRunQuery) {
-        self.runs += 1;
-        self.worker.ask(vec![SceneRunQuery { run: self.runs, ..scene }]);
+    pub fn run(&self, scene: SceneRunJob) {
+        self.worker.ask_anew(vec![scene]);
     }
 
     /// Measures a workload of the bench.
-    pub fn run_bench(&mut self, workload: Workload) {
-        self.runs += 1;
-        self.bench.ask(vec![BenchQuery { workload, run: self.runs }]);
-    }
-
-    /// The last report of the bench, or why there is none. One that was stopped is not kept.
-    pub fn report(&self) -> Option<(Workload, std::sync::Arc<Result<Report, String>>)> {
-        let (of, report) = self.bench.answered()?;
-        Some((of.workload, report))
+    pub fn run_bench(&self, workload: Workload) {
+        self.bench.ask_anew(vec![BenchJob(workload)]);
     }
 
     /// Gives up what is being measured.
-    pub fn stop(&mut self) {
+    pub fn stop(&self) {
         self.worker.rest();
         self.bench.rest();
     }
 
-    /// The last run, and whether it is of this scene.
-    pub fn shown(&self, scene: &SceneRunQuery) -> Option<(std::sync::Arc<SceneRun>, bool)> {
-        let (of, run) = self.worker.answered()?;
-        let same = SceneRunQuery { run: of.run, ..scene.clone() } == of;
-        Some((run, same))
+    /// Takes in what was measured; a run is current if it is of this scene. A report that was stopped is not kept.
+    pub fn refresh(&mut self, scene: &SceneRunJob) {
+        if let Some(shown) = self.worker.shown() {
+            (self.measured.run, self.measured.is_current) = (Some(shown.answer), shown.job == *scene);
+        }
+        if let Some(shown) = self.bench.shown() {
+            self.measured.reports.insert(shown.job.0, shown.answer);
+        }
     }
 
     /// For how long it has been measured, if it still is.

@@ -1,4 +1,4 @@
-//! Where pictures are made: one worker, what it was asked for, and what it last made.
+//! Where pictures are made: one worker, and what it last made.
 
 pub mod pixel;
 
@@ -6,15 +6,26 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use chromascope_core::camera::RenderingError;
-use chromascope_core::query::Query;
 use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
+use chromascope_core::query::{Ask as _, Query};
 
-use crate::jobs::{Background, Executor};
-use crate::results::Count;
+use crate::jobs::{Background, Executor, Job};
+use crate::results::Results;
 use crate::scene::ComparedSensor;
 
 /// For this many seconds after the last change something is taken to be moving.
 pub const REST_AFTER: f64 = 0.15;
+
+/// Reason that there are no pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoPictures {
+    /// Making them was stopped.
+    #[error("rendering was stopped")]
+    Stopped,
+    /// A color cannot be computed.
+    #[error(transparent)]
+    Rendering(#[from] RenderingError),
+}
 
 /// Pictures with the question that they answer.
 #[derive(Clone, Debug)]
@@ -22,7 +33,7 @@ pub struct RenderedFrame {
     /// The question.
     pub query: PicturesQuery,
     /// The sensors, in the question's order.
-    pub sources: Vec<ComparedSensor>,
+    pub sources: Arc<[ComparedSensor]>,
     /// The answer.
     pub answer: Arc<<PicturesQuery as Query>::Answer>,
     /// How long it took.
@@ -35,11 +46,11 @@ pub struct RenderedFrame {
 
 impl RenderedFrame {
     /// The pictures, or why there are none.
-    pub fn pictures(&self) -> Result<&Pictures, RenderingError> {
+    pub fn pictures(&self) -> Result<&Pictures, NoPictures> {
         match &*self.answer {
             Ok(Some(pictures)) => Ok(pictures),
-            Ok(None) => Err(RenderingError::NoWhite),
-            Err(error) => Err(*error),
+            Ok(None) => Err(NoPictures::Stopped),
+            Err(error) => Err(NoPictures::Rendering(*error)),
         }
     }
 
@@ -49,24 +60,40 @@ impl RenderedFrame {
     }
 }
 
-/// What the worker was asked for.
-#[derive(Clone, Default)]
-struct Request {
-    stages: Vec<PicturesQuery>,
-    sources: Vec<ComparedSensor>,
-    wanted: Option<PicturesQuery>,
+/// Pictures to be made. Names and marks of the sensors change nothing in them.
+#[derive(Clone)]
+struct PicturesJob {
+    query: PicturesQuery,
+    sources: Arc<[ComparedSensor]>,
+    /// True if nothing finer is to come.
+    is_last: bool,
+    /// True if they are of something that moves.
     moving: bool,
+}
+
+impl PartialEq for PicturesJob {
+    fn eq(&self, other: &Self) -> bool {
+        self.query == other.query
+    }
+}
+
+impl Job for PicturesJob {
+    type Answer = <PicturesQuery as Query>::Answer;
+
+    fn run(&self, results: &Results) -> Arc<Self::Answer> {
+        results.ask(&self.query)
+    }
 }
 
 /// The worker and its last answer.
 pub struct RenderService {
-    worker: Background<PicturesQuery>,
-    latest: Request,
-    before: Request,
-    shot: Option<Arc<RenderedFrame>>,
+    worker: Background<PicturesJob>,
+    frame: Option<Arc<RenderedFrame>>,
+    is_hidden: bool,
     wanted: Option<PicturesQuery>,
     changed_at: f64,
     asked: bool,
+    is_looked_at: bool,
 }
 
 impl RenderService {
@@ -80,12 +107,12 @@ impl RenderService {
         let window = ctx.clone();
         Self {
             worker: Background::on(executor, "pictures", move || window.request_repaint()),
-            latest: Request::default(),
-            before: Request::default(),
-            shot: None,
+            frame: None,
+            is_hidden: false,
             wanted: None,
             changed_at: f64::NEG_INFINITY,
             asked: false,
+            is_looked_at: false,
         }
     }
 
@@ -104,76 +131,81 @@ impl RenderService {
 
     /// True if the finest pictures of the same shaded mesh are on show, so that only their development can differ.
     pub fn only_develops(&self, wanted: &PicturesQuery) -> bool {
-        self.shot.as_ref().is_some_and(|shot| shot.is_last && shot.query.shading == wanted.shading)
+        self.frame.as_ref().is_some_and(|frame| frame.is_last && frame.query.shading == wanted.shading)
     }
 
     /// Asks for stages from coarse to fine. While something moves, what is being made is waited for: a picture a little late is
     /// better than none.
     pub fn ask(&mut self, stages: Vec<PicturesQuery>, sources: &[ComparedSensor], moving: bool) {
         self.asked = true;
+        let (latest, _) = self.worker.progress();
+        let was_moving = latest.first().is_some_and(|job| job.moving);
         // What ends in the same pictures is on its way already, or there.
-        let same_end = !moving && !self.latest.moving && self.latest.stages.last() == stages.last();
-        if same_end || self.latest.stages == stages {
-            return;
-        }
+        let same_end = !moving && !was_moving && latest.last().map(|job| &job.query) == stages.last();
         // At rest, the coarse pictures that are on their way are the first of those wanted: stopping them would waste a mesh or a
         // tree that is being built.
-        let begun = moving || self.latest.stages.first() == stages.first();
-        if begun && self.latest.moving && self.worker.busy().is_some() {
+        let begun = moving || latest.first().map(|job| &job.query) == stages.first();
+        if same_end || (begun && was_moving && self.worker.busy().is_some()) {
             return;
         }
-        let request =
-            Request { stages: stages.clone(), sources: sources.to_vec(), wanted: self.wanted.clone(), moving };
-        self.before = std::mem::replace(&mut self.latest, request);
-        self.worker.ask(stages);
-    }
-
-    /// Nobody looks: what is being made is stopped.
-    fn rest(&mut self) {
-        if !self.latest.stages.is_empty() {
-            self.before = std::mem::take(&mut self.latest);
-            self.worker.rest();
-        }
+        let sources: Arc<[ComparedSensor]> = sources.into();
+        let job = |query: PicturesQuery| {
+            let is_last = self.wanted.as_ref() == Some(&query);
+            PicturesJob { query, sources: Arc::clone(&sources), is_last, moving }
+        };
+        self.worker.ask(stages.into_iter().map(job).collect());
     }
 
     /// Stops what is being made; what was made so far stays on show.
     pub fn stay(&mut self) {
         self.asked = true;
-        self.rest();
+        self.worker.rest();
+    }
+
+    /// Takes pictures off show: those that are wanted now cannot be made.
+    pub fn hide(&mut self) {
+        self.is_hidden = true;
+    }
+
+    /// Takes in what was made.
+    pub fn refresh(&mut self) {
+        self.is_hidden = false;
+        let Some(shown) = self.worker.shown() else { return };
+        if self.frame.as_ref().is_none_or(|frame| frame.serial != shown.serial) {
+            let PicturesJob { query, sources, is_last, .. } = shown.job;
+            // What was only remembered took no time worth telling.
+            let remembered = self.frame.as_ref().filter(|frame| frame.query == query).map(|frame| frame.time);
+            let (time, serial) = (remembered.unwrap_or(shown.time), shown.serial);
+            self.frame = Some(Arc::new(RenderedFrame { query, sources, answer: shown.answer, time, is_last, serial }));
+        }
     }
 
     /// Closes a frame: pictures that nobody asked for in it are not made.
     pub fn end_frame(&mut self) {
-        if !std::mem::take(&mut self.asked) {
-            self.rest();
+        self.is_looked_at = std::mem::take(&mut self.asked);
+        if !self.is_looked_at {
+            self.worker.rest();
         }
     }
 
-    /// The last pictures made.
-    pub fn shot(&mut self) -> Option<Arc<RenderedFrame>> {
-        let shown = self.worker.shown()?;
-        if self.shot.as_ref().is_none_or(|shot| shot.serial != shown.serial) {
-            // What arrived before the latest request was made answers the one before.
-            let request = if shown.current { &self.latest } else { &self.before };
-            // What arrived while nobody looked belongs to a request that is forgotten.
-            let Some(query) = request.stages.get(shown.stage).cloned() else { return self.shot.clone() };
-            // What was only remembered took no time worth telling.
-            let remembered = self.shot.as_ref().filter(|shot| shot.query == query).map(|shot| shot.time);
-            self.shot = Some(Arc::new(RenderedFrame {
-                is_last: request.wanted.as_ref() == Some(&query),
-                query,
-                sources: request.sources.clone(),
-                answer: shown.answer,
-                time: remembered.unwrap_or(shown.time),
-                serial: shown.serial,
-            }));
-        }
-        self.shot.clone()
+    /// True if pictures were asked for in the last frame.
+    pub fn is_looked_at(&self) -> bool {
+        self.is_looked_at
+    }
+
+    /// The pictures on show: the last that were made.
+    pub fn frame(&self) -> Option<&Arc<RenderedFrame>> {
+        self.frame.as_ref().filter(|_| !self.is_hidden)
+    }
+
+    /// True if pictures were made before, on show or not.
+    pub fn has_made(&self) -> bool {
+        self.frame.is_some()
     }
 
     /// True if the pictures on show are those that are wanted in the end.
     pub fn is_settled(&self) -> bool {
-        self.shot.as_ref().is_some_and(|shot| self.wanted.as_ref() == Some(&shot.query))
+        self.frame.as_ref().is_some_and(|frame| self.wanted.as_ref() == Some(&frame.query))
     }
 
     /// For how long the latest request has been worked on, if it still is.
@@ -184,16 +216,6 @@ impl RenderService {
     /// Reason that the latest request has no answer, if it failed.
     pub fn failure(&self) -> Option<String> {
         self.worker.failure()
-    }
-
-    /// Hits, misses and times of each kind of question on the worker.
-    pub fn counts(&self) -> Vec<(&'static str, Count)> {
-        self.worker.counts()
-    }
-
-    /// Number of stages of the latest request.
-    pub fn stages(&self) -> usize {
-        self.latest.stages.len()
     }
 
     /// Waits until the latest request is answered. For tests.

@@ -1,16 +1,22 @@
-//! What has been computed: the only cache. A question that equals one asked before is not computed again.
+//! What has been computed: the only cache, shared by the window and all work beside it.
+//!
+//! A question that equals one asked before is not computed again. No lock is held while an answer is computed. Who asks what
+//! another thread is computing waits for that answer; as no question depends on itself, two threads never wait for each other.
+//! Threads of the rayon pool never wait: one that did could be the one that the other thread's loop needs, so it computes itself.
+
+mod answers;
 
 use std::any::{Any, TypeId};
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap};
-use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, PoisonError, RwLock};
 use std::time::{Duration, Instant};
 
 use chromascope_core::query::{Ask, Query};
 use chromascope_core::render::Stop;
 
-/// Answers that were not asked for in this many frames are let go.
-const FRAMES_KEPT: u64 = 240;
+use answers::{Answers, Asked, Kind};
 
 /// Counters of one kind of question.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,91 +25,50 @@ pub struct Count {
     pub hits: u64,
     /// Answers that were computed.
     pub misses: u64,
+    /// Number of times that an answer was waited for while another thread computed it.
+    pub waits: u64,
     /// Time spent computing, questions asked on the way included.
     pub time: Duration,
     /// Time spent computing, without questions asked on the way.
     pub own_time: Duration,
 }
 
-/// One kind of question's answers.
-struct Answers<Q: Query> {
-    known: HashMap<Q, Known<Q::Answer>>,
-}
-
-struct Known<A> {
-    answer: Arc<A>,
-    asked: u64,
-    bytes: usize,
-}
-
-/// The most memory that the answers of one kind take where answers are counted; the last one stays, however large.
-const BYTES: usize = 256 << 20;
-
-impl<Q: Query> Answers<Q> {
-    /// Lets go of what was asked for least recently, until no more than these are left.
-    fn keep(&mut self, count: usize, bytes: usize) {
-        let mut all: usize = self.known.values().map(|known| known.bytes).sum();
-        while self.known.len() > 1 && (self.known.len() > count || all > bytes) {
-            let oldest = self.known.iter().min_by_key(|(_, known)| known.asked).map(|(query, _)| query.clone());
-            let Some(known) = oldest.and_then(|oldest| self.known.remove(&oldest)) else { return };
-            all = all.saturating_sub(known.bytes);
-        }
-    }
-}
-
-/// Lets go of old answers, whatever their type.
-trait Forget {
-    fn forget(&mut self, before: u64);
-    fn as_any(&mut self) -> &mut dyn Any;
-}
-
-impl<Q: Query> Forget for Answers<Q> {
-    fn forget(&mut self, before: u64) {
-        self.known.retain(|_, known| known.asked >= before);
-    }
-
-    fn as_any(&mut self) -> &mut dyn Any {
-        self
-    }
-}
-
-/// Remembers answers, on one thread.
+/// One thread's access to the answers. Clones share them.
 #[derive(Default)]
 pub struct Results {
-    bounded: bool,
-    stop: RefCell<Stop>,
-    clock: Cell<u64>,
+    store: Arc<Store>,
+    stop: Stop,
     asked_on_the_way: Cell<Duration>,
-    answers: RefCell<HashMap<TypeId, Box<dyn Forget>>>,
-    counts: RefCell<BTreeMap<&'static str, Count>>,
-    frame: Cell<u64>,
     frame_time: Cell<Duration>,
     last_work: Cell<Duration>,
     depth: Cell<u32>,
 }
 
+/// The answers of each kind of question.
+#[derive(Default)]
+struct Store {
+    kinds: RwLock<HashMap<TypeId, Arc<dyn Kind>>>,
+    /// Number of questions asked.
+    clock: AtomicU64,
+}
+
+impl Clone for Results {
+    fn clone(&self) -> Self {
+        self.until(self.stop.clone())
+    }
+}
+
 impl Results {
-    /// Remembers as many answers of each kind as the kind says are worth keeping, however old: for pictures, whose parts are
-    /// large, and of which the costliest are asked for least often.
-    pub fn bounded() -> Self {
-        Self { bounded: true, ..Self::default() }
+    /// Access to the same answers until they are no longer wanted. Those that are being made then are not remembered.
+    #[must_use]
+    pub fn until(&self, stop: Stop) -> Self {
+        Self { store: Arc::clone(&self.store), stop, ..Self::default() }
     }
 
-    /// Says when answers are no longer wanted. Those that were being made then are not remembered.
-    pub fn stop_at(&self, stop: Stop) {
-        self.stop.replace(stop);
-    }
-
-    /// Closes a frame's book: what was not asked for in a long while is let go.
+    /// Closes a frame's book.
     pub fn end_frame(&self) {
-        let frame = self.frame.get() + 1;
-        self.frame.set(frame);
         if self.frame_time.get() > Duration::ZERO {
             self.last_work.set(self.frame_time.replace(Duration::ZERO));
-        }
-        if !self.bounded && frame.is_multiple_of(FRAMES_KEPT) {
-            let before = frame.saturating_sub(FRAMES_KEPT);
-            self.answers.borrow_mut().values_mut().for_each(|answers| answers.forget(before));
         }
     }
 
@@ -112,71 +77,203 @@ impl Results {
         self.last_work.get()
     }
 
-    /// Hits, misses and time of each kind of question since the start.
+    /// Hits, misses and time of each kind of question since the start, on all threads.
     pub fn counts(&self) -> BTreeMap<&'static str, Count> {
-        self.counts.borrow().clone()
+        let kinds = self.store.kinds.read().unwrap_or_else(PoisonError::into_inner);
+        kinds.values().map(|kind| kind.count()).filter(|(_, count)| *count != Count::default()).collect()
     }
 
-    fn remembered<Q: Query>(&self, query: &Q) -> Option<Arc<Q::Answer>> {
-        let mut all = self.answers.borrow_mut();
-        let answers = all.get_mut(&TypeId::of::<Q>())?.as_any().downcast_mut::<Answers<Q>>()?;
-        let known = answers.known.get_mut(query)?;
-        known.asked = self.now();
-        Some(Arc::clone(&known.answer))
+    /// The answer to a question, if it is remembered.
+    pub fn known<Q: Query>(&self, query: &Q) -> Option<Arc<Q::Answer>> {
+        self.answers::<Q>().known(query, self.now())
     }
 
-    fn remember<Q: Query>(&self, query: &Q, answer: &Arc<Q::Answer>) {
-        let mut all = self.answers.borrow_mut();
-        let slot = all.entry(TypeId::of::<Q>()).or_insert_with(|| Box::new(Answers::<Q> { known: HashMap::new() }));
-        if let Some(answers) = slot.as_any().downcast_mut::<Answers<Q>>() {
-            let known = Known { answer: Arc::clone(answer), asked: self.now(), bytes: Q::bytes(answer) };
-            answers.known.insert(query.clone(), known);
-            if self.bounded {
-                answers.keep(Q::KEPT, BYTES);
-            }
-        }
-    }
-
-    /// Frames, or where answers are counted, questions.
     fn now(&self) -> u64 {
-        if self.bounded { self.clock.replace(self.clock.get() + 1) } else { self.frame.get() }
+        self.store.clock.fetch_add(1, Ordering::Relaxed)
     }
 
-    fn count(&self, name: &'static str, change: impl FnOnce(&mut Count)) {
-        change(self.counts.borrow_mut().entry(name).or_default());
+    fn answers<Q: Query>(&self) -> Arc<Answers<Q>> {
+        let id = TypeId::of::<Q>();
+        let known = self.store.kinds.read().unwrap_or_else(PoisonError::into_inner).get(&id).cloned();
+        let kind = known.unwrap_or_else(|| {
+            let mut kinds = self.store.kinds.write().unwrap_or_else(PoisonError::into_inner);
+            Arc::clone(kinds.entry(id).or_insert_with(|| Arc::new(Answers::<Q>::default())))
+        });
+        let kind: Arc<dyn Any + Send + Sync> = kind;
+        kind.downcast().unwrap_or_default()
     }
 }
 
 impl Ask for Results {
     fn ask<Q: Query>(&self, query: &Q) -> Arc<Q::Answer> {
-        if let Some(answer) = self.remembered(query) {
-            self.count(Q::NAME, |count| count.hits += 1);
+        let answers = self.answers::<Q>();
+        if let Some(answer) = answers.known(query, self.now()) {
             return answer;
         }
         let start = Instant::now();
-        self.depth.set(self.depth.get() + 1);
         let before = self.asked_on_the_way.replace(Duration::ZERO);
-        // No cell is borrowed here: the answer may ask further questions.
-        let answer = Arc::new(query.answer(self));
+        self.depth.set(self.depth.get() + 1);
+        // Nothing is locked here: the answer may ask further questions.
+        let (answer, claim) = match answers.claim(query, self.now(), &self.stop) {
+            Asked::Known(answer) => (answer, None),
+            Asked::Ours(claim) => (Arc::new(query.answer(self)), Some(claim)),
+        };
         self.depth.set(self.depth.get() - 1);
         let time = start.elapsed();
         let on_the_way = self.asked_on_the_way.replace(before + time);
-        self.count(Q::NAME, |count| {
-            count.misses += 1;
-            count.time += time;
-            count.own_time += time.saturating_sub(on_the_way);
-        });
-        if !Q::WHOLE && self.stop.borrow().is_set() {
-            return answer;
-        }
         if self.depth.get() == 0 {
             self.frame_time.set(self.frame_time.get() + time);
         }
-        self.remember(query, &answer);
+        if let Some(claim) = claim {
+            let is_whole = Q::WHOLE || !self.stop.is_set();
+            let made = Count { misses: 1, time, own_time: time.saturating_sub(on_the_way), ..Count::default() };
+            claim.end(is_whole.then_some(&answer), self.now(), made);
+        }
         answer
     }
 
     fn stop(&self) -> Stop {
-        self.stop.borrow().clone()
+        self.stop.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::hash::{Hash, Hasher};
+    use std::sync::Mutex;
+    use std::sync::atomic::AtomicBool;
+    use std::sync::mpsc::{Receiver, Sender, channel};
+    use std::thread::{self, Scope, ScopedJoinHandle};
+
+    use super::*;
+
+    /// A question whose answers come through a channel: a test says when it is answered, and by what; by nothing, it fails.
+    #[derive(Clone)]
+    struct Slow {
+        begun: Sender<()>,
+        answers: Arc<Mutex<Receiver<Option<u32>>>>,
+    }
+
+    impl PartialEq for Slow {
+        fn eq(&self, other: &Self) -> bool {
+            Arc::ptr_eq(&self.answers, &other.answers)
+        }
+    }
+
+    impl Eq for Slow {}
+
+    impl Hash for Slow {
+        fn hash<H: Hasher>(&self, _: &mut H) {}
+    }
+
+    impl Query for Slow {
+        type Answer = u32;
+        const NAME: &'static str = "slow";
+
+        fn answer(&self, _: &impl Ask) -> u32 {
+            self.begun.send(()).expect("the test listens");
+            let answer = self.answers.lock().unwrap_or_else(PoisonError::into_inner).recv();
+            answer.ok().flatten().expect("an answer")
+        }
+    }
+
+    fn slow() -> (Slow, Sender<Option<u32>>, Receiver<()>) {
+        let ((begun, begins), (answer, answers)) = (channel(), channel());
+        (Slow { begun, answers: Arc::new(Mutex::new(answers)) }, answer, begins)
+    }
+
+    fn asks<'s>(scope: &'s Scope<'s, '_>, results: &Results, slow: &Slow) -> ScopedJoinHandle<'s, u32> {
+        let (results, slow) = (results.clone(), slow.clone());
+        scope.spawn(move || *results.ask(&slow))
+    }
+
+    fn until_one_waits(results: &Results) {
+        while results.counts().get("slow").is_none_or(|count| count.waits == 0) {
+            thread::yield_now();
+        }
+    }
+
+    #[test]
+    fn two_askers_of_one_question_compute_it_once() {
+        let (results, (slow, answer, begins)) = (Results::default(), slow());
+        thread::scope(|scope| {
+            let first = asks(scope, &results, &slow);
+            begins.recv().expect("asked");
+            let second = asks(scope, &results, &slow);
+            until_one_waits(&results);
+            answer.send(Some(7)).expect("awaited");
+            assert_eq!([first, second].map(|thread| thread.join().expect("answered")), [7, 7]);
+        });
+        let count = results.counts()["slow"];
+        assert_eq!((count.misses, count.hits, results.known(&slow).as_deref()), (1, 1, Some(&7)));
+    }
+
+    #[test]
+    fn who_waits_for_what_is_stopped_or_fails_computes_it() {
+        for is_stopped in [true, false] {
+            let (results, (slow, answer, begins)) = (Results::default(), slow());
+            let stop: Arc<AtomicBool> = Arc::default();
+            thread::scope(|scope| {
+                let first = asks(scope, &results.until(Stop::at(Arc::clone(&stop))), &slow);
+                begins.recv().expect("asked");
+                let second = asks(scope, &results, &slow);
+                until_one_waits(&results);
+                stop.store(true, Ordering::Relaxed);
+                answer.send(is_stopped.then_some(0)).expect("awaited");
+                assert_eq!(first.join().ok(), is_stopped.then_some(0));
+                begins.recv().expect("asked");
+                answer.send(Some(7)).expect("awaited");
+                assert_eq!(second.join().expect("answered"), 7, "what was stopped is not stored");
+            });
+        }
+    }
+
+    #[test]
+    fn who_is_stopped_and_a_thread_of_the_pool_wait_for_nobody() {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+        for in_pool in [true, false] {
+            let (results, (slow, answer, begins)) = (Results::default(), slow());
+            thread::scope(|scope| {
+                asks(scope, &results, &slow);
+                begins.recv().expect("asked");
+                let (theirs, second) = (results.until(Stop::at(Arc::new(AtomicBool::new(!in_pool)))), slow.clone());
+                let ask = move || *theirs.ask(&second);
+                let pool = &pool;
+                scope.spawn(move || if in_pool { pool.install(ask) } else { ask() });
+                begins.recv().expect("asked");
+                answer.send(Some(7)).expect("awaited");
+                answer.send(Some(7)).expect("awaited");
+            });
+            assert_eq!((results.counts()["slow"].misses, results.counts()["slow"].waits), (2, 0), "{in_pool}");
+        }
+    }
+
+    /// A number; those from 10 on take half of what a kind may take.
+    #[derive(Clone, PartialEq, Eq, Hash)]
+    struct Large(u8);
+
+    impl Query for Large {
+        type Answer = u8;
+        const NAME: &'static str = "large";
+        const KEPT: usize = 3;
+
+        fn bytes(answer: &u8) -> usize {
+            if *answer < 10 { 1 } else { 128 << 20 }
+        }
+
+        fn answer(&self, _: &impl Ask) -> u8 {
+            self.0
+        }
+    }
+
+    #[test]
+    fn what_was_asked_for_least_recently_goes_first() {
+        let results = Results::default();
+        let ask = |numbers: &[u8]| numbers.iter().for_each(|number| drop(results.ask(&Large(*number))));
+        let known = |numbers: [u8; 4]| numbers.map(|number| results.known(&Large(number)).is_some());
+        ask(&[1, 2, 3, 1, 4]);
+        assert_eq!(known([1, 2, 3, 4]), [true, false, true, true], "by number");
+        ask(&[10, 11, 12]);
+        assert_eq!(known([4, 10, 11, 12]), [false, false, true, true], "by memory");
     }
 }

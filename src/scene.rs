@@ -3,11 +3,14 @@
 //! Panes, exports and the command line all ask through here, so that they cannot disagree.
 
 pub mod conditions;
+pub mod light;
 pub mod locus;
 pub mod metrics;
 pub mod orbit;
+pub mod recorded;
 pub mod render;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use chromascope_core::camera::{RenderingError, WhiteBalanceTarget};
@@ -20,11 +23,13 @@ use chromascope_core::query::{
 };
 use chromascope_core::reflectance::SurfaceError;
 use chromascope_core::scene::lighting::LightingError;
-use chromascope_core::spectral::Sensor;
+use chromascope_core::spectral::{GridSpectrum, Sensor};
 use chromascope_core::units::{Kelvin, NotPositive};
 use chromascope_figure::{InkRole, Marker};
 
-use crate::catalog::load::{LightQuery, LoadError, LoadedLight, PatchesQuery, SensorQuery};
+use crate::catalog::load::{
+    FilterQuery, FilteredLightQuery, LightQuery, LoadError, LoadedLight, PatchesQuery, SensorQuery,
+};
 use crate::catalog::{Catalog, Entry, Place};
 use crate::document::names::caseless;
 use crate::document::{
@@ -164,12 +169,17 @@ impl<'a> Scene<'a> {
 
     /// The set of this name; the user's own win.
     pub fn entry(&self, kind: SetKind, name: &str) -> Result<Entry, SceneError> {
+        self.find(kind, name).map(Cow::into_owned)
+    }
+
+    /// The same without a copy of a built-in set's header, which may name thousands of columns.
+    fn find(&self, kind: SetKind, name: &str) -> Result<Cow<'a, Entry>, SceneError> {
         let own = |is_it: &dyn Fn(&str) -> bool| {
             let mut sets = self.document.own.iter().filter(|set| SetKind::of_own(set) == kind);
-            sets.find(|set| is_it(&set.name)).map(Entry::from_own)
+            sets.find(|set| is_it(&set.name)).map(|set| Cow::Owned(Entry::from_own(set)))
         };
         own(&|known| known == name)
-            .or_else(|| self.catalog.get(kind, name).cloned())
+            .or_else(|| self.catalog.get(kind, name).map(Cow::Borrowed))
             .or_else(|| {
                 let wanted = caseless(name);
                 own(&|known| caseless(known) == wanted)
@@ -177,15 +187,20 @@ impl<'a> Scene<'a> {
             .ok_or_else(|| SceneError::NoSet { kind, name: name.to_owned() })
     }
 
-    /// The chart or, failing that, the material set of this name.
+    /// The chart or, failing that, the material set of this name. Transmittances can be seen as patches too.
     pub fn chart_entry(&self, name: &str) -> Result<Entry, SceneError> {
-        self.entry(SetKind::Chart, name).or_else(|e| self.entry(SetKind::Material, name).map_err(|_| e))
+        self.find_chart(name).map(Cow::into_owned)
+    }
+
+    fn find_chart(&self, name: &str) -> Result<Cow<'a, Entry>, SceneError> {
+        let other = |kind| move |e| self.find(kind, name).map_err(|_| e);
+        self.find(SetKind::Chart, name).or_else(other(SetKind::Material)).or_else(other(SetKind::Filter))
     }
 
     /// A camera's or observer's sensitivities.
     pub fn sensor(&self, kind: SetKind, name: &str) -> Result<Shared<Sensor>, SceneError> {
-        let entry = self.entry(kind, name)?;
-        let answer = self.results.ask(&SensorQuery(entry.place));
+        let place = self.find(kind, name)?.place.clone();
+        let answer = self.results.ask(&SensorQuery(place));
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
 
@@ -196,12 +211,26 @@ impl<'a> Scene<'a> {
 
     /// The light on the scene.
     pub fn light(&self) -> Result<LoadedLight, SceneError> {
-        let (of, name) = match &self.document.light {
-            Light::Set(name) => (LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place), name.as_str()),
+        let (light, name) = match &self.document.light {
+            Light::Set(name) => (LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name.as_str()),
             Light::BlackBody => (LightQuery::BlackBody(self.temperature()?), "blackbody"),
             Light::Daylight => (LightQuery::Daylight(self.temperature()?), "daylight"),
         };
-        self.loaded(&of, name)
+        if self.document.filters.is_empty() {
+            return self.loaded(&light, name);
+        }
+        // Sorted, so that the order of the filters makes no other question.
+        let mut names = self.document.filters.clone();
+        names.sort();
+        let filters = names.iter().map(|name| self.filter(name)).collect::<Result<_, _>>()?;
+        let answer = self.results.ask(&FilteredLightQuery { light, filters });
+        (*answer).clone().map_err(|error| SceneError::Load { name: self.light_name(), error })
+    }
+
+    /// Transmittance of a filter.
+    pub fn filter(&self, name: &str) -> Result<Shared<GridSpectrum>, SceneError> {
+        let answer = self.results.ask(&FilterQuery(self.entry(SetKind::Filter, name)?.place));
+        (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
 
     fn loaded(&self, of: &LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
@@ -209,13 +238,14 @@ impl<'a> Scene<'a> {
         (*answer).clone().map_err(|error| SceneError::Load { name: name.to_owned(), error })
     }
 
-    /// The name of the light with its temperature.
+    /// The name of the light with its temperature and the filters in front of it: `D65 × ND 0.3`.
     pub fn light_name(&self) -> String {
-        match &self.document.light {
+        let light = match &self.document.light {
             Light::Set(name) => name.clone(),
             Light::BlackBody => format!("blackbody {:.0} K", self.document.temperature_k),
             Light::Daylight => format!("daylight {:.0} K", self.document.temperature_k),
-        }
+        };
+        self.document.filters.iter().fold(light, |name, filter| format!("{name} × {filter}"))
     }
 
     /// The patches on show.
@@ -226,14 +256,16 @@ impl<'a> Scene<'a> {
 
     /// True if the chart has the paper's five patches and more.
     pub fn has_five(&self) -> bool {
-        self.chart_entry(&self.document.chart).ok().and_then(|entry| entry.header).is_some_and(|header| {
-            header.columns.len() > PAPER_FIVE.len()
-                && PAPER_FIVE.iter().all(|name| header.columns.iter().any(|c| c == name))
+        self.find_chart(&self.document.chart).is_ok_and(|entry| {
+            entry.header.as_ref().is_some_and(|header| {
+                header.columns.len() > PAPER_FIVE.len()
+                    && PAPER_FIVE.iter().all(|name| header.columns.iter().any(|c| c == name))
+            })
         })
     }
 
     fn patch_set(&self, name: &str, names: Option<&'static [&'static str]>) -> Result<Shared<PatchSet>, SceneError> {
-        let place = self.chart_entry(name)?.place;
+        let place = self.find_chart(name)?.place.clone();
         self.loaded_patches(place, name, names)
     }
 
@@ -252,7 +284,7 @@ impl<'a> Scene<'a> {
         match &self.document.white {
             WhiteBalanceChoice::Unity => Ok(WhiteBalanceTarget::UNITY),
             WhiteBalanceChoice::Light(name) => {
-                let light = self.loaded(&LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place), name)?;
+                let light = self.loaded(&LightQuery::Set(self.find(SetKind::Illuminant, name)?.place.clone()), name)?;
                 self.white_of(&light, name)
             }
             WhiteBalanceChoice::Daylight(kelvin) => {
@@ -353,7 +385,7 @@ impl<'a> Scene<'a> {
     /// The condition to warn of, if there is one.
     pub fn caution(&self) -> Option<Caution> {
         let reference = self.document.reference.clone();
-        let counts_in_xyz = self.entry(SetKind::Observer, &reference).is_ok_and(|entry| entry.counts_in_xyz());
+        let counts_in_xyz = self.find(SetKind::Observer, &reference).is_ok_and(|entry| entry.counts_in_xyz());
         match &self.document.transform {
             TransformChoice::Paper => counts_in_xyz.then_some(Caution::NotComparable { reference }),
             TransformChoice::Observer(target) if *target == reference => None,
@@ -388,7 +420,7 @@ impl<'a> Scene<'a> {
 
     /// How one sensor is drawn. Observers beside the reference are told apart by markers alone.
     fn source(&self, compared: &Compared, observers: &mut u8) -> ComparedSensor {
-        let entry = self.entry(compared.kind, &compared.name).ok();
+        let entry = self.find(compared.kind, &compared.name).ok();
         let short = entry.as_ref().map_or_else(|| compared.name.clone(), |entry| entry.short.clone());
         let is_reference = self.document.is_reference(compared);
         let (role, marker, width) = match compared.kind {

@@ -1,6 +1,7 @@
 //! Colors as numbers: tristimulus values, chromaticities, Lab, differences, adaptation, RGB spaces, diagram curves.
 
 pub mod adaptation;
+pub mod ciecam02;
 pub mod diagram;
 pub mod difference;
 pub mod lab;

@@ -8,10 +8,12 @@
 //! spectral::dataset          bytes → curves with units
 //! spectral                   curves → the 1 nm grid, with what was assumed
 //! light · patch_set · camera    L, S, C
+//! correction                 fits of XYZ to RGB: 3×3, root polynomial; DNG and ACES matrices
 //! camera::rendering          ∫ C S L dλ → balanced RGB → XYZ           Eq 11, 13, 16
 //! camera::locus              ∫ C E(T) dλ                                Eq 14, 15
 //! colorimetry                XYZ → xy, u′v′, L*a*b*, ΔE, sRGB
 //! light::temperature         XYZ → nearest black body, Duv
+//! rendition                  light → Ra, Rf and Rg, SSI
 //! camera::locus_table        black bodies → xy, for very many temperatures
 //! camera::batch              ∫ C S L dλ for very many S and C
 //! reflectance                Fresnel, geometric attenuation, mean scattered power      Eq 1-4
@@ -40,6 +42,7 @@ pub use glam;
 pub mod accuracy;
 pub mod camera;
 pub mod colorimetry;
+pub mod correction;
 #[cfg(feature = "data")]
 pub mod data;
 
@@ -50,6 +53,7 @@ pub mod prelude;
 pub mod query;
 pub mod reflectance;
 pub mod render;
+pub mod rendition;
 pub mod scene;
 pub mod spectral;
 

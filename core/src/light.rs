@@ -1,6 +1,7 @@
 //! Lights: black bodies and daylight by formula; measured ones are plain spectra.
 
 pub mod daylight;
+pub mod filter;
 pub mod planckian;
 pub mod temperature;
 

@@ -30,6 +30,28 @@ pub struct PatchSet {
 /// The five patches that the paper shows, C1 to C5, by their `ColorChecker` names.
 pub const PAPER_FIVE: [&str; 5] = ["red", "green", "blue", "white", "orange yellow"];
 
+/// The 18 chromatic patches of the `ColorChecker`, by their names.
+pub const COLOR_CHECKER_CHROMATIC: [&str; 18] = [
+    "dark skin",
+    "light skin",
+    "blue sky",
+    "foliage",
+    "blue flower",
+    "bluish green",
+    "orange",
+    "purplish blue",
+    "moderate red",
+    "purple",
+    "yellow green",
+    "orange yellow",
+    "blue",
+    "green",
+    "red",
+    "yellow",
+    "magenta",
+    "cyan",
+];
+
 impl PatchSet {
     /// Brings named reflectances (1 for a perfect white) onto the grid.
     pub fn new(reflectances: impl IntoIterator<Item = (String, SpectralDistribution)>) -> Self {

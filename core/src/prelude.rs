@@ -6,6 +6,7 @@
 
 pub use crate::camera::{ColorTransform, LocusEvaluator, Rendering, RenderingError, WhiteBalanceTarget};
 pub use crate::colorimetry::{Lab, UvPrime, Xy, Xyz, delta_e_1976, delta_e_2000};
+pub use crate::correction::{Correction, CorrectionMethod};
 #[cfg(feature = "data")]
 pub use crate::data;
 pub use crate::light::{Cct, DaylightBasis, PlanckianLocus, RadiationConstants};

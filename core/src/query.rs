@@ -5,20 +5,24 @@
 
 pub mod ask;
 pub mod compare;
+pub mod lights;
 pub mod loci;
 pub mod metrics;
 pub mod patches;
 pub mod radiances;
+pub mod recorded;
 pub mod render;
 pub mod shared;
 
 pub use ask::{Ask, Direct, Query};
 pub use compare::DifferenceError;
+pub use lights::{Consistency, ConsistencyError, ConsistencyQuery, Rendition, RenditionQuery};
 pub use loci::{
-    Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery, RadiatorSignalsQuery,
-    SpectralLocusQuery, Temperatures,
+    CctQuery, Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery,
+    RadiatorSignalsQuery, SpectralLocusQuery, Temperatures,
 };
-pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, MetricValue, WhyNot};
+pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricValue, Replicates, WhyNot};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;
+pub use recorded::{RecordedFitQuery, RecordedSet};
 pub use shared::Shared;

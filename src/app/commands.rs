@@ -12,9 +12,10 @@ use crate::catalog::opened::Request;
 use crate::command::{Command, Format};
 use crate::document::SetKind;
 use crate::export;
+use crate::figures::FigureInput;
 use crate::files::{FileEvent, FileForm, SaveRequest};
 use crate::panes;
-use crate::profiler::SceneRunQuery;
+use crate::profiler::SceneRunJob;
 use crate::scene::Scene;
 use crate::scene::conditions::CONDITIONS;
 use crate::theme::Theme;
@@ -247,7 +248,7 @@ impl ChromascopeApp {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
-        self.laboratory.run(SceneRunQuery::of(&scene, own.as_ref(), self.view.saved.render.orbit));
+        self.laboratory.run(SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
         self.view.saved.workspace = Workspace::Accuracy;
         if matches!(self.view.accuracy.shows, Shows::Bench(_)) {
             self.view.accuracy.shows = Shows::default();
@@ -258,7 +259,8 @@ impl ChromascopeApp {
     fn next_pane(&mut self, ctx: &egui::Context) {
         let shown: Vec<PaneKind> = self.arrangement.panes.iter().map(|(pane, _)| *pane).collect();
         let import = &mut self.view.import;
-        let picks = import.look.as_ref().and_then(|look| look.table.as_ref().ok()).is_some_and(|t| t.curves.len() > 1);
+        let picks =
+            self.opened.preview().and_then(|preview| preview.table.clone().ok()).is_some_and(|t| t.curves.len() > 1);
         if self.view.focused == Some(PaneKind::INTERPRETATION) && import.stop == Some(Stop::Switches) && picks {
             (import.stop, import.focus) = (Some(Stop::Picker), Some(Stop::Picker));
             return;
@@ -279,10 +281,15 @@ impl ChromascopeApp {
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 
+    /// What a pane's figure of a scene is made of.
+    pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
+        FigureInput::of((scene, &self.view), &self.studio, &self.laboratory, &self.opened)
+    }
+
     /// The pane's figure as on screen, or a message that it has none.
     fn figure(&mut self, pane: PaneKind) -> Option<Figure> {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let figure = panes::figure(pane, &scene, &self.view);
+        let figure = panes::figure(pane, &self.figure_input(&scene));
         if figure.is_none() {
             let others = panes::ALL.iter().filter(|pane| pane.figure.is_some()).map(|pane| pane.title);
             let others = others.collect::<Vec<_>>().join(", ");

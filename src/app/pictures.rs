@@ -26,11 +26,11 @@ impl ChromascopeApp {
     }
 
     fn exr(&self, source: &SensorId) -> Option<Result<Vec<u8>, String>> {
-        let shot = self.view.render.shot.clone()?;
+        let shot = self.studio.frame()?;
         if !self.studio.is_settled() {
             return Some(Err("The pictures are not finished yet; save again when rendering is complete.".to_owned()));
         }
-        let index = index_of(&shot, source)?;
+        let index = index_of(shot, source)?;
         let image = shot.made()?.images.get(index)?.as_ref()?;
         let rendering = self.results.ask(&shot.query.sources.get(index)?.rendering);
         let rendering = (*rendering).as_ref().ok()?;

@@ -1,8 +1,10 @@
 //! Questions that bring a set's figures into the form the core computes with.
 
+use chromascope_core::light::filter::{filtered, transmittance};
 use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants, planckian::black_body};
 use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::{Ask, Query, Shared};
+use chromascope_core::rendition::Standards;
 use chromascope_core::spectral::{
     Dataset, DatasetError, DistributionError, GridSpectrum, Primaries, Quantity, Sensor, SensorError,
     SpectralDistribution,
@@ -40,6 +42,12 @@ pub enum LoadError {
     /// There is no daylight of that temperature.
     #[error(transparent)]
     Daylight(#[from] DaylightError),
+}
+
+/// A file of the program.
+fn built_in(path: &'static str) -> Result<BuiltInFile, LoadError> {
+    let text = chromascope_data::text(path).ok_or(LoadError::Missing(path))?;
+    Ok(BuiltInFile { path, text })
 }
 
 /// A built-in file, parsed.
@@ -147,12 +155,68 @@ impl Query for LightQuery {
                 Ok(LoadedLight::new(SpectralDistribution::new(nm, grid.values().to_vec())?))
             }
             Self::Daylight(temperature) => {
-                let text = chromascope_data::text(DAYLIGHT_BASIS).ok_or(LoadError::Missing(DAYLIGHT_BASIS))?;
-                let file = ask.ask(&FileQuery(BuiltInFile { path: DAYLIGHT_BASIS, text }));
+                let file = ask.ask(&FileQuery(built_in(DAYLIGHT_BASIS)?));
                 let basis = DaylightBasis::new((*file).as_ref().map_err(Clone::clone)?)?;
                 Ok(LoadedLight::new(basis.light(*temperature)?))
             }
         }
+    }
+}
+
+/// Transmittance of a filter on the grid; the first curve of a set of several.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct FilterQuery(pub Place);
+
+impl Query for FilterQuery {
+    type Answer = Result<Shared<GridSpectrum>, LoadError>;
+    const NAME: &'static str = "filter";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let (_, measured) = curves(&self.0, ask)?.into_iter().next().ok_or(LoadError::NoCurve)?;
+        Ok(Shared::new(GridSpectrum::resample(&measured, Quantity::Reflectance)))
+    }
+}
+
+/// A light behind filters.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct FilteredLightQuery {
+    /// The light.
+    pub light: LightQuery,
+    /// Transmittances of the filters, in any order.
+    pub filters: Vec<Shared<GridSpectrum>>,
+}
+
+impl Query for FilteredLightQuery {
+    type Answer = Result<LoadedLight, LoadError>;
+    const NAME: &'static str = "filtered light";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let light = ask.ask(&self.light);
+        let light = (*light).as_ref().map_err(Clone::clone)?;
+        let all = transmittance(self.filters.iter().map(|filter| &**filter));
+        Ok(LoadedLight { measured: filtered(&light.measured, &all)?, grid: Shared::new(light.grid.times(&all)) })
+    }
+}
+
+/// Observers, samples and basis of rendition indices.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct StandardsQuery;
+
+impl Query for StandardsQuery {
+    type Answer = Result<Shared<Standards>, LoadError>;
+    const NAME: &'static str = "rendition standards";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let file = |path| (*ask.ask(&FileQuery(built_in(path)?))).clone();
+        let patches = |path| file(path).map(|file| PatchSet::from_dataset(&file));
+        let observer = |path| Ok::<_, LoadError>(Sensor::from_dataset(&file(path)?)?);
+        Ok(Shared::new(Standards {
+            cie_1931: observer("observers/cie_1931_2deg.csv")?,
+            cie_1964: observer("observers/cie_1964_10deg.csv")?,
+            daylight: DaylightBasis::new(&file(DAYLIGHT_BASIS)?)?,
+            test_colors: patches("test-samples/cri_14.csv")?,
+            evaluation_colors: patches("test-samples/ces_99.csv")?,
+        }))
     }
 }
 

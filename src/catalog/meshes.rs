@@ -11,15 +11,15 @@ pub use read::{ENDINGS, LoadedMesh, MAX_FILE_BYTES, MeshFailure, is_mesh, read};
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use chromascope_core::query::Shared;
 use chromascope_mesh::Mesh;
 
 use crate::document::render::MeshChoice;
 use crate::format::file_name;
-use crate::jobs::Executor;
+use crate::jobs::{Desk, Executor};
 use read::Stamp;
 
 /// Meshes that nobody looks at are remembered up to this many bytes, so that undo need not read them again.
@@ -47,14 +47,8 @@ pub struct Opened {
 
 /// The mesh files that were asked for.
 pub struct MeshStore {
-    shared: Arc<SharedState>,
+    desk: Arc<Desk<State>>,
     executor: Executor,
-}
-
-/// State shared by the window and the reading threads.
-struct SharedState {
-    state: Mutex<State>,
-    wake: Box<dyn Fn() + Send + Sync>,
 }
 
 #[derive(Default)]
@@ -91,13 +85,12 @@ impl MeshStore {
 
     /// Reads files on an executor.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let shared = Arc::new(SharedState { state: Mutex::default(), wake: Box::new(wake) });
-        Self { shared, executor: executor.clone() }
+        Self { desk: Arc::new(Desk::new(executor, State::default(), wake)), executor: executor.clone() }
     }
 
     /// State of a file. The first call starts reading; a mesh stays visible while its file is reloaded.
     pub fn get(&self, path: &Path) -> MeshState {
-        let mut state = self.shared.lock();
+        let mut state = self.desk.lock();
         state.clock += 1;
         let now = state.clock;
         let known = state.known_at(path);
@@ -125,7 +118,7 @@ impl MeshStore {
 
     /// Opens a file for a person: [`MeshStore::poll`] tells what came of it. What was being opened before is given up.
     pub fn open(&self, path: &Path) {
-        let mut state = self.shared.lock();
+        let mut state = self.desk.lock();
         state.give_up_opening();
         state.opening = Some(path.to_owned());
         let known = state.known_at(path);
@@ -137,22 +130,22 @@ impl MeshStore {
 
     /// Outcomes of opening, once for each file that was not abandoned.
     pub fn poll(&self) -> Vec<Opened> {
-        std::mem::take(&mut self.shared.lock().opened)
+        std::mem::take(&mut self.desk.lock().opened)
     }
 
     /// The file that is being opened.
     pub fn opening(&self) -> Option<PathBuf> {
-        self.shared.lock().opening.clone()
+        self.desk.lock().opening.clone()
     }
 
     /// Gives up opening. Returns the file that was being opened.
     pub fn cancel(&self) -> Option<PathBuf> {
-        self.shared.lock().give_up_opening()
+        self.desk.lock().give_up_opening()
     }
 
     /// Stops reading what is neither wanted nor being opened, and lets go of meshes beyond what is worth remembering.
     pub fn keep(&self, wanted: Option<&Path>) {
-        let mut state = self.shared.lock();
+        let mut state = self.desk.lock();
         let opening = state.opening.clone();
         let needed = |path: &Path| Some(path) == wanted || Some(path) == opening.as_deref();
         for (path, known) in &mut state.known {
@@ -177,11 +170,11 @@ impl MeshStore {
     fn begin(&self, state: &mut State, path: &Path, unless: Option<Stamp>) {
         let stop: Arc<AtomicBool> = Arc::default();
         state.known_at(path).reading = Some(Arc::clone(&stop));
-        let (shared, file) = (Arc::clone(&self.shared), path.to_owned());
+        let (desk, file) = (Arc::clone(&self.desk), path.to_owned());
         let work = move || {
             let result = read_once(&file, unless, &|| stop.load(Ordering::Relaxed));
-            shared.lock().take(&file, &stop, result);
-            (shared.wake)();
+            desk.lock().take(&file, &stop, result);
+            desk.tell();
         };
         if let Err(error) = self.executor.spawn("meshes", work) {
             let failure = MeshFailure::Io { file: file_name(path), error };
@@ -193,14 +186,7 @@ impl MeshStore {
 
 impl Drop for MeshStore {
     fn drop(&mut self) {
-        self.shared.lock().known.values_mut().for_each(Known::stop);
-    }
-}
-
-impl SharedState {
-    /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        self.desk.lock().known.values_mut().for_each(Known::stop);
     }
 }
 

@@ -14,16 +14,14 @@ pub use reading::{Request, files_of};
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use super::import::Imported;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
-use crate::format::file_name;
-use crate::jobs::{Background, Clock, Executor};
-use crate::results::Count;
+use crate::jobs::{self, Background, Executor};
 
 /// Files that no set is made of are forgotten, the oldest first, beyond so many bytes in all.
 const REMEMBERED_BYTES: usize = 256_000_000;
@@ -106,36 +104,32 @@ pub struct Progress {
 
 /// The files that were opened.
 pub struct Opened {
-    shared: Arc<SharedState>,
+    desk: Arc<Desk>,
     look: Background<FilePreviewQuery>,
     executor: Executor,
 }
 
 /// State shared by the window and the reading threads.
-struct SharedState {
-    state: Mutex<State>,
-    /// Told when a reading has ended.
-    ended: Condvar,
-    wake: Arc<dyn Fn() + Send + Sync>,
-}
+type Desk = jobs::Desk<State>;
 
 #[derive(Default)]
 struct State {
     files: Vec<OpenFile>,
     events: Vec<OpenedEvent>,
     running: Vec<Arc<Job>>,
+    /// Number of files read again.
     tickets: u64,
     /// Files that were looked for on disk and are not there as they were.
     lost: Vec<Fingerprint>,
 }
 
+/// A thread that reads.
 struct Job {
     name: Mutex<String>,
     share: AtomicU32,
     place: [AtomicU32; 2],
     stop: AtomicBool,
     begun: Duration,
-    clock: Clock,
 }
 
 impl Opened {
@@ -149,29 +143,29 @@ impl Opened {
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
         let theirs = Arc::clone(&wake);
         let look = Background::on(executor, "import", move || theirs());
-        let shared = Arc::new(SharedState { state: Mutex::default(), ended: Condvar::new(), wake });
-        Self { shared, look, executor: executor.clone() }
+        let desk = Desk::new(executor, State::default(), move || wake());
+        Self { desk: Arc::new(desk), look, executor: executor.clone() }
     }
 
     /// Reads files, folders or bytes; `remembered` says what a person wished for files like one whose text is given.
     pub fn open(&self, requests: Vec<Request>, remembered: impl Fn(&[u8]) -> ImportOverrides + Send + 'static) {
-        self.begin(move |shared, job| {
-            let events = reading::open(requests, &remembered, shared, job);
-            shared.lock().events.extend(events);
+        self.begin(move |desk, job| {
+            let events = reading::open(requests, &remembered, desk, job);
+            desk.lock().events.extend(events);
         });
     }
 
     /// Reads the files of sets again: those known here from memory if `why` allows, else from disk.
     pub fn reread(&self, sets: Vec<OwnSet>, why: Why) {
         let ticket = {
-            let mut state = self.shared.lock();
+            let mut state = self.desk.lock();
             state.tickets += 1;
             state.tickets
         };
-        self.begin(move |shared, job| {
-            let sets: Vec<_> = sets.iter().filter_map(|set| reading::reread(set, why, shared, job)).collect();
+        self.begin(move |desk, job| {
+            let sets: Vec<_> = sets.iter().filter_map(|set| reading::reread(set, why, desk, job)).collect();
             if !sets.is_empty() {
-                shared.lock().events.push(OpenedEvent::Reread { sets, why, ticket });
+                desk.lock().events.push(OpenedEvent::Reread { sets, why, ticket });
             }
         });
     }
@@ -179,27 +173,27 @@ impl Opened {
     /// Brings back the contents that a set was made of, if its file is still as it was. Asked for once.
     pub fn fetch(&self, set: &OwnSet) {
         let (Some(path), Some(fingerprint)) = (set.path.clone(), set.fingerprint) else { return };
-        let mut state = self.shared.lock();
+        let mut state = self.desk.lock();
         if state.lost.contains(&fingerprint) || state.file(fingerprint).is_some() {
             return;
         }
         // What is being looked for counts as lost until it is found, so that it is looked for once.
         state.lost.push(fingerprint);
         drop(state);
-        self.begin(move |shared, job| reading::fetch(&path, fingerprint, shared, job));
+        self.begin(move |desk, job| reading::fetch(&path, fingerprint, desk, job));
     }
 
     /// Reads files that could not be read in an earlier run, so that their text can be looked at again. Nothing comes of it but
     /// that they are known; those that are no more are not.
     pub fn recall(&self, failing: Vec<Failing>) {
         if !failing.is_empty() {
-            self.begin(move |shared, job| reading::recall(failing, shared, job));
+            self.begin(move |desk, job| reading::recall(failing, desk, job));
         }
     }
 
     /// The files on disk that could not be read.
     pub fn failing(&self) -> Vec<Failing> {
-        let state = self.shared.lock();
+        let state = self.desk.lock();
         let failing = state.files.iter().filter_map(|file| {
             let (path, why) = (file.origin.path.clone()?, file.failure.clone()?);
             Some(Failing { path, fingerprint: file.origin.fingerprint, why })
@@ -209,26 +203,26 @@ impl Opened {
 
     /// Outcomes of reading since the last call.
     pub fn poll(&self) -> Vec<OpenedEvent> {
-        std::mem::take(&mut self.shared.lock().events)
+        std::mem::take(&mut self.desk.lock().events)
     }
 
     /// The reading that has gone on for longest.
     pub fn progress(&self) -> Option<Progress> {
-        let state = self.shared.lock();
+        let state = self.desk.lock();
         let job = state.running.first()?;
         let [file, count] = [0, 1].map(|i| job.place[i].load(Ordering::Relaxed) as usize);
         Some(Progress {
             name: job.name.lock().unwrap_or_else(PoisonError::into_inner).clone(),
             share: f32::from_bits(job.share.load(Ordering::Relaxed)),
             file: [file, count],
-            time: job.clock.since(job.begun),
+            time: self.desk.clock().since(job.begun),
         })
     }
 
     /// Stops whatever is being read. Returns the name of a file that was.
     pub fn stop(&self) -> Option<String> {
         let progress = self.progress()?;
-        for job in &self.shared.lock().running {
+        for job in &self.desk.lock().running {
             job.stop.store(true, Ordering::Relaxed);
         }
         Some(progress.name)
@@ -236,22 +230,22 @@ impl Opened {
 
     /// The files known, in the order in which they were opened.
     pub fn files(&self) -> Vec<OpenFile> {
-        self.shared.lock().files.clone()
+        self.desk.lock().files.clone()
     }
 
     /// A file by its contents.
     pub fn file(&self, fingerprint: Fingerprint) -> Option<OpenFile> {
-        self.shared.lock().file(fingerprint).cloned()
+        self.desk.lock().file(fingerprint).cloned()
     }
 
     /// Forgets a file.
     pub fn forget(&self, fingerprint: Fingerprint) {
-        self.shared.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
+        self.desk.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
     }
 
     /// Forgets the oldest files of which no set is made, beyond what is worth remembering.
     pub fn keep(&self, wanted: &[Fingerprint]) {
-        let mut state = self.shared.lock();
+        let mut state = self.desk.lock();
         let size = |state: &State| state.files.iter().map(|file| file.bytes.len()).sum::<usize>();
         while size(&state) > REMEMBERED_BYTES {
             let spare = |file: &OpenFile| !wanted.contains(&file.origin.fingerprint);
@@ -263,8 +257,12 @@ impl Opened {
     /// Preview of a file read with these options; the last preview while it is being read.
     pub fn look(&self, file: &OpenFile, options: &spectral_file::ReadOptions) -> Option<Arc<FilePreview>> {
         self.look.ask(vec![FilePreviewQuery::new(file, options)]);
-        let shown = self.look.shown()?;
-        (shown.answer.fingerprint == file.origin.fingerprint).then_some(shown.answer)
+        self.preview().filter(|preview| preview.fingerprint == file.origin.fingerprint)
+    }
+
+    /// What [`look`](Self::look) last found, whatever the file.
+    pub fn preview(&self) -> Option<Arc<FilePreview>> {
+        self.look.shown().map(|shown| shown.answer)
     }
 
     /// For how long [`look`](Self::look) has been at it.
@@ -272,40 +270,29 @@ impl Opened {
         self.look.busy()
     }
 
-    /// Hits, misses and times of each kind of question that [`look`](Self::look) asks.
-    pub fn counts(&self) -> Vec<(&'static str, Count)> {
-        self.look.counts()
+    /// Nobody looks.
+    pub fn rest(&self) {
+        self.look.rest();
     }
 
     /// Waits until everything that was asked for is read. For tests.
     pub fn wait(&self) {
-        let mut state = self.shared.lock();
-        while !state.running.is_empty() {
-            if self.executor.is_driven() {
-                drop(state);
-                if !self.executor.run_next() {
-                    return;
-                }
-                state = self.shared.lock();
-            } else {
-                state = self.shared.ended.wait(state).unwrap_or_else(PoisonError::into_inner);
-            }
-        }
-        drop(state);
+        self.desk.settle(&self.executor, |state| state.running.is_empty());
         self.look.wait();
     }
 
-    fn begin(&self, work: impl FnOnce(&SharedState, &Job) + Send + 'static) {
-        let job = Arc::new(Job::new(self.executor.clock()));
-        self.shared.lock().running.push(Arc::clone(&job));
-        let shared = Arc::clone(&self.shared);
+    fn begin(&self, work: impl FnOnce(&Desk, &Job) + Send + 'static) {
+        let job = Arc::new(Job::new(self.desk.clock().now()));
+        self.desk.lock().running.push(Arc::clone(&job));
+        let desk = Arc::clone(&self.desk);
         let theirs = Arc::clone(&job);
         let run = move || {
-            work(&shared, &theirs);
-            shared.end(&theirs);
+            work(&desk, &theirs);
+            desk.lock().running.retain(|running| !Arc::ptr_eq(running, &theirs));
+            desk.tell();
         };
         if let Err(error) = self.executor.spawn("files", run) {
-            let mut state = self.shared.lock();
+            let mut state = self.desk.lock();
             state.running.retain(|running| !Arc::ptr_eq(running, &job));
             state.events.push(OpenedEvent::Failed(format!("no thread for reading: {error}"), Vec::new()));
         }
@@ -314,22 +301,16 @@ impl Opened {
 
 impl Drop for Opened {
     fn drop(&mut self) {
-        self.shared.lock().running.iter().for_each(|job| job.stop.store(true, Ordering::Relaxed));
+        self.desk.lock().running.iter().for_each(|job| job.stop.store(true, Ordering::Relaxed));
     }
 }
 
-impl SharedState {
-    /// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
+impl State {
     /// Takes a file in, in place of one with the same contents, and of what could not be read at the same place.
-    fn know(&self, file: OpenFile) {
-        let mut state = self.lock();
-        let State { files, events, .. } = &mut *state;
+    fn know(&mut self, file: OpenFile) {
+        let Self { files, events, .. } = self;
+        let new = file.origin.fingerprint;
         if let Some(path) = &file.origin.path {
-            let new = file.origin.fingerprint;
             files.retain(|known| {
                 let old = known.origin.fingerprint;
                 let gone = known.failure.is_some() && known.origin.path.as_ref() == Some(path) && old != new;
@@ -339,41 +320,33 @@ impl SharedState {
                 !gone
             });
         }
-        state.lost.retain(|lost| *lost != file.origin.fingerprint);
-        match state.files.iter_mut().find(|known| known.origin.fingerprint == file.origin.fingerprint) {
+        self.lost.retain(|lost| *lost != new);
+        match self.files.iter_mut().find(|known| known.origin.fingerprint == new) {
             Some(known) => *known = file,
-            None => state.files.push(file),
+            None => self.files.push(file),
         }
     }
 
-    fn end(&self, job: &Arc<Job>) {
-        self.lock().running.retain(|running| !Arc::ptr_eq(running, job));
-        self.ended.notify_all();
-        (self.wake)();
-    }
-}
-
-impl State {
     fn file(&self, fingerprint: Fingerprint) -> Option<&OpenFile> {
         self.files.iter().find(|file| file.origin.fingerprint == fingerprint)
     }
 }
 
 impl Job {
-    fn new(clock: Clock) -> Self {
+    fn new(begun: Duration) -> Self {
         Self {
             name: Mutex::default(),
             share: AtomicU32::new(0),
             place: [AtomicU32::new(1), AtomicU32::new(1)],
             stop: AtomicBool::new(false),
-            begun: clock.now(),
-            clock,
+            begun,
         }
     }
 
     /// Goes on to a file, one of so many.
     fn at(&self, path: &Path, file: usize, count: usize) {
-        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = file_name(path);
+        let name = crate::format::file_name(path);
+        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = name;
         for (place, number) in self.place.iter().zip([file, count]) {
             place.store(u32::try_from(number).unwrap_or(u32::MAX), Ordering::Relaxed);
         }

@@ -7,6 +7,7 @@ use clap::{Args, Parser, ValueEnum};
 use spectral_file::Values;
 
 use super::bench::BenchArguments;
+use super::identify::arguments::IdentifyArguments;
 use super::inspect::arguments::InspectArguments;
 use super::render::arguments::RenderArguments;
 use crate::document::SetKind;
@@ -76,9 +77,15 @@ pub(super) enum Subcommand {
     /// Chart patches or measured radiances as CSV: RGB, XYZ, xy, u′v′, L*a*b* and differences from the reference
     #[command(after_help = PATCHES_EXAMPLES)]
     Patches(PatchesArguments),
+    /// Lights: CCT and Duv, Ra, Rf and Rg, spectral similarity, and how consistent cameras are under them
+    #[command(after_help = super::light::EXAMPLES)]
+    Light(Box<super::light::LightArguments>),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
+    /// Which table of sensitivities is a camera's: raw RGB of known patches against all cameras, ranked by log error
+    #[command(after_help = super::identify::arguments::EXAMPLES)]
+    Identify(Box<IdentifyArguments>),
     /// Contents of files of spectra and the decisions made when reading them; curves as CSV or JSON
     #[command(after_help = super::inspect::arguments::EXAMPLES)]
     Inspect(Box<InspectArguments>),
@@ -134,6 +141,10 @@ pub(super) struct CommonArguments {
     /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: the preset's]
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) illuminant: Option<OsString>,
+    /// A filter in front of the illuminant: a name of `chromascope list filters`, or a file with one transmittance; may be repeated,
+    /// in any order
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) filter: Vec<OsString>,
     /// The white-balance target, the RGB a perfect diffuser is mapped to: `unity`, an illuminant, `daylight:K` or `blackbody:K`
     /// [default: the preset's]
     #[arg(long = "white-balance", alias = "white", value_name = "WHITE")]
@@ -215,6 +226,8 @@ pub(super) enum ListKind {
     Charts,
     /// Lights
     Illuminants,
+    /// Transmittances of filters
+    Filters,
     /// Single reflectances
     Materials,
 }
@@ -227,6 +240,7 @@ impl ListKind {
             Self::Observers => SetKind::Observer,
             Self::Charts => SetKind::Chart,
             Self::Illuminants => SetKind::Illuminant,
+            Self::Filters => SetKind::Filter,
             Self::Materials => SetKind::Material,
         }
     }

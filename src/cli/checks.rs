@@ -26,7 +26,11 @@ pub(super) fn reflectances(path: &str, role: Role, table: &SpectralFile) -> Resu
     }
     let values = &table.reading.values;
     if values.certainty == Certainty::Open {
-        let remedy = "add --values percent, or --values plain for fractions";
+        let remedy = if role == Role::Transmittance {
+            "state it in the file, such as Transmittance (%)"
+        } else {
+            "add --values percent, or --values plain for fractions"
+        };
         return Err(CliError::File(format!("{path}: {}; {remedy}", values.why)));
     }
     Ok(())
@@ -60,6 +64,7 @@ pub(super) fn channels(path: &str, role: Role, table: &SpectralFile) -> Result<(
 pub(super) fn curves(set: &OwnSet) -> Result<(), CliError> {
     let wanted = match set.role {
         Role::Camera if set.curves.len() < 3 => "expected three for a camera: red, green and blue",
+        Role::Transmittance if set.curves.len() > 1 => "expected exactly one curve for a filter",
         Role::Illuminant if set.curves.len() > 1 => "expected exactly one curve for an illuminant",
         _ => return Ok(()),
     };

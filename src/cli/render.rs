@@ -37,7 +37,7 @@ use crate::terminal::say;
 pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let start = Instant::now();
     let setup = Setup::new(arguments, matches)?;
-    let results = Results::bounded();
+    let results = Results::default();
     let made = patiently("rendering", || Made::new(arguments, &setup, &results))?;
     let files = Instant::now();
     made.write(arguments)?;

@@ -50,6 +50,7 @@ impl Request {
         if let Some(illuminant) = &arguments.illuminant {
             request.set_light(illuminant)?;
         }
+        request.set_filters(&arguments.filter)?;
         if let Some(white) = &arguments.white {
             request.set_white(white)?;
         }
@@ -73,6 +74,25 @@ impl Request {
             request.sources = request.presets_sources();
         }
         Ok(request)
+    }
+
+    /// A request that compares nothing: the preset's conditions, and cameras by name.
+    pub(super) fn of_cameras(per: Option<Per>, cameras: &[OsString]) -> Result<(Self, Vec<String>), CliError> {
+        let preset = Start::Colorimetry;
+        let document = Document { compared: Vec::new(), ..preset.document() };
+        let (catalog, sources, read) = (Catalog::built_in(), Vec::new(), Vec::new());
+        let mut request = Self { document, catalog, sources, preset, values: None, per, read };
+        let names = cameras.iter().map(|name| request.camera(name)).collect::<Result<_, _>>()?;
+        Ok((request, names))
+    }
+
+    /// The catalog's name for a camera, or that of a file with three sensitivities.
+    fn camera(&mut self, name: &OsStr) -> Result<String, CliError> {
+        if self.means_file("--camera", &[SetKind::Camera], name) {
+            Ok(self.open(Path::new(name), Role::Camera)?.name.clone())
+        } else {
+            self.name("--camera", SetKind::Camera, &name.to_string_lossy())
+        }
     }
 
     /// The preset's sensors, with the reference that was named in the place of the preset's.
@@ -111,11 +131,9 @@ impl Request {
         named
             .into_iter()
             .map(|(_, kind, name)| {
-                let found = if kind == SetKind::Camera && self.means_file("--camera", &[kind], name) {
-                    self.open(Path::new(name), Role::Camera)?.name.clone()
-                } else {
-                    let argument = if kind == SetKind::Camera { "--camera" } else { "--observer" };
-                    self.name(argument, kind, &name.to_string_lossy())?
+                let found = match kind {
+                    SetKind::Camera => self.camera(name)?,
+                    _ => self.name("--observer", kind, &name.to_string_lossy())?,
                 };
                 Ok((kind, found))
             })
@@ -174,6 +192,23 @@ impl Request {
             self.illuminant("--illuminant", illuminant)?
         };
         self.document.light = Light::Set(name);
+        Ok(())
+    }
+
+    /// Puts filters in front of the light.
+    pub(super) fn set_filters(&mut self, filters: &[OsString]) -> Result<(), CliError> {
+        for given in filters {
+            let name = if self.means_file("--filter", &[SetKind::Filter], given) {
+                self.open(Path::new(given), Role::Transmittance)?.name.clone()
+            } else {
+                self.name("--filter", SetKind::Filter, &given.to_string_lossy())?
+            };
+            if self.document.filters.contains(&name) {
+                let reason = format!("{name} is there already; a filter can be used once");
+                return Err(CliError::Argument { argument: "--filter", reason });
+            }
+            self.document.filters.push(name);
+        }
         Ok(())
     }
 
@@ -281,21 +316,31 @@ impl Request {
 
     /// Reads a file with all its curves; says what had to be guessed.
     pub(super) fn read(&mut self, path: &Path, role: Role) -> Result<OwnSet, CliError> {
+        let bytes = self.bytes(path)?;
+        self.read_bytes(path, &bytes, role)
+    }
+
+    /// The bytes of a file that is then an input.
+    pub(super) fn bytes(&mut self, path: &Path) -> Result<Vec<u8>, CliError> {
         self.read.push(path.to_owned());
+        read(path).map_err(|error| CliError::File(format!("{}: {}", told(path), io_reason(&error))))
+    }
+
+    /// Reads bytes of a file with all its curves; says what had to be guessed.
+    pub(super) fn read_bytes(&mut self, path: &Path, bytes: &[u8], role: Role) -> Result<OwnSet, CliError> {
         let file = told(path);
-        let bytes = read(path).map_err(|error| CliError::File(format!("{file}: {}", io_reason(&error))))?;
         let mut wishes = ImportOverrides::for_role(Some(role));
         wishes.options.values = self.values.filter(|_| role.is_fraction());
         let table =
-            spectral_file::read(&bytes, &wishes.options).map_err(|error| CliError::File(format!("{file}: {error}")))?;
+            spectral_file::read(bytes, &wishes.options).map_err(|error| CliError::File(format!("{file}: {error}")))?;
         checks::reflectances(&file, role, &table)?;
         checks::channels(&file, role, &table)?;
-        checks::say_role(&file, role, &table, &bytes);
+        checks::say_role(&file, role, &table, bytes);
         wishes.taken = Some((0..table.curves.len()).collect());
         if role == Role::Camera {
             wishes.per_photon = self.per.map(|per| per == Per::Photon);
         }
-        let origin = Origin { path: Some(path.to_owned()), ..Origin::named(&file, &bytes) };
+        let origin = Origin { path: Some(path.to_owned()), ..Origin::named(&file, bytes) };
         let imported = imported(&origin, &table, &wishes);
         if imported.guessed || !table.warnings.is_empty() {
             say(&format!("chromascope: {}\n", imported.message));

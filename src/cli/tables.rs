@@ -218,7 +218,7 @@ fn row_of(heads: &[&str], numbers: &[Option<f64>], conditions: &str) -> String {
 }
 
 /// Fifteen significant digits, without an exponent where that stays short.
-fn significant(value: f64) -> String {
+pub(super) fn significant(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -232,7 +232,7 @@ fn significant(value: f64) -> String {
 }
 
 /// A text field, quoted where it must be, that no spreadsheet takes for a formula.
-fn field(text: &str) -> String {
+pub(super) fn field(text: &str) -> String {
     let text = guarded(text);
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into_owned() }
 }

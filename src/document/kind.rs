@@ -16,6 +16,8 @@ pub enum SetKind {
     Chart,
     /// A light.
     Illuminant,
+    /// Transmittance of a filter in front of the light.
+    Filter,
     /// Single reflectances.
     Material,
     /// Spectra of the user's of which nobody has said what they are of.
@@ -24,8 +26,8 @@ pub enum SetKind {
 
 impl SetKind {
     /// All kinds in the order they are listed.
-    pub const ALL: [Self; 6] =
-        [Self::Camera, Self::Observer, Self::Chart, Self::Illuminant, Self::Material, Self::Unsorted];
+    pub const ALL: [Self; 7] =
+        [Self::Camera, Self::Observer, Self::Chart, Self::Illuminant, Self::Filter, Self::Material, Self::Unsorted];
 
     /// The plural, as shown and as the command line takes it.
     pub const fn plural(self) -> &'static str {
@@ -34,6 +36,7 @@ impl SetKind {
             Self::Observer => "observers",
             Self::Chart => "charts",
             Self::Illuminant => "illuminants",
+            Self::Filter => "filters",
             Self::Material => "materials",
             Self::Unsorted => "unsorted spectra",
         }
@@ -43,7 +46,8 @@ impl SetKind {
     pub const fn of_own(set: &OwnSet) -> Self {
         match set.role {
             Role::Camera => Self::Camera,
-            Role::Reflectance | Role::Transmittance => Self::Chart,
+            Role::Reflectance => Self::Chart,
+            Role::Transmittance => Self::Filter,
             Role::Illuminant => Self::Illuminant,
             Role::Unknown => Self::Unsorted,
         }
@@ -56,6 +60,7 @@ impl SetKind {
             Self::Observer => "observer",
             Self::Chart => "chart",
             Self::Illuminant => "illuminant",
+            Self::Filter => "filter",
             Self::Material => "material",
             Self::Unsorted => "unsorted spectrum",
         }

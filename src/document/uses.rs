@@ -56,6 +56,7 @@ impl Document {
                 self.subset = Subset::All;
             }
             SetKind::Illuminant => self.light = Light::Set(set.name.clone()),
+            SetKind::Filter => self.set_filter(&set.name, true),
             SetKind::Unsorted => {}
         }
     }
@@ -89,6 +90,11 @@ impl Document {
                     self.white = WhiteBalanceChoice::Light(new.to_owned());
                 }
             }
+            SetKind::Filter => {
+                for used in self.filters.iter_mut().filter(|used| *used == old) {
+                    new.clone_into(used);
+                }
+            }
             SetKind::Unsorted => {}
         }
     }
@@ -116,6 +122,7 @@ impl Document {
                     self.white = WhiteBalanceChoice::Unity;
                 }
             }
+            SetKind::Filter => self.set_filter(name, false),
             SetKind::Unsorted => {}
         }
     }

@@ -139,10 +139,8 @@ fn content(entry: &Entry) -> Content<'_> {
             }
         }
         SetKind::Observer => Content::Observer,
-        SetKind::Chart | SetKind::Material => match &entry.place {
-            Place::Own(set) if set.role == Role::Transmittance => Content::Transmittance,
-            _ => Content::Reflectance,
-        },
+        SetKind::Chart | SetKind::Material => Content::Reflectance,
+        SetKind::Filter => Content::Transmittance,
         SetKind::Illuminant => Content::Illuminant,
         SetKind::Unsorted => Content::Other,
     }

@@ -1,13 +1,13 @@
 //! Run time against error of the scene on show, as measured.
 
 use chromascope_figure::{Cell, Figure, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag};
+use chromascope_measure::Measurement;
 use chromascope_measure::method::{Family, Point};
 use chromascope_measure::pareto::{self, Place, duration};
-use chromascope_measure::{Measurement, Report, Workload};
 
+use super::FigureInput;
 use crate::format::number;
 use crate::profiler::{Conditions, SceneRun, Subject, Trial};
-use crate::view::View;
 use crate::view::accuracy::Shows;
 
 /// The size of a saved figure in points.
@@ -85,21 +85,18 @@ fn ratio(value: f64) -> String {
     if value >= 10.0 { format!("{value:.0}") } else { format!("{value:.1}") }
 }
 
-/// The last report of a workload.
-pub fn report(view: &View, workload: Workload) -> Option<&Report> {
-    view.accuracy.reports.get(&workload)?.as_ref().as_ref().ok()
-}
-
 /// The figure as it is saved; none before anything was measured.
-pub fn figure(view: &View) -> Option<Figure> {
-    let subject = match view.accuracy.shows {
+pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
+    let subject = match input.view.accuracy.shows {
         Shows::Scene(subject) => subject,
-        Shows::Bench(workload) => return report(view, workload)?.figure(workload),
+        Shows::Bench(workload) => {
+            return input.measured.reports.get(&workload)?.as_ref().as_ref().ok()?.figure(workload);
+        }
     };
-    let run = view.accuracy.run.as_ref()?;
+    let run = input.measured.run.as_ref()?;
     let trial = trial(run, subject)?;
     let mut figure = Figure::new(format!("Run time against error: {}", subject.what()), SIZE);
-    figure.panels.push(panel(trial, view.accuracy.is_current, SIZE));
+    figure.panels.push(panel(trial, input.measured.is_current, SIZE));
     figure.legend = legend(trial);
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(

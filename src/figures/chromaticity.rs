@@ -5,6 +5,7 @@ mod ground;
 mod loci;
 mod pixel;
 mod points;
+mod whites;
 
 use std::collections::BTreeSet;
 
@@ -17,6 +18,7 @@ use chromascope_core::spectral::sensor::TAIL_BELOW_K;
 
 use crate::document::{Diagram, TransformChoice};
 use crate::plot_item::PickIndex;
+use crate::render_service::RenderedFrame;
 use crate::scene::{ComparedSensor, Scene};
 use crate::view::{DiagramFit, View};
 use drawing::Drawing;
@@ -48,8 +50,8 @@ pub const fn coordinates(diagram: Diagram) -> [&'static str; 2] {
     }
 }
 
-/// Builds the diagram for an area of the given size.
-pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
+/// Builds the diagram for an area of the given size, with the pinned pixel of these pictures.
+pub fn build(scene: &Scene<'_>, view: &View, pictures: Option<&RenderedFrame>, size: [f64; 2]) -> Built {
     let diagram = scene.document.diagram;
     let mut drawing = Drawing {
         scene,
@@ -62,6 +64,7 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
         data: Vec::new(),
     };
     ground::add(&mut drawing);
+    whites::add(&mut drawing);
     let sources: Vec<ComparedSensor> = scene.sources().into_iter().filter(|source| source.visible).collect();
     if scene.document.overlays.camera_spectral_loci {
         loci::add_monochromatic(&mut drawing, &sources);
@@ -72,7 +75,9 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
     if scene.document.overlays.patches {
         points::add(&mut drawing, &sources);
     }
-    pixel::add(&mut drawing, &sources);
+    if let Some(pictures) = pictures {
+        pixel::add(&mut drawing, pictures, &sources);
+    }
     let [x_range, y_range] = ranges(&drawing, view.saved.diagram_fit);
     let [x, y] = coordinates(diagram).map(|name| Axis::new(name, [0.0, 1.0]).with_ticks(Ticks::Auto).with_grid(true));
     let mut panel = Panel::new("Chromaticity", Rect::from_min_size([0.0, 0.0], size), x, y);
@@ -136,7 +141,7 @@ const STRIP: f64 = 120.0;
 pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
     // What the pointer is on has no place on paper.
     let paper = View { saved: view.saved.clone(), ..View::default() };
-    let built = build(scene, &paper, SIZE);
+    let built = build(scene, &paper, None, SIZE);
     let mut figure = Figure::new("Chromaticity", SIZE);
     figure.panels.push(built.panel);
     if let Some(mut strip) = super::strip::build(scene, [SIZE[0], STRIP]) {

@@ -14,10 +14,9 @@ pub use drawn::{Curve, Curves, DRAWN};
 pub use kept::CurveCache;
 pub use on_show::{ImportSelection, places};
 
+use super::FigureInput;
 use crate::format::number;
 use crate::plot_item::PickIndex;
-use crate::scene::Scene;
-use crate::view::View;
 
 /// The size of a saved figure in points.
 const SIZE: [f64; 2] = [640.0, 360.0];
@@ -137,8 +136,8 @@ pub fn describe(curves: &Curves, place: usize, nm: f64) -> Vec<String> {
 }
 
 /// The figure as it is saved, with the values of all curves that are taken.
-pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
-    let shown = ImportSelection::of(scene, view)?;
+pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
+    let shown = ImportSelection::of(input.scene, input.view, input.preview.clone())?;
     let curves = Curves::of(&shown, usize::MAX).ok()?;
     let mut drawn = curves.clone();
     drawn.cut(DRAWN);

@@ -7,6 +7,7 @@ pub mod returned;
 use chromascope_figure::{Anchor, Cell, Figure, Image, Ink, Mark, Panel, Rect, Shape, Table, TextSize};
 
 use self::headline::{Detail, Measure};
+use super::FigureInput;
 use super::chromaticity::viewing_conditions;
 use crate::document::render::RoughnessChoice;
 use crate::format::fixed;
@@ -14,8 +15,7 @@ use crate::plot_item::{PickIndex, SensorId};
 use crate::render_service::RenderedFrame;
 use crate::render_service::pixel::{self, LitPixel, PixelReading, PixelShows};
 use crate::scene::Scene;
-use crate::view::View;
-use crate::view::render::{PixelPlace, RenderMode, RenderView};
+use crate::view::render::{PixelPlace, RenderMode};
 
 /// The width of a saved picture in points, in a grid of two columns.
 const WIDTH: f64 = 340.0;
@@ -29,8 +29,8 @@ pub fn index_of(shot: &RenderedFrame, id: &SensorId) -> Option<usize> {
 }
 
 /// The pictures on show, with captions and numbers; none before there are any.
-pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
-    let shot = view.render.shot.as_deref()?;
+pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
+    let (scene, view, shot) = (input.scene, input.view, input.pictures?);
     let made = shot.made()?;
     let measure = Measure::of(&shot.query);
     let mode = view.saved.render.mode;
@@ -147,15 +147,13 @@ fn table(shot: &RenderedFrame, measure: &str) -> Table {
 }
 
 /// The pixel at a place of a sensor's picture.
-pub fn pixel_of(scene: &Scene<'_>, render: &RenderView, place: &PixelPlace) -> Option<PixelReading> {
-    let shot = render.shot.as_deref()?;
+pub fn pixel_of(scene: &Scene<'_>, shot: &RenderedFrame, place: &PixelPlace) -> Option<PixelReading> {
     pixel::read(shot, scene.results, index_of(shot, &place.source)?, place.at)
 }
 
 /// A pixel in one line.
-pub fn pixel_line(scene: &Scene<'_>, render: &RenderView, place: &PixelPlace) -> Option<String> {
-    let reading = pixel_of(scene, render, place)?;
-    let shot = render.shot.as_deref()?;
+pub fn pixel_line(scene: &Scene<'_>, shot: &RenderedFrame, place: &PixelPlace) -> Option<String> {
+    let reading = pixel_of(scene, shot, place)?;
     let label = &shot.sources.get(index_of(shot, &place.source)?)?.label;
     let [x, y] = reading.at;
     let rest = match &reading.shows {

@@ -4,9 +4,8 @@ use chromascope_figure::{Anchor, Axis, Cell, Figure, InkRole, Mark, Panel, Rect,
 use chromascope_measure::pareto::duration;
 
 use crate::format::capitalized;
-use crate::profiler::{LOCI, PATCHES, SkippedWork};
+use crate::profiler::{LOCI, Measured, PATCHES, SkippedWork};
 use crate::results::Count;
-use crate::view::View;
 
 /// The width of a saved figure, and the height of a row and of what is around them, in points.
 const WIDTH: f64 = 640.0;
@@ -30,20 +29,19 @@ pub struct Section {
 }
 
 /// Sections: work skipped in the last run, and work saved by caching since the start. Sections without rows are left out.
-pub fn sections(view: &View) -> Vec<Section> {
-    let accuracy = &view.accuracy;
-    let at_the_run = if accuracy.is_current { "measured by Run" } else { "measured by Run for an earlier scene" };
-    let run = accuracy.run.as_ref().map_or_else(Vec::new, |run| run.skipped_work.clone());
+pub fn sections(measured: &Measured) -> Vec<Section> {
+    let at_the_run = if measured.is_current { "measured by Run" } else { "measured by Run for an earlier scene" };
+    let run = measured.run.as_ref().map_or_else(Vec::new, |run| run.skipped_work.clone());
     let sections = [
-        Section { when: at_the_run, is_old: !accuracy.is_current, rows: run },
-        Section { when: SINCE_THE_START, is_old: false, rows: accuracy.remembered.clone() },
+        Section { when: at_the_run, is_old: !measured.is_current, rows: run },
+        Section { when: SINCE_THE_START, is_old: false, rows: measured.remembered.clone() },
     ];
     sections.into_iter().filter(|section| !section.rows.is_empty()).collect()
 }
 
 /// As bars over time; none before anything was measured or remembered.
-pub fn figure(view: &View) -> Option<Figure> {
-    let sections = sections(view);
+pub fn figure(measured: &Measured) -> Option<Figure> {
+    let sections = sections(measured);
     let rows = || sections.iter().flat_map(|section| &section.rows);
     let lines = rows().count() + sections.len();
     if sections.is_empty() {
@@ -83,6 +81,7 @@ pub fn figure(view: &View) -> Option<Figure> {
     Some(figure)
 }
 
+/// A row's time in words.
 fn time(row: &SkippedWork) -> String {
     if row.saved > 0.0 { duration(row.saved) } else { "time not measured".to_owned() }
 }
@@ -161,8 +160,10 @@ mod tests {
     #[test]
     fn a_locus_takes_one_time_whoever_tells() {
         let time = Duration::from_micros(100);
-        let counts =
-            [("locus", Count { hits: 10, misses: 2, time, own_time: time }), ("patch colors", Count::default())];
+        let counts = [
+            ("locus", Count { hits: 10, misses: 2, time, own_time: time, ..Count::default() }),
+            ("patch colors", Count::default()),
+        ];
         let run = SkippedWork { what: LOCI.into(), count: 4, of: None, saved: 0.02, how: String::new() };
         let rows = remembered(&counts, &[run]);
         assert_eq!(rows.len(), 1, "what was not asked for again saved nothing");

@@ -1,4 +1,5 @@
-//! Threads for work beside the window and the clock that times it; for tests, a queue and a clock that they drive.
+//! Threads for work beside the window, the answers they share and the clock that times it; for tests, a queue and a clock that
+//! they drive.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -9,9 +10,15 @@ use std::sync::{Arc, LazyLock};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Runs work beside the window: on a thread for each piece, or, where it is [driven](Self::driven), only when told to.
+use crate::results::Results;
+
+/// Runs work beside the window: on a thread for each piece, or, where it is [driven](Self::driven), only when told to. Clones
+/// share their answers.
 #[derive(Clone, Default)]
-pub struct Executor(Option<Rc<Driven>>);
+pub struct Executor {
+    driven: Option<Rc<Driven>>,
+    results: Results,
+}
 
 /// The queue and the clock of an executor that is driven by its owner.
 #[derive(Default)]
@@ -27,22 +34,27 @@ impl Executor {
     /// An executor that runs queued work only when told to, on the caller's thread, and whose clock stands still between calls
     /// of [`advance`](Self::advance). Its clones share queue and clock.
     pub fn driven() -> Self {
-        Self(Some(Rc::default()))
+        Self { driven: Some(Rc::default()), results: Results::default() }
     }
 
     /// True if work waits until it is told to run.
     pub fn is_driven(&self) -> bool {
-        self.0.is_some()
+        self.driven.is_some()
+    }
+
+    /// The answers that all work on this executor shares.
+    pub fn results(&self) -> Results {
+        self.results.clone()
     }
 
     /// The clock that work is timed by.
     pub fn clock(&self) -> Clock {
-        Clock(self.0.as_ref().map(|driven| Arc::clone(&driven.clock)))
+        Clock(self.driven.as_ref().map(|driven| Arc::clone(&driven.clock)))
     }
 
     /// Starts work on a thread of that name, or queues it.
     pub fn spawn(&self, name: &str, work: impl FnOnce() + Send + 'static) -> io::Result<()> {
-        if self.0.is_none() {
+        if self.driven.is_none() {
             return thread::Builder::new().name(name.to_owned()).spawn(work).map(drop);
         }
         let mut work = Some(work);
@@ -55,14 +67,14 @@ impl Executor {
 
     /// Queues work that is run again, behind what was queued meanwhile, for as long as it returns true. Threads run no such work.
     pub(super) fn queue(&self, name: &str, work: impl FnMut() -> bool + 'static) {
-        if let Some(driven) = &self.0 {
+        if let Some(driven) = &self.driven {
             driven.queue.borrow_mut().push_back((name.to_owned(), Box::new(work)));
         }
     }
 
     /// Names of the queued work, in the order in which it will run.
     pub fn queued(&self) -> Vec<String> {
-        self.0
+        self.driven
             .iter()
             .flat_map(|driven| driven.queue.borrow().iter().map(|(name, _)| name.clone()).collect::<Vec<_>>())
             .collect()
@@ -85,13 +97,13 @@ impl Executor {
 
     /// Moves the clock on.
     pub fn advance(&self, by: Duration) {
-        if let Some(driven) = &self.0 {
+        if let Some(driven) = &self.driven {
             driven.clock.fetch_add(u64::try_from(by.as_nanos()).unwrap_or(u64::MAX), Ordering::Relaxed);
         }
     }
 
     fn run_first(&self, wanted: impl Fn(&str) -> bool) -> bool {
-        let Some(driven) = &self.0 else { return false };
+        let Some(driven) = &self.driven else { return false };
         let taken = {
             let mut queue = driven.queue.borrow_mut();
             let place = queue.iter().position(|(name, _)| wanted(name));

@@ -31,7 +31,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::CHROMATICITY,
     title: "Chromaticity",
     show,
-    figure: Some(|scene, view| Some(crate::figures::chromaticity::figure(scene, view))),
+    figure: Some(|input| Some(crate::figures::chromaticity::figure(input.scene, input.view))),
     under_conditions: true,
     table: true,
 };
@@ -84,6 +84,8 @@ fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
         (&mut overlays.patches, "Patches"),
         (&mut overlays.camera_spectral_loci, "Cameras' spectral loci: errors that no 3×3 matrix can correct"),
         (&mut overlays.daylight, "Daylight locus"),
+        (&mut overlays.whites, "Standard whites and the light"),
+        (&mut overlays.isotherms, "Isotherms: lines of equal CCT, to Duv ±0.05"),
         (&mut overlays.srgb, "sRGB"),
         (&mut overlays.dci_p3, "DCI-P3"),
         (&mut overlays.rec2020, "Rec. 2020"),
@@ -97,7 +99,7 @@ fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
-    let built = chromaticity::build(&context.scene, context.view, size);
+    let built = chromaticity::build(&context.scene, context.view, context.studio.frame().map(AsRef::as_ref), size);
     let reference = context.scene.document.reference.clone();
     let shown = {
         let view = &*context.view;

@@ -2,17 +2,18 @@
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::NearestBlackBodyQuery;
-use chromascope_core::query::render::picture::PicturesQuery;
-use chromascope_core::render::Quality;
+use chromascope_core::render::{Quality, Shadows};
 use chromascope_figure::Figure;
 use egui::{Rect, Ui};
 
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
 use crate::command::Command;
+use crate::figures::FigureInput;
 use crate::figures::curves::CurveCache;
 use crate::jobs::Background;
-use crate::profiler::{Profiler, SceneRunQuery};
+use crate::profiler::plans::PlanAnswer;
+use crate::profiler::{Profiler, SceneRunJob};
 use crate::render_service::RenderService;
 use crate::results::Count;
 use crate::scene::Scene;
@@ -29,12 +30,15 @@ pub struct Pane {
     /// Draws the pane in exactly its rectangle.
     pub show: fn(&mut Ui, Rect, &mut PaneContext<'_>),
     /// Figure as on screen, with its numbers, for exports; none while there is nothing to show. None for a pane without figures.
-    pub figure: Option<fn(&Scene<'_>, &View) -> Option<Figure>>,
+    pub figure: Option<fn(&FigureInput<'_>) -> Option<Figure>>,
     /// The figure's numbers depend on the document's conditions, and are written with them.
     pub under_conditions: bool,
     /// The pane can show its numbers as a table instead.
     pub table: bool,
 }
+
+/// Reason that there are no plans.
+pub struct NothingRendered;
 
 /// Everything a pane is given for a frame.
 pub struct PaneContext<'a> {
@@ -73,6 +77,11 @@ impl PaneContext<'_> {
         self.pane(kind).map_or("", |pane| pane.title)
     }
 
+    /// What a figure is made of.
+    pub fn figure_input(&self) -> FigureInput<'_> {
+        FigureInput::of((&self.scene, self.view), self.studio, self.laboratory, self.opened)
+    }
+
     /// Has something done when the frame is over.
     pub fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());
@@ -81,26 +90,37 @@ impl PaneContext<'_> {
     /// Takes in what was measured since the last frame.
     pub fn refresh_run(&mut self) {
         let own = self.meshes.chosen(&self.scene.document.render.mesh);
-        let scene = SceneRunQuery::of(&self.scene, own.as_ref(), self.view.saved.render.orbit);
-        if let Some((run, is_current)) = self.laboratory.shown(&scene) {
-            (self.view.accuracy.run, self.view.accuracy.is_current) = (Some(run), is_current);
-        }
-        if let Some((workload, report)) = self.laboratory.report() {
-            self.view.accuracy.reports.insert(workload, report);
-        }
+        let scene = SceneRunJob::of(&self.scene, own.as_ref(), self.view.saved.render.orbit);
+        self.laboratory.refresh(&scene);
     }
 
-    /// The pictures as they would be made within the document's tolerance.
-    pub fn planned_pictures(&self) -> Option<PicturesQuery> {
+    /// The plan of each rendered sensor, as pictures within the document's tolerance would take it; `Ok(None)` until one is
+    /// made. An error where nothing is rendered.
+    pub fn plans(&self) -> Result<Option<Vec<PlanAnswer>>, NothingRendered> {
         let own = self.meshes.chosen(&self.scene.document.render.mesh);
-        let quality = RelTolerance::new(self.scene.document.render.tolerance).ok().map(Quality::Within)?;
-        SceneRunQuery::pictures_of(&self.scene, own.as_ref(), self.view.saved.render.orbit, quality)
+        let quality = RelTolerance::new(self.scene.document.render.tolerance).ok().map(Quality::Within);
+        let orbit = self.view.saved.render.orbit;
+        let pictures = quality.and_then(|quality| SceneRunJob::pictures_of(&self.scene, own.as_ref(), orbit, quality));
+        let mut pictures = pictures.ok_or(NothingRendered)?;
+        let geometry = &mut pictures.shading.geometry;
+        let on_show = self.studio.frame().map(|frame| &frame.query.shading.geometry).filter(|on_show| {
+            on_show.visibility.mesh == geometry.visibility.mesh
+                && on_show.lighting == geometry.lighting
+                && (on_show.shadows == Shadows::Off) == (geometry.shadows == Shadows::Off)
+        });
+        // Of the pictures on show all angles are known; of those to come they soon will be.
+        let soon = self.studio.is_looked_at() && self.studio.failure().is_none() && !self.view.render.cancelled;
+        if let Some(on_show) = on_show {
+            geometry.clone_from(on_show);
+        }
+        if on_show.is_some() || !soon {
+            self.laboratory.plan(&pictures);
+        }
+        Ok(self.laboratory.plans(&pictures))
     }
 
     /// Hits, misses and times of each kind of question, the window's and the pictures'.
     pub fn counts(&self) -> Vec<(&'static str, Count)> {
-        let mut counts: Vec<(&'static str, Count)> = self.scene.results.counts().into_iter().collect();
-        counts.extend(self.studio.counts());
-        counts
+        self.scene.results.counts().into_iter().collect()
     }
 }

@@ -1,7 +1,5 @@
 //! The curves that a file gives.
 
-use std::time::Duration;
-
 use egui::{Align2, Id, Rect, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
@@ -14,8 +12,6 @@ use crate::workspaces::PaneKind;
 
 /// Reach of the pointer, in points.
 const REACH: f32 = 8.0;
-/// Who waits so long is told that something is going on.
-const PATIENCE: Duration = Duration::from_millis(100);
 
 /// The pane.
 pub const PANE: Pane = Pane {
@@ -36,7 +32,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     };
     if shown.file.is_some() && !shown.is_fresh() {
-        busy_line(ui, body, context);
+        widgets::busy_line(ui, body, context.opened.looking(), context.theme.text);
     }
     let kept = CurveCache::of(&shown, context.curves.take());
     match kept.all() {
@@ -91,17 +87,4 @@ fn sentence(ui: &Ui, body: Rect, words: &str, color: egui::Color32) {
     ui.painter().with_clip_rect(body).galley(rect.min, galley, color);
     let response = ui.interact(rect, ui.scope_id().with("no curves"), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
-}
-
-/// A thin line along the top while a file is read.
-fn busy_line(ui: &Ui, body: Rect, context: &PaneContext<'_>) {
-    let Some(busy) = context.opened.looking() else { return };
-    if let Some(wait) = PATIENCE.checked_sub(busy) {
-        ui.ctx().request_repaint_after(wait);
-        return;
-    }
-    ui.ctx().request_repaint_after(Duration::from_millis(50));
-    let left = body.left() + body.width() * 0.75 * (0.5 - 0.5 * (3.0 * busy.as_secs_f32()).cos());
-    let line = Rect::from_min_size(egui::pos2(left, body.top()), Vec2::new(0.25 * body.width(), 2.0));
-    ui.painter().rect_filled(line, 0.0, context.theme.text);
 }

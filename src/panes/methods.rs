@@ -33,7 +33,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::METHODS,
     title: "Methods",
     show,
-    figure: Some(|_, view| accuracy::figure(view)),
+    figure: Some(accuracy::figure),
     under_conditions: false,
     table: true,
 };
@@ -55,7 +55,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 /// The methods of the scene on show.
 fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_>) {
-    let Some(run) = context.view.accuracy.run.clone() else {
+    let Some(run) = context.laboratory.measured.run.clone() else {
         nothing(ui, body, "Nothing measured yet.", context);
         return;
     };
@@ -78,7 +78,7 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
     let about = format!("{} {MARKS} {}", subject.explained(), run.conditions.on());
     let body = above(ui, body, [&words, &about], &accuracy::legend(trial), context);
     let size = [f64::from(body.width()), f64::from(body.height())];
-    let panel = accuracy::panel(trial, context.view.accuracy.is_current, size);
+    let panel = accuracy::panel(trial, context.laboratory.measured.is_current, size);
     let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
     let id = Id::unique(("run time against error", subject.title()));
     let shown = paint::plot(ui, id, &panel, &context.theme, body, options);
@@ -95,7 +95,7 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
 
 /// The methods of the program on a workload, a panel for each case.
 fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneContext<'_>) {
-    let report = match context.view.accuracy.reports.get(&workload).map(AsRef::as_ref) {
+    let report = match context.laboratory.measured.reports.get(&workload).map(AsRef::as_ref) {
         None if bench().is_none() => {
             without_bench(ui, body);
             return;
@@ -218,8 +218,8 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
         return;
     }
     let again = match now {
-        Shows::Scene(_) => context.view.accuracy.run.is_some(),
-        Shows::Bench(workload) => context.view.accuracy.reports.contains_key(&workload),
+        Shows::Scene(_) => context.laboratory.measured.run.is_some(),
+        Shows::Bench(workload) => context.laboratory.measured.reports.contains_key(&workload),
     };
     let hint = "Measures the methods and the work saved on this scene. Takes a few seconds. Results are lost when \
                 the program ends; export them to save them.";

@@ -12,7 +12,7 @@ use egui::{Align2, FontId, Rect, Sense, Ui, Vec2};
 use super::context::{Pane, PaneContext};
 use crate::panes::widgets;
 use crate::theme::{HEADING, UNIT};
-use crate::view::render::{PixelPlace, RenderMode, RenderView};
+use crate::view::render::{PixelPlace, RenderMode};
 use crate::workspaces::PaneKind;
 use cells::PictureLayout;
 
@@ -40,10 +40,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let busy = context.studio.busy();
     context.view.render.busy = busy;
     if context.view.saved.tables.contains(&PaneKind::RENDER) {
-        if let Some(figure) = crate::figures::render::figure(&context.scene, context.view) {
+        if let Some(figure) = crate::figures::render::figure(&context.figure_input()) {
             widgets::data_table(ui, body, "render", &figure.table);
         }
-        busy_line(ui, body, context);
+        widgets::busy_line(ui, body, busy, context.theme.surround.label());
         return;
     }
     let painter = ui.painter().with_clip_rect(body.intersect(ui.clip_rect()));
@@ -54,7 +54,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     orbit::by_pointer(ui, &response, context);
     orbit::by_keys(ui, &response, context);
     if let Err(words) = asked {
-        context.view.render.shot = None;
+        context.studio.hide();
         say(&painter, body, &words, context);
     } else {
         draw::pictures(ui, &painter, &stand, context);
@@ -62,7 +62,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         draw::divider(ui, &stand, context);
         draw::choosers(ui, &stand, &sources, context);
     }
-    busy_line(ui, body, context);
+    widgets::busy_line(ui, body, busy, context.theme.surround.label());
     if response.has_focus() {
         let stroke = egui::Stroke::new(1.0, context.theme.surround.label());
         ui.painter().rect_stroke(body, 0.0, stroke, egui::StrokeKind::Inside);
@@ -100,24 +100,9 @@ fn point_at(ui: &Ui, response: &egui::Response, stand: &PictureLayout, context: 
         ui.ctx().request_repaint();
     }
     if !response.dragged() {
-        let words = crate::figures::render::pixel_line(&context.scene, &context.view.render, &place);
-        context.view.point = words;
+        let pictures = context.studio.frame();
+        context.view.point = pictures.and_then(|shot| crate::figures::render::pixel_line(&context.scene, shot, &place));
         context.view.hover(Some(&crate::plot_item::PlotItem::Sensor(source)));
         context.view.render.hovered = Some(place);
     }
-}
-
-/// A thin line along the top while pictures are in the making; words stand in the status bar.
-fn busy_line(ui: &Ui, body: Rect, context: &PaneContext<'_>) {
-    let Some(busy) = context.view.render.busy else { return };
-    if let Some(wait) = RenderView::PATIENCE.checked_sub(busy) {
-        ui.ctx().request_repaint_after(wait);
-        return;
-    }
-    ui.ctx().request_repaint_after(std::time::Duration::from_millis(50));
-    let color = context.theme.surround.label();
-    let seconds = busy.as_secs_f32();
-    let left = body.left() + body.width() * 0.75 * (0.5 - 0.5 * (3.0 * seconds).cos());
-    let line = Rect::from_min_size(egui::pos2(left, body.top()), Vec2::new(0.25 * body.width(), 2.0));
-    ui.painter().rect_filled(line, 0.0, color);
 }

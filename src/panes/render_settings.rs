@@ -38,7 +38,7 @@ pub const PANE: Pane = Pane {
 /// Shows the pane in its rectangle.
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let sources = context.view.render.shot.as_deref().map_or(0, |shot| shot.sources.len());
+    let sources = context.studio.frame().map_or(0, |shot| shot.sources.len());
     let kept = context.view.render.pinned.is_some();
     let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 } else { NO_PIXEL };
     let below = if body.height() > WITH_PIXEL { foot } else { 0.0 };

@@ -5,6 +5,7 @@ use egui::{Align, ComboBox, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder
 use super::context::PaneContext;
 use crate::action::{Action, CompareAction, SceneAction};
 use crate::document::{Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::format::signed;
 use crate::panes::widgets::number_field::NumberField;
 use crate::theme::{ROW, UNIT};
 
@@ -24,7 +25,8 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     bar.spacing_mut().item_spacing.x = 3.0 * UNIT;
     let compact = if wide { 1.0 } else { 0.78 };
     field(&mut bar, "Reference", 200.0 * compact, context, reference);
-    field(&mut bar, "Light", 148.0 * compact, context, light);
+    let caption = light_caption(context, wide);
+    captioned(&mut bar, ("Light", &caption), 148.0 * compact, context, light);
     field(&mut bar, temperature_caption(context, wide), slider + 74.0, context, |ui, context| {
         temperature(ui, slider, context);
     });
@@ -44,13 +46,24 @@ fn field(
     context: &mut PaneContext<'_>,
     control: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
 ) {
+    captioned(ui, (caption, caption), width, context, control);
+}
+
+/// The same with a caption that changes, under an id that does not.
+fn captioned(
+    ui: &mut Ui,
+    (id, caption): (&str, &str),
+    width: f32,
+    context: &mut PaneContext<'_>,
+    control: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
+) {
     let (rect, _) = ui.allocate_exact_size(Vec2::new(width, ui.available_height()), Sense::hover());
     let top = Rect::from_min_size(rect.min + Vec2::new(0.0, 2.0), Vec2::new(width + 2.0 * UNIT, 14.0));
-    let mut head = ui.new_child(UiBuilder::new().id_salt((caption, "head")).max_rect(top));
+    let mut head = ui.new_child(UiBuilder::new().id_salt((id, "head")).max_rect(top));
     head.label(RichText::new(caption).small().color(context.theme.weak));
     let below = Rect::from_min_size(rect.min + Vec2::new(0.0, 18.0), Vec2::new(width, ROW));
     let layout = Layout::left_to_right(Align::Center);
-    let mut body = ui.new_child(UiBuilder::new().id_salt(caption).max_rect(below).layout(layout));
+    let mut body = ui.new_child(UiBuilder::new().id_salt(id).max_rect(below).layout(layout));
     body.spacing_mut().item_spacing.x = UNIT;
     control(&mut body, context);
 }
@@ -79,6 +92,16 @@ fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
 }
 
+/// The light's temperature, and that there are filters in front of it.
+fn light_caption(context: &PaneContext<'_>, wide: bool) -> String {
+    let filters = if context.scene.document.filters.is_empty() { "Light" } else { "Filtered" };
+    match context.scene.light_temperature() {
+        Ok(Ok(cct)) if wide => format!("{filters} {:.0} K, Duv {}", cct.temperature.get(), signed(cct.duv)),
+        Ok(Ok(cct)) => format!("{filters} {:.0} K", cct.temperature.get()),
+        _ => filters.to_owned(),
+    }
+}
+
 fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.light.clone();
     let shown = match &now {
@@ -87,7 +110,16 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
         Light::BlackBody => "Blackbody".to_owned(),
         Light::Daylight => "Daylight".to_owned(),
     };
-    choice(ui, "Light", "The light on the scene. Blackbody and Daylight follow the temperature.", &shown, |ui| {
+    let filters = &context.scene.document.filters;
+    let mut hint =
+        "The light on the scene. Blackbody and Daylight follow the temperature. Filters are ticked in the Library."
+            .to_owned();
+    filters.iter().for_each(|filter| hint += &format!("\nFilter: {filter}"));
+    let filtered = !filters.is_empty();
+    choice(ui, "Light", &hint, &shown, |ui| {
+        if filtered && ui.button("Remove filters").clicked() {
+            context.push(Action::Scene(SceneAction::ClearFilters));
+        }
         let mut offer = |ui: &mut Ui, light: Light, words: &str| {
             if ui.selectable_label(now == light, words).clicked() {
                 context.commands.push(Action::Scene(SceneAction::SetLight(light)).into());

@@ -20,7 +20,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::SPECTRA,
     title: "Spectra",
     show,
-    figure: Some(|scene, view| Some(crate::figures::spectra::figure(scene, view))),
+    figure: Some(|input| Some(crate::figures::spectra::figure(input.scene, input.view))),
     under_conditions: false,
     table: true,
 };

@@ -41,7 +41,7 @@ pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut Pa
     let response = ui.interact(right, ui.scope_id().with("facts"), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
     response.on_hover_text(
-        if context.view.render.shot.is_some() && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {
+        if context.studio.frame().is_some() && arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {
             RENDER_FACTS
         } else {
             FACTS
@@ -214,7 +214,7 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
 
 /// Facts while pictures are rendered.
 fn render_facts(context: &PaneContext<'_>) -> Vec<String> {
-    let Some(shot) = context.view.render.shot.as_deref() else { return Vec::new() };
+    let Some(shot) = context.studio.frame() else { return Vec::new() };
     let mut facts = Vec::new();
     let long = context.view.render.busy.filter(|busy| *busy >= LONG);
     if let Some(busy) = long {

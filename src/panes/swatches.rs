@@ -17,7 +17,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::SWATCHES,
     title: "Swatches",
     show,
-    figure: Some(|scene, view| Some(crate::figures::swatches::figure(scene, view))),
+    figure: Some(|input| Some(crate::figures::swatches::figure(input.scene, input.view))),
     under_conditions: true,
     table: true,
 };

@@ -4,7 +4,7 @@ use chromascope_core::render::plan::{Candidate, Verdict};
 use chromascope_measure::pareto::duration;
 use egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2};
 
-use super::context::{Pane, PaneContext};
+use super::context::{NothingRendered, Pane, PaneContext};
 use crate::action::{Action, RenderAction};
 use crate::document::render::RenderSettings;
 use crate::format::capitalized;
@@ -71,14 +71,17 @@ fn set(context: &mut PaneContext<'_>, what: &'static str, change: impl FnOnce(&m
 /// Each sensor with its plan.
 fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let weak = context.theme.weak;
-    let Some(pictures) = context.planned_pictures() else {
-        ui.label("Nothing is rendered: tick a camera, and choose a mesh in Render.");
-        return;
-    };
-    let Some(plans) = context.laboratory.plans(&pictures) else {
-        ui.label(RichText::new("Choosing methods…").color(weak));
-        ui.ctx().request_repaint_after(std::time::Duration::from_millis(100));
-        return;
+    let plans = match context.plans() {
+        Ok(Some(plans)) => plans,
+        Ok(None) => {
+            ui.label(RichText::new("Choosing methods…").color(weak));
+            ui.ctx().request_repaint_after(std::time::Duration::from_millis(100));
+            return;
+        }
+        Err(NothingRendered) => {
+            ui.label("Nothing is rendered: tick a camera, and choose a mesh in Render.");
+            return;
+        }
     };
     for (source, plan) in context.scene.rendered_sources().iter().zip(plans.iter()) {
         ui.horizontal(|ui| {

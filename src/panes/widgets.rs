@@ -6,6 +6,8 @@ pub mod lines;
 pub mod number_field;
 pub mod tolerance;
 
+use std::time::Duration;
+
 use chromascope_figure::{Cell, Ink, LegendEntry, Stroke, Table};
 use egui::{Align, Button, Label, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
 use egui_extras::{Column, TableBuilder};
@@ -17,6 +19,7 @@ use crate::panes::context::{Pane, PaneContext};
 use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
 use crate::theme::{ROW, Theme, UNIT};
+use crate::view::render::RenderView;
 use crate::workspaces::PaneKind;
 
 /// The sentence that says what the window is about.
@@ -112,9 +115,9 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
                 ui.close();
             }
         }
-        if let Some(shot) = context.view.render.shot.clone().filter(|_| kind == PaneKind::RENDER) {
+        if let Some(shot) = context.studio.frame().cloned().filter(|_| kind == PaneKind::RENDER) {
             ui.separator();
-            for source in &shot.sources {
+            for source in shot.sources.iter() {
                 if ui.button(format!("{} as OpenEXR…", source.label)).clicked() {
                     let id = SensorId { kind: source.kind, name: source.name.clone() };
                     context.push(Command::ExportExr(id));
@@ -123,6 +126,19 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
             }
         }
     });
+}
+
+/// A thin line along the top while something has been in the making for long enough to be told of; words stand in the status bar.
+pub fn busy_line(ui: &Ui, body: Rect, busy: Option<Duration>, color: egui::Color32) {
+    let Some(busy) = busy else { return };
+    if let Some(wait) = RenderView::PATIENCE.checked_sub(busy) {
+        ui.ctx().request_repaint_after(wait);
+        return;
+    }
+    ui.ctx().request_repaint_after(Duration::from_millis(50));
+    let left = body.left() + body.width() * 0.75 * (0.5 - 0.5 * (3.0 * busy.as_secs_f32()).cos());
+    let line = Rect::from_min_size(egui::pos2(left, body.top()), Vec2::new(0.25 * body.width(), 2.0));
+    ui.painter().rect_filled(line, 0.0, color);
 }
 
 /// Small pictures drawn with lines, so that no font needs them.

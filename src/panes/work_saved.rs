@@ -18,7 +18,7 @@ pub const PANE: Pane = Pane {
     kind: PaneKind::WORK_SAVED,
     title: "Work saved",
     show,
-    figure: Some(|_, view| skipped_work::figure(view)),
+    figure: Some(|input| skipped_work::figure(input.measured)),
     under_conditions: false,
     table: true,
 };
@@ -28,11 +28,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     context.refresh_run();
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     if !context.view.fixed_clock {
-        let run = context.view.accuracy.run.clone();
-        let measured = run.as_ref().map_or(&[][..], |run| &run.skipped_work);
-        context.view.accuracy.remembered = skipped_work::remembered(&context.counts(), measured);
+        let run = context.laboratory.measured.run.as_ref().map_or(&[][..], |run| &run.skipped_work);
+        context.laboratory.measured.remembered = skipped_work::remembered(&context.counts(), run);
     }
-    let sections = skipped_work::sections(context.view);
+    let sections = skipped_work::sections(&context.laboratory.measured);
     if context.view.saved.tables.contains(&PaneKind::WORK_SAVED) {
         widgets::data_table(ui, body, "skipped", &skipped_work::table(&sections));
         return;
@@ -41,7 +40,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let mut child = ui.new_child(UiBuilder::new().id_salt("skipped").max_rect(inner));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
     ScrollArea::vertical().id_salt("skipped").auto_shrink(false).show(&mut child, |ui| {
-        if context.view.accuracy.run.is_none() {
+        if context.laboratory.measured.run.is_none() {
             ui.horizontal(|ui| {
                 if context.laboratory.busy().is_none() && ui.button("Run").clicked() {
                     context.push(Command::SpectralWeights);
@@ -103,7 +102,7 @@ fn table(ui: &mut Ui, sections: &[Section], context: &PaneContext<'_>) {
             }
         }
     }
-    if context.view.accuracy.run.is_some() {
+    if context.laboratory.measured.run.is_some() {
         ui.add_space(2.0 * UNIT);
         ui.label(small(super::NOT_KEPT));
     }

@@ -6,7 +6,7 @@ use chromascope_core::query::{LocusQuery, PatchColorsQuery, Shared};
 use chromascope_core::render::{Quality, RasterSize, Shadows};
 use chromascope_mesh::Mesh;
 
-use super::SceneRunQuery;
+use super::SceneRunJob;
 use crate::scene::orbit::Orbit;
 use crate::scene::render::Finish;
 use crate::scene::{ComparedSensor, Scene};
@@ -15,7 +15,7 @@ use crate::scene::{ComparedSensor, Scene};
 const WIDTH: u32 = 480;
 const HEIGHT: u32 = 360;
 
-impl SceneRunQuery {
+impl SceneRunJob {
     /// Asks what a scene costs; a file's mesh is `own`, once it was read.
     pub fn of(scene: &Scene<'_>, own: Option<&Shared<Mesh>>, orbit: Option<Orbit>) -> Self {
         let sources = scene.sources();
@@ -38,7 +38,6 @@ impl SceneRunQuery {
             sensors: shown.iter().filter_map(|source| scene.sensor(source.kind, &source.name).ok()).collect(),
             loci: renderings.iter().filter_map(locus).collect(),
             patches: renderings.iter().filter_map(colors).collect(),
-            run: 0,
         }
     }
 

@@ -5,7 +5,7 @@ use chromascope_measure::Machine;
 use chromascope_measure::harness::now;
 use serde::{Deserialize, Serialize};
 
-use super::{SceneRunQuery, Subject, Trial};
+use super::{SceneRunJob, Subject, Trial};
 use crate::format::number;
 use crate::scene::Scene;
 
@@ -27,7 +27,7 @@ pub struct Conditions {
 
 impl Conditions {
     /// Those of a run that begins now.
-    pub(super) fn now(run: &SceneRunQuery) -> Self {
+    pub(super) fn now(run: &SceneRunJob) -> Self {
         Self {
             scene: run.scene.clone(),
             sensors: run.sensors.len(),

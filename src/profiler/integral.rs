@@ -10,7 +10,7 @@ use chromascope_core::render::{Against, Demand, Plan, Quality, ShadingImage, Spe
 use chromascope_measure::harness::timed;
 use chromascope_measure::method::{Family, Method, Point, compare, largest, together};
 
-use super::{SceneRunQuery, Subject, Trial};
+use super::{SceneRunJob, Subject, Trial};
 
 /// At most so many samples are measured on.
 const SAMPLES: usize = 300;
@@ -23,7 +23,7 @@ const REGIMES: &str = "401 wavelengths, the paper's cases";
 type Tolerance = (RelTolerance, String);
 
 /// Measures; none where nothing is rendered, where no sample takes an integral, and if stopped.
-pub(super) fn trial(run: &SceneRunQuery, ask: &impl Ask) -> Option<Trial> {
+pub(super) fn trial(run: &SceneRunJob, ask: &impl Ask) -> Option<Trial> {
     let pictures = run.pictures.as_ref()?;
     if pictures.shading.reading == Normalization::Lambertian {
         return None;
@@ -134,8 +134,8 @@ fn by_quality(quality: Quality) -> &'static str {
     match quality {
         Quality::Reference | Quality::Within(_) => EXACT,
         Quality::Regimes => REGIMES,
-        Quality::Preview => "6 wavelengths, 4 moments",
-        Quality::Full => "9 wavelengths, 4 moments",
+        Quality::Preview => "6 wavelengths, 8 moments",
+        Quality::Full => "9 wavelengths, 8 moments",
         Quality::Fine => "15 wavelengths",
     }
 }

@@ -8,7 +8,7 @@ use chromascope_measure::harness::timed;
 use chromascope_measure::loci::{LocusMethod, locus_methods};
 use chromascope_measure::method::{Method, Point, compare, largest, together};
 
-use super::{SceneRunQuery, Subject, Trial};
+use super::{SceneRunJob, Subject, Trial};
 
 /// Number of temperatures, evenly in 1/T over the range on show.
 const TEMPERATURES: usize = 200;
@@ -16,7 +16,7 @@ const FROM_K: f64 = 1000.0;
 const TO_K: f64 = 20_000.0;
 
 /// Measures; none without sensors, and if stopped.
-pub(super) fn trial(run: &SceneRunQuery, ask: &impl Ask) -> Option<Trial> {
+pub(super) fn trial(run: &SceneRunJob, ask: &impl Ask) -> Option<Trial> {
     let temperatures: Vec<Kelvin> = (0..TEMPERATURES)
         .filter_map(|i| {
             let t = i as f64 / (TEMPERATURES - 1) as f64;

@@ -17,7 +17,7 @@ use chromascope_measure::harness::shortest;
 use chromascope_measure::pareto::duration;
 use serde::{Deserialize, Serialize};
 
-use super::SceneRunQuery;
+use super::SceneRunJob;
 pub use panes::{LOCI, PATCHES};
 use ways::Ways;
 
@@ -42,7 +42,7 @@ pub struct SkippedWork {
 }
 
 /// All rows. What is stopped on the way is left out.
-pub(super) fn rows(run: &SceneRunQuery, ask: &impl Ask) -> Vec<SkippedWork> {
+pub(super) fn rows(run: &SceneRunJob, ask: &impl Ask) -> Vec<SkippedWork> {
     let mut rows = Vec::new();
     if let Some(pictures) = &run.pictures {
         rows.extend(of_pictures(pictures, ask).unwrap_or_default());

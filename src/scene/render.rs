@@ -29,8 +29,7 @@ impl Scene<'_> {
     /// The material's reflectance: the first of a set of several.
     pub fn material(&self, name: &str) -> Result<Shared<GridSpectrum>, SceneError> {
         let no_set = || SceneError::NoSet { kind: SetKind::Material, name: name.to_owned() };
-        let known =
-            self.entry(SetKind::Material, name).or_else(|_| self.entry(SetKind::Chart, name)).map_err(|_| no_set())?;
+        let known = self.entry(SetKind::Material, name).or_else(|_| self.chart_entry(name)).map_err(|_| no_set())?;
         let set = self.loaded_patches(known.place, name, None)?;
         let patch = set.patches().first().ok_or_else(no_set)?;
         Ok(Shared::new(patch.grid.clone()))

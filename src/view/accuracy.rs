@@ -1,25 +1,14 @@
 //! What is looked at in Accuracy.
 
-use std::collections::BTreeMap;
-use std::sync::Arc;
+use chromascope_measure::Workload;
 
-use chromascope_measure::{Report, Workload};
-
-use crate::profiler::{SceneRun, SkippedWork, Subject};
+use crate::profiler::Subject;
 
 /// What is looked at in Accuracy.
 #[derive(Clone, Debug, Default)]
 pub struct AccuracyView {
     /// Whose methods are on show.
     pub shows: Shows,
-    /// The last run on the scene.
-    pub run: Option<Arc<SceneRun>>,
-    /// True if it is of the scene as it is now.
-    pub is_current: bool,
-    /// What was remembered since the start.
-    pub remembered: Vec<SkippedWork>,
-    /// The last reports of the bench.
-    pub reports: BTreeMap<Workload, Arc<Result<Report, String>>>,
 }
 
 /// Whose methods are on show.

@@ -1,13 +1,12 @@
 //! What is looked at in Import.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 use chromascope_core::query::Shared;
 use serde::{Deserialize, Serialize};
 
 use crate::catalog::likeness::Likeness;
-use crate::catalog::opened::{Failing, FilePreview};
+use crate::catalog::opened::Failing;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 
 /// So many kinds of files are remembered.
@@ -43,8 +42,6 @@ pub struct ImportView {
     pub search: String,
     /// Curves under the pointer, by place in the file.
     pub hovered_curve: Option<usize>,
-    /// What the file on show was last understood as.
-    pub look: Option<Arc<FilePreview>>,
 }
 
 /// A place in Import where the keyboard stops on its way from pane to pane.

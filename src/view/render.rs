@@ -1,13 +1,11 @@
 //! How the rendered mesh is looked at: the orbit, how pictures stand, the pixel that is read.
 
-use std::sync::Arc;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use crate::paint::PictureTextures;
 use crate::plot_item::SensorId;
-use crate::render_service::RenderedFrame;
 pub use crate::scene::orbit::Orbit;
 
 /// The part that is kept between runs.
@@ -64,8 +62,6 @@ pub struct PixelPlace {
 /// What the pane shows now.
 #[derive(Debug, Default)]
 pub struct RenderView {
-    /// The pictures on show.
-    pub shot: Option<Arc<RenderedFrame>>,
     /// The pixel that is kept.
     pub pinned: Option<PixelPlace>,
     /// The pixel under the pointer.

@@ -41,7 +41,7 @@ fn take_in(window: &mut Window) {
 }
 
 fn run(window: &Window) -> std::sync::Arc<SceneRun> {
-    window.state().view().accuracy.run.clone().expect("something was measured")
+    window.state().laboratory().measured.run.clone().expect("something was measured")
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn nothing_is_measured_unasked() {
     window.state_mut().push(Command::Show(Workspace::Accuracy));
     window.run_steps(3);
     assert!(window.state().laboratory().busy().is_none());
-    assert!(window.state().view().accuracy.run.is_none());
+    assert!(window.state().laboratory().measured.run.is_none());
     assert!(window.query_by_label("Nothing measured yet.").is_some());
 }
 
@@ -82,20 +82,20 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     assert!(terms.of.is_some_and(|of| terms.count <= of && terms.count / 99 > of / 100), "{terms:?}");
     assert!(measured.skipped_work.iter().all(|row| row.saved.is_finite() && row.saved >= 0.0 && !row.how.is_empty()));
     assert!(window.query_by_label("Run again").is_some());
-    assert!(window.state().view().accuracy.is_current);
+    assert!(window.state().laboratory().measured.is_current);
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let remembered = window.state().view().accuracy.remembered.len();
-    let figure = panes::figure(PaneKind::WORK_SAVED, &scene, window.state().view()).expect("measured");
+    let remembered = window.state().laboratory().measured.remembered.len();
+    let figure = panes::figure(PaneKind::WORK_SAVED, &window.state().figure_input(&scene)).expect("measured");
     assert!(remembered > 0 && figure.table.rows.len() == measured.skipped_work.len() + remembered, "as on screen");
     for pane in [PaneKind::METHODS, PaneKind::WORK_SAVED] {
-        let figure = panes::figure(pane, &scene, window.state().view()).expect("measured");
+        let figure = panes::figure(pane, &window.state().figure_input(&scene)).expect("measured");
         assert!(figure.table.rows.len() >= 6);
         let paper = chromascope::export::Paper::default();
         let svg = chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, paper);
         assert!(svg.contains("</svg>") && !svg.contains("NaN") && !figure.table.to_csv().contains("NaN"));
     }
-    let figure = panes::figure(PaneKind::METHODS, &scene, window.state().view()).expect("measured");
+    let figure = panes::figure(PaneKind::METHODS, &window.state().figure_input(&scene)).expect("measured");
     let (conditions, csv) = (&measured.conditions, figure.table.to_csv());
     assert!(conditions.scene.starts_with("head, Skin Caucasian mean") && conditions.scene.contains("E, equal energy"));
     for part in [&conditions.scene, &conditions.machine, &conditions.program, &conditions.began] {
@@ -105,12 +105,12 @@ fn a_run_has_times_errors_figures_and_what_was_left_out() {
     assert!(csv.contains("largest error (of the peak J(κ, 0))") && csv.contains(" (reference)"), "{csv}");
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::BlackBody)));
     window.run_steps(3);
-    assert!(!window.state().view().accuracy.is_current, "the scene has another light than the run");
+    assert!(!window.state().laboratory().measured.is_current, "the scene has another light than the run");
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::METHODS, &scene, window.state().view()).expect("measured");
+    let figure = panes::figure(PaneKind::METHODS, &window.state().figure_input(&scene)).expect("measured");
     assert!(!figure.title.contains("on show") && !figure.caption.contains("on show"), "{}", figure.caption);
     assert!(figure.caption.contains("E, equal energy"), "the light that it was measured under");
-    assert!(window.state().view().accuracy.run.is_some());
+    assert!(window.state().laboratory().measured.run.is_some());
 }
 
 #[test]
@@ -186,7 +186,7 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.run_steps(2);
     window.state().studio().wait();
     window.run_steps(3);
-    let shot = window.state().view().render.shot.clone().expect("pictures");
+    let shot = window.state().studio().frame().cloned().expect("pictures");
     assert_eq!(shot.query.shading.quality.given_tolerance().map(RelTolerance::max_relative_error), Some(1e-6));
     assert!(shot.made().is_some_and(|made| made.shading.spectral > 1000));
     window.state_mut().push(Command::Undo);
@@ -281,7 +281,7 @@ fn escape_stops_measuring() {
     assert!(window.state().laboratory().busy().is_none());
     executor.run_all();
     window.run_steps(2);
-    assert!(window.state().view().accuracy.run.is_none());
+    assert!(window.state().laboratory().measured.run.is_none());
 }
 
 #[test]
@@ -291,13 +291,14 @@ fn a_report_of_the_bench_is_shown_and_exported() {
     let view = window.state_mut().view_mut();
     view.saved.workspace = Workspace::Accuracy;
     view.accuracy.shows = Shows::Bench(Workload::Difference);
-    view.accuracy.reports.insert(Workload::Difference, Arc::new(Ok(report.clone())));
+    let measured = &mut window.state_mut().laboratory_mut().measured;
+    measured.reports.insert(Workload::Difference, Arc::new(Ok(report.clone())));
     window.run_steps(3);
     assert!(window.query_by_label("Nothing measured yet. A quick run takes a few seconds.").is_none());
     assert_eq!(window.query_by_label("Run again").is_some(), cfg!(feature = "bench"));
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::METHODS, &scene, window.state().view()).expect("measured");
+    let figure = panes::figure(PaneKind::METHODS, &window.state().figure_input(&scene)).expect("measured");
     assert_eq!(figure.table.rows.len(), report.measurements.len());
     // Each method's mark says which measurement it is.
     for panel in &figure.panels {

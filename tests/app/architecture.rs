@@ -23,6 +23,8 @@ const CORE_LAYERS: &[&str] = &[
     "colorimetry",
     "light",
     "patch_set",
+    "correction",
+    "rendition",
     "camera",
     "reflectance",
     "scene",
@@ -92,7 +94,7 @@ fn core_modules_use_only_what_is_above_them() {
 
 #[test]
 fn crates_of_the_core_are_functions_of_their_arguments() {
-    for krate in ["core/figure", "core/math", "core/mesh", "core/spectral-file", "core/text"] {
+    for krate in ["core/figure", "core/math", "core/mesh", "core/spectral-file", "core/spectral-image", "core/text"] {
         hold(sources(&format!("{krate}/src")).iter().flat_map(|(path, text)| pure(path, text)));
     }
 }

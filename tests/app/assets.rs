@@ -10,7 +10,7 @@ use chromascope::document::SetKind;
 use chromascope_core::spectral::Dataset;
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets");
-const FOLDERS: [&str; 5] = ["observers", "cameras", "charts", "illuminants", "materials"];
+const FOLDERS: [&str; 7] = ["observers", "cameras", "charts", "illuminants", "materials", "filters", "test-samples"];
 const RESPONSES: [&str; 5] =
     ["per energy (stated)", "per energy (inferred)", "per photon (stated)", "per photon (inferred)", "unknown"];
 /// Header keys in the order they must have; the flag says whether the key may be left out.
@@ -57,7 +57,7 @@ impl DataFile {
     /// Names under which the file's sets are found: the title, or the column heads where a file
     /// holds several sets.
     fn set_names(&self) -> Vec<String> {
-        let several = matches!(self.folder, "illuminants" | "materials") && self.heads.len() > 2;
+        let several = matches!(self.folder, "illuminants" | "materials" | "filters") && self.heads.len() > 2;
         if several { self.heads[1..].to_vec() } else { self.value("title").map(str::to_owned).into_iter().collect() }
     }
 }
@@ -222,9 +222,13 @@ fn sensitivities_have_the_columns_of_their_kind() {
 
 #[test]
 fn reflectances_are_plausible() {
-    for file in data_files().into_iter().filter(|file| matches!(file.folder, "charts" | "materials")) {
+    for file in data_files()
+        .into_iter()
+        .filter(|file| matches!(file.folder, "charts" | "materials" | "test-samples" | "filters"))
+    {
         // One fluorescent sample is higher; its file has to say so.
         let limit = if file.notes_mention("above 1.2") { 1.5 } else { 1.2 };
+        let limit = if file.folder == "filters" { 1.0 } else { limit };
         for (line, fields) in &file.rows {
             for field in &fields[1..] {
                 let value = number(&file, *line, field);

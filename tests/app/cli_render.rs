@@ -74,7 +74,7 @@ fn as_in_the_window(samples: u32, quality: Quality) -> (Pictures, [f64; 3]) {
         render: RenderSettings { mesh: MeshChoice::Sphere, triangles: 800, ..RenderSettings::default() },
         ..Document::paper()
     };
-    let (catalog, results) = (Catalog::built_in(), Results::bounded());
+    let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let viewpoint = Orbit::of(&MeshChoice::Sphere).viewpoint(40.0 / 30.0).unwrap();
     let size = RasterSize { width: 40, height: 30, samples };

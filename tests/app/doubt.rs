@@ -43,7 +43,7 @@ fn lines<'a>(marks: &'a [Mark], name: &str) -> Vec<(Dash, Vec<&'a [f64; 2]>)> {
 #[test]
 fn a_locus_is_dotted_where_its_table_ends_too_early() {
     with(&both(), |scene| {
-        let built = chromaticity::build(scene, &View::default(), [800.0, 600.0]);
+        let built = chromaticity::build(scene, &View::default(), None, [800.0, 600.0]);
         let figure = lines(&built.panel.marks, "Nikon D70 (2007)");
         let [(Dash::Solid, solid), (Dash::Dotted, dotted)] = figure.as_slice() else { panic!("{figure:?}") };
         // 200 points evenly in mired from 1000 to 20000 K: 126 of them below 2500 K, and the one where the two meet.

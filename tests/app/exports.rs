@@ -3,6 +3,7 @@
 use chromascope::catalog::Catalog;
 use chromascope::document::{Document, Subset, TransformChoice};
 use chromascope::export::{Paper, png, png_file, svg};
+use chromascope::figures::FigureInput;
 use chromascope::panes;
 use chromascope::results::Results;
 use chromascope::scene::{LOCUS_POINTS, Scene};
@@ -27,7 +28,7 @@ fn every_figure_becomes_svg_png_and_numbers() {
     for (index, document) in documents().iter().enumerate() {
         let scene = Scene { document, catalog: &catalog, results: &results };
         for pane in PICTURED {
-            let figure = panes::figure(pane, &scene, &View::default()).expect("it has a figure");
+            let figure = panes::figure(pane, &FigureInput::new(&scene, &View::default())).expect("it has a figure");
             let text = svg(&figure, &Theme::LIGHT, Paper::default());
             assert!(!text.contains("NaN") && !text.contains("inf"), "{pane:?}");
             let picture = png(&text, 2.0).expect("the SVG is well formed");
@@ -46,7 +47,7 @@ fn numbers_are_those_of_the_scene() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::paper());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let view = View::default();
-    let rows = |pane| panes::figure(pane, &scene, &view).unwrap().table.rows.len();
+    let rows = |pane| panes::figure(pane, &FigureInput::new(&scene, &view)).unwrap().table.rows.len();
     assert_eq!(rows(PaneKind::CHROMATICITY), 5 * (LOCUS_POINTS + 5), "five sources, loci and patches");
     assert_eq!(rows(PaneKind::SWATCHES), 4 * 5, "CIE 1931 is left out by Paper");
     assert_eq!(rows(PaneKind::SPECTRA), 401);
@@ -56,5 +57,5 @@ fn numbers_are_those_of_the_scene() {
 fn panes_without_a_figure_have_none() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::paper());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    assert!(panes::figure(PaneKind::INSPECTOR, &scene, &View::default()).is_none());
+    assert!(panes::figure(PaneKind::INSPECTOR, &FigureInput::new(&scene, &View::default())).is_none());
 }

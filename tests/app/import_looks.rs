@@ -50,7 +50,7 @@ fn spikes_beyond_the_plot_are_said_and_not_drawn() {
     let (document, view) = of("lamp.csv", &noisy());
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let shown = ImportSelection::of(&scene, &view).unwrap();
+    let shown = ImportSelection::of(&scene, &view, None).unwrap();
     let curves = curves::Curves::of(&shown, 10).unwrap();
     for height in [90.0, 160.0, 600.0] {
         let panel = curves::panel(&curves, [600.0, height], None);

@@ -44,7 +44,8 @@ fn settle(window: &mut Window) {
 
 /// How often each kind of question about the files was computed.
 fn computed(window: &Window) -> Vec<(&'static str, u64)> {
-    window.state().opened().counts().into_iter().map(|(name, count)| (name, count.misses)).collect()
+    let counts = window.state().results().counts().into_iter().filter(|(name, _)| name.ends_with(" a file"));
+    counts.map(|(name, count)| (name, count.misses)).collect()
 }
 
 /// Whether something on screen says this.

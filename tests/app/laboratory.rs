@@ -5,13 +5,13 @@ use chromascope::catalog::Catalog;
 use chromascope::command::Command;
 use chromascope::document::render::{MeshChoice, ReadingChoice, RenderSettings};
 use chromascope::document::{Document, Light};
-use chromascope::jobs::Executor;
+use chromascope::jobs::{Executor, Job as _};
 use chromascope::panes;
-use chromascope::profiler::{Profiler, SceneRunQuery};
+use chromascope::profiler::{Profiler, SceneRunJob};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::workspaces::{PaneKind, Workspace};
-use chromascope_core::query::Ask;
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::QualityLevel;
 use chromascope_core::render::RasterSize;
 use egui_kittest::kittest::Queryable;
@@ -21,12 +21,12 @@ use crate::screenshots::{accuracy, driven, open};
 const KEPT: &str = "Measured results are lost when the program ends; export them to save them.";
 
 /// What the default cameras cost on a small picture of a sphere.
-fn small(change: impl FnOnce(&mut Document)) -> SceneRunQuery {
+fn small(change: impl FnOnce(&mut Document)) -> SceneRunJob {
     let mut document = Document::paper();
     (document.render.mesh, document.render.triangles) = (MeshChoice::Sphere, 2000);
     change(&mut document);
     let (catalog, results) = (Catalog::built_in(), Results::default());
-    let mut run = SceneRunQuery::of(&Scene { document: &document, catalog: &catalog, results: &results }, None, None);
+    let mut run = SceneRunJob::of(&Scene { document: &document, catalog: &catalog, results: &results }, None, None);
     let pictures = run.pictures.as_mut().expect("there is a mesh");
     pictures.shading.geometry.visibility.size = RasterSize { width: 64, height: 48, samples: 1 };
     run
@@ -35,13 +35,12 @@ fn small(change: impl FnOnce(&mut Document)) -> SceneRunQuery {
 #[test]
 fn a_second_run_measures_computing_and_not_remembering() {
     let scene = small(|document| document.render.reading = ReadingChoice::Lambertian);
-    // As a worker that lives on asks for one run after the other.
-    let results = Results::bounded();
-    let runs = [1, 2].map(|run| results.ask(&SceneRunQuery { run, ..scene.clone() }));
+    let results = Results::default();
+    let runs = [1, 2].map(|_| scene.run(&results));
     for run in &runs {
         assert!(run.skipped_work.iter().any(|row| row.what == "pictures, while Render is not visible"));
     }
-    assert_eq!(results.counts().len(), 1, "nothing is remembered but the runs: {:?}", results.counts());
+    assert!(results.counts().is_empty(), "nothing is remembered: {:?}", results.counts());
 }
 
 #[test]
@@ -55,16 +54,20 @@ fn plans_are_of_the_sources_that_are_asked_for() {
     };
     let (all, fewer, more) = (with(&[0, 1, 2]), with(&[2, 1]), with(&[2, 3]));
     let laboratory = Profiler::on(&Executor::driven(), || ());
-    assert!(laboratory.plans(&all).is_none());
+    let planned = |pictures: &PicturesQuery| {
+        laboratory.plan(pictures);
+        laboratory.plans(pictures)
+    };
+    assert!(planned(&all).is_none());
     laboratory.wait();
-    let plans = laboratory.plans(&all).expect("made");
+    let plans = planned(&all).expect("made");
     assert!(plans.iter().all(|plan| matches!(plan, Ok(Some(_)))), "{plans:?}");
-    let two = laboratory.plans(&fewer).expect("known from before");
+    let two = planned(&fewer).expect("known from before");
     assert_eq!(two, [plans[2].clone(), plans[1].clone()]);
     laboratory.wait();
-    assert!(laboratory.plans(&more).is_none_or(|plans| plans.len() == 2), "none under a wrong name");
+    assert!(planned(&more).is_none_or(|plans| plans.len() == 2), "none under a wrong name");
     laboratory.wait();
-    assert_eq!(laboratory.plans(&more).expect("made")[0], plans[2]);
+    assert_eq!(planned(&more).expect("made")[0], plans[2]);
 }
 
 #[test]
@@ -79,8 +82,8 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     window.state().laboratory().wait();
     window.run_steps(3);
     let is_current = |window: &egui_kittest::Harness<'static, chromascope::app::ChromascopeApp>| {
-        assert!(window.state().view().accuracy.run.is_some());
-        window.state().view().accuracy.is_current
+        assert!(window.state().laboratory().measured.run.is_some());
+        window.state().laboratory().measured.is_current
     };
     let (now, then) = ("Measured by Run", "Measured by Run for an earlier scene");
     assert!(is_current(&window) && window.query_by_label(now).is_some());
@@ -97,7 +100,7 @@ fn what_is_measured_is_of_the_scene_that_it_was_measured_on() {
     assert!(window.query_by_label(then).is_some() && window.query_by_label(now).is_none());
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: window.state().history().document(), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::WORK_SAVED, &scene, window.state().view()).expect("measured");
+    let figure = panes::figure(PaneKind::WORK_SAVED, &window.state().figure_input(&scene)).expect("measured");
     assert!(figure.table.to_csv().contains("for an earlier scene"));
     let svg =
         chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, chromascope::export::Paper::default());

@@ -134,7 +134,7 @@ struct Pictures {
 
 impl Pictures {
     fn new() -> Self {
-        let mut pictures = Self { desk: Desk::new(), worker: Results::bounded(), orbit: Orbit::default() };
+        let mut pictures = Self { desk: Desk::new(), worker: Results::default(), orbit: Orbit::default() };
         pictures.desk.document.render.triangles = 2000;
         // Smoother than what the closed form holds for, so that tables are needed.
         pictures.desk.document.render.sigma_um = 0.3;

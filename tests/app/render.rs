@@ -13,7 +13,6 @@ use chromascope::document::{Document, Light, SetKind, WhiteBalanceChoice, sessio
 use chromascope::panes;
 use chromascope::plot_item::SensorId;
 use chromascope::scene::Scene;
-use chromascope::view::View;
 use chromascope::view::render::{PixelPlace, RenderMode};
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::render::QualityLevel;
@@ -60,8 +59,12 @@ fn small() -> Window {
 
 /// How often a kind of question was computed.
 fn made(window: &Window, name: &str) -> u64 {
-    let counts = window.state().studio().counts();
-    counts.iter().find(|(counted, _)| *counted == name).map_or(0, |(_, count)| count.misses)
+    window.state().results().counts().get(name).map_or(0, |count| count.misses)
+}
+
+/// How often each kind of question was computed.
+fn computed(window: &Window) -> Vec<(&'static str, u64)> {
+    window.state().results().counts().into_iter().map(|(name, count)| (name, count.misses)).collect()
 }
 
 /// The captions of the pictures on show.
@@ -84,7 +87,7 @@ fn the_truth_and_three_cameras_stand_side_by_side() {
         captions[1..].iter().all(|caption| caption.contains("Δxy 0.0") && caption.contains(" facing light, median ")),
         "{captions:?}"
     );
-    let shot = window.state().view().render.shot.clone().unwrap();
+    let shot = window.state().studio().frame().cloned().unwrap();
     assert!(shot.is_last && shot.query.shading.geometry.visibility.size.samples == 3);
     let pixels = &shot.made().unwrap().pictures[0].as_ref().unwrap().rgba;
     assert!(pixels.chunks_exact(4).any(|pixel| pixel[0] > 200), "it is lit");
@@ -182,7 +185,7 @@ fn a_mesh_that_is_gone_is_said_in_place_of_pictures() {
     });
     window.run_steps(2);
     assert!(captions(&window).is_empty());
-    assert!(window.state().view().render.shot.is_none() && window.state().studio().busy().is_none());
+    assert!(window.state().studio().frame().is_none() && window.state().studio().busy().is_none());
 }
 
 #[test]
@@ -240,7 +243,7 @@ fn a_hidden_camera_is_not_computed() {
     render(&mut window, |settings| settings.exposure_ev = 0.5);
     settle(&mut window);
     assert_eq!(made(&window, "picture"), pictures + 3);
-    let shot = window.state().view().render.shot.clone().unwrap();
+    let shot = window.state().studio().frame().cloned().unwrap();
     assert!(shot.sources.iter().all(|source| source.name != "Nikon D70 (2007 figure)"));
     assert_eq!(shot.query.sources.len(), 3);
 }
@@ -250,22 +253,22 @@ fn a_hidden_workspace_asks_nothing() {
     let mut window = small();
     window.state_mut().push(Command::Show(Workspace::Compare));
     settle(&mut window);
-    let counts = window.state().studio().counts();
+    let before = computed(&window);
     render(&mut window, |settings| settings.sigma_um = 3.0);
     settle(&mut window);
-    assert_eq!(window.state().studio().counts(), counts);
+    assert_eq!(computed(&window), before);
     assert!(window.state().studio().busy().is_none());
 }
 
 #[test]
 fn nothing_moves_when_nothing_changes() {
     let mut window = small();
-    let serial = window.state().view().render.shot.as_ref().unwrap().serial;
-    let counts = window.state().studio().counts();
+    let serial = window.state().studio().frame().unwrap().serial;
+    let before = computed(&window);
     window.run_steps(4);
     assert!(!window.ctx.has_requested_repaint());
-    assert_eq!(window.state().studio().counts(), counts);
-    assert_eq!(window.state().view().render.shot.as_ref().unwrap().serial, serial);
+    assert_eq!(computed(&window), before);
+    assert_eq!(window.state().studio().frame().unwrap().serial, serial);
 }
 
 #[test]
@@ -388,7 +391,7 @@ fn every_way_to_stand_makes_its_pictures() {
     for (mode, pictures) in [(RenderMode::Split, 2), (RenderMode::One, 2), (RenderMode::Difference, 4)] {
         window.state_mut().view_mut().saved.render.mode = mode;
         settle(&mut window);
-        let shot = window.state().view().render.shot.clone().unwrap();
+        let shot = window.state().studio().frame().cloned().unwrap();
         assert_eq!(shot.sources.len(), pictures, "{mode:?}");
         let differences = shot.made().unwrap().differences.iter().flatten();
         assert!(mode != RenderMode::Difference || differences.into_iter().all(|difference| difference.stride == 1));
@@ -403,7 +406,7 @@ fn the_pictures_are_a_figure_with_numbers() {
     let window = small();
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let scene = Scene { document: document(&window), catalog: &catalog, results: &results };
-    let figure = panes::figure(PaneKind::RENDER, &scene, window.state().view()).expect("there are pictures");
+    let figure = panes::figure(PaneKind::RENDER, &window.state().figure_input(&scene)).expect("there are pictures");
     assert_eq!(figure.table.rows.len(), 4);
     let svg =
         chromascope::export::svg(&figure, &chromascope::theme::Theme::LIGHT, chromascope::export::Paper::default());
@@ -419,7 +422,7 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
     window.run_steps(2);
     assert!(executor.run_one("pictures"));
     window.run_steps(1);
-    let shot = window.state().view().render.shot.clone().unwrap();
+    let shot = window.state().studio().frame().cloned().unwrap();
     assert!(!shot.is_last, "the first of several stages");
     assert!(!window.state().view().render.is_waiting(), "nobody has waited yet");
     executor.advance(Duration::from_secs(1));
@@ -429,17 +432,42 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
     // What was made before the key is still taken in with it.
     window.run_steps(2);
     assert!(window.state().studio().busy().is_none());
-    let before = window.state().view().render.shot.clone().unwrap();
+    let before = window.state().studio().frame().cloned().unwrap();
     assert_eq!(before.serial, shot.serial);
     let computed = made(&window, "shading");
     executor.run_all();
     window.run_steps(3);
     assert_eq!(made(&window, "shading"), computed, "nothing more was computed");
     assert!(window.state().studio().busy().is_none());
-    let after = window.state().view().render.shot.clone().unwrap();
+    let after = window.state().studio().frame().cloned().unwrap();
     assert_eq!(after.serial, before.serial);
     assert_eq!(captions(&window).len(), 4);
     assert_eq!(window.state().history().undo_name(), Some("Test"), "the choice stays");
+}
+
+/// How often the stages of a mesh were computed when the mesh has changed, with a pane beside the pictures.
+fn made_for_a_mesh(beside: PaneKind) -> [u64; 4] {
+    const STAGES: [&str; 4] = ["mesh", "shadow tree", "visibility", "geometry"];
+    let mut window = open([1280.0, 800.0], egui::Theme::Dark);
+    window.state_mut().view_mut().saved.layout.render[2] = Some(beside);
+    let mut window = in_render(window);
+    let before = STAGES.map(|stage| made(&window, stage));
+    let shadings = made(&window, "shading");
+    render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
+    for _ in 0..3 {
+        settle(&mut window);
+        window.state().laboratory().wait();
+    }
+    assert_eq!(made(&window, "shading") > shadings + 3, beside == PaneKind::TOLERANCE, "plans are of shaded samples");
+    std::array::from_fn(|stage| made(&window, STAGES[stage]) - before[stage])
+}
+
+#[test]
+fn tolerance_builds_nothing_that_the_pictures_have() {
+    let alone = made_for_a_mesh(PaneKind::INSPECTOR);
+    // Pictures come coarse, fine and with several samples a pixel; the first two see the same.
+    assert_eq!(alone, [1, 1, 2, 3]);
+    assert_eq!(made_for_a_mesh(PaneKind::TOLERANCE), alone);
 }
 
 #[test]
@@ -450,12 +478,13 @@ fn a_pixel_is_marked_in_the_diagram_beside_the_pictures() {
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let document = document(&window).clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let diamonds = |view: &View| {
-        let built = chromascope::figures::chromaticity::build(&scene, view, [600.0, 400.0]);
+    let diamonds = |app: &ChromascopeApp| {
+        let pictures = app.studio().frame().map(AsRef::as_ref);
+        let built = chromascope::figures::chromaticity::build(&scene, app.view(), pictures, [600.0, 400.0]);
         built.panel.marks.iter().filter(|mark| mark.name.ends_with(", pixel")).count()
     };
-    assert_eq!(diamonds(window.state().view()), 0);
+    assert_eq!(diamonds(window.state()), 0);
     let source = SensorId { kind: SetKind::Camera, name: "Nikon D70 (2007 figure)".to_owned() };
     window.state_mut().view_mut().render.pinned = Some(PixelPlace { at: [0.45, 0.3], source });
-    assert_eq!(diamonds(window.state().view()), 4, "one for each source");
+    assert_eq!(diamonds(window.state()), 4, "one for each source");
 }

@@ -131,9 +131,9 @@ fn another_kind_of_file_takes_its_own_ending() {
 fn a_workload_is_offered_by_its_name() {
     let report = crate::bench::report();
     let mut window = window();
-    let view = window.state_mut().view_mut();
-    view.accuracy.shows = Shows::Bench(Workload::Difference);
-    view.accuracy.reports.insert(Workload::Difference, std::sync::Arc::new(Ok(report)));
+    window.state_mut().view_mut().accuracy.shows = Shows::Bench(Workload::Difference);
+    let measured = &mut window.state_mut().laboratory_mut().measured;
+    measured.reports.insert(Workload::Difference, std::sync::Arc::new(Ok(report)));
     window.state_mut().push(Command::Export(PaneKind::METHODS, Format::Csv));
     window.run_steps(8);
     assert_eq!(typed(&window), "difference.csv");

@@ -225,9 +225,9 @@ impl Measured {
             harness.run_steps(2);
             harness.state().laboratory().wait();
             harness.run_steps(3);
-            let view = &harness.state().view().accuracy;
-            let run = SceneRun::clone(view.run.as_ref().expect("measured"));
-            let measured = Self { run, remembered: view.remembered.clone() };
+            let measured = &harness.state().laboratory().measured;
+            let run = SceneRun::clone(measured.run.as_ref().expect("measured"));
+            let measured = Self { run, remembered: measured.remembered.clone() };
             std::fs::write(&path, serde_json::to_string_pretty(&measured).unwrap() + "\n").unwrap();
         }
         serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap()
@@ -241,8 +241,9 @@ pub(crate) fn accuracy(size: [f32; 2], theme: egui::Theme) -> Harness<'static, C
     let view = harness.state_mut().view_mut();
     view.saved.workspace = Workspace::Accuracy;
     view.fixed_clock = true;
-    (view.accuracy.run, view.accuracy.remembered) = (Some(std::sync::Arc::new(run)), remembered);
-    view.accuracy.is_current = true;
+    let measured = &mut harness.state_mut().laboratory_mut().measured;
+    (measured.run, measured.remembered) = (Some(std::sync::Arc::new(run)), remembered);
+    measured.is_current = true;
     for _ in 0..3 {
         harness.run_steps(2);
         harness.state().laboratory().wait();

@@ -65,6 +65,8 @@ pub(crate) const KERNELS: &[Kernel] = &[
     Kernel { name: "sphere_96_0.3_um", count: 2, ready: || sphere(0.3e-6) },
     Kernel { name: "sphere_96_0.1_um", count: 2, ready: || sphere(0.1e-6) },
     Kernel { name: "sphere_96_0.05_um", count: 2, ready: || sphere(0.05e-6) },
+    Kernel { name: "light_changed_96", count: 4, ready: light_changed },
+    Kernel { name: "roughness_changed_96", count: 4, ready: roughness_changed },
 ];
 
 const CAMERA: &str = "cameras/canon_eos_10d_2007_figure.csv";
@@ -218,23 +220,64 @@ fn csv() -> Work {
     })
 }
 
-/// Every stage from the mesh to pixels at a roughness, the mesh's tree made once.
-fn sphere(sigma_m: f64) -> Work {
+/// Angles of a small frame of a sphere, its mesh's tree made once.
+fn angles() -> impl Fn() -> GeometryImage {
     let mesh = shapes::sphere(2000);
     let tree = ShadowTree::new(&mesh);
-    let (rendering, measure) = measure();
-    let surface = Surface::new(sigma_m, 10e-6, 50e-6, 50e-6, 1.5).unwrap();
     let lighting = Lighting::far(DVec3::new(0.5, 0.6, 0.8), SUN_RADIUS).unwrap();
     let viewpoint = Viewpoint::new(0.3, 0.2, 3.0, 0.7).unwrap();
+    move || {
+        let eye = viewpoint.eye(mesh.bounds());
+        let seen = Visibility::new(&mesh, eye, RasterSize::new(96, 96), &Stop::NEVER).unwrap();
+        GeometryImage::new(&mesh, &seen, &lighting, Some((&tree, Shadows::Full)), &Stop::NEVER).unwrap()
+    }
+}
+
+fn shading(geometry: Arc<GeometryImage>, sigma_m: f64) -> ShadingImage {
+    let surface = Surface::new(sigma_m, 10e-6, 50e-6, 50e-6, 1.5).unwrap();
+    ShadingImage::new(geometry, surface, Normalization::Radiometric, Quality::Full, &Stop::NEVER).unwrap()
+}
+
+/// Sum of a frame's signals.
+fn signals(shading: &ShadingImage, measure: &SpectralWeights, plan: &Arc<Plan>) -> f64 {
+    let image = CameraImage::new(shading, measure, Arc::clone(plan), &Stop::NEVER).unwrap();
+    image.signals().as_flattened().iter().map(|&v| f64::from(v)).sum()
+}
+
+/// Roughnesses of the frames after a change.
+const CHANGED: [f64; 3] = [5e-6, 2e-6, 0.7e-6];
+
+/// From a light to signals, the shading made once: weights, and whatever method of integration has to be made for them.
+fn light_changed() -> Work {
+    let geometry = Arc::new(angles()());
+    let shadings = CHANGED.map(|sigma_m| shading(Arc::clone(&geometry), sigma_m));
     Box::new(move || {
-        let (size, stop) = (RasterSize::new(96, 96), Stop::NEVER);
-        let seen = Visibility::new(&mesh, viewpoint.eye(mesh.bounds()), size, &stop).unwrap();
-        let geometry = GeometryImage::new(&mesh, &seen, &lighting, Some((&tree, Shadows::Full)), &stop).unwrap();
-        let shading =
-            ShadingImage::new(Arc::new(geometry), surface, Normalization::Radiometric, Quality::Full, &stop).unwrap();
+        let (_, measure) = measure();
+        let plan = |shading: &ShadingImage| Arc::new(Plan::for_picture(shading, &measure).unwrap());
+        shadings.iter().map(|shading| signals(shading, &measure, &plan(shading))).sum()
+    })
+}
+
+/// From a roughness to signals, the plans made once, as a slider has them.
+fn roughness_changed() -> Work {
+    let (geometry, (_, measure)) = (Arc::new(angles()()), measure());
+    let plan = |sigma_m| Arc::new(Plan::for_picture(&shading(Arc::clone(&geometry), sigma_m), &measure).unwrap());
+    let plans = CHANGED.map(plan);
+    Box::new(move || {
+        let frame = |(&sigma_m, plan)| signals(&shading(Arc::clone(&geometry), sigma_m), &measure, plan);
+        CHANGED.iter().zip(&plans).map(frame).sum()
+    })
+}
+
+/// Every stage from the mesh to pixels at a roughness, the mesh's tree made once.
+fn sphere(sigma_m: f64) -> Work {
+    let (rendering, measure) = measure();
+    let angles = angles();
+    Box::new(move || {
+        let shading = shading(Arc::new(angles()), sigma_m);
         let plan = Arc::new(Plan::for_picture(&shading, &measure).unwrap());
-        let image = CameraImage::new(&shading, &measure, plan, &stop).unwrap();
+        let image = CameraImage::new(&shading, &measure, plan, &Stop::NEVER).unwrap();
         let development = Development::new(&rendering, 1.0, None);
-        develop(&image, &development, &stop).unwrap().rgba.iter().map(|&v| f64::from(v)).sum()
+        develop(&image, &development, &Stop::NEVER).unwrap().rgba.iter().map(|&v| f64::from(v)).sum()
     })
 }

@@ -8,6 +8,16 @@ pub enum FitError {
     /// The three channels do not span three dimensions over the samples.
     #[error("the three channels are linearly dependent over the training samples")]
     Dependent,
+    /// Fewer samples than free coefficients.
+    #[error(
+        "{samples} training samples cannot determine {needed} coefficients a channel; choose a larger training set"
+    )]
+    TooFew {
+        /// Number of samples.
+        samples: usize,
+        /// Number of free coefficients.
+        needed: usize,
+    },
     /// The vector that is to be kept is zero.
     #[error("the white has no signal")]
     NoWhite,
@@ -53,6 +63,81 @@ pub fn matrix_keeping(samples: &[DVec3], targets: &[DVec3], white: DVec3, image:
     let matrix = outer(fixed, along) + outer(z1, n1) + outer(z2, n2);
     // Samples or targets beyond what a double can square carry no information either.
     if matrix.is_finite() { Ok(matrix) } else { Err(FitError::Dependent) }
+}
+
+/// Coefficients of a linear model of three responses, and the leverage of each sample.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearFit {
+    /// One coefficient of each response for each term.
+    pub coefficients: Vec<DVec3>,
+    /// Diagonal of the hat matrix, 0 to 1: the error at a sample that the fit leaves out is its residual over one minus this.
+    pub leverages: Vec<f64>,
+}
+
+/// The coefficients c that minimize `Σᵢ |Σⱼ rᵢⱼ cⱼ − bᵢ|²`, if asked among all with `Σⱼ cⱼ = keep`.
+///
+/// The side condition is taken out by a Householder reflection that turns (1, …, 1) to the first axis. Modified Gram–Schmidt on
+/// the remaining columns and the targets together, which is backward stable (Björck 1967).
+///
+/// # Errors
+///
+/// [`FitError`] where the samples do not determine the coefficients.
+pub fn linear_fit(rows: &[Vec<f64>], targets: &[DVec3], keep: Option<DVec3>) -> Result<LinearFit, FitError> {
+    let terms = rows.first().map_or(0, Vec::len);
+    let fixed = usize::from(keep.is_some());
+    if terms <= fixed || rows.len() < terms - fixed {
+        return Err(FitError::TooFew { samples: rows.len(), needed: terms.max(fixed + 1) - fixed });
+    }
+    let length = (terms as f64).sqrt();
+    let reflected = |row: &[f64]| keep.map_or_else(|| row.to_vec(), |_| reflect(row));
+    let rows: Vec<Vec<f64>> = rows.iter().map(|row| reflected(row)).collect();
+    let first = keep.map(|image| image / length);
+    let mut residuals: Vec<DVec3> =
+        rows.iter().zip(targets).map(|(row, target)| first.map_or(*target, |first| *target - first * row[0])).collect();
+    let scale = rows.iter().flatten().map(|v| v * v).sum::<f64>().sqrt();
+    let mut columns: Vec<Vec<f64>> = (fixed..terms).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
+    let count = columns.len();
+    let mut upper = vec![vec![0.0; count]; count];
+    let mut projected = vec![DVec3::ZERO; count];
+    for j in 0..count {
+        let (done, rest) = columns.split_at_mut(j + 1);
+        let column = &mut done[j];
+        upper[j][j] = normalize(column, scale)?;
+        for (k, other) in rest.iter_mut().enumerate() {
+            let along: f64 = column.iter().zip(other.iter()).map(|(q, v)| q * v).sum();
+            other.iter_mut().zip(column.iter()).for_each(|(v, q)| *v -= along * q);
+            upper[j][j + 1 + k] = along;
+        }
+        projected[j] = column.iter().zip(&residuals).map(|(q, b)| *b * *q).sum();
+        residuals.iter_mut().zip(column.iter()).for_each(|(b, q)| *b -= projected[j] * *q);
+    }
+    for j in (0..count).rev() {
+        let known: DVec3 = (j + 1..count).map(|k| projected[k] * upper[j][k]).sum();
+        projected[j] = (projected[j] - known) / upper[j][j];
+    }
+    let leverages = (0..rows.len()).map(|i| columns.iter().map(|q| q[i] * q[i]).sum()).collect();
+    let mut coefficients: Vec<DVec3> = first.into_iter().chain(projected).collect();
+    if keep.is_some() {
+        for channel in 0..3 {
+            let row: Vec<f64> = coefficients.iter().map(|c| c[channel]).collect();
+            coefficients.iter_mut().zip(reflect(&row)).for_each(|(c, value)| c[channel] = value);
+        }
+    }
+    let finite = coefficients.iter().all(|c| c.is_finite());
+    if finite { Ok(LinearFit { coefficients, leverages }) } else { Err(FitError::Dependent) }
+}
+
+/// Householder reflection that carries (1, …, 1) of n coordinates to (√n, 0, …, 0), and back.
+fn reflect(row: &[f64]) -> Vec<f64> {
+    let count = row.len() as f64;
+    // v = (1 − √n, 1, …, 1), |v|² = 2 (n − √n); a single coordinate stays.
+    let first = 1.0 - count.sqrt();
+    let square = 2.0 * (count - count.sqrt());
+    if square == 0.0 {
+        return row.to_vec();
+    }
+    let along = 2.0 * (row.iter().sum::<f64>() - count.sqrt() * row[0]) / square;
+    row.iter().enumerate().map(|(j, v)| v - along * if j == 0 { first } else { 1.0 }).collect()
 }
 
 /// Scales a column to unit length and returns the length it had.

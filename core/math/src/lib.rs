@@ -1,6 +1,7 @@
 //! Numerical tools with no knowledge of color: interpolation, Chebyshev polynomials, Gauss rules, least squares, dot products,
 //! exponentials and logarithms that vectorize, and numbers of twice the digits to judge such things by.
 
+pub mod cbrt;
 pub mod chebyshev;
 pub mod dot;
 pub mod double;

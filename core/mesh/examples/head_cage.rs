@@ -1,7 +1,7 @@
-//! Writes the head's control cage, `assets/meshes/head.obj`, from a head that ends with a jagged neck.
+//! Writes the head's control cage, `core/mesh/src/head.obj`, from a head that ends with a jagged neck.
 //!
 //! ```text
-//! cargo run -p chromascope-mesh --example head_cage -- head.obj > assets/meshes/head.obj
+//! cargo run -p chromascope-mesh --example head_cage -- head.obj > core/mesh/src/head.obj
 //! ```
 //!
 //! The given OBJ file is the head of `MakeHuman`'s base mesh with the target `caucasian-male-young`, in meters, y up and z

@@ -1,6 +1,6 @@
 //! A human head with neck and shoulders, from a control cage.
 //!
-//! The cage is data (`assets/meshes/head.obj`): the base mesh of `MakeHuman` with its young Caucasian male target (CC0),
+//! The cage is data (`head.obj`): the base mesh of `MakeHuman` with its young Caucasian male target (CC0),
 //! continued below the neck. The head is its Catmull–Clark limit surface, with a ball behind the lids of each eye.
 
 use crate::subdivision::Surface;
@@ -8,7 +8,7 @@ use crate::{Mesh, shapes};
 use glam::Vec3;
 use std::str::FromStr;
 
-const CAGE: &str = include_str!("../../../assets/meshes/head.obj");
+const CAGE: &str = include_str!("head.obj");
 
 /// Center of the left eyeball in meters; the right one is its mirror image.
 const EYE: Vec3 = Vec3::new(0.02994, 0.07713, 0.06958);
@@ -19,10 +19,13 @@ const EYE_RADIUS: f32 = 0.0162;
 /// The share of the triangles that one eyeball has.
 const EYE_SHARE: usize = 64;
 
+/// Fewest triangles that a head is made of, about: two for each quadrilateral of its cage, and the eyes.
+pub const FEWEST: usize = 10_000;
+
 /// Most triangles that a head is made of.
 const MOST: usize = 2_000_000;
 
-/// The surface of a bald head with neck and shoulders as about `triangles` triangles, from the cage's 10 000 to 2 000 000.
+/// The surface of a bald head with neck and shoulders as about `triangles` triangles, from [`FEWEST`] to 2 000 000.
 ///
 /// It looks towards +z, the top towards +y; 0.23 m from chin to crown, the middle of its bounds near the origin. Closed, but
 /// for the eyeballs, which are spheres of their own. The same for any number of threads.

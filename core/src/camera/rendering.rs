@@ -5,12 +5,15 @@ use crate::accuracy::Unmet;
 use crate::colorimetry::adaptation::bradford;
 use crate::colorimetry::rgb::{XYZ_FROM_SRGB, srgb_from_xyz, srgb_white};
 use crate::colorimetry::{Lab, Xyz, lab::lab_from_xyz};
+use crate::correction::root_polynomial::RootPolynomial;
+use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
 use crate::math::dot::{dot, dot_each};
-use crate::math::least_squares::{FitError, matrix_keeping};
+use crate::math::least_squares::FitError;
 use crate::patch_set::PatchSet;
 use crate::spectral::grid::COUNT;
 use crate::spectral::{GridSpectrum, Primaries, Sensor};
 use glam::{DMat3, DVec3};
+use std::sync::Arc;
 
 /// The way from signals to the diagram.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +26,15 @@ pub enum ColorTransform<'a> {
         reference: &'a Sensor,
         /// The reflectances that are fitted over; never the displayed ones.
         training: &'a PatchSet,
+    },
+    /// As [`Self::Observer`], which is its default, with a color correction of choice.
+    Corrected {
+        /// The XYZ observer that is fitted to.
+        reference: &'a Sensor,
+        /// The reflectances that are fitted over.
+        training: &'a PatchSet,
+        /// The color correction.
+        correction: Correction,
     },
 }
 
@@ -44,6 +56,15 @@ pub enum RenderingError {
     /// The color that white is to take leaves a channel at zero, which no matrix can undo.
     #[error("the chosen white leaves a channel at zero; choose another white")]
     NoWhite,
+    /// A root of a negative signal has no answer.
+    #[error(
+        "a root polynomial needs signals that are never negative, but {} has negative lobes; choose a matrix",
+        if *is_rgb { "the observer" } else { "the sensor" }
+    )]
+    NegativeLobes {
+        /// True for an observer's matching functions.
+        is_rgb: bool,
+    },
     /// The fit to the reference observer has no answer.
     #[error(transparent)]
     Fit(#[from] FitError),
@@ -65,8 +86,10 @@ pub struct Rendering {
     pub white_integrals: DVec3,
     /// Factors that turn `∫ C_c E dλ` of a glowing body into signals (Eq 15), the same along a locus.
     pub locus_gain: DVec3,
-    /// XYZ from signals.
+    /// XYZ from signals; with a root polynomial, its derivative at white.
     pub xyz_from_signals: DMat3,
+    /// Root polynomial from signals balanced to unity, if that is the color transform.
+    pub root_polynomial: Option<Arc<RootPolynomial>>,
     /// Linear sRGB from XYZ, for swatches.
     pub srgb_from_xyz: DMat3,
     /// CIE's adopted white of L*a*b*: the tristimulus values of a perfect diffuser.
@@ -95,7 +118,12 @@ impl Rendering {
             (ColorTransform::Paper, Primaries::Camera | Primaries::Rgb) => paper(sensor, light, white),
             (ColorTransform::Observer { reference, training }, _) => {
                 let targets = FitTargets::new(reference, light, training);
-                fitted(sensor, light, white, training, targets.as_ref().map_err(|&e| e))
+                let targets = targets.as_ref().map_err(|&e| e);
+                fitted(sensor, light, white, training, targets, &Correction::default())
+            }
+            (ColorTransform::Corrected { reference, training, correction }, _) => {
+                let targets = FitTargets::new(reference, light, training);
+                fitted(sensor, light, white, training, targets.as_ref().map_err(|&e| e), &correction)
             }
         }
     }
@@ -111,10 +139,13 @@ impl Rendering {
         white: WhiteBalanceTarget,
         training: &PatchSet,
         targets: Result<&FitTargets, RenderingError>,
+        correction: &Correction,
     ) -> Result<Self, RenderingError> {
         match sensor.primaries() {
             Primaries::Xyz => direct(sensor, light),
-            Primaries::Camera | Primaries::Rgb | Primaries::Cones => fitted(sensor, light, white, training, targets),
+            Primaries::Camera | Primaries::Rgb | Primaries::Cones => {
+                fitted(sensor, light, white, training, targets, correction)
+            }
         }
     }
 
@@ -139,7 +170,10 @@ impl Rendering {
 
     /// XYZ of signals; Y = 1 for a perfect white.
     pub fn xyz(&self, signals: DVec3) -> Xyz {
-        Xyz::from_vector(self.xyz_from_signals * signals)
+        Xyz::from_vector(match &self.root_polynomial {
+            Some(polynomial) => polynomial.xyz(signals / self.white),
+            None => self.xyz_from_signals * signals,
+        })
     }
 
     /// Linear sRGB of XYZ; may be outside 0 to 1.
@@ -204,6 +238,7 @@ fn direct(sensor: &Sensor, light: &GridSpectrum) -> Result<Rendering, RenderingE
         white_integrals: divisor,
         locus_gain: divisor.recip(),
         xyz_from_signals: DMat3::IDENTITY,
+        root_polynomial: None,
         srgb_from_xyz: screen_from(white),
         lab_white: white,
         is_rgb: false,
@@ -226,6 +261,7 @@ fn paper(
         white_integrals: integrals,
         locus_gain: s / flat,
         xyz_from_signals: XYZ_FROM_SRGB,
+        root_polynomial: None,
         srgb_from_xyz: srgb_from_xyz(),
         // A perfect diffuser takes `s`, so that is the adopted white. Another one would let a wrong target shrink every difference.
         lab_white: Xyz::from_vector(XYZ_FROM_SRGB * s),
@@ -259,37 +295,102 @@ impl FitTargets {
     }
 }
 
-/// A sensor through the 3×3 matrix that best predicts the reference observer over the training reflectances and keeps white.
+/// Balanced RGB of training reflectances, 1 for a perfect diffuser, with the divisors and their conditioning.
+fn balanced(
+    sensor: &Sensor,
+    light: &GridSpectrum,
+    training: &PatchSet,
+) -> Result<(Vec<DVec3>, DVec3, f64), RenderingError> {
+    let (integrals, conditioning) = white_integrals(sensor, light)?;
+    let product = under_light(sensor, light);
+    let samples = training.patches().iter().map(|patch| raw(&product, patch.grid.values()) / integrals);
+    Ok((samples.collect(), integrals, conditioning))
+}
+
+/// Samples that a color correction of a sensor is fitted over.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitSamples {
+    /// RGB balanced to unity, of each training reflectance.
+    pub samples: Vec<DVec3>,
+    /// XYZ of each, to the reference observer.
+    pub targets: Vec<DVec3>,
+    /// Adopted white: XYZ of a perfect diffuser.
+    pub white: Xyz,
+    /// Linear sRGB from XYZ, for swatches.
+    pub srgb_from_xyz: DMat3,
+    /// Divisors of the raw integrals: signals of a perfect diffuser before balance.
+    pub white_integrals: DVec3,
+}
+
+impl FitSamples {
+    /// Samples of a sensor under a light.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderingError`] where white cannot be balanced, or the targets have an error.
+    pub fn new(
+        sensor: &Sensor,
+        light: &GridSpectrum,
+        training: &PatchSet,
+        targets: Result<&FitTargets, RenderingError>,
+    ) -> Result<Self, RenderingError> {
+        let (samples, white_integrals, _) = balanced(sensor, light, training)?;
+        let FitTargets { reference, targets } = targets?;
+        let (white, srgb_from_xyz) = (reference.lab_white, reference.srgb_from_xyz);
+        Ok(Self { samples, targets: targets.clone(), white, srgb_from_xyz, white_integrals })
+    }
+}
+
+/// A sensor through the transform that best predicts the reference observer over the training reflectances, by default a 3×3 that
+/// keeps white.
 ///
-/// The matrix belongs to the balanced signals, so the white chosen for the balance moves RGB but not XYZ.
+/// The transform belongs to the balanced signals, so the white chosen for the balance moves RGB but not XYZ.
 fn fitted(
     sensor: &Sensor,
     light: &GridSpectrum,
     WhiteBalanceTarget(white): WhiteBalanceTarget,
     training: &PatchSet,
     targets: Result<&FitTargets, RenderingError>,
+    correction: &Correction,
 ) -> Result<Rendering, RenderingError> {
     // The sensor first: a light that neither sees is the sensor's own trouble.
-    let (integrals, conditioning) = white_integrals(sensor, light)?;
+    let (samples, integrals, conditioning) = balanced(sensor, light, training)?;
     let FitTargets { reference, targets } = targets?;
-    let product = under_light(sensor, light);
-    let samples: Vec<DVec3> =
-        training.patches().iter().map(|patch| raw(&product, patch.grid.values()) / integrals).collect();
     let s = DVec3::from_array(white);
     if s.abs().min_element() == 0.0 {
         return Err(RenderingError::NoWhite);
     }
-    let unity = matrix_keeping(&samples, targets, DVec3::ONE, reference.lab_white.to_vector())?;
+    check_lobes(sensor, correction.method)?;
+    let weights = correction.weights.for_targets(targets, reference.lab_white);
+    let training = Training { samples: &samples, targets, weights: &weights };
+    let (unity, root_polynomial) = match training.fit(correction, reference.lab_white)? {
+        RgbTransform::Matrix(matrix) => (matrix, None),
+        RgbTransform::RootPolynomial(polynomial) => (polynomial.at_white(), Some(polynomial)),
+    };
     Ok(Rendering {
         white: s,
         white_integrals: integrals,
         locus_gain: s / integrals,
         xyz_from_signals: unity * DMat3::from_diagonal(s.recip()),
+        root_polynomial,
         srgb_from_xyz: reference.srgb_from_xyz,
         lab_white: reference.lab_white,
         is_rgb: matches!(sensor.primaries(), Primaries::Camera | Primaries::Rgb),
         conditioning,
     })
+}
+
+/// Refuses roots for a sensor with a sensitivity below zero.
+///
+/// # Errors
+///
+/// [`RenderingError::NegativeLobes`].
+pub fn check_lobes(sensor: &Sensor, method: CorrectionMethod) -> Result<(), RenderingError> {
+    let negative = || (0..3).any(|channel| sensor.weighted(channel).iter().any(|&c| c < 0.0));
+    if matches!(method, CorrectionMethod::RootPolynomial(_)) && negative() {
+        return Err(RenderingError::NegativeLobes { is_rgb: sensor.primaries() == Primaries::Rgb });
+    }
+    Ok(())
 }
 
 /// Linear sRGB from XYZ under a scene white: Bradford to D65, then the inverse of M.

@@ -239,6 +239,18 @@ pub fn delta_e_2000(first: Lab, second: Lab) -> f64 {
     ciede2000::difference([first.l, first.a, first.b], [second.l, second.a, second.b])
 }
 
+/// CIEDE2000 as a vector whose length is [`delta_e_2000`]: the quadratic form of ΔL′, ΔC′, ΔH′ with the square completed.
+///
+/// ```text
+/// (ΔL′/S_L,  ΔC′/S_C + R_T/2 ΔH′/S_H,  √(1 − R_T²/4) ΔH′/S_H)
+/// ```
+/// Signed and smooth through zero, as least squares need it.
+pub fn delta_e_2000_vector(first: Lab, second: Lab) -> [f64; 3] {
+    let (first, second) = (bounded(first), bounded(second));
+    let [l, c, h, turn] = ciede2000::components([first.l, first.a, first.b], [second.l, second.a, second.b]);
+    [l, c + 0.5 * turn * h, (1.0 - 0.25 * turn * turn).max(0.0).sqrt() * h]
+}
+
 /// [`delta_e_2000`] of many pairs, on all cores, equal to the last bit. Extra elements of longer slices are ignored.
 pub fn delta_e_2000_into(firsts: &[Lab], seconds: &[Lab], answers: &mut [f64]) {
     let count = firsts.len().min(seconds.len()).min(answers.len());

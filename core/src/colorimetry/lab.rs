@@ -1,6 +1,7 @@
 //! CIE 1976 L*a*b*.
 
 use super::tristimulus::Xyz;
+use crate::math::cbrt::cbrt;
 
 /// Coordinates in the CIE 1976 L*a*b* space, relative to a white.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,5 +32,5 @@ pub fn lab_from_xyz(color: Xyz, white: Xyz) -> Option<Lab> {
 /// The compressed ratio of the formula above.
 fn f(t: f64) -> f64 {
     const EDGE: f64 = 6.0 / 29.0;
-    if t > EDGE * EDGE * EDGE { t.cbrt() } else { t / (3.0 * EDGE * EDGE) + 4.0 / 29.0 }
+    if t > EDGE * EDGE * EDGE { cbrt(t) } else { t / (3.0 * EDGE * EDGE) + 4.0 / 29.0 }
 }

@@ -46,10 +46,23 @@ impl DaylightBasis {
     /// M₁ and M₂ are not rounded to three decimals as they were for the tables of D50, D55, D65 and D75; and those tables
     /// belong to temperatures 1.4388/1.4380 higher than their names (D55: 5503 K). 1 at 560 nm is 100.
     pub fn light(&self, temperature: Kelvin) -> Result<SpectralDistribution, DaylightError> {
+        self.sum(temperature, |m| m)
+    }
+
+    /// [`Self::light`] with M₁ and M₂ rounded to three decimals, as in the tables of the CIE and in references of rendition indices.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::light`].
+    pub fn rounded(&self, temperature: Kelvin) -> Result<SpectralDistribution, DaylightError> {
+        self.sum(temperature, |m| (m * 1e3).round() / 1e3)
+    }
+
+    fn sum(&self, temperature: Kelvin, finish: fn(f64) -> f64) -> Result<SpectralDistribution, DaylightError> {
         let Xy { x, y } = chromaticity(temperature)?;
         let divisor = 0.0241 + 0.2562 * x - 0.7341 * y;
-        let m1 = (-1.3515 - 1.7703 * x + 5.9114 * y) / divisor;
-        let m2 = (0.0300 - 31.4424 * x + 30.0717 * y) / divisor;
+        let m1 = finish((-1.3515 - 1.7703 * x + 5.9114 * y) / divisor);
+        let m2 = finish((0.0300 - 31.4424 * x + 30.0717 * y) / divisor);
         let [s0, s1, s2] = &self.curves;
         let values = (s0.values().iter().zip(s1.values()).zip(s2.values())).map(|((a, b), c)| a + m1 * b + m2 * c);
         SpectralDistribution::new(s0.wavelengths_nm().to_vec(), values.collect()).map_err(|_| DaylightError::Basis)

@@ -13,6 +13,7 @@ mod nearest;
 mod pieces;
 pub mod published;
 mod result;
+pub mod single;
 mod start;
 pub mod tabulated;
 

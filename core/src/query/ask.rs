@@ -4,10 +4,10 @@ use crate::render::Stop;
 use std::hash::Hash;
 use std::sync::Arc;
 
-/// A question: a value with everything its answer depends on.
-pub trait Query: Clone + Eq + Hash + 'static {
+/// A question: a value with everything its answer depends on. Threads may share it and its answer.
+pub trait Query: Clone + Eq + Hash + Send + Sync + 'static {
     /// Answer.
-    type Answer: 'static;
+    type Answer: Send + Sync + 'static;
 
     /// A name for counters.
     const NAME: &'static str;

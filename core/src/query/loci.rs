@@ -5,8 +5,9 @@ use super::patches::RenderingQuery;
 use super::shared::Shared;
 use crate::camera::{LocusEvaluator, LocusMethod, RenderingError};
 use crate::colorimetry::diagram::{SpectralPoint, spectral_locus};
-use crate::colorimetry::{UvPrime, Xy, Xyz};
-use crate::light::{LocusError, PlanckianLocus, RadiationConstants};
+use crate::colorimetry::{Uv60, UvPrime, Xy, Xyz};
+use crate::light::temperature::single::nearest_blackbody;
+use crate::light::{Cct, CctError, LocusError, PlanckianLocus, RadiationConstants};
 use crate::spectral::Sensor;
 use crate::spectral::grid::{COUNT, wavelength_nm};
 use crate::units::Kelvin;
@@ -221,6 +222,32 @@ impl Query for NearestBlackBodyQuery {
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         PlanckianLocus::new(&self.observer, self.constants)
+    }
+}
+
+/// Nearest blackbody of one color.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CctQuery {
+    /// The observer.
+    pub observer: Shared<Sensor>,
+    /// The bits of u and v in the CIE 1960 diagram.
+    color: [u64; 2],
+}
+
+impl CctQuery {
+    /// The question for a color.
+    pub fn new(observer: Shared<Sensor>, color: Uv60) -> Self {
+        Self { observer, color: [color.u, color.v].map(f64::to_bits) }
+    }
+}
+
+impl Query for CctQuery {
+    type Answer = Result<Cct, CctError>;
+    const NAME: &'static str = "color temperature";
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        let [u, v] = self.color.map(f64::from_bits);
+        nearest_blackbody(&self.observer, RadiationConstants::Paper, Uv60 { u, v })
     }
 }
 

@@ -3,17 +3,23 @@
 //! A metric is one entry of [`CameraMetric::ALL`]. Documents, the command line, tables and the window list whatever stands there.
 
 mod differences;
+mod evidence;
 mod table;
+mod uncertainty;
 
 use super::ask::{Ask, Query};
 use super::compare::DifferenceError;
-use super::patches::{PatchColorsQuery, RenderingQuery};
+use super::patches::RenderingQuery;
 use super::shared::Shared;
 use crate::camera::RenderingError;
+use crate::camera::quality::Electrons;
 use crate::patch_set::PatchSet;
+use crate::units::Kelvin;
 
 pub use differences::{PatchDifferences, Statistic, WORST};
+pub use evidence::{IndexConditions, LocusDeviationQuery, MetamerismIndexQuery, SpaceQualityQuery};
 pub use table::{Better, CameraMetric, MetricGroup};
+pub use uncertainty::{Replicates, distinguishable, rank_ranges};
 
 /// Reason for no value of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -30,6 +36,27 @@ pub enum WhyNot {
     /// A statistic of nothing.
     #[error("the chart has no patches")]
     NoPatches,
+    /// A color or a locus that is not on the diagram.
+    #[error("the blackbody has no chromaticity on one of the loci; choose another temperature")]
+    NoLocus,
+    /// A color temperature that says nothing.
+    #[error(
+        "the color is farther than 0.05 in CIE 1960 u, v from the reference's locus, or beyond 500 K to 100 000 K there, \
+         so it has no correlated color temperature"
+    )]
+    NoCct,
+    /// Curves that span less than three dimensions.
+    #[error("the three curves are linearly dependent")]
+    Dependent,
+    /// Tristimulus values have no noise of channels.
+    #[error("noise is that of camera RGB; an observer has none")]
+    NoChannels,
+    /// The table does not hold the ratio between the channels.
+    #[error("the table scales each channel to the same maximum, so the balance gains of the camera are unknown")]
+    ChannelScale,
+    /// Noise in electrons needs electrons.
+    #[error("the full-well capacity is not given")]
+    NoElectrons,
 }
 
 /// Figures of merit of one camera under one set of conditions.
@@ -41,6 +68,16 @@ pub struct CameraMetricsQuery {
     pub reference: RenderingQuery,
     /// The patches that differences are taken over.
     pub patches: Shared<PatchSet>,
+    /// Temperature of the blackbody whose place on the locus is compared.
+    pub temperature: Kelvin,
+    /// Light and patches of the metamerism index.
+    pub index: IndexConditions,
+    /// The camera's full-well capacity and read noise, if known.
+    pub electrons: Option<Electrons>,
+    /// Tables of the same models, whose spread is the uncertainty.
+    pub replicates: Shared<Replicates>,
+    /// The model among [`Self::replicates`] that the camera is, if it is one.
+    pub model: Option<usize>,
 }
 
 /// Value of a metric with its uncertainty.
@@ -76,33 +113,14 @@ impl Query for CameraMetricsQuery {
     const NAME: &'static str = "camera metrics";
 
     fn answer(&self, ask: &impl Ask) -> CameraMetrics {
-        let patches = self.patch_differences(ask);
-        let evidence = Evidence { patches: patches.as_ref().map(Vec::as_slice).map_err(|&e| e) };
-        let value = |metric: &CameraMetric| MetricValue { value: metric.evaluate(&evidence), uncertainty: None };
-        let values = CameraMetric::ALL.iter().map(value).collect();
-        let patches = patches.unwrap_or_default();
+        let own = evidence::Evidence::new(self, ask);
+        let uncertainties = uncertainty::standard_uncertainties(self, ask);
+        let values = CameraMetric::ALL.iter().zip(uncertainties).map(|(metric, uncertainty)| {
+            let value = metric.evaluate(&own);
+            MetricValue { value, uncertainty: uncertainty.filter(|_| value.is_ok()) }
+        });
+        let values = values.collect();
+        let patches = own.patches.unwrap_or_default();
         CameraMetrics { values, worst: differences::worst(&patches), patches }
     }
-}
-
-impl CameraMetricsQuery {
-    /// Differences of each patch from the reference.
-    fn patch_differences(&self, ask: &impl Ask) -> Result<Vec<PatchDifferences>, WhyNot> {
-        let colors = |rendering: &RenderingQuery| {
-            let (rendering, patches) = (rendering.clone(), self.patches.clone());
-            ask.ask(&PatchColorsQuery { rendering, patches })
-        };
-        let (reference, sample) = (colors(&self.reference), colors(&self.rendering));
-        let reference = (*reference).as_ref().map_err(|&e| e)?;
-        let sample = (*sample).as_ref().map_err(|&e| e)?;
-        let way = differences::Way::new(&self.rendering, &self.reference);
-        Ok(reference.iter().zip(sample).map(|(reference, sample)| way.differences(reference, sample)).collect())
-    }
-}
-
-/// All that metrics are computed from.
-#[derive(Clone, Copy, Debug)]
-struct Evidence<'a> {
-    /// Differences of each patch.
-    patches: Result<&'a [PatchDifferences], WhyNot>,
 }

@@ -6,6 +6,7 @@ use crate::camera::rendering::{raw, under_light};
 use crate::camera::{ColorTransform, FitTargets, Rendering, RenderingError, WhiteBalanceTarget};
 use crate::colorimetry::rgb::{EncodedSrgb, encode_srgb};
 use crate::colorimetry::{Lab, UvPrime, Xy, Xyz};
+use crate::correction::Correction;
 use crate::patch_set::PatchSet;
 use crate::spectral::{GridSpectrum, Sensor};
 use glam::DVec3;
@@ -22,6 +23,35 @@ pub enum ColorTransformSpec {
         /// The training reflectances.
         training: Shared<PatchSet>,
     },
+    /// As [`Self::Observer`], which is its default, with a color correction of choice.
+    Corrected {
+        /// The observer.
+        reference: Shared<Sensor>,
+        /// The training reflectances.
+        training: Shared<PatchSet>,
+        /// The color correction.
+        correction: Correction,
+    },
+}
+
+impl ColorTransformSpec {
+    /// A correction fitted to an observer; the default one is [`Self::Observer`], so that equal questions are equal.
+    pub fn corrected(reference: Shared<Sensor>, training: Shared<PatchSet>, correction: Correction) -> Self {
+        if correction == Correction::default() {
+            Self::Observer { reference, training }
+        } else {
+            Self::Corrected { reference, training, correction }
+        }
+    }
+
+    /// Observer, training reflectances and correction; none for Eq 13.
+    pub fn fit(&self) -> Option<(&Shared<Sensor>, &Shared<PatchSet>, Correction)> {
+        match self {
+            Self::Paper => None,
+            Self::Observer { reference, training } => Some((reference, training, Correction::default())),
+            Self::Corrected { reference, training, correction } => Some((reference, training, *correction)),
+        }
+    }
 }
 
 /// Color transform of a sensor under a light.
@@ -42,15 +72,13 @@ impl Query for RenderingQuery {
     const NAME: &'static str = "rendering";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        match &self.transform {
-            ColorTransformSpec::Paper => Rendering::new(&self.sensor, &self.light, self.white, ColorTransform::Paper),
-            ColorTransformSpec::Observer { reference, training } => {
-                let (reference, training, light) = (reference.clone(), training.clone(), self.light.clone());
-                let targets = ask.ask(&FitTargetsQuery { reference, light, training: training.clone() });
-                let targets = (*targets).as_ref().map_err(|&e| e);
-                Rendering::by_targets(&self.sensor, &self.light, self.white, &training, targets)
-            }
-        }
+        let Some((reference, training, correction)) = self.transform.fit() else {
+            return Rendering::new(&self.sensor, &self.light, self.white, ColorTransform::Paper);
+        };
+        let (reference, light) = (reference.clone(), self.light.clone());
+        let targets = ask.ask(&FitTargetsQuery { reference, light, training: training.clone() });
+        let targets = (*targets).as_ref().map_err(|&e| e);
+        Rendering::by_targets(&self.sensor, &self.light, self.white, training, targets, &correction)
     }
 }
 

@@ -7,17 +7,20 @@ use super::visibility::RasterSize;
 use crate::camera::Rendering;
 use crate::colorimetry::rgb::srgb_transfer;
 use crate::colorimetry::{Metric, Stimulus, Xyz};
-use glam::{DMat3, Mat3, Vec3};
+use crate::correction::root_polynomial::RootPolynomial;
+use glam::{DMat3, DVec3, Mat3, Vec3};
 use multiversion::multiversion;
 use rayon::prelude::*;
 use std::hash::{Hash, Hasher};
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 /// Development from signals to light on a screen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Development {
-    /// Linear sRGB from signals: matrix × balance × exposure.
+    /// Linear sRGB from signals: matrix × balance × exposure; with a root polynomial, from its XYZ.
     pub linear_from_signals: DMat3,
+    /// Root polynomial that takes signals to XYZ first.
+    pub root_polynomial: Option<Arc<RootPolynomial>>,
     /// Background in linear sRGB; none leaves it transparent.
     pub background: Option<[f32; 3]>,
 }
@@ -25,9 +28,22 @@ pub struct Development {
 impl Development {
     /// Balances by the rendering's white, takes its way to XYZ, and multiplies by one factor that all cameras share.
     pub fn new(rendering: &Rendering, exposure: f64, background: Option<[f32; 3]>) -> Self {
-        let balanced = rendering.xyz_from_signals * DMat3::from_diagonal(rendering.white * exposure);
-        Self { linear_from_signals: rendering.srgb_from_xyz * balanced, background }
+        let (linear, root_polynomial) = linear_part(rendering, exposure);
+        Self { linear_from_signals: rendering.srgb_from_xyz * linear, root_polynomial, background }
     }
+}
+
+/// XYZ from signals by a matrix, times a factor; or the factor alone, with the root polynomial that gives XYZ before it.
+fn linear_part(rendering: &Rendering, factor: f64) -> (DMat3, Option<Arc<RootPolynomial>>) {
+    match &rendering.root_polynomial {
+        None => (rendering.xyz_from_signals * DMat3::from_diagonal(rendering.white * factor), None),
+        Some(polynomial) => (DMat3::from_diagonal(DVec3::splat(factor)), Some(Arc::clone(polynomial))),
+    }
+}
+
+/// XYZ of signals, before the matrix.
+fn straightened(polynomial: &RootPolynomial, signal: [f32; 3]) -> [f32; 3] {
+    polynomial.xyz(DVec3::from_array(signal.map(f64::from))).as_vec3().to_array()
 }
 
 impl Eq for Development {}
@@ -35,6 +51,8 @@ impl Eq for Development {}
 impl Hash for Development {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.linear_from_signals.to_cols_array().map(|v| (v + 0.0).to_bits()).hash(state);
+        let coefficients = self.root_polynomial.iter().flat_map(|polynomial| polynomial.coefficients());
+        coefficients.for_each(|c| c.to_array().map(|v| (v + 0.0).to_bits()).hash(state));
         self.background.map(|color| color.map(|v| (v + 0.0).to_bits())).hash(state);
     }
 }
@@ -103,7 +121,16 @@ fn encode(linear: f32) -> u8 {
 
 /// Shows a camera's picture on a screen; none if stopped. A pixel is the mean of its samples in linear light.
 pub fn develop(image: &CameraImage, development: &Development, stop: &Stop) -> Option<Picture> {
-    let geometry = image.placed();
+    develop_signals(image.placed(), image.signals(), development, stop)
+}
+
+/// [`develop`] of signals at the places of `geometry`, one for each of its lit samples.
+pub fn develop_signals(
+    geometry: &LitSamples,
+    signals: &[[f32; 3]],
+    development: &Development,
+    stop: &Stop,
+) -> Option<Picture> {
     let size = geometry.size();
     let (width, height) = (size.width as usize, size.height as usize);
     let background = development.background.map(|color| Vec3::from_array(color).clamp(Vec3::ZERO, Vec3::ONE));
@@ -111,7 +138,12 @@ pub fn develop(image: &CameraImage, development: &Development, stop: &Stop) -> O
     let mut rgba = vec![0; width * height * 4];
     let matrix = development.linear_from_signals.as_mat3();
     let rows_of_task = (4096 / width.max(1)).max(1);
-    let task = Task { size, geometry, signals: image.signals(), matrix, background, empty, encoded: &ENCODED };
+    let xyz: Option<Vec<[f32; 3]>> = development.root_polynomial.as_ref().map(|polynomial| {
+        let xyz = |signal: &[f32; 3]| if stop.is_set() { [0.0; 3] } else { straightened(polynomial, *signal) };
+        signals.par_iter().with_min_len(512).map(xyz).collect()
+    });
+    let signals = xyz.as_deref().unwrap_or(signals);
+    let task = Task { size, geometry, signals, matrix, background, empty, encoded: &ENCODED };
     let clipped = rgba
         .par_chunks_mut(rows_of_task * width * 4)
         .enumerate()
@@ -208,10 +240,12 @@ fn range(list: &[u32], within: &std::ops::Range<usize>) -> std::ops::Range<usize
 }
 
 /// Scale of a render's colors: XYZ over the luminance of a white of the same roughness that faces the light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ColorimetricScale {
-    /// XYZ from signals, Y = 1 for that white.
+    /// XYZ from signals, Y = 1 for that white; with a root polynomial, from its XYZ.
     pub xyz_from_signals: DMat3,
+    /// Root polynomial that takes signals to XYZ first.
+    pub root_polynomial: Option<Arc<RootPolynomial>>,
     /// Adopted white of L*a*b*.
     pub lab_white: Xyz,
 }
@@ -220,13 +254,15 @@ impl ColorimetricScale {
     /// Scale of one sensor; `white_luminance` is the reference's Y of that white, the same for all sensors.
     pub fn new(rendering: &Rendering, white_luminance: f64) -> Self {
         let scale = if white_luminance > 0.0 { 1.0 / white_luminance } else { 0.0 };
-        let balanced = rendering.xyz_from_signals * DMat3::from_diagonal(rendering.white * scale);
-        Self { xyz_from_signals: balanced, lab_white: rendering.lab_white }
+        let (xyz_from_signals, root_polynomial) = linear_part(rendering, scale);
+        Self { xyz_from_signals, root_polynomial, lab_white: rendering.lab_white }
     }
 
     /// Color of a signal.
     pub fn color(&self, signal: [f32; 3]) -> Stimulus {
-        Stimulus::new(Xyz::from_vector(self.xyz_from_signals * Vec3::from_array(signal).as_dvec3()), self.lab_white)
+        let signal = Vec3::from_array(signal).as_dvec3();
+        let signal = self.root_polynomial.as_ref().map_or(signal, |polynomial| polynomial.xyz(signal));
+        Stimulus::new(Xyz::from_vector(self.xyz_from_signals * signal), self.lab_white)
     }
 }
 
@@ -241,13 +277,24 @@ pub fn differences(
     stride: usize,
     stop: &Stop,
 ) -> Option<(Vec<f32>, Vec<f32>)> {
+    signal_differences(metric, [image.signals(), reference.signals()], [measured, measured_reference], stride, stop)
+}
+
+/// [`differences`] of signals, a sensor's and then the reference's, with their scales.
+pub fn signal_differences(
+    metric: Metric,
+    [image, reference]: [&[[f32; 3]]; 2],
+    [measured, measured_reference]: [&ColorimetricScale; 2],
+    stride: usize,
+    stop: &Stop,
+) -> Option<(Vec<f32>, Vec<f32>)> {
     let stride = stride.max(1);
-    let count = image.signals().len().min(reference.signals().len()).div_ceil(stride);
+    let count = image.len().min(reference.len()).div_ceil(stride);
     let at = |index: usize| {
         if index.is_multiple_of(1024) && stop.is_set() {
             return (0.0, 0.0);
         }
-        let (a, b) = (image.signals()[index * stride], reference.signals()[index * stride]);
+        let (a, b) = (image[index * stride], reference[index * stride]);
         let (sample, reference) = (measured.color(a), measured_reference.color(b));
         let lightness = reference.lab.map_or(0.0, |lab| lab.l as f32);
         (metric.between(&reference, &sample).unwrap_or(0.0) as f32, lightness)

@@ -12,10 +12,14 @@ use super::measure::{MOMENTS, Node};
 use crate::math::exp::exp;
 use crate::reflectance::{Precision, diffuse_sums_into, regimes::diffuse_sum_by_regimes};
 
-/// κ from which on four moments are within 1e-6 of J(κ, 0).
+/// κ from which on all moments are within 1e-9 of J(κ, 0), and [`FEW_MOMENTS`] within 1e-6.
 pub const ROUGH: f64 = 128.0;
-/// κ from which on four moments are within 1e-9 of J(κ, 0).
+/// κ from which on all moments are within 1e-6 of J(κ, 0), and [`FEW_MOMENTS`] within 1e-4.
+pub const NEARLY_ROUGH: f64 = 64.0;
+/// κ from which on [`FEW_MOMENTS`] are within 1e-9 of J(κ, 0).
 pub const VERY_ROUGH: f64 = 1024.0;
+/// Number of moments that serve where κ is large: half of the work.
+pub const FEW_MOMENTS: usize = 4;
 /// A sample is dark where J is below e^-30 of its peak.
 pub const DARK: f64 = 30.0;
 
@@ -77,7 +81,65 @@ pub fn by_regimes(nodes: &[Node], kappa: f64, beta: f64) -> [f64; 3] {
     channels
 }
 
-/// Factors that J separates into for κ ≥ [`ROUGH`]: `J_c = Σ_k basis[k] M_ck`.
+/// Coefficients of `q_k(β)` for k = 1 … 7, from the constant on.
+///
+/// With the central moments `μ_j(g)` of Poisson's distribution and Laguerre's polynomials `L_j`,
+/// ```text
+/// q_k(β) = Σ_j (−1)^j L_j(β) [g^(j−k)] μ_j(g),   j ≤ 2k
+/// ```
+/// since S is the mean of `e^(-βg/n)/n` over n, expanded about n = g.
+const Q1: [f64; 3] = [1.0, -2.0, 0.5];
+const Q2: [f64; 5] = [2.0, -9.0, 7.5, -11.0 / 6.0, 0.125];
+const Q3: [f64; 7] = [6.0, -44.0, 65.5, -34.0, 22.0 / 3.0, -2.0 / 3.0, 1.0 / 48.0];
+const Q4: [f64; 9] =
+    [24.0, -250.0, 550.0, -2695.0 / 6.0, 4045.0 / 24.0, -478.0 / 15.0, 223.0 / 72.0, -7.0 / 48.0, 1.0 / 384.0];
+const Q5: [f64; 11] = [
+    120.0,
+    -1644.0,
+    4862.0,
+    -5510.0,
+    24_015.0 / 8.0,
+    -10_565.0 / 12.0,
+    11_771.0 / 80.0,
+    -214.0 / 15.0,
+    905.0 / 1152.0,
+    -13.0 / 576.0,
+    1.0 / 3840.0,
+];
+const Q6: [f64; 13] = [
+    720.0,
+    -12_348.0,
+    46_354.0,
+    -203_896.0 / 3.0,
+    196_567.0 / 4.0,
+    -475_013.0 / 24.0,
+    3_427_543.0 / 720.0,
+    -1_193_831.0 / 1680.0,
+    385_001.0 / 5760.0,
+    -203_801.0 / 51_840.0,
+    1603.0 / 11_520.0,
+    -31.0 / 11_520.0,
+    1.0 / 46_080.0,
+];
+const Q7: [f64; 15] = [
+    5040.0,
+    -104_544.0,
+    479_286.0,
+    -2_607_556.0 / 3.0,
+    9_480_317.0 / 12.0,
+    -2_450_119.0 / 6.0,
+    93_206_239.0 / 720.0,
+    -2_373_967.0 / 90.0,
+    1_118_834.0 / 315.0,
+    -907_483.0 / 2835.0,
+    999_013.0 / 51_840.0,
+    -985.0 / 1296.0,
+    259.0 / 13_824.0,
+    -1.0 / 3840.0,
+    1.0 / 645_120.0,
+];
+
+/// Factors that J separates into for κ ≥ [`NEARLY_ROUGH`]: `J_c = Σ_k basis[k] M_ck`.
 ///
 /// ```text
 /// basis_k = e^-β / κ  q_k(β) κ^-k
@@ -85,17 +147,38 @@ pub fn by_regimes(nodes: &[Node], kappa: f64, beta: f64) -> [f64; 3] {
 /// with `q_k` the coefficients of the expansion of S in 1/g at fixed β.
 #[inline]
 pub fn rough_basis(kappa: f64, beta: f64) -> [f64; MOMENTS] {
-    let t = 1.0 / kappa;
     // The exponential is 0 from there on, the polynomials would go on to infinity.
-    let beta = beta.min(700.0);
-    let front = exp(-beta) * t;
-    let q1 = 1.0 + beta * (-2.0 + beta * 0.5);
-    let q2 = 2.0 + beta * (-9.0 + beta * (7.5 + beta * (-11.0 / 6.0 + beta * 0.125)));
-    let q3 = 6.0
-        + beta
-            * (-44.0
-                + beta * (65.5 + beta * (-34.0 + beta * (22.0 / 3.0 + beta * (-2.0 / 3.0 + beta * (1.0 / 48.0))))));
-    [front, front * t * q1, front * t * t * q2, front * t * t * t * q3]
+    rough_basis_of(kappa, beta.min(700.0))
+}
+
+/// The first so many factors, for β up to 700; without branches or calls, so that a loop over it vectorizes.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+pub(super) fn rough_basis_of<const N: usize>(kappa: f64, beta: f64) -> [f64; N] {
+    let t = 1.0 / kappa;
+    let mut power = exp(-beta) * t;
+    let mut basis = [0.0; N];
+    for (k, value) in basis.iter_mut().enumerate() {
+        let q = match k {
+            0 => 1.0,
+            1 => polynomial(&Q1, beta),
+            2 => polynomial(&Q2, beta),
+            3 => polynomial(&Q3, beta),
+            4 => polynomial(&Q4, beta),
+            5 => polynomial(&Q5, beta),
+            6 => polynomial(&Q6, beta),
+            _ => polynomial(&Q7, beta),
+        };
+        *value = power * q;
+        power *= t;
+    }
+    basis
+}
+
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn polynomial<const N: usize>(coefficients: &[f64; N], x: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
 /// J from its moments.

@@ -86,6 +86,11 @@ pub struct LitSamples {
 }
 
 impl LitSamples {
+    /// Positions of samples, both lists ascending.
+    pub(super) fn new(size: RasterSize, samples: Vec<u32>, seen: Vec<u32>) -> Self {
+        Self { size, samples, seen }
+    }
+
     /// The picture's size.
     pub fn size(&self) -> RasterSize {
         self.size

@@ -14,8 +14,8 @@ use std::sync::{Arc, OnceLock};
 /// The wavelength that κ is g at, in nanometers.
 pub const LAMBDA_0_NM: f64 = 550.0;
 
-/// Number of moments beyond the first.
-pub const MOMENTS: usize = 4;
+/// Number of moments.
+pub const MOMENTS: usize = 8;
 
 /// A wavelength that stands for its neighborhood.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -36,7 +36,7 @@ pub use check::MARGIN;
 pub use domain::{Demand, is_lit, position};
 pub(in crate::render) use run::{Places, RUN};
 
-use super::diffuse::{ROUGH, VERY_ROUGH, by_nodes, by_regimes};
+use super::diffuse::{NEARLY_ROUGH, ROUGH, VERY_ROUGH, by_nodes, by_regimes};
 use super::measure::{MOMENTS, Node, SpectralWeights};
 use super::quality::Quality;
 use super::shading::ShadingImage;
@@ -67,6 +67,8 @@ pub struct Plan {
     leaves_dark: bool,
     /// κ from which on the first so many moments serve; infinite where none are good enough.
     rough: (f64, usize),
+    /// κ from which on [`FEW_MOMENTS`](super::diffuse::FEW_MOMENTS) of these serve.
+    few: f64,
     moments: [[f64; MOMENTS]; 3],
     below: Below,
     /// All wavelengths, for κ that are not served.
@@ -88,6 +90,8 @@ enum Below {
 /// Number of wavelengths of a preview, and the errors known of them and of those of a [`SpectralWeights`].
 const PREVIEW_NODES: usize = 6;
 const PREVIEW_BOUND: f64 = 1e-4;
+/// κ from which on all moments are within that.
+const PREVIEW_ROUGH: f64 = 32.0;
 const COARSE_BOUND: f64 = 1e-6;
 const FINE_BOUND: f64 = 1e-9;
 /// Below this cost of a picture's samples at wavelengths, in nanoseconds, no search is made: it would take longer.
@@ -119,8 +123,9 @@ impl Plan {
             Quality::Regimes => (Below::Regimes, None),
         };
         let rough = match quality {
-            Quality::Preview | Quality::Full => Some((ROUGH, COARSE_BOUND)),
-            Quality::Fine => Some((VERY_ROUGH, FINE_BOUND)),
+            Quality::Preview => Some(([PREVIEW_ROUGH, NEARLY_ROUGH], PREVIEW_BOUND)),
+            Quality::Full => Some(([NEARLY_ROUGH, ROUGH], COARSE_BOUND)),
+            Quality::Fine => Some(([ROUGH, VERY_ROUGH], FINE_BOUND)),
             Quality::Reference | Quality::Regimes | Quality::Within(_) => None,
         };
         let demand = Demand::of_picture([f64::MIN_POSITIVE, f64::MAX], 1);
@@ -128,13 +133,14 @@ impl Plan {
             demand,
             held: demand.held(),
             leaves_dark: quality.leaves_dark(),
-            rough: rough.map_or((f64::INFINITY, 0), |(from, _)| (from, MOMENTS)),
+            rough: rough.map_or((f64::INFINITY, 0), |([from, _], _)| (from, MOMENTS)),
+            few: rough.map_or(f64::INFINITY, |([_, few], _)| few),
             moments: *measure.moments(),
             explanation: Explanation {
                 asked: RelTolerance::at_best(bound.unwrap_or(1.0)),
                 against: Against::Peak,
                 demand,
-                rough: rough.map(|(from_kappa, bound)| {
+                rough: rough.map(|([from_kappa, _], bound)| {
                     Candidate::known(IntegrationMethod::Moments { orders: MOMENTS, from_kappa }, Some(bound))
                 }),
                 chosen: Candidate::known(below.method(), bound),
@@ -156,7 +162,7 @@ impl Plan {
         }
     }
 
-    /// True if a search pays for a picture of a quality with so many samples below [`ROUGH`] and [`VERY_ROUGH`], if the diffuse
+    /// True if a search pays for a picture of a quality with so many samples below [`NEARLY_ROUGH`] and [`ROUGH`], if the diffuse
     /// component has to keep this tolerance. A tolerance in numbers is always searched for: its error is checked.
     pub(in crate::render) fn is_searched(quality: Quality, tolerance: RelTolerance, below: [u64; 2]) -> bool {
         let (nodes, precision, samples) = match quality {

@@ -15,7 +15,7 @@ const REFERENCE_MIRROR_SHARE: f64 = 1e-14;
 /// bound is within it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quality {
-    /// Six wavelengths, or four moments where the surface is rough: error below 1e-4 of the peak, 1e-3 of the brightest
+    /// Six wavelengths, or moments where the surface is rough: error below 1e-4 of the peak, 1e-3 of the brightest
     /// sample for the specular lobe. For pictures in motion: nothing is made beforehand.
     Preview,
     /// Error below 1e-5 of the peak.

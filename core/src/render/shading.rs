@@ -3,7 +3,7 @@
 mod brightness;
 mod lobes;
 
-use super::diffuse::{ROUGH, VERY_ROUGH};
+use super::diffuse::{NEARLY_ROUGH, ROUGH};
 use super::geometry::{Angles, GeometryImage};
 use super::measure::LAMBDA_0_NM;
 use super::plan::{self, Demand, Plan};
@@ -25,6 +25,9 @@ use lobes::{Lobe, Lobes};
 
 /// Reflectance of the darkest material that untinted lobes are weighed against: which one it is a surface does not know.
 const DARKEST: f64 = 1.0 / 64.0;
+
+/// κ beyond which there is no mirror term, as for most surfaces: at the reddest light e^-100 of it is left.
+const LAST_KAPPA: f64 = 100.0 * (LAST_NM / LAMBDA_0_NM) * (LAST_NM / LAMBDA_0_NM);
 
 /// Spectral dependence of a sample's diffuse component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +101,7 @@ pub struct ShadingImage {
     range: Option<KappaRange>,
 }
 
-/// Smallest and largest κ of the spectral integrals, and how many are below [`ROUGH`] and [`VERY_ROUGH`].
+/// Smallest and largest κ of the spectral integrals, and how many are below [`NEARLY_ROUGH`] and [`ROUGH`].
 #[derive(Clone, Copy, Debug)]
 struct KappaRange {
     kappa: [f64; 2],
@@ -159,8 +162,9 @@ impl ShadingImage {
                 material.shaded(vertices.geometries().len(), place, stop)?
             }
         };
-        let counts = counts(&shades, mirrors.len());
-        let range = KappaRange::of(&shades);
+        let (range, [dark, flat, spectral]) = KappaRange::of(&shades);
+        let mirrors_skipped = (shades.len() - mirrors.len()) as u64;
+        let counts = ShadingCounts { dark, flat, spectral, mirrors: mirrors.len() as u64, mirrors_skipped };
         let vertices = vertices.map(|(vertices, _)| vertices);
         Some(Self { geometry, vertices, surface, quality, shades, mirrors, brightness, diffuse_scale, counts, range })
     }
@@ -217,7 +221,7 @@ impl ShadingImage {
 
     /// Demand of the picture on a camera's plan; none where no sample has a spectral integral.
     pub fn demand(&self) -> Option<Demand> {
-        self.range.map(|range| Demand::of_picture(range.kappa, range.below[0]))
+        self.range.map(|range| Demand::of_picture(range.kappa, range.below[1]))
     }
 
     /// The quality whose [`Plan::fixed`] serves where no plan is searched.
@@ -229,32 +233,36 @@ impl ShadingImage {
     pub fn plan_request(&self) -> Option<(RelTolerance, Demand)> {
         let (range, tolerance) = self.range.zip(self.plan_tolerance())?;
         let is_searched = Plan::is_searched(self.quality, tolerance, range.below);
-        is_searched.then(|| (tolerance, Demand::of_picture(range.kappa, range.below[0])))
+        is_searched.then(|| (tolerance, Demand::of_picture(range.kappa, range.below[1])))
     }
 }
 
 impl KappaRange {
-    fn of(shades: &[Shade]) -> Option<Self> {
-        let shades = shades.par_iter().with_min_len(GeometryImage::chunk());
-        let spectral = shades.filter(|shade| shade.kind == DiffuseKind::Spectral);
-        let of = |shade: &Shade| Self {
-            kappa: [shade.kappa; 2],
-            below: [ROUGH, VERY_ROUGH].map(|rough| u64::from(shade.kappa < rough)),
-        };
-        let both = |a: Self, b: Self| Self {
-            kappa: [a.kappa[0].min(b.kappa[0]), a.kappa[1].max(b.kappa[1])],
-            below: [a.below[0] + b.below[0], a.below[1] + b.below[1]],
-        };
-        spectral.map(of).reduce_with(both)
-    }
-}
+    const NONE: Self = Self { kappa: [f64::INFINITY, 0.0], below: [0; 2] };
 
-fn counts(shades: &[Shade], mirrors: usize) -> ShadingCounts {
-    let count =
-        |kind| shades.par_iter().with_min_len(GeometryImage::chunk()).filter(|shade| shade.kind == kind).count();
-    let [dark, flat, spectral] =
-        [DiffuseKind::Dark, DiffuseKind::Flat, DiffuseKind::Spectral].map(|kind| count(kind) as u64);
-    ShadingCounts { dark, flat, spectral, mirrors: mirrors as u64, mirrors_skipped: (shades.len() - mirrors) as u64 }
+    /// The range of all spectral integrals, if there are any, and the numbers of dark, flat and spectral samples.
+    fn of(shades: &[Shade]) -> (Option<Self>, [u64; 3]) {
+        let of_run = |shades: &[Shade]| {
+            let (mut range, mut counts) = (Self::NONE, [0; 3]);
+            for shade in shades {
+                counts[shade.kind as usize] += 1;
+                if shade.kind == DiffuseKind::Spectral {
+                    range.kappa = [range.kappa[0].min(shade.kappa), range.kappa[1].max(shade.kappa)];
+                    range.below[0] += u64::from(shade.kappa < NEARLY_ROUGH);
+                    range.below[1] += u64::from(shade.kappa < ROUGH);
+                }
+            }
+            (range, counts)
+        };
+        let both = |(a, m): (Self, [u64; 3]), (b, n): (Self, [u64; 3])| {
+            let kappa = [a.kappa[0].min(b.kappa[0]), a.kappa[1].max(b.kappa[1])];
+            let below = [a.below[0] + b.below[0], a.below[1] + b.below[1]];
+            (Self { kappa, below }, [m[0] + n[0], m[1] + n[1], m[2] + n[2]])
+        };
+        let runs = shades.par_chunks(GeometryImage::chunk()).map(of_run);
+        let (range, counts) = runs.reduce(|| (Self::NONE, [0; 3]), both);
+        ((counts[DiffuseKind::Spectral as usize] > 0).then_some(range), counts)
+    }
 }
 
 /// A lit sample, or a vertex in its place.
@@ -285,7 +293,8 @@ impl Material {
         let least = share * diffuse.brightest * self.darkest;
         let lobes = |run: usize| {
             let all = (run * chunk..count.min((run + 1) * chunk)).take_while(|_| !stop.is_set());
-            all.filter_map(|index| self.lobe(&place(index), index, least)).collect()
+            let near = all.filter(|&index| shades[index].kappa <= LAST_KAPPA);
+            near.filter_map(|index| self.lobe(&place(index), index, least)).collect()
         };
         let lobes: Vec<Vec<Lobe>> = (0..count.div_ceil(chunk)).into_par_iter().map(lobes).collect();
         if stop.is_set() {
@@ -319,8 +328,7 @@ impl Material {
         }
         let kappa = kappa(surface, geometry);
         let (bluest, reddest) = (LAMBDA_0_NM / FIRST_NM, LAMBDA_0_NM / LAST_NM);
-        // Most surfaces: next to what the rough part gives, e^-100 is nothing.
-        if kappa * reddest * reddest > 100.0 {
+        if kappa > LAST_KAPPA {
             return None;
         }
         let front = light * coherent_prefactor(surface, geometry, self.reading);

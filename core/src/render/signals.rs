@@ -80,8 +80,9 @@ impl Camera<'_> {
         for (shades, signals) in shades.chunks(RUN).zip(signals.chunks_mut(RUN)) {
             places.count = shades.len();
             for (i, shade) in shades.iter().enumerate() {
-                (places.kappa[i], places.beta[i]) = (shade.kappa, shade.beta);
                 places.wanted[i] = shade.kind == DiffuseKind::Spectral;
+                (places.kappa[i], places.beta[i]) =
+                    if places.wanted[i] { (shade.kappa, shade.beta) } else { Places::UNWANTED };
             }
             if places.wanted[..shades.len()].contains(&true) {
                 self.plan.run(&places, &mut sums);

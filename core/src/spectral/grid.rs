@@ -156,6 +156,27 @@ impl GridSpectrum {
         Self { values, assumed: Assumed::default() }
     }
 
+    /// The product with another spectrum, such as a light behind a filter; values that overflow become zero. What was assumed of either
+    /// stays assumed.
+    #[must_use]
+    pub fn times(&self, other: &Self) -> Self {
+        let mut product = Self::from_fn(|_| 0.0);
+        let factors = self.values.iter().zip(other.values.iter());
+        for (value, (a, b)) in product.values.iter_mut().zip(factors) {
+            let y = a * b;
+            *value = if y.is_finite() { y + 0.0 } else { 0.0 };
+        }
+        let wider = |a: Option<f64>, b: Option<f64>, of: fn(f64, f64) -> f64| match (a, b) {
+            (Some(a), Some(b)) => Some(of(a, b)),
+            (a, b) => a.or(b),
+        };
+        product.assumed = Assumed {
+            below_nm: wider(self.assumed.below_nm, other.assumed.below_nm, f64::max),
+            above_nm: wider(self.assumed.above_nm, other.assumed.above_nm, f64::min),
+        };
+        product
+    }
+
     /// The values at 380, 381, …, 780 nm.
     pub fn values(&self) -> &[f64; COUNT] {
         &self.values

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use spectral_file::{MAX_BYTES, ReadError, Watch};
 
-use super::{Failing, Job, OpenFile, OpenedEvent, SharedState, Why};
+use super::{Desk, Failing, Job, OpenFile, OpenedEvent, Why};
 use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
@@ -46,6 +46,7 @@ struct Harvest {
     meshes: Vec<PathBuf>,
     documents: Vec<PathBuf>,
     notes: Vec<String>,
+    /// Number of files to be read.
     count: usize,
     /// True if they were known before, such as the parts of one.
     from_memory: bool,
@@ -55,7 +56,7 @@ struct Harvest {
 pub(super) fn open(
     requests: Vec<Request>,
     remembered: &dyn Fn(&[u8]) -> ImportOverrides,
-    shared: &SharedState,
+    desk: &Desk,
     job: &Job,
 ) -> Vec<OpenedEvent> {
     let mut harvest = Harvest::default();
@@ -66,7 +67,7 @@ pub(super) fn open(
         if !job.go_on(0.0) {
             break;
         }
-        let (origin, bytes, wishes) = match contents(request, shared, job, (index + 1, count)) {
+        let (origin, bytes, wishes) = match contents(request, desk, job, (index + 1, count)) {
             Ok(Some(contents)) => contents,
             Ok(None) => continue,
             Err(Unread::Mesh(path)) => {
@@ -85,7 +86,7 @@ pub(super) fn open(
         harvest.from_memory |= wishes.is_some();
         let from_memory = wishes.is_none();
         let wishes = wishes.unwrap_or_else(|| remembered(&bytes));
-        take(origin, bytes, (&wishes, from_memory), shared, job, &mut harvest);
+        take(origin, bytes, (&wishes, from_memory), desk, job, &mut harvest);
     }
     // Who stopped it wants none of it.
     if job.go_on(0.0) { harvest.into_events() } else { Vec::new() }
@@ -147,13 +148,13 @@ type Contents = (Origin, Arc<[u8]>, Option<ImportOverrides>);
 
 fn contents(
     request: Request,
-    shared: &SharedState,
+    desk: &Desk,
     job: &Job,
     (file, count): (usize, usize),
 ) -> Result<Option<Contents>, Unread> {
     match request {
         Request::Known(fingerprint, wishes) => {
-            let known = shared.lock().file(fingerprint).cloned();
+            let known = desk.lock().file(fingerprint).cloned();
             Ok(known.map(|file| (file.origin, file.bytes, Some(*wishes))))
         }
         Request::Bytes { name, bytes } => {
@@ -167,7 +168,7 @@ fn contents(
             Ok(Some((origin, bytes, None)))
         }
         Request::Path(path) => {
-            let path = known_path(path, shared);
+            let path = known_path(path, desk);
             job.at(&path, file, count);
             let beginning = beginning(&path);
             if is_session(&beginning) {
@@ -183,9 +184,9 @@ fn contents(
 }
 
 /// The path that a file is known by already, where this one leads to it by links or detours.
-fn known_path(path: PathBuf, shared: &SharedState) -> PathBuf {
+fn known_path(path: PathBuf, desk: &Desk) -> PathBuf {
     let Ok(whole) = fs::canonicalize(&path) else { return path };
-    let state = shared.lock();
+    let state = desk.lock();
     let is_known = state.files.iter().any(|file| file.origin.path.as_ref() == Some(&whole));
     if is_known { whole } else { path }
 }
@@ -198,7 +199,7 @@ fn take(
     origin: Origin,
     bytes: Arc<[u8]>,
     (wishes, from_memory): (&ImportOverrides, bool),
-    shared: &SharedState,
+    desk: &Desk,
     job: &Job,
     harvest: &mut Harvest,
 ) {
@@ -230,7 +231,7 @@ fn take(
             harvest.failed.push(fingerprint);
         }
     }
-    shared.know(OpenFile { origin, bytes, failure });
+    desk.lock().know(OpenFile { origin, bytes, failure });
 }
 
 /// Reads; a panic comes out as a failure of this file alone.
@@ -281,7 +282,7 @@ impl Harvest {
 }
 
 /// Takes files in that could not be read in an earlier run. One that changed since is not used before a person says so.
-pub(super) fn recall(failing: Vec<Failing>, shared: &SharedState, job: &Job) {
+pub(super) fn recall(failing: Vec<Failing>, desk: &Desk, job: &Job) {
     let count = failing.len();
     for (index, Failing { path, fingerprint, why }) in failing.into_iter().enumerate() {
         job.at(&path, index + 1, count);
@@ -291,24 +292,19 @@ pub(super) fn recall(failing: Vec<Failing>, shared: &SharedState, job: &Job) {
         if origin.fingerprint != fingerprint {
             failure = read_once(&origin, &bytes, &ImportOverrides::default(), job).err();
             let new = origin.fingerprint;
-            shared.lock().events.push(OpenedEvent::Replaced { old: fingerprint, new, path });
+            desk.lock().events.push(OpenedEvent::Replaced { old: fingerprint, new, path });
         }
         if !job.go_on(0.0) {
             return;
         }
-        shared.know(OpenFile { origin, bytes, failure });
+        desk.lock().know(OpenFile { origin, bytes, failure });
     }
 }
 
 /// Reads a set's file again, from disk if that changed, else from memory.
-pub(super) fn reread(
-    set: &OwnSet,
-    why: Why,
-    shared: &SharedState,
-    job: &Job,
-) -> Option<(String, Result<Imported, String>)> {
+pub(super) fn reread(set: &OwnSet, why: Why, desk: &Desk, job: &Job) -> Option<(String, Result<Imported, String>)> {
     let name = set.name.clone();
-    let known = set.fingerprint.and_then(|fingerprint| shared.lock().file(fingerprint).cloned());
+    let known = set.fingerprint.and_then(|fingerprint| desk.lock().file(fingerprint).cloned());
     let result = match (why, known, &set.path) {
         (Why::Alike, Some(file), _) => read_once(&file.origin, &file.bytes, &set.wishes, job),
         (_, _, Some(path)) => {
@@ -318,11 +314,12 @@ pub(super) fn reread(
                 .and_then(|bytes| {
                     let origin = origin(path, &bytes);
                     if why == Why::Changed && Some(origin.fingerprint) == set.fingerprint {
-                        shared.know(OpenFile { origin, bytes, failure: None });
+                        desk.lock().know(OpenFile { origin, bytes, failure: None });
                         return Ok(None);
                     }
                     let read = read_once(&origin, &bytes, &set.wishes, job);
-                    shared.know(OpenFile { origin, bytes, failure: read.as_ref().err().cloned() });
+                    let file = OpenFile { origin, bytes, failure: read.as_ref().err().cloned() };
+                    desk.lock().know(file);
                     read.map(Some)
                 })
                 .transpose()?
@@ -333,12 +330,13 @@ pub(super) fn reread(
 }
 
 /// Takes a file in again, if its contents are what they were.
-pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, shared: &SharedState, job: &Job) {
+pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Job) {
     job.at(path, 1, 1);
     if let Ok(bytes) = read_bytes(path)
         && Fingerprint::of(&bytes) == fingerprint
     {
-        shared.know(OpenFile { origin: origin(path, &bytes), bytes, failure: None });
+        let file = OpenFile { origin: origin(path, &bytes), bytes, failure: None };
+        desk.lock().know(file);
     }
 }
 

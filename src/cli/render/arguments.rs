@@ -48,6 +48,10 @@ pub(in crate::cli) struct RenderArguments {
     /// The illuminant: a name, a file with one curve, `daylight:K` or `blackbody:K` [default: Direct sun (ASTM G173)]
     #[arg(long, value_name = "NAME|FILE", help_heading = SCENE)]
     pub(super) illuminant: Option<OsString>,
+    /// A filter in front of the illuminant: a name of `chromascope list filters`, or a file with one transmittance; may be repeated,
+    /// in any order
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) filter: Vec<OsString>,
     /// The white-balance target, the RGB a perfect diffuser is mapped to: `unity`, an illuminant, `daylight:K` or `blackbody:K`
     /// [default: D55]
     #[arg(long = "white-balance", alias = "white", value_name = "WHITE", help_heading = SCENE)]

@@ -55,6 +55,7 @@ impl Setup {
             Some(illuminant) => request.set_light(illuminant)?,
             None => request.document.light = Light::Set(SUN.to_owned()),
         }
+        request.set_filters(&arguments.filter)?;
         match &arguments.white {
             Some(white) => request.set_white(white)?,
             None => request.document.white = WhiteBalanceChoice::Light(BALANCE.to_owned()),

@@ -30,9 +30,9 @@ pub struct ImportSelection {
 }
 
 impl ImportSelection {
-    /// The selected item; asks for what is not known yet, and keeps the answer for [`figure`](super::figure).
-    pub fn refresh(scene: &Scene<'_>, view: &mut View, opened: &Opened) -> Option<Self> {
-        let mut shown = Self::of(scene, view)?;
+    /// The selected item; asks for what is not known yet.
+    pub fn refresh(scene: &Scene<'_>, view: &View, opened: &Opened) -> Option<Self> {
+        let mut shown = Self::of(scene, view, opened.preview())?;
         let fingerprint = match &shown.item {
             ImportItem::File(fingerprint) => Some(*fingerprint),
             ImportItem::Set(_) => shown.set.as_ref().and_then(|set| set.fingerprint),
@@ -50,12 +50,11 @@ impl ImportSelection {
             }
             (None, None) => return None,
         }
-        view.import.look.clone_from(&shown.look);
         Some(shown)
     }
 
-    /// Contents of the Import pane, as far as they are known.
-    pub fn of(scene: &Scene<'_>, view: &View) -> Option<Self> {
+    /// The same, as far as it is known: `last` is what a file was last understood as.
+    pub fn of(scene: &Scene<'_>, view: &View, last: Option<Arc<FilePreview>>) -> Option<Self> {
         let item = view.import.selected.clone()?;
         let (set, fingerprint) = match &item {
             ImportItem::Set(name) => {
@@ -67,7 +66,7 @@ impl ImportSelection {
         let tried = view.import.pending(&item).cloned();
         let pending = tried.is_some();
         let wishes = tried.or_else(|| set.as_ref().map(|set| set.wishes.clone())).unwrap_or_default();
-        let look = view.import.look.clone().filter(|look| Some(look.fingerprint) == fingerprint);
+        let look = last.filter(|look| Some(look.fingerprint) == fingerprint);
         Some(Self { item, set, wishes, pending, file: None, look })
     }
 

@@ -75,7 +75,7 @@ mod tests {
     fn said(change: impl FnOnce(&mut Document)) -> Option<Words> {
         let mut document = Document::colorimetry();
         change(&mut document);
-        let (catalog, results) = (Catalog::built_in(), Results::bounded());
+        let (catalog, results) = (Catalog::built_in(), Results::default());
         words(&Scene { document: &document, catalog: &catalog, results: &results })
     }
 

@@ -116,6 +116,7 @@ fn entry_found(kind: SetKind, entry: &Entry) -> Found {
         SetKind::Camera | SetKind::Observer => Action::Compare(CompareAction::Add(kind, name)),
         SetKind::Chart | SetKind::Material => Action::Scene(SceneAction::SetChart(name)),
         SetKind::Illuminant => Action::Scene(SceneAction::SetLight(Light::Set(name))),
+        SetKind::Filter => Action::Scene(SceneAction::SetFilter(name, true)),
         SetKind::Unsorted => {
             let command = Command::ShowImport(ImportItem::Set(name), None);
             return Found { words: entry.name.clone(), note: "unsorted: choose what it is".to_owned(), command };
@@ -124,6 +125,7 @@ fn entry_found(kind: SetKind, entry: &Entry) -> Found {
     let verb = match kind {
         SetKind::Camera | SetKind::Observer => "compare",
         SetKind::Chart | SetKind::Material => "as patches",
+        SetKind::Filter => "add to the light",
         SetKind::Illuminant | SetKind::Unsorted => "as light",
     };
     Found { words: entry.name.clone(), note: format!("{}, {verb}", kind.singular()), command: Command::Do(action) }

@@ -125,7 +125,7 @@ fn select(ui: &Ui, entries: &[Entry], index: usize, context: &mut PaneContext<'_
 
 /// Makes a set of the file on show, if it is none and can be read as it is wished.
 fn take(context: &mut PaneContext<'_>) {
-    let Some(shown) = ImportSelection::of(&context.scene, context.view) else { return };
+    let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
     match shown.item {
         ImportItem::File(file) if shown.is_fresh() && !shown.taken().is_empty() => {
             context.push(Command::UseFile(file, Box::new(shown.wishes)));

@@ -1,9 +1,12 @@
 //! Numbers in aligned columns.
 
+use chromascope_core::colorimetry::Xyz;
+use chromascope_core::light::Cct;
 use chromascope_core::query::PatchColor;
 use egui::{FontId, Rect, Sense, Ui, Vec2};
 
 use crate::format::fixed;
+use crate::scene::Scene;
 use crate::theme::{MONO, SMALL, Theme};
 
 /// Height of a row of numbers.
@@ -22,13 +25,13 @@ pub(super) struct Row {
 }
 
 /// The rows that patches have: RGB, both diagrams, L*a*b*.
-pub(super) fn of_patches(colors: &[Option<PatchColor>]) -> Vec<Row> {
+pub(super) fn of_patches(scene: &Scene<'_>, colors: &[Option<PatchColor>]) -> Vec<Row> {
     let row = |name, decimals, take: &dyn Fn(&PatchColor) -> Option<f64>| Row {
         name,
         decimals,
         cells: colors.iter().map(|color| color.as_ref().and_then(take)).collect(),
     };
-    vec![
+    let mut rows = vec![
         row("R", 4, &|c| c.rgb.map(|rgb| rgb[0])),
         row("G", 4, &|c| c.rgb.map(|rgb| rgb[1])),
         row("B", 4, &|c| c.rgb.map(|rgb| rgb[2])),
@@ -39,7 +42,20 @@ pub(super) fn of_patches(colors: &[Option<PatchColor>]) -> Vec<Row> {
         row("L*", 2, &|c| c.lab.map(|lab| lab.l)),
         row("a*", 2, &|c| c.lab.map(|lab| lab.a)),
         row("b*", 2, &|c| c.lab.map(|lab| lab.b)),
-    ]
+    ];
+    rows.extend(temperatures(scene, colors.iter().map(|color| color.map(|color| color.xyz))));
+    rows
+}
+
+/// Correlated color temperature in kelvins and Duv, for the CIE 1931 observer; none where it is undefined.
+pub(super) fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Option<Xyz>>) -> [Row; 2] {
+    let found: Vec<Option<Cct>> = colors.map(|color| scene.temperature_of(color).ok()?.ok()).collect();
+    let row = |name, decimals, take: fn(Cct) -> f64| Row {
+        name,
+        decimals,
+        cells: found.iter().map(|cct| cct.map(take)).collect(),
+    };
+    [row("CCT", 0, |cct| cct.temperature.get()), row("Duv", 4, |cct| cct.duv)]
 }
 
 /// Writes rows below the columns' heads, each column flush right in its width.

@@ -98,7 +98,7 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
     } else {
         (vec!["reference".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
     };
-    let rows = numbers::of_patches(&colors);
+    let rows = numbers::of_patches(&scene, &colors);
     numbers::show(ui, &theme, &heads, &rows, 84.0);
     if buttons(ui, context) {
         copy_text(ui, numbers::to_tsv(&heads, &rows), context);
@@ -187,7 +187,7 @@ fn buttons_without_copy(ui: &mut Ui, context: &mut PaneContext<'_>) {
             color_of(&scene, &SensorId { kind: s.kind, name: s.name.clone() }, &patch).ok().flatten()
         };
         let colors: Vec<_> = shown.iter().map(color).collect();
-        copy_text(ui, numbers::to_tsv(&heads, &numbers::of_patches(&colors)), context);
+        copy_text(ui, numbers::to_tsv(&heads, &numbers::of_patches(&scene, &colors)), context);
     }
 }
 

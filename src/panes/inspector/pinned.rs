@@ -94,7 +94,7 @@ fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneCo
         &context.theme,
         format!("{} from the reference: {}", context.scene.difference_name(), differences.join(", ")),
     );
-    numbers::show(ui, &context.theme, &heads, &numbers::of_patches(&colors), COLUMN);
+    numbers::show(ui, &context.theme, &heads, &numbers::of_patches(scene, &colors), COLUMN);
 }
 
 /// Pinned black bodies; the reference stands first where all have the same temperature.
@@ -113,5 +113,5 @@ fn radiators(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &Pane
         heads.insert(0, "reference".to_owned());
         points.insert(0, radiator::point_of(scene, &reference_id(scene), first).ok().flatten());
     }
-    numbers::show(ui, &context.theme, &heads, &radiator::rows_of(&points), COLUMN);
+    numbers::show(ui, &context.theme, &heads, &radiator::rows_of(scene, &points), COLUMN);
 }

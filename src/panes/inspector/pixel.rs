@@ -21,16 +21,15 @@ pub(super) fn kept<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
 
 /// Shows it, if pictures are on show.
 pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
-    let render = &context.view.render;
-    let Some((pinned, shot)) = kept(context).zip(render.shot.clone()) else { return };
+    let Some((pinned, shot)) = kept(context).zip(context.studio.frame()) else { return };
     ui.add_space(UNIT);
     ui.label(RichText::new("Pinned pixel").strong());
     let measure = Measure::of(&shot.query);
-    for source in &shot.sources {
+    for source in shot.sources.iter() {
         let place = PixelPlace { source: id(source), ..pinned.clone() };
-        let Some(reading) = pixel_of(&context.scene, render, &place) else { continue };
+        let Some(reading) = pixel_of(&context.scene, shot, &place) else { continue };
         key_and_label(ui, source, &context.theme);
-        let made = shot.made().zip(index_of(&shot, &place.source));
+        let made = shot.made().zip(index_of(shot, &place.source));
         if let Some(difference) = made.and_then(|(made, at)| made.differences.get(at)?.as_ref()) {
             note(ui, &context.theme, measure.words(difference, Detail::Quantiles));
         }

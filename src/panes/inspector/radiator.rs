@@ -23,18 +23,20 @@ pub(super) fn point_of(scene: &Scene<'_>, id: &SensorId, kelvin: f64) -> Result<
 }
 
 /// The rows that points of loci have.
-pub(super) fn rows_of(points: &[Option<LocusPoint>]) -> Vec<Row> {
+pub(super) fn rows_of(scene: &Scene<'_>, points: &[Option<LocusPoint>]) -> Vec<Row> {
     let row = |name, take: &dyn Fn(&LocusPoint) -> Option<f64>| Row {
         name,
         decimals: 4,
         cells: points.iter().map(|point| point.as_ref().and_then(take)).collect(),
     };
-    vec![
+    let mut rows = vec![
         row("x", &|p| p.xy.map(|xy| xy.x)),
         row("y", &|p| p.xy.map(|xy| xy.y)),
         row("u′", &|p| p.uv.map(|uv| uv.u)),
         row("v′", &|p| p.uv.map(|uv| uv.v)),
-    ]
+    ];
+    rows.extend(numbers::temperatures(scene, points.iter().map(|point| point.map(|point| point.xyz))));
+    rows
 }
 
 /// Shows it.
@@ -61,7 +63,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
     if !is_reference {
         distance(ui, id, &own, &seen, context);
     }
-    let rows = rows_of(&points);
+    let rows = rows_of(&scene, &points);
     numbers::show(ui, &theme, &heads, &rows, 84.0);
     match scene.document.light {
         Light::BlackBody => note(ui, &theme, "The light on the scene is a blackbody of the marked temperature."),

@@ -10,7 +10,7 @@ use super::{
 use crate::catalog::Place;
 use crate::command::Command;
 use crate::document::{Diagram, FIT_TARGET, Light, SetKind};
-use crate::format::fixed;
+use crate::format::{fixed, signed};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::facts::{self, Fact, range_words};
 use crate::plot_item::SensorId;
@@ -93,6 +93,15 @@ fn measures(scene: &Scene<'_>, id: &SensorId) -> Vec<Fact> {
     facts
 }
 
+/// CCT and Duv of the light, or why there are none.
+fn temperature_words(scene: &Scene<'_>) -> String {
+    match scene.light_temperature() {
+        Ok(Ok(cct)) => format!("CCT {} K, Duv {} for {FIT_TARGET}", fixed(cct.temperature.get(), 0), signed(cct.duv)),
+        Ok(Err(error)) => format!("no CCT: {error}"),
+        Err(error) => error.to_string(),
+    }
+}
+
 /// The light on the scene.
 pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
@@ -120,6 +129,10 @@ pub(super) fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
             );
             measured.push(("Chromaticity", words));
         }
+    }
+    measured.push(("Temperature", temperature_words(&scene)));
+    for name in &scene.document.filters {
+        measured.push(("Filter", name.clone()));
     }
     match &scene.document.light {
         Light::Set(name) => {

@@ -20,7 +20,7 @@ fn led_to() -> Id {
 
 /// In the head of the pane, where nothing has to be scrolled: how many notes there are, and the way to them.
 pub(super) fn button(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let Some(shown) = ImportSelection::of(&context.scene, context.view) else { return };
+    let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
     let Some(count) = shown.table().map(|table| table.warnings.len()).filter(|count| *count > 0) else { return };
     ui.add_space(UNIT);
     let words = RichText::new(counted(count)).color(context.theme.warning);

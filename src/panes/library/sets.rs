@@ -130,6 +130,7 @@ const fn title(kind: SetKind) -> &'static str {
         SetKind::Observer => "Observers",
         SetKind::Chart => "Charts",
         SetKind::Illuminant => "Illuminants",
+        SetKind::Filter => "Filters",
         SetKind::Material => "Materials",
         SetKind::Unsorted => "Unsorted",
     }
@@ -152,6 +153,7 @@ fn state(entry: &Entry, context: &PaneContext<'_>) -> (bool, bool) {
         }
         SetKind::Chart | SetKind::Material => (document.chart == entry.name, true),
         SetKind::Illuminant => (document.light == Light::Set(entry.name.clone()), true),
+        SetKind::Filter => (document.filters.contains(&entry.name), true),
         SetKind::Unsorted => (false, true),
     }
 }
@@ -168,6 +170,7 @@ pub(super) fn choose(entry: &Entry, on: bool, context: &mut PaneContext<'_>) {
         SetKind::Camera | SetKind::Observer if on => Action::Compare(CompareAction::Add(entry.kind, name)),
         SetKind::Camera | SetKind::Observer => Action::Compare(CompareAction::Remove(entry.kind, name)),
         SetKind::Chart | SetKind::Material => Action::Scene(SceneAction::SetChart(name)),
+        SetKind::Filter => Action::Scene(SceneAction::SetFilter(name, on)),
         SetKind::Illuminant | SetKind::Unsorted => Action::Scene(SceneAction::SetLight(Light::Set(name))),
     });
 }
@@ -175,7 +178,7 @@ pub(super) fn choose(entry: &Entry, on: bool, context: &mut PaneContext<'_>) {
 /// One set.
 fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     let (on, enabled) = state(entry, context);
-    let ticks = matches!(entry.kind, SetKind::Camera | SetKind::Observer);
+    let ticks = matches!(entry.kind, SetKind::Camera | SetKind::Observer | SetKind::Filter);
     let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     let id = ui.scope_id().with(("set", entry.kind, &entry.name, entry.is_own()));
     let mut row = Rect::from_min_max(rect.min + Vec2::new(2.0 * UNIT, 0.0), rect.max);

@@ -29,7 +29,7 @@ const RING: f32 = 7.0;
 
 /// Draws what stands in the pane, as far as it was made.
 pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, context: &mut PaneContext<'_>) {
-    let shot = context.view.render.shot.clone();
+    let shot = context.studio.frame().cloned();
     let scale = shot.as_deref().filter(|_| stand.scale.is_some()).map(maps::Scale::of);
     for (index, cell) in stand.cells.iter().enumerate() {
         let Some(source) = stand.sources.get(cell.source) else { continue };
@@ -211,7 +211,7 @@ pub(super) fn choosers(ui: &mut Ui, stand: &PictureLayout, sources: &[ComparedSe
     if !matches!(stand.mode, RenderMode::One | RenderMode::Split) {
         return;
     }
-    let shot = context.view.render.shot.clone();
+    let shot = context.studio.frame().cloned();
     let painter = ui.painter().clone();
     let row = cell.caption.shrink2(Vec2::new(8.0, 0.0));
     let mut left = row.left();

@@ -42,7 +42,7 @@ pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>)
     let settled = context.scene.document.render.quality != QualityLevel::Full;
     context.view.render.making = if settled { making } else { "Rendering" };
     let studio = &mut *context.studio;
-    let known = studio.shot().is_some();
+    let known = studio.has_made();
     let rest = studio.want(&last, ui.input(|input| input.time));
     let moving = rest.is_some() && known;
     if let Some(rest) = rest {
@@ -61,7 +61,7 @@ pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>)
         stages.dedup();
         studio.ask(stages, &stand.sources, false);
     }
-    context.view.render.shot = studio.shot();
+    studio.refresh();
     studio.failure().map_or(Ok(()), |why| Err(format!("No picture: {why}.")))
 }
 

@@ -6,17 +6,17 @@ use crate::figures::render::headline::Measure;
 use crate::figures::render::{facts, index_of, pixel_of};
 use crate::panes::context::PaneContext;
 use crate::plot_item::SensorId;
+use crate::render_service::RenderedFrame;
 use crate::render_service::pixel::PixelShows;
 use crate::theme::UNIT;
-use crate::view::render::{PixelPlace, RenderView};
+use crate::view::render::PixelPlace;
 
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
     ui.spacing_mut().interact_size.y = 14.0;
-    let render = &context.view.render;
     let weak = context.theme.weak;
-    let Some(place) = render.pinned.clone().map(|place| shown(place, render)) else {
+    let Some(pinned) = context.view.render.pinned.clone() else {
         ui.label(
             RichText::new("Point at a picture to read it; click to pin the pixel, Esc to unpin it.")
                 .small()
@@ -24,11 +24,14 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         );
         return;
     };
-    let Some(reading) = pixel_of(&context.scene, render, &place) else {
+    let found = context.studio.frame().and_then(|shot| {
+        let place = shown(pinned, shot);
+        Some((shot, pixel_of(&context.scene, shot, &place)?, place))
+    });
+    let Some((shot, reading, place)) = found else {
         ui.label(RichText::new("No picture of this sensor yet.").small().color(weak));
         return;
     };
-    let Some(shot) = render.shot.as_deref() else { return };
     let label = index_of(shot, &place.source).map_or(&place.source.name, |index| &shot.sources[index].label);
     let measure = Measure::of(&shot.query);
     let [x, y] = reading.at;
@@ -52,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 "RGB: linear sRGB at this exposure, before clipping. xy, Lab and the difference from the reference: a \
                  white of the same roughness that faces the light has Y = 1. g: at 550 nm.",
             );
-            others(ui, &place, context);
+            others(ui, &place, shot, context);
             if let Some((_, transform)) = lit.roughness {
                 ui.label(RichText::new(format!("g at 550 nm, {transform}")).small().color(weak));
             }
@@ -61,8 +64,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 /// The place in the picture it was kept in or, where that sensor has none now, in the last one that has.
-fn shown(place: PixelPlace, render: &RenderView) -> PixelPlace {
-    let Some(shot) = render.shot.as_deref() else { return place };
+fn shown(place: PixelPlace, shot: &RenderedFrame) -> PixelPlace {
     match shot.sources.last() {
         Some(last) if index_of(shot, &place.source).is_none() => {
             PixelPlace { source: SensorId { kind: last.kind, name: last.name.clone() }, ..place }
@@ -72,15 +74,12 @@ fn shown(place: PixelPlace, render: &RenderView) -> PixelPlace {
 }
 
 /// The pixel through each sensor, one line each.
-fn others(ui: &mut Ui, place: &PixelPlace, context: &PaneContext<'_>) {
-    let render = &context.view.render;
-    let Some(shot) = render.shot.as_deref() else { return };
+fn others(ui: &mut Ui, place: &PixelPlace, shot: &RenderedFrame, context: &PaneContext<'_>) {
     let measure = Measure::of(&shot.query);
     Grid::new("pixel in all pictures").num_columns(3).spacing([2.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
-        for source in &shot.sources {
+        for source in shot.sources.iter() {
             let place = PixelPlace { at: place.at, source: SensorId { kind: source.kind, name: source.name.clone() } };
-            let Some(PixelShows::Lit(lit)) = pixel_of(&context.scene, render, &place).map(|reading| reading.shows)
-            else {
+            let Some(PixelShows::Lit(lit)) = pixel_of(&context.scene, shot, &place).map(|reading| reading.shows) else {
                 continue;
             };
             let xy = lit.xy.map_or_else(|| "no xy".to_owned(), |xy| format!("{:.4} {:.4}", xy.x, xy.y));

@@ -1,6 +1,7 @@
 //! Mesh, material, and where the light is.
 
 use chromascope_core::scene::lighting::SUN_RADIUS;
+use chromascope_mesh::head::FEWEST;
 use egui::{ComboBox, Ui};
 
 use super::{Dial, caption, material, set};
@@ -21,15 +22,17 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
     summary(ui, &settings, context);
     if matches!(settings.mesh, MeshChoice::Head | MeshChoice::Fern | MeshChoice::Sphere) {
+        // The head's cage has so many that a smaller number would change nothing.
+        let least = if settings.mesh == MeshChoice::Head { FEWEST as f64 } else { *TRIANGLES.start() };
         let dial = Dial {
             name: "Triangles",
-            range: TRIANGLES,
+            range: least..=*TRIANGLES.end(),
             logarithmic: Some(1.0),
             unit: "",
             hint: "Approximate number of triangles. Generating a mesh takes longer than drawing it.",
             beyond: false,
         };
-        if let Some(to) = dial.show(ui, settings.triangles as f64) {
+        if let Some(to) = dial.show(ui, (settings.triangles as f64).max(least)) {
             set(context, "Triangles", |settings| settings.triangles = to as usize);
         }
     }

@@ -21,7 +21,7 @@ const STAGES: [(&str, &str); 8] = [
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().interact_size.y = 14.0;
-    let Some(shot) = context.view.render.shot.clone() else { return };
+    let Some(shot) = context.studio.frame().cloned() else { return };
     let Some(made) = shot.made() else { return };
     let (geometry, shading) = (made.geometry, made.shading);
     rows(
@@ -42,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ui.label(RichText::new(format!("{}: {}", source.label, image.plan().explanation())).small());
         }
     }
-    let counts = context.studio.counts();
+    let counts = context.counts();
     let mut stages = Vec::new();
     for (name, words) in STAGES {
         if let Some((_, count)) = counts.iter().find(|(counted, _)| *counted == name) {

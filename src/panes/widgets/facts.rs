@@ -86,7 +86,7 @@ const fn quantity(kind: SetKind) -> Option<Quantity> {
     match kind {
         SetKind::Camera => Some(Quantity::CameraSensitivity),
         SetKind::Observer => Some(Quantity::MatchingFunction),
-        SetKind::Chart | SetKind::Material => Some(Quantity::Reflectance),
+        SetKind::Chart | SetKind::Material | SetKind::Filter => Some(Quantity::Reflectance),
         SetKind::Illuminant => Some(Quantity::Light),
         SetKind::Unsorted => None,
     }

@@ -5,7 +5,7 @@ use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_measure::harness::timed;
 
 use super::SkippedWork;
-use crate::profiler::{SceneRunQuery, fresh};
+use crate::profiler::{SceneRunJob, fresh};
 
 /// The row of the loci.
 pub const LOCI: &str = "loci, while Chromaticity is not visible";
@@ -21,7 +21,7 @@ fn threads() -> String {
 }
 
 /// Cameras that are not on show: their signals are made here.
-pub(super) fn cameras(run: &SceneRunQuery, pictures: &PicturesQuery, ask: &impl Ask) -> Option<SkippedWork> {
+pub(super) fn cameras(run: &SceneRunJob, pictures: &PicturesQuery, ask: &impl Ask) -> Option<SkippedWork> {
     let ((), seconds) =
         timed(|| run.hidden.iter().for_each(|hidden| drop(ask.ask(&pictures.image(&hidden.rendering)))));
     (!run.hidden.is_empty()).then(|| SkippedWork {
@@ -47,7 +47,7 @@ pub(super) fn pictures(pictures: &PicturesQuery, ask: &impl Ask) -> Option<Skipp
 }
 
 /// What other panes would ask for.
-pub(super) fn others(run: &SceneRunQuery, ask: &impl Ask) -> Vec<SkippedWork> {
+pub(super) fn others(run: &SceneRunJob, ask: &impl Ask) -> Vec<SkippedWork> {
     let row = |what: &'static str, count: usize, work: &dyn Fn()| {
         let ((), saved) = timed(work);
         let how = format!("each made timed from nothing; {}", threads());

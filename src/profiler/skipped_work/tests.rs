@@ -22,10 +22,10 @@ fn rows_at(size: RasterSize, change: impl FnOnce(&mut RenderSettings)) -> Vec<Sk
     change(&mut document.render);
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let mut run = SceneRunQuery::of(&scene, None, None);
+    let mut run = SceneRunJob::of(&scene, None, None);
     let pictures = run.pictures.as_mut().expect("there is a mesh");
     pictures.shading.geometry.visibility.size = size;
-    of_pictures(pictures, &Results::bounded()).expect("nothing stops it")
+    of_pictures(pictures, &Results::default()).expect("nothing stops it")
 }
 
 #[test]
@@ -33,11 +33,11 @@ fn pictures_that_are_not_on_show_are_made_from_nothing() {
     let document = Document::paper();
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let mut pictures = SceneRunQuery::of(&scene, None, None).pictures.expect("there is a mesh");
+    let mut pictures = SceneRunJob::of(&scene, None, None).pictures.expect("there is a mesh");
     pictures.shading.geometry.visibility.mesh = MeshQuery::Sphere(2000);
     pictures.shading.geometry.visibility.size = RasterSize { width: 16, height: 12, samples: 1 };
     // Whoever asks has all of it at hand.
-    let asking = Results::bounded();
+    let asking = Results::default();
     asking.ask(&pictures);
     let asked =
         || asking.counts().into_iter().map(|(name, count)| (name, count.hits, count.misses)).collect::<Vec<_>>();

@@ -3,7 +3,7 @@
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::camera::rendering::white_divisors;
 use chromascope_core::reflectance::Precision;
-use chromascope_core::render::diffuse::{DARK, ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
+use chromascope_core::render::diffuse::{DARK, NEARLY_ROUGH, ROUGH, by_moments, by_nodes, by_regimes, rough_basis};
 use chromascope_core::render::{Against, Demand, IntegrationMethod, LAMBDA_0_NM, Plan, Quality, SpectralWeights};
 use chromascope_core::spectral::GridSpectrum;
 
@@ -101,7 +101,7 @@ fn a_plan_says_how_each_sample_is_integrated() {
     let measure = &measures(2)[0];
     let plan = Plan::fixed(measure, Quality::Full);
     let said = |plan: &Plan, kappa, beta| plan.method(kappa, beta).to_string();
-    assert_eq!(said(&plan, 200.0, 1.0), "4 moments (κ ≥ 128)");
+    assert_eq!(said(&plan, 200.0, 1.0), "8 moments (κ ≥ 64.0)");
     assert_eq!(said(&plan, 2.0, 1.0), "9 wavelengths for all channels, S to 1e-10");
     assert_eq!(plan.method(2.0, 1.0).node_count(), 9);
     assert_eq!(plan.method(2.0, 1e6), IntegrationMethod::Nothing);
@@ -122,7 +122,10 @@ fn moments_keep_their_error() {
         let points = lattice(200).map(|[s, t]| [within(ROUGH, 1e8, s), within(1.0, 1.0 + DARK, t) - 1.0]);
         let moments = |kappa, beta| by_moments(measure.moments(), &rough_basis(kappa, beta));
         let error = worst(&measure, points, moments);
-        assert!(error < 2e-6, "{error:.2e}");
+        assert!(error < 1e-9, "{error:.2e}");
+        let points = lattice(200).map(|[s, t]| [within(NEARLY_ROUGH, ROUGH, s), within(1.0, 1.0 + DARK, t) - 1.0]);
+        let error = worst(&measure, points, moments);
+        assert!(error < 1e-6, "{error:.2e}");
     }
 }
 

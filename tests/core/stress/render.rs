@@ -23,7 +23,7 @@ use super::walk::{Verdict, Walk};
 use crate::support::{CANON_10D, CIE_1931, light, sensor};
 
 pub(super) const WALKS: &[Walk] = &[
-    Walk { name: "by_moments", promise: 1e-6, share: 0.5, draw: draw_rough, check: moments },
+    Walk { name: "by_moments", promise: 1e-9, share: 0.5, draw: draw_rough, check: moments },
     Walk { name: "by_nodes", promise: 1e-9, share: 0.5, draw: draw_any, check: nodes },
     Walk { name: "diffuse ends", promise: 0.0, share: 4.0, draw: draw_ends, check: ends },
     Walk { name: "Measure::new", promise: 1e-9, share: 0.2, draw: draw_measure, check: measure },

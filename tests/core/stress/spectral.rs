@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use chromascope_core::camera::rendering::{raw, under_light, white_divisors};
 use chromascope_core::camera::{ColorTransform, FitTargets, Rendering, WhiteBalanceTarget};
 use chromascope_core::colorimetry::diagram::{spectral_locus, wavelength_color};
+use chromascope_core::correction::Correction;
 use chromascope_core::patch_set::PatchSet;
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{GridSpectrum, Primaries, Quantity, Response, Sensor, SpectralDistribution};
@@ -222,8 +223,14 @@ fn fitted(&[key, kind, size, light, ..]: &Case, v: &mut Verdict) {
     let Some(sensor) = drawn_sensor(key, primaries(kind), size) else { return v.refuse() };
     let light = drawn_light(key + 1.0, light, &CAMERA);
     let targets = FitTargets::new(&OBSERVER, &light, &TRAINING);
-    let answer =
-        Rendering::by_targets(&sensor, &light, WhiteBalanceTarget::UNITY, &TRAINING, targets.as_ref().map_err(|&e| e));
+    let answer = Rendering::by_targets(
+        &sensor,
+        &light,
+        WhiteBalanceTarget::UNITY,
+        &TRAINING,
+        targets.as_ref().map_err(|&e| e),
+        &Correction::default(),
+    );
     let transform = ColorTransform::Observer { reference: &OBSERVER, training: &TRAINING };
     v.holds("two ways differ", Rendering::new(&sensor, &light, WhiteBalanceTarget::UNITY, transform) == answer);
     let Ok(rendering) = answer else { return v.refuse() };

@@ -124,7 +124,7 @@ fn one(bench: &mut Bench<'_>, name: &str, [low, high]: [f64; 2], measure: &Spect
         let many = [threads, checked];
         if low >= ROUGH {
             let answer = move |&(k, b): &Pixel| by_moments(measure.moments(), &rough_basis(k, b));
-            candidates.push(each("four moments", many, &pixels, &room, error, answer).built_in(made));
+            candidates.push(each("eight moments", many, &pixels, &room, error, answer).built_in(made));
         }
     }
     for tolerance in TOLERANCES {

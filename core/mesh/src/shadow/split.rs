@@ -12,6 +12,8 @@ use rayon::prelude::*;
 
 /// Most bins along each axis; small parts have as many as items.
 const BINS: usize = 16;
+/// Most items that are halved along their longest axis: bins cost more than a better cut saves.
+const HALVED: usize = 4;
 /// Items that one task sorts into bins.
 const RUN: usize = 8192;
 /// Levels below the root: what the stack of a traversal has room for.
@@ -111,7 +113,7 @@ impl Extent {
 fn split(items: &mut [Item], extent: &Extent, depth: u32) -> usize {
     let most = 1_usize << (DEEPEST.saturating_sub(depth + 1));
     let fits = |left: usize| left > 0 && left < items.len() && left.max(items.len() - left) <= most;
-    let cut = Bins::new(items, extent).best_cut();
+    let cut = if items.len() > HALVED { Bins::new(items, extent).best_cut() } else { None };
     if let Some(cut) = cut.filter(|cut| fits(cut.left)) {
         return partition(items, |item| cut.is_left(item));
     }

@@ -47,7 +47,15 @@ pub(super) fn fill(firsts: &[Lab], seconds: &[Lab], answers: &mut [f64]) {
 /// The difference of two colors whose coordinates are bounded.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
-pub(super) fn difference([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 {
+pub(super) fn difference(first: [f64; 3], second: [f64; 3]) -> f64 {
+    let [l, c, h, turn] = components(first, second);
+    (l * l + c * c + h * h + turn * c * h).max(0.0).sqrt()
+}
+
+/// Weighted differences of lightness, chroma and hue, and the factor of the rotation term `R_T c h`.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+pub(super) fn components([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> [f64; 4] {
     let mean_chroma = 0.5 * (length(a1, b1) + length(a2, b2));
     let stretch = 1.5 - 0.5 * chroma_share(mean_chroma).sqrt();
     let turning = turning([a1, b1], [a2, b2]);
@@ -64,7 +72,7 @@ pub(super) fn difference([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 
     let h = hues.difference / (1.0 + 0.015 * c * hue_weight(hues.mean));
     let turn = -2.0 * chroma_share(c).sqrt() * sine(std::f64::consts::FRAC_PI_3 * turned(hues.mean));
     let c = dc / (1.0 + 0.045 * c);
-    (l * l + c * c + h * h + turn * c * h).max(0.0).sqrt()
+    [l, c, h, turn]
 }
 
 /// Mean and difference of two hues.

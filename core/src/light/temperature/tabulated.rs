@@ -4,8 +4,9 @@
 
 use super::exact::{ExactLocus, Motion};
 use super::result::{Cct, CctError, LocusError, MAX_DUV};
-use crate::colorimetry::Uv60;
+use crate::colorimetry::{Uv60, Xyz};
 use crate::light::planckian::RadiationConstants;
+use crate::math::interpolation::linear;
 use crate::spectral::{Primaries, Sensor};
 use crate::units::Kelvin;
 
@@ -61,6 +62,41 @@ impl Robertson {
         Ok(Self { isotherms: (0..31).map(isotherm).collect::<Result<_, _>>()? })
     }
 
+    /// The isotherms as Robertson printed them: sums from 360 to 830 nm, u and v rounded to five decimals, slopes to five digits.
+    ///
+    /// For the CIE 1931 observer all 31 rows are those of his table. Indices that are defined by it need its errors too.
+    ///
+    /// # Errors
+    ///
+    /// [`LocusError`] unless the observer counts in XYZ and sees blackbodies.
+    pub fn as_printed(observer: &Sensor) -> Result<Self, LocusError> {
+        if observer.primaries() != Primaries::Xyz {
+            return Err(LocusError::NotXyz);
+        }
+        let isotherm = |index| {
+            let mired = robertson_mired(index);
+            let [at, before, after] = [0.0, -1e-3, 1e-3].map(|step| whole_table(observer, mired + step));
+            let (at, before, after) = at
+                .zip(before)
+                .zip(after)
+                .map(|((at, before), after)| (at, before, after))
+                .ok_or(LocusError::NoChromaticity)?;
+            let slope = (before.u - after.u) / (after.v - before.v);
+            let unit = 10_f64.powi(4 - slope.abs().log10().floor() as i32);
+            let slope = (slope * unit).round() / unit;
+            let at = Uv60 { u: (at.u * 1e5).round() / 1e5, v: (at.v * 1e5).round() / 1e5 };
+            let length = slope.hypot(1.0);
+            let along = [-slope / length, 1.0 / length];
+            length.is_finite().then_some(Isotherm { mired, at, along }).ok_or(LocusError::Crooked)
+        };
+        Ok(Self { isotherms: (0..31).map(isotherm).collect::<Result<_, _>>()? })
+    }
+
+    /// Reciprocal temperature in mired, u, v and slope of each isotherm, from hot to cold.
+    pub fn rows(&self) -> Vec<[f64; 4]> {
+        self.isotherms.iter().map(|i| [i.mired, i.at.u, i.at.v, -i.along[0] / i.along[1]]).collect()
+    }
+
     /// The temperature by his interpolation; the distance, which he did not give, by the same from the tangents of both.
     ///
     /// # Errors
@@ -88,6 +124,21 @@ impl Robertson {
         }
         Err(CctError::TooCold)
     }
+}
+
+/// Chromaticity of a blackbody over the whole table of the CIE at 1 nm; below 0 mired the law of Rayleigh and Jeans goes on.
+fn whole_table(observer: &Sensor, mired: f64) -> Option<Uv60> {
+    let second = RadiationConstants::Paper.second() * 1e3;
+    let [x, y, z] = observer.curves().each_ref().map(|curve| {
+        let law = |nm: f64| {
+            let exponent = second * mired / nm;
+            // x / (exp(x) − 1), which is 1 at 0: the factor λ/x is common to all temperatures' chromaticities but for λ.
+            let bend = if exponent == 0.0 { 1.0 } else { exponent / exponent.exp_m1() };
+            bend * (560.0 / nm).powi(4)
+        };
+        (360..=830).map(f64::from).map(|nm| linear(curve.wavelengths_nm(), curve.values(), nm) * law(nm)).sum::<f64>()
+    });
+    Some(Xyz { x, y, z }.uv_prime()?.uv60())
 }
 
 /// Ohno 2013: the nearest of 305 black bodies, a hundredth apart, and its two neighbors; from 1000 to 20 000 K.

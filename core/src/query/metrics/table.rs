@@ -1,7 +1,8 @@
 //! The table of metrics.
 
+use super::WhyNot;
 use super::differences::{Statistic, statistic};
-use super::{Evidence, WhyNot};
+use super::evidence::Evidence;
 use crate::colorimetry::Metric;
 use std::hash::{Hash, Hasher};
 
@@ -10,13 +11,25 @@ use std::hash::{Hash, Hasher};
 pub enum MetricGroup {
     /// Differences of the chart's patches from the reference.
     Differences,
+    /// Error of the Planckian locus.
+    Locus,
+    /// Agreement of the sensitivities with the reference's.
+    Sensitivities,
+    /// Noise that balance and color transform amplify.
+    Noise,
 }
 
 impl MetricGroup {
+    /// All groups, in the order of the table.
+    pub const ALL: [Self; 4] = [Self::Differences, Self::Locus, Self::Sensitivities, Self::Noise];
+
     /// Name in words.
     pub const fn label(self) -> &'static str {
         match self {
             Self::Differences => "Differences of patches",
+            Self::Locus => "Planckian locus",
+            Self::Sensitivities => "Sensitivities",
+            Self::Noise => "Noise",
         }
     }
 }
@@ -51,7 +64,7 @@ pub struct CameraMetric {
     pub decimals: usize,
     /// Direction in which values improve.
     pub better: Better,
-    evaluate: fn(&Evidence<'_>) -> Result<f64, WhyNot>,
+    evaluate: fn(&Evidence) -> Result<f64, WhyNot>,
 }
 
 impl PartialEq for CameraMetric {
@@ -88,7 +101,7 @@ macro_rules! statistics {
             group: MetricGroup::Differences,
             decimals: $decimals,
             better: Better::Lower,
-            evaluate: |evidence| statistic(evidence.patches?, $at, $of),
+            evaluate: |evidence| statistic(evidence, $at, $of),
         }
     };
 }
@@ -99,13 +112,207 @@ const DELTA_E_1994: [CameraMetric; 4] = statistics!(2, "delta-e1994", "delta_e_1
 const UV_PRIME: [CameraMetric; 4] = statistics!(3, "uv-prime", "delta_uv_prime", "Δu′v′", 4);
 const XY: [CameraMetric; 4] = statistics!(4, "xy", "delta_xy", "Δxy", 4);
 
-const DIFFERENCES: [[CameraMetric; 4]; 5] = [DELTA_E_2000, DELTA_E_1976, DELTA_E_1994, UV_PRIME, XY];
+const STATISTICS: [[CameraMetric; 4]; 5] = [DELTA_E_2000, DELTA_E_1976, DELTA_E_1994, UV_PRIME, XY];
 // A metric that is added to the table of differences has its statistics here.
-const _: () = assert!(DIFFERENCES.len() == Metric::ALL.len());
+const _: () = assert!(STATISTICS.len() == Metric::ALL.len());
+
+/// Metrics of single numbers.
+const SINGLE: [CameraMetric; 17] = [
+    CameraMetric {
+        id: "lightness",
+        column: "delta_l_rms",
+        label: "Lightness differences of the patches, root mean square",
+        symbol: "ΔL* RMS",
+        evaluate: |evidence| evidence.rms(|patch| patch.lch.map(|[l, _, _]| l)),
+        ..DIFFERENCE
+    },
+    CameraMetric {
+        id: "chroma",
+        column: "delta_c_rms",
+        label: "Chroma differences of the patches, root mean square",
+        symbol: "ΔC*ab RMS",
+        evaluate: |evidence| evidence.rms(|patch| patch.lch.map(|[_, c, _]| c)),
+        ..DIFFERENCE
+    },
+    CameraMetric {
+        id: "hue",
+        column: "delta_h_rms",
+        label: "Hue differences of the patches, root mean square",
+        symbol: "ΔH*ab RMS",
+        evaluate: |evidence| evidence.rms(|patch| patch.lch.map(|[_, _, h]| h)),
+        ..DIFFERENCE
+    },
+    CameraMetric {
+        id: "angular-error",
+        column: "angular_error_deg",
+        label: "Angle between the patches' linear sRGB vectors, mean",
+        symbol: "RGB angle",
+        unit: "°",
+        evaluate: |evidence| evidence.mean(|patch| patch.angle_deg),
+        ..DIFFERENCE
+    },
+    CameraMetric {
+        id: "cct-error",
+        column: "cct_error_k",
+        label: "CCT error of a blackbody, nearest in u′v′ on the reference's own locus",
+        symbol: "CCT error",
+        unit: "K",
+        decimals: 0,
+        evaluate: |evidence| evidence.locus?.cct_error_k.ok_or(WhyNot::NoCct),
+        ..LOCUS
+    },
+    CameraMetric {
+        id: "locus-along",
+        column: "locus_error_along",
+        label: "Locus error along the reference's locus, positive towards higher temperatures",
+        symbol: "Δu′v′ along",
+        evaluate: |evidence| Ok(evidence.locus?.along),
+        ..LOCUS
+    },
+    CameraMetric {
+        id: "locus-off",
+        column: "locus_error_off",
+        label: "Locus error across the reference's locus, positive towards green",
+        symbol: "Δu′v′ off",
+        evaluate: |evidence| Ok(evidence.locus?.off),
+        ..LOCUS
+    },
+    CameraMetric { evaluate: |evidence| Ok(evidence.space?.vora), ..VORA },
+    CameraMetric {
+        id: "luther",
+        column: "luther_residual",
+        label: "Luther residual, relative RMS of the least-squares fit to the reference's curves",
+        symbol: "Luther",
+        decimals: 3,
+        better: Better::Lower,
+        evaluate: |evidence| Ok(evidence.space?.luther),
+        ..VORA
+    },
+    CameraMetric {
+        id: "metamerism-index",
+        column: "metamerism_index",
+        label: "Sensitivity metamerism index as in ISO 17321, least-squares fit",
+        symbol: "SMI",
+        decimals: 1,
+        evaluate: |evidence| Ok(evidence.index?.least_squares),
+        ..VORA
+    },
+    CameraMetric {
+        id: "metamerism-index-min",
+        column: "metamerism_index_min_delta_e",
+        label: "Sensitivity metamerism index as in ISO 17321, minimum-ΔE*ab fit",
+        symbol: "SMI min ΔE",
+        decimals: 1,
+        evaluate: |evidence| Ok(evidence.index?.min_delta_e),
+        ..VORA
+    },
+    CameraMetric {
+        id: "quality-factor",
+        column: "quality_factor_min",
+        label: "Quality factor (Neugebauer) of the worst channel",
+        symbol: "q-factor",
+        decimals: 3,
+        evaluate: |evidence| Ok(evidence.space?.factors.into_iter().fold(f64::INFINITY, f64::min)),
+        ..VORA
+    },
+    CameraMetric {
+        id: "noise-red",
+        column: "noise_gain_red",
+        label: "Noise gain from raw RGB to linear sRGB, red row of matrix ∘ balance",
+        symbol: "noise R",
+        evaluate: |evidence| evidence.noise_row(0),
+        ..NOISE
+    },
+    CameraMetric {
+        id: "noise-green",
+        column: "noise_gain_green",
+        label: "Noise gain from raw RGB to linear sRGB, green row of matrix ∘ balance",
+        symbol: "noise G",
+        evaluate: |evidence| evidence.noise_row(1),
+        ..NOISE
+    },
+    CameraMetric {
+        id: "noise-blue",
+        column: "noise_gain_blue",
+        label: "Noise gain from raw RGB to linear sRGB, blue row of matrix ∘ balance",
+        symbol: "noise B",
+        evaluate: |evidence| evidence.noise_row(2),
+        ..NOISE
+    },
+    CameraMetric { evaluate: |evidence| Ok(evidence.noise?.psi), ..NOISE },
+    CameraMetric {
+        id: "condition",
+        column: "condition_number",
+        label: "Condition number of matrix ∘ balance",
+        symbol: "cond",
+        evaluate: |evidence| evidence.scale.and(Ok(evidence.noise?.condition)),
+        ..NOISE
+    },
+];
+
+const SNR: CameraMetric = CameraMetric {
+    id: "gray-snr",
+    column: "gray_snr_db",
+    label: "Signal-to-noise ratio of an 18 % gray's luminance, shot and read noise",
+    symbol: "SNR",
+    unit: "dB",
+    decimals: 1,
+    better: Better::Higher,
+    evaluate: |evidence| evidence.snr_db,
+    ..NOISE
+};
+
+/// What metrics of a group have in common.
+const DIFFERENCE: CameraMetric = CameraMetric {
+    id: "",
+    column: "",
+    label: "",
+    symbol: "",
+    unit: "1",
+    group: MetricGroup::Differences,
+    decimals: 2,
+    better: Better::Lower,
+    evaluate: |_| Err(WhyNot::NoPatches),
+};
+const LOCUS: CameraMetric = CameraMetric { group: MetricGroup::Locus, decimals: 4, ..DIFFERENCE };
+const VORA: CameraMetric = CameraMetric {
+    id: "vora",
+    column: "vora_value",
+    label: "Vora value",
+    symbol: "Vora",
+    group: MetricGroup::Sensitivities,
+    decimals: 4,
+    better: Better::Higher,
+    ..DIFFERENCE
+};
+const NOISE: CameraMetric = CameraMetric {
+    id: "noise-gain",
+    column: "noise_gain_psi",
+    label: "Noise-gain factor Ψ of US 5609978: sum of the row lengths of the matrix from balanced RGB",
+    symbol: "Ψ",
+    group: MetricGroup::Noise,
+    ..DIFFERENCE
+};
+
+const COUNT: usize = STATISTICS.as_flattened().len() + SINGLE.len() + 1;
+
+/// All metrics, joined when the program is compiled.
+static TABLE: [CameraMetric; COUNT] = table();
+
+const fn table() -> [CameraMetric; COUNT] {
+    let (first, then) = (STATISTICS.as_flattened(), &SINGLE);
+    let mut all = [SNR; COUNT];
+    let mut at = 0;
+    while at + 1 < COUNT {
+        all[at] = if at < first.len() { first[at] } else { then[at - first.len()] };
+        at += 1;
+    }
+    all
+}
 
 impl CameraMetric {
     /// All metrics, in the order they are listed.
-    pub const ALL: &[Self] = DIFFERENCES.as_flattened();
+    pub const ALL: &[Self] = &TABLE;
 
     /// The metric of this id.
     pub fn by_id(id: &str) -> Option<Self> {
@@ -113,7 +320,7 @@ impl CameraMetric {
     }
 
     /// The value, or the reason for none.
-    pub(super) fn evaluate(self, evidence: &Evidence<'_>) -> Result<f64, WhyNot> {
+    pub(super) fn evaluate(self, evidence: &Evidence) -> Result<f64, WhyNot> {
         (self.evaluate)(evidence)
     }
 }

@@ -15,7 +15,7 @@ pub enum IntegrationMethod {
     Nothing,
     /// The first orders of the expansion in 1/κ.
     Moments {
-        /// Number of orders, one to four.
+        /// Number of orders, one to eight.
         orders: usize,
         /// κ from which on they serve.
         from_kappa: f64,

@@ -3,12 +3,14 @@
 use super::Plan;
 use super::table::{Around, Table};
 use crate::math::exp::exp;
-use crate::render::diffuse::{by_moments, by_nodes_into, rough_basis};
+use crate::render::diffuse::{FEW_MOMENTS, by_nodes_into, rough_basis_of};
 use crate::render::measure::MOMENTS;
 use multiversion::multiversion;
 
-/// Samples that are done together.
+/// Samples that are sorted by method together.
 pub(in crate::render) const RUN: usize = 64;
+/// Samples that a quick method serves together.
+pub(super) const BLOCK: usize = 16;
 
 /// From this β on moments give nothing: e^-60 of the peak, beyond which the polynomials overflow.
 pub(super) const LAST_BETA: f64 = 60.0;
@@ -18,12 +20,14 @@ pub(super) const LAST_BETA: f64 = 60.0;
 pub(in crate::render) struct Places {
     pub(in crate::render) kappa: [f64; RUN],
     pub(in crate::render) beta: [f64; RUN],
-    /// Samples wanted.
+    /// Samples wanted; the others had better be [`Self::UNWANTED`].
     pub(in crate::render) wanted: [bool; RUN],
     pub(in crate::render) count: usize,
 }
 
 impl Places {
+    /// κ and β that take the least work.
+    pub(in crate::render) const UNWANTED: (f64, f64) = (1e100, 0.0);
     pub(in crate::render) const EMPTY: Self =
         Self { kappa: [1.0; RUN], beta: [0.0; RUN], wanted: [true; RUN], count: 0 };
 }
@@ -51,34 +55,82 @@ pub(super) fn fill(plan: &Plan, points: &[[f64; 2]], sums: &mut [[f64; 3]]) {
     }
 }
 
+/// Samples of a run with one method, side by side.
+struct Chosen {
+    which: [u8; RUN],
+    count: usize,
+    kappa: [f64; RUN],
+    beta: [f64; RUN],
+}
+
+impl Chosen {
+    fn of(ways: &[Quick; RUN], method: Quick, places: &Places) -> Self {
+        let mut chosen = Self { which: [0; RUN], count: 0, kappa: [1.0; RUN], beta: [0.0; RUN] };
+        for (i, &way) in ways.iter().enumerate() {
+            // The next one takes the place of one that does not count.
+            let at = chosen.count;
+            (chosen.which[at], chosen.kappa[at], chosen.beta[at]) = (i as u8, places.kappa[i], places.beta[i]);
+            chosen.count += usize::from(way == method);
+        }
+        chosen
+    }
+
+    /// Number of blocks.
+    fn blocks(&self) -> usize {
+        self.count.div_ceil(BLOCK)
+    }
+
+    fn put(&self, found: &[[f64; RUN]; 3], sums: &mut [[f64; RUN]; 3]) {
+        for (sums, found) in sums.iter_mut().zip(found) {
+            for (&i, value) in self.which[..self.count].iter().zip(found) {
+                sums[usize::from(i)] = *value;
+            }
+        }
+    }
+}
+
 impl Plan {
-    /// The three channels of a run of samples.
+    /// The three channels of the wanted samples of a run; those of others are left with any value.
     pub(in crate::render) fn run(&self, places: &Places, sums: &mut [[f64; RUN]; 3]) {
+        let ([from, to], (rough, orders), moments) = (self.held, self.rough, (&self.moments, self.few));
+        let is_rough = |i: usize| rough.max(from) <= places.kappa[i] && places.kappa[i] <= to;
+        if places.count == RUN && (0..RUN).fold(true, |all, i| all & (!places.wanted[i] | is_rough(i))) {
+            by_moments(moments, orders, (&places.kappa, &places.beta, RUN / BLOCK), sums);
+            return;
+        }
         let mut ways = [Quick::Dark; RUN];
         let table = self.table();
-        let ([from, to], rough) = (self.held, self.rough.0);
         let [first, last] = table.map_or([f64::INFINITY, 0.0], Table::kappa);
-        let mut slowly = false;
+        let mut counts = [0_usize; 4];
         for (i, way) in ways.iter_mut().enumerate().take(places.count) {
             let kappa = places.kappa[i];
-            let by_moments = kappa >= rough && from <= kappa && kappa <= to;
             let by_table = first <= kappa && kappa <= last;
             let quick = if by_table { Quick::Table } else { Quick::Neither };
-            let quick = if by_moments { Quick::Moments } else { quick };
+            let quick = if is_rough(i) { Quick::Moments } else { quick };
             *way = if places.wanted[i] { quick } else { Quick::Dark };
-            slowly |= *way == Quick::Neither;
+            counts[*way as usize] += 1;
         }
-        quick(&self.moments, self.rough.1, table, places, &ways, sums);
-        if slowly {
-            self.slow(places, &ways, sums);
+        let mut found = [[0.0; RUN]; 3];
+        if counts[Quick::Moments as usize] > 0 {
+            let chosen = Chosen::of(&ways, Quick::Moments, places);
+            by_moments(moments, orders, (&chosen.kappa, &chosen.beta, chosen.blocks()), &mut found);
+            chosen.put(&found, sums);
+        }
+        if let (Some(table), 1..) = (table, counts[Quick::Table as usize]) {
+            let chosen = Chosen::of(&ways, Quick::Table, places);
+            by_table(table, &chosen, &mut found);
+            chosen.put(&found, sums);
+        }
+        if counts[Quick::Neither as usize] > 0 {
+            self.slow(places, &Chosen::of(&ways, Quick::Neither, places), sums);
         }
     }
 
     /// Samples that neither moments nor table serve: together where wavelengths are in common.
-    fn slow(&self, places: &Places, ways: &[Quick; RUN], sums: &mut [[f64; RUN]; 3]) {
+    fn slow(&self, places: &Places, chosen: &Chosen, sums: &mut [[f64; RUN]; 3]) {
         let (mut which, mut kappa, mut beta, mut count) = ([0; RUN], [0.0; RUN], [0.0; RUN], 0);
         let common = self.common();
-        for i in (0..places.count).filter(|&i| ways[i] == Quick::Neither) {
+        for i in chosen.which[..chosen.count].iter().map(|&i| usize::from(i)) {
             if common.is_some() && self.holds(places.kappa[i]) {
                 (which[count], kappa[count], beta[count]) = (i, places.kappa[i], places.beta[i]);
                 count += 1;
@@ -96,72 +148,117 @@ impl Plan {
     }
 }
 
-/// Moments and table. Compiled for several instruction sets, the best chosen at run time; no operation is fused, so all of
-/// them give the same bits.
+/// Moments of so many blocks, with the κ from which on few of them serve. Compiled for several instruction sets, the best chosen at
+/// run time; no operation is fused, so all of them give the same bits.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
-fn quick(
-    moments: &[[f64; MOMENTS]; 3],
+fn by_moments(
+    moments: (&[[f64; MOMENTS]; 3], f64),
     orders: usize,
-    table: Option<&Table>,
-    places: &Places,
-    ways: &[Quick; RUN],
+    places: (&[f64; RUN], &[f64; RUN], usize),
     sums: &mut [[f64; RUN]; 3],
 ) {
-    quick_portable(moments, orders, table, places, ways, sums);
+    by_moments_portable(moments, orders, places, sums);
+}
+
+/// Table, compiled as moments are.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn by_table(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 3]) {
+    by_table_portable(table, chosen, sums);
 }
 
 /// Portable form for any processor.
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
-fn quick_portable(
-    moments: &[[f64; MOMENTS]; 3],
+fn by_moments_portable(
+    (moments, few): (&[[f64; MOMENTS]; 3], f64),
     orders: usize,
-    table: Option<&Table>,
-    places: &Places,
-    ways: &[Quick; RUN],
+    (kappa, beta, blocks): (&[f64; RUN], &[f64; RUN], usize),
     sums: &mut [[f64; RUN]; 3],
 ) {
-    if let Some(table) = table
-        && ways.contains(&Quick::Table)
-    {
-        match table.degree() {
-            3 => read::<4>(table, places, ways, sums),
-            5 => read::<6>(table, places, ways, sums),
-            7 => read::<8>(table, places, ways, sums),
-            _ => read::<10>(table, places, ways, sums),
-        }
-    } else {
-        *sums = [[0.0; RUN]; 3];
+    let mut kept = *moments;
+    for moments in &mut kept {
+        moments[orders..].fill(0.0);
     }
-    if ways.contains(&Quick::Moments) {
-        for i in 0..RUN {
-            let mut basis = rough_basis(places.kappa[i], places.beta[i].min(LAST_BETA));
-            basis[orders..].fill(0.0);
-            let found = by_moments(moments, &basis);
-            if ways[i] == Quick::Moments {
-                (sums[0][i], sums[1][i], sums[2][i]) = (found[0], found[1], found[2]);
-            }
+    for first in (0..RUN).step_by(BLOCK).take(blocks) {
+        let (mut k, mut b) = ([0.0; BLOCK], [0.0; BLOCK]);
+        k.copy_from_slice(&kappa[first..first + BLOCK]);
+        b.copy_from_slice(&beta[first..first + BLOCK]);
+        let least = k.iter().fold(f64::INFINITY, |least, &kappa| least.min(kappa));
+        // To what takes few, the others add nothing.
+        let found = if orders <= FEW_MOMENTS || least >= few {
+            block::<FEW_MOMENTS>(&kept, f64::INFINITY, &k, &b)
+        } else {
+            block::<MOMENTS>(&kept, few, &k, &b)
+        };
+        for (sums, found) in sums.iter_mut().zip(&found) {
+            sums[first..first + BLOCK].copy_from_slice(found);
         }
     }
 }
 
 #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
 #[inline(always)]
-fn read<const N: usize>(table: &Table, places: &Places, ways: &[Quick; RUN], sums: &mut [[f64; RUN]; 3]) {
-    let mut around = Around::<N>::NOTHING;
-    table.around(&places.kappa, &places.beta, &mut around);
-    let mut peaks = [0.0; RUN];
-    for i in 0..RUN {
-        // Written so that NaN is dark.
-        let lit = ways[i] == Quick::Table && around.v[i] <= 1.0;
-        let [peak, channels @ ..] = if lit { table.read(&around, i) } else { [0.0; 4] };
-        peaks[i] = peak;
-        (sums[0][i], sums[1][i], sums[2][i]) = (channels[0], channels[1], channels[2]);
+fn block<const N: usize>(
+    moments: &[[f64; MOMENTS]; 3],
+    few: f64,
+    kappa: &[f64; BLOCK],
+    beta: &[f64; BLOCK],
+) -> [[f64; BLOCK]; 3] {
+    let mut found = [[0.0; BLOCK]; 3];
+    for i in 0..BLOCK {
+        let mut basis = rough_basis_of::<N>(kappa[i], beta[i].min(LAST_BETA));
+        let rest = if kappa[i] >= few { 0.0 } else { 1.0 };
+        for value in basis.iter_mut().skip(FEW_MOMENTS) {
+            *value *= rest;
+        }
+        for c in 0..3 {
+            let mut sum = 0.0;
+            for k in 0..N {
+                sum += moments[c][k] * basis[k];
+            }
+            found[c][i] = sum;
+        }
     }
-    for i in 0..RUN {
-        let peak = exp(peaks[i]);
-        for channel in sums.iter_mut() {
-            channel[i] *= peak;
+    found
+}
+
+/// Portable form for any processor.
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn by_table_portable(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 3]) {
+    match table.degree() {
+        3 => read::<4>(table, chosen, sums),
+        5 => read::<6>(table, chosen, sums),
+        7 => read::<8>(table, chosen, sums),
+        _ => read::<10>(table, chosen, sums),
+    }
+}
+
+#[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
+#[inline(always)]
+fn read<const N: usize>(table: &Table, chosen: &Chosen, sums: &mut [[f64; RUN]; 3]) {
+    let mut around = Around::<N>::NOTHING;
+    for first in (0..RUN).step_by(BLOCK).take(chosen.blocks()) {
+        let (mut kappa, mut beta, mut peaks) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+        kappa.copy_from_slice(&chosen.kappa[first..first + BLOCK]);
+        beta.copy_from_slice(&chosen.beta[first..first + BLOCK]);
+        table.around(&kappa, &beta, &mut around);
+        for i in 0..BLOCK.min(chosen.count - first) {
+            // Written so that NaN is dark.
+            let lit = around.v[i] <= 1.0;
+            let [peak, channels @ ..] = if lit { table.read(&around, i) } else { [0.0; 4] };
+            peaks[i] = peak;
+            for (sums, channel) in sums.iter_mut().zip(channels) {
+                sums[first + i] = channel;
+            }
+        }
+        for peak in &mut peaks {
+            *peak = exp(*peak);
+        }
+        for sums in sums.iter_mut() {
+            for (sum, peak) in sums[first..first + BLOCK].iter_mut().zip(&peaks) {
+                *sum *= peak;
+            }
         }
     }
 }
@@ -182,7 +279,7 @@ mod tests {
             weights: [0.3 * scale, 0.4, -0.1 / scale],
             reference: 0.5,
         };
-        let moments = [[1.0, 1.1, 1.3, 1.7], [0.4, 0.5, 0.7, 0.9], [-0.1, -0.2, -0.3, -0.4]];
+        let moments = [1.0, 0.4, -0.1].map(|m: f64| std::array::from_fn(|k| m * 1.1_f64.powf(k as f64)));
         let kappa = [0.01, 64.0];
         for degree in [3, 5, 7, 9] {
             let (extent, nodes) = (Extent::new(kappa), vec![node(0.7), node(1.4)]);
@@ -199,8 +296,11 @@ mod tests {
                 }
             }
             let (mut chosen, mut portable) = ([[0.0; RUN]; 3], [[0.0; RUN]; 3]);
-            quick(&moments, 4, Some(&table), &places, &ways, &mut chosen);
-            quick_portable(&moments, 4, Some(&table), &places, &ways, &mut portable);
+            let (rough, tabulated) = ((&places.kappa, &places.beta, 2), Chosen::of(&ways, Quick::Table, &places));
+            by_table(&table, &tabulated, &mut chosen);
+            by_table_portable(&table, &tabulated, &mut portable);
+            by_moments((&moments, 1.0), MOMENTS, rough, &mut chosen);
+            by_moments_portable((&moments, 1.0), MOMENTS, rough, &mut portable);
             assert_eq!(chosen.map(|c| c.map(f64::to_bits)), portable.map(|c| c.map(f64::to_bits)), "{degree}");
             assert!(chosen[0].iter().all(|sum| sum.is_finite()) && chosen[0][0] > 0.0);
         }

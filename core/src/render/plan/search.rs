@@ -13,7 +13,7 @@ use super::tables::Makings;
 use super::{Against, Below, Demand, Plan, run};
 use crate::accuracy::{RelTolerance, Unmet};
 use crate::reflectance::{Precision, diffuse_sum};
-use crate::render::diffuse::{by_moments, by_nodes, rough_basis};
+use crate::render::diffuse::{FEW_MOMENTS, by_moments, by_nodes, rough_basis};
 use crate::render::measure::{MOMENTS, Node, SpectralWeights};
 
 /// The most wavelengths that stand for all.
@@ -55,6 +55,10 @@ pub(super) fn plan(
             search.tables(from);
         }
     }
+    let few = match &whole {
+        Some(_) => search.few(demand.kappa()[0]),
+        None => rough.as_ref().map_or(f64::INFINITY, |(_, from)| search.few(*from)),
+    };
     let Search { mut seen, best, .. } = search;
     let (chosen, below, rough) = match (whole, best) {
         (Some(moments), _) => (moments, Below::Nothing, Some((moments, demand.kappa()[0]))),
@@ -72,6 +76,7 @@ pub(super) fn plan(
         held: demand.held(),
         leaves_dark: true,
         rough: rough.as_ref().map_or((f64::INFINITY, 0), |(candidate, from)| (*from, orders(candidate))),
+        few,
         moments: *measure.moments(),
         below,
         every: measure.dense().to_vec(),
@@ -145,16 +150,28 @@ impl Search<'_> {
         None
     }
 
+    /// The powers of √2 from which moments do at the points of the check, falling.
+    fn within(&self, least: f64, orders: usize) -> impl DoubleEndedIterator<Item = f64> + use<> {
+        let last = self.demand.kappa()[1];
+        let steps = (1..).map(|i| last * (-0.5 * f64::from(i)).exp2()).take_while(|&step| step >= least);
+        let meets = |seen| self.tolerance.allows(self.check.error_bound(seen));
+        let within = steps.take_while(|&step| meets(self.check.error(|k| k >= step, self.by_moments(orders))));
+        within.collect::<Vec<f64>>().into_iter()
+    }
+
+    /// κ from which on few moments do, among those from which all do.
+    fn few(&self, from: f64) -> f64 {
+        let meets = |&from: &f64| {
+            let seen = self.check.error_from(from, self.by_moments(FEW_MOMENTS));
+            self.tolerance.allows(self.check.error_bound(seen))
+        };
+        self.within(from, FEW_MOMENTS).rev().find(meets).unwrap_or(f64::INFINITY)
+    }
+
     /// All moments, and the power of √2 from which they do, if it lies within the demand.
     fn rough(&mut self) -> Option<(Candidate, f64)> {
-        let [least, last] = self.demand.kappa();
-        let steps =
-            (1..).map(|i| last * (-0.5 * f64::from(i)).exp2()).take_while(|&step| step >= LEAST_ROUGH.max(least));
         // Where each begins, the error is looked at last: that takes sums over wavelengths, elsewhere they are made already.
-        let meets = |seen| self.tolerance.allows(self.check.error_bound(seen));
-        let within: Vec<f64> =
-            steps.take_while(|&step| meets(self.check.error(|k| k >= step, self.by_moments(MOMENTS)))).collect();
-        for from_kappa in within.into_iter().rev() {
+        for from_kappa in self.within(LEAST_ROUGH.max(self.demand.kappa()[0]), MOMENTS).rev() {
             let seen = self.check.error_from(from_kappa, self.by_moments(MOMENTS));
             let method = IntegrationMethod::Moments { orders: MOMENTS, from_kappa };
             let candidate = Candidate::new(method, seen, self.check.error_bound(seen));
@@ -308,6 +325,7 @@ impl Search<'_> {
             held: demand.held(),
             leaves_dark: true,
             rough: (f64::INFINITY, 0),
+            few: f64::INFINITY,
             moments: *self.measure.moments(),
             below,
             every: Vec::new(),

@@ -2,7 +2,7 @@
 
 use super::candidate::IntegrationMethod;
 use super::extent::Extent;
-use super::run::RUN;
+use super::run::BLOCK;
 use super::spline::weights;
 use super::surface::{Cell, Surface};
 use crate::render::measure::Node;
@@ -113,13 +113,13 @@ impl Table {
         self.surface.intervals[1] + self.surface.degree
     }
 
-    /// Places of a run of samples between the knots.
+    /// Places of a block of samples between the knots.
     #[allow(clippy::inline_always, reason = "only inside the caller is it compiled for the caller's instruction set")]
     #[inline(always)]
-    pub(super) fn around<const N: usize>(&self, kappa: &[f64; RUN], beta: &[f64; RUN], around: &mut Around<N>) {
-        let (mut t, mut s, width) = ([0.0; RUN], [0.0; RUN], self.width() as f64);
+    pub(super) fn around<const N: usize>(&self, kappa: &[f64; BLOCK], beta: &[f64; BLOCK], around: &mut Around<N>) {
+        let (mut t, mut s, width) = ([0.0; BLOCK], [0.0; BLOCK], self.width() as f64);
         let [rows, columns] = self.surface.intervals.map(|count| count as f64);
-        for i in 0..RUN {
+        for i in 0..BLOCK {
             let [place, v] = self.extent.place(kappa[i], beta[i]);
             let (x, y) = (0.5 * rows * (place + 1.0), columns * v);
             let (row, column) = (cell(x, rows), cell(y, columns));
@@ -155,20 +155,20 @@ impl Table {
     }
 }
 
-/// Places of a run of samples between the knots of a table.
+/// Places of a block of samples between the knots of a table.
 pub(super) struct Around<const N: usize> {
     /// v, above 1 where it is dark.
-    pub(super) v: [f64; RUN],
+    pub(super) v: [f64; BLOCK],
     /// The first of the coefficients that each is made of.
-    start: [u32; RUN],
+    start: [u32; BLOCK],
     /// Their weights along ln κ and along v.
-    across: [[f64; RUN]; N],
-    along: [[f64; RUN]; N],
+    across: [[f64; BLOCK]; N],
+    along: [[f64; BLOCK]; N],
 }
 
 impl<const N: usize> Around<N> {
     pub(super) const NOTHING: Self =
-        Self { v: [0.0; RUN], start: [0; RUN], across: [[0.0; RUN]; N], along: [[0.0; RUN]; N] };
+        Self { v: [0.0; BLOCK], start: [0; BLOCK], across: [[0.0; BLOCK]; N], along: [[0.0; BLOCK]; N] };
 }
 
 /// Adding and subtracting this rounds a double below 2⁵¹ to the nearest integer.

@@ -1,0 +1,140 @@
+//! Properties that all spectral images share.
+
+use std::io::{Read, Seek};
+use std::ops::Range;
+
+use crate::{EnviImage, ExrImage, ImageError};
+
+/// Largest width and height in pixels.
+pub const MAX_SIDE: usize = 65_536;
+/// Largest number of bands.
+pub const MAX_BANDS: usize = 4096;
+/// Largest size of one row of samples in memory, in bytes.
+pub const MAX_ROW_BYTES: usize = 1 << 28;
+
+/// Quantity of the samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ImageQuantity {
+    /// Reflectance or transmittance, 1 for a perfect diffuser.
+    Reflectance,
+    /// Radiance, in any unit.
+    Radiance,
+}
+
+/// Decision made on reading that a person should know of.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Note {
+    /// The header names no unit of wavelength.
+    #[error("`wavelength units` is missing; {first} to {last} were taken as {unit}")]
+    Unit {
+        /// First wavelength as it stands.
+        first: f64,
+        /// Last wavelength as it stands.
+        last: f64,
+        /// Unit that was taken.
+        unit: &'static str,
+    },
+    /// Bands that the header marks as bad.
+    #[error("{0} bands that `bbl` marks as bad were left out")]
+    BadBands(usize),
+    /// Bands that were not in ascending order.
+    #[error("bands were sorted by wavelength")]
+    Sorted,
+    /// Samples are divided by the header's scale.
+    #[error("samples were divided by the `reflectance scale factor` {0}")]
+    Scale(f64),
+    /// Channels that are not part of the spectrum.
+    #[error("{0} channels that are not spectral were left out")]
+    OtherChannels(usize),
+}
+
+/// Size, bands and quantity of an image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImageInfo {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// Wavelengths of the bands in nanometers, strictly ascending.
+    pub wavelengths_nm: Vec<f64>,
+    /// Quantity, where the file states it.
+    pub quantity: Option<ImageQuantity>,
+    /// Decisions made on reading.
+    pub notes: Vec<Note>,
+}
+
+impl ImageInfo {
+    /// Number of samples in a row: width × bands.
+    pub fn row_samples(&self) -> usize {
+        self.width * self.wavelengths_nm.len()
+    }
+
+    /// Number of rows whose samples take at most `bytes`, at least 1.
+    pub fn rows_within(&self, bytes: usize) -> usize {
+        (bytes / (self.row_samples() * size_of::<f32>()).max(1)).clamp(1, self.height)
+    }
+
+    /// Checks sides and bands before anything is allocated by them.
+    pub(crate) fn check_size(width: usize, height: usize, bands: usize) -> Result<(), ImageError> {
+        let fields = [("samples", width, MAX_SIDE), ("lines", height, MAX_SIDE), ("bands", bands, MAX_BANDS)];
+        for (field, value, limit) in fields {
+            if value == 0 || value > limit {
+                return Err(ImageError::Size { field, value, limit });
+            }
+        }
+        if width * bands > MAX_ROW_BYTES / size_of::<f32>() {
+            return Err(ImageError::Row { width, bands });
+        }
+        Ok(())
+    }
+
+    /// Checks a range of rows.
+    pub(crate) fn check_rows(&self, rows: &Range<usize>) -> Result<(), ImageError> {
+        if rows.start <= rows.end && rows.end <= self.height {
+            Ok(())
+        } else {
+            Err(ImageError::Rows { from: rows.start, to: rows.end, height: self.height })
+        }
+    }
+}
+
+/// Order of bands by ascending wavelength, and the wavelengths in that order.
+pub(crate) fn ascending(wavelengths: &[f64], field: &'static str) -> Result<Vec<usize>, ImageError> {
+    let mut order: Vec<usize> = (0..wavelengths.len()).collect();
+    order.sort_by(|&a, &b| wavelengths[a].total_cmp(&wavelengths[b]));
+    match order.windows(2).find(|pair| wavelengths[pair[0]] == wavelengths[pair[1]]) {
+        Some(pair) => Err(ImageError::Twice { field, nm: wavelengths[pair[0]] }),
+        None => Ok(order),
+    }
+}
+
+/// An image of any of the formats.
+#[derive(Debug)]
+pub enum SpectralImage<R> {
+    /// ENVI.
+    Envi(EnviImage<R>),
+    /// OpenEXR.
+    Exr(ExrImage<R>),
+}
+
+impl<R: Read + Seek> SpectralImage<R> {
+    /// Size, bands and quantity.
+    pub fn info(&self) -> &ImageInfo {
+        match self {
+            Self::Envi(image) => image.info(),
+            Self::Exr(image) => image.info(),
+        }
+    }
+
+    /// Reads rows into `samples`, pixel by pixel, bands in ascending wavelength; NaN where the file has no value.
+    ///
+    /// # Errors
+    ///
+    /// [`ImageError`] where the data end early, cannot be read, or there are no such rows.
+    pub fn read_rows(&mut self, rows: Range<usize>, samples: &mut Vec<f32>) -> Result<(), ImageError> {
+        match self {
+            Self::Envi(image) => image.read_rows(rows, samples),
+            Self::Exr(image) => image.read_rows(rows, samples),
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Deviation of a sensor's Planckian locus at one temperature, split along and off the reference's own locus.
+
+use super::locus::LocusEvaluator;
+use super::rendering::Rendering;
+use crate::colorimetry::UvPrime;
+use crate::spectral::Sensor;
+use crate::units::Kelvin;
+use std::ops::Deref;
+
+/// Reciprocal temperatures of the reference's locus, in mired: 100 000 K to 500 K.
+const RANGE_MIRED: [f64; 2] = [10.0, 2000.0];
+/// Points that are looked at first, evenly in reciprocal temperature.
+const POINTS: usize = 400;
+/// Farther from the locus, in the CIE 1960 diagram, a correlated color temperature says nothing (CIE 15).
+const FARTHEST_UV: f64 = 0.05;
+/// Share of a reciprocal temperature over which the locus's direction is taken.
+const STEP: f64 = 1e-4;
+/// Steps of the search for the nearest point, each by the golden ratio: below a billionth of the interval.
+const SEARCH: usize = 44;
+
+/// Deviation of a blackbody's color through a sensor from the reference's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocusDeviation {
+    /// Component of the difference in u′, v′ along the reference's locus, positive towards higher temperatures.
+    pub along: f64,
+    /// Component across it, positive towards larger v′ (green and yellow).
+    pub off: f64,
+    /// Temperature of the point of the reference's locus that is nearest in u′, v′, minus the true temperature, in kelvins; none beyond
+    /// 500 K and 100 000 K, and farther than 0.05 in CIE 1960 u, v from the locus.
+    pub cct_error_k: Option<f64>,
+}
+
+/// The reference's own Planckian locus, as its colors are shown.
+#[derive(Clone, Debug)]
+pub struct ReferenceLocus<S> {
+    evaluator: LocusEvaluator<S>,
+    rendering: Rendering,
+    points: Vec<(f64, UvPrime)>,
+}
+
+impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
+    /// Prepares the locus of the reference.
+    pub fn new(evaluator: LocusEvaluator<S>, rendering: Rendering) -> Self {
+        let mut locus = Self { evaluator, rendering, points: Vec::new() };
+        let [first, last] = RANGE_MIRED;
+        let mired = (0..POINTS).map(|i| first + (last - first) * i as f64 / (POINTS - 1) as f64);
+        locus.points = mired.filter_map(|mired| Some((mired, locus.at(mired)?))).collect();
+        locus
+    }
+
+    /// Color of a blackbody on the reference's locus.
+    fn at(&self, mired: f64) -> Option<UvPrime> {
+        let temperature = Kelvin::from_mired(mired).ok()?;
+        self.rendering.blackbody(self.evaluator.raw(temperature)).uv_prime()
+    }
+
+    /// Deviation of a color that a sensor gives to a blackbody; none where the reference has no locus there.
+    pub fn deviation(&self, temperature: Kelvin, color: UvPrime) -> Option<LocusDeviation> {
+        let mired = temperature.mired();
+        let true_color = self.at(mired)?;
+        let [hotter, colder] = [self.at(mired * (1.0 - STEP))?, self.at(mired * (1.0 + STEP))?];
+        let [du, dv] = [hotter.u - colder.u, hotter.v - colder.v];
+        let length = du.hypot(dv);
+        let [u, v] = [color.u - true_color.u, color.v - true_color.v];
+        let upwards = if du >= 0.0 { 1.0 } else { -1.0 };
+        (length > 0.0).then(|| LocusDeviation {
+            along: (u * du + v * dv) / length,
+            off: upwards * (v * du - u * dv) / length,
+            cct_error_k: self.nearest_k(color).map(|kelvin| kelvin - temperature.get()),
+        })
+    }
+
+    /// Temperature of the nearest point of the locus in u′, v′.
+    fn nearest_k(&self, color: UvPrime) -> Option<f64> {
+        let distance = |place: &(f64, UvPrime)| place.1.distance(color);
+        let nearest =
+            (0..self.points.len()).min_by(|&a, &b| distance(&self.points[a]).total_cmp(&distance(&self.points[b])))?;
+        let inside = nearest > 0 && nearest + 1 < self.points.len();
+        let (mut low, mut high) =
+            if inside { (self.points[nearest - 1].0, self.points[nearest + 1].0) } else { return None };
+        let away = |mired: f64| self.at(mired).map_or(f64::INFINITY, |place| place.distance(color));
+        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+        for _ in 0..SEARCH {
+            let [a, b] = [high - golden * (high - low), low + golden * (high - low)];
+            if away(a) < away(b) { high = b } else { low = a }
+        }
+        let mired = f64::midpoint(low, high);
+        let (foot, color) = (self.at(mired)?.uv60(), color.uv60());
+        ((foot.u - color.u).hypot(foot.v - color.v) <= FARTHEST_UV).then(|| 1e6 / mired)
+    }
+}

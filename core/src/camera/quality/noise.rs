@@ -1,0 +1,136 @@
+//! Noise that white balance and color matrix amplify.
+
+use crate::camera::rendering::Rendering;
+use glam::{DMat3, DVec3};
+
+/// Reflectance of the gray whose noise is told.
+const GRAY: f64 = 0.18;
+
+/// Noise gains from raw RGB to linear sRGB.
+///
+/// ```text
+/// N = M G,   M = linear sRGB from balanced RGB,   G = diag(g),   g_c ∝ s_c / ∫ C_c L dλ with g_green = 1
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoiseAmplification {
+    /// Noise of linear red, green and blue for unit independent noise of the raw channels: the lengths of the rows of N.
+    pub rows: [f64; 3],
+    /// Noise-gain factor Ψ of US patent 5609978 (1997): sum of the lengths of the rows of M, the matrix from balanced exposures to those
+    /// of the primaries of BT.709. 3 for a camera that needs no matrix; the patent asks for 6.5 at most.
+    pub psi: f64,
+    /// Condition number of N: ratio of its largest to its smallest singular value.
+    pub condition: f64,
+}
+
+impl NoiseAmplification {
+    /// Noise gains of a rendering; none where a gain is zero or not finite.
+    pub fn new(rendering: &Rendering) -> Option<Self> {
+        let matrix = srgb_from_balanced(rendering);
+        let gains = rendering.white / rendering.white_integrals;
+        let all = matrix * DMat3::from_diagonal(gains / gains.y);
+        let (rows, psi) = (row_lengths(all), row_lengths(matrix).iter().sum());
+        let condition = condition(all);
+        let found = Self { rows, psi, condition };
+        let positive = gains.abs().min_element() > 0.0 && all.is_finite() && condition.is_finite();
+        positive.then_some(found)
+    }
+}
+
+/// Linear sRGB from RGB balanced to unity: a perfect diffuser at (1, 1, 1).
+fn srgb_from_balanced(rendering: &Rendering) -> DMat3 {
+    rendering.srgb_from_xyz * rendering.xyz_from_signals * DMat3::from_diagonal(rendering.white)
+}
+
+fn row_lengths(matrix: DMat3) -> [f64; 3] {
+    [0, 1, 2].map(|row| matrix.row(row).length())
+}
+
+/// Ratio of the largest to the smallest singular value: `‖A‖₂ ‖A⁻¹‖₂`; infinite for a singular matrix.
+fn condition(matrix: DMat3) -> f64 {
+    spectral_norm(matrix) * spectral_norm(matrix.inverse())
+}
+
+/// Largest singular value, from the largest eigenvalue of AᵀA in closed form (Smith 1961, Commun. ACM 4, 168).
+fn spectral_norm(matrix: DMat3) -> f64 {
+    let scale = matrix.to_cols_array().iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    if scale.is_nan() || scale == 0.0 || scale.is_infinite() {
+        return f64::INFINITY;
+    }
+    let a = matrix * (1.0 / scale);
+    let s = a.transpose() * a;
+    let mean = (s.x_axis.x + s.y_axis.y + s.z_axis.z) / 3.0;
+    let off = s - DMat3::from_diagonal(DVec3::splat(mean));
+    let spread = (off.x_axis.length_squared() + off.y_axis.length_squared() + off.z_axis.length_squared()) / 6.0;
+    let p = spread.sqrt();
+    let angle = if p > 0.0 { ((off * (1.0 / p)).determinant() / 2.0).clamp(-1.0, 1.0).acos() / 3.0 } else { 0.0 };
+    scale * (mean + 2.0 * p * angle.cos()).max(0.0).sqrt()
+}
+
+/// Electrons that a pixel holds, and its read noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Electrons {
+    full_well: f64,
+    read_noise: f64,
+}
+
+impl Eq for Electrons {}
+
+impl std::hash::Hash for Electrons {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        [self.full_well, self.read_noise].iter().for_each(|v| (v + 0.0).to_bits().hash(state));
+    }
+}
+
+/// Reason that numbers describe no pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum ElectronsError {
+    /// The full well is not a positive number.
+    #[error("the full-well capacity must be a positive number of electrons, at most 1e9")]
+    FullWell,
+    /// The read noise is not a number from zero up.
+    #[error("the read noise must be a number of electrons from 0 to the full-well capacity")]
+    ReadNoise,
+}
+
+impl Electrons {
+    /// Full-well capacity and RMS read noise in electrons.
+    ///
+    /// # Errors
+    ///
+    /// [`ElectronsError`] unless 0 < full well ≤ 1e9 and 0 ≤ read noise ≤ full well.
+    pub fn new(full_well: f64, read_noise: f64) -> Result<Self, ElectronsError> {
+        if !(full_well > 0.0 && full_well <= 1e9) {
+            return Err(ElectronsError::FullWell);
+        }
+        if !(0.0..=full_well).contains(&read_noise) {
+            return Err(ElectronsError::ReadNoise);
+        }
+        Ok(Self { full_well, read_noise })
+    }
+}
+
+/// Covariance of linear sRGB of a gray of some reflectance: shot and read noise of the raw channels through balance and matrix.
+///
+/// ```text
+/// Σ′ = M Σ Mᵀ,   Σ = diag((n_c + r²) / w_c²),   n_c = ρ w_c
+/// ```
+/// w_c are the electrons of a perfect diffuser, exposed so that the most sensitive channel just fills its well; r is the read noise, ρ the
+/// reflectance. Needs curves whose channels have one scale.
+pub fn covariance(rendering: &Rendering, electrons: Electrons, reflectance: f64) -> DMat3 {
+    let matrix = srgb_from_balanced(rendering);
+    let integrals = rendering.white_integrals.abs();
+    let white = integrals * (electrons.full_well / integrals.max_element());
+    let variance = (white * reflectance + DVec3::splat(electrons.read_noise.powi(2))) / (white * white);
+    matrix * DMat3::from_diagonal(variance) * matrix.transpose()
+}
+
+/// Signal-to-noise ratio of the luminance Y of an 18 % gray in decibels, `20 lg (Y / σ_Y)`, by [`covariance`]; none where it is not
+/// finite.
+pub fn gray_snr_db(rendering: &Rendering, electrons: Electrons) -> Option<f64> {
+    let covariance = covariance(rendering, electrons, GRAY);
+    // Luminance of linear sRGB under its own white.
+    let weights = crate::colorimetry::rgb::XYZ_FROM_SRGB.row(1);
+    let sigma = weights.dot(covariance * weights).sqrt();
+    let snr = 20.0 * (GRAY * (weights.x + weights.y + weights.z) / sigma).log10();
+    snr.is_finite().then_some(snr)
+}

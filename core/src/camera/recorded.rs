@@ -1,0 +1,197 @@
+//! Raw RGB that a real camera recorded of known spectra, against a table of sensitivities.
+//!
+//! ```text
+//! m_pc = g_c b_p ∫ C_c S_p L dλ        ln m_pc − ln ∫ C_c S_p L dλ = ln g_c + ln b_p + r_pc
+//! ```
+//! p = patch, c = channel, g = gain of a channel (relative scale of the table, white balance, exposure), b = brightness of a patch
+//! (uneven illumination, shading, angle), r = residual. With the logarithm the model is linear: two-way and additive, so least squares
+//! have a closed form in one 3×3 system, whatever values are left out.
+
+mod links;
+mod two_way;
+
+use crate::spectral::{GridSpectrum, Sensor};
+pub use links::{Link, LinkKind};
+use two_way::Grid;
+
+/// Reason that a value takes no part in a fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum Exclusion {
+    /// No value was recorded.
+    #[error("missing")]
+    Missing,
+    /// The value is zero or negative, so that it has no logarithm.
+    #[error("zero or negative")]
+    NotPositive,
+    /// The value is at or above the clipping level.
+    #[error("clipped")]
+    Clipped,
+    /// The sensitivities predict no positive response.
+    #[error("no response predicted")]
+    NotPredicted,
+}
+
+/// One recorded value: a positive finite number, or the reason that it is not used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Signal(Result<u64, Exclusion>);
+
+impl Signal {
+    /// Signal of a channel in any unit that is linear in light, with black at 0; values from `clip` on are [`Exclusion::Clipped`].
+    pub fn new(value: f64, clip: f64) -> Self {
+        Self(match value {
+            v if v.is_nan() => Err(Exclusion::Missing),
+            v if v >= clip || v.is_infinite() => Err(Exclusion::Clipped),
+            v if v < f64::MIN_POSITIVE => Err(Exclusion::NotPositive),
+            v => Ok(v.to_bits()),
+        })
+    }
+
+    /// Signal that is left out for a reason.
+    pub fn excluded(why: Exclusion) -> Self {
+        Self(Err(why))
+    }
+
+    /// The value.
+    ///
+    /// # Errors
+    ///
+    /// [`Exclusion`] where it takes no part in a fit.
+    pub fn value(self) -> Result<f64, Exclusion> {
+        self.0.map(f64::from_bits)
+    }
+}
+
+/// One patch: its spectrum and the raw RGB that was recorded of it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct RecordedPatch {
+    /// Its name.
+    pub name: String,
+    /// Radiance `S_p L` on the grid, in any unit.
+    pub radiance: GridSpectrum,
+    /// Recorded red, green and blue.
+    pub rgb: [Signal; 3],
+}
+
+/// Parameters of the model that are fitted. One overall scale always is, because tables of sensitivities are relative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Freedom {
+    /// True if each channel has a gain of its own; false if all share one.
+    pub gains: bool,
+    /// True if each patch has a brightness of its own; false if all have brightness 1.
+    pub brightness: bool,
+}
+
+impl Default for Freedom {
+    fn default() -> Self {
+        Self { gains: true, brightness: true }
+    }
+}
+
+/// Reason that a camera cannot be fitted to recorded values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum RecordedError {
+    /// Nothing is left to judge by.
+    #[error(
+        "{values} usable values for {parameters} fitted parameters; record more patches, or hold the gains or the brightness"
+    )]
+    TooFew {
+        /// Number of values that can be used.
+        values: usize,
+        /// Number of parameters that are fitted.
+        parameters: usize,
+    },
+}
+
+/// Fit of one camera's sensitivities to recorded values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordedFit {
+    /// Gain of each channel, with a geometric mean of 1 for the brightnesses; none for a channel without a usable value.
+    pub gains: [Option<f64>; 3],
+    /// Brightness of each patch; none for a patch without a usable value.
+    pub brightness: Vec<Option<f64>>,
+    /// `r_pc`: logarithm of recorded over modeled, or the reason that there is none.
+    pub residuals: Vec<[Result<f64, Exclusion>; 3]>,
+    /// Number of usable values.
+    pub values: usize,
+    /// Number of independent fitted parameters.
+    pub parameters: usize,
+    /// Single causes that would explain part of the residuals, largest share first.
+    pub links: Vec<Link>,
+}
+
+impl RecordedFit {
+    /// Fits the free parameters by least squares of the logarithm over all usable values, each with weight 1 (the others with 0).
+    ///
+    /// # Errors
+    ///
+    /// [`RecordedError::TooFew`] where values do not outnumber parameters.
+    pub fn new(patches: &[RecordedPatch], sensor: &Sensor, freedom: Freedom) -> Result<Self, RecordedError> {
+        let logs: Vec<[Result<f64, Exclusion>; 3]> = patches.iter().map(|patch| log_ratios(patch, sensor)).collect();
+        let grid = Grid::new(logs.iter().map(|row| row.map(Result::ok)).collect(), freedom);
+        let (values, parameters) = (grid.values(), grid.parameters());
+        if values <= parameters {
+            return Err(RecordedError::TooFew { values, parameters });
+        }
+        let fit = grid.fit();
+        let residual = |(row, left): (&[Result<f64, Exclusion>; 3], &[Option<f64>; 3])| {
+            [0, 1, 2].map(|c: usize| row[c].map(|_| left[c].unwrap_or(0.0)))
+        };
+        Ok(Self {
+            gains: fit.channels.map(|log| log.map(f64::exp)),
+            brightness: fit.patches.iter().map(|log| log.map(f64::exp)).collect(),
+            residuals: logs.iter().zip(&fit.residuals).map(residual).collect(),
+            values,
+            parameters,
+            links: links::links(patches, sensor, &grid, &fit.residuals),
+        })
+    }
+
+    /// Root mean square of the residuals; times 100, the log error in percent.
+    pub fn rms(&self) -> f64 {
+        rms(self.residuals.iter().flatten()).unwrap_or(0.0)
+    }
+
+    /// Estimated standard deviation of one value's logarithm: `√(Σr² / (values − parameters))`.
+    pub fn deviation(&self) -> f64 {
+        let freedom = (self.values - self.parameters).max(1) as f64;
+        self.rms() * (self.values as f64 / freedom).sqrt()
+    }
+
+    /// Root mean square of each channel's residuals.
+    pub fn channel_rms(&self) -> [Option<f64>; 3] {
+        [0, 1, 2].map(|c: usize| rms(self.residuals.iter().map(|row| &row[c])))
+    }
+
+    /// Root mean square of a patch's residuals.
+    pub fn patch_rms(&self, patch: usize) -> Option<f64> {
+        rms(self.residuals.get(patch)?)
+    }
+
+    /// Patches by the root mean square of their residuals, largest first; those without a usable value are left out.
+    pub fn worst_patches(&self) -> Vec<(usize, f64)> {
+        let mut patches: Vec<_> =
+            (0..self.residuals.len()).filter_map(|patch| Some((patch, self.patch_rms(patch)?))).collect();
+        patches.sort_by(|a, b| b.1.total_cmp(&a.1));
+        patches
+    }
+}
+
+/// Root mean square of those that are there.
+fn rms<'a>(residuals: impl IntoIterator<Item = &'a Result<f64, Exclusion>>) -> Option<f64> {
+    let (count, squares) =
+        residuals.into_iter().flatten().fold((0_usize, 0.0), |(n, sum), value| (n + 1, sum + value * value));
+    (count > 0).then(|| (squares / count as f64).sqrt())
+}
+
+/// `ln m_pc − ln ∫ C_c S_p L dλ`.
+fn log_ratios(patch: &RecordedPatch, sensor: &Sensor) -> [Result<f64, Exclusion>; 3] {
+    let predicted = sensor.integrate(patch.radiance.values());
+    [0, 1, 2].map(|c: usize| {
+        let recorded = patch.rgb[c].value()?;
+        if predicted[c].is_normal() && predicted[c] > 0.0 {
+            Ok(recorded.ln() - predicted[c].ln())
+        } else {
+            Err(Exclusion::NotPredicted)
+        }
+    })
+}

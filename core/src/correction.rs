@@ -1,0 +1,229 @@
+//! Color correction: transforms from camera RGB to XYZ, fitted over training reflectances.
+//!
+//! Samples are camera RGB balanced to unity (1, 1, 1 for a perfect diffuser), targets the tristimulus values that the reference
+//! observer sees under the same light, with Y = 1 for that diffuser.
+
+pub mod aces;
+pub mod classes;
+pub mod dng;
+pub mod minimize;
+pub mod root_polynomial;
+
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::colorimetry::Xyz;
+use crate::colorimetry::adaptation::bradford;
+use crate::colorimetry::rgb::{XYZ_FROM_SRGB, srgb_white};
+use crate::math::least_squares::{FitError, linear_fit, matrix_keeping};
+use classes::ClassWeights;
+use glam::{DMat3, DVec3};
+use minimize::{Objective, minimize};
+use root_polynomial::{Degree, RootPolynomial};
+
+/// Method by which a color transform is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum CorrectionMethod {
+    /// No correction: balanced RGB taken as linear sRGB, its white adapted to the scene's (Bradford). What a camera shows before any.
+    None,
+    /// 3×3 by least squares in XYZ.
+    #[default]
+    LeastSquares,
+    /// 3×3 that minimizes an objective of L\*a\*b\*.
+    Minimize(Objective),
+    /// Root polynomial by least squares in XYZ.
+    RootPolynomial(Degree),
+}
+
+impl CorrectionMethod {
+    /// All methods, in the order they are listed.
+    pub const ALL: [Self; 8] = [
+        Self::None,
+        Self::LeastSquares,
+        Self::Minimize(Objective::LabSquares),
+        Self::Minimize(Objective::DeltaE1976),
+        Self::Minimize(Objective::DeltaE2000),
+        Self::RootPolynomial(Degree::Two),
+        Self::RootPolynomial(Degree::Three),
+        Self::RootPolynomial(Degree::Four),
+    ];
+
+    /// Name in documents and on the command line.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::LeastSquares => "matrix",
+            Self::Minimize(Objective::LabSquares) => "lab-least-squares",
+            Self::Minimize(Objective::DeltaE1976) => "min-delta-e-ab",
+            Self::Minimize(Objective::DeltaE2000) => "min-delta-e",
+            Self::RootPolynomial(Degree::Two) => "root-polynomial",
+            Self::RootPolynomial(Degree::Three) => "root-polynomial-3",
+            Self::RootPolynomial(Degree::Four) => "root-polynomial-4",
+        }
+    }
+
+    /// Name in words.
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::None => "None (RGB as sRGB)",
+            Self::LeastSquares => "Matrix, least squares in XYZ",
+            Self::Minimize(Objective::LabSquares) => "Matrix, least squares in L*a*b*",
+            Self::Minimize(Objective::DeltaE1976) => "Matrix, minimum mean ΔE*ab",
+            Self::Minimize(Objective::DeltaE2000) => "Matrix, minimum mean ΔE*00",
+            Self::RootPolynomial(Degree::Two) => "Root polynomial, degree 2 (6 terms)",
+            Self::RootPolynomial(Degree::Three) => "Root polynomial, degree 3 (13 terms)",
+            Self::RootPolynomial(Degree::Four) => "Root polynomial, degree 4 (22 terms)",
+        }
+    }
+
+    /// The method of this id.
+    pub fn by_id(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.id() == id)
+    }
+}
+
+/// Color correction: its method and conditions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correction {
+    /// Method.
+    pub method: CorrectionMethod,
+    /// True if a perfect diffuser keeps its color exactly.
+    pub keeps_white: bool,
+    /// Weights of classes of reflectances.
+    pub weights: ClassWeights,
+}
+
+impl Default for Correction {
+    fn default() -> Self {
+        Self { method: CorrectionMethod::LeastSquares, keeps_white: true, weights: ClassWeights::default() }
+    }
+}
+
+impl Eq for Correction {}
+
+impl Hash for Correction {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.method, self.keeps_white, self.weights).hash(state);
+    }
+}
+
+/// Transform from balanced camera RGB to XYZ.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RgbTransform {
+    /// 3×3.
+    Matrix(DMat3),
+    /// Root polynomial.
+    RootPolynomial(Arc<RootPolynomial>),
+}
+
+impl RgbTransform {
+    /// XYZ of balanced RGB.
+    pub fn xyz(&self, rgb: DVec3) -> DVec3 {
+        match self {
+            Self::Matrix(matrix) => *matrix * rgb,
+            Self::RootPolynomial(polynomial) => polynomial.xyz(rgb),
+        }
+    }
+}
+
+/// Training samples: balanced RGB, the XYZ they are to give, and weights that are not negative.
+#[derive(Clone, Copy, Debug)]
+pub struct Training<'a> {
+    /// RGB balanced to unity.
+    pub samples: &'a [DVec3],
+    /// XYZ of the reference.
+    pub targets: &'a [DVec3],
+    /// Weight of each sample in the sum that is minimized.
+    pub weights: &'a [f64],
+}
+
+impl Training<'_> {
+    /// Fits a transform; `white` is the XYZ of a perfect diffuser.
+    ///
+    /// # Errors
+    ///
+    /// [`FitError`] where the samples do not determine it.
+    pub fn fit(self, correction: &Correction, white: Xyz) -> Result<RgbTransform, FitError> {
+        let image = white.to_vector();
+        match correction.method {
+            CorrectionMethod::None => uncorrected(white).map(RgbTransform::Matrix),
+            CorrectionMethod::LeastSquares if correction.keeps_white => {
+                let scaled = |values: &[DVec3]| -> Vec<DVec3> {
+                    values.iter().zip(self.weights).map(|(value, weight)| *value * weight.sqrt()).collect()
+                };
+                matrix_keeping(&scaled(self.samples), &scaled(self.targets), DVec3::ONE, image)
+                    .map(RgbTransform::Matrix)
+            }
+            CorrectionMethod::LeastSquares => {
+                let coefficients = self.linear(None, |rgb| rgb.to_array().to_vec())?.coefficients;
+                Ok(RgbTransform::Matrix(DMat3::from_cols(coefficients[0], coefficients[1], coefficients[2])))
+            }
+            CorrectionMethod::Minimize(objective) => {
+                minimize(self, white, correction.keeps_white, objective).map(RgbTransform::Matrix)
+            }
+            CorrectionMethod::RootPolynomial(degree) => {
+                let keep = correction.keeps_white.then_some(image);
+                let fit = self.linear(keep, |rgb| degree.terms(rgb))?;
+                Ok(RgbTransform::RootPolynomial(Arc::new(RootPolynomial::new(degree, fit.coefficients))))
+            }
+        }
+    }
+
+    /// XYZ of each sample by the fit to all others; none where the others do not determine one.
+    ///
+    /// Linear fits by the residual over one minus the leverage (Allen's PRESS 1974), which equals refitting; others are refitted.
+    ///
+    /// # Errors
+    ///
+    /// [`FitError`] where all samples together do not determine a fit.
+    pub fn leave_one_out(self, correction: &Correction, white: Xyz) -> Result<Vec<Option<DVec3>>, FitError> {
+        let keep = correction.keeps_white.then_some(white.to_vector());
+        let fitted = self.fit(correction, white)?;
+        let leverages = match correction.method {
+            CorrectionMethod::None => vec![0.0; self.samples.len()],
+            CorrectionMethod::LeastSquares => self.linear(keep, |rgb| rgb.to_array().to_vec())?.leverages,
+            CorrectionMethod::RootPolynomial(degree) => self.linear(keep, |rgb| degree.terms(rgb))?.leverages,
+            CorrectionMethod::Minimize(_) => return Ok(self.refitted(correction, white)),
+        };
+        let left_out = |((sample, target), leverage): ((&DVec3, &DVec3), f64)| {
+            let error = (fitted.xyz(*sample) - *target) / (1.0 - leverage);
+            (1.0 - leverage > 1e-9 && error.is_finite()).then(|| *target + error)
+        };
+        Ok(self.samples.iter().zip(self.targets).zip(leverages).map(left_out).collect())
+    }
+
+    /// XYZ of each sample by a new fit without it.
+    pub fn refitted(self, correction: &Correction, white: Xyz) -> Vec<Option<DVec3>> {
+        let without = |left: usize| {
+            let kept = |i: &usize| *i != left;
+            let places: Vec<usize> = (0..self.samples.len()).filter(kept).collect();
+            let samples: Vec<DVec3> = places.iter().map(|&i| self.samples[i]).collect();
+            let targets: Vec<DVec3> = places.iter().map(|&i| self.targets[i]).collect();
+            let weights: Vec<f64> = places.iter().map(|&i| self.weights[i]).collect();
+            let rest = Training { samples: &samples, targets: &targets, weights: &weights };
+            rest.fit(correction, white).ok().map(|fit| fit.xyz(self.samples[left]))
+        };
+        (0..self.samples.len()).into_par_iter().map(without).collect()
+    }
+
+    fn linear(
+        self,
+        keep: Option<DVec3>,
+        terms: impl Fn(DVec3) -> Vec<f64>,
+    ) -> Result<crate::math::least_squares::LinearFit, FitError> {
+        let rows = self.samples.iter().zip(self.weights);
+        let rows = rows.map(|(rgb, weight)| terms(*rgb).into_iter().map(|v| v * weight.sqrt()).collect());
+        let rows: Vec<Vec<f64>> = rows.collect();
+        let targets = self.targets.iter().zip(self.weights);
+        let targets: Vec<DVec3> = targets.map(|(target, weight)| *target * weight.sqrt()).collect();
+        linear_fit(&rows, &targets, keep)
+    }
+}
+
+/// XYZ from balanced RGB taken as linear sRGB, its white carried to the scene's.
+fn uncorrected(white: Xyz) -> Result<DMat3, FitError> {
+    let scene = bradford(srgb_white(), white).ok_or(FitError::NoWhite)?;
+    Ok(scene * XYZ_FROM_SRGB)
+}

@@ -1,0 +1,145 @@
+//! Questions about a light alone, and about cameras under it and under its reference illuminant.
+
+use super::ask::{Ask, Query};
+use super::patches::{ColorTransformSpec, RenderingQuery};
+use super::shared::Shared;
+use crate::camera::rendering::{raw, under_light, white_divisors};
+use crate::camera::{RenderingError, WhiteBalanceTarget};
+use crate::colorimetry::delta_e_2000;
+use crate::light::Cct;
+use crate::patch_set::PatchSet;
+use crate::rendition::cri::rendering_indices;
+use crate::rendition::fidelity::color_fidelity;
+use crate::rendition::reference::reference_illuminant;
+use crate::rendition::similarity::similarity_reference;
+use crate::rendition::{ColorFidelity, RenderingIndices, RenditionError, Standards, spectral_similarity};
+use crate::spectral::{GridSpectrum, Sensor, SpectralDistribution};
+
+/// Rendition indices of a light.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct RenditionQuery {
+    /// The light as measured.
+    pub light: Shared<SpectralDistribution>,
+    /// What the indices are defined with.
+    pub standards: Shared<Standards>,
+}
+
+/// Rendition indices of a light, each with its own reason where there is none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rendition {
+    /// Ra and R1 to R14 (CIE 13.3).
+    pub rendering: Result<RenderingIndices, RenditionError>,
+    /// Rf, Rg and hue bins (TM-30).
+    pub fidelity: Result<ColorFidelity, RenditionError>,
+    /// Reference illuminant of TM-30 on the grid, and the light's temperature and Duv.
+    pub reference: Result<(Shared<GridSpectrum>, Cct), RenditionError>,
+    /// Spectral similarity index to a blackbody below 4000 K, to daylight from there on, at the light's temperature; unrounded.
+    pub similarity: Result<f64, RenditionError>,
+}
+
+impl Query for RenditionQuery {
+    type Answer = Rendition;
+    const NAME: &'static str = "rendition";
+
+    fn answer(&self, _: &impl Ask) -> Rendition {
+        let reference = reference_illuminant(&self.light, &self.standards);
+        let similarity = reference.as_ref().map_err(|&error| error).and_then(|(_, cct)| {
+            spectral_similarity(&self.light, &similarity_reference(cct.temperature, &self.standards)?)
+        });
+        Rendition {
+            rendering: rendering_indices(&self.light, &self.standards),
+            fidelity: color_fidelity(&self.light, &self.standards),
+            reference: reference.map(|(spectrum, cct)| (Shared::new(spectrum), cct)),
+            similarity,
+        }
+    }
+}
+
+/// How far the colors of a camera under a light are from its colors under the reference illuminant: the idea of EBU's television
+/// lighting consistency index, for any camera.
+///
+/// ```text
+/// Xᵢ = M (Iᵢ / W),   I = ∫ C S L dλ,   W = ∫ C L dλ
+/// ```
+/// The camera is balanced to each of the two lights, and corrected by one matrix M, that of the reference illuminant: a camera
+/// knows its white balance, not the spectrum of the light. The differences are ΔE*00 between the two, L*a*b* relative to the
+/// perfect diffuser, which is the same under both.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ConsistencyQuery {
+    /// The camera.
+    pub sensor: Shared<Sensor>,
+    /// The light in question.
+    pub light: Shared<GridSpectrum>,
+    /// Its reference illuminant.
+    pub reference: Shared<GridSpectrum>,
+    /// Observer that the correction is fitted to.
+    pub observer: Shared<Sensor>,
+    /// Reflectances that the correction is fitted over.
+    pub training: Shared<PatchSet>,
+    /// The patches that are compared.
+    pub patches: Shared<PatchSet>,
+}
+
+/// Differences between a camera's colors under a light and under the reference illuminant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Consistency {
+    /// Index of each patch that has L*a*b* under both lights, with its ΔE*00.
+    pub differences: Vec<(usize, f64)>,
+    /// Mean ΔE*00.
+    pub mean: f64,
+    /// 95th percentile: the smallest difference that at least 95 % of the patches do not exceed.
+    pub percentile_95: f64,
+    /// Largest ΔE*00.
+    pub max: f64,
+    /// Patch with the largest difference.
+    pub worst: usize,
+}
+
+/// Reason that a camera has no consistency under a light.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ConsistencyError {
+    /// The camera cannot be corrected under one of the lights.
+    #[error(transparent)]
+    Rendering(#[from] RenderingError),
+    /// There is no patch with a color.
+    #[error("no patch to compare")]
+    NoPatch,
+}
+
+impl Query for ConsistencyQuery {
+    type Answer = Result<Consistency, ConsistencyError>;
+    const NAME: &'static str = "camera consistency";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let corrected = RenderingQuery {
+            sensor: self.sensor.clone(),
+            light: self.reference.clone(),
+            white: WhiteBalanceTarget::UNITY,
+            transform: ColorTransformSpec::Observer {
+                reference: self.observer.clone(),
+                training: self.training.clone(),
+            },
+        };
+        let rendering = ask.ask(&corrected);
+        let rendering = (*rendering).as_ref().map_err(|&error| error)?;
+        let labs = |light: &GridSpectrum| -> Result<Vec<_>, ConsistencyError> {
+            let (product, white) = (under_light(&self.sensor, light), white_divisors(&self.sensor, light)?);
+            let lab = |values| rendering.lab(rendering.xyz(raw(&product, values) / white));
+            Ok(self.patches.patches().iter().map(|patch| lab(patch.grid.values())).collect())
+        };
+        let (tests, references) = (labs(&self.light)?, labs(&self.reference)?);
+        let pairs = tests.into_iter().zip(references).enumerate();
+        let differences: Vec<(usize, f64)> =
+            pairs.filter_map(|(index, (a, b))| Some((index, delta_e_2000(b?, a?)))).collect();
+        statistics(differences).ok_or(ConsistencyError::NoPatch)
+    }
+}
+
+fn statistics(differences: Vec<(usize, f64)>) -> Option<Consistency> {
+    let mut sorted: Vec<f64> = differences.iter().map(|&(_, difference)| difference).collect();
+    sorted.sort_by(f64::total_cmp);
+    let (worst, max) = *differences.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let rank = (0.95 * sorted.len() as f64).ceil() as usize;
+    let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
+    Some(Consistency { mean, percentile_95: sorted[rank.saturating_sub(1)], max, worst, differences })
+}

@@ -1,0 +1,212 @@
+//! All that metrics are computed from: questions of their own, so that each is answered once whatever else changes.
+
+use super::differences::{PatchDifferences, Way};
+use super::{CameraMetricsQuery, WhyNot};
+use crate::camera::quality::{IndexSamples, MetamerismIndex, NoiseAmplification, SpaceQuality, gray_snr_db};
+use crate::camera::{LocusDeviation, ReferenceLocus, RenderingError};
+use crate::light::RadiationConstants;
+use crate::patch_set::PatchSet;
+use crate::query::ask::{Ask, Query};
+use crate::query::loci::LocusRulesQuery;
+use crate::query::patches::{PatchColorsQuery, RenderingQuery};
+use crate::query::shared::Shared;
+use crate::spectral::{GridSpectrum, Primaries, Sensor};
+use crate::units::Kelvin;
+
+/// Conditions of the sensitivity metamerism index: by ISO 17321-1 the CIE 1931 observer, D55 and the 18 chromatic patches of the
+/// `ColorChecker`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct IndexConditions {
+    /// The observer; counts in XYZ.
+    pub observer: Shared<Sensor>,
+    /// The light.
+    pub light: Shared<GridSpectrum>,
+    /// The patches.
+    pub patches: Shared<PatchSet>,
+}
+
+/// What the index's observer sees of its patches.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct IndexSamplesQuery(IndexConditions);
+
+impl Query for IndexSamplesQuery {
+    type Answer = Result<IndexSamples, RenderingError>;
+    const NAME: &'static str = "metamerism index samples";
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        IndexSamples::new(&self.0.observer, &self.0.light, &self.0.patches)
+    }
+}
+
+/// Sensitivity metamerism index of a sensor.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct MetamerismIndexQuery {
+    /// The sensor.
+    pub sensor: Shared<Sensor>,
+    /// Observer, light and patches.
+    pub conditions: IndexConditions,
+}
+
+impl Query for MetamerismIndexQuery {
+    type Answer = Result<MetamerismIndex, RenderingError>;
+    const NAME: &'static str = "metamerism index";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let samples = ask.ask(&IndexSamplesQuery(self.conditions.clone()));
+        let samples = (*samples).as_ref().map_err(|&e| e)?;
+        samples.index(&self.sensor, &self.conditions.light, &self.conditions.patches)
+    }
+}
+
+/// Agreement of a sensor's space with an observer's; none for linearly dependent curves.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct SpaceQualityQuery {
+    /// The sensor.
+    pub sensor: Shared<Sensor>,
+    /// The observer.
+    pub observer: Shared<Sensor>,
+}
+
+impl Query for SpaceQualityQuery {
+    type Answer = Option<SpaceQuality>;
+    const NAME: &'static str = "space quality";
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        SpaceQuality::new(&self.sensor, &self.observer)
+    }
+}
+
+/// The reference's own Planckian locus.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct ReferenceLocusQuery(RenderingQuery);
+
+impl Query for ReferenceLocusQuery {
+    type Answer = Result<ReferenceLocus<Shared<Sensor>>, RenderingError>;
+    const NAME: &'static str = "reference locus";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let rendering = ask.ask(&self.0);
+        let rendering = (*rendering).as_ref().map_err(|&e| e)?;
+        let rules = rules(&self.0.sensor);
+        Ok(ReferenceLocus::new((*ask.ask(&rules)).clone(), rendering.clone()))
+    }
+}
+
+fn rules(sensor: &Shared<Sensor>) -> LocusRulesQuery {
+    LocusRulesQuery { sensor: sensor.clone(), constants: RadiationConstants::Paper }
+}
+
+/// Error of a sensor's Planckian locus at a temperature, relative to the reference's own.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct LocusDeviationQuery {
+    /// The sensor and its color transform.
+    pub rendering: RenderingQuery,
+    /// The reference under the same conditions.
+    pub reference: RenderingQuery,
+    /// The temperature.
+    pub temperature: Kelvin,
+}
+
+impl Query for LocusDeviationQuery {
+    type Answer = Result<LocusDeviation, WhyNot>;
+    const NAME: &'static str = "locus deviation";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        Way::new(&self.rendering, &self.reference).comparable?;
+        let locus = ask.ask(&ReferenceLocusQuery(self.reference.clone()));
+        let locus = (*locus).as_ref().map_err(|&e| e)?;
+        let rendering = ask.ask(&self.rendering);
+        let rendering = (*rendering).as_ref().map_err(|&e| e)?;
+        let raw = locus_signals(&self.rendering.sensor, self.temperature);
+        let color = rendering.blackbody(raw).uv_prime().ok_or(WhyNot::NoLocus)?;
+        locus.deviation(self.temperature, color).ok_or(WhyNot::NoLocus)
+    }
+}
+
+/// Raw integrals of one blackbody: by the sum, which is cheaper than making rules for one temperature.
+fn locus_signals(sensor: &Sensor, temperature: Kelvin) -> [f64; 3] {
+    crate::camera::LocusEvaluator::by_sum(sensor, RadiationConstants::Paper).raw(temperature)
+}
+
+/// All that metrics of one sensor are computed from.
+pub(super) struct Evidence {
+    /// Differences of each patch.
+    pub(super) patches: Result<Vec<PatchDifferences>, WhyNot>,
+    /// Error of the locus.
+    pub(super) locus: Result<LocusDeviation, WhyNot>,
+    /// Agreement with the reference's space.
+    pub(super) space: Result<SpaceQuality, WhyNot>,
+    /// Metamerism index.
+    pub(super) index: Result<MetamerismIndex, WhyNot>,
+    /// Noise gains.
+    pub(super) noise: Result<NoiseAmplification, WhyNot>,
+    /// Reason for no gains of raw channels.
+    pub(super) scale: Result<(), WhyNot>,
+    /// Signal-to-noise ratio of a gray.
+    pub(super) snr_db: Result<f64, WhyNot>,
+}
+
+impl Evidence {
+    pub(super) fn new(of: &CameraMetricsQuery, ask: &impl Ask) -> Self {
+        let CameraMetricsQuery { rendering, reference, .. } = of.clone();
+        let sensor = rendering.sensor.clone();
+        let scale = channel_scale(&sensor);
+        let (noise, snr_db) = noise(of, scale, ask);
+        let locus = LocusDeviationQuery { rendering, reference, temperature: of.temperature };
+        let space = SpaceQualityQuery { sensor: sensor.clone(), observer: of.reference.sensor.clone() };
+        let index = MetamerismIndexQuery { sensor, conditions: of.index.clone() };
+        Self {
+            patches: patch_differences(of, ask),
+            locus: *ask.ask(&locus),
+            space: ask.ask(&space).ok_or(WhyNot::Dependent),
+            index: (*ask.ask(&index)).map_err(WhyNot::from),
+            noise,
+            scale,
+            snr_db,
+        }
+    }
+}
+
+/// Differences of each patch from the reference.
+fn patch_differences(of: &CameraMetricsQuery, ask: &impl Ask) -> Result<Vec<PatchDifferences>, WhyNot> {
+    let colors = |rendering: &RenderingQuery| {
+        let (rendering, patches) = (rendering.clone(), of.patches.clone());
+        ask.ask(&PatchColorsQuery { rendering, patches })
+    };
+    let (reference, sample) = (colors(&of.reference), colors(&of.rendering));
+    let reference = (*reference).as_ref().map_err(|&e| e)?;
+    let sample = (*sample).as_ref().map_err(|&e| e)?;
+    let way = Way::new(&of.rendering, &of.reference);
+    Ok(reference.iter().zip(sample).map(|(reference, sample)| way.differences(reference, sample)).collect())
+}
+
+/// Checks that the ratio between a camera's channels is in the table: three maxima that agree to 1e-6 are no coincidence.
+fn channel_scale(sensor: &Sensor) -> Result<(), WhyNot> {
+    if sensor.primaries() != Primaries::Camera {
+        return Err(WhyNot::NoChannels);
+    }
+    let peaks = sensor.curves().each_ref().map(|curve| curve.values().iter().fold(0.0_f64, |m, v| m.max(*v)));
+    let alike = peaks.iter().all(|peak| (peak - peaks[0]).abs() <= 1e-6 * peaks[0]);
+    if alike { Err(WhyNot::ChannelScale) } else { Ok(()) }
+}
+
+/// Noise gains, and the signal-to-noise ratio of a gray.
+fn noise(
+    of: &CameraMetricsQuery,
+    scale: Result<(), WhyNot>,
+    ask: &impl Ask,
+) -> (Result<NoiseAmplification, WhyNot>, Result<f64, WhyNot>) {
+    let rendering = ask.ask(&of.rendering);
+    let rendering = match (&*rendering, scale) {
+        (_, Err(WhyNot::NoChannels)) => return (Err(WhyNot::NoChannels), Err(WhyNot::NoChannels)),
+        (Err(error), _) => return (Err((*error).into()), Err((*error).into())),
+        (Ok(rendering), _) => rendering,
+    };
+    let gains = NoiseAmplification::new(rendering).ok_or(WhyNot::Rendering(RenderingError::NoWhite));
+    let snr = match of.electrons {
+        _ if scale.is_err() => scale.map(|()| 0.0),
+        None => Err(WhyNot::NoElectrons),
+        Some(electrons) => gray_snr_db(rendering, electrons).ok_or(WhyNot::Rendering(RenderingError::NoWhite)),
+    };
+    (gains, snr)
+}

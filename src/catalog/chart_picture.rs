@@ -1,0 +1,89 @@
+//! Linear pictures of charts: 16-bit TIFF and PNG.
+
+use std::io::Cursor;
+
+use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError};
+use image::{DynamicImage, ImageReader, Limits};
+
+use super::recorded::{Levels, RawRow};
+
+/// Most bytes that a picture may take in memory.
+const MAX_BYTES: u64 = 1 << 30;
+/// Value from which on sixteen bits are clipped.
+const CLIP: f64 = 65535.0;
+
+/// Reason that a picture gives no raw values.
+#[derive(Debug, thiserror::Error)]
+pub enum ChartPictureError {
+    /// The file is no picture that can be read.
+    #[error("{0}; expected a 16-bit TIFF or PNG")]
+    Format(#[from] image::ImageError),
+    /// The picture has eight bits, or no color.
+    #[error("the picture is {0}; save it as linear 16-bit RGB, without a tone curve")]
+    Depth(&'static str),
+    /// The corners mark no patches.
+    #[error(transparent)]
+    Grid(#[from] ChartGridError),
+}
+
+/// A picture of 16-bit RGB.
+pub struct ChartPicture {
+    picture: DynamicImage,
+}
+
+impl ChartPicture {
+    /// Decodes a TIFF or PNG of 16 bits or 32-bit floats a channel.
+    ///
+    /// # Errors
+    ///
+    /// [`ChartPictureError`] where it cannot be decoded, or has eight bits or one channel.
+    pub fn decode(bytes: &[u8]) -> Result<Self, ChartPictureError> {
+        let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(image::ImageError::from)?;
+        let mut limits = Limits::default();
+        limits.max_alloc = Some(MAX_BYTES);
+        reader.limits(limits);
+        let picture = reader.decode()?;
+        match picture {
+            DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_) | DynamicImage::ImageRgb32F(_) => {
+                Ok(Self { picture })
+            }
+            DynamicImage::ImageRgb8(_) | DynamicImage::ImageRgba8(_) => Err(ChartPictureError::Depth("8-bit")),
+            _ => Err(ChartPictureError::Depth("not RGB")),
+        }
+    }
+
+    /// Pixels across and down.
+    pub fn size(&self) -> [usize; 2] {
+        [self.picture.width() as usize, self.picture.height() as usize]
+    }
+
+    /// Linear RGB of a pixel.
+    pub fn pixel(&self, x: usize, y: usize) -> [f64; 3] {
+        let (x, y) = (x as u32, y as u32);
+        match &self.picture {
+            DynamicImage::ImageRgb16(picture) => picture.get_pixel(x, y).0.map(f64::from),
+            DynamicImage::ImageRgba16(picture) => {
+                let [r, g, b, _] = picture.get_pixel(x, y).0;
+                [r, g, b].map(f64::from)
+            }
+            DynamicImage::ImageRgb32F(picture) => picture.get_pixel(x, y).0.map(f64::from),
+            _ => [f64::NAN; 3],
+        }
+    }
+
+    /// Means of the patches; NaN stands for nothing, infinity for a channel with a clipped pixel.
+    ///
+    /// # Errors
+    ///
+    /// [`ChartPictureError::Grid`] where the corners mark no patches.
+    pub fn rows(&self, grid: &ChartGrid, levels: Levels) -> Result<Vec<RawRow>, ChartPictureError> {
+        let clip = levels.clip.min(CLIP);
+        let means = grid.means(self.size(), clip, |x, y| self.pixel(x, y))?;
+        let row = |(index, patch): (usize, &chromascope_core::camera::chart_grid::PatchMean)| RawRow {
+            line: index + 1,
+            name: None,
+            rgb: [0, 1, 2].map(|c: usize| if patch.clipped[c] { f64::INFINITY } else { patch.mean[c] }),
+        };
+        Ok(means.iter().enumerate().map(row).collect())
+    }
+}

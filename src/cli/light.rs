@@ -1,0 +1,225 @@
+//! `light`: temperature, rendition indices and consistency of cameras for illuminants.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use chromascope_core::light::{Cct, CctError};
+use chromascope_core::query::{Consistency, Rendition};
+use clap::{ArgMatches, Args, ValueEnum};
+use serde_json::{Value, json};
+
+use super::arguments::SourceArguments;
+use super::error::CliError;
+use super::outputs;
+use super::request::Request;
+use super::tables::{field, significant};
+use crate::document::SetKind;
+use crate::format::fixed;
+use crate::results::Results;
+use crate::scene::Scene;
+use crate::scene::light::NoConsistency;
+use crate::terminal::{say, shown};
+
+pub(super) const EXAMPLES: &str = "Examples:
+  chromascope light FL2 LED-B3 D65
+  chromascope light lamp.csv --camera \"Nikon D70\" --format csv --out lamp_indices.csv
+  chromascope light blackbody:3200 --filter \"Mired shift \u{2212}131\"
+
+CSV columns: light; cct_k, duv (CIE 1931 2\u{b0}, 380-780 nm); ra, r1 to r14 (CIE 13.3); rf, rg (ANSI/IES TM-30, CIE 224); ssi, the
+Academy's spectral similarity to the reference of the same temperature, unrounded; then, in a row for each camera: camera,
+consistency_mean, consistency_p95, consistency_max, the \u{394}E*00 of the patches between this light and its reference illuminant
+through the camera, balanced to each and corrected by the matrix of the reference; worst_patch. Undefined values are empty; the
+reason is reported on standard error.";
+
+/// What `light` takes.
+#[derive(Debug, Args)]
+pub(super) struct LightArguments {
+    /// Illuminants: names, files with one curve, `daylight:K` or `blackbody:K`
+    #[arg(value_name = "NAME|FILE", required = true)]
+    lights: Vec<OsString>,
+    /// A filter in front of each light: a name of `chromascope list filters`, or a file with one transmittance; may be repeated
+    #[arg(long, value_name = "NAME|FILE")]
+    filter: Vec<OsString>,
+    #[command(flatten)]
+    sources: SourceArguments,
+    /// The patches that cameras are compared over: a chart, a material, or a file with reflectances [default: the preset's]
+    #[arg(long, value_name = "NAME|FILE")]
+    chart: Option<OsString>,
+    /// Form of the output
+    #[arg(long, value_enum, default_value_t = TableFormat::Table)]
+    format: TableFormat,
+    /// Output file [default: standard output, also `-`]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Overwrites the file named by --out
+    #[arg(long)]
+    force: bool,
+}
+
+/// A form of output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TableFormat {
+    /// For people
+    Table,
+    /// Comma-separated, 15 digits
+    Csv,
+    /// One object for each light
+    Json,
+}
+
+/// One light with all its answers.
+struct Answer {
+    name: String,
+    temperature: Result<Cct, CctError>,
+    rendition: Rendition,
+    cameras: Vec<(String, Result<Consistency, NoConsistency>)>,
+    patches: Vec<String>,
+}
+
+/// Answers for each light in the order given.
+pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<(), CliError> {
+    let mut request = Request::of_sources(&arguments.sources, matches)?;
+    request.set_chart(arguments.chart.as_deref())?;
+    request.set_filters(&arguments.filter)?;
+    let named = !arguments.sources.names_no_sensor();
+    let cameras = request.sources.iter().filter(|(kind, _)| named && *kind == SetKind::Camera);
+    let cameras: Vec<String> = cameras.map(|(_, name)| name.clone()).collect();
+    let results = Results::default();
+    let mut answers = Vec::new();
+    for light in &arguments.lights {
+        request.set_light(light)?;
+        let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
+        answers.push(answer(&scene, &cameras)?);
+    }
+    outputs::check(arguments.out.as_deref(), &request.inputs(), arguments.force)?;
+    answers.iter().flat_map(reasons).for_each(|reason| say(&format!("chromascope: {reason}\n")));
+    let text = match arguments.format {
+        TableFormat::Table => table(&answers),
+        TableFormat::Csv => csv(&answers),
+        TableFormat::Json => format!("{:#}\n", Value::Array(answers.iter().map(object).collect())),
+    };
+    let people = arguments.format == TableFormat::Table && arguments.out.is_none();
+    outputs::put(&if people { shown(&text).into_owned() } else { text }, arguments.out.as_deref())
+}
+
+fn answer(scene: &Scene<'_>, cameras: &[String]) -> Result<Answer, CliError> {
+    let patches = scene.patches()?;
+    Ok(Answer {
+        name: scene.light_name(),
+        temperature: scene.light_temperature()?,
+        rendition: (*scene.rendition()?).clone(),
+        cameras: cameras.iter().map(|name| (name.clone(), scene.consistency(name))).collect(),
+        patches: patches.patches().iter().map(|patch| patch.name.clone()).collect(),
+    })
+}
+
+/// Reasons for the values that a light does not have, each told once.
+fn reasons(answer: &Answer) -> Vec<String> {
+    let Rendition { rendering, fidelity, similarity, .. } = &answer.rendition;
+    let mut reasons: Vec<String> = [
+        answer.temperature.err().map(|error| format!("no CCT: {error}")),
+        rendering.as_ref().err().map(|error| format!("no Ra: {error}")),
+        fidelity.as_ref().err().map(|error| format!("no Rf, Rg: {error}")),
+        similarity.as_ref().err().map(|error| format!("no SSI: {error}")),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    let cameras = answer.cameras.iter();
+    reasons.extend(cameras.filter_map(|(name, answer)| Some(format!("{name}: {}", answer.as_ref().err()?))));
+    reasons.into_iter().map(|reason| format!("{}: {reason}", answer.name)).collect()
+}
+
+/// CCT, Duv, Ra, R1 to R14, Rf, Rg, SSI.
+fn numbers(answer: &Answer) -> Vec<Option<f64>> {
+    let Rendition { rendering, fidelity, similarity, .. } = &answer.rendition;
+    let temperature = answer.temperature.ok();
+    let rendering = rendering.as_ref().ok();
+    let fidelity = fidelity.as_ref().ok();
+    let mut numbers = vec![temperature.map(|cct| cct.temperature.get()), temperature.map(|cct| cct.duv)];
+    numbers.push(rendering.map(|indices| indices.general));
+    numbers.extend((0..14).map(|index| rendering.map(|indices| indices.special[index])));
+    numbers.extend([fidelity.map(|f| f.fidelity), fidelity.map(|f| f.gamut), similarity.as_ref().ok().copied()]);
+    numbers
+}
+
+fn heads() -> Vec<String> {
+    let special = (1..=14).map(|index| format!("r{index}"));
+    let first = ["cct_k", "duv", "ra"].map(str::to_owned);
+    first.into_iter().chain(special).chain(["rf", "rg", "ssi"].map(str::to_owned)).collect()
+}
+
+fn csv(answers: &[Answer]) -> String {
+    let rest = "camera,consistency_mean,consistency_p95,consistency_max,worst_patch";
+    let mut text = format!("light,{},{rest}\n", heads().join(","));
+    for answer in answers {
+        let cells: String = numbers(answer)
+            .into_iter()
+            .map(|value| format!(",{}", value.map_or_else(String::new, significant)))
+            .collect();
+        let start = format!("{}{cells}", field(&answer.name));
+        if answer.cameras.is_empty() {
+            text += &format!("{start},,,,,\n");
+        }
+        for (camera, consistency) in &answer.cameras {
+            let values = consistency.as_ref().map_or_else(
+                |_| ",,,".to_owned(),
+                |c| {
+                    let [mean, p95, max] = [c.mean, c.percentile_95, c.max].map(significant);
+                    format!("{mean},{p95},{max},{}", field(&answer.patches[c.worst]))
+                },
+            );
+            text += &format!("{start},{},{values}\n", field(camera));
+        }
+    }
+    text
+}
+
+fn object(answer: &Answer) -> Value {
+    let indices: serde_json::Map<String, Value> =
+        heads().into_iter().zip(numbers(answer)).map(|(head, value)| (head, json!(value))).collect();
+    let bins = answer.rendition.fidelity.as_ref().map_or_else(
+        |_| Value::Null,
+        |fidelity| {
+            let bin = |bin: &chromascope_core::rendition::HueBin| {
+                json!({ "rf_h": bin.fidelity, "rcs_h": bin.chroma_shift, "rhs_h": bin.hue_shift,
+                        "test": bin.test, "reference": bin.reference })
+            };
+            fidelity.bins.iter().map(bin).collect()
+        },
+    );
+    let camera = |(name, answer_of): &(String, Result<Consistency, NoConsistency>)| match answer_of {
+        Ok(c) => json!({ "camera": name, "mean": c.mean, "p95": c.percentile_95, "max": c.max,
+                         "worst_patch": answer.patches[c.worst] }),
+        Err(error) => json!({ "camera": name, "error": error.to_string() }),
+    };
+    json!({ "light": answer.name, "indices": indices, "hue_bins": bins,
+            "consistency": answer.cameras.iter().map(camera).collect::<Vec<_>>(), "undefined": reasons(answer) })
+}
+
+/// Rows for people: a light's indices, then its cameras.
+fn table(answers: &[Answer]) -> String {
+    let cell = |value: Option<f64>, decimals| value.map_or_else(|| "\u{2013}".to_owned(), |v| fixed(v, decimals));
+    let mut text = String::new();
+    for answer in answers {
+        let numbers = numbers(answer);
+        let [cct, duv, ra] = [(0, 0), (1, 4), (2, 1)].map(|(place, decimals)| cell(numbers[place], decimals));
+        let [rf, rg, ssi] = [(17, 1), (18, 1), (19, 0)].map(|(place, decimals)| cell(numbers[place], decimals));
+        text += &format!("{}\n  CCT {cct} K   Duv {duv}   Ra {ra}   Rf {rf}   Rg {rg}   SSI {ssi}\n ", answer.name);
+        for (index, value) in numbers[3..17].iter().enumerate() {
+            text += &format!(" R{} {}", index + 1, cell(*value, 0));
+        }
+        text.push('\n');
+        for (camera, consistency) in &answer.cameras {
+            text += &match consistency {
+                Ok(c) => {
+                    let [mean, p95, max] = [c.mean, c.percentile_95, c.max].map(|value| fixed(value, 2));
+                    let worst = &answer.patches[c.worst];
+                    format!("  {camera}: \u{394}E*00 to reference mean {mean}, 95 % {p95}, maximum {max} ({worst})\n")
+                }
+                Err(error) => format!("  {camera}: {error}\n"),
+            };
+        }
+    }
+    text
+}

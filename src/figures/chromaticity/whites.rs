@@ -1,0 +1,91 @@
+//! Standard whites and lines of equal correlated color temperature, for the CIE 1931 observer.
+
+use chromascope_core::colorimetry::{UvPrime, Xy, Xyz};
+use chromascope_core::light::Cct;
+use chromascope_core::query::Ask;
+use chromascope_core::units::Kelvin;
+use chromascope_figure::{Anchor, InkRole, Mark, Marker, Shape};
+
+use super::drawing::Drawing;
+use super::ground::text;
+use crate::catalog::load::LightQuery;
+use crate::document::{FIT_TARGET, Light, SetKind};
+use crate::plot_item::{PickIndex, PlotItem};
+use crate::scene::Scene;
+
+/// The whites, each with the side that its name stands on: they lie close together.
+const WHITES: [(&str, Anchor, [f64; 2]); 5] = [
+    ("A", Anchor::LEFT, [7.0, 0.0]),
+    ("D50", Anchor::LEFT, [7.0, -3.0]),
+    ("D55", Anchor::RIGHT, [-7.0, -5.0]),
+    ("D65", Anchor::RIGHT, [-7.0, 2.0]),
+    ("E", Anchor::LEFT, [7.0, 5.0]),
+];
+/// Temperatures of the isotherms in kelvins.
+const ISOTHERMS: [f64; 10] = [1500.0, 2000.0, 2500.0, 3000.0, 4000.0, 5000.0, 6500.0, 8000.0, 10_000.0, 20_000.0];
+/// Length of an isotherm to each side in the CIE 1960 diagram: as far as a temperature is defined.
+const REACH: f64 = 0.05;
+
+/// Adds both, as the document wants it.
+pub(super) fn add(drawing: &mut Drawing<'_>) {
+    let overlays = drawing.scene.document.overlays;
+    if overlays.isotherms {
+        add_isotherms(drawing);
+    }
+    if overlays.whites {
+        add_whites(drawing);
+    }
+}
+
+/// Chromaticity of a built-in light for the CIE 1931 observer.
+fn white(scene: &Scene<'_>, name: &str) -> Option<Xy> {
+    let place = scene.entry(SetKind::Illuminant, name).ok()?.place;
+    let light = scene.results.ask(&LightQuery::Set(place));
+    let grid = &(*light).as_ref().ok()?.grid;
+    let [x, y, z] = scene.sensor(SetKind::Observer, FIT_TARGET).ok()?.integrate(grid.values());
+    Xyz { x, y, z }.chromaticity()
+}
+
+fn add_whites(drawing: &mut Drawing<'_>) {
+    let scene = drawing.scene;
+    let plain = scene.document.filters.is_empty();
+    let shown = |name: &str| plain && scene.document.light == Light::Set(name.to_owned());
+    for (name, anchor, offset) in WHITES {
+        let at = white(scene, name).and_then(|xy| drawing.place(xy));
+        let Some(at) = at.filter(|_| !shown(name)) else { continue };
+        drawing.data.push(at);
+        let shape = Shape::Points { points: vec![at], marker: Marker::Diamond, radius: 3.5 };
+        let mark = Mark::new(PickIndex::NONE, format!("white {name}"), shape).with_stroke(InkRole::Text, 1.2);
+        drawing.marks.push(mark.with_fill(InkRole::Plot).with_halo(InkRole::Plot));
+        drawing.marks.push(text(name, at, anchor, offset, InkRole::Text));
+    }
+    let light = scene.light_color().ok().and_then(Xyz::chromaticity);
+    let Some(at) = light.and_then(|xy| drawing.place(xy)) else { return };
+    drawing.data.push(at);
+    let tag = drawing.things.tag(PlotItem::Light);
+    let shape = Shape::Points { points: vec![at], marker: Marker::Diamond, radius: 5.5 };
+    let name = format!("light {}", scene.light_name());
+    let mark = Mark::new(tag, &name, shape).with_stroke(InkRole::Text, 1.5).with_fill(InkRole::Text);
+    drawing.marks.push(mark.with_halo(InkRole::Plot));
+    drawing.marks.push(text(&name, at, Anchor(0.5, 0.0), [0.0, 8.0], InkRole::Text));
+}
+
+fn add_isotherms(drawing: &mut Drawing<'_>) {
+    let Ok(query) = drawing.scene.nearest_blackbody_query() else { return };
+    let locus = drawing.scene.results.ask(&query);
+    let Ok(locus) = &*locus else { return };
+    for kelvins in ISOTHERMS {
+        let Ok(temperature) = Kelvin::new(kelvins) else { continue };
+        let end = |duv| {
+            let uv = locus.off(Cct { temperature, duv })?;
+            let uv = UvPrime { u: uv.u, v: 1.5 * uv.v };
+            drawing.place_of(uv.xy(), Some(uv))
+        };
+        let Some((below, above)) = end(-REACH).zip(end(REACH)) else { continue };
+        let name = format!("{kelvins:.0} K");
+        let line = Shape::Segments { segments: vec![[below, above]] };
+        let mark = Mark::new(PickIndex::NONE, format!("isotherm {name}"), line);
+        drawing.marks.push(mark.with_stroke(InkRole::Weak, 0.8));
+        drawing.marks.push(text(&name, above, Anchor(0.5, 1.0), [0.0, -2.0], InkRole::Weak));
+    }
+}

@@ -1,0 +1,56 @@
+//! What lies between the window and the threads beside it.
+
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+
+use super::{Clock, Executor};
+
+/// State that the window and threads beside it change in turn, with news for those who wait and a wake for the window.
+pub struct Desk<S> {
+    state: Mutex<S>,
+    news: Condvar,
+    wake: Box<dyn Fn() + Send + Sync>,
+    clock: Clock,
+}
+
+impl<S> Desk<S> {
+    /// State as it is at first, by an executor's clock. `wake` is called from the thread that has something to tell.
+    pub fn new(executor: &Executor, state: S, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self { state: Mutex::new(state), news: Condvar::new(), wake: Box::new(wake), clock: executor.clock() }
+    }
+
+    /// The state. A panic elsewhere leaves nothing half done in it: what is locked is only looked up and put in place.
+    pub fn lock(&self) -> MutexGuard<'_, S> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The clock that work is timed by.
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// Tells threads that wait that the state has changed.
+    pub fn notify(&self) {
+        self.news.notify_all();
+    }
+
+    /// Tells them and the window.
+    pub fn tell(&self) {
+        self.notify();
+        (self.wake)();
+    }
+
+    /// Waits until the state is as wanted, and then reads it.
+    pub fn wait_for<R>(&self, is_wanted: impl Fn(&S) -> bool, read: impl FnOnce(&S) -> R) -> R {
+        let state = self.news.wait_while(self.lock(), |state| !is_wanted(state));
+        read(&state.unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Waits until the state is as wanted: where an executor is driven, by running what it has queued. For tests.
+    pub fn settle(&self, executor: &Executor, is_wanted: impl Fn(&S) -> bool) {
+        if executor.is_driven() {
+            while !is_wanted(&self.lock()) && executor.run_next() {}
+        } else {
+            self.wait_for(is_wanted, |_| ());
+        }
+    }
+}

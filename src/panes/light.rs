@@ -1,0 +1,169 @@
+//! The light judged: its temperature, rendition indices and color vectors, and how consistent each camera is under it.
+
+use chromascope_core::light::temperature::MAX_DUV;
+use chromascope_core::query::Rendition;
+use chromascope_core::rendition::cri;
+use chromascope_figure::Rect as Area;
+use egui::{Grid, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, Vec2};
+
+use super::context::{Pane, PaneContext};
+use crate::document::SetKind;
+use crate::figures::light;
+use crate::format::{fixed, sentence, signed};
+use crate::paint;
+use crate::panes::widgets;
+use crate::scene::Scene;
+use crate::theme::UNIT;
+use crate::workspaces::PaneKind;
+
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::new("Light"),
+    title: "Light",
+    show,
+    figure: Some(|input| light::figure(input.scene)),
+    under_conditions: true,
+    table: true,
+};
+
+/// From this width on, bars and vectors stand side by side.
+const WIDE: f32 = 520.0;
+/// Heights of the bars and of the vectors below them.
+const BARS: f32 = 150.0;
+const VECTORS: f32 = 250.0;
+
+/// Shows the pane in its rectangle.
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
+    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    let scene = context.scene;
+    let mut child = ui.new_child(UiBuilder::new().id_salt("light").max_rect(inner));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    let rendition = match scene.rendition() {
+        Ok(rendition) => rendition,
+        Err(error) => {
+            child.colored_label(context.theme.warning, sentence(&error.to_string()));
+            return;
+        }
+    };
+    if context.view.saved.tables.contains(&PANE.kind) {
+        widgets::data_table(ui, body, "light", &light::table(&scene, &rendition));
+        return;
+    }
+    ScrollArea::vertical().id_salt("light").auto_shrink(false).show(&mut child, |ui| {
+        ui.set_max_width(inner.width() - 2.0 * UNIT);
+        summary(ui, &scene, &rendition, context);
+        pictures(ui, &rendition, context);
+        cameras(ui, &scene, context);
+    });
+}
+
+/// The numbers in a few lines, and the reasons for those that there are not.
+fn summary(ui: &mut Ui, scene: &Scene<'_>, rendition: &Rendition, context: &PaneContext<'_>) {
+    let mut reasons: Vec<String> = Vec::new();
+    let mut reason = |what: &str, error: String| reasons.push(sentence(&format!("no {what}: {error}")));
+    ui.strong(scene.light_name());
+    match scene.light_temperature() {
+        Ok(Ok(cct)) => {
+            let words = format!("CCT {} K   Duv {}", fixed(cct.temperature.get(), 0), signed(cct.duv));
+            ui.label(words)
+                .on_hover_text("Nearest blackbody for CIE 1931 2°, 380–780 nm; Duv is positive above the locus");
+        }
+        Ok(Err(error)) => reason("CCT", error.to_string()),
+        Err(error) => reason("CCT", error.to_string()),
+    }
+    let mut words = Vec::new();
+    match &rendition.rendering {
+        Ok(indices) => words.push(format!("Ra {}", fixed(indices.general, 1))),
+        Err(error) => reason("Ra", error.to_string()),
+    }
+    match &rendition.fidelity {
+        Ok(fidelity) => {
+            words.push(format!("Rf {}   Rg {}", fixed(fidelity.fidelity, 1), fixed(fidelity.gamut, 1)));
+        }
+        Err(error) => reason("Rf and Rg", error.to_string()),
+    }
+    match &rendition.similarity {
+        Ok(similarity) => words.push(format!("SSI {}", fixed(*similarity, 0))),
+        Err(error) => reason("SSI", error.to_string()),
+    }
+    if !words.is_empty() {
+        let hint = "Ra: CIE 13.3. Rf, Rg: ANSI/IES TM-30, CIE 224. SSI: Academy, against a blackbody below 4000 K and \
+                    daylight from there on, at the light's temperature.";
+        ui.label(words.join("   ")).on_hover_text(hint);
+    }
+    if rendition.rendering.as_ref().is_ok_and(|indices| indices.distance > cri::NEAR) {
+        let note = format!(
+            "Farther than {} from the reference illuminant in u, v: CIE 13.3 calls its indices less accurate there.",
+            cri::NEAR
+        );
+        ui.label(RichText::new(note).small().color(context.theme.weak));
+    }
+    reasons.dedup();
+    for reason in reasons {
+        let hint = format!("A color temperature is defined up to Duv \u{b1}{MAX_DUV}, indices for white lights only.");
+        ui.colored_label(context.theme.warning, reason).on_hover_text(hint);
+    }
+}
+
+/// Bars and vectors, beside or below each other.
+fn pictures(ui: &mut Ui, rendition: &Rendition, context: &PaneContext<'_>) {
+    let width = ui.available_width();
+    let wide = width >= WIDE;
+    let across = |share: f32| if wide { share * width } else { width };
+    let sizes = [Vec2::new(across(0.55), if wide { VECTORS } else { BARS }), Vec2::new(across(0.45), VECTORS)];
+    let area = |size: Vec2| Area::from_min_size([0.0; 2], [size.x, size.y].map(f64::from));
+    let panels = [light::bars(rendition, area(sizes[0])), light::vectors(rendition, area(sizes[1]))];
+    let total = if wide { Vec2::new(width, VECTORS) } else { Vec2::new(width, BARS + VECTORS) };
+    if panels.iter().all(Option::is_none) {
+        return;
+    }
+    let (rect, response) = ui.allocate_exact_size(total, Sense::hover());
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::Image, true, "Color rendering indices as bars, and color vectors")
+    });
+    let below = if wide { Vec2::new(sizes[0].x, 0.0) } else { Vec2::new(0.0, BARS) };
+    let places = [Rect::from_min_size(rect.min, sizes[0]), Rect::from_min_size(rect.min + below, sizes[1])];
+    for (panel, place) in panels.iter().zip(places) {
+        if let Some(panel) = panel {
+            paint::still(ui.painter(), panel, &context.theme, place);
+        }
+    }
+}
+
+/// Differences of each compared camera between this light and its reference illuminant.
+fn cameras(ui: &mut Ui, scene: &Scene<'_>, context: &PaneContext<'_>) {
+    let cameras: Vec<_> = scene.sources().into_iter().filter(|source| source.kind == SetKind::Camera).collect();
+    if cameras.is_empty() {
+        return;
+    }
+    ui.add_space(UNIT);
+    ui.strong("Cameras: ΔE*00 to the reference illuminant").on_hover_text(
+        "The patches under this light against those under its reference illuminant, through the camera balanced to each \
+         and corrected by one matrix, fitted under the reference illuminant.",
+    );
+    let names = scene.patches().map(|set| set.patches().iter().map(|patch| patch.name.clone()).collect::<Vec<_>>());
+    let names = names.unwrap_or_default();
+    let small = |words: &str| RichText::new(words).small().color(context.theme.weak);
+    Grid::new("consistency").num_columns(5).spacing(Vec2::new(3.0 * UNIT, UNIT)).show(ui, |ui| {
+        for head in ["camera", "mean", "95 %", "max", "worst patch"] {
+            ui.label(small(head));
+        }
+        ui.end_row();
+        for source in cameras {
+            ui.label(&source.label);
+            match scene.consistency(&source.name) {
+                Ok(found) => {
+                    for value in [found.mean, found.percentile_95, found.max] {
+                        ui.label(RichText::new(fixed(value, 2)).monospace());
+                    }
+                    ui.label(names.get(found.worst).map_or("", String::as_str));
+                }
+                Err(error) => {
+                    ui.label(small("–")).on_hover_text(sentence(&error.to_string()));
+                }
+            }
+            ui.end_row();
+        }
+    });
+}

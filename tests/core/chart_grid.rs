@@ -1,0 +1,58 @@
+//! Patches of a chart in a picture, by the corners of its grid.
+
+use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError};
+
+/// A picture of 6 × 4 patches in perspective: patch i has (i + 1, 2(i + 1), 3(i + 1)), everything else −1.
+fn picture(x: usize, y: usize) -> [f64; 3] {
+    // The inverse of the projection x = 100 (u + 0.2 v) / w + 20, y = 80 v / w + 10, w = 1 + 0.3 v, by hand.
+    let (x, y) = (x as f64 + 0.5, y as f64 + 0.5);
+    let v = (y - 10.0) / (80.0 - 0.3 * (y - 10.0));
+    let u = (x - 20.0) * (1.0 + 0.3 * v) / 100.0 - 0.2 * v;
+    if !(0.0..1.0).contains(&u) || !(0.0..1.0).contains(&v) {
+        return [-1.0; 3];
+    }
+    let index = (v * 4.0).floor() * 6.0 + (u * 6.0).floor() + 1.0;
+    [index, 2.0 * index, 3.0 * index]
+}
+
+/// Corners of that picture's grid.
+fn corners() -> [[f64; 2]; 4] {
+    let at = |u: f64, v: f64| {
+        let w = 1.0 + 0.3 * v;
+        [100.0 * (u + 0.2 * v) / w + 20.0, 80.0 * v / w + 10.0]
+    };
+    [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)]
+}
+
+#[test]
+fn patches_in_perspective_are_averaged_exactly() {
+    let grid = ChartGrid::new(corners(), 6, 4).unwrap();
+    let means = grid.means([140, 90], 60.0, picture).unwrap();
+    for (index, patch) in means.iter().enumerate() {
+        let value = (index + 1) as f64;
+        assert_eq!(patch.mean, [value, 2.0 * value, 3.0 * value], "patch {index}");
+        assert_eq!(patch.clipped, [value, 2.0 * value, 3.0 * value].map(|v| v >= 60.0));
+        assert!(patch.pixels > 20, "{}", patch.pixels);
+        for [x, y] in grid.central_part(index) {
+            assert_eq!(picture(x as usize, y as usize)[0], value, "corner of {index}");
+        }
+    }
+    // The chart upside down: corners named from its first patch on.
+    let [a, b, c, d] = corners();
+    let turned = ChartGrid::new([c, d, a, b], 6, 4).unwrap().means([140, 90], 1e9, picture).unwrap();
+    assert_eq!(turned[0].mean[0], 24.0);
+    assert_eq!(turned[23].mean[0], 1.0);
+}
+
+#[test]
+fn corners_that_mark_no_grid_are_refused() {
+    let [a, b, c, d] = corners();
+    assert_eq!(ChartGrid::new([a, c, b, d], 6, 4), Err(ChartGridError::NotConvex));
+    assert_eq!(ChartGrid::new([a, a, b, c], 6, 4), Err(ChartGridError::NotConvex));
+    assert_eq!(ChartGrid::new([[f64::NAN; 2], b, c, d], 6, 4), Err(ChartGridError::NotConvex));
+    assert_eq!(ChartGrid::new(corners(), 0, 4), Err(ChartGridError::Grid { columns: 0, rows: 4 }));
+    let grid = ChartGrid::new(corners(), 6, 4).unwrap();
+    assert_eq!(grid.means([100, 90], 1e9, picture), Err(ChartGridError::Outside { corner: 2, width: 100, height: 90 }));
+    let tiny = ChartGrid::new([[0.0, 0.0], [9.0, 0.0], [9.0, 6.0], [0.0, 6.0]], 6, 4).unwrap();
+    assert!(matches!(tiny.means([140, 90], 1e9, picture), Err(ChartGridError::TooSmall { .. })));
+}
