@@ -7,12 +7,13 @@ use std::path::PathBuf;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 
+use crate::document::correction::CorrectionChoice;
 use crate::document::names::BuiltInNames;
 use crate::document::own::OwnSet;
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
 use crate::document::{
-    Diagram, Document, LOCUS_RANGE_K, Light, Overlays, SetKind, Subset, TransformChoice, WhiteBalanceChoice,
+    Diagram, Document, FIT_TARGET, LOCUS_RANGE_K, Light, Overlays, SetKind, Subset, TransformChoice, WhiteBalanceChoice,
 };
 
 /// A change of the document.
@@ -72,6 +73,8 @@ pub enum SceneAction {
     SetWhite(WhiteBalanceChoice),
     /// Another way to the diagram.
     SetWay(TransformChoice),
+    /// Another color correction; where Eq 13 was chosen, a transform is fitted to the default observer.
+    SetCorrection(CorrectionChoice),
     /// Another measure of difference.
     SetDifference(Metric),
     /// Other coordinates.
@@ -170,6 +173,7 @@ impl Action {
             (self, next),
             (Self::Scene(SceneAction::SetTemperature(_)), Self::Scene(SceneAction::SetTemperature(_)))
                 | (Self::Scene(SceneAction::SetWhite(_)), Self::Scene(SceneAction::SetWhite(_)))
+                | (Self::Scene(SceneAction::SetCorrection(_)), Self::Scene(SceneAction::SetCorrection(_)))
         )
     }
 
@@ -250,6 +254,7 @@ impl SceneAction {
             Self::SetSubset(_) => "Number of patches",
             Self::SetWhite(_) => "White balance",
             Self::SetWay(_) => "Color transform",
+            Self::SetCorrection(_) => "Color correction",
             Self::SetDifference(_) => "Difference",
             Self::SetDiagram(_) => "Diagram",
             Self::SetOverlays(_) => "Shown on the diagram",
@@ -276,6 +281,12 @@ impl SceneAction {
             Self::SetSubset(subset) => document.subset = *subset,
             Self::SetWhite(white) => document.white = white.clone(),
             Self::SetWay(transform) => document.set_transform(transform.clone()),
+            Self::SetCorrection(correction) => {
+                document.correction.clone_from(correction);
+                if document.transform.is_eq_13() {
+                    document.set_transform(TransformChoice::Observer(FIT_TARGET.to_owned()));
+                }
+            }
             Self::SetDifference(difference) => document.difference = *difference,
             Self::SetDiagram(diagram) => document.set_diagram(*diagram),
             Self::SetOverlays(overlays) => document.overlays = *overlays,

@@ -14,18 +14,22 @@ mod saving;
 mod startup;
 
 use chromascope_core::query::NearestBlackBodyQuery;
+use chromascope_core::query::correction::CorrectionSheetQuery;
 use egui::{Event, Ui};
 
 use crate::action::history::History;
 use crate::catalog::Catalog;
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
+use crate::catalog::recorded_store::RecordedStore;
 use crate::command::{Command, key_bindings};
 use crate::figures::curves::CurveCache;
 use crate::files::Files;
 use crate::jobs::{Background, Executor};
 use crate::panes;
+use crate::plot_item::PlotItem;
 use crate::profiler::Profiler;
+use crate::ranking::Ranking;
 use crate::render_service::RenderService;
 use crate::results::Results;
 use crate::theme;
@@ -47,9 +51,12 @@ pub struct ChromascopeApp {
     files: Files,
     meshes: MeshStore,
     opened: Opened,
+    recorded: RecordedStore,
     radiators: Background<NearestBlackBodyQuery>,
+    corrections: Background<CorrectionSheetQuery>,
     studio: RenderService,
     laboratory: Profiler,
+    ranking: Ranking,
     curves: Option<CurveCache>,
     commands: Vec<Command>,
     /// The latest reading of each set that was read again.
@@ -80,7 +87,7 @@ impl ChromascopeApp {
         saved.layout.retain(|pane| panes::by_kind(pane).is_some());
         theme::apply(ctx);
         files.wake(ctx);
-        let [window, also, third, fourth] = [(); 4].map(|()| ctx.clone());
+        let [window, also, third, fourth, fifth, sixth, seventh] = [(); 7].map(|()| ctx.clone());
         let opened = Opened::on(executor, move || also.request_repaint());
         opened.recall(saved.import.failing.clone());
         let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
@@ -93,9 +100,12 @@ impl ChromascopeApp {
             files,
             meshes: MeshStore::on(executor, move || window.request_repaint()),
             opened,
+            recorded: RecordedStore::on(executor, move || fifth.request_repaint()),
             radiators: Background::on(executor, "blackbodies", move || third.request_repaint()),
+            corrections: Background::on(executor, "color corrections", move || sixth.request_repaint()),
             studio: RenderService::on(executor, ctx),
             laboratory: Profiler::on(executor, move || fourth.request_repaint()),
+            ranking: Ranking::on(executor, move || seventh.request_repaint()),
             curves: None,
             commands: Vec::new(),
             last_read: std::collections::HashMap::new(),
@@ -176,6 +186,11 @@ impl ChromascopeApp {
         &self.laboratory
     }
 
+    /// Where cameras are ranked.
+    pub fn ranking(&self) -> &Ranking {
+        &self.ranking
+    }
+
     /// The same, for tests to set up.
     pub fn laboratory_mut(&mut self) -> &mut Profiler {
         &mut self.laboratory
@@ -215,7 +230,7 @@ impl ChromascopeApp {
         for event in events {
             match event {
                 Event::Paste(text) if !typing => self.commands.push(Command::Paste(text)),
-                Event::Copy if !typing => self.commands.push(Command::CopyNumbers(focused)),
+                Event::Copy if !typing && !self.view.table_copies => self.commands.push(Command::CopyNumbers(focused)),
                 _ => {}
             }
         }
@@ -270,6 +285,10 @@ impl eframe::App for ChromascopeApp {
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.view.point = None;
+        self.view.table_copies = false;
+        let document = self.history.document();
+        let source = self.view.selected.as_ref().and_then(PlotItem::source);
+        self.view.selected_elsewhere = source.is_some_and(|id| document.compared(id.kind, &id.name).is_none());
         self.show(ui);
         self.view.reset_plots = false;
         let hovered = self.view.next_hovered.take();

@@ -11,6 +11,7 @@ pub mod meshes;
 pub mod names;
 pub mod opened;
 pub mod recorded;
+pub mod recorded_store;
 pub mod spectral_images;
 
 use std::hash::{Hash, Hasher};

@@ -1,4 +1,5 @@
-//! The same answers without a window: `locus`, `patches`, `light`, `render`, `identify`, `inspect`, `bench`, `list`.
+//! The same answers without a window: `locus`, `patches`, `compare`, `matrix`, `light`, `render`, `identify`, `inspect`, `bench`,
+//! `list`.
 //!
 //! Arguments become a [`Document`](crate::document::Document) and are answered through [`Scene`](crate::scene::Scene), as in the
 //! window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
@@ -6,14 +7,18 @@
 mod arguments;
 mod bench;
 mod checks;
+mod compare;
 mod error;
 mod identify;
 mod inspect;
 mod light;
+mod matrix;
 mod outputs;
+mod per;
 mod radiance;
 mod render;
 mod request;
+mod sources;
 mod tables;
 
 use std::ffi::OsString;
@@ -58,6 +63,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         Subcommand::Patches(arguments) => {
             tables::patches(&arguments, matches).and_then(|text| put(&text, arguments.common.out.as_deref()))
         }
+        Subcommand::Compare(arguments) => compare::run(&arguments, matches),
+        Subcommand::Matrix(arguments) => matrix::run(&arguments),
         Subcommand::Render(arguments) => render::run(&arguments, matches),
         Subcommand::Light(arguments) => light::run(&arguments, matches),
         Subcommand::Identify(arguments) => identify::run(&arguments),

@@ -9,6 +9,7 @@ use crate::document::own::{Fingerprint, ImportOverrides};
 use crate::export::spectra::Form;
 use crate::plot_item::SensorId;
 use crate::theme::Surround;
+use crate::view::correction::CorrectionForm;
 use crate::view::import::ImportItem;
 use crate::workspaces::{PaneKind, Workspace};
 
@@ -23,6 +24,8 @@ pub enum Command {
     Redo,
     /// Ask for files to open.
     Open,
+    /// Ask for a file of recorded raw values.
+    OpenRecorded,
     /// Ask for a folder whose files are to be opened.
     OpenFolder,
     /// Open a document in place of this one, which is kept.
@@ -65,6 +68,8 @@ pub enum Command {
     ExportExr(SensorId),
     /// Save the curves of a set of the library.
     SaveSet(SetKind, String, Form),
+    /// Save the color correction on show.
+    SaveCorrection(CorrectionForm),
     /// Put a pane's picture on the clipboard.
     CopyPicture(PaneKind),
     /// Put a pane's numbers on the clipboard.
@@ -114,13 +119,15 @@ pub enum Format {
     Svg,
     /// Pixels.
     Png,
-    /// Numbers.
+    /// Numbers, separated by commas.
     Csv,
+    /// Numbers for programs.
+    Json,
 }
 
 impl Format {
     /// All forms.
-    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Csv];
+    pub const ALL: [Self; 4] = [Self::Svg, Self::Png, Self::Csv, Self::Json];
 
     /// The ending of its files.
     pub const fn extension(self) -> &'static str {
@@ -128,6 +135,7 @@ impl Format {
             Self::Svg => "svg",
             Self::Png => "png",
             Self::Csv => "csv",
+            Self::Json => "json",
         }
     }
 }

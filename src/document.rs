@@ -3,6 +3,7 @@
 //! Everything that can be computed from it and the data sets is not in here. The JSON it is saved as is the session file:
 //! versioned, unknown fields kept, the user's own data by value.
 
+pub mod correction;
 pub mod kept;
 pub mod kind;
 pub mod names;
@@ -15,6 +16,7 @@ pub mod uses;
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
+use correction::CorrectionChoice;
 pub use kind::SetKind;
 use own::OwnSet;
 use render::RenderSettings;
@@ -53,6 +55,9 @@ pub struct Document {
     pub white: WhiteBalanceChoice,
     /// The way from signals to the diagram.
     pub transform: TransformChoice,
+    /// How fitted color transforms are fitted.
+    #[serde(skip_serializing_if = "CorrectionChoice::is_default")]
+    pub correction: CorrectionChoice,
     /// Metric of the differences from the reference.
     #[serde(with = "metric_id")]
     pub difference: Metric,
@@ -276,6 +281,7 @@ impl Document {
             subset: Subset::Five,
             white: WhiteBalanceChoice::Unity,
             transform: TransformChoice::Paper,
+            correction: CorrectionChoice::default(),
             difference: TransformChoice::Paper.preferred_metric(Diagram::Xy),
             diagram: Diagram::Xy,
             overlays: Overlays::default(),

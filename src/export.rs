@@ -1,12 +1,13 @@
 //! Figures out of the program: SVG from the figure, PNG from that SVG, both in the bundled fonts.
 
+pub mod profile;
 pub mod render;
 pub mod spectra;
 
 use std::sync::{Arc, LazyLock};
 
 use base64::{Engine as _, prelude::BASE64_STANDARD};
-use chromascope_figure::{Figure, Image, svg};
+use chromascope_figure::{Cell, Figure, Image, Table, svg};
 use image::{
     ExtendedColorType, ImageEncoder as _, RgbaImage,
     codecs::png::{CompressionType, FilterType, PngEncoder},
@@ -52,6 +53,25 @@ impl Default for Paper {
     fn default() -> Self {
         Self { width_mm: None, text_scale: 1.0, line_scale: 1.0 }
     }
+}
+
+/// A table as JSON: version, title, names of the columns, and rows of numbers, texts and null.
+pub fn json(title: &str, table: &Table) -> String {
+    let cell = |cell: Option<&Cell>| match cell {
+        Some(Cell::Number(value)) if value.is_finite() => serde_json::json!(value),
+        Some(Cell::Text(text)) => serde_json::json!(text),
+        _ => serde_json::Value::Null,
+    };
+    let row = |row: &Vec<Cell>| (0..table.columns.len()).map(|index| cell(row.get(index))).collect::<Vec<_>>();
+    let rows: Vec<_> = table.rows.iter().map(row).collect();
+    let value = serde_json::json!({
+        "format": "chromascope-table",
+        "version": 1,
+        "title": title,
+        "columns": table.columns,
+        "rows": rows,
+    });
+    format!("{value:#}\n")
 }
 
 /// The figure as SVG. Figures for paper take [`Theme::LIGHT`].

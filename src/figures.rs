@@ -2,9 +2,13 @@
 
 pub mod accuracy;
 pub mod chromaticity;
+pub mod correction;
 pub mod curves;
 pub mod light;
+pub mod metrics;
+pub mod recorded;
 pub mod render;
+pub mod report_card;
 pub mod skipped_work;
 pub mod spectra;
 pub mod strip;

@@ -88,6 +88,13 @@ fn listed(rows: &[&DroppedRow], told: usize, one: impl Fn(&DroppedRow) -> String
     words.join(", ") + &rest
 }
 
+/// A name that any file system takes: letters and digits, small, other signs as single hyphens.
+pub(crate) fn slug(name: &str) -> String {
+    let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let slug = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
+    if slug.is_empty() { "unnamed".to_owned() } else { slug }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -12,14 +12,18 @@ use crate::document::SetKind;
 use markdown::{Block, Inline};
 
 /// Pages in the order of the list: the file name without its ending, which is also the target of links.
-const ORDER: [&str; 10] = [
+const ORDER: [&str; 14] = [
     "getting-started",
     "window",
     "own-spectra",
+    "lights",
     "command-line",
     "keyboard",
     "model",
+    "metrics",
+    "correction",
     "accuracy",
+    "measured",
     "paper",
     "glossary",
     "data",

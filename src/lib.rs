@@ -9,6 +9,7 @@
 //! plot_item  paint  workspaces what marks stand for; figures on screen; which panes stand where
 //! render_service  bench  profiler   pictures of meshes; run time against error
 //! view ─► command              what is looked at; what keys, menus and panes ask for
+//! ranking                      figures of merit of many cameras
 //! figures                      answers become figures
 //! panes  cli                   show them, and ask for changes
 //! app                          the window
@@ -38,6 +39,7 @@ pub mod paint;
 pub mod panes;
 pub mod plot_item;
 pub mod profiler;
+pub mod ranking;
 pub mod render_service;
 pub mod results;
 pub mod scene;

@@ -4,8 +4,8 @@
 //!
 //! ```diff
 //! --- /dev/null
-//! +++ b/src/panes/metamers.rs
-//! +//! Pairs of reflectances that a sensor confuses.
+//! +++ b/src/panes/gamut.rs
+//! +//! Gamut of each sensor.
 //! +
 //! +use egui::{Rect, Ui};
 //! +
@@ -14,8 +14,8 @@
 //! +use crate::workspaces::PaneKind;
 //! +
 //! +pub const PANE: Pane = Pane {
-//! +    kind: PaneKind::new("Metamers"),
-//! +    title: "Metamers",
+//! +    kind: PaneKind::new("Gamut"),
+//! +    title: "Gamut",
 //! +    show,
 //! +    figure: None,
 //! +    under_conditions: false,
@@ -28,9 +28,9 @@
 //! +}
 //! --- a/src/panes.rs
 //! +++ b/src/panes.rs
-//! +pub mod metamers;
+//! +pub mod gamut;
 //!      &tolerance::PANE,
-//! +    &metamers::PANE,
+//! +    &gamut::PANE,
 //! ```
 //!
 //! It is then in View, Panes, in the title menu of every other pane, in saved layouts and in exports. A place that a workspace
@@ -38,7 +38,9 @@
 
 pub mod chromaticity;
 pub mod context;
+pub mod correction;
 pub mod curves;
+pub mod head_to_head;
 pub mod help;
 pub mod import;
 pub mod inspector;
@@ -46,9 +48,13 @@ pub mod interpretation;
 pub mod library;
 pub mod light;
 pub mod menu;
+pub mod metamers;
 pub mod methods;
+pub mod metrics;
+pub mod recorded;
 pub mod render;
 pub mod render_settings;
+pub mod report_card;
 pub mod scene_bar;
 pub mod spectra;
 pub mod status_bar;
@@ -75,12 +81,18 @@ pub const ALL: &[&Pane] = &[
     &inspector::PANE,
     &render::PANE,
     &render_settings::PANE,
+    &metrics::PANE,
+    &head_to_head::PANE,
+    &report_card::PANE,
+    &metamers::PANE,
     &import::PANE,
     &curves::PANE,
     &interpretation::PANE,
     &methods::PANE,
     &work_saved::PANE,
     &tolerance::PANE,
+    &recorded::PANE,
+    &correction::PANE,
 ];
 
 /// Note where something is measured.

@@ -3,18 +3,21 @@
 //! Panes, exports and the command line all ask through here, so that they cannot disagree.
 
 pub mod conditions;
+pub mod correction;
 pub mod light;
 pub mod locus;
 pub mod metrics;
 pub mod orbit;
 pub mod recorded;
 pub mod render;
+pub mod spectral_image;
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
 use chromascope_core::camera::{RenderingError, WhiteBalanceTarget};
 use chromascope_core::colorimetry::diagram::SpectralPoint;
+use chromascope_core::correction::aces::IdtError;
 use chromascope_core::light::{DaylightError, RadiationConstants, daylight};
 use chromascope_core::patch_set::{PAPER_FIVE, PatchSet};
 use chromascope_core::query::{
@@ -33,8 +36,7 @@ use crate::catalog::load::{
 use crate::catalog::{Catalog, Entry, Place};
 use crate::document::names::caseless;
 use crate::document::{
-    Compared, Document, FIT_TARGET, LOCUS_RANGE_K, Light, SetKind, Subset, TRAINING, TransformChoice,
-    WhiteBalanceChoice,
+    Compared, Document, FIT_TARGET, LOCUS_RANGE_K, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice,
 };
 use crate::results::Results;
 
@@ -59,6 +61,14 @@ pub enum SceneError {
         name: String,
         /// Reason.
         error: LoadError,
+    },
+    /// A camera without an ACES input transform under this light.
+    #[error("{name}: {error}")]
+    Idt {
+        /// Its name.
+        name: String,
+        /// Reason.
+        error: IdtError,
     },
     /// A sensor that cannot be shown under this light.
     #[error("{name}: {error}")]
@@ -216,6 +226,15 @@ impl<'a> Scene<'a> {
             Light::BlackBody => (LightQuery::BlackBody(self.temperature()?), "blackbody"),
             Light::Daylight => (LightQuery::Daylight(self.temperature()?), "daylight"),
         };
+        self.filtered(light, name)
+    }
+
+    /// An illuminant of the catalog through the document's filters.
+    pub(crate) fn illuminant(&self, name: &str) -> Result<LoadedLight, SceneError> {
+        self.filtered(LightQuery::Set(self.entry(SetKind::Illuminant, name)?.place), name)
+    }
+
+    fn filtered(&self, light: LightQuery, name: &str) -> Result<LoadedLight, SceneError> {
         if self.document.filters.is_empty() {
             return self.loaded(&light, name);
         }
@@ -224,7 +243,7 @@ impl<'a> Scene<'a> {
         names.sort();
         let filters = names.iter().map(|name| self.filter(name)).collect::<Result<_, _>>()?;
         let answer = self.results.ask(&FilteredLightQuery { light, filters });
-        (*answer).clone().map_err(|error| SceneError::Load { name: self.light_name(), error })
+        (*answer).clone().map_err(|error| SceneError::Load { name: self.with_filters(name.to_owned()), error })
     }
 
     /// Transmittance of a filter.
@@ -245,6 +264,11 @@ impl<'a> Scene<'a> {
             Light::BlackBody => format!("blackbody {:.0} K", self.document.temperature_k),
             Light::Daylight => format!("daylight {:.0} K", self.document.temperature_k),
         };
+        self.with_filters(light)
+    }
+
+    /// The name of a light with the filters in front of it.
+    pub(crate) fn with_filters(&self, light: String) -> String {
         self.document.filters.iter().fold(light, |name, filter| format!("{name} × {filter}"))
     }
 
@@ -264,7 +288,11 @@ impl<'a> Scene<'a> {
         })
     }
 
-    fn patch_set(&self, name: &str, names: Option<&'static [&'static str]>) -> Result<Shared<PatchSet>, SceneError> {
+    pub(crate) fn patch_set(
+        &self,
+        name: &str,
+        names: Option<&'static [&'static str]>,
+    ) -> Result<Shared<PatchSet>, SceneError> {
         let place = self.find_chart(name)?.place.clone();
         self.loaded_patches(place, name, names)
     }
@@ -309,10 +337,12 @@ impl<'a> Scene<'a> {
     pub fn transform(&self) -> Result<ColorTransformSpec, SceneError> {
         match &self.document.transform {
             TransformChoice::Paper => Ok(ColorTransformSpec::Paper),
-            TransformChoice::Observer(reference) => Ok(ColorTransformSpec::Observer {
-                reference: self.sensor(SetKind::Observer, reference)?,
-                training: self.patch_set(TRAINING, None)?,
-            }),
+            TransformChoice::Observer(reference) => {
+                let choice = &self.document.correction;
+                let reference = self.sensor(SetKind::Observer, reference)?;
+                let training = self.patch_set(&choice.training, None)?;
+                Ok(ColorTransformSpec::corrected(reference, training, choice.correction()))
+            }
         }
     }
 

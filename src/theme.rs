@@ -214,6 +214,11 @@ impl Theme {
         }
     }
 
+    /// The gray behind a number: a share from 0 (the ground of a pane) to 1 (the darkest, or in a dark theme the lightest).
+    pub fn shade(&self, share: f32) -> Color32 {
+        self.panel.lerp_to_gamma(self.chosen, share.clamp(0.0, 1.0))
+    }
+
     /// The color of an ink.
     pub fn ink(&self, ink: Ink) -> Color32 {
         self.role(ink.role).gamma_multiply(ink.alpha.clamp(0.0, 1.0))

@@ -1,11 +1,15 @@
 //! What is looked at and how: selection, panes, layout. Not part of the document, no steps of undo.
 
 pub mod accuracy;
+pub mod correction;
 pub mod help;
 pub mod import;
+pub mod metrics;
+pub mod recorded;
 pub mod render;
+pub mod table;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
@@ -17,9 +21,13 @@ use crate::theme::Surround;
 use crate::workspaces::{Layout, PaneKind, Workspace};
 use accuracy::AccuracyView;
 use chromascope_figure::Tag;
+use correction::CorrectionView;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
+use metrics::MetricsLook;
+use recorded::RecordedView;
 use render::{RenderLook, RenderView};
+use table::TableLook;
 
 /// What is looked at and how.
 #[derive(Debug, Default)]
@@ -35,6 +43,10 @@ pub struct View {
     pub point: Option<String>,
     /// Chosen by a click.
     pub selected: Option<PlotItem>,
+    /// The selection belongs to a sensor that is not compared: nothing that is drawn fades beside it.
+    pub selected_elsewhere: bool,
+    /// Pair of metamers that was clicked, as a row.
+    pub metamers: Option<usize>,
     /// Kept beside each other, A, B, …
     pub pinned: Vec<PlotItem>,
     /// What is typed into the library's search.
@@ -49,8 +61,12 @@ pub struct View {
     pub import: ImportView,
     /// What the Render pane shows now.
     pub render: RenderView,
+    /// What is looked at in Correction.
+    pub correction: CorrectionView,
     /// What is looked at in Accuracy.
     pub accuracy: AccuracyView,
+    /// What is looked at in Recorded.
+    pub recorded: RecordedView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
     /// The reference stands in for every camera while B is held.
@@ -59,6 +75,8 @@ pub struct View {
     pub focus_search: bool,
     /// A field in which Esc takes back what is typed has the keyboard.
     pub keeps_escape: bool,
+    /// A table is on show in the pane that keys mean: it copies its own rows.
+    pub table_copies: bool,
     /// The temperature field takes the keyboard in this frame.
     pub focus_temperature: bool,
     /// The help window.
@@ -83,6 +101,10 @@ pub struct SavedView {
     pub layout: Layout,
     /// Panes that show their numbers instead of their picture.
     pub tables: BTreeSet<PaneKind>,
+    /// Order and columns of tables, by table.
+    pub looks: BTreeMap<String, TableLook>,
+    /// What is looked at in Metrics.
+    pub metrics: MetricsLook,
     /// The gray around swatches.
     pub surround: Surround,
     /// True if the diagram fits the data or shows all.
@@ -112,6 +134,8 @@ impl Default for SavedView {
             workspace: Workspace::default(),
             layout: Layout::default(),
             tables: BTreeSet::new(),
+            looks: BTreeMap::new(),
+            metrics: MetricsLook::default(),
             surround: Surround::default(),
             diagram_fit: DiagramFit::default(),
             swatch_layout: SwatchLayout::default(),
@@ -247,7 +271,7 @@ impl View {
             (_, Some(Relation::Same)) => Emphasis::Selected,
             (Some(Relation::Same), _) => Emphasis::Hovered,
             _ if pinned => Emphasis::Selected,
-            (_, Some(Relation::Other)) => Emphasis::Faded,
+            (_, Some(Relation::Other)) if !self.selected_elsewhere => Emphasis::Faded,
             _ => Emphasis::Normal,
         }
     }

@@ -39,6 +39,16 @@ impl PaneKind {
     pub const METHODS: Self = Self::new("Accuracy");
     /// Skipped work, and the time it saved.
     pub const WORK_SAVED: Self = Self::new("SkippedWork");
+    /// Cameras by figures of merit.
+    pub const METRICS: Self = Self::new("Metrics");
+    /// Two cameras side by side.
+    pub const HEAD_TO_HEAD: Self = Self::new("HeadToHead");
+    /// One camera on one page.
+    pub const REPORT_CARD: Self = Self::new("ReportCard");
+    /// The light judged.
+    pub const LIGHT: Self = Self::new("Light");
+    /// Raw values of a real camera against the library.
+    pub const RECORDED: Self = Self::new("Recorded");
     /// Allowed error.
     pub const TOLERANCE: Self = Self::new("Tolerance");
 
@@ -110,6 +120,8 @@ pub enum Workspace {
     Spectra,
     /// A mesh through each camera, beside what it is made of.
     Render,
+    /// Cameras by figures of merit.
+    Metrics,
     /// The user's files, and what was understood of them.
     Import,
     /// Run time and error of each method on the scene, and the skipped work.
@@ -118,7 +130,8 @@ pub enum Workspace {
 
 impl Workspace {
     /// All workspaces, in the order of their tabs and keys.
-    pub const ALL: [Self; 5] = [Self::Compare, Self::Spectra, Self::Render, Self::Import, Self::Accuracy];
+    pub const ALL: [Self; 6] =
+        [Self::Compare, Self::Spectra, Self::Render, Self::Metrics, Self::Import, Self::Accuracy];
 
     /// The tab's title.
     pub const fn title(self) -> &'static str {
@@ -126,6 +139,7 @@ impl Workspace {
             Self::Compare => "Compare",
             Self::Spectra => "Spectra",
             Self::Render => "Render",
+            Self::Metrics => "Metrics",
             Self::Import => "Import",
             Self::Accuracy => "Accuracy",
         }
@@ -133,7 +147,7 @@ impl Workspace {
 
     /// True where a narrow window hides the library and keeps the right column.
     pub const fn keeps_right_column(self) -> bool {
-        matches!(self, Self::Render | Self::Import | Self::Accuracy)
+        matches!(self, Self::Render | Self::Metrics | Self::Import | Self::Accuracy)
     }
 }
 
@@ -170,6 +184,8 @@ pub struct Layout {
     pub spectra: [Option<PaneKind>; 4],
     /// Render: center upper, center lower, right upper, right lower.
     pub render: [Option<PaneKind>; 4],
+    /// Metrics: center upper, center lower, right upper, right lower.
+    pub metrics: [Option<PaneKind>; 4],
     /// Import: center upper, center lower, right upper, right lower.
     pub import: [Option<PaneKind>; 4],
     /// Accuracy: center upper, center lower, right upper, right lower.
@@ -192,6 +208,7 @@ impl Default for Layout {
             ],
             spectra: [Some(PaneKind::SPECTRA), None, Some(PaneKind::INSPECTOR), None],
             render: [Some(PaneKind::RENDER), None, Some(PaneKind::RENDER_SETTINGS), None],
+            metrics: [Some(PaneKind::METRICS), None, Some(PaneKind::HEAD_TO_HEAD), Some(PaneKind::LIGHT)],
             import: [Some(PaneKind::IMPORT), Some(PaneKind::CURVES), Some(PaneKind::INTERPRETATION), None],
             accuracy: [Some(PaneKind::METHODS), Some(PaneKind::WORK_SAVED), Some(PaneKind::TOLERANCE), None],
         }
@@ -205,6 +222,7 @@ impl Layout {
             Workspace::Compare => &self.compare,
             Workspace::Spectra => &self.spectra,
             Workspace::Render => &self.render,
+            Workspace::Metrics => &self.metrics,
             Workspace::Import => &self.import,
             Workspace::Accuracy => &self.accuracy,
         }
@@ -216,6 +234,7 @@ impl Layout {
             Workspace::Compare => &mut self.compare,
             Workspace::Spectra => &mut self.spectra,
             Workspace::Render => &mut self.render,
+            Workspace::Metrics => &mut self.metrics,
             Workspace::Import => &mut self.import,
             Workspace::Accuracy => &mut self.accuracy,
         }

@@ -20,7 +20,7 @@ use crate::colorimetry::rgb::{XYZ_FROM_SRGB, srgb_white};
 use crate::math::least_squares::{FitError, linear_fit, matrix_keeping};
 use classes::ClassWeights;
 use glam::{DMat3, DVec3};
-use minimize::{Objective, minimize};
+use minimize::{Objective, minimize, minimize_near};
 use root_polynomial::{Degree, RootPolynomial};
 
 /// Method by which a color transform is found.
@@ -68,13 +68,13 @@ impl CorrectionMethod {
     pub const fn label(self) -> &'static str {
         match self {
             Self::None => "None (RGB as sRGB)",
-            Self::LeastSquares => "Matrix, least squares in XYZ",
-            Self::Minimize(Objective::LabSquares) => "Matrix, least squares in L*a*b*",
-            Self::Minimize(Objective::DeltaE1976) => "Matrix, minimum mean ΔE*ab",
-            Self::Minimize(Objective::DeltaE2000) => "Matrix, minimum mean ΔE*00",
-            Self::RootPolynomial(Degree::Two) => "Root polynomial, degree 2 (6 terms)",
-            Self::RootPolynomial(Degree::Three) => "Root polynomial, degree 3 (13 terms)",
-            Self::RootPolynomial(Degree::Four) => "Root polynomial, degree 4 (22 terms)",
+            Self::LeastSquares => "Matrix by least squares in XYZ",
+            Self::Minimize(Objective::LabSquares) => "Matrix by least squares in L*a*b*",
+            Self::Minimize(Objective::DeltaE1976) => "Matrix by minimum mean ΔE*ab",
+            Self::Minimize(Objective::DeltaE2000) => "Matrix by minimum mean ΔE*00",
+            Self::RootPolynomial(Degree::Two) => "Root polynomial of degree 2 (6 terms)",
+            Self::RootPolynomial(Degree::Three) => "Root polynomial of degree 3 (13 terms)",
+            Self::RootPolynomial(Degree::Four) => "Root polynomial of degree 4 (22 terms)",
         }
     }
 
@@ -196,6 +196,11 @@ impl Training<'_> {
 
     /// XYZ of each sample by a new fit without it.
     pub fn refitted(self, correction: &Correction, white: Xyz) -> Vec<Option<DVec3>> {
+        // Fits that are searched for begin at that of all samples: it is near.
+        let near = match (correction.method, self.fit(correction, white)) {
+            (CorrectionMethod::Minimize(objective), Ok(RgbTransform::Matrix(matrix))) => Some((objective, matrix)),
+            _ => None,
+        };
         let without = |left: usize| {
             let kept = |i: &usize| *i != left;
             let places: Vec<usize> = (0..self.samples.len()).filter(kept).collect();
@@ -203,7 +208,14 @@ impl Training<'_> {
             let targets: Vec<DVec3> = places.iter().map(|&i| self.targets[i]).collect();
             let weights: Vec<f64> = places.iter().map(|&i| self.weights[i]).collect();
             let rest = Training { samples: &samples, targets: &targets, weights: &weights };
-            rest.fit(correction, white).ok().map(|fit| fit.xyz(self.samples[left]))
+            let fit = match near {
+                Some((objective, matrix)) => {
+                    let keeps_white = correction.keeps_white;
+                    minimize_near(rest, white, keeps_white, objective, Some(matrix)).map(RgbTransform::Matrix)
+                }
+                None => rest.fit(correction, white),
+            };
+            fit.ok().map(|fit| fit.xyz(self.samples[left]))
         };
         (0..self.samples.len()).into_par_iter().map(without).collect()
     }

@@ -15,6 +15,8 @@
 //! light::temperature         XYZ → nearest black body, Duv
 //! rendition                  light → Ra, Rf and Rg, SSI
 //! camera::locus_table        black bodies → xy, for very many temperatures
+//! camera::quality            Vora, Luther, metamerism index, noise
+//! metamers                   pairs that a camera confuses
 //! camera::batch              ∫ C S L dλ for very many S and C
 //! reflectance                Fresnel, geometric attenuation, mean scattered power      Eq 1-4
 //! scene · render             mesh × viewpoint × light → pictures through each camera
@@ -47,6 +49,7 @@ pub mod correction;
 pub mod data;
 
 pub mod light;
+pub mod metamers;
 
 pub mod patch_set;
 pub mod prelude;

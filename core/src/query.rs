@@ -5,8 +5,10 @@
 
 pub mod ask;
 pub mod compare;
+pub mod correction;
 pub mod lights;
 pub mod loci;
+pub mod metamers;
 pub mod metrics;
 pub mod patches;
 pub mod radiances;
@@ -16,11 +18,15 @@ pub mod shared;
 
 pub use ask::{Ask, Direct, Query};
 pub use compare::DifferenceError;
+pub use correction::{
+    CorrectionReport, CorrectionReportQuery, ErrorSummary, StimulusCheck, TwoLightPoint, TwoLightQuery,
+};
 pub use lights::{Consistency, ConsistencyError, ConsistencyQuery, Rendition, RenditionQuery};
 pub use loci::{
     CctQuery, Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery,
     RadiatorSignalsQuery, SpectralLocusQuery, Temperatures,
 };
+pub use metamers::{Metamers, MetamersQuery};
 pub use metrics::{CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetricValue, Replicates, WhyNot};
 pub use patches::{ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RenderingQuery};
 pub use radiances::RadianceColorsQuery;

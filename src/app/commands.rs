@@ -33,6 +33,10 @@ impl ChromascopeApp {
     pub(super) fn take_files(&mut self, ctx: &egui::Context) {
         for event in self.files.poll() {
             match event {
+                FileEvent::Open(paths) if std::mem::take(&mut self.view.recorded.opening) => {
+                    self.view.recorded.corners.clear();
+                    paths.first().into_iter().for_each(|path| self.recorded.open(path));
+                }
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
                 FileEvent::Changed(paths) => self.read_changed(&paths),
                 FileEvent::Said(message) => self.view.say(message),
@@ -64,8 +68,14 @@ impl ChromascopeApp {
                 let step = self.history.redo_name().map(|name| format!("Redone: {name}."));
                 self.travel(History::redo, step);
             }
-            Command::Open => self.files.ask_to_open(),
-            Command::OpenFolder => self.files.ask_for_folder(),
+            Command::Open | Command::OpenRecorded => {
+                self.view.recorded.opening = command == Command::OpenRecorded;
+                self.files.ask_to_open();
+            }
+            Command::OpenFolder => {
+                self.view.recorded.opening = false;
+                self.files.ask_for_folder();
+            }
             Command::OpenDocument(path) => self.files.open_document(&path, self.history.document().clone()),
             Command::RemoveDocument(path) => {
                 self.files.remove_document(&path);
@@ -99,6 +109,7 @@ impl ChromascopeApp {
             Command::Export(pane, format) => self.export(pane, format),
             Command::ExportExr(source) => self.export_exr(&source),
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
+            Command::SaveCorrection(form) => self.save_correction(form),
             Command::CopyPicture(pane) => self.copy_picture(ctx, pane),
             Command::CopyNumbers(pane) => self.copy_numbers(ctx, pane),
             Command::Show(workspace) => {
@@ -387,6 +398,7 @@ fn file_of(figure: &Figure, numbers: &Table, format: Format) -> Result<Vec<u8>, 
     match format {
         Format::Svg => Ok(svg().into_bytes()),
         Format::Csv => Ok(numbers.to_csv().into_bytes()),
+        Format::Json => Ok(export::json(&figure.title, numbers).into_bytes()),
         Format::Png => {
             let file = export::png(&svg(), PICTURE_SCALE).and_then(|picture| export::png_file(&picture));
             file.map_err(|error| error.to_string())

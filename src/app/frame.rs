@@ -21,9 +21,12 @@ impl ChromascopeApp {
             view: &mut self.view,
             meshes: &self.meshes,
             opened: &self.opened,
+            recorded: &self.recorded,
             radiators: &self.radiators,
+            corrections: &self.corrections,
             studio: &mut self.studio,
             laboratory: &mut self.laboratory,
+            ranking: &mut self.ranking,
             curves: &mut self.curves,
             commands: &mut self.commands,
         };
@@ -84,6 +87,7 @@ impl ChromascopeApp {
         panes::help::show(ui, &self.history, &mut context);
         path_prompt::show(ui, &theme, &mut self.files);
         context.studio.end_frame();
+        context.ranking.end_frame();
         self.ask_about_closing(ui, &theme);
         focus::ring(ui.ctx(), &theme);
         drop_veil(ui, theme);

@@ -2,10 +2,13 @@
 
 use super::ChromascopeApp;
 use crate::document::SetKind;
+use crate::export::profile;
 use crate::export::spectra::{self, Form};
 use crate::files::{FileForm, SaveRequest};
 use crate::results::Results;
 use crate::scene::Scene;
+use crate::view::correction::CorrectionForm;
+use chromascope_core::correction::aces::IdtExposure;
 
 impl ChromascopeApp {
     /// Writes a set beside the window and asks where to save it; what differs in the file is said once it is there.
@@ -26,5 +29,29 @@ impl ChromascopeApp {
                 note: spectra::notes_in_words(&file.notes),
             })
         });
+    }
+
+    /// Asks where to save the color correction on show.
+    pub(super) fn save_correction(&mut self, form: CorrectionForm) {
+        let Some(file) = self.view.correction.shown.clone() else { return };
+        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
+        let idt = scene.input_device_transform(SetKind::Camera, &file.camera, IdtExposure::Rawtoaces);
+        let bytes = match (form, &idt) {
+            (CorrectionForm::Dcp, _) => file.dcp().map_err(|error| error.to_string()),
+            (CorrectionForm::Icc, _) => file.icc().map_err(|error| error.to_string()),
+            (CorrectionForm::Clf, Ok(idt)) => profile::clf(&file.camera, &scene.light_name(), idt)
+                .map(String::into_bytes)
+                .map_err(|error| error.to_string()),
+            (CorrectionForm::Clf, Err(error)) => Err(error.to_string()),
+            (CorrectionForm::Text, idt) => Ok(file.text(idt.as_deref().ok()).into_bytes()),
+        };
+        let (what, name) = (format!("{}, color correction", file.camera), profile::file_name(&file, form.ending()));
+        match bytes {
+            Err(error) => self.view.fail(error),
+            Ok(bytes) => self.files.make_to_save(move || {
+                let forms = vec![FileForm::of_bytes(form.ending(), bytes)];
+                Ok(SaveRequest { what, name, forms, note: String::new() })
+            }),
+        }
     }
 }

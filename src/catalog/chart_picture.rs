@@ -3,6 +3,8 @@
 use std::io::Cursor;
 
 use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError};
+use chromascope_core::colorimetry::rgb::srgb_transfer;
+use chromascope_figure::Image;
 use image::{DynamicImage, ImageReader, Limits};
 
 use super::recorded::{Levels, RawRow};
@@ -69,6 +71,22 @@ impl ChartPicture {
             DynamicImage::ImageRgb32F(picture) => picture.get_pixel(x, y).0.map(f64::from),
             _ => [f64::NAN; 3],
         }
+    }
+
+    /// The picture as it is shown, at most `longest` pixels along a side, the brightest pixel at white.
+    pub fn preview(&self, longest: usize) -> Image {
+        let [width, height] = self.size();
+        let step = width.max(height).div_ceil(longest).max(1);
+        let (across, down) = (width.div_ceil(step), height.div_ceil(step));
+        let at = |index: usize| self.pixel(index % across * step, index / across * step);
+        let brightest = (0..across * down).flat_map(at).fold(f64::MIN_POSITIVE, f64::max);
+        let encode = |value: f64| (255.0 * srgb_transfer((value / brightest).clamp(0.0, 1.0))).round() as u8;
+        let pixel = |index: usize| {
+            let [r, g, b] = at(index).map(encode);
+            [r, g, b, 255]
+        };
+        let rgba: Vec<u8> = (0..across * down).flat_map(pixel).collect();
+        Image { width: across, height: down, rgba: rgba.into() }
     }
 
     /// Means of the patches; NaN stands for nothing, infinity for a channel with a clipped pixel.

@@ -3,7 +3,7 @@
 use chromascope_core::light::filter::{filtered, transmittance};
 use chromascope_core::light::{DaylightBasis, DaylightError, RadiationConstants, planckian::black_body};
 use chromascope_core::patch_set::PatchSet;
-use chromascope_core::query::{Ask, Query, Shared};
+use chromascope_core::query::{Ask, Query, Replicates, Shared};
 use chromascope_core::rendition::Standards;
 use chromascope_core::spectral::{
     Dataset, DatasetError, DistributionError, GridSpectrum, Primaries, Quantity, Sensor, SensorError,
@@ -44,12 +44,6 @@ pub enum LoadError {
     Daylight(#[from] DaylightError),
 }
 
-/// A file of the program.
-fn built_in(path: &'static str) -> Result<BuiltInFile, LoadError> {
-    let text = chromascope_data::text(path).ok_or(LoadError::Missing(path))?;
-    Ok(BuiltInFile { path, text })
-}
-
 /// A built-in file, parsed.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FileQuery(pub BuiltInFile);
@@ -61,6 +55,12 @@ impl Query for FileQuery {
     fn answer(&self, _: &impl Ask) -> Self::Answer {
         Dataset::read(self.0.text).map_err(|error| LoadError::Damaged { path: self.0.path, error })
     }
+}
+
+/// A file of the program by its path.
+fn asset(path: &'static str, ask: &impl Ask) -> Result<Dataset, LoadError> {
+    let text = chromascope_data::text(path).ok_or(LoadError::Missing(path))?;
+    (*ask.ask(&FileQuery(BuiltInFile { path, text }))).clone()
 }
 
 /// A set's curves with their names, as measured.
@@ -112,6 +112,21 @@ impl Query for SensorQuery {
     }
 }
 
+/// The tables of each of some camera models. All cameras of a ranking ask for the same ones.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ReplicatesQuery(pub Vec<Vec<Place>>);
+
+impl Query for ReplicatesQuery {
+    type Answer = Result<Shared<Replicates>, LoadError>;
+    const NAME: &'static str = "replicates";
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let sensor = |place: &Place| (*ask.ask(&SensorQuery(place.clone()))).clone();
+        let models = self.0.iter().map(|places| places.iter().map(sensor).collect());
+        Ok(Shared::new(Replicates::new(models.collect::<Result<Vec<Vec<_>>, LoadError>>()?)))
+    }
+}
+
 /// A light as measured and on the grid.
 #[derive(Clone, Debug)]
 pub struct LoadedLight {
@@ -155,8 +170,7 @@ impl Query for LightQuery {
                 Ok(LoadedLight::new(SpectralDistribution::new(nm, grid.values().to_vec())?))
             }
             Self::Daylight(temperature) => {
-                let file = ask.ask(&FileQuery(built_in(DAYLIGHT_BASIS)?));
-                let basis = DaylightBasis::new((*file).as_ref().map_err(Clone::clone)?)?;
+                let basis = DaylightBasis::new(&asset(DAYLIGHT_BASIS, ask)?)?;
                 Ok(LoadedLight::new(basis.light(*temperature)?))
             }
         }
@@ -207,7 +221,7 @@ impl Query for StandardsQuery {
     const NAME: &'static str = "rendition standards";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let file = |path| (*ask.ask(&FileQuery(built_in(path)?))).clone();
+        let file = |path| asset(path, ask);
         let patches = |path| file(path).map(|file| PatchSet::from_dataset(&file));
         let observer = |path| Ok::<_, LoadError>(Sensor::from_dataset(&file(path)?)?);
         Ok(Shared::new(Standards {

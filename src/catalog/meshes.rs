@@ -128,7 +128,14 @@ impl MeshStore {
         }
     }
 
-    /// Outcomes of opening, once for each file that was not abandoned.
+    /// Reads a file again, changed or not. Its mesh stays on show meanwhile, and afterwards if it can no longer be read.
+    pub fn reload(&self, path: &Path) {
+        let mut state = self.desk.lock();
+        state.known_at(path).stop();
+        self.begin(&mut state, path, None);
+    }
+
+    /// What came of opening, once for each file that was not given up.
     pub fn poll(&self) -> Vec<Opened> {
         std::mem::take(&mut self.desk.lock().opened)
     }

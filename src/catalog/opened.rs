@@ -21,6 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use super::import::Imported;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
+use crate::format::file_name;
 use crate::jobs::{self, Background, Executor};
 
 /// Files that no set is made of are forgotten, the oldest first, beyond so many bytes in all.
@@ -29,7 +30,7 @@ const REMEMBERED_BYTES: usize = 256_000_000;
 /// A file on disk that could not be read, as it is remembered between runs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failing {
-    /// Path on disk.
+    /// Where it is.
     #[serde(with = "crate::document::paths")]
     pub path: PathBuf,
     /// Fingerprint of the contents.
@@ -345,8 +346,7 @@ impl Job {
 
     /// Goes on to a file, one of so many.
     fn at(&self, path: &Path, file: usize, count: usize) {
-        let name = crate::format::file_name(path);
-        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = name;
+        *self.name.lock().unwrap_or_else(PoisonError::into_inner) = file_name(path);
         for (place, number) in self.place.iter().zip([file, count]) {
             place.store(u32::try_from(number).unwrap_or(u32::MAX), Ordering::Relaxed);
         }

@@ -7,11 +7,13 @@ use clap::{Args, Parser, ValueEnum};
 use spectral_file::Values;
 
 use super::bench::BenchArguments;
+use super::compare::arguments::CompareArguments;
 use super::identify::arguments::IdentifyArguments;
 use super::inspect::arguments::InspectArguments;
+use super::matrix::MatrixArguments;
 use super::render::arguments::RenderArguments;
+pub(super) use super::sources::{SourceArguments, Transform};
 use crate::document::SetKind;
-use crate::document::start::Start;
 
 /// See, measure and explain how digital cameras render color, from spectra.
 ///
@@ -31,6 +33,8 @@ const EXAMPLES: &str = "Examples:
   chromascope leaf.csv
   chromascope locus --camera \"Nikon D70\" --observer \"CIE 1931 2°\" --temperatures 2856,5500,6504
   chromascope patches --camera \"Canon EOS 10D\" --illuminant D55 --out patches.csv
+  chromascope compare --illuminant A --sort metamerism-index
+  chromascope matrix \"Nikon D850\" --illuminant A --second-illuminant D65 --format dcp --out d850.dcp
   chromascope render --mesh head --camera \"Nikon D70\" --out pictures
   chromascope inspect measured.txt --csv measured.csv
   chromascope list cameras
@@ -61,6 +65,7 @@ const PATCHES_EXAMPLES: &str = "Examples:
 
 Columns: sensor, patch; r, g, b after white balance (empty for CIE observers); x_tristimulus, y_tristimulus, z_tristimulus (Y = 1
 for a perfect diffuser, under Eq 13 within 5e-5); x, y; u_prime, v_prime; lab_l, lab_a, lab_b, whose adopted white is a perfect diffuser;
+cct_k, duv, the nearest blackbody for the CIE 1931 observer;
 delta_…, the differences from the reference, a column for each metric; then the conditions: reference, illuminant,
 white_balance, transform, preset. Undefined values are empty: with the paper's matrix, Eq 13 takes RGB as sRGB
 whatever the sensor, so its colors have distances in the diagrams, but no \u{394}E*, and their L*a*b* is not that of the CIE.
@@ -77,9 +82,15 @@ pub(super) enum Subcommand {
     /// Chart patches or measured radiances as CSV: RGB, XYZ, xy, u′v′, L*a*b* and differences from the reference
     #[command(after_help = PATCHES_EXAMPLES)]
     Patches(PatchesArguments),
+    /// Cameras ranked by figures of merit, with uncertainties: a table, CSV or JSON
+    #[command(after_help = super::compare::arguments::examples())]
+    Compare(Box<CompareArguments>),
     /// Lights: CCT and Duv, Ra, Rf and Rg, spectral similarity, and how consistent cameras are under them
-    #[command(after_help = super::light::EXAMPLES)]
-    Light(Box<super::light::LightArguments>),
+    #[command(after_help = super::light::arguments::EXAMPLES)]
+    Light(Box<super::light::arguments::LightArguments>),
+    /// Color correction matrix of a camera, with its errors, as text, DNG values, DCP, ICC or CLF
+    #[command(after_help = super::matrix::EXAMPLES)]
+    Matrix(Box<MatrixArguments>),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
@@ -97,40 +108,6 @@ pub(super) enum Subcommand {
         /// Kind of data sets [default: all]
         kind: Option<ListKind>,
     },
-}
-
-/// Sensors, the reference and the color transform, for tables and pictures.
-#[derive(Debug, Args)]
-pub(super) struct SourceArguments {
-    /// Defaults of all options that are not given: reference, sensors, color transform and, in tables, illuminant, white balance and
-    /// patches
-    #[arg(long, value_enum, default_value_t = Start::Colorimetry)]
-    pub(super) preset: Start,
-    /// An observer; may be repeated. Without any sensor: those of the preset
-    #[arg(long, value_name = "NAME")]
-    pub(super) observer: Vec<String>,
-    /// A camera, or a file with three sensitivities; may be repeated
-    #[arg(long, value_name = "NAME|FILE")]
-    pub(super) camera: Vec<OsString>,
-    /// Unit of the sensitivities in camera files, overriding the files: response per energy or per photon
-    #[arg(long, value_enum, value_name = "UNIT")]
-    pub(super) per: Option<Per>,
-    /// The reference observer that all sensors are compared with [default: the preset's]
-    #[arg(long, value_name = "OBSERVER")]
-    pub(super) reference: Option<String>,
-    /// The color transform from camera RGB to XYZ [default: the preset's]
-    #[arg(long, value_enum)]
-    pub(super) transform: Option<Transform>,
-    /// The observer that 3×3 matrices are fitted to [default: the reference if it is an XYZ observer, else CIE 1931 2°]
-    #[arg(long, value_name = "OBSERVER")]
-    pub(super) fit_to: Option<String>,
-}
-
-impl SourceArguments {
-    /// True if no sensor was named.
-    pub(super) fn names_no_sensor(&self) -> bool {
-        self.observer.is_empty() && self.camera.is_empty()
-    }
 }
 
 /// Arguments of both tables.
@@ -194,25 +171,6 @@ pub(super) struct PatchesArguments {
     /// The radiance of a perfect diffuser among those of the file: it takes the white-balance target and Y = 1
     #[arg(long, value_name = "NAME", requires = "radiance")]
     pub(super) radiance_white: Option<String>,
-}
-
-/// A color transform from camera RGB to XYZ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Transform {
-    /// Eq 13 for cameras and RGB observers
-    Paper,
-    /// A 3×3 matrix for each sensor, fitted over 190 training reflectances
-    #[value(alias = "observer")]
-    Fitted,
-}
-
-/// What sensitivities are a response to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Per {
-    /// Equal energy at each wavelength
-    Energy,
-    /// Equal numbers of photons at each wavelength
-    Photon,
 }
 
 /// A kind of data sets to list.

@@ -37,6 +37,9 @@ pub(super) enum CliError {
         /// Reason, with the remedy.
         reason: String,
     },
+    /// A color correction has no file of the kind.
+    #[error(transparent)]
+    Correction(#[from] crate::export::profile::CorrectionFileError),
     /// A picture could not be made into a file.
     #[error("{}: {error}", path.display())]
     Picture {

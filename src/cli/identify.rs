@@ -15,11 +15,10 @@ use super::error::CliError;
 use super::outputs::{self, put};
 use super::request::{Request, told};
 use crate::catalog::chart_picture::ChartPicture;
-use crate::catalog::recorded::{self, Levels, RawRow, RawTable};
+use crate::catalog::recorded::{self, Levels, RawRow, RawTable, lit};
 use crate::document::own::Role;
 use crate::results::Results;
 use crate::scene::Scene;
-use crate::scene::recorded::lit;
 
 /// Spectra by the names of their patches.
 type Spectra = Vec<(String, GridSpectrum)>;
@@ -73,6 +72,7 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
     if let Some(light) = &arguments.illuminant {
         request.set_light(light)?;
     }
+    request.set_filters(&arguments.filter)?;
     let own = arguments.image.is_some() || arguments.raw.is_some();
     let (spectra, rows) = match (&arguments.chart, &arguments.file) {
         (Some(_), Some(file)) if own => {

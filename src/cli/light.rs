@@ -1,14 +1,15 @@
 //! `light`: temperature, rendition indices and consistency of cameras for illuminants.
 
-use std::ffi::OsString;
-use std::path::PathBuf;
+pub(super) mod arguments;
 
 use chromascope_core::light::{Cct, CctError};
 use chromascope_core::query::{Consistency, Rendition};
-use clap::{ArgMatches, Args, ValueEnum};
+use clap::ArgMatches;
 use serde_json::{Value, json};
+use std::fmt::Write as _;
 
-use super::arguments::SourceArguments;
+use arguments::{LightArguments, TableFormat};
+
 use super::error::CliError;
 use super::outputs;
 use super::request::Request;
@@ -19,53 +20,6 @@ use crate::results::Results;
 use crate::scene::Scene;
 use crate::scene::light::NoConsistency;
 use crate::terminal::{say, shown};
-
-pub(super) const EXAMPLES: &str = "Examples:
-  chromascope light FL2 LED-B3 D65
-  chromascope light lamp.csv --camera \"Nikon D70\" --format csv --out lamp_indices.csv
-  chromascope light blackbody:3200 --filter \"Mired shift \u{2212}131\"
-
-CSV columns: light; cct_k, duv (CIE 1931 2\u{b0}, 380-780 nm); ra, r1 to r14 (CIE 13.3); rf, rg (ANSI/IES TM-30, CIE 224); ssi, the
-Academy's spectral similarity to the reference of the same temperature, unrounded; then, in a row for each camera: camera,
-consistency_mean, consistency_p95, consistency_max, the \u{394}E*00 of the patches between this light and its reference illuminant
-through the camera, balanced to each and corrected by the matrix of the reference; worst_patch. Undefined values are empty; the
-reason is reported on standard error.";
-
-/// What `light` takes.
-#[derive(Debug, Args)]
-pub(super) struct LightArguments {
-    /// Illuminants: names, files with one curve, `daylight:K` or `blackbody:K`
-    #[arg(value_name = "NAME|FILE", required = true)]
-    lights: Vec<OsString>,
-    /// A filter in front of each light: a name of `chromascope list filters`, or a file with one transmittance; may be repeated
-    #[arg(long, value_name = "NAME|FILE")]
-    filter: Vec<OsString>,
-    #[command(flatten)]
-    sources: SourceArguments,
-    /// The patches that cameras are compared over: a chart, a material, or a file with reflectances [default: the preset's]
-    #[arg(long, value_name = "NAME|FILE")]
-    chart: Option<OsString>,
-    /// Form of the output
-    #[arg(long, value_enum, default_value_t = TableFormat::Table)]
-    format: TableFormat,
-    /// Output file [default: standard output, also `-`]
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
-    /// Overwrites the file named by --out
-    #[arg(long)]
-    force: bool,
-}
-
-/// A form of output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TableFormat {
-    /// For people
-    Table,
-    /// Comma-separated, 15 digits
-    Csv,
-    /// One object for each light
-    Json,
-}
 
 /// One light with all its answers.
 struct Answer {
@@ -153,13 +107,10 @@ fn csv(answers: &[Answer]) -> String {
     let rest = "camera,consistency_mean,consistency_p95,consistency_max,worst_patch";
     let mut text = format!("light,{},{rest}\n", heads().join(","));
     for answer in answers {
-        let cells: String = numbers(answer)
-            .into_iter()
-            .map(|value| format!(",{}", value.map_or_else(String::new, significant)))
-            .collect();
-        let start = format!("{}{cells}", field(&answer.name));
+        let cells = numbers(answer).into_iter().map(|value| value.map_or_else(String::new, significant));
+        let start = std::iter::once(field(&answer.name)).chain(cells).collect::<Vec<_>>().join(",");
         if answer.cameras.is_empty() {
-            text += &format!("{start},,,,,\n");
+            let _ = writeln!(text, "{start},,,,,");
         }
         for (camera, consistency) in &answer.cameras {
             let values = consistency.as_ref().map_or_else(
@@ -169,7 +120,7 @@ fn csv(answers: &[Answer]) -> String {
                     format!("{mean},{p95},{max},{}", field(&answer.patches[c.worst]))
                 },
             );
-            text += &format!("{start},{},{values}\n", field(camera));
+            let _ = writeln!(text, "{start},{},{values}", field(camera));
         }
     }
     text
@@ -205,13 +156,13 @@ fn table(answers: &[Answer]) -> String {
         let numbers = numbers(answer);
         let [cct, duv, ra] = [(0, 0), (1, 4), (2, 1)].map(|(place, decimals)| cell(numbers[place], decimals));
         let [rf, rg, ssi] = [(17, 1), (18, 1), (19, 0)].map(|(place, decimals)| cell(numbers[place], decimals));
-        text += &format!("{}\n  CCT {cct} K   Duv {duv}   Ra {ra}   Rf {rf}   Rg {rg}   SSI {ssi}\n ", answer.name);
+        let _ = write!(text, "{}\n  CCT {cct} K   Duv {duv}   Ra {ra}   Rf {rf}   Rg {rg}   SSI {ssi}\n ", answer.name);
         for (index, value) in numbers[3..17].iter().enumerate() {
-            text += &format!(" R{} {}", index + 1, cell(*value, 0));
+            let _ = write!(text, " R{} {}", index + 1, cell(*value, 0));
         }
         text.push('\n');
         for (camera, consistency) in &answer.cameras {
-            text += &match consistency {
+            let line = match consistency {
                 Ok(c) => {
                     let [mean, p95, max] = [c.mean, c.percentile_95, c.max].map(|value| fixed(value, 2));
                     let worst = &answer.patches[c.worst];
@@ -219,6 +170,7 @@ fn table(answers: &[Answer]) -> String {
                 }
                 Err(error) => format!("  {camera}: {error}\n"),
             };
+            text.push_str(&line);
         }
     }
     text

@@ -1,16 +1,14 @@
-//! `render`: pictures of a mesh, made as in the window and written to files.
+//! `render`: pictures of a mesh or a spectral image, made as in the window and written to files.
 
 mod accuracy;
 pub(super) mod arguments;
+mod files;
+mod image;
 mod setup;
 mod stats;
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::io::{self, IsTerminal as _};
-use std::path::{Path, PathBuf};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::thread;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use chromascope_core::camera::Rendering;
@@ -21,13 +19,13 @@ use clap::ArgMatches;
 use rayon::prelude::*;
 
 use self::arguments::{Format, RenderArguments};
+use self::files::{file_names, make_folder, patiently};
 use self::setup::Setup;
 use super::error::CliError;
 use super::outputs::{self, is_standard_output, put, show, write_to};
 use crate::export::render::{PictureError, Provenance, exr_bytes, png_bytes};
 use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::returned;
-use crate::files::fitting;
 use crate::profiler::plans;
 use crate::results::{Count, Results};
 use crate::scene::{ComparedSensor, Scene, SceneError};
@@ -35,6 +33,9 @@ use crate::terminal::say;
 
 /// Makes the pictures, writes them, and says what came of it.
 pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(), CliError> {
+    if let Some(path) = &arguments.image {
+        return image::run(arguments, path, matches);
+    }
     let start = Instant::now();
     let setup = Setup::new(arguments, matches)?;
     let results = Results::default();
@@ -55,25 +56,6 @@ pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(
         Some(path) => put(&patiently("measuring", || stats::json(&made, &counts, &times)), Some(path)),
         None => Ok(()),
     }
-}
-
-/// Works, and says now and then to a person who waits that it still does.
-fn patiently<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
-    const EVERY: Duration = Duration::from_secs(3);
-    let (done, end) = channel::<()>();
-    if io::stderr().is_terminal() {
-        let start = Instant::now();
-        let wait = move || {
-            while end.recv_timeout(EVERY) == Err(RecvTimeoutError::Timeout) {
-                say(&format!("chromascope: still {what} after {} s\n", start.elapsed().as_secs()));
-            }
-        };
-        // Without a thread it is silent, no more.
-        let _silent = thread::Builder::new().name("patience".to_owned()).spawn(wait);
-    }
-    let result = work();
-    drop(done);
-    result
 }
 
 /// Where time went that no question counts.
@@ -232,35 +214,4 @@ impl Content<'_> {
 fn rendering(scene: &Scene<'_>, name: &str, of: &RenderingQuery) -> Result<Rendering, SceneError> {
     let answer = scene.results.ask(of);
     (*answer).clone().map_err(|error| SceneError::Rendering { name: name.to_owned(), error })
-}
-
-fn make_folder(folder: &Path) -> Result<(), CliError> {
-    if folder.as_os_str().is_empty() || folder.is_dir() {
-        return Ok(());
-    }
-    if folder.exists() {
-        let reason = format!("{} is a file; name a folder (pictures are named automatically)", folder.display());
-        return Err(CliError::Argument { argument: "--out", reason });
-    }
-    fs::create_dir_all(folder).map_err(|error| CliError::Output { path: folder.to_owned(), error })
-}
-
-/// A file for each sensor, no two alike.
-fn file_names(arguments: &RenderArguments, mesh: &str, sources: &[ComparedSensor]) -> Vec<PathBuf> {
-    let here = arguments.out == Path::new(".");
-    let mut taken: Vec<String> = Vec::new();
-    for source in sources {
-        let stem = format!("{}_{}", slug(mesh), slug(&source.label));
-        let numbered = |number: &str| fitting(&stem, &format!("{number}.{}", arguments.format.ending()));
-        let numbers = std::iter::once(String::new()).chain((2_u32..).map(|number| format!("-{number}")));
-        taken.extend(numbers.map(|number| numbered(&number)).find(|name| !taken.contains(name)));
-    }
-    taken.into_iter().map(|name| if here { PathBuf::from(name) } else { arguments.out.join(name) }).collect()
-}
-
-/// A name that any file system takes: letters and digits, small, other signs as single hyphens.
-fn slug(name: &str) -> String {
-    let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let slug = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
-    if slug.is_empty() { "unnamed".to_owned() } else { slug }
 }

@@ -5,18 +5,22 @@ use std::fs;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
+use chromascope_core::correction::CorrectionMethod;
 use chromascope_core::query::Shared;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
 use spectral_file::{Certainty, MAX_BYTES, Values};
 
-use super::arguments::{CommonArguments, Per, SourceArguments, Transform};
+use super::arguments::{CommonArguments, SourceArguments, Transform};
 use super::checks;
 use super::error::CliError;
+use super::matrix::FitArguments;
 use super::outputs::is_descriptor;
+use super::per::Per;
 use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry};
+use crate::document::correction::CorrectionChoice;
 use crate::document::own::{ImportOverrides, OwnSet, Role};
 use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
@@ -82,17 +86,8 @@ impl Request {
         let document = Document { compared: Vec::new(), ..preset.document() };
         let (catalog, sources, read) = (Catalog::built_in(), Vec::new(), Vec::new());
         let mut request = Self { document, catalog, sources, preset, values: None, per, read };
-        let names = cameras.iter().map(|name| request.camera(name)).collect::<Result<_, _>>()?;
+        let names = cameras.iter().map(|name| request.camera("--camera", name)).collect::<Result<_, _>>()?;
         Ok((request, names))
-    }
-
-    /// The catalog's name for a camera, or that of a file with three sensitivities.
-    fn camera(&mut self, name: &OsStr) -> Result<String, CliError> {
-        if self.means_file("--camera", &[SetKind::Camera], name) {
-            Ok(self.open(Path::new(name), Role::Camera)?.name.clone())
-        } else {
-            self.name("--camera", SetKind::Camera, &name.to_string_lossy())
-        }
     }
 
     /// The preset's sensors, with the reference that was named in the place of the preset's.
@@ -132,7 +127,7 @@ impl Request {
             .into_iter()
             .map(|(_, kind, name)| {
                 let found = match kind {
-                    SetKind::Camera => self.camera(name)?,
+                    SetKind::Camera => self.camera("--camera", name)?,
                     _ => self.name("--observer", kind, &name.to_string_lossy())?,
                 };
                 Ok((kind, found))
@@ -144,15 +139,17 @@ impl Request {
         if let Some(reference) = &arguments.reference {
             self.document.reference = self.name("--reference", SetKind::Observer, reference)?;
         }
-        let fitted = match (arguments.transform, &arguments.fit_to) {
-            (Some(Transform::Paper), Some(_)) => {
-                let reason = "only fitted matrices have a target; add --transform fitted".to_owned();
-                return Err(CliError::Argument { argument: "--fit-to", reason });
+        let names_fit = arguments.names_fit();
+        let fitted = match (arguments.transform, names_fit) {
+            (Some(Transform::Paper), Some(argument)) => {
+                let reason = "the paper's matrix is not fitted; add --transform fitted".to_owned();
+                return Err(CliError::Argument { argument, reason });
             }
             (Some(transform), _) => transform == Transform::Fitted,
             (None, Some(_)) => true,
             (None, None) => self.document.transform != TransformChoice::Paper,
         };
+        self.set_correction(arguments.correction.unwrap_or_default(), &arguments.fit)?;
         let reference = self.catalog.get(SetKind::Observer, &self.document.reference);
         let transform = match &arguments.fit_to {
             _ if !fitted => TransformChoice::Paper,
@@ -163,6 +160,68 @@ impl Request {
             None => TransformChoice::Observer(CIE_1931.to_owned()),
         };
         self.document.set_transform(transform);
+        Ok(())
+    }
+
+    /// One camera alone, under the colorimetry preset.
+    pub(super) fn of_camera(camera: &OsStr, per: Option<Per>) -> Result<Self, CliError> {
+        let preset = Start::Colorimetry;
+        let document = Document { compared: Vec::new(), ..preset.document() };
+        let (catalog, sources, read) = (Catalog::built_in(), Vec::new(), Vec::new());
+        let mut request = Self { document, catalog, sources, preset, values: None, per, read };
+        request.sources = vec![(SetKind::Camera, request.camera("CAMERA", camera)?)];
+        if per.is_some() && request.document.own.is_empty() {
+            let reason = "only sensitivities from a file can be taken otherwise; name one".to_owned();
+            return Err(CliError::Argument { argument: "--per", reason });
+        }
+        Ok(request)
+    }
+
+    /// The name of a camera, or of the file of one.
+    fn camera(&mut self, argument: &str, given: &OsStr) -> Result<String, CliError> {
+        if self.means_file(argument, &[SetKind::Camera], given) {
+            Ok(self.open(Path::new(given), Role::Camera)?.name.clone())
+        } else {
+            self.name(argument, SetKind::Camera, &given.to_string_lossy())
+        }
+    }
+
+    /// Chooses the observer that color transforms are fitted to.
+    pub(super) fn set_fit_target(&mut self, target: &str) -> Result<(), CliError> {
+        let target = self.name("--fit-to", SetKind::Observer, target)?;
+        self.document.set_transform(TransformChoice::Observer(target));
+        Ok(())
+    }
+
+    /// Chooses how color transforms are fitted.
+    pub(super) fn set_correction(&mut self, method: CorrectionMethod, fit: &FitArguments) -> Result<(), CliError> {
+        let mut choice = CorrectionChoice { method, keeps_white: !fit.free_white, ..CorrectionChoice::default() };
+        for (class, weight) in &fit.weights {
+            choice.weights[*class as usize] = *weight;
+        }
+        if let Some(training) = &fit.training {
+            choice.training = if self.means_file("--training", &[SetKind::Chart, SetKind::Material], training) {
+                self.open(Path::new(training), Role::Reflectance)?.name.clone()
+            } else {
+                let typed = training.to_string_lossy();
+                let sets = [SetKind::Chart, SetKind::Material].into_iter().flat_map(|kind| self.catalog.of_kind(kind));
+                let found = find(sets, "chart", &typed)?;
+                tell("--training", &typed, &found);
+                found.entry.name.clone()
+            };
+        }
+        self.document.correction = choice;
+        Ok(())
+    }
+
+    /// Chooses the second calibration light.
+    pub(super) fn set_second_light(&mut self, given: &OsStr) -> Result<(), CliError> {
+        let name = if self.means_file("--second-illuminant", &[SetKind::Illuminant], given) {
+            self.open(Path::new(given), Role::Illuminant)?.name.clone()
+        } else {
+            self.illuminant("--second-illuminant", &given.to_string_lossy())?
+        };
+        self.document.correction.second_light = Some(name);
         Ok(())
     }
 
@@ -230,6 +289,15 @@ impl Request {
             self.document.chart = found;
         }
         Ok(())
+    }
+
+    /// The name of the patches that are compared.
+    pub(super) fn chart_name_on_show(&self) -> String {
+        if self.document.subset == Subset::Five && self.document.chart == CHART {
+            FIVE.to_owned()
+        } else {
+            self.document.chart.clone()
+        }
     }
 
     /// Chooses the reflectance of what is rendered.

@@ -28,7 +28,7 @@ use crate::terminal::say;
 
 const LOCUS_HEAD: &str = "sensor,temperature_k,x,y,u_prime,v_prime,distance_xy,distance_uv,cct_error_k,arc_length_xy";
 const PATCHES_HEAD: &str = "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,\
-                            lab_l,lab_a,lab_b";
+                            lab_l,lab_a,lab_b,cct_k,duv";
 
 /// Temperatures that are computed at once; a table of millions of them is written as it is made.
 const PART: usize = 1024;
@@ -95,7 +95,7 @@ fn locus_rows(
 }
 
 /// Refuses an output before anything is computed.
-fn check_out(arguments: &CommonArguments, request: &Request) -> Result<(), CliError> {
+pub(super) fn check_out(arguments: &CommonArguments, request: &Request) -> Result<(), CliError> {
     outputs::check(arguments.out.as_deref(), &request.inputs(), arguments.force)
 }
 
@@ -110,7 +110,7 @@ fn head(columns: &str) -> String {
 }
 
 /// Says once what keeps differences from the reference empty, or from being those of the color transform alone.
-fn say_caution(scene: &Scene<'_>, request: &Request) -> Result<(), SceneError> {
+pub(super) fn say_caution(scene: &Scene<'_>, request: &Request) -> Result<(), SceneError> {
     let Some(caution) = scene.caution() else { return Ok(()) };
     let remedy = match caution {
         Caution::FitDiffers { .. } => "",
@@ -173,8 +173,11 @@ pub(super) fn patches(arguments: &PatchesArguments, matches: &ArgMatches) -> Res
         // Eq 13 takes RGB as sRGB whatever the sensor: distances between its colors are not ΔE*.
         let by_eq_13 = request.document.transform == TransformChoice::Paper
             && scene.sensor(*kind, name)?.primaries() != Primaries::Xyz;
-        for ((patch, color), reference) in names.iter().zip(colors(*kind, name)?).zip(&reference) {
+        let colors = colors(*kind, name)?;
+        let temperatures = scene.temperatures_of(&colors.iter().map(|color| Some(color.xyz)).collect::<Vec<_>>())?;
+        for (((patch, color), reference), cct) in names.iter().zip(colors).zip(&reference).zip(temperatures) {
             let mut row = color_cells(&color);
+            row.extend([cct.ok().map(|cct| cct.temperature.get()), cct.ok().map(|cct| cct.duv)]);
             row.extend(Metric::ALL.iter().map(|&metric| {
                 let defined = comparable.is_ok() && !(by_eq_13 && metric.needs_adopted_white());
                 compare::difference(metric, reference, &color).ok().filter(|_| defined)

@@ -146,5 +146,6 @@ impl Document {
         let mut seen = std::collections::HashSet::new();
         self.compared.retain(|c| seen.insert((c.kind, c.name.clone())));
         self.render.mend();
+        self.correction.mend();
     }
 }

@@ -4,7 +4,7 @@ use super::kind::SetKind;
 use super::names::{BuiltInNames, caseless};
 use super::own::OwnSet;
 use super::render::RenderSettings;
-use super::{CHART, Document, LIGHT, Light, Subset, WhiteBalanceChoice};
+use super::{CHART, Document, LIGHT, Light, Subset, TRAINING, WhiteBalanceChoice};
 use chromascope_core::query::Shared;
 use std::collections::{HashMap, HashSet};
 
@@ -78,7 +78,8 @@ impl Document {
                 }
             }
             SetKind::Chart | SetKind::Material => {
-                for used in [&mut self.chart, &mut self.render.material].into_iter().filter(|used| *used == old) {
+                let uses = [&mut self.chart, &mut self.render.material, &mut self.correction.training];
+                for used in uses.into_iter().filter(|used| *used == old) {
                     new.clone_into(used);
                 }
             }
@@ -88,6 +89,9 @@ impl Document {
                 }
                 if self.white == WhiteBalanceChoice::Light(old.to_owned()) {
                     self.white = WhiteBalanceChoice::Light(new.to_owned());
+                }
+                if self.correction.second_light.as_deref() == Some(old) {
+                    self.correction.second_light = Some(new.to_owned());
                 }
             }
             SetKind::Filter => {
@@ -113,6 +117,9 @@ impl Document {
                 if self.render.material == name {
                     self.render.material = RenderSettings::default().material;
                 }
+                if self.correction.training == name {
+                    TRAINING.clone_into(&mut self.correction.training);
+                }
             }
             SetKind::Illuminant => {
                 if self.light == Light::Set(name.to_owned()) {
@@ -120,6 +127,9 @@ impl Document {
                 }
                 if self.white == WhiteBalanceChoice::Light(name.to_owned()) {
                     self.white = WhiteBalanceChoice::Unity;
+                }
+                if self.correction.second_light.as_deref() == Some(name) {
+                    self.correction.second_light = None;
                 }
             }
             SetKind::Filter => self.set_filter(name, false),

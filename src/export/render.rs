@@ -4,7 +4,7 @@ use std::io::{Cursor, Seek, Write};
 
 use chromascope_core::camera::Rendering;
 use chromascope_core::reflectance::{Normalization, Specular, Surface};
-use chromascope_core::render::{CameraImage, Picture, Quality};
+use chromascope_core::render::{CameraImage, LitSamples, Picture, Quality};
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::scene::lighting::{Distance, Lighting};
 use exr::prelude::{
@@ -66,14 +66,65 @@ pub fn exr_bytes(
     rendering: &Rendering,
     provenance: &Provenance<'_>,
 ) -> Result<Vec<u8>, PictureError> {
-    let size = image.placed().size();
-    let channels =
-        planes(image, rendering).into_iter().map(|(name, values)| AnyChannel::new(name, FlatSamples::F32(values)));
+    exr_file(image.placed(), image.signals(), rendering, attributes(rendering, provenance))
+}
+
+/// Conditions of a spectral image's picture, for its file's header.
+#[derive(Clone, Copy, Debug)]
+pub struct ImageProvenance<'a> {
+    /// The camera's or observer's name.
+    pub source: &'a str,
+    /// The name of the balance.
+    pub balance: &'a str,
+    /// The name of the light's spectrum.
+    pub illuminant: &'a str,
+    /// The image's name.
+    pub image: &'a str,
+}
+
+/// The bytes of an OpenEXR file of a spectral image's signals, as [`exr_bytes`].
+pub fn image_exr_bytes(
+    placed: &LitSamples,
+    signals: &[[f32; 3]],
+    rendering: &Rendering,
+    provenance: &ImageProvenance<'_>,
+) -> Result<Vec<u8>, PictureError> {
+    let text = |value: &str| AttributeValue::Text(utf8(value));
+    let white = rendering.white.as_vec3();
+    let own = [
+        ("camera", text(provenance.source)),
+        ("balance", text(provenance.balance)),
+        ("balanceFactors", AttributeValue::FloatVec3((white.x, white.y, white.z))),
+        ("illuminant", text(provenance.illuminant)),
+        ("image", text(provenance.image)),
+    ];
+    let attributes = LayerAttributes {
+        software_name: Some(utf8(concat!("chromascope ", env!("CARGO_PKG_VERSION")))),
+        comments: Some(utf8(
+            "R G B: the image's spectra through the camera, balanced, before exposure; X Y Z: tristimulus values by the color \
+             transform; A: 0 where the image has no value.",
+        )),
+        other: own.into_iter().map(|(name, value)| (utf8(name), value)).collect(),
+        ..LayerAttributes::default()
+    };
+    exr_file(placed, signals, rendering, attributes)
+}
+
+fn exr_file(
+    placed: &LitSamples,
+    signals: &[[f32; 3]],
+    rendering: &Rendering,
+    attributes: LayerAttributes,
+) -> Result<Vec<u8>, PictureError> {
+    let size = placed.size();
+    let channels = planes(placed, signals, rendering)
+        .into_iter()
+        .map(|(name, values)| AnyChannel::new(name, FlatSamples::F32(values)));
     let channels = AnyChannels::sort(channels.collect());
     let encoding =
         Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
     let dimensions = (size.width as usize, size.height as usize);
-    let layer = Layer::new(dimensions, attributes(rendering, provenance), encoding, channels);
+    let layer = Layer::new(dimensions, attributes, encoding, channels);
     let mut file = Cursor::new(Vec::new());
     write(&Image::from_layer(layer), &mut file)?;
     Ok(with_sorted_header(file.into_inner()))
@@ -87,8 +138,7 @@ fn write(
 }
 
 /// The channels, each row by row from the top left.
-fn planes(image: &CameraImage, rendering: &Rendering) -> Vec<(&'static str, Vec<f32>)> {
-    let geometry = image.placed();
+fn planes(geometry: &LitSamples, signals: &[[f32; 3]], rendering: &Rendering) -> Vec<(&'static str, Vec<f32>)> {
     let size = geometry.size();
     let (width, samples) = (size.width as usize, size.samples as usize);
     let pixel = |sample: u32| {
@@ -97,7 +147,7 @@ fn planes(image: &CameraImage, rendering: &Rendering) -> Vec<(&'static str, Vec<
     };
     let count = width * size.height as usize;
     let mut sums = vec![[0.0_f64; 3]; count];
-    for (&sample, signal) in geometry.samples().iter().zip(image.signals()) {
+    for (&sample, signal) in geometry.samples().iter().zip(signals) {
         for (sum, value) in sums[pixel(sample)].iter_mut().zip(signal) {
             *sum += f64::from(*value);
         }

@@ -9,7 +9,8 @@ mod whites;
 
 use std::collections::BTreeSet;
 
-use chromascope_core::colorimetry::{UvPrime, Xy};
+use chromascope_core::colorimetry::{UvPrime, Xy, Xyz};
+use chromascope_core::light::Cct;
 use chromascope_figure::{
     Axis, Cell, Figure, InkRole, LegendEntry, LegendPlace, Mark, Panel, Rect, Shape, Stroke, Table, Ticks,
 };
@@ -182,7 +183,10 @@ pub fn caption(scene: &Scene<'_>) -> String {
 pub fn conditions(scene: &Scene<'_>) -> String {
     let transform = match &scene.document.transform {
         TransformChoice::Paper => "Paper matrix (Eq 13), CIE observers drawn directly".to_owned(),
-        TransformChoice::Observer(name) => format!("3×3 matrices fitted to {name} over 190 training reflectances"),
+        TransformChoice::Observer(name) if scene.document.correction.is_default_fit() => {
+            format!("3×3 matrices fitted to {name} over 190 training reflectances")
+        }
+        TransformChoice::Observer(name) => scene.document.correction.describe(name),
     };
     format!("{} Patches: {}. Color transform: {transform}.", viewing_conditions(scene), scene.document.chart)
 }
@@ -207,6 +211,8 @@ fn table(scene: &Scene<'_>) -> Table {
         "distance_xy",
         "distance_uv",
         "extrapolated",
+        "cct_k",
+        "duv",
     ]);
     let reference_locus = scene.locus(crate::document::SetKind::Observer, &scene.document.reference).ok();
     for source in scene.sources().iter().filter(|source| source.visible) {
@@ -218,13 +224,14 @@ fn table(scene: &Scene<'_>) -> Table {
         };
         let below = scene.extrapolated_below(source.kind, &source.name).map_or(0.0, |(below, _)| below);
         if let Ok(locus) = scene.locus(source.kind, &source.name) {
-            for (index, point) in locus.points.iter().enumerate() {
+            let ccts = temperatures(scene, locus.points.iter().map(|point| point.xyz));
+            for ((index, point), cct) in locus.points.iter().enumerate().zip(ccts) {
                 let reference = reference_locus.as_ref().and_then(|reference| reference.points.get(index));
                 let [dxy, duv] = near(point.xy, point.uv, reference.and_then(|t| t.xy), reference.and_then(|t| t.uv));
                 let temperature = Cell::from(point.temperature.get());
                 let extrapolated = if point.temperature.get() < below { "true" } else { "false" };
                 let places = row(&source.label, "locus", temperature, Cell::Empty, point.xy, point.uv, dxy, duv);
-                table.push(places.into_iter().chain([Cell::from(extrapolated)]));
+                table.push(places.into_iter().chain([Cell::from(extrapolated)]).chain(cct));
             }
         }
         let reference =
@@ -232,15 +239,26 @@ fn table(scene: &Scene<'_>) -> Table {
         let (Ok(colors), Ok(patches)) = (scene.patch_colors(source.kind, &source.name), scene.patches()) else {
             continue;
         };
-        for (index, (color, patch)) in colors.iter().zip(patches.patches()).enumerate() {
+        let ccts = temperatures(scene, colors.iter().map(|color| color.xyz));
+        for ((index, (color, patch)), cct) in colors.iter().zip(patches.patches()).enumerate().zip(ccts) {
             let reference = reference.get(index);
             let [dxy, duv] = near(color.xy, color.uv, reference.and_then(|t| t.xy), reference.and_then(|t| t.uv));
             let places =
                 row(&source.label, "patch", Cell::Empty, Cell::from(patch.name.as_str()), color.xy, color.uv, dxy, duv);
-            table.push(places.into_iter().chain([Cell::Empty]));
+            table.push(places.into_iter().chain([Cell::Empty]).chain(cct));
         }
     }
     table
+}
+
+/// CCT and Duv of each color, for the CIE 1931 observer.
+fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Xyz>) -> Vec<[Cell; 2]> {
+    let colors: Vec<Option<Xyz>> = colors.map(Some).collect();
+    let cells = |cct: Option<Cct>| [cct.map(|cct| cct.temperature.get()), cct.map(|cct| cct.duv)].map(Cell::from);
+    match scene.temperatures_of(&colors) {
+        Ok(found) => found.into_iter().map(|cct| cells(cct.ok())).collect(),
+        Err(_) => colors.iter().map(|_| cells(None)).collect(),
+    }
 }
 
 #[expect(clippy::too_many_arguments, reason = "a row has these columns")]

@@ -29,7 +29,7 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
     let floor = if low < 0.0 { (low / 50.0).floor() * 50.0 } else { 0.0 };
     let names = values.iter().enumerate().map(|(index, (name, _))| (index as f64 + 0.5, name.clone())).collect();
     let x = Axis::new("", [0.0, values.len() as f64]).with_ticks(Ticks::At(names)).with_grid(false);
-    let y = Axis::new("CIE 13.3", [floor, 112.0]).with_ticks(Ticks::Auto).with_grid(true);
+    let y = Axis::new("", [floor, 125.0]).with_ticks(Ticks::Auto).with_grid(true);
     let mut panel = Panel::new("rendering indices", area, x, y);
     for (index, (name, value)) in values.iter().enumerate() {
         let middle = index as f64 + 0.5;

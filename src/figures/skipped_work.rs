@@ -81,7 +81,6 @@ pub fn figure(measured: &Measured) -> Option<Figure> {
     Some(figure)
 }
 
-/// A row's time in words.
 fn time(row: &SkippedWork) -> String {
     if row.saved > 0.0 { duration(row.saved) } else { "time not measured".to_owned() }
 }

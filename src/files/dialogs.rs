@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use crate::catalog::meshes::ENDINGS as MESH_ENDINGS;
+use crate::catalog::recorded_store::PICTURES;
 
 /// A dialog that closes within this time without an answer was never seen by a person.
 const NO_DIALOG: Duration = Duration::from_millis(300);
@@ -61,6 +62,7 @@ impl Dialogs for System {
                 .add_filter("Spectra and meshes", &[&ENDINGS[..], &MESH_ENDINGS].concat())
                 .add_filter("Text and CSV", &ENDINGS)
                 .add_filter("Meshes", &MESH_ENDINGS)
+                .add_filter("Pictures of charts", &PICTURES)
                 .add_filter("All files", &["*"])
                 .pick_files(),
             Question::Folder => rfd::FileDialog::new()

@@ -42,7 +42,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     if context.view.saved.tables.contains(&PaneKind::CHROMATICITY) {
         let figure = chromaticity::figure(&context.scene, context.view);
-        widgets::data_table(ui, body, "chromaticity", &figure.table);
+        widgets::table::show_numbers(ui, body, PaneKind::CHROMATICITY, &figure.table, context);
         return;
     }
     let body = widgets::caution::show(ui, body, context);
@@ -85,7 +85,7 @@ fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
         (&mut overlays.camera_spectral_loci, "Cameras' spectral loci: errors that no 3×3 matrix can correct"),
         (&mut overlays.daylight, "Daylight locus"),
         (&mut overlays.whites, "Standard whites and the light"),
-        (&mut overlays.isotherms, "Isotherms: lines of equal CCT, to Duv ±0.05"),
+        (&mut overlays.isotherms, "Isotherms: lines of equal CCT, to Duv ±0.03"),
         (&mut overlays.srgb, "sRGB"),
         (&mut overlays.dci_p3, "DCI-P3"),
         (&mut overlays.rec2020, "Rec. 2020"),

@@ -2,18 +2,21 @@
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::NearestBlackBodyQuery;
+use chromascope_core::query::correction::CorrectionSheetQuery;
 use chromascope_core::render::{Quality, Shadows};
 use chromascope_figure::Figure;
 use egui::{Rect, Ui};
 
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
+use crate::catalog::recorded_store::RecordedStore;
 use crate::command::Command;
 use crate::figures::FigureInput;
 use crate::figures::curves::CurveCache;
 use crate::jobs::Background;
 use crate::profiler::plans::PlanAnswer;
 use crate::profiler::{Profiler, SceneRunJob};
+use crate::ranking::Ranking;
 use crate::render_service::RenderService;
 use crate::results::Count;
 use crate::scene::Scene;
@@ -54,12 +57,18 @@ pub struct PaneContext<'a> {
     pub meshes: &'a MeshStore,
     /// The spectral files that were opened.
     pub opened: &'a Opened,
+    /// The file of recorded raw values.
+    pub recorded: &'a RecordedStore,
     /// Tells the nearest black body of a color, once it is asked.
     pub radiators: &'a Background<NearestBlackBodyQuery>,
+    /// Color corrections with their errors, once they are made.
+    pub corrections: &'a Background<CorrectionSheetQuery>,
     /// Renderer of the pictures.
     pub studio: &'a mut RenderService,
     /// Profiler of the scene.
     pub laboratory: &'a mut Profiler,
+    /// Ranks cameras.
+    pub ranking: &'a mut Ranking,
     /// The curves that Import drew last.
     pub curves: &'a mut Option<CurveCache>,
     /// Commands carried out after the frame.

@@ -41,7 +41,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             sentence(ui, body, words, color);
         }
         Ok(curves) if context.view.saved.tables.contains(&PaneKind::CURVES) => {
-            widgets::data_table(ui, body, "curves", &curves::numbers(curves));
+            widgets::table::show_numbers(ui, body, PaneKind::CURVES, &curves::numbers(curves), context);
         }
         Ok(curves) => plot(ui, body, &shown.item, [curves, kept.seen().unwrap_or(curves)], context),
     }

@@ -40,7 +40,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     }
     if context.view.saved.tables.contains(&PaneKind::IMPORT) {
-        widgets::data_table(ui, body, "import", &entries::table(&entries));
+        widgets::table::show_numbers(ui, body, PaneKind::IMPORT, &entries::table(&entries), context);
         return;
     }
     keep_selected(ui, &entries, context);

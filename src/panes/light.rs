@@ -3,8 +3,8 @@
 use chromascope_core::light::temperature::MAX_DUV;
 use chromascope_core::query::Rendition;
 use chromascope_core::rendition::cri;
-use chromascope_figure::Rect as Area;
-use egui::{Grid, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, Vec2};
+use chromascope_figure::{Cell, Rect as Area, Table};
+use egui::{Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::document::SetKind;
@@ -12,13 +12,14 @@ use crate::figures::light;
 use crate::format::{fixed, sentence, signed};
 use crate::paint;
 use crate::panes::widgets;
+use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::scene::Scene;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
 /// The pane.
 pub const PANE: Pane = Pane {
-    kind: PaneKind::new("Light"),
+    kind: PaneKind::LIGHT,
     title: "Light",
     show,
     figure: Some(|input| light::figure(input.scene)),
@@ -47,7 +48,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
     };
     if context.view.saved.tables.contains(&PANE.kind) {
-        widgets::data_table(ui, body, "light", &light::table(&scene, &rendition));
+        widgets::table::show_numbers(ui, body, PANE.kind, &light::table(&scene, &rendition), context);
         return;
     }
     ScrollArea::vertical().id_salt("light").auto_shrink(false).show(&mut child, |ui| {
@@ -144,26 +145,20 @@ fn cameras(ui: &mut Ui, scene: &Scene<'_>, context: &PaneContext<'_>) {
     );
     let names = scene.patches().map(|set| set.patches().iter().map(|patch| patch.name.clone()).collect::<Vec<_>>());
     let names = names.unwrap_or_default();
-    let small = |words: &str| RichText::new(words).small().color(context.theme.weak);
-    Grid::new("consistency").num_columns(5).spacing(Vec2::new(3.0 * UNIT, UNIT)).show(ui, |ui| {
-        for head in ["camera", "mean", "95 %", "max", "worst patch"] {
-            ui.label(small(head));
-        }
-        ui.end_row();
-        for source in cameras {
-            ui.label(&source.label);
-            match scene.consistency(&source.name) {
-                Ok(found) => {
-                    for value in [found.mean, found.percentile_95, found.max] {
-                        ui.label(RichText::new(fixed(value, 2)).monospace());
-                    }
-                    ui.label(names.get(found.worst).map_or("", String::as_str));
-                }
-                Err(error) => {
-                    ui.label(small("–")).on_hover_text(sentence(&error.to_string()));
-                }
-            }
-            ui.end_row();
-        }
-    });
+    let mut table = Table::new(["camera", "mean", "95 %", "max", "worst patch"]);
+    let found: Vec<_> = cameras.iter().map(|source| scene.consistency(&source.name)).collect();
+    for (source, found) in cameras.iter().zip(&found) {
+        let found = found.as_ref().ok();
+        let [mean, p95, max] =
+            [found.map(|f| f.mean), found.map(|f| f.percentile_95), found.map(|f| f.max)].map(Cell::from);
+        let worst = found.and_then(|found| names.get(found.worst)).map_or("", String::as_str);
+        table.push([Cell::from(source.label.as_str()), mean, p95, max, Cell::from(worst)]);
+    }
+    let columns = table.columns.iter().map(|head| Column { decimals: Some(2), ..Column::from_head(head) }).collect();
+    let note = |row: usize, _| CellNote {
+        hint: found[row].as_ref().err().map_or_else(String::new, |error| sentence(&error.to_string())),
+        ..CellNote::default()
+    };
+    let shown = DataTable::new(PANE.kind, "consistency", &table).with_columns(columns).with_notes(&note);
+    shown.show_compact(ui, context);
 }

@@ -71,7 +71,7 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
         return;
     };
     if context.view.saved.tables.contains(&PaneKind::METHODS) {
-        widgets::data_table(ui, body, "accuracy", &accuracy::table(trial));
+        widgets::table::show_numbers(ui, body, PaneKind::METHODS, &accuracy::table(trial), context);
         return;
     }
     let words = run.conditions.of(trial);
@@ -116,7 +116,7 @@ fn benchmark(ui: &mut Ui, body: Rect, workload: Workload, context: &mut PaneCont
         return;
     };
     if context.view.saved.tables.contains(&PaneKind::METHODS) {
-        widgets::data_table(ui, body, "bench", &figure.table);
+        widgets::table::show_numbers(ui, body, PaneKind::METHODS, &figure.table, context);
         return;
     }
     let words = format!("{}; {}", workload.title(), report.machine.identity());

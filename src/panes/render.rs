@@ -41,7 +41,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     context.view.render.busy = busy;
     if context.view.saved.tables.contains(&PaneKind::RENDER) {
         if let Some(figure) = crate::figures::render::figure(&context.figure_input()) {
-            widgets::data_table(ui, body, "render", &figure.table);
+            widgets::table::show_numbers(ui, body, PaneKind::RENDER, &figure.table, context);
         }
         widgets::busy_line(ui, body, busy, context.theme.surround.label());
         return;

@@ -1,9 +1,11 @@
 //! All conditions in one bar: reference, light, temperature, patches, white balance, color transform, difference.
 
+use chromascope_core::correction::CorrectionMethod;
 use egui::{Align, ComboBox, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
 use crate::action::{Action, CompareAction, SceneAction};
+use crate::document::correction::CorrectionChoice;
 use crate::document::{Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::signed;
 use crate::panes::widgets::number_field::NumberField;
@@ -96,7 +98,9 @@ fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn light_caption(context: &PaneContext<'_>, wide: bool) -> String {
     let filters = if context.scene.document.filters.is_empty() { "Light" } else { "Filtered" };
     match context.scene.light_temperature() {
-        Ok(Ok(cct)) if wide => format!("{filters} {:.0} K, Duv {}", cct.temperature.get(), signed(cct.duv)),
+        Ok(Ok(cct)) if wide && context.scene.document.filters.is_empty() => {
+            format!("{filters} {:.0} K, Duv {}", cct.temperature.get(), signed(cct.duv))
+        }
         Ok(Ok(cct)) => format!("{filters} {:.0} K", cct.temperature.get()),
         _ => filters.to_owned(),
     }
@@ -114,7 +118,9 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let mut hint =
         "The light on the scene. Blackbody and Daylight follow the temperature. Filters are ticked in the Library."
             .to_owned();
-    filters.iter().for_each(|filter| hint += &format!("\nFilter: {filter}"));
+    for filter in filters {
+        hint.extend(["\nFilter: ", filter]);
+    }
     let filtered = !filters.is_empty();
     choice(ui, "Light", &hint, &shown, |ui| {
         if filtered && ui.button("Remove filters").clicked() {
@@ -234,14 +240,17 @@ fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.transform.clone();
+    let correction = context.scene.document.correction.clone();
     let shown = match &now {
         TransformChoice::Paper if ui.available_width() < 130.0 => "Eq 13".to_owned(),
         TransformChoice::Paper => "Paper (Eq 13)".to_owned(),
-        TransformChoice::Observer(name) => format!("Fit {name}"),
+        TransformChoice::Observer(name) if correction.is_default_fit() => format!("Fit {name}"),
+        TransformChoice::Observer(name) => correction.describe(name),
     };
     let hint = "Color transform from camera RGB to XYZ. Paper matrix: camera and RGB observer signals through the \
                 matrix of Eq 13, CIE observers directly. Fitted: a 3×3 matrix for each sensor, fitted to a CIE \
-                observer over 190 training reflectances under the light.";
+                observer over 190 training reflectances under the light, or another correction; training \
+                reflectances and weights are chosen in the pane Correction.";
     choice(ui, "Color transform", hint, &shown, |ui| {
         if ui.selectable_label(now == TransformChoice::Paper, "Paper matrix (Eq 13)").clicked() {
             context.push(Action::Scene(SceneAction::SetWay(TransformChoice::Paper)));
@@ -251,6 +260,14 @@ fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
             let transform = TransformChoice::Observer(entry.name.clone());
             if ui.selectable_label(now == transform, format!("Fitted to {}", entry.name)).clicked() {
                 context.push(Action::Scene(SceneAction::SetWay(transform)));
+            }
+        }
+        ui.separator();
+        for method in CorrectionMethod::ALL {
+            let chosen = !now.is_eq_13() && correction.method == method;
+            if ui.selectable_label(chosen, method.label()).clicked() {
+                let correction = CorrectionChoice { method, ..correction.clone() };
+                context.push(Action::Scene(SceneAction::SetCorrection(correction)));
             }
         }
     });

@@ -40,7 +40,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, 0.0));
     if context.view.saved.tables.contains(&PaneKind::SPECTRA) {
         let figure = spectra::figure(&context.scene, context.view);
-        widgets::data_table(ui, body, "spectra", &figure.table);
+        widgets::table::show_numbers(ui, body, PaneKind::SPECTRA, &figure.table, context);
         return;
     }
     if context.scene.sources().iter().all(|source| !source.visible) {

@@ -28,7 +28,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
     if context.view.saved.tables.contains(&PaneKind::SWATCHES) {
         let figure = swatches::figure(&context.scene, context.view);
-        widgets::data_table(ui, body, "swatches", &figure.table);
+        widgets::table::show_numbers(ui, body, PaneKind::SWATCHES, &figure.table, context);
         return;
     }
     let body = widgets::caution::show(ui, body, context);

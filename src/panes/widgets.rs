@@ -4,16 +4,15 @@ pub mod caution;
 pub mod facts;
 pub mod lines;
 pub mod number_field;
+pub mod table;
 pub mod tolerance;
 
 use std::time::Duration;
 
-use chromascope_figure::{Cell, Ink, LegendEntry, Stroke, Table};
-use egui::{Align, Button, Label, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
-use egui_extras::{Column, TableBuilder};
+use chromascope_figure::{Ink, LegendEntry, Stroke};
+use egui::{Align, Button, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, Vec2};
 
 use crate::command::{Command, Format};
-use crate::format::number;
 use crate::paint;
 use crate::panes::context::{Pane, PaneContext};
 use crate::plot_item::SensorId;
@@ -107,6 +106,7 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
             ("Figure as SVG…", Command::Export(kind, Format::Svg)),
             ("Figure as PNG…", Command::Export(kind, Format::Png)),
             ("Numbers as CSV…", Command::Export(kind, Format::Csv)),
+            ("Numbers as JSON…", Command::Export(kind, Format::Json)),
             ("Copy picture", Command::CopyPicture(kind)),
             ("Copy numbers", Command::CopyNumbers(kind)),
         ] {
@@ -239,46 +239,6 @@ pub fn source_key(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Respon
     let (rect, response) = ui.allocate_exact_size(Vec2::new(26.0, ROW), Sense::hover());
     paint::key(ui.painter(), rect, &legend_entry(source), theme);
     response
-}
-
-/// Numbers in rows, for screen readers and for those who want them.
-pub fn data_table(ui: &mut Ui, rect: Rect, id: &str, table: &Table) {
-    let mut child = ui.new_child(UiBuilder::new().id_salt(id).max_rect(rect.shrink2(Vec2::new(2.0 * UNIT, 0.0))));
-    child.set_clip_rect(rect.intersect(ui.clip_rect()));
-    egui::ScrollArea::horizontal().id_salt((id, "across")).auto_shrink(false).show(&mut child, |ui| {
-        TableBuilder::new(ui)
-            .id_salt((id, "table"))
-            .striped(false)
-            .vscroll(true)
-            .auto_shrink(false)
-            .columns(Column::auto().at_least(72.0).clip(false), table.columns.len().max(1))
-            .header(ROW, |mut header| {
-                for name in &table.columns {
-                    header.col(|ui| {
-                        ui.add(Label::new(RichText::new(name).small()).extend());
-                    });
-                }
-            })
-            .body(|body| {
-                body.rows(ROW - 4.0, table.rows.len(), |mut row| {
-                    for cell in &table.rows[row.index()] {
-                        row.col(|ui| {
-                            let text = RichText::new(cell_text(cell)).monospace();
-                            ui.add(Label::new(text).extend());
-                        });
-                    }
-                });
-            });
-    });
-}
-
-/// A cell for reading: six significant digits.
-fn cell_text(cell: &Cell) -> String {
-    match cell {
-        Cell::Empty => "–".to_owned(),
-        Cell::Text(text) => text.clone(),
-        Cell::Number(value) => number(*value),
-    }
 }
 
 /// Lines of text at the pointer, the first one strong.

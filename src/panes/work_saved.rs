@@ -33,7 +33,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
     let sections = skipped_work::sections(&context.laboratory.measured);
     if context.view.saved.tables.contains(&PaneKind::WORK_SAVED) {
-        widgets::data_table(ui, body, "skipped", &skipped_work::table(&sections));
+        widgets::table::show_numbers(ui, body, PaneKind::WORK_SAVED, &skipped_work::table(&sections), context);
         return;
     }
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));

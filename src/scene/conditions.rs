@@ -23,7 +23,7 @@ impl Scene<'_> {
     pub fn conditions_under(&self, illuminant: &str) -> [String; 5] {
         let transform = match &self.document.transform {
             TransformChoice::Paper => "paper matrix (Eq 13)".to_owned(),
-            TransformChoice::Observer(target) => format!("3x3 fitted to {target}"),
+            TransformChoice::Observer(target) => self.document.correction.describe(target),
         };
         let preset = self.document.start.key().to_owned();
         [self.document.reference.clone(), illuminant.to_owned(), self.document.white.name(), transform, preset]

@@ -5,6 +5,7 @@ use chromascope_core::query::{Ask as _, RecordedFitQuery, RecordedSet};
 use chromascope_core::spectral::{GridSpectrum, Primaries};
 
 use super::{Scene, SceneError};
+use crate::catalog::recorded::lit;
 use crate::document::SetKind;
 use crate::format::fixed;
 
@@ -53,15 +54,6 @@ impl Scene<'_> {
         let patches = self.patches()?;
         Ok(patches.patches().iter().map(|patch| (patch.name.clone(), lit(&patch.grid, &light.grid))).collect())
     }
-}
-
-/// `S L`.
-pub fn lit(reflectance: &GridSpectrum, light: &GridSpectrum) -> GridSpectrum {
-    let first = chromascope_core::spectral::grid::FIRST_NM;
-    GridSpectrum::from_fn(|nm| {
-        let index = (nm - first).round() as usize;
-        reflectance.values()[index] * light.values()[index]
-    })
 }
 
 /// Names of the channels in words.

@@ -26,6 +26,7 @@ const CORE_LAYERS: &[&str] = &[
     "correction",
     "rendition",
     "camera",
+    "metamers",
     "reflectance",
     "scene",
     "render",
@@ -55,6 +56,7 @@ const APP_LAYERS: &[&str] = &[
     "profiler",
     "view",
     "command",
+    "ranking",
     "figures",
     "panes",
     "cli",
@@ -94,7 +96,15 @@ fn core_modules_use_only_what_is_above_them() {
 
 #[test]
 fn crates_of_the_core_are_functions_of_their_arguments() {
-    for krate in ["core/figure", "core/math", "core/mesh", "core/spectral-file", "core/spectral-image", "core/text"] {
+    for krate in [
+        "core/figure",
+        "core/math",
+        "core/mesh",
+        "core/profile",
+        "core/spectral-file",
+        "core/spectral-image",
+        "core/text",
+    ] {
         hold(sources(&format!("{krate}/src")).iter().flat_map(|(path, text)| pure(path, text)));
     }
 }

@@ -1,8 +1,12 @@
 //! The command line, run as a person runs it, without a display.
 
+mod compare;
 mod files;
+mod identify;
 mod inspect;
+mod lights;
 mod manners;
+mod matrix;
 mod names;
 mod outputs;
 mod presets;
@@ -130,7 +134,7 @@ fn patches_of_the_default_chart() {
         rows[0].join(","),
         format!(
             "sensor,patch,r,g,b,x_tristimulus,y_tristimulus,z_tristimulus,x,y,u_prime,v_prime,lab_l,lab_a,lab_b,\
-             {},{CONDITIONS}",
+             cct_k,duv,{},{CONDITIONS}",
             Metric::ALL.iter().map(|metric| metric.column).collect::<Vec<_>>().join(",")
         )
     );

@@ -49,8 +49,8 @@ fn layouts_of_earlier_versions_open() {
 
 #[test]
 fn a_pane_that_is_not_there_leaves_its_place_empty() {
-    let mut layout: Layout = ron::from_str(&SAVED.replace("Spectra", "Metamers")).unwrap();
-    assert_eq!(layout.compare[3], Some(PaneKind::new("Metamers")));
+    let mut layout: Layout = ron::from_str(&SAVED.replace("Spectra", "Gamut")).unwrap();
+    assert_eq!(layout.compare[3], Some(PaneKind::new("Gamut")));
     layout.retain(|kind| panes::by_kind(kind).is_some());
     assert_eq!(layout.compare[3], None);
     assert_eq!(layout.library_width, Some(240.0));

@@ -33,8 +33,17 @@ pub(crate) fn open_with(document: Document, size: [f32; 2], theme: egui::Theme) 
 
 /// The paper's start with an executor that the test drives.
 pub(crate) fn driven(size: [f32; 2], theme: egui::Theme) -> (Executor, Harness<'static, ChromascopeApp>) {
+    driven_with(Document::paper(), size, theme)
+}
+
+/// A document with an executor that the test drives.
+pub(crate) fn driven_with(
+    document: Document,
+    size: [f32; 2],
+    theme: egui::Theme,
+) -> (Executor, Harness<'static, ChromascopeApp>) {
     let executor = Executor::driven();
-    let harness = open_on(&executor, Document::paper(), size, theme);
+    let harness = open_on(&executor, document, size, theme);
     (executor, harness)
 }
 

@@ -1,6 +1,7 @@
-//! Color correction against SciPy, colour-science, published matrices, and a second way of computing.
+//! Color correction against `SciPy`, colour-science, published matrices, and a second way of computing.
 
 mod aces;
+mod lights;
 mod root_polynomial;
 
 use chromascope_core::colorimetry::{Metric, Stimulus, Xyz};
@@ -43,9 +44,9 @@ pub(super) fn correction(method: CorrectionMethod, keeps_white: bool) -> Correct
     Correction { method, keeps_white, ..Correction::default() }
 }
 
-fn matrix(fit: RgbTransform) -> DMat3 {
+fn matrix(fit: &RgbTransform) -> DMat3 {
     match fit {
-        RgbTransform::Matrix(matrix) => matrix,
+        RgbTransform::Matrix(matrix) => *matrix,
         RgbTransform::RootPolynomial(_) => panic!("a matrix was asked for"),
     }
 }
@@ -66,11 +67,17 @@ fn through(set: &Set, fit: &RgbTransform) -> Vec<DVec3> {
     set.samples.iter().map(|rgb| fit.xyz(*rgb)).collect()
 }
 
+/// Rounding error of a root polynomial at white: its coefficients grow with the degree and cancel.
+pub(super) fn rounding(fit: &RgbTransform) -> f64 {
+    let RgbTransform::RootPolynomial(polynomial) = fit else { return 0.0 };
+    22.0 * f64::EPSILON * polynomial.coefficients().iter().map(|c| c.abs().max_element()).sum::<f64>()
+}
+
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Means by SciPy 1.16's Nelder–Mead, run to 1e-13 from the least-squares matrix and again from its own result, with ΔE of
+/// Means by `SciPy`'s Nelder–Mead, run to 1e-13 from the least-squares matrix and again from its own result, with ΔE of
 /// colour-science 0.4.7.
 const MINIMA: [(Objective, bool, f64); 6] = [
     (Objective::LabSquares, true, 1_481.025_856_034_291_3),
@@ -109,13 +116,13 @@ fn least_squares_in_xyz_are_those_of_numpy() {
         [0.272_276_175_297_470_34, 0.939_233_860_973_057_9, -0.220_520_473_515_824_96],
         [0.083_654_968_582_292_72, -0.354_021_400_588_093_56, 1.265_116_901_103_707_1],
     ];
-    assert!(off(matrix(free), rows) < 1e-9);
+    assert!(off(matrix(&free), rows) < 1e-9);
     let rows = [
         [0.689_803_505_275_454_6, 0.186_281_383_062_868_15, 0.076_561_186_231_523_53],
         [0.271_121_612_988_418, 0.943_286_718_712_169_1, -0.214_408_331_700_587_15],
         [0.081_851_489_428_045_39, -0.347_690_651_359_310_7, 1.274_664_346_282_850_9],
     ];
-    assert!(off(matrix(kept), rows) < 1e-7);
+    assert!(off(matrix(&kept), rows) < 1e-7);
 }
 
 #[test]
@@ -124,7 +131,7 @@ fn white_is_kept_exactly_where_it_is_asked_for() {
     for method in CorrectionMethod::ALL {
         let fit = set.training().fit(&correction(method, true), white()).unwrap();
         let error = (fit.xyz(DVec3::ONE) - white().to_vector()).abs().max_element();
-        assert!(error < 1e-12, "{method:?}: {error:e}");
+        assert!(error < 1e-12_f64.max(rounding(&fit)), "{method:?}: {error:e}");
     }
     let free = set.training().fit(&correction(CorrectionMethod::LeastSquares, false), white()).unwrap();
     assert!(

@@ -17,6 +17,7 @@ mod filters;
 mod light;
 mod locus_table;
 mod math;
+mod metamers;
 mod metrics;
 mod query;
 mod recorded;

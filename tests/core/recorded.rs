@@ -67,8 +67,8 @@ fn the_camera_that_recorded_comes_first_without_residual() {
 fn gains_and_brightness_come_back() {
     let camera = sensor(NIKON_D70);
     let found = fit(&recording(&camera, &light(D55), uneven, |_, _| 0.0), &camera);
-    for c in 0..3 {
-        assert_near("gain", found.gains[c].unwrap(), GAINS[c], 1e-13);
+    for (gain, expected) in found.gains.iter().zip(GAINS) {
+        assert_near("gain", gain.unwrap(), expected, 1e-13);
     }
     for (p, brightness) in found.brightness.iter().enumerate() {
         assert_near("brightness", brightness.unwrap(), uneven(p), 1e-13);
@@ -127,9 +127,8 @@ fn clipped_zero_and_missing_values_are_left_out_with_their_reason() {
     assert_eq!(found.residuals[18], [Err(Exclusion::Clipped); 3]);
     assert_eq!((found.residuals[3][2], found.residuals[5][0]), (Err(Exclusion::NotPositive), Err(Exclusion::Missing)));
     assert_eq!((found.brightness[18], found.patch_rms(18)), (None, None));
-    for c in 1..3 {
-        let ratio = found.gains[c].unwrap() / found.gains[0].unwrap();
-        assert_near("ratio of gains", ratio, GAINS[c] / GAINS[0], 1e-12);
+    for (gain, expected) in found.gains.iter().zip(GAINS) {
+        assert_near("ratio of gains", gain.unwrap() / found.gains[0].unwrap(), expected / GAINS[0], 1e-12);
     }
 }
 

@@ -99,17 +99,16 @@ pub fn linear_fit(rows: &[Vec<f64>], targets: &[DVec3], keep: Option<DVec3>) -> 
     let count = columns.len();
     let mut upper = vec![vec![0.0; count]; count];
     let mut projected = vec![DVec3::ZERO; count];
-    for j in 0..count {
+    for (j, (upper, projected)) in upper.iter_mut().zip(&mut projected).enumerate() {
         let (done, rest) = columns.split_at_mut(j + 1);
         let column = &mut done[j];
-        upper[j][j] = normalize(column, scale)?;
-        for (k, other) in rest.iter_mut().enumerate() {
-            let along: f64 = column.iter().zip(other.iter()).map(|(q, v)| q * v).sum();
-            other.iter_mut().zip(column.iter()).for_each(|(v, q)| *v -= along * q);
-            upper[j][j + 1 + k] = along;
+        upper[j] = normalize(column, scale)?;
+        for (other, factor) in rest.iter_mut().zip(&mut upper[j + 1..]) {
+            *factor = column.iter().zip(other.iter()).map(|(q, v)| q * v).sum();
+            other.iter_mut().zip(column.iter()).for_each(|(v, q)| *v -= *factor * q);
         }
-        projected[j] = column.iter().zip(&residuals).map(|(q, b)| *b * *q).sum();
-        residuals.iter_mut().zip(column.iter()).for_each(|(b, q)| *b -= projected[j] * *q);
+        *projected = column.iter().zip(&residuals).map(|(q, b)| *b * *q).sum();
+        residuals.iter_mut().zip(column.iter()).for_each(|(b, q)| *b -= *projected * *q);
     }
     for j in (0..count).rev() {
         let known: DVec3 = (j + 1..count).map(|k| projected[k] * upper[j][k]).sum();

@@ -3,8 +3,9 @@
 use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
 
+use crate::error::ImageError;
 use crate::header::{DataType, EnviHeader, Interleave};
-use crate::{ImageError, ImageInfo};
+use crate::image::ImageInfo;
 
 /// Bytes of the file that are held at once, if a row is not larger.
 const BUFFER: usize = 1 << 20;

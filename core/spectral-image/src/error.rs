@@ -91,13 +91,13 @@ pub enum ImageError {
     /// No usable band is left.
     #[error("`bbl` marks every band as bad")]
     NoBands,
-    /// An OpenEXR file without spectral channels.
+    /// An `OpenEXR` file without spectral channels.
     #[error("no spectral channels; expected names such as S0.550,0nm (radiance) or T.550,0nm (reflectance)")]
     NoSpectrum,
     /// Both emission and reflectance.
     #[error("the file has both radiance (S0) and reflectance (T) channels; choose one")]
     Both,
-    /// An OpenEXR feature that is not read.
+    /// An `OpenEXR` feature that is not read.
     #[error("{0}")]
     Unsupported(&'static str),
     /// Rows that the image does not have.
@@ -110,7 +110,7 @@ pub enum ImageError {
         /// Number of rows.
         height: usize,
     },
-    /// OpenEXR that cannot be decoded.
+    /// `OpenEXR` that cannot be decoded.
     #[error("OpenEXR: {0}")]
     Exr(String),
     /// The data cannot be read.

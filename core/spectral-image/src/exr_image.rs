@@ -1,4 +1,4 @@
-//! OpenEXR images with spectral channels.
+//! `OpenEXR` images with spectral channels.
 
 use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
@@ -11,11 +11,11 @@ use exr::meta::attribute::{ChannelList, SampleType};
 use exr::meta::header::Header;
 use exr::prelude::f16;
 
-use crate::ImageError;
+use crate::error::ImageError;
 use crate::image::{ImageInfo, ImageQuantity, MAX_ROW_BYTES, Note, ascending};
 use crate::names::SpectralChannel;
 
-/// OpenEXR image whose rows are read when asked for.
+/// `OpenEXR` image whose rows are read when asked for.
 #[derive(Debug)]
 pub struct ExrImage<R> {
     info: ImageInfo,
@@ -36,8 +36,8 @@ impl<R: Read + Seek> ExrImage<R> {
         let length = data.seek(SeekFrom::End(0))?;
         data.seek(SeekFrom::Start(0))?;
         let meta = MetaData::read_from_buffered(std::io::BufReader::new(&mut data), false)?;
-        let spectra = meta.headers.iter().map(|header| spectrum(header, wanted)).enumerate();
-        let found = spectra.filter_map(|(layer, found)| found.transpose().map(|found| (layer, found))).next();
+        let mut spectra = meta.headers.iter().map(|header| spectrum(header, wanted)).enumerate();
+        let found = spectra.find_map(|(layer, found)| found.transpose().map(|found| (layer, found)));
         let (layer, found) = found.ok_or(ImageError::NoSpectrum)?;
         let (quantity, found) = found?;
         let header = &meta.headers[layer];
@@ -83,7 +83,7 @@ impl<R: Read + Seek> ExrImage<R> {
         };
         let reader = exr::block::read(std::io::BufReader::new(&mut self.data), false)?;
         let mut blocks = reader.filter_chunks(false, within)?.sequential_decompressor(false);
-        let into = Rows { info: &self.info, channels: &self.channels, places: &self.places, rows: &rows };
+        let into = Filled { info: &self.info, channels: &self.channels, places: &self.places, rows: &rows };
         while let Some(block) = blocks.decompress_next_block() {
             into.take(&block?, samples)?;
         }
@@ -92,14 +92,14 @@ impl<R: Read + Seek> ExrImage<R> {
 }
 
 /// Rows that are filled.
-struct Rows<'a> {
+struct Filled<'a> {
     info: &'a ImageInfo,
     channels: &'a ChannelList,
     places: &'a [Option<usize>],
     rows: &'a Range<usize>,
 }
 
-impl Rows<'_> {
+impl Filled<'_> {
     /// Takes the lines of a block that lie within the rows.
     fn take(&self, block: &UncompressedBlock, samples: &mut [f32]) -> Result<(), ImageError> {
         let bands = self.info.wavelengths_nm.len();

@@ -1,6 +1,6 @@
 //! Headers of ENVI images: `field = value` lines, lists in braces.
 
-use crate::ImageError;
+use crate::error::ImageError;
 use crate::image::{ImageInfo, ImageQuantity, MAX_BANDS, Note, ascending};
 
 /// Type of the samples, by ENVI's number.

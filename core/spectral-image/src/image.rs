@@ -1,9 +1,8 @@
 //! Properties that all spectral images share.
 
-use std::io::{Read, Seek};
 use std::ops::Range;
 
-use crate::{EnviImage, ExrImage, ImageError};
+use crate::error::ImageError;
 
 /// Largest width and height in pixels.
 pub const MAX_SIDE: usize = 65_536;
@@ -35,7 +34,7 @@ pub enum Note {
         unit: &'static str,
     },
     /// Bands that the header marks as bad.
-    #[error("{0} bands that `bbl` marks as bad were left out")]
+    #[error("{0} bands that `bbl` marks as bad were skipped")]
     BadBands(usize),
     /// Bands that were not in ascending order.
     #[error("bands were sorted by wavelength")]
@@ -44,7 +43,7 @@ pub enum Note {
     #[error("samples were divided by the `reflectance scale factor` {0}")]
     Scale(f64),
     /// Channels that are not part of the spectrum.
-    #[error("{0} channels that are not spectral were left out")]
+    #[error("{0} channels that are not spectral were skipped")]
     OtherChannels(usize),
 }
 
@@ -105,36 +104,5 @@ pub(crate) fn ascending(wavelengths: &[f64], field: &'static str) -> Result<Vec<
     match order.windows(2).find(|pair| wavelengths[pair[0]] == wavelengths[pair[1]]) {
         Some(pair) => Err(ImageError::Twice { field, nm: wavelengths[pair[0]] }),
         None => Ok(order),
-    }
-}
-
-/// An image of any of the formats.
-#[derive(Debug)]
-pub enum SpectralImage<R> {
-    /// ENVI.
-    Envi(EnviImage<R>),
-    /// OpenEXR.
-    Exr(ExrImage<R>),
-}
-
-impl<R: Read + Seek> SpectralImage<R> {
-    /// Size, bands and quantity.
-    pub fn info(&self) -> &ImageInfo {
-        match self {
-            Self::Envi(image) => image.info(),
-            Self::Exr(image) => image.info(),
-        }
-    }
-
-    /// Reads rows into `samples`, pixel by pixel, bands in ascending wavelength; NaN where the file has no value.
-    ///
-    /// # Errors
-    ///
-    /// [`ImageError`] where the data end early, cannot be read, or there are no such rows.
-    pub fn read_rows(&mut self, rows: Range<usize>, samples: &mut Vec<f32>) -> Result<(), ImageError> {
-        match self {
-            Self::Envi(image) => image.read_rows(rows, samples),
-            Self::Exr(image) => image.read_rows(rows, samples),
-        }
     }
 }

@@ -1,6 +1,6 @@
-//! Names of spectral channels in OpenEXR (Fichet, Pacanowski and Wilkie 2021, JCGT 10(3)).
+//! Names of spectral channels in `OpenEXR` (Fichet, Pacanowski and Wilkie 2021, JCGT 10(3)).
 
-use crate::ImageQuantity;
+use crate::image::ImageQuantity;
 
 /// Spectral channel: quantity and wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]

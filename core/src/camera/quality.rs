@@ -5,7 +5,7 @@
 
 mod index;
 mod noise;
-mod space;
+pub(crate) mod space;
 
 pub use index::{IndexSamples, MetamerismIndex};
 pub use noise::{Electrons, ElectronsError, NoiseAmplification, covariance, gray_snr_db};

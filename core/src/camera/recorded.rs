@@ -12,6 +12,7 @@ mod two_way;
 
 use crate::spectral::{GridSpectrum, Sensor};
 pub use links::{Link, LinkKind};
+pub use two_way::Freedom;
 use two_way::Grid;
 
 /// Reason that a value takes no part in a fit.
@@ -70,21 +71,6 @@ pub struct RecordedPatch {
     pub radiance: GridSpectrum,
     /// Recorded red, green and blue.
     pub rgb: [Signal; 3],
-}
-
-/// Parameters of the model that are fitted. One overall scale always is, because tables of sensitivities are relative.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Freedom {
-    /// True if each channel has a gain of its own; false if all share one.
-    pub gains: bool,
-    /// True if each patch has a brightness of its own; false if all have brightness 1.
-    pub brightness: bool,
-}
-
-impl Default for Freedom {
-    fn default() -> Self {
-        Self { gains: true, brightness: true }
-    }
 }
 
 /// Reason that a camera cannot be fitted to recorded values.

@@ -56,6 +56,12 @@ pub enum RenderingError {
     /// The color that white is to take leaves a channel at zero, which no matrix can undo.
     #[error("the chosen white leaves a channel at zero; choose another white")]
     NoWhite,
+    /// Eq 13 is the same matrix for all: nothing is fitted.
+    #[error("the paper's matrix (Eq 13) is not fitted; choose a fitted color transform")]
+    NotFitted,
+    /// The transform is no matrix that can be inverted.
+    #[error("this correction is no invertible 3×3 matrix; choose a matrix")]
+    NoMatrix,
     /// A root of a negative signal has no answer.
     #[error(
         "a root polynomial needs signals that are never negative, but {} has negative lobes; choose a matrix",

@@ -100,7 +100,8 @@ pub fn input_device_transform(
         return Err(IdtError::BlindToLight { channel });
     }
     let peaks: DVec3 = places().fold(DVec3::ZERO, |peak, i| peak.max(DVec3::from_array(camera.at_index(i))));
-    let highest = (0..3).max_by(|&a, &b| peaks[a].total_cmp(&peaks[b])).unwrap_or(1);
+    // The first of equal peaks: a table whose channels are each scaled to 1 counts as red.
+    let highest = (0..3).rev().max_by(|&a, &b| peaks[a].total_cmp(&peaks[b])).unwrap_or(0);
     let white_signal = match exposure {
         IdtExposure::Rawtoaces => white_sums.max_element() / white_sums[highest],
         IdtExposure::WhiteAtOne => 1.0,

@@ -29,15 +29,35 @@ impl DngMatrices {
     /// None where M has no inverse, or the white cannot be adapted.
     pub fn new(xyz_from_balanced: DMat3, raw_white: DVec3, white: Xyz) -> Option<Self> {
         let d50 = D50.with_unit_luminance()?;
+        let forward = ProfileMatrix::new(xyz_from_balanced, white, d50)?.xyz_from_rgb;
         let inverse = xyz_from_balanced.inverse();
         let color = DMat3::from_diagonal(raw_white) * inverse;
         let color = color * (color * d50.to_vector()).max_element().recip();
-        let forward = bradford(white, d50)? * xyz_from_balanced;
-        let scale = d50.to_vector() / (forward * DVec3::ONE);
-        let forward = DMat3::from_diagonal(scale) * forward;
         let balance = (raw_white.max_element() / raw_white).to_array();
-        let finite = color.is_finite() && forward.is_finite() && balance.iter().all(|v| v.is_finite() && *v > 0.0);
+        let finite = color.is_finite() && balance.iter().all(|v| v.is_finite() && *v > 0.0);
         finite.then_some(Self { color, forward, balance })
+    }
+}
+
+/// Matrix from balanced RGB to a profile connection space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProfileMatrix {
+    /// XYZ relative to the connection space's white, from camera RGB balanced to unity; (1, 1, 1) goes to that white.
+    pub xyz_from_rgb: DMat3,
+    /// Bradford adaptation from the light's white.
+    pub adaptation: DMat3,
+}
+
+impl ProfileMatrix {
+    /// Adapts a transform from the light's white to another; none where that cannot be done.
+    ///
+    /// A transform that does not keep white is scaled row by row until it does, as readers of DNG do.
+    pub fn new(xyz_from_balanced: DMat3, white: Xyz, to: Xyz) -> Option<Self> {
+        let adaptation = bradford(white, to)?;
+        let adapted = adaptation * xyz_from_balanced;
+        let scale = to.to_vector() / (adapted * DVec3::ONE);
+        let xyz_from_rgb = DMat3::from_diagonal(scale) * adapted;
+        xyz_from_rgb.is_finite().then_some(Self { xyz_from_rgb, adaptation })
     }
 }
 

@@ -55,7 +55,7 @@ const SMALLEST: f64 = 1e-5;
 /// The most rounds of reweighting.
 const ROUNDS: usize = 200;
 /// Relative gain of a round below which the mean counts as minimal.
-const GAIN: f64 = 1e-11;
+const GAIN: f64 = 1e-9;
 
 /// The 3×3 that minimizes an objective over training samples, among all or among those that carry (1, 1, 1) to `white`.
 ///
@@ -76,13 +76,36 @@ pub fn minimize(
     keeps_white: bool,
     objective: Objective,
 ) -> Result<DMat3, FitError> {
+    minimize_near(training, white, keeps_white, objective, None)
+}
+
+/// [`minimize`] from a matrix that is near, where that is better than the least-squares matrix. It must keep white if that is asked.
+///
+/// # Errors
+///
+/// As [`minimize`].
+pub(super) fn minimize_near(
+    training: Training<'_>,
+    white: Xyz,
+    keeps_white: bool,
+    objective: Objective,
+    near: Option<DMat3>,
+) -> Result<DMat3, FitError> {
     let start = Correction { method: CorrectionMethod::LeastSquares, keeps_white, ..Correction::default() };
     let RgbTransform::Matrix(start) = training.fit(&start, white)? else { return Err(FitError::Dependent) };
     let targets: Option<Vec<Lab>> =
         training.targets.iter().map(|target| lab_from_xyz(Xyz::from_vector(*target), white)).collect();
     let targets = targets.ok_or(FitError::NoWhite)?;
     let mut problem = Problem::new(training, &targets, white, keeps_white, objective, start);
-    let start_value = problem.value(training.weights);
+    let mut start_value = problem.value(training.weights);
+    if let Some(near) = near {
+        let other = Problem::new(training, &targets, white, keeps_white, objective, near);
+        let value = other.value(training.weights);
+        if value < start_value {
+            (problem, start_value) = (other, value);
+        }
+    }
+    let start = problem.matrix();
     let optimizer = LevenbergMarquardt::new();
     if objective.squares() {
         (problem, _) = optimizer.with_tol(1e-15).minimize(problem);
@@ -92,8 +115,7 @@ pub fn minimize(
             problem.reweight(training.weights);
             (problem, _) = optimizer.with_tol(1e-12).with_patience(2).minimize(problem);
             let value = problem.value(training.weights);
-            // Written so that a value that is not finite ends the search too.
-            if !(value < best) {
+            if value.is_nan() || value >= best {
                 problem.set(&before);
                 break;
             }
@@ -156,10 +178,7 @@ impl<'a> Problem<'a> {
     }
 
     fn params_now(&self) -> DVector<f64> {
-        DVector::from_iterator(
-            3 * (3 - self.first),
-            self.columns[self.first..].iter().flat_map(|column| column.to_array()),
-        )
+        DVector::from_iterator(3 * (3 - self.first), self.columns[self.first..].iter().flat_map(DVec3::to_array))
     }
 
     fn set(&mut self, params: &DVector<f64>) {

@@ -3,7 +3,7 @@
 //! ```text
 //! ∫ C_c S L dλ ≈ Σ_k w_ck s_k        w_ck = Σ_i C_c(λ_i) L(λ_i) B_k(λ_i) / ∫ C_c W dλ
 //! ```
-//! s_k = sample of band k, `B_k` = what the interpolation onto the grid makes of a 1 in band k and 0 elsewhere. Interpolation is
+//! `s_k` = sample of band k, `B_k` = what the interpolation onto the grid makes of a 1 in band k and 0 elsewhere. Interpolation is
 //! linear in the samples, so the weights are made once, and a pixel costs three products a band and camera.
 
 use super::geometry::LitSamples;
@@ -89,7 +89,7 @@ impl BandWeights {
         for sensor in sensors {
             let products = under_light(sensor.sensor, light);
             for (product, divisor) in products.iter().zip(sensor.divisors.to_array()) {
-                let weight = |basis: &Box<[f64; COUNT]>| {
+                let weight = |basis: &[f64; COUNT]| {
                     (product.iter().zip(basis.iter()).map(|(p, b)| p * b).sum::<f64>() / divisor) as f32
                 };
                 curves.extend(bases.iter().map(weight));
@@ -111,7 +111,7 @@ impl BandWeights {
 }
 
 /// Interpolation onto the grid of a 1 in each band and 0 in the others.
-fn bases(wavelengths_nm: &[f64], quantity: SampleQuantity) -> Result<Vec<Box<[f64; COUNT]>>, SpectralImageError> {
+fn bases(wavelengths_nm: &[f64], quantity: SampleQuantity) -> Result<Vec<[f64; COUNT]>, SpectralImageError> {
     let bands = wavelengths_nm.len();
     let unit = |band: usize| {
         let values = (0..bands).map(|k| f64::from(u8::from(k == band))).collect();
@@ -127,7 +127,7 @@ fn bases(wavelengths_nm: &[f64], quantity: SampleQuantity) -> Result<Vec<Box<[f6
         SampleQuantity::Radiance => Quantity::Light,
     };
     let basis = |band: usize| {
-        let mut values = Box::new(*GridSpectrum::resample(&unit(band)?, how).values());
+        let mut values = *GridSpectrum::resample(&unit(band)?, how).values();
         for (index, value) in values.iter_mut().enumerate() {
             let nm = wavelength_nm(index);
             if nm < first || nm > last {

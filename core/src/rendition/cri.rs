@@ -1,7 +1,8 @@
 //! Color rendering indices of CIE 13.3-1995.
 
+use super::reference;
+use super::standards::{RenditionError, Standards};
 use super::sums::{Sums, held, smooth, wavelengths};
-use super::{RenditionError, Standards, reference};
 use crate::colorimetry::{Uv60, Xyz};
 use crate::light::temperature::tabulated::Robertson;
 use crate::light::{Cct, CctError};

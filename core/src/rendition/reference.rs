@@ -1,7 +1,8 @@
 //! Reference illuminants: blackbodies and daylight at the temperature of the light in question.
 
+use super::standards::{RenditionError, Standards};
+use super::sums;
 use super::sums::{Sums, wavelengths};
-use super::{RenditionError, Standards, sums};
 use crate::colorimetry::{Uv60, Xyz};
 use crate::light::planckian::{RadiationConstants, relative_exitance};
 use crate::light::temperature::MAX_DUV;
@@ -47,7 +48,7 @@ pub(super) fn nearest(standards: &Standards, color: Xyz) -> Result<Cct, Renditio
         }
     }
     let mired = golden(best.0, &distance)?;
-    if mired < MIRED[0] || mired > MIRED[1] {
+    if !(MIRED[0]..=MIRED[1]).contains(&mired) {
         let colder = mired > MIRED[1];
         return Err(if colder { CctError::TooCold } else { CctError::TooHot }.into());
     }

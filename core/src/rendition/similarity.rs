@@ -1,7 +1,8 @@
 //! The Academy's spectral similarity index.
 
+use super::reference;
+use super::standards::{RenditionError, Standards};
 use super::sums::{wavelengths, within};
-use super::{RenditionError, Standards, reference};
 use crate::spectral::SpectralDistribution;
 use crate::units::Kelvin;
 

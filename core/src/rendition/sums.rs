@@ -1,6 +1,6 @@
 //! Sums over an observer's own table, at the wavelengths that an index is defined on.
 
-use super::RenditionError;
+use super::standards::RenditionError;
 use crate::colorimetry::Xyz;
 use crate::light::LocusError;
 use crate::math::interpolation::{Sprague, linear};

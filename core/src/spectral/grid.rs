@@ -146,7 +146,7 @@ impl GridSpectrum {
     }
 
     /// A spectrum given by a formula of the wavelength in nanometers; values that are not finite become zero.
-    pub fn from_fn(f: impl Fn(f64) -> f64) -> Self {
+    pub fn from_fn(mut f: impl FnMut(f64) -> f64) -> Self {
         let mut values = Box::new([0.0; COUNT]);
         for (index, value) in values.iter_mut().enumerate() {
             let y = f(wavelength_nm(index));

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use spectral_file::Values;
 
-use crate::cli::arguments::Per;
+use crate::cli::per::Per;
 
 pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope identify raw.csv --chart \"ColorChecker 24 (Ohta 1997)\" --illuminant D50
@@ -17,7 +17,7 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
 FILE is a spectral table, one row a patch, with three more columns R, G, B of linear raw values; or the spectra alone with --raw; or,
 with --chart, a table of R, G, B alone. Rows belong to spectra by the patches' names, or in order. Model: recorded = gain of the
 channel × brightness of the patch × the integral of sensitivity, reflectance and light; fitted by least squares of the logarithm.
-RMS is that of the remaining log error in percent; missing, zero, negative and clipped values are left out and listed.
+RMS is that of the remaining log error in percent; missing, zero, negative and clipped values are excluded and listed.
 
 Columns of --format csv: rank, camera, rms_percent, deviation_percent (RMS over the degrees of freedom), rms_r_percent, rms_g_percent,
 rms_b_percent, gain_r, gain_g, gain_b, values, parameters, worst_patch, worst_patch_percent, cause, cause_share (of the squares, to
@@ -47,6 +47,9 @@ pub(in crate::cli) struct IdentifyArguments {
     /// The light that the patches were recorded under: a name, a file with one curve, `daylight:K` or `blackbody:K`
     #[arg(long, value_name = "NAME|FILE", required_unless_present = "radiance", conflicts_with = "radiance")]
     pub(super) illuminant: Option<OsString>,
+    /// A filter in front of the light: a name, or a file with a transmittance; may be repeated
+    #[arg(long, value_name = "NAME|FILE", conflicts_with = "radiance")]
+    pub(super) filter: Vec<OsString>,
     /// The file's spectra are radiances, not reflectances: there is no light to name
     #[arg(long, conflicts_with = "chart", requires = "file")]
     pub(super) radiance: bool,

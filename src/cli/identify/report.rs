@@ -62,7 +62,7 @@ pub(super) fn table(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> Strin
     let _ = write!(text, "\nGains {}; {} values, {} fitted parameters, ", gains.join(", "), fit.values, fit.parameters);
     let _ = writeln!(text, "standard deviation {} % by the degrees of freedom", percent(Some(fit.deviation())));
     for (reason, places) in excluded(patches, fit) {
-        let _ = writeln!(text, "Left out, {reason}: {}", places.join(", "));
+        let _ = writeln!(text, "Excluded, {reason}: {}", places.join(", "));
     }
     for link in fit.links.iter().filter(|link| link.share >= NOTABLE) {
         let cause = cause_in_words(link.kind, link.amount, &names);
@@ -71,7 +71,7 @@ pub(super) fn table(patches: &[RecordedPatch], ranked: &[RankedCamera]) -> Strin
     text
 }
 
-/// Values that were left out, by reason.
+/// Excluded values, by reason.
 fn excluded(patches: &[RecordedPatch], fit: &RecordedFit) -> Vec<(String, Vec<String>)> {
     let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
     for (patch, row) in patches.iter().zip(&fit.residuals) {

@@ -8,8 +8,9 @@ use chromascope_core::render::visibility::MAX_SIDE;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use spectral_file::Values;
+use spectral_image::ImageQuantity;
 
-use crate::cli::arguments::SourceArguments;
+use crate::cli::sources::SourceArguments;
 use crate::document::render::model::{AreaChoice, SpecularChoice};
 use crate::document::render::{ReadingChoice, TOLERANCES};
 use chromascope_core::render::QualityLevel;
@@ -20,11 +21,13 @@ pub(in crate::cli) const EXAMPLES: &str = "Examples:
   chromascope render --mesh bust.obj --camera \"Nikon D70\" --light=-1,1,1 --orbit 30,10,4
   chromascope render --sigma 1e-6 --tau 5e-6 --quality fine --stats -
   chromascope render --mesh sphere --material mine.csv --illuminant A --white-balance A --format exr
+  chromascope render --image cube.hdr --camera \"Nikon D70\" --illuminant D65 --difference delta-e2000
 
 The light's direction is in view axes: x to the right, y up, z toward the viewer. Angles are in degrees, lengths in meters,
 distances in radii of the mesh. A picture is named for mesh and sensor, as in head_nikon-d70.png; --force replaces existing ones.
 OpenEXR holds Eq 12 before exposure, with \u{3c0}f in place of P for the radiometric and microfacet normalizations: R G B after white
-balance, X Y Z, and the coverage A. Without any sensor: the preset's reference and cameras.";
+balance, X Y Z, and the coverage A. Without any sensor: the preset's reference and cameras. A spectral image is read a few rows at a
+time. Of reflectances, 1 is white at 0 EV; of radiances, the 99.5 % quantile of the reference's luminance is.";
 
 /// What `render` takes.
 #[derive(Debug, Args)]
@@ -34,6 +37,17 @@ pub(in crate::cli) struct RenderArguments {
     /// The mesh: `head`, `fern`, `sphere`, `plane`, or an OBJ, PLY or STL file
     #[arg(long, value_name = "NAME|FILE", default_value = "head", help_heading = SCENE)]
     pub(super) mesh: OsString,
+    /// A spectral image in place of a mesh: an ENVI header (.hdr) or an OpenEXR file with spectral channels
+    #[arg(long, value_name = "FILE", help_heading = SCENE, conflicts_with_all = ["mesh", "triangles", "material", "values", "light",
+          "no_shadows", "orbit", "fov", "sigma", "sigma_from_mesh", "tau", "patch", "ior", "area", "reading", "specular", "quality",
+          "tolerance", "size", "samples", "stats"])]
+    pub(super) image: Option<PathBuf>,
+    /// Quantity of the image's samples, overriding the file
+    #[arg(long, value_enum, value_name = "QUANTITY", requires = "image", help_heading = SCENE)]
+    pub(super) image_quantity: Option<ImageQuantityName>,
+    /// Sample that stands for 1, such as 10000, where the file does not state it
+    #[arg(long, value_name = "VALUE", default_value_t = 1.0, value_parser = positive, requires = "image", help_heading = SCENE)]
+    pub(super) image_scale: f64,
     /// Approximate number of triangles of head, fern and sphere
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(8..=5_000_000),
           help_heading = SCENE)]
@@ -135,6 +149,24 @@ const SCENE: &str = "Scene";
 const SURFACE: &str = "Surface";
 const PICTURE: &str = "Picture";
 
+/// Quantity of an image's samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ImageQuantityName {
+    /// Reflectances, lit by the illuminant
+    Reflectance,
+    /// Radiances, taken as they are; the illuminant only balances white
+    Radiance,
+}
+
+impl ImageQuantityName {
+    pub(super) fn quantity(self) -> ImageQuantity {
+        match self {
+            Self::Reflectance => ImageQuantity::Reflectance,
+            Self::Radiance => ImageQuantity::Radiance,
+        }
+    }
+}
+
 /// Reflectance factor of the coherent component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum SpecularName {
@@ -231,6 +263,11 @@ fn finite(text: &str) -> Result<f64, String> {
     // The window and papers write a minus sign of their own.
     let number = text.trim().replace('\u{2212}', "-").parse::<f64>().ok().filter(|number| number.is_finite());
     number.ok_or_else(|| format!("\"{text}\" is not a number; write one like 0.5 or 5e-6"))
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let number = finite(text)?;
+    (number > 0.0 && number.recip().is_finite()).then_some(number).ok_or_else(|| format!("\"{text}\" is not above 0"))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

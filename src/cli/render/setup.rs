@@ -44,41 +44,12 @@ impl Setup {
         // What only arguments decide comes before files are read.
         let viewpoint = viewpoint(arguments, &choice)?;
         let size = raster(arguments)?;
-        let mut request = Request::of_sources(&arguments.sources, matches)?;
-        if arguments.sources.names_no_sensor() {
-            let Request { document, sources, .. } = &mut request;
-            sources.retain(|(kind, name)| *kind == SetKind::Camera || *name == document.reference);
-        }
+        let mut request = compared_request(arguments, matches)?;
         let specular = request.document.render.specular;
         request.document.render = settings(arguments, choice, specular)?;
-        match &arguments.illuminant {
-            Some(illuminant) => request.set_light(illuminant)?,
-            None => request.document.light = Light::Set(SUN.to_owned()),
-        }
-        request.set_filters(&arguments.filter)?;
-        match &arguments.white {
-            Some(white) => request.set_white(white)?,
-            None => request.document.white = WhiteBalanceChoice::Light(BALANCE.to_owned()),
-        }
-        if let Some(metric) = arguments.difference.as_deref().and_then(Metric::by_id) {
-            if !request.document.transform.metrics().contains(&metric) {
-                let reason =
-                    format!("{} has no meaning with the paper's matrix; add --transform fitted", metric.symbol);
-                return Err(CliError::Argument { argument: "--difference", reason });
-            }
-            request.document.difference = metric;
-        }
         request.values = arguments.values;
         if let Some(material) = &arguments.material {
             request.set_material(material)?;
-        }
-        for (slot, (kind, name)) in request.sources.iter().enumerate() {
-            let known = |other: &Compared| other.kind == *kind && other.name == *name;
-            if !request.document.compared.iter().any(known) {
-                let slot = slot.min(usize::from(u8::MAX)) as u8;
-                let compared = Compared { name: name.clone(), kind: *kind, slot, visible: true, label: None };
-                request.document.compared.push(compared);
-            }
         }
         let start = Instant::now();
         let own_mesh = match &request.document.render.mesh {
@@ -91,6 +62,40 @@ impl Setup {
         let mesh_name = mesh_name(&request.document.render.mesh);
         Ok(Self { request, viewpoint, finish, own_mesh, mesh_name, reading: start.elapsed() })
     }
+}
+
+/// Sensors, reference, light, white balance and metric: all but the scene.
+pub(super) fn compared_request(arguments: &RenderArguments, matches: &ArgMatches) -> Result<Request, CliError> {
+    let mut request = Request::of_sources(&arguments.sources, matches)?;
+    if arguments.sources.names_no_sensor() {
+        let Request { document, sources, .. } = &mut request;
+        sources.retain(|(kind, name)| *kind == SetKind::Camera || *name == document.reference);
+    }
+    match &arguments.illuminant {
+        Some(illuminant) => request.set_light(illuminant)?,
+        None => request.document.light = Light::Set(SUN.to_owned()),
+    }
+    request.set_filters(&arguments.filter)?;
+    match &arguments.white {
+        Some(white) => request.set_white(white)?,
+        None => request.document.white = WhiteBalanceChoice::Light(BALANCE.to_owned()),
+    }
+    if let Some(metric) = arguments.difference.as_deref().and_then(Metric::by_id) {
+        if !request.document.transform.metrics().contains(&metric) {
+            let reason = format!("{} has no meaning with the paper's matrix; add --transform fitted", metric.symbol);
+            return Err(CliError::Argument { argument: "--difference", reason });
+        }
+        request.document.difference = metric;
+    }
+    for (slot, (kind, name)) in request.sources.iter().enumerate() {
+        let known = |other: &Compared| other.kind == *kind && other.name == *name;
+        if !request.document.compared.iter().any(known) {
+            let slot = slot.min(usize::from(u8::MAX)) as u8;
+            let compared = Compared { name: name.clone(), kind: *kind, slot, visible: true, label: None };
+            request.document.compared.push(compared);
+        }
+    }
+    Ok(request)
 }
 
 /// The program's own meshes by name.

@@ -23,8 +23,8 @@ const WHITES: [(&str, Anchor, [f64; 2]); 5] = [
 ];
 /// Temperatures of the isotherms in kelvins.
 const ISOTHERMS: [f64; 10] = [1500.0, 2000.0, 2500.0, 3000.0, 4000.0, 5000.0, 6500.0, 8000.0, 10_000.0, 20_000.0];
-/// Length of an isotherm to each side in the CIE 1960 diagram: as far as a temperature is defined.
-const REACH: f64 = 0.05;
+/// Length of an isotherm to each side in the CIE 1960 diagram.
+const REACH: f64 = 0.03;
 
 /// Adds both, as the document wants it.
 pub(super) fn add(drawing: &mut Drawing<'_>) {

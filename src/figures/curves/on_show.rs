@@ -53,7 +53,7 @@ impl ImportSelection {
         Some(shown)
     }
 
-    /// The same, as far as it is known: `last` is what a file was last understood as.
+    /// Contents of the Import pane, as far as they are known; `last` is the last preview of a file.
     pub fn of(scene: &Scene<'_>, view: &View, last: Option<Arc<FilePreview>>) -> Option<Self> {
         let item = view.import.selected.clone()?;
         let (set, fingerprint) = match &item {

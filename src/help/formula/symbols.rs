@@ -62,12 +62,13 @@ const RELATIONS: [(&str, &str); 18] = [
 ];
 
 /// Commands for upright symbols.
-const UPRIGHT: [(&str, &str); 20] = [
+const UPRIGHT: [(&str, &str); 23] = [
     ("Gamma", "Γ"),
     ("Delta", "Δ"),
     ("Lambda", "Λ"),
     ("Sigma", "Σ"),
     ("Phi", "Φ"),
+    ("Psi", "Ψ"),
     ("Omega", "Ω"),
     ("infty", "∞"),
     ("partial", "∂"),
@@ -79,6 +80,8 @@ const UPRIGHT: [(&str, &str); 20] = [
     ("%", "%"),
     ("{", "{"),
     ("}", "}"),
+    ("lvert", "|"),
+    ("rvert", "|"),
     ("lVert", "‖"),
     ("rVert", "‖"),
     ("lbrace", "{"),

@@ -3,16 +3,13 @@
 use chromascope_core::colorimetry::Xyz;
 use chromascope_core::light::Cct;
 use chromascope_core::query::PatchColor;
-use egui::{FontId, Rect, Sense, Ui, Vec2};
+use chromascope_figure::{Cell, Table};
+use egui::Ui;
 
-use crate::format::fixed;
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::scene::Scene;
-use crate::theme::{MONO, SMALL, Theme};
-
-/// Height of a row of numbers.
-const LINE: f32 = 15.0;
-/// Width of the rows' names.
-const NAMES: f32 = 40.0;
+use crate::workspaces::PaneKind;
 
 /// A row: its name, how many decimals, and a number for each column.
 pub(super) struct Row {
@@ -58,48 +55,25 @@ pub(super) fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Optio
     [row("CCT", 0, |cct| cct.temperature.get()), row("Duv", 4, |cct| cct.duv)]
 }
 
-/// Writes rows below the columns' heads, each column flush right in its width.
-pub(super) fn show(ui: &mut Ui, theme: &Theme, heads: &[String], rows: &[Row], column: f32) {
-    let width = NAMES + column * heads.len() as f32;
-    let place = |rect: Rect, index: usize| rect.left() + NAMES + column * (index + 1) as f32;
-    let spacing = std::mem::take(&mut ui.spacing_mut().item_spacing.y);
-    if heads.iter().any(|head| !head.is_empty()) {
-        let (rect, _) = ui.allocate_exact_size(Vec2::new(width, LINE), Sense::hover());
-        for (index, head) in heads.iter().enumerate() {
-            let at = egui::pos2(place(rect, index), rect.center().y);
-            ui.painter().text(at, egui::Align2::RIGHT_CENTER, head, FontId::proportional(SMALL), theme.weak);
-        }
-    }
-    for row in rows {
-        let (rect, response) = ui.allocate_exact_size(Vec2::new(width, LINE), Sense::hover());
-        let mono = FontId::monospace(MONO);
-        ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, row.name, mono.clone(), theme.weak);
-        let words: Vec<String> = row.cells.iter().map(|cell| cell_words(*cell, row.decimals)).collect();
-        for (index, words) in words.iter().enumerate() {
-            let at = egui::pos2(place(rect, index), rect.center().y);
-            ui.painter().text(at, egui::Align2::RIGHT_CENTER, words, mono.clone(), theme.text);
-        }
-        let spoken: Vec<String> = heads.iter().zip(&words).map(|(head, words)| format!("{head} {words}")).collect();
-        let spoken = format!("{}: {}", row.name, spoken.join(", "));
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &spoken));
-    }
-    ui.spacing_mut().item_spacing.y = spacing;
-}
-
-fn cell_words(cell: Option<f64>, decimals: usize) -> String {
-    cell.map_or_else(|| "–".to_owned(), |value| fixed(value, decimals))
+/// Writes rows below the columns' heads; `id` tells tables of one pane apart.
+pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], context: &PaneContext<'_>) {
+    let table = table(heads, rows);
+    let names = std::iter::once(Column::default());
+    let columns = names.chain(heads.iter().map(|head| Column { name: head.clone(), ..Column::default() }));
+    let note = |row: usize, _| CellNote { decimals: Some(rows[row].decimals), ..CellNote::default() };
+    let shown = DataTable::new(PaneKind::INSPECTOR, id, &table).with_columns(columns.collect()).with_notes(&note);
+    shown.show_compact(ui, context);
 }
 
 /// Rows for a spreadsheet, in full precision.
 pub(super) fn to_tsv(heads: &[String], rows: &[Row]) -> String {
-    let mut text = format!("quantity\t{}\n", heads.join("\t"));
+    table(heads, rows).to_tsv()
+}
+
+fn table(heads: &[String], rows: &[Row]) -> Table {
+    let mut table = Table::new(std::iter::once("quantity").chain(heads.iter().map(String::as_str)));
     for row in rows {
-        text.push_str(row.name);
-        for cell in &row.cells {
-            text.push('\t');
-            text.extend(cell.map(|value| value.to_string()));
-        }
-        text.push('\n');
+        table.push(std::iter::once(Cell::from(row.name)).chain(row.cells.iter().map(|cell| Cell::from(*cell))));
     }
-    text
+    table
 }

@@ -99,7 +99,7 @@ pub(super) fn one(ui: &mut Ui, id: &SensorId, patch: &str, context: &mut PaneCon
         (vec!["reference".to_owned(), id.kind.singular().to_owned()], vec![Some(seen), Some(own)])
     };
     let rows = numbers::of_patches(&scene, &colors);
-    numbers::show(ui, &theme, &heads, &rows, 84.0);
+    numbers::show(ui, "patch", &heads, &rows, context);
     if buttons(ui, context) {
         copy_text(ui, numbers::to_tsv(&heads, &rows), context);
     }

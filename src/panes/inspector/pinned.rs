@@ -10,9 +10,6 @@ use crate::panes::widgets::{Icon, icon_button};
 use crate::plot_item::PlotItem;
 use crate::scene::Scene;
 
-/// Width of a column of numbers.
-const COLUMN: f32 = 56.0;
-
 /// The letter of a pinned thing.
 fn letter(index: usize) -> String {
     let letters = 'A'..='Z';
@@ -94,7 +91,7 @@ fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneCo
         &context.theme,
         format!("{} from the reference: {}", context.scene.difference_name(), differences.join(", ")),
     );
-    numbers::show(ui, &context.theme, &heads, &numbers::of_patches(scene, &colors), COLUMN);
+    numbers::show(ui, "pinned patches", &heads, &numbers::of_patches(scene, &colors), context);
 }
 
 /// Pinned black bodies; the reference stands first where all have the same temperature.
@@ -113,5 +110,5 @@ fn radiators(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &Pane
         heads.insert(0, "reference".to_owned());
         points.insert(0, radiator::point_of(scene, &reference_id(scene), first).ok().flatten());
     }
-    numbers::show(ui, &context.theme, &heads, &radiator::rows_of(scene, &points), COLUMN);
+    numbers::show(ui, "pinned blackbodies", &heads, &radiator::rows_of(scene, &points), context);
 }

@@ -1,6 +1,6 @@
 //! Pinned pixel of the rendered pictures, through every sensor.
 
-use egui::{Grid, RichText, Ui};
+use egui::{RichText, Ui};
 
 use super::note;
 use crate::figures::chromaticity::id;
@@ -8,6 +8,7 @@ use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::{facts, index_of, pixel_of};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::lines::key_and_label;
+use crate::panes::widgets::table::show_pairs;
 use crate::render_service::pixel::PixelShows;
 use crate::theme::UNIT;
 use crate::view::render::PixelPlace;
@@ -37,14 +38,8 @@ pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
             PixelShows::Nothing => note(ui, &context.theme, "Beside the mesh."),
             PixelShows::Unlit => note(ui, &context.theme, "No light reaches it."),
             PixelShows::Lit(lit) => {
-                let grid = Grid::new(("pixel", &source.name)).num_columns(2).min_row_height(0.0);
-                grid.spacing([3.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
-                    for (name, value) in facts(&lit, measure) {
-                        ui.monospace(name);
-                        ui.monospace(value);
-                        ui.end_row();
-                    }
-                });
+                let id = format!("pinned pixel {}", source.name);
+                show_pairs(ui, PaneKind::INSPECTOR, &id, &facts(&lit, measure), context);
             }
         }
     }

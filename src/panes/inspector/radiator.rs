@@ -64,7 +64,7 @@ pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneCo
         distance(ui, id, &own, &seen, context);
     }
     let rows = rows_of(&scene, &points);
-    numbers::show(ui, &theme, &heads, &rows, 84.0);
+    numbers::show(ui, "blackbody", &heads, &rows, context);
     match scene.document.light {
         Light::BlackBody => note(ui, &theme, "The light on the scene is a blackbody of the marked temperature."),
         Light::Daylight => {

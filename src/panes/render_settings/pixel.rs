@@ -1,15 +1,18 @@
 //! The pixel that is kept, in numbers.
 
-use egui::{Grid, RichText, Ui};
+use chromascope_figure::{Cell, Table};
+use egui::{RichText, Ui};
 
 use crate::figures::render::headline::Measure;
 use crate::figures::render::{facts, index_of, pixel_of};
 use crate::panes::context::PaneContext;
+use crate::panes::widgets::table::{Column, DataTable, show_pairs};
 use crate::plot_item::SensorId;
 use crate::render_service::RenderedFrame;
 use crate::render_service::pixel::PixelShows;
 use crate::theme::UNIT;
 use crate::view::render::PixelPlace;
+use crate::workspaces::PaneKind;
 
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -44,13 +47,8 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ui.label("No light reaches it: facing away, or in shadow.");
         }
         PixelShows::Lit(lit) => {
-            let numbers = Grid::new("pixel").num_columns(2).spacing([3.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
-                for (name, value) in facts(&lit, measure) {
-                    ui.monospace(name);
-                    ui.monospace(value);
-                    ui.end_row();
-                }
-            });
+            let numbers =
+                ui.scope(|ui| show_pairs(ui, PaneKind::RENDER_SETTINGS, "pixel", &facts(&lit, measure), context));
             numbers.response.on_hover_text(
                 "RGB: linear sRGB at this exposure, before clipping. xy, Lab and the difference from the reference: a \
                  white of the same roughness that faces the light has Y = 1. g: at 550 nm.",
@@ -76,20 +74,19 @@ fn shown(place: PixelPlace, shot: &RenderedFrame) -> PixelPlace {
 /// The pixel through each sensor, one line each.
 fn others(ui: &mut Ui, place: &PixelPlace, shot: &RenderedFrame, context: &PaneContext<'_>) {
     let measure = Measure::of(&shot.query);
-    Grid::new("pixel in all pictures").num_columns(3).spacing([2.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
-        for source in shot.sources.iter() {
-            let place = PixelPlace { at: place.at, source: SensorId { kind: source.kind, name: source.name.clone() } };
-            let Some(PixelShows::Lit(lit)) = pixel_of(&context.scene, shot, &place).map(|reading| reading.shows) else {
-                continue;
-            };
-            let xy = lit.xy.map_or_else(|| "no xy".to_owned(), |xy| format!("{:.4} {:.4}", xy.x, xy.y));
-            let difference = lit.difference.map_or_else(String::new, |difference| {
-                format!("{} {}", measure.short_name(), measure.number(difference))
-            });
-            ui.label(RichText::new(&source.label).small());
-            ui.label(RichText::new(xy).small().monospace());
-            ui.label(RichText::new(difference).small().monospace());
-            ui.end_row();
-        }
-    });
+    let mut table = Table::new(["", "x", "y", ""]);
+    for source in shot.sources.iter() {
+        let place = PixelPlace { at: place.at, source: SensorId { kind: source.kind, name: source.name.clone() } };
+        let Some(PixelShows::Lit(lit)) = pixel_of(&context.scene, shot, &place).map(|reading| reading.shows) else {
+            continue;
+        };
+        let [x, y] = [lit.xy.map(|xy| xy.x), lit.xy.map(|xy| xy.y)].map(Cell::from);
+        let difference = lit
+            .difference
+            .map_or_else(String::new, |difference| format!("{} {}", measure.short_name(), measure.number(difference)));
+        table.push([Cell::from(source.label.as_str()), x, y, Cell::from(difference)]);
+    }
+    let columns = table.columns.iter().map(|head| Column { decimals: Some(4), ..Column::from_head(head) }).collect();
+    let shown = DataTable::new(PaneKind::RENDER_SETTINGS, "pixel in all pictures", &table);
+    shown.with_columns(columns).show_compact(ui, context);
 }

@@ -1,10 +1,11 @@
 //! Computed and skipped work of the visible pictures.
 
-use egui::{Grid, RichText, Ui};
+use egui::{RichText, Ui};
 
 use crate::format::fixed;
 use crate::panes::context::PaneContext;
-use crate::theme::UNIT;
+use crate::panes::widgets::table::show_pairs;
+use crate::workspaces::PaneKind;
 
 /// Stages in the order they follow each other, as counted and as shown.
 const STAGES: [(&str, &str); 8] = [
@@ -24,8 +25,9 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(shot) = context.studio.frame().cloned() else { return };
     let Some(made) = shot.made() else { return };
     let (geometry, shading) = (made.geometry, made.shading);
-    rows(
+    show_pairs(
         ui,
+        PaneKind::RENDER_SETTINGS,
         "samples",
         &[
             ("Lit", geometry.lit.to_string()),
@@ -35,6 +37,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ("Spectral integrals", shading.spectral.to_string()),
             ("Specular terms", format!("{}, {} skipped", shading.mirrors, shading.mirrors_skipped)),
         ],
+        context,
     );
     ui.label(RichText::new("Integration methods").small().color(context.theme.weak));
     for (source, image) in shot.sources.iter().zip(&made.images) {
@@ -52,15 +55,5 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
     }
     ui.label(RichText::new("Since the start").small().color(context.theme.weak));
-    rows(ui, "stages", &stages);
-}
-
-fn rows(ui: &mut Ui, id: &str, rows: &[(&str, String)]) {
-    Grid::new(id).num_columns(2).spacing([3.0 * UNIT, 0.5 * UNIT]).show(ui, |ui| {
-        for (name, value) in rows {
-            ui.label(RichText::new(*name).small());
-            ui.label(RichText::new(value).small());
-            ui.end_row();
-        }
-    });
+    show_pairs(ui, PaneKind::RENDER_SETTINGS, "stages", &stages, context);
 }

@@ -6,11 +6,11 @@ use chromascope_core::spectral::{Evidence, Header, Interpolation, Quantity, Resp
 use egui::text::LayoutJob;
 use egui::{TextFormat, Ui};
 
-use super::number;
 use crate::catalog::load::FileQuery;
 use crate::catalog::{Entry, Place};
 use crate::document::SetKind;
 use crate::document::own::Role;
+use crate::format::number;
 use crate::scene::Scene;
 use crate::theme::{SMALL, Theme, UNIT};
 

@@ -20,6 +20,7 @@ const CRATES: &[&str] = &[
     "core/math/src",
     "core/mesh/src",
     "core/spectral-file/src",
+    "core/spectral-image/src",
     "core/text/src",
 ];
 

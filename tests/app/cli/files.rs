@@ -242,7 +242,7 @@ fn a_reader_that_has_seen_enough_is_no_error() {
 #[test]
 fn lists_name_what_the_options_take() {
     let names = |arguments: &[&str]| String::from_utf8(run(arguments).stdout).unwrap();
-    let kinds = ["cameras", "observers", "charts", "illuminants", "materials"];
+    let kinds = ["cameras", "observers", "charts", "illuminants", "filters", "materials"];
     assert_eq!(names(&["list"]), kinds.map(|kind| names(&["list", kind])).concat());
     let option = |kind: &str, option: &str| -> Vec<String> {
         names(&["list", kind]).lines().flat_map(|name| [option.to_owned(), name.to_owned()]).collect()

@@ -32,7 +32,7 @@ fn d5100_under_d55_is_that_of_colour_science() {
     let rows =
         [[0.593_682, 0.304_184, 0.102_135], [0.004_580, 1.149_460, -0.154_040], [0.035_522, -0.163_123, 1.127_601]];
     assert!(off(idt.matrix, rows) < 1e-5, "{}", idt.matrix);
-    // Its red channel has the highest peak but the smallest sum, so rawtoaces fits RGB that is 1.582 for white.
+    // Each channel of the table peaks at 1; rawtoaces scales by the first, red, so it fits RGB that is 1.582 for white.
     assert!((idt.white_signal - 1.582_141_88).abs() < 1e-6, "{}", idt.white_signal);
 }
 

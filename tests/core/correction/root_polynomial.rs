@@ -6,7 +6,7 @@ use chromascope_core::correction::{Correction, CorrectionMethod, RgbTransform};
 use glam::DVec3;
 use proptest::prelude::*;
 
-use super::{correction, set, white};
+use super::{correction, rounding, set, white};
 use crate::support::{CIE_1931, NIKON_D70, REFERENCE, cases, light, sensor, training};
 
 /// Terms of r = 0.2, g = 0.5, b = 0.8 in the order of Finlayson, Mackiewicz & Hurlbert (2015), as colour-science 0.4.7 lists them
@@ -94,10 +94,11 @@ proptest! {
 #[test]
 fn derivative_at_white_is_the_polynomial_of_white() {
     let set = set();
-    let fit = set.training().fit(&correction(CorrectionMethod::RootPolynomial(Degree::Four), false), white()).unwrap();
+    let fit = set.training().fit(&correction(CorrectionMethod::RootPolynomial(Degree::Two), false), white()).unwrap();
+    let rounding = rounding(&fit);
     let RgbTransform::RootPolynomial(polynomial) = fit else { panic!("a root polynomial was asked for") };
     let at_white = polynomial.at_white();
-    assert!((at_white * DVec3::ONE - polynomial.xyz(DVec3::ONE)).abs().max_element() < 1e-11);
+    assert!((at_white * DVec3::ONE - polynomial.xyz(DVec3::ONE)).abs().max_element() < rounding);
     for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
         let h = 1e-6;
         let slope = (polynomial.xyz(DVec3::ONE + axis * h) - polynomial.xyz(DVec3::ONE - axis * h)) / (2.0 * h);

@@ -59,7 +59,7 @@ impl IndexSamples {
     ) -> Result<MetamerismIndex, RenderingError> {
         let product = under_light(sensor, light);
         let divisors = DVec3::from_array(sensor.integrate(light.values()));
-        if !(divisors.abs().min_element() > 0.0) {
+        if !divisors.is_finite() || divisors.abs().min_element() == 0.0 {
             return Err(white_divisors(sensor, light).err().unwrap_or(RenderingError::NoWhite));
         }
         let samples: Vec<DVec3> =

@@ -50,7 +50,7 @@ fn condition(matrix: DMat3) -> f64 {
     spectral_norm(matrix) * spectral_norm(matrix.inverse())
 }
 
-/// Largest singular value, from the largest eigenvalue of AᵀA in closed form (Smith 1961, Commun. ACM 4, 168).
+/// Largest singular value, from the largest eigenvalue of `AᵀA` in closed form (Smith 1961, Commun. ACM 4, 168).
 fn spectral_norm(matrix: DMat3) -> f64 {
     let scale = matrix.to_cols_array().iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if scale.is_nan() || scale == 0.0 || scale.is_infinite() {
@@ -77,7 +77,7 @@ impl Eq for Electrons {}
 
 impl std::hash::Hash for Electrons {
     fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
-        [self.full_well, self.read_noise].iter().for_each(|v| (v + 0.0).to_bits().hash(state));
+        (self.full_well.to_bits(), (self.read_noise + 0.0).to_bits()).hash(state);
     }
 }
 
@@ -99,7 +99,7 @@ impl Electrons {
     ///
     /// [`ElectronsError`] unless 0 < full well ≤ 1e9 and 0 ≤ read noise ≤ full well.
     pub fn new(full_well: f64, read_noise: f64) -> Result<Self, ElectronsError> {
-        if !(full_well > 0.0 && full_well <= 1e9) {
+        if !(f64::MIN_POSITIVE..=1e9).contains(&full_well) {
             return Err(ElectronsError::FullWell);
         }
         if !(0.0..=full_well).contains(&read_noise) {
@@ -114,7 +114,7 @@ impl Electrons {
 /// ```text
 /// Σ′ = M Σ Mᵀ,   Σ = diag((n_c + r²) / w_c²),   n_c = ρ w_c
 /// ```
-/// w_c are the electrons of a perfect diffuser, exposed so that the most sensitive channel just fills its well; r is the read noise, ρ the
+/// `w_c` are the electrons of a perfect diffuser, exposed so that the most sensitive channel just fills its well; r is the read noise, ρ the
 /// reflectance. Needs curves whose channels have one scale.
 pub fn covariance(rendering: &Rendering, electrons: Electrons, reflectance: f64) -> DMat3 {
     let matrix = srgb_from_balanced(rendering);

@@ -9,7 +9,7 @@ const DEPENDENT: f64 = 1e-10;
 
 /// Agreement of a sensor's space with an observer's, independent of light, balance and color transform.
 ///
-/// Curves are taken at 380, 381, …, 780 nm without weights. P_C and P_A project onto the spaces of the sensor's curves C and the
+/// Curves are taken at 380, 381, …, 780 nm without weights. `P_C` and `P_A` project onto the spaces of the sensor's curves C and the
 /// observer's A.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpaceQuality {
@@ -55,14 +55,13 @@ fn curves(sensor: &Sensor) -> [Vec<f64>; 3] {
 }
 
 /// Orthonormal basis of the space of three curves, by Gram and Schmidt's method done twice.
-fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
+pub(crate) fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
     let mut found: Vec<Vec<f64>> = Vec::with_capacity(3);
     for curve in curves {
         let length = dot(curve, curve).sqrt();
         let rest = remove(&remove(curve, &found), &found);
         let left = dot(&rest, &rest).sqrt();
-        // Written so that a length that is not a number is refused too.
-        if !(left > DEPENDENT * length) {
+        if left.is_nan() || left <= DEPENDENT * length {
             return None;
         }
         found.push(rest.iter().map(|v| v / left).collect());
@@ -71,7 +70,7 @@ fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
 }
 
 /// A curve without its components in a space.
-fn remove(curve: &[f64], space: &[Vec<f64>]) -> Vec<f64> {
+pub(crate) fn remove(curve: &[f64], space: &[Vec<f64>]) -> Vec<f64> {
     let mut rest = curve.to_vec();
     for axis in space {
         let along = dot(&rest, axis);

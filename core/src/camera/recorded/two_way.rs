@@ -1,7 +1,21 @@
 //! Two-way additive model `d_pc = a_c + b_p + r_pc` by least squares, with any of the d missing.
 
-use super::Freedom;
 use glam::{DMat3, DVec3};
+
+/// Parameters of the model that are fitted. One overall scale always is, because tables of sensitivities are relative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Freedom {
+    /// True if each channel has a gain of its own; false if all share one.
+    pub gains: bool,
+    /// True if each patch has a brightness of its own; false if all have brightness 1.
+    pub brightness: bool,
+}
+
+impl Default for Freedom {
+    fn default() -> Self {
+        Self { gains: true, brightness: true }
+    }
+}
 
 /// Data of the model; a missing value has weight 0.
 pub(super) struct Grid {

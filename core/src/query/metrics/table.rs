@@ -45,6 +45,17 @@ pub enum Better {
     Neither,
 }
 
+impl Better {
+    /// Number that is smaller for a better value: the order of rankings. None for a metric that ranks nothing.
+    pub fn merit(self, value: f64) -> Option<f64> {
+        match self {
+            Self::Lower => Some(value.abs()),
+            Self::Higher => Some(-value),
+            Self::Neither => None,
+        }
+    }
+}
+
 /// A figure of merit of a camera under conditions.
 #[derive(Clone, Copy, Debug)]
 pub struct CameraMetric {

@@ -123,16 +123,7 @@ pub fn distinguishable(a: (f64, Option<f64>), b: (f64, Option<f64>)) -> bool {
 /// [1 + #better, n − #worse],   n values
 /// ```
 pub fn rank_ranges(better: Better, values: &[MetricValue]) -> Vec<Option<[usize; 2]>> {
-    // What is smaller is better.
-    let merit = |value: &MetricValue| {
-        let number = value.value.ok()?;
-        let merit = match better {
-            Better::Lower => number.abs(),
-            Better::Higher => -number,
-            Better::Neither => return None,
-        };
-        Some((merit, value.uncertainty))
-    };
+    let merit = |value: &MetricValue| Some((better.merit(value.value.ok()?)?, value.uncertainty));
     let merits: Vec<Option<(f64, Option<f64>)>> = values.iter().map(merit).collect();
     let others = || merits.iter().flatten().copied();
     let count = others().count();

@@ -1,0 +1,185 @@
+//! The file of recorded raw values that is on show: read beside the window.
+
+use std::fs::File;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use chromascope_core::camera::chart_grid::ChartGrid;
+use chromascope_core::camera::recorded::RecordedPatch;
+use chromascope_core::spectral::{GridSpectrum, Quantity, SpectralDistribution};
+use chromascope_figure::Image;
+use spectral_file::{ReadOptions, Role};
+
+use super::chart_picture::ChartPicture;
+use super::recorded::{self, Levels, RawRow};
+use crate::format::io_reason;
+use crate::jobs::Executor;
+
+/// Endings of pictures of charts.
+pub const PICTURES: [&str; 3] = ["tif", "tiff", "png"];
+/// Most bytes of a file.
+const MAX_BYTES: u64 = 1 << 30;
+/// Longest side of a picture as it is shown.
+const SHOWN: usize = 1024;
+
+/// Spectra beside raw values.
+#[derive(Clone, Debug)]
+pub struct TableSpectra {
+    /// By the names of their patches.
+    pub curves: Vec<(String, SpectralDistribution)>,
+    /// True if they are radiances; false for reflectances.
+    pub are_radiances: bool,
+}
+
+/// Contents of a file of recorded values.
+pub enum RecordedContent {
+    /// A table, with spectra or without.
+    Table(Vec<RawRow>, Option<TableSpectra>),
+    /// A picture of a chart, and as it is shown.
+    Picture(ChartPicture, Image),
+}
+
+/// A file of recorded values.
+pub struct RecordedFile {
+    /// Its name.
+    pub name: String,
+    /// Contents.
+    pub content: RecordedContent,
+}
+
+/// State of the file on show.
+#[derive(Clone, Default)]
+pub enum RecordedState {
+    /// None was opened.
+    #[default]
+    None,
+    /// It is being read.
+    Loading(String),
+    /// It was read.
+    Ready(Arc<RecordedFile>),
+    /// It gives no values: a sentence.
+    Failed(String),
+}
+
+/// Reads the file of recorded values on a thread.
+pub struct RecordedStore {
+    state: Arc<Mutex<(u64, RecordedState)>>,
+    executor: Executor,
+    wake: Arc<dyn Fn() + Send + Sync>,
+}
+
+impl RecordedStore {
+    /// Knows no file yet. `wake` is called when one was read, from the thread that read it.
+    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self { state: Arc::default(), executor: executor.clone(), wake: Arc::new(wake) }
+    }
+
+    /// State of the file on show.
+    pub fn state(&self) -> RecordedState {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner).1.clone()
+    }
+
+    /// Begins to read a file in place of the one on show.
+    pub fn open(&self, path: &Path) {
+        let ticket = {
+            let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+            *state = (state.0 + 1, RecordedState::Loading(file_name(path)));
+            state.0
+        };
+        let (shared, wake, file) = (Arc::clone(&self.state), Arc::clone(&self.wake), path.to_owned());
+        let work = move || {
+            let read = read(&file);
+            let mut state = shared.lock().unwrap_or_else(PoisonError::into_inner);
+            // Another file may have been opened meanwhile.
+            if state.0 == ticket {
+                state.1 = read.map_or_else(RecordedState::Failed, |file| RecordedState::Ready(Arc::new(file)));
+            }
+            drop(state);
+            wake();
+        };
+        if let Err(error) = self.executor.spawn("recorded", work) {
+            let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+            state.1 = RecordedState::Failed(format!("{}: {}", file_name(path), io_reason(&error)));
+        }
+    }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// Reads a table or a picture; the error is a sentence with the file's name.
+fn read(path: &PathBuf) -> Result<RecordedFile, String> {
+    let name = file_name(path);
+    let failed = |why: String| format!("{name}: {why}");
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(|error| failed(io_reason(&error)))?;
+    file.take(MAX_BYTES).read_to_end(&mut bytes).map_err(|error| failed(io_reason(&error)))?;
+    let is_picture = path.extension().is_some_and(|own| PICTURES.iter().any(|ending| own.eq_ignore_ascii_case(ending)));
+    let content = if is_picture {
+        let picture = ChartPicture::decode(&bytes).map_err(|error| failed(error.to_string()))?;
+        let shown = picture.preview(SHOWN);
+        RecordedContent::Picture(picture, shown)
+    } else {
+        let table = recorded::read_table(&bytes).map_err(|error| failed(error.to_string()))?;
+        let spectra = table.spectra.as_deref().map(spectra).transpose().map_err(failed)?;
+        RecordedContent::Table(table.rows, spectra)
+    };
+    Ok(RecordedFile { name, content })
+}
+
+/// Spectra beside the raw values.
+fn spectra(text: &str) -> Result<TableSpectra, String> {
+    let table = spectral_file::read(text.as_bytes(), &ReadOptions::default()).map_err(|error| error.to_string())?;
+    let are_radiances = table.role.value == Role::Illuminant;
+    let curve = |curve: &spectral_file::Curve| {
+        let spectrum = SpectralDistribution::new(curve.wavelengths_nm.clone(), curve.values.clone());
+        spectrum.map(|spectrum| (curve.name.clone(), spectrum)).map_err(|error| error.to_string())
+    };
+    Ok(TableSpectra { curves: table.curves.iter().map(curve).collect::<Result<_, _>>()?, are_radiances })
+}
+
+impl RecordedFile {
+    /// True if the chart and the light come from elsewhere.
+    pub fn needs_chart(&self) -> bool {
+        !matches!(&self.content, RecordedContent::Table(_, Some(_)))
+    }
+
+    /// Patches with spectra and raw values. `chart` are the radiances of the chart on show, `light` is the light on show, `corners` those
+    /// of the chart in a picture.
+    ///
+    /// # Errors
+    ///
+    /// A sentence where values and spectra do not belong together.
+    pub fn patches(
+        &self,
+        chart: &[(String, GridSpectrum)],
+        light: &GridSpectrum,
+        corners: [[f64; 2]; 4],
+        levels: Levels,
+    ) -> Result<Vec<RecordedPatch>, String> {
+        let join = |spectra: &[(String, GridSpectrum)], rows: &[RawRow]| {
+            recorded::join(spectra, rows, levels).map_err(|error| error.to_string())
+        };
+        match &self.content {
+            RecordedContent::Table(rows, None) => join(chart, rows),
+            RecordedContent::Table(rows, Some(spectra)) => {
+                let radiance = |(name, curve): &(String, SpectralDistribution)| {
+                    let spectrum = if spectra.are_radiances {
+                        GridSpectrum::resample(curve, Quantity::Light)
+                    } else {
+                        recorded::lit(&GridSpectrum::resample(curve, Quantity::Reflectance), light)
+                    };
+                    (name.clone(), spectrum)
+                };
+                join(&spectra.curves.iter().map(radiance).collect::<Vec<_>>(), rows)
+            }
+            RecordedContent::Picture(picture, _) => {
+                let grid = ChartGrid::new(corners, 6, 4).map_err(|error| error.to_string())?;
+                let rows = picture.rows(&grid, levels).map_err(|error| error.to_string())?;
+                join(chart, &rows)
+            }
+        }
+    }
+}

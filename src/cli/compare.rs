@@ -1,0 +1,141 @@
+//! Cameras ranked by figures of merit.
+
+pub(super) mod arguments;
+mod output;
+
+use std::sync::Arc;
+
+use chromascope_core::camera::quality::Electrons;
+use chromascope_core::query::metrics::rank_ranges;
+use chromascope_core::query::{Ask as _, CameraMetric, CameraMetrics, MetricValue};
+use clap::ArgMatches;
+
+use self::arguments::{ALL, CompareArguments, Format, NAME, USUAL};
+use super::error::CliError;
+use super::outputs;
+use super::request::Request;
+use super::tables;
+use crate::document::SetKind;
+use crate::results::Results;
+use crate::scene::Scene;
+use crate::scene::conditions::CONDITIONS;
+
+/// A ranking: sensors in order, with their values.
+struct Comparison {
+    metrics: Vec<CameraMetric>,
+    /// The metric that orders the rows; none for the order of names.
+    sorted_by: Option<CameraMetric>,
+    rows: Vec<Row>,
+    /// Names of the patches.
+    patches: Vec<String>,
+    /// Conditions by their heads, the temperature among them.
+    conditions: Vec<(&'static str, String)>,
+}
+
+/// One sensor.
+struct Row {
+    kind: SetKind,
+    name: String,
+    all: Arc<CameraMetrics>,
+    /// Values of the comparison's metrics, in their order.
+    values: Vec<MetricValue>,
+    /// Their ranks from 1, as ranges.
+    ranks: Vec<Option<[usize; 2]>>,
+    /// Rank by the metric that orders the rows.
+    rank: Option<[usize; 2]>,
+}
+
+/// Ranks the cameras and writes them.
+pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<(), CliError> {
+    let mut request = Request::new(&arguments.common, matches)?;
+    request.values = arguments.values;
+    request.set_chart(arguments.chart.as_deref())?;
+    if arguments.common.sources.names_no_sensor() {
+        let cameras = request.catalog.of_kind(SetKind::Camera);
+        request.sources = cameras.map(|entry| (SetKind::Camera, entry.name.clone())).collect();
+    }
+    if !(1.0..=1e15).contains(&arguments.temperature) {
+        let reason = format!("{} is not a temperature; use kelvins from 1 to 1e15", arguments.temperature);
+        return Err(CliError::Argument { argument: "--temperature", reason });
+    }
+    tables::check_out(&arguments.common, &request)?;
+    let results = Results::default();
+    let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
+    let comparison = compared(&scene, &request, arguments)?;
+    let text = match arguments.format {
+        Format::Table => output::table(&comparison),
+        Format::Csv => output::csv(&comparison),
+        Format::Json => output::json(&comparison),
+    };
+    tables::say_caution(&scene, &request)?;
+    outputs::put(&text, arguments.common.out.as_deref())
+}
+
+fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) -> Result<Comparison, CliError> {
+    let named = |id: &str| CameraMetric::by_id(id);
+    let metrics: Vec<CameraMetric> = match arguments.metrics.as_slice() {
+        [] => USUAL.iter().filter_map(|id| named(id)).collect(),
+        ids if ids.iter().any(|id| id == ALL) => CameraMetric::ALL.to_vec(),
+        ids => ids.iter().filter_map(|id| named(id)).collect(),
+    };
+    let sorted_by = match arguments.sort.as_deref() {
+        Some(NAME) => None,
+        Some(id) => named(id),
+        None => metrics.first().copied(),
+    };
+    let electrons = arguments.full_well.map(|full_well| Electrons::new(full_well, arguments.read_noise));
+    let electrons = electrons.transpose();
+    let electrons =
+        electrons.map_err(|error| CliError::Argument { argument: "--full-well", reason: error.to_string() })?;
+    let mut found = Vec::new();
+    for (kind, name) in &request.sources {
+        let mut query = scene.camera_metrics_query_at(*kind, name, arguments.temperature)?;
+        query.electrons = electrons;
+        found.push((*kind, name.clone(), scene.results.ask(&query)));
+    }
+    let mut conditions: Vec<_> = CONDITIONS.into_iter().zip(scene.conditions()).collect();
+    conditions.push(("chart", request.chart_name_on_show()));
+    conditions.push(("temperature_k", arguments.temperature.to_string()));
+    let patches = scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect();
+    Ok(Comparison { rows: rows(&found, &metrics, sorted_by), metrics, sorted_by, patches, conditions })
+}
+
+/// The rows in order, with ranks.
+fn rows(
+    found: &[(SetKind, String, Arc<CameraMetrics>)],
+    metrics: &[CameraMetric],
+    sorted_by: Option<CameraMetric>,
+) -> Vec<Row> {
+    let missing = MetricValue { value: Err(chromascope_core::query::WhyNot::NoPatches), uncertainty: None };
+    let values = |metric: CameraMetric| -> Vec<MetricValue> {
+        found.iter().map(|(_, _, all)| all.of(metric).unwrap_or(missing)).collect()
+    };
+    let columns: Vec<_> = metrics.iter().map(|metric| values(*metric)).collect();
+    let ranks: Vec<_> =
+        metrics.iter().zip(&columns).map(|(metric, values)| rank_ranges(metric.better, values)).collect();
+    let sorting = sorted_by.map(|metric| (metric, values(metric)));
+    let sorting_ranks = sorting.as_ref().map(|(metric, values)| rank_ranges(metric.better, values));
+    let merit = |at: usize| {
+        let (metric, values) = sorting.as_ref()?;
+        let value = values[at].value.ok()?;
+        // What ranks nothing is ordered by its value.
+        Some(metric.better.merit(value).unwrap_or(value))
+    };
+    let mut order: Vec<(usize, Option<f64>)> = (0..found.len()).map(|at| (at, merit(at))).collect();
+    order.sort_by(|a, b| match (a.1, b.1) {
+        (Some(a), Some(b)) => a.total_cmp(&b),
+        (a, b) => a.is_none().cmp(&b.is_none()),
+    });
+    let row = |(at, _): (usize, Option<f64>)| {
+        let (kind, name, all) = &found[at];
+        Row {
+            kind: *kind,
+            name: name.clone(),
+            all: Arc::clone(all),
+            values: columns.iter().map(|values| values[at]).collect(),
+            ranks: ranks.iter().map(|ranks| ranks[at]).collect(),
+            rank: sorting_ranks.as_ref().and_then(|ranks| ranks[at]),
+        }
+    };
+    order.into_iter().map(row).collect()
+}

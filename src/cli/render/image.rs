@@ -1,0 +1,135 @@
+//! `render --image`: a spectral image through cameras and observers.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use chromascope_core::camera::RenderingError;
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::DifferenceError;
+use chromascope_core::render::Stop;
+use clap::ArgMatches;
+
+use super::arguments::{Format, ImageQuantityName, RenderArguments};
+use super::files::{file_names, make_folder, patiently};
+use super::setup::compared_request;
+use crate::catalog::spectral_images;
+use crate::cli::error::CliError;
+use crate::cli::outputs::{self, show, write_to};
+use crate::cli::request::told;
+use crate::document::TransformChoice;
+use crate::export::render::{ImageProvenance, image_exr_bytes, png_bytes};
+use crate::format::fixed;
+use crate::results::Results;
+use crate::scene::spectral_image::{ImageDifference, ImagePictures, ImagePicturesError, ImageUse};
+use crate::scene::{ComparedSensor, Scene, SceneError};
+use crate::terminal::say;
+
+/// Makes the pictures of an image, writes them, and says what came of it.
+pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches) -> Result<(), CliError> {
+    let start = Instant::now();
+    let wanted = arguments.image_quantity.map(ImageQuantityName::quantity);
+    let mut image = spectral_images::open(path, wanted).map_err(|error| CliError::File(error.to_string()))?;
+    let info = image.info().clone();
+    for note in &info.notes {
+        say(&format!("chromascope: {}: {note}\n", told(path)));
+    }
+    if let [Some(first), Some(last)] = [info.wavelengths_nm.first(), info.wavelengths_nm.last()]
+        && (*first > 400.0 || *last < 700.0)
+    {
+        let held = "beyond them the first and last band were held";
+        say(&format!("chromascope: {}: bands from {first} to {last} nm; {held}\n", told(path)));
+    }
+    let request = compared_request(arguments, matches)?;
+    let results = Results::default();
+    let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
+    let sources = scene.sources();
+    let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let files = file_names(arguments, &name, &sources);
+    let inputs: Vec<PathBuf> = request.inputs().into_iter().chain([path.to_owned()]).collect();
+    outputs::check(files.iter().map(PathBuf::as_path), &inputs, arguments.force)?;
+    make_folder(&arguments.out)?;
+    let wanted = ImageUse { quantity: wanted, scale: arguments.image_scale, exposure_ev: arguments.exposure };
+    let made = patiently("rendering", || scene.image_pictures(&mut image, &sources, wanted, &Stop::NEVER));
+    let made = made.map_err(|error| failure(path, error))?;
+    let mut lines = String::new();
+    for (index, file) in files.iter().enumerate() {
+        let bytes = bytes(&scene, &sources[index], &made, index, arguments, &name)?;
+        write_to(file, &bytes).map_err(|error| CliError::Output { path: file.clone(), error })?;
+        let words = difference(&scene, &sources[index], made.differences[index].as_ref());
+        let _ = writeln!(lines, "{}: {words}", file.display());
+    }
+    let (count, pixels) = (files.len(), made.placed.samples().len());
+    let plural = if count == 1 { "" } else { "s" };
+    let time = start.elapsed().as_secs_f64() * 1e3;
+    let white =
+        if made.white == 1.0 { String::new() } else { format!("; white at Y = {:.6e} of the image", made.white) };
+    let _ = writeln!(
+        lines,
+        "{count} picture{plural} of {}x{}, {} bands, {pixels} of {} pixels with values{white}: {time:.0} ms, {:.1} MB of samples at once",
+        info.width,
+        info.height,
+        info.wavelengths_nm.len(),
+        info.width * info.height,
+        made.tile_bytes as f64 / 1e6,
+    );
+    show(&lines)
+}
+
+fn failure(path: &Path, error: ImagePicturesError) -> CliError {
+    match error {
+        ImagePicturesError::Scene(error) => error.into(),
+        ImagePicturesError::Quantity => {
+            CliError::File(format!("{}: {error}; add --image-quantity reflectance or radiance", told(path)))
+        }
+        other => CliError::File(format!("{}: {other}", told(path))),
+    }
+}
+
+/// Bytes of one picture's file.
+fn bytes(
+    scene: &Scene<'_>,
+    source: &ComparedSensor,
+    made: &ImagePictures,
+    index: usize,
+    arguments: &RenderArguments,
+    image: &str,
+) -> Result<Vec<u8>, CliError> {
+    let refused = |error: &RenderingError| SceneError::Rendering { name: source.name.clone(), error: *error };
+    let picture = made.pictures[index].as_ref().map_err(refused)?;
+    let rendering = made.renderings[index].as_ref().map_err(refused)?;
+    let written = if arguments.format == Format::Png {
+        png_bytes(picture)
+    } else {
+        let (illuminant, white) = (scene.light_name(), scene.document.white.name());
+        let balance = if rendering.is_rgb { white.as_str() } else { "none" };
+        let provenance = ImageProvenance { source: &source.name, balance, illuminant: &illuminant, image };
+        image_exr_bytes(&made.placed, &made.signals[index], rendering, &provenance)
+    };
+    written.map_err(|error| CliError::Picture { path: PathBuf::from(image), error })
+}
+
+/// Difference of a picture from the reference in words.
+fn difference(scene: &Scene<'_>, source: &ComparedSensor, difference: Option<&ImageDifference>) -> String {
+    let by_eq_13 = scene.document.transform == TransformChoice::Paper;
+    let metric: Metric = scene.document.difference;
+    match difference {
+        _ if source.is_reference => "the reference".to_owned(),
+        Some(difference) => {
+            let number = |value: f64| fixed(value, metric.decimals);
+            format!(
+                "{} mean {}, median {}, 95 % {}, max {}",
+                metric.name(by_eq_13),
+                number(difference.mean),
+                number(difference.median),
+                number(difference.p95),
+                number(difference.max)
+            )
+        }
+        None => match scene.comparable(source.kind, &source.name) {
+            Ok(Err(DifferenceError::Ways)) => "no difference by Eq 13; add --transform fitted to compare".to_owned(),
+            Ok(Err(other)) => format!("no difference: {other}"),
+            _ => "no difference".to_owned(),
+        },
+    }
+}

@@ -1,0 +1,185 @@
+//! Figures of merit of cameras: tables, ranks, the differences of two cameras, and cameras in order of one metric.
+
+use chromascope_core::query::metrics::{Better, distinguishable, rank_ranges};
+use chromascope_core::query::{CameraMetric, MetricValue, WhyNot};
+use chromascope_figure::{Anchor, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize};
+
+use super::FigureInput;
+use super::chromaticity::conditions;
+use crate::format::fixed;
+use crate::ranking::{Ranked, ranked};
+use crate::scene::Scene;
+use crate::view::table::Sorting;
+
+/// Id of the table of cameras in what is kept between runs.
+pub const TABLE: &str = "Metrics";
+/// Metric that cameras are sorted by at first.
+pub const FIRST: &str = "delta-e2000-mean";
+/// The metric where the first has no meaning.
+pub const FIRST_EQ_13: &str = "xy-mean";
+
+/// Unit of a metric; empty for ratios and indices.
+pub fn unit(metric: &CameraMetric) -> &'static str {
+    if metric.unit == "1" { "" } else { metric.unit }
+}
+
+/// The metric that rows are sorted by: the column's, or the first one that has a meaning under the color transform.
+pub fn sorted_by(scene: &Scene<'_>, sorting: Option<&Sorting>) -> Option<CameraMetric> {
+    let named = |name: &str| CameraMetric::ALL.iter().copied().find(|metric| metric.symbol == name);
+    sorting.map_or_else(|| first(scene), |sorting| named(&sorting.column))
+}
+
+/// The metric that cameras are sorted by until another is chosen.
+pub fn first(scene: &Scene<'_>) -> Option<CameraMetric> {
+    CameraMetric::by_id(if scene.document.transform.is_eq_13() { FIRST_EQ_13 } else { FIRST })
+}
+
+/// Value of a metric for a ranked camera.
+pub fn value(ranked: &Ranked, camera: usize, metric: CameraMetric) -> Option<MetricValue> {
+    ranked.metrics.get(camera)?.as_ref()?.as_ref().ok()?.of(metric)
+}
+
+/// True if two values differ by more than the standard uncertainty of their difference; none where a value is missing.
+pub fn differ(a: MetricValue, b: MetricValue) -> Option<bool> {
+    let (x, y) = (a.value.ok()?, b.value.ok()?);
+    Some(distinguishable((x, a.uncertainty), (y, b.uncertainty)))
+}
+
+/// True if the first of two values is better; none where the metric ranks nothing or a value is missing.
+pub fn is_better(metric: CameraMetric, a: MetricValue, b: MetricValue) -> Option<bool> {
+    let (x, y) = (a.value.ok()?, b.value.ok()?);
+    match metric.better {
+        Better::Lower => Some(x.abs() < y.abs()),
+        Better::Higher => Some(x > y),
+        Better::Neither => None,
+    }
+}
+
+/// Ranks of cameras as ranges from 1: no rank is claimed among values that do not differ.
+pub fn ranks(ranked: &Ranked, metric: CameraMetric) -> Vec<Option<[usize; 2]>> {
+    let missing = MetricValue { value: Err(WhyNot::NoPatches), uncertainty: None };
+    let values = (0..ranked.cameras.len()).map(|camera| value(ranked, camera, metric).unwrap_or(missing));
+    rank_ranges(metric.better, &values.collect::<Vec<_>>())
+}
+
+/// All figures of merit of all cameras, each with its uncertainty, as files hold them.
+pub fn numbers(ranked: &Ranked) -> Table {
+    let heads = CameraMetric::ALL.iter().flat_map(|m| [m.column.to_owned(), format!("{}_uncertainty", m.column)]);
+    let mut table = Table::new(std::iter::once("camera".to_owned()).chain(heads));
+    for (camera, row) in ranked.cameras.iter().enumerate() {
+        let cells = CameraMetric::ALL.iter().flat_map(|metric| {
+            let value = value(ranked, camera, *metric);
+            let number = value.and_then(|value| value.value.ok());
+            [Cell::from(number), Cell::from(value.and_then(|value| value.uncertainty).filter(|_| number.is_some()))]
+        });
+        table.push(std::iter::once(Cell::from(row.id.name.as_str())).chain(cells));
+    }
+    table
+}
+
+/// Two cameras head to head: each metric with both values, the difference, and which is better by more than the uncertainty.
+pub fn head_to_head(ranked: &Ranked, [a, b]: [usize; 2]) -> Table {
+    let mut table = Table::new(["metric", "A", "B", "A − B", "better"]);
+    for metric in CameraMetric::ALL {
+        let values = [a, b].map(|camera| value(ranked, camera, *metric));
+        let [x, y] = values.map(|value| value.and_then(|value| value.value.ok()));
+        let words = match values {
+            [Some(a), Some(b)] if x.is_some() && y.is_some() => match (is_better(*metric, a, b), differ(a, b)) {
+                (None, _) => "",
+                (_, Some(false)) => "neither",
+                (Some(true), _) => "A",
+                (Some(false), _) if x == y => "neither",
+                (Some(false), _) => "B",
+            },
+            _ => "",
+        };
+        let difference = x.zip(y).map(|(x, y)| x - y);
+        table.push([
+            Cell::from(format!("{} {}", metric.symbol, unit(metric)).trim_end()),
+            Cell::from(x),
+            Cell::from(y),
+            Cell::from(difference),
+            Cell::from(words),
+        ]);
+    }
+    table
+}
+
+/// Standard uncertainty of the difference of two values, if either has one.
+pub fn uncertainty_of_difference(a: MetricValue, b: MetricValue) -> Option<f64> {
+    match (a.uncertainty, b.uncertainty) {
+        (None, None) => None,
+        (a, b) => Some(a.unwrap_or(0.0).hypot(b.unwrap_or(0.0))),
+    }
+}
+
+/// Width of a saved figure in points.
+const WIDTH: f64 = 640.0;
+/// Width of its names.
+const NAMES: f64 = 220.0;
+/// Height of a row.
+const ROW: f64 = 16.0;
+
+/// Cameras in order of the metric that the table is sorted by, with uncertainties; all numbers beside it.
+pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
+    let (scene, view) = (input.scene, input.view);
+    let ranked = ranked(scene, view.saved.metrics.cameras);
+    let sorting = view.saved.looks.get(TABLE).and_then(|look| look.sorting.as_ref());
+    let metric = sorted_by(scene, sorting).or_else(|| first(scene))?;
+    let mut rows: Vec<(usize, MetricValue, f64)> = (0..ranked.cameras.len())
+        .filter_map(|camera| value(&ranked, camera, metric).and_then(|v| Some((camera, v, v.value.ok()?))))
+        .collect();
+    let largest_first = metric.better == Better::Higher;
+    rows.sort_by(|a, b| if largest_first { b.2.total_cmp(&a.2) } else { a.2.abs().total_cmp(&b.2.abs()) });
+    let unit = if unit(&metric).is_empty() { String::new() } else { format!(" in {}", unit(&metric)) };
+    let mut figure = Figure::new(format!("{}{unit}", metric.label), [WIDTH, 24.0 + ROW * rows.len() as f64]);
+    let mut panel = Panel::board("Metrics", Rect::from_min_size([0.0; 2], figure.size), Ink::new(InkRole::Plot));
+    let text = |words: &str, at: [f64; 2], anchor: Anchor, size: TextSize| {
+        let ink = Ink::new(InkRole::Text);
+        let shape = Shape::Text { at, text: words.to_owned(), anchor, offset: [0.0; 2], size, ink };
+        Mark::new(Tag::default(), words, shape)
+    };
+    panel.marks.push(text(&figure.title, [8.0, 12.0], Anchor::LEFT, TextSize::Body));
+    let largest =
+        rows.iter().map(|row| row.2.abs() + row.1.uncertainty.unwrap_or(0.0)).fold(f64::MIN_POSITIVE, f64::max);
+    let x = |value: f64| NAMES + (WIDTH - NAMES - 72.0) * (value.abs() / largest).clamp(0.0, 1.0);
+    for (index, (camera, value, number)) in rows.iter().enumerate() {
+        let y = 24.0 + ROW * index as f64 + ROW / 2.0;
+        let name = &ranked.cameras[*camera].id.name;
+        panel.marks.push(text(name, [NAMES - 8.0, y], Anchor::RIGHT, TextSize::Small));
+        let bar = Shape::Rect { min: [NAMES, y - 5.0], max: [x(*number), y + 5.0] };
+        panel.marks.push(Mark::new(Tag::default(), name.as_str(), bar).with_fill(InkRole::Line));
+        if let Some(by) = value.uncertainty {
+            let segments = vec![[[x((number.abs() - by).max(0.0)), y], [x(number.abs() + by), y]]];
+            panel.marks.push(
+                Mark::new(Tag::default(), "uncertainty", Shape::Segments { segments }).with_stroke(InkRole::Text, 1.2),
+            );
+        }
+        panel.marks.push(text(&fixed(*number, metric.decimals), [WIDTH - 8.0, y], Anchor::RIGHT, TextSize::Small));
+    }
+    figure.panels.push(panel);
+    figure.caption = format!("Lines: ± one standard uncertainty of the sensitivities. {}", conditions(scene));
+    figure.table = numbers(&ranked);
+    Some(figure)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(value: f64, uncertainty: Option<f64>) -> MetricValue {
+        MetricValue { value: Ok(value), uncertainty }
+    }
+
+    #[test]
+    fn a_difference_counts_beyond_its_uncertainty() {
+        assert_eq!(
+            differ(value(1.0, Some(0.3)), value(1.5, Some(0.4))),
+            Some(false),
+            "0.5 is not more than √(0.3² + 0.4²)"
+        );
+        assert_eq!(differ(value(1.0, Some(0.3)), value(1.6, Some(0.4))), Some(true));
+        assert_eq!(uncertainty_of_difference(value(1.0, Some(0.3)), value(1.6, Some(0.4))), Some(0.5));
+        assert_eq!(uncertainty_of_difference(value(1.0, None), value(1.6, None)), None);
+    }
+}

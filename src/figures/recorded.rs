@@ -1,0 +1,116 @@
+//! Residuals of a camera's sensitivities against recorded raw values, patch by patch.
+
+use chromascope_core::camera::recorded::RecordedFit;
+use chromascope_figure::{
+    Anchor, Axis, Cell, Figure, Ink, InkRole, LegendEntry, LegendPlace, Mark, Marker, Panel, Rect, Shape, Table, Tag,
+    TextSize, Ticks,
+};
+
+use crate::format::fixed;
+use crate::scene::Scene;
+use crate::scene::recorded::{CHANNELS, RankedCamera};
+use crate::view::View;
+
+/// Markers and colors of the three channels.
+const MARKS: [(Marker, [u8; 3]); 3] =
+    [(Marker::TriangleUp, [208, 64, 52]), (Marker::Circle, [44, 148, 72]), (Marker::Square, [58, 108, 214])];
+/// Size of a saved figure in points.
+const SIZE: [f64; 2] = [720.0, 320.0];
+
+/// The cameras ranked by the patches on show; none before there are any.
+pub fn ranked(scene: &Scene<'_>, view: &View) -> Option<Vec<RankedCamera>> {
+    scene.ranked_cameras(view.recorded.set.as_ref()?, view.recorded.freedom, &[]).ok()
+}
+
+/// The camera whose residuals are shown: the one chosen, or the best.
+pub fn chosen<'a>(ranked: &'a [RankedCamera], view: &View) -> Option<(&'a str, &'a RecordedFit)> {
+    let named = |camera: &&RankedCamera| view.recorded.camera.as_ref().is_none_or(|name| *name == camera.name);
+    let camera = ranked.iter().find(named).or(ranked.first())?;
+    Some((&camera.name, camera.fit.as_ref().ok()?))
+}
+
+/// Residual per patch and channel of the camera on show, with the numbers.
+pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
+    let ranked = ranked(scene, view)?;
+    let (name, fit) = chosen(&ranked, view)?;
+    let names: Vec<String> = view.recorded.set.as_ref()?.iter().map(|patch| patch.name.clone()).collect();
+    let mut figure = Figure::new(format!("Residuals of {name}"), SIZE);
+    figure.panels.push(panel(fit, &names, SIZE));
+    figure.legend = legend();
+    figure.legend_place = LegendPlace::Outside;
+    figure.caption = format!(
+        "Recorded over modeled raw values of {name}, 100 ln; RMS {} %, {} values, {} fitted parameters.",
+        fixed(fit.rms() * 100.0, 2),
+        fit.values,
+        fit.parameters
+    );
+    figure.table = table(name, fit, &names);
+    Some(figure)
+}
+
+/// Keys of the channels.
+pub fn legend() -> Vec<LegendEntry> {
+    let entry = |(name, (marker, rgb)): (&str, (Marker, [u8; 3]))| LegendEntry {
+        name: name.to_owned(),
+        stroke: None,
+        marker: Some(marker),
+        fill: Some(Ink::rgb(rgb)),
+    };
+    CHANNELS.into_iter().zip(MARKS).map(entry).collect()
+}
+
+/// Plot of the residuals in percent over the patches.
+pub fn panel(fit: &RecordedFit, names: &[String], size: [f64; 2]) -> Panel {
+    let percent = |row: usize, channel: usize| fit.residuals[row][channel].ok().map(|log| log * 100.0);
+    let largest = fit.residuals.iter().flatten().flatten().fold(0.0, |most: f64, log| most.max(log.abs() * 100.0));
+    let reach = (largest * 1.15).max(0.1);
+    let count = names.len().max(1) as f64;
+    let ticks = (0..names.len()).map(|i| (i as f64, (i + 1).to_string())).collect();
+    let x = Axis::new("patch", [-0.6, count - 0.4]).with_ticks(Ticks::At(ticks));
+    // Room above for the names of the worst patches.
+    let y = Axis::new("recorded / modeled (%)", [-reach, 1.35 * reach]);
+    let mut panel = Panel::new("residuals", Rect::from_min_size([0.0, 0.0], size), x, y);
+    let zero = Shape::Segments { segments: vec![[[-0.6, 0.0], [count - 0.4, 0.0]]] };
+    panel.marks.push(Mark::new(Tag::default(), "no residual", zero).with_stroke(InkRole::Line, 1.0));
+    for (channel, (marker, rgb)) in MARKS.into_iter().enumerate() {
+        for (row, patch) in names.iter().enumerate() {
+            let Some(value) = percent(row, channel) else { continue };
+            let at = [row as f64 + 0.22 * (channel as f64 - 1.0), value];
+            let shape = Shape::Points { points: vec![at], marker, radius: 3.5 };
+            let words = format!("{patch}, {}: {} %", CHANNELS[channel], fixed(value, 2));
+            panel.marks.push(Mark::new(Tag((row * 3 + channel) as u32 + 1), words, shape).with_fill(Ink::rgb(rgb)));
+        }
+    }
+    for (patch, rms) in fit.worst_patches().into_iter().take(3).filter(|(_, rms)| *rms > 1e-9) {
+        let top = (0..3).filter_map(|c| percent(patch, c)).fold(f64::MIN, f64::max);
+        let shape = Shape::Text {
+            at: [patch as f64, top],
+            text: names[patch].clone(),
+            anchor: Anchor(patch as f64 / (count - 1.0).max(1.0), 1.0),
+            offset: [0.0, -6.0],
+            size: TextSize::Small,
+            ink: InkRole::Weak.into(),
+        };
+        panel.marks.push(Mark::new(Tag::default(), format!("{}: {} %", names[patch], fixed(rms * 100.0, 2)), shape));
+    }
+    panel
+}
+
+/// Residuals as numbers.
+fn table(name: &str, fit: &RecordedFit, names: &[String]) -> Table {
+    let mut table = Table::new(["camera", "patch", "channel", "residual_percent", "excluded", "brightness"]);
+    for (row, patch) in names.iter().enumerate() {
+        for (channel, residual) in CHANNELS.into_iter().zip(&fit.residuals[row]) {
+            let why = residual.err().map_or(Cell::Empty, |why| Cell::Text(why.to_string()));
+            table.push([
+                name.into(),
+                patch.as_str().into(),
+                channel.into(),
+                residual.ok().map(|log| log * 100.0).into(),
+                why,
+                fit.brightness[row].into(),
+            ]);
+        }
+    }
+    table
+}

@@ -1,0 +1,228 @@
+//! One camera on one page: sensitivities, differences of the patches, locus error, figures of merit.
+
+use chromascope_core::colorimetry::Metric;
+use chromascope_core::query::metrics::MetricGroup;
+use chromascope_core::query::{Ask, CameraMetric, CameraMetrics};
+use chromascope_core::spectral::SpectralDistribution;
+use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
+use chromascope_figure::{
+    Anchor, Axis, Cell, Figure, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, Ticks,
+};
+
+use super::FigureInput;
+use super::chromaticity::{conditions, distance_symbol};
+use super::metrics::unit;
+use crate::document::{LOCUS_RANGE_K, SetKind};
+use crate::format::fixed;
+use crate::plot_item::{PlotItem, SensorId};
+use crate::scene::Scene;
+use crate::scene::locus::distance;
+use crate::view::View;
+
+/// Width of the saved page in points.
+const WIDTH: f64 = 560.0;
+/// Below this width all stands in one column.
+const TWO_COLUMNS: f64 = 480.0;
+/// Heights of title, plots and bars.
+const TITLE: f64 = 44.0;
+const PLOTS: f64 = 190.0;
+const BARS: f64 = 200.0;
+/// Height of a line of the list.
+const LINE: f64 = 15.0;
+
+/// The camera of the card: the chosen one, else the selected one, else the first that is compared.
+pub fn camera(scene: &Scene<'_>, view: &View) -> Option<SensorId> {
+    let is_camera = |id: &&SensorId| id.kind == SetKind::Camera && scene.entry(id.kind, &id.name).is_ok();
+    let selected = view.selected.as_ref().and_then(PlotItem::source);
+    let chosen = view.saved.metrics.card.as_ref().filter(is_camera).or(selected.filter(is_camera)).cloned();
+    chosen.or_else(|| {
+        let first = scene.document.compared.iter().find(|c| c.kind == SetKind::Camera)?;
+        Some(SensorId { kind: first.kind, name: first.name.clone() })
+    })
+}
+
+/// The page of the camera of the card as it is saved; none without a camera that can be shown.
+pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
+    page(input.scene, input.view, WIDTH)
+}
+
+/// The page in a width; a narrow one has one column.
+pub fn page(scene: &Scene<'_>, view: &View, width: f64) -> Option<Figure> {
+    let id = camera(scene, view)?;
+    let query = scene.camera_metrics_query(id.kind, &id.name).ok()?;
+    let metrics = scene.results.ask(&query);
+    let columns = if width < TWO_COLUMNS { 1 } else { 2 };
+    let rows = (CameraMetric::ALL.len() + MetricGroup::ALL.len()).div_ceil(columns);
+    let mut top = 0.0;
+    let mut place = |height: f64| {
+        top += height;
+        Rect::from_min_size([0.0, top - height], [width, height])
+    };
+    let mut panels = vec![title(scene, &id, place(TITLE))];
+    let plots = if columns == 1 {
+        [place(PLOTS), place(PLOTS)]
+    } else {
+        let row = place(PLOTS);
+        [0.0, 0.5].map(|x| Rect::from_min_size([x * width, row.min[1]], [0.5 * width, PLOTS]))
+    };
+    panels.push(sensitivities(scene, &id, plots[0]));
+    panels.push(locus(scene, &id, plots[1]));
+    panels.push(patches(scene, &metrics, place(BARS)));
+    panels.push(values(&metrics, place(LINE * (rows as f64 + 1.0)), columns));
+    let mut figure = Figure::new(format!("Report card: {}", id.name), [width, top]);
+    figure.panels = panels;
+    figure.caption = format!("± one standard uncertainty of the sensitivities. {}", conditions(scene));
+    figure.table = numbers(&id, &metrics);
+    Some(figure)
+}
+
+fn text(words: &str, at: [f64; 2], anchor: Anchor, size: TextSize, role: InkRole) -> Mark {
+    let shape = Shape::Text { at, text: words.to_owned(), anchor, offset: [0.0; 2], size, ink: Ink::new(role) };
+    Mark::new(Tag::default(), words, shape)
+}
+
+fn line(name: &str, points: Vec<[f64; 2]>, ink: Ink, width: f64) -> Mark {
+    Mark::new(Tag::default(), name, Shape::Line { points, closed: false }).with_stroke(ink, width)
+}
+
+/// Name, and where its figures are from.
+fn title(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
+    let mut panel = Panel::board("title", area, Ink::new(InkRole::Plot));
+    let entry = scene.entry(id.kind, &id.name).ok();
+    let source = entry.and_then(|entry| entry.header).map_or_else(|| "yours".to_owned(), |header| header.source);
+    panel.marks.push(text(&id.name, [8.0, 13.0], Anchor::LEFT, TextSize::Heading, InkRole::Text));
+    let source = chromascope_figure::wrapped(&source, TextSize::Small, area.width() - 24.0);
+    let cut = if source.len() > 1 { "…" } else { "" };
+    let source = format!("{}{cut}", source.first().map_or("", String::as_str));
+    panel.marks.push(text(&source, [8.0, 33.0], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+    panel
+}
+
+/// Sensitivities over the wavelength, scaled to the largest.
+fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
+    let x = Axis::new("nm", [FIRST_NM, LAST_NM]);
+    let note = "sensitivities, largest = 1".to_owned();
+    let mut panel = Panel { note, ..Panel::new("sensitivities", area, x, Axis::new("", [0.0, 1.1])) };
+    let Ok(sensor) = scene.sensor(id.kind, &id.name) else { return panel };
+    let peak = sensor.curves().iter().flat_map(SpectralDistribution::values).copied().fold(f64::MIN_POSITIVE, f64::max);
+    let inks = [[0xC0, 0x30, 0x30], [0x30, 0x90, 0x30], [0x30, 0x50, 0xC0]].map(Ink::rgb);
+    for ((curve, ink), name) in sensor.curves().iter().zip(inks).zip(sensor.primaries().channels()) {
+        let samples = curve.wavelengths_nm().iter().zip(curve.values());
+        let points = samples.map(|(nm, value)| [*nm, value / peak]).filter(|p| (FIRST_NM..=LAST_NM).contains(&p[0]));
+        panel.marks.push(line(name, points.collect(), ink, 1.5));
+    }
+    panel
+}
+
+/// Distance from the reference's Planckian locus at equal temperature, over reciprocal temperature.
+fn locus(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
+    let diagram = scene.document.diagram;
+    let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
+    let ticks = [1000.0, 1500.0, 2500.0, 6500.0].map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0} K")));
+    let x = Axis::new("", [cold, hot]).with_ticks(Ticks::At(ticks.into()));
+    let pair = scene
+        .locus(id.kind, &id.name)
+        .and_then(|own| Ok((own, scene.locus(SetKind::Observer, &scene.document.reference)?)));
+    let comparable = matches!(scene.comparable(id.kind, &id.name), Ok(Ok(())));
+    let points: Vec<[f64; 2]> = pair.ok().filter(|_| comparable).map_or_else(Vec::new, |(own, reference)| {
+        let pairs = own.points.iter().zip(&reference.points);
+        pairs.filter_map(|(a, b)| Some([a.temperature.mired(), distance(a, b, diagram)?])).collect()
+    });
+    let top = points.iter().map(|point| point[1]).fold(1e-6, f64::max).min(0.6);
+    let mut panel = Panel::new("locus error", area, x, Axis::new("", [0.0, 1.2 * top]));
+    panel.note = format!("locus error {}", distance_symbol(diagram));
+    panel.marks.push(line("locus error", points, InkRole::Text.into(), 1.5));
+    panel
+}
+
+/// A bar for each patch by the document's metric, the worst ones named.
+fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
+    let at = Metric::ALL.iter().position(|metric| *metric == scene.document.difference).unwrap_or(0);
+    let value = |patch: usize| metrics.patches.get(patch)?.by_metric.get(at)?.ok();
+    let values: Vec<Option<f64>> = (0..metrics.patches.len()).map(value).collect();
+    let top = values.iter().flatten().copied().fold(1e-6, f64::max);
+    let count = values.len().max(1) as f64;
+    let x = Axis::new("", [-0.5, count - 0.5]).with_ticks(Ticks::None).with_grid(false);
+    let mut panel = Panel::new("patches", area, x, Axis::new("", [0.0, 1.3 * top]));
+    let reason = metrics.patches.first().and_then(|patch| patch.by_metric.get(at)?.err());
+    panel.note = match reason {
+        Some(why) => why.to_string(),
+        None => format!("{} of the patches", scene.difference_name()),
+    };
+    let set = scene.patches().ok();
+    let name = |patch: usize| set.as_ref().and_then(|set| set.patches().get(patch)).map_or("", |patch| &patch.name);
+    let colors = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
+    for (patch, value) in values.iter().enumerate() {
+        let Some(value) = value else { continue };
+        let ink = colors.get(patch).map_or(Ink::new(InkRole::Weak), |color| Ink::rgb(color.srgb.bytes));
+        let shape = Shape::Rect { min: [patch as f64 - 0.4, 0.0], max: [patch as f64 + 0.4, *value] };
+        panel.marks.push(Mark::new(Tag::default(), name(patch), shape).with_fill(ink).with_stroke(InkRole::Weak, 0.5));
+    }
+    let worst = metrics.worst.get(at).map_or(&[][..], Vec::as_slice);
+    for (rank, &patch) in worst.iter().enumerate() {
+        let Some(value) = values.get(patch).copied().flatten() else { continue };
+        let words = format!("{}  {}", rank + 1, name(patch));
+        // Names stand at the left of bars in the right half, so that none is cut.
+        let (anchor, shift) =
+            if patch as f64 > count / 2.0 { (Anchor::RIGHT_BOTTOM, 4.0) } else { (Anchor::LEFT_BOTTOM, -4.0) };
+        let shape = Shape::Text {
+            at: [patch as f64, value],
+            text: words.clone(),
+            anchor,
+            offset: [shift, -2.0],
+            size: TextSize::Small,
+            ink: Ink::new(InkRole::Text),
+        };
+        panel.marks.push(Mark::new(Tag::default(), words, shape).with_halo(InkRole::Plot));
+    }
+    panel
+}
+
+/// All figures of merit in columns, by group.
+fn values(metrics: &CameraMetrics, area: Rect, columns: usize) -> Panel {
+    let mut panel = Panel::board("figures of merit", area, Ink::new(InkRole::Plot));
+    let lines: Vec<Option<usize>> = MetricGroup::ALL
+        .iter()
+        .flat_map(|group| {
+            let of_group = (0..CameraMetric::ALL.len()).filter(|&at| CameraMetric::ALL[at].group == *group);
+            std::iter::once(None).chain(of_group.map(Some)).collect::<Vec<_>>()
+        })
+        .collect();
+    let rows = lines.len().div_ceil(columns);
+    let mut groups = MetricGroup::ALL.iter();
+    for (index, entry) in lines.into_iter().enumerate() {
+        let left = 8.0 + (index / rows) as f64 * area.width() / columns as f64;
+        let y = LINE * ((index % rows) as f64 + 0.7);
+        let Some(at) = entry else {
+            let name = groups.next().map_or("", |group| group.label());
+            panel.marks.push(text(name, [left, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+            continue;
+        };
+        let (metric, value) = (&CameraMetric::ALL[at], metrics.values[at]);
+        panel.marks.push(text(metric.symbol, [left + 8.0, y], Anchor::LEFT, TextSize::Small, InkRole::Text));
+        let number = value.value.map_or_else(|_| "–".to_owned(), |value| fixed(value, metric.decimals));
+        let number = format!("{number} {}", unit(metric));
+        panel.marks.push(text(number.trim_end(), [left + 180.0, y], Anchor::RIGHT, TextSize::Small, InkRole::Text));
+        if let Some(by) = value.uncertainty.filter(|_| value.value.is_ok()) {
+            let by = format!("± {}", fixed(by, metric.decimals));
+            panel.marks.push(text(&by, [left + 188.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+        }
+    }
+    panel
+}
+
+fn numbers(id: &SensorId, metrics: &CameraMetrics) -> Table {
+    let mut table = Table::new(["camera", "metric", "name", "unit", "value", "uncertainty", "reason"]);
+    for (metric, value) in CameraMetric::ALL.iter().zip(&metrics.values) {
+        table.push([
+            Cell::from(id.name.as_str()),
+            Cell::from(metric.column),
+            Cell::from(metric.label),
+            Cell::from(metric.unit),
+            Cell::from(value.value.ok()),
+            Cell::from(value.uncertainty.filter(|_| value.value.is_ok())),
+            Cell::from(value.value.err().map_or_else(String::new, |why| why.to_string())),
+        ]);
+    }
+    table
+}

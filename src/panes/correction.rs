@@ -1,0 +1,195 @@
+//! Color correction: how it is fitted, what it is, what it does, and the files that take it along.
+
+mod controls;
+
+use std::sync::Arc;
+
+use chromascope_core::correction::aces::IdtExposure;
+use chromascope_core::query::correction::{CorrectionSheet, CorrectionUnder};
+use egui::{Id, Label, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, Vec2};
+
+use super::context::{Pane, PaneContext};
+use crate::command::Command;
+use crate::document::SetKind;
+use crate::export::profile::{CorrectionFile, aligned, check_lines, idt_note};
+use crate::figures::correction as figure;
+use crate::paint::{self, PlotOptions};
+use crate::panes::widgets;
+use crate::scene::SceneError;
+use crate::theme::UNIT;
+use crate::view::correction::CorrectionForm;
+use crate::workspaces::PaneKind;
+
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::new("Correction"),
+    title: "Correction",
+    show,
+    figure: Some(|input| figure::figure(input.view)),
+    under_conditions: true,
+    table: false,
+};
+
+/// Shows the pane in its rectangle.
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
+    let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
+    let mut child = ui.new_child(UiBuilder::new().id_salt("correction").max_rect(inner));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    ScrollArea::vertical().id_salt("correction").auto_shrink(false).show(&mut child, |ui| {
+        ui.spacing_mut().item_spacing = Vec2::new(2.0 * UNIT, UNIT);
+        let Some(camera) = controls::camera(ui, context) else {
+            ui.label("Tick a camera in the library.");
+            return;
+        };
+        controls::method(ui, context);
+        controls::training(ui, context);
+        match refreshed(&camera, context) {
+            Err(error) => {
+                ui.add(Label::new(RichText::new(error.to_string()).color(context.theme.error)).wrap());
+            }
+            Ok(None) => {
+                ui.label(RichText::new("computing…").color(context.theme.weak));
+            }
+            Ok(Some(file)) => sheet(ui, &file, context),
+        }
+    });
+}
+
+/// The correction of a camera, asked for beside the window; the last one while it is made.
+fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<CorrectionFile>>, SceneError> {
+    if context.scene.document.transform.is_eq_13() {
+        context.view.correction.shown = None;
+        let name = camera.to_owned();
+        return Err(SceneError::Rendering { name, error: chromascope_core::camera::RenderingError::NotFitted });
+    }
+    let query = context.scene.correction_sheet(SetKind::Camera, camera)?;
+    context.corrections.ask(vec![query]);
+    let Some(shown) = context.corrections.shown() else { return Ok(None) };
+    let answer = (*shown.answer).as_ref();
+    let sheet = answer.map_err(|&error| SceneError::Rendering { name: camera.to_owned(), error });
+    let view = &mut context.view.correction;
+    if !shown.current {
+        return Ok(view.shown.clone());
+    }
+    let sheet: &CorrectionSheet = match sheet {
+        Ok(sheet) => sheet,
+        Err(error) => {
+            view.shown = None;
+            return Err(error);
+        }
+    };
+    let file = CorrectionFile::new(&context.scene, camera, None, sheet.clone())?;
+    view.shown = Some(Arc::new(file));
+    Ok(view.shown.clone())
+}
+
+/// Numbers, checks, figure and files of a correction.
+fn sheet(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
+    let theme = context.theme;
+    for (index, (name, under)) in file.unders().enumerate() {
+        ui.push_id(index, |ui| under_light(ui, file, name, under, context));
+    }
+    controls::second_light(ui, context);
+    if let Some(Err(error)) = &file.sheet.second {
+        ui.add(Label::new(RichText::new(error.to_string()).color(theme.error)).wrap());
+    }
+    between(ui, file, context);
+    if let Ok(dng) = file.dng() {
+        section(ui, "DNG matrices", Some(&dng), "Copy the DNG matrices");
+        for line in dng.lines() {
+            ui.add(Label::new(RichText::new(line).monospace()).wrap());
+        }
+    }
+    aces(ui, file, context);
+    ui.add_space(UNIT);
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Save as");
+        for form in CorrectionForm::ALL {
+            let (label, hint) = form.words();
+            if ui.button(label).on_hover_text(hint).clicked() {
+                context.push(Command::SaveCorrection(form));
+            }
+        }
+    });
+    ui.add_space(2.0 * UNIT);
+}
+
+/// Matrix, errors and checks under a light.
+fn under_light(ui: &mut Ui, file: &CorrectionFile, name: &str, under: &CorrectionUnder, context: &PaneContext<'_>) {
+    let theme = context.theme;
+    let kelvin = under.temperature.map_or(String::new(), |kelvin| format!(", {:.0} K", kelvin.get()));
+    let matrix = file.transform_text(under);
+    section(ui, &format!("XYZ from balanced RGB under {name}{kelvin}"), Some(&matrix), "Copy the matrix");
+    mono(ui, &matrix);
+    section(ui, "Errors over the training reflectances", None, "");
+    mono(ui, &file.errors_text(under));
+    section(ui, "White, and narrow blue LEDs (20 nm)", None, "");
+    for check in std::iter::once(&under.report.white).chain(&under.report.blue) {
+        let [numbers, remark] = check_lines(check, file.metric);
+        mono(ui, &numbers);
+        let color = if check.is_negative() { theme.warning } else { theme.weak };
+        ui.add(Label::new(RichText::new(remark).small().color(color)).wrap());
+    }
+}
+
+/// A caption, with a button that copies a text.
+fn section(ui: &mut Ui, caption: &str, copied: Option<&str>, hint: &str) {
+    ui.add_space(UNIT);
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(caption).strong());
+        if let Some(text) = copied
+            && ui.small_button("Copy").on_hover_text(hint).clicked()
+        {
+            ui.ctx().copy_text(text.to_owned());
+        }
+    });
+}
+
+/// Aligned lines; a narrow pane scrolls them sideways.
+fn mono(ui: &mut Ui, text: &str) {
+    ScrollArea::horizontal().id_salt(text).auto_shrink([false, true]).show(ui, |ui| {
+        ui.add(Label::new(RichText::new(text).monospace()).extend());
+    });
+}
+
+/// The figure of what lies between two lights.
+fn between(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
+    let width = ui.available_width();
+    let size = Vec2::new(width, (0.5 * width).clamp(120.0, 220.0));
+    let Some(panel) = figure::panel(file, [f64::from(size.x), f64::from(size.y)]) else { return };
+    section(ui, "Blackbodies between the two lights, by ForwardMatrix", None, "");
+    ui.horizontal_wrapped(|ui| {
+        for (name, role) in figure::key() {
+            ui.label(RichText::new(name).small().color(context.theme.ink(chromascope_figure::Ink::new(role))));
+        }
+    });
+    let (area, _) = ui.allocate_exact_size(size, Sense::hover());
+    let options = PlotOptions { zoomable: false, reset: context.view.reset_plots, ..PlotOptions::default() };
+    let shown = paint::plot(ui, Id::unique("two lights"), &panel, &context.theme, area, options);
+    if let Some([mired, _]) = shown.hovered
+        && let Some(lines) = figure::at(file, mired)
+    {
+        widgets::read_at_pointer(&shown.response, &lines);
+    }
+}
+
+/// The ACES input transform.
+fn aces(ui: &mut Ui, file: &CorrectionFile, context: &PaneContext<'_>) {
+    let idt = context.scene.input_device_transform(SetKind::Camera, &file.camera, IdtExposure::Rawtoaces);
+    match idt {
+        Ok(idt) => {
+            let matrix = aligned(idt.matrix);
+            section(ui, "ACES IDT (rawtoaces)", Some(&matrix), "Copy the IDT matrix");
+            let [r, g, b] = idt.balance;
+            mono(ui, &format!("balance {r:.7} {g:.7} {b:.7}\n{matrix}"));
+            if let Some(note) = idt_note(&idt) {
+                ui.add(Label::new(RichText::new(note).small().color(context.theme.warning)).wrap());
+            }
+        }
+        Err(error) => {
+            section(ui, "ACES IDT (rawtoaces)", None, "");
+            ui.add(Label::new(RichText::new(error.to_string()).color(context.theme.error)).wrap());
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Two cameras side by side: values, differences, and whether these exceed the uncertainty.
+
+use chromascope_core::query::CameraMetric;
+use egui::{ComboBox, Rect, RichText, Ui, Vec2};
+
+use super::context::{Pane, PaneContext};
+use crate::document::SetKind;
+use crate::figures::metrics;
+use crate::panes::widgets;
+use crate::panes::widgets::table::{CellNote, Column, DataTable};
+use crate::plot_item::{PlotItem, SensorId};
+use crate::ranking::Ranked;
+use crate::theme::UNIT;
+use crate::view::metrics::RankedCameras;
+use crate::workspaces::PaneKind;
+
+/// Columns of both values, their difference, and the better camera.
+const FIRST: usize = 1;
+const SECOND: usize = 2;
+const DIFFERENCE: usize = 3;
+const BETTER: usize = 4;
+
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::HEAD_TO_HEAD,
+    title: "Head to head",
+    show,
+    figure: None,
+    under_conditions: true,
+    table: false,
+};
+
+/// Shows the pane in its rectangle.
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
+    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    // All cameras, or those of the table: one request serves both panes.
+    let ranked = context.ranking.ask(&context.scene, context.view.saved.metrics.cameras);
+    let pair = pair(&ranked, context);
+    let mut child = ui.new_child(egui::UiBuilder::new().id_salt("pair").max_rect(body));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    let chosen = [choose(&mut child, 0, &ranked, pair[0], context), choose(&mut child, 1, &ranked, pair[1], context)];
+    for (place, chosen) in chosen.into_iter().enumerate() {
+        if let Some(id) = chosen {
+            context.view.saved.metrics.pair[place] = Some(id);
+            ui.ctx().request_repaint();
+        }
+    }
+    let [Some(a), Some(b)] = pair else {
+        let words = if context.view.saved.metrics.cameras == RankedCameras::Library {
+            "Choose two cameras."
+        } else {
+            "Choose two cameras; Metrics shows fewer than two."
+        };
+        child.label(RichText::new(words).color(context.theme.weak));
+        return;
+    };
+    let top = child.min_rect().bottom() + UNIT;
+    let table = metrics::head_to_head(&ranked, [a, b]);
+    let note = |row: usize, column: usize| note(&ranked, [a, b], row, column);
+    let columns = ["metric", "A", "B", "A − B", "better"].map(|name| Column {
+        name: name.to_owned(),
+        decimals: Some(4),
+        hint: if name == "better" { BETTER_HINT.to_owned() } else { String::new() },
+        ..Column::default()
+    });
+    let shown = DataTable::new(PaneKind::HEAD_TO_HEAD, "Head to head", &table).with_columns(columns.into());
+    let place = Rect::from_min_max(egui::pos2(body.left(), top.min(body.bottom())), body.max);
+    shown.with_notes(&note).show(ui, place, context);
+}
+
+/// Explanation of the last column.
+const BETTER_HINT: &str =
+    "The better camera where the difference exceeds its standard uncertainty; neither where it does not.";
+
+/// The two cameras: chosen, else the selected one beside the first compared one, as places in the ranking.
+fn pair(ranked: &Ranked, context: &PaneContext<'_>) -> [Option<usize>; 2] {
+    let place = |id: &SensorId| ranked.cameras.iter().position(|camera| camera.id == *id);
+    let [a, b] = context.view.saved.metrics.pair.each_ref().map(|id| id.as_ref().and_then(place));
+    let selected = context.view.selected.as_ref().and_then(PlotItem::source).and_then(place);
+    let compared: Vec<usize> = context
+        .scene
+        .document
+        .compared
+        .iter()
+        .filter(|c| c.kind == SetKind::Camera)
+        .filter_map(|c| place(&SensorId { kind: c.kind, name: c.name.clone() }))
+        .collect();
+    let candidates = || compared.iter().copied().chain(0..ranked.cameras.len());
+    let a = a.or(selected.filter(|selected| Some(*selected) != b)).or_else(|| candidates().find(|c| Some(*c) != b));
+    let b = b.or_else(|| candidates().find(|c| Some(*c) != a));
+    [a, b]
+}
+
+/// A list of cameras. Returns the one that was chosen.
+fn choose(
+    ui: &mut Ui,
+    place: usize,
+    ranked: &Ranked,
+    now: Option<usize>,
+    context: &PaneContext<'_>,
+) -> Option<SensorId> {
+    let letter = ["A", "B"][place];
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(letter).strong());
+        let words = now.map_or("Choose a camera", |now| ranked.cameras[now].id.name.as_str());
+        let combo = ComboBox::from_id_salt(("head to head", place)).width(ui.available_width()).selected_text(words);
+        let shown = combo.truncate().show_ui(ui, |ui| {
+            for (index, camera) in ranked.cameras.iter().enumerate() {
+                if ui.selectable_label(Some(index) == now, &camera.id.name).clicked() {
+                    chosen = Some(camera.id.clone());
+                }
+            }
+        });
+        let said = format!("Camera {letter}: {words}");
+        shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
+        if context.view.saved.metrics.pair[place].is_none() {
+            shown.response.on_hover_text("Follows the selection until you choose");
+        }
+    });
+    chosen
+}
+
+/// Decimals and uncertainty of a cell; gray where the difference is within its uncertainty.
+fn note(ranked: &Ranked, cameras: [usize; 2], row: usize, column: usize) -> CellNote {
+    let Some(metric) = CameraMetric::ALL.get(row) else { return CellNote::default() };
+    let [a, b] = cameras.map(|camera| metrics::value(ranked, camera, *metric));
+    let pair = a.zip(b);
+    let reason = |value: Option<chromascope_core::query::MetricValue>| {
+        value.and_then(|value| value.value.err()).map_or_else(String::new, |why| format!("{why}."))
+    };
+    let (uncertainty, hint) = match column {
+        FIRST => (None, reason(a)),
+        SECOND => (None, reason(b)),
+        DIFFERENCE => (pair.and_then(|(a, b)| metrics::uncertainty_of_difference(a, b)), String::new()),
+        0 => (None, metric.label.to_owned()),
+        _ => (None, String::new()),
+    };
+    let same = pair.and_then(|(a, b)| metrics::differ(a, b)) == Some(false);
+    let missing = pair.is_none_or(|(a, b)| a.value.is_err() || b.value.is_err());
+    CellNote {
+        uncertainty: uncertainty.filter(|_| !missing),
+        is_gray: same && matches!(column, DIFFERENCE | BETTER),
+        decimals: Some(metric.decimals),
+        hint,
+        ..CellNote::default()
+    }
+}

@@ -1,0 +1,143 @@
+//! Pairs of measured reflectances that a camera confuses and the reference does not, and the reverse.
+
+use chromascope_figure::{Cell, Table};
+use egui::{Rect, RichText, Ui, UiBuilder, Vec2};
+
+use super::context::{Pane, PaneContext};
+use crate::action::{Action, RenderAction, SceneAction};
+use crate::document::render::RenderSettings;
+use crate::document::{SetKind, Subset};
+use crate::figures::report_card;
+use crate::panes::widgets;
+use crate::panes::widgets::table::{CellNote, Column, DataTable};
+use crate::plot_item::{PlotItem, SensorId};
+use crate::ranking::{FoundMetamers, MetamerRow};
+use crate::theme::UNIT;
+use crate::view::metrics::Confuses;
+use crate::workspaces::PaneKind;
+
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::new("Metamers"),
+    title: "Metamers",
+    show,
+    figure: None,
+    under_conditions: true,
+    table: false,
+};
+
+/// Shows the pane in its rectangle.
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, switches);
+    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let mut child = ui.new_child(UiBuilder::new().id_salt("metamers").max_rect(body));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    let Some(camera) = report_card::camera(&context.scene, context.view) else {
+        child.label(RichText::new("Tick a camera in the Library.").color(context.theme.weak));
+        return;
+    };
+    let confusion = context.view.saved.metrics.confusion.confusion();
+    let found = match context.ranking.metamers(&context.scene, &camera, confusion) {
+        Ok(found) => found,
+        Err(why) => {
+            child.label(RichText::new(why).color(context.theme.error));
+            return;
+        }
+    };
+    let Some(found) = found else {
+        child.label(RichText::new("Searching…").color(context.theme.weak));
+        return;
+    };
+    let words = match found.metamers.as_ref() {
+        Ok(metamers) => format!("{}: {} of {} reflectances", camera.name, count(found.rows.len()), metamers.searched),
+        Err(why) => format!("{}: {why}.", camera.name),
+    };
+    child.label(RichText::new(words).small().color(context.theme.weak));
+    let chosen = context.view.metamers.filter(|row| *row < found.rows.len());
+    if let Some(row) = chosen {
+        buttons(&mut child, &found.rows[row], context);
+    }
+    let top = child.min_rect().bottom() + UNIT;
+    let place = Rect::from_min_max(egui::pos2(body.left(), top.min(body.bottom())), body.max);
+    pairs(ui, place, &camera, &found, context);
+}
+
+fn count(pairs: usize) -> String {
+    if pairs == 1 { "1 pair".to_owned() } else { format!("{pairs} pairs") }
+}
+
+/// The one that confuses.
+fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let choices = [
+        (Confuses::Camera, "Camera confuses", "Equal to the camera, different to the reference"),
+        (Confuses::Reference, "Reference confuses", "Equal to the reference, different to the camera"),
+    ];
+    if let Some(confusion) = widgets::segmented(ui, &choices, context.view.saved.metrics.confusion) {
+        context.view.saved.metrics.confusion = confusion;
+        context.view.metamers = None;
+        ui.ctx().request_repaint();
+    }
+}
+
+/// The table of pairs; a click marks both of a pair in all panes.
+fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, context: &mut PaneContext<'_>) {
+    let mut table = Table::new(["reflectance", "and", "ΔE*00", "camera", "set", "set of the other"]);
+    for row in &found.rows {
+        let [a, b] = &row.names;
+        table.push([
+            Cell::from(a[1].as_str()),
+            Cell::from(b[1].as_str()),
+            Cell::from(row.pair.observer_difference),
+            Cell::from(row.pair.camera_difference),
+            Cell::from(a[0].as_str()),
+            Cell::from(b[0].as_str()),
+        ]);
+    }
+    let hints = [
+        "",
+        "",
+        "Difference to the reference observer.",
+        "Largest difference of a balanced channel, each through the CIE lightness function (0 to 100).",
+        "",
+        "",
+    ];
+    let columns = table.columns.iter().zip(hints).map(|(name, hint)| Column {
+        name: name.clone(),
+        hint: hint.to_owned(),
+        decimals: Some(2),
+        largest_first: true,
+        ..Column::default()
+    });
+    let item = |row: usize| {
+        let source = Some(camera.clone());
+        Some(PlotItem::Patch { source, patch: found.rows.get(row)?.names[0][1].clone() })
+    };
+    let note = |_: usize, _: usize| CellNote::default();
+    let shown = DataTable::new(PANE.kind, "Metamers", &table).with_columns(columns.collect());
+    if let Some(row) = shown.with_items(&item).with_notes(&note).show(ui, place, context).clicked {
+        context.view.metamers = Some(row);
+        let patch = |name: &str| PlotItem::Patch { source: Some(camera.clone()), patch: name.to_owned() };
+        context.view.pinned = found.rows[row].names.iter().map(|[_, name]| patch(name)).collect();
+    }
+}
+
+/// What is done with the chosen pair.
+fn buttons(ui: &mut Ui, row: &MetamerRow, context: &mut PaneContext<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        for ([set, patch], kind) in row.names.iter().zip(row.kinds) {
+            if kind == SetKind::Material {
+                let hint = "Render the mesh with this reflectance";
+                if ui.button(format!("{set} on the mesh")).on_hover_text(hint).clicked() {
+                    let to = RenderSettings { material: set.clone(), ..context.scene.document.render.clone() };
+                    context.push(Action::Render(RenderAction::Set { what: "Material", to: Box::new(to) }));
+                }
+            } else if context.scene.document.chart != *set || context.scene.document.subset != Subset::All {
+                let hint = "Show all patches of this chart in all panes";
+                if ui.button(format!("Show {patch}")).on_hover_text(hint).clicked() {
+                    context.push(Action::Scene(SceneAction::SetChart(set.clone())));
+                    context.push(Action::Scene(SceneAction::SetSubset(Subset::All)));
+                }
+            }
+        }
+    });
+}

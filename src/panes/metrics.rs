@@ -1,0 +1,228 @@
+//! Cameras by figures of merit: ranked, with uncertainties, linked with all panes.
+
+use std::time::Duration;
+
+use chromascope_core::query::metrics::Better;
+use chromascope_core::query::{CameraMetric, MetricValue};
+use chromascope_figure::{Cell, Table};
+use egui::{Align2, FontId, Rect, RichText, Ui, Vec2};
+
+use super::context::{Pane, PaneContext};
+use crate::action::{Action, CompareAction};
+use crate::command::Command;
+use crate::document::SetKind;
+use crate::figures::metrics::{self, TABLE};
+use crate::panes::widgets;
+use crate::panes::widgets::table::{CellNote, Column, DataTable};
+use crate::plot_item::{PlotItem, SensorId};
+use crate::ranking::Ranked;
+use crate::theme::UNIT;
+use crate::view::metrics::RankedCameras;
+use crate::view::table::Sorting;
+use crate::workspaces::PaneKind;
+
+/// Columns before the metrics: camera, rank, compared.
+const BEFORE: usize = 3;
+/// Columns of differences that the table starts with; all other groups are shown whole.
+const SHOWN: [&str; 5] = ["delta-e2000-mean", "delta-e2000-p95", "delta-e2000-max", "uv-prime-mean", "xy-mean"];
+/// Who waits so long is told how far it is.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::METRICS,
+    title: "Metrics",
+    show,
+    figure: Some(metrics::figure),
+    under_conditions: true,
+    table: false,
+};
+
+/// Shows the pane in its rectangle.
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, switches);
+    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let body = widgets::caution::show(ui, body, context);
+    let which = context.view.saved.metrics.cameras;
+    let ranked = context.ranking.ask(&context.scene, which);
+    if let Some(why) = context.ranking.failure() {
+        let font = FontId::proportional(crate::theme::TEXT);
+        let words = format!("Cameras could not be ranked: {why}.");
+        ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.error);
+        return;
+    }
+    if ranked.cameras.is_empty() {
+        nothing(ui, body, which, context);
+        return;
+    }
+    let sorting = context.view.saved.looks.get(TABLE).and_then(|look| look.sorting.clone());
+    let metric = metrics::sorted_by(&context.scene, sorting.as_ref());
+    let rows = Rows::new(&ranked, metric, context);
+    let (columns, table) = (columns(), rows.table(context));
+    let note = |row: usize, column: usize| rows.note(row, column);
+    let item = |row: usize| Some(PlotItem::Sensor(ranked.cameras[row].id.clone()));
+    let shown =
+        DataTable::new(PaneKind::METRICS, TABLE, &table).with_columns(columns).with_notes(&note).with_items(&item);
+    let shown = match metrics::first(&context.scene) {
+        Some(first) => {
+            shown.sorted_by(Sorting { column: first.symbol.to_owned(), descending: first.better == Better::Higher })
+        }
+        None => shown,
+    };
+    if let Some(row) = shown.show(ui, body, context).activated {
+        compare(&ranked.cameras[row].id, context);
+    }
+}
+
+/// Cameras of the table, progress, and what is done with the selected one.
+fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let choices = [
+        (RankedCameras::Library, "Library", "All cameras of the library and yours"),
+        (RankedCameras::Compared, "Compared", "The cameras that are compared"),
+        (RankedCameras::Yours, "Yours", "The cameras that you imported"),
+    ];
+    if let Some(cameras) = widgets::segmented(ui, &choices, context.view.saved.metrics.cameras) {
+        context.view.saved.metrics.cameras = cameras;
+        ui.ctx().request_repaint();
+    }
+    ui.add_space(UNIT);
+    if let Some(PlotItem::Sensor(id)) = context.view.selected.clone().filter(|_| selected(context).is_some()) {
+        let compared = context.scene.document.compared(id.kind, &id.name).is_some();
+        let (words, hint) = if compared {
+            ("Remove", "Remove the selected camera from the comparison (Enter)")
+        } else {
+            ("Compare", "Add the selected camera to the comparison (Enter, double click)")
+        };
+        if ui.button(words).on_hover_text(hint).clicked() {
+            compare(&id, context);
+        }
+        if ui.button("Report card").on_hover_text("The selected camera on one page (Esc returns)").clicked() {
+            context.push(Command::Maximize(PaneKind::REPORT_CARD));
+        }
+    }
+    let slow = context.ranking.busy().is_some_and(|busy| busy >= PATIENCE);
+    if let Some((done, all)) = context.ranking.progress().filter(|_| slow) {
+        ui.label(RichText::new(format!("{done} of {all}…")).small().color(context.theme.weak));
+    }
+    if context.ranking.busy().is_some() {
+        ui.ctx().request_repaint_after(PATIENCE);
+    }
+}
+
+/// The selected camera.
+fn selected(context: &PaneContext<'_>) -> Option<SensorId> {
+    context.view.selected.as_ref()?.source().filter(|id| id.kind == SetKind::Camera).cloned()
+}
+
+/// Compares a camera, or no longer.
+fn compare(id: &SensorId, context: &mut PaneContext<'_>) {
+    let (kind, name) = (id.kind, id.name.clone());
+    let compared = context.scene.document.compared(kind, &name).is_some();
+    let action = if compared { CompareAction::Remove(kind, name) } else { CompareAction::Add(kind, name) };
+    context.push(Action::Compare(action));
+}
+
+fn nothing(ui: &mut Ui, body: Rect, which: RankedCameras, context: &PaneContext<'_>) {
+    let words = match which {
+        RankedCameras::Yours => "No camera of yours. Drop a file of sensitivities on the window.",
+        _ => "Tick a camera in the Library.",
+    };
+    let font = FontId::proportional(crate::theme::TEXT);
+    ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
+}
+
+/// What the columns say.
+fn columns() -> Vec<Column> {
+    let before = [
+        ("camera", ""),
+        (
+            "rank",
+            "By the column that rows are sorted by. A range where values do not differ by more than their uncertainty.",
+        ),
+        ("compared", "Double click or Enter adds a camera to the comparison."),
+    ];
+    let before =
+        before.map(|(name, hint)| Column { name: name.to_owned(), hint: hint.to_owned(), ..Column::default() });
+    let metrics = CameraMetric::ALL.iter().map(|metric| Column {
+        name: metric.symbol.to_owned(),
+        unit: metrics::unit(metric).to_owned(),
+        hint: format!(
+            "{}.{} ± one standard uncertainty. Gray numbers do not differ from the selected camera's by more than theirs.",
+            metric.label,
+            match metric.better {
+                Better::Lower => " Smaller is better.",
+                Better::Higher => " Larger is better.",
+                Better::Neither => "",
+            }
+        ),
+        group: metric.group.label().to_owned(),
+        decimals: Some(metric.decimals),
+        largest_first: metric.better == Better::Higher,
+        shaded: metric.better != Better::Neither,
+        starts_hidden: metric.group == CameraMetric::ALL[0].group && !SHOWN.contains(&metric.id),
+    });
+    before.into_iter().chain(metrics).collect()
+}
+
+/// The rows of the table with what is said of their cells.
+struct Rows<'a> {
+    ranked: &'a Ranked,
+    ranks: Vec<Option<[usize; 2]>>,
+    /// Values of the selected camera.
+    selected: Option<usize>,
+}
+
+impl<'a> Rows<'a> {
+    fn new(ranked: &'a Ranked, metric: Option<CameraMetric>, context: &PaneContext<'_>) -> Self {
+        let ranks = metric.map_or_else(Vec::new, |metric| metrics::ranks(ranked, metric));
+        let selected = selected(context).and_then(|id| ranked.cameras.iter().position(|camera| camera.id == id));
+        Self { ranked, ranks, selected }
+    }
+
+    fn rank(&self, row: usize) -> Option<[usize; 2]> {
+        self.ranks.get(row).copied().flatten()
+    }
+
+    fn value(&self, row: usize, column: usize) -> Option<MetricValue> {
+        metrics::value(self.ranked, row, *CameraMetric::ALL.get(column.checked_sub(BEFORE)?)?)
+    }
+
+    fn table(&self, context: &PaneContext<'_>) -> Table {
+        let mut table = Table::new(["camera", "rank", "compared"]);
+        table.columns.extend(CameraMetric::ALL.iter().map(|metric| metric.symbol.to_owned()));
+        for (row, camera) in self.ranked.cameras.iter().enumerate() {
+            let compared = context.scene.document.compared(camera.id.kind, &camera.id.name).is_some();
+            let first = [
+                Cell::from(camera.id.name.as_str()),
+                Cell::from(self.rank(row).map(|[best, _]| best as f64)),
+                Cell::from(if compared { "✓" } else { "" }),
+            ];
+            let values = (0..CameraMetric::ALL.len())
+                .map(|at| Cell::from(self.value(row, BEFORE + at).and_then(|value| value.value.ok())));
+            table.push(first.into_iter().chain(values));
+        }
+        table
+    }
+
+    fn note(&self, row: usize, column: usize) -> CellNote {
+        if column == 1 {
+            let range = self.rank(row).filter(|[best, worst]| best < worst);
+            let words = range.map(|[best, worst]| format!("{best}–{worst}"));
+            return CellNote { is_gray: words.is_some(), words, ..CellNote::default() };
+        }
+        if column < BEFORE {
+            return CellNote::default();
+        }
+        let Some(value) = self.value(row, column) else {
+            let why = self.ranked.metrics[row].as_ref().and_then(|made| made.as_ref().err());
+            return CellNote { hint: why.cloned().unwrap_or_default(), ..CellNote::default() };
+        };
+        let other = self.selected.filter(|selected| *selected != row).and_then(|row| self.value(row, column));
+        CellNote {
+            uncertainty: value.uncertainty.filter(|_| value.value.is_ok()),
+            is_gray: other.and_then(|other| metrics::differ(value, other)) == Some(false),
+            hint: value.value.err().map_or_else(String::new, |why| format!("{why}.")),
+            ..CellNote::default()
+        }
+    }
+}

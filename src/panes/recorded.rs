@@ -1,0 +1,264 @@
+//! Raw values of a real camera: residuals of one table of sensitivities, and all cameras ranked.
+
+use chromascope_core::camera::recorded::RecordedFit;
+use chromascope_core::query::Shared;
+use chromascope_figure::{Axis, Cell, Image, InkRole, Mark, Marker, Panel, Shape, Table, Tag};
+use egui::{DragValue, Id, Label, Rect, RichText, Sense, Ui, UiBuilder, Vec2};
+
+use super::context::{Pane, PaneContext};
+use crate::catalog::recorded::Levels;
+use crate::catalog::recorded_store::{RecordedContent, RecordedFile, RecordedState};
+use crate::command::Command;
+use crate::document::SetKind;
+use crate::figures::recorded;
+use crate::format::{fixed, number};
+use crate::paint::{self, PlotOptions};
+use crate::panes::widgets;
+use crate::panes::widgets::table::{CellNote, Column, DataTable};
+use crate::plot_item::{PlotItem, SensorId};
+use crate::scene::recorded::{RankedCamera, cause_in_words};
+use crate::theme::{ROW, UNIT};
+use crate::workspaces::PaneKind;
+
+/// Reach of the pointer, in points.
+const REACH: f32 = 10.0;
+/// Share of the squares below which a cause is not named.
+const NOTABLE: f64 = 0.25;
+/// Corners of a chart in the order in which they are clicked.
+const CORNERS: [&str; 4] = ["top left", "top right", "bottom right", "bottom left"];
+const ABOUT: &str = "Raw RGB that a camera recorded of known patches, against the sensitivities of every camera. Open a \
+    table with columns patch, R, G, B (of the chart and light chosen above, or with spectra in further columns), or a linear 16-bit TIFF \
+    or PNG of a 6 × 4 chart.";
+
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::RECORDED,
+    title: "Recorded",
+    show,
+    figure: Some(|input| recorded::figure(input.scene, input.view)),
+    under_conditions: true,
+    table: true,
+};
+
+/// Shows the pane in its rectangle.
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, switches);
+    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let file = match context.recorded.state() {
+        RecordedState::Ready(file) => file,
+        RecordedState::None => return sentence(ui, body, ABOUT, true, context),
+        RecordedState::Loading(name) => return sentence(ui, body, &format!("Reading {name}…"), false, context),
+        RecordedState::Failed(why) => return sentence(ui, body, &format!("{why}."), true, context),
+    };
+    if let RecordedContent::Picture(picture, shown) = &file.content
+        && context.view.recorded.corners.len() < CORNERS.len()
+    {
+        context.view.recorded.set = None;
+        return corners(ui, body, picture.size(), shown, context);
+    }
+    if let Err(why) = refresh(&file, context) {
+        context.view.recorded.set = None;
+        return sentence(ui, body, &format!("{}: {why}.", file.name), true, context);
+    }
+    let Some(ranked) = recorded::ranked(&context.scene, context.view) else { return };
+    if let Some((name, fit)) = recorded::chosen(&ranked, context.view) {
+        return ranking_and_residuals(ui, body, &file, &ranked, (name, fit), context);
+    }
+    let why = ranked.first().and_then(|camera| camera.fit.as_ref().err());
+    let why = why.map_or_else(|| "there are no cameras".to_owned(), ToString::to_string);
+    sentence(ui, body, &format!("{}: {why}.", file.name), true, context);
+}
+
+/// Brings the patches on show up to date with the file, chart and light.
+fn refresh(file: &RecordedFile, context: &mut PaneContext<'_>) -> Result<(), String> {
+    let light = context.scene.light().map_err(|error| error.to_string())?;
+    let chart = if file.needs_chart() {
+        context.scene.patch_radiances().map_err(|error| error.to_string())?
+    } else {
+        Vec::new()
+    };
+    let view = &mut context.view.recorded;
+    let corners = <[[f64; 2]; 4]>::try_from(view.corners.as_slice()).unwrap_or_default();
+    let clip = if view.clip > 0.0 { view.clip } else { f64::INFINITY };
+    let patches = file.patches(&chart, &light.grid, corners, Levels { black: 0.0, clip })?;
+    let patches = Shared::new(patches);
+    // The old value keeps comparisons of questions to one pointer.
+    if view.set.as_ref() != Some(&patches) {
+        view.set = Some(patches);
+    }
+    Ok(())
+}
+
+/// Opening a file, and what is fitted.
+fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    if ui.button("Open…").on_hover_text("Open raw values: a table, or a linear 16-bit picture of a chart").clicked() {
+        context.push(Command::OpenRecorded);
+    }
+    let RecordedState::Ready(file) = context.recorded.state() else { return };
+    let view = &mut context.view.recorded;
+    ui.checkbox(&mut view.freedom.gains, "Channel gains")
+        .on_hover_text("Fit a gain for each channel; else one for all");
+    ui.checkbox(&mut view.freedom.brightness, "Patch brightness")
+        .on_hover_text("Fit a brightness for each patch: uneven illumination, shading; else all are 1");
+    if matches!(file.content, RecordedContent::Picture(..)) {
+        if !view.corners.is_empty() && ui.button("New corners").clicked() {
+            view.corners.clear();
+        }
+        return;
+    }
+    let clip = DragValue::new(&mut view.clip).range(0.0..=1e12).prefix("Clip at ");
+    ui.add(clip).on_hover_text("Raw value from which on a channel is clipped and excluded; 0 for none");
+}
+
+/// Words in the pane's middle, and the way to a file.
+fn sentence(ui: &mut Ui, body: Rect, words: &str, open: bool, context: &mut PaneContext<'_>) {
+    let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(460.0), 140.0)).intersect(body);
+    let layout = egui::Layout::top_down(egui::Align::Center);
+    let mut child = ui.new_child(UiBuilder::new().id_salt("recorded sentence").max_rect(place).layout(layout));
+    child.add(Label::new(words).wrap());
+    child.add_space(UNIT);
+    if open && child.button("Open raw values…").clicked() {
+        context.push(Command::OpenRecorded);
+    }
+}
+
+/// The picture, whose corners are clicked.
+fn corners(ui: &mut Ui, body: Rect, size: [usize; 2], shown: &Image, context: &mut PaneContext<'_>) {
+    let clicked = context.view.recorded.corners.clone();
+    let words =
+        format!("Click the {} corner of the grid of patches ({} of 4).", CORNERS[clicked.len()], clicked.len() + 1);
+    let head = Rect::from_min_size(body.min, Vec2::new(body.width(), ROW));
+    ui.put(head, Label::new(words));
+    let place = Rect::from_min_max(egui::pos2(body.left(), head.bottom() + UNIT), body.max);
+    let [width, height] = size.map(|side| side as f64);
+    let mut panel = Panel::new(
+        "picture",
+        chromascope_figure::Rect::from_min_size([0.0, 0.0], [place.width(), place.height()].map(f64::from)),
+        Axis::hidden([0.0, width]),
+        Axis::hidden([height, 0.0]),
+    );
+    panel.equal_aspect = true;
+    let image = Shape::Image { min: [0.0, height], max: [width, 0.0], image: shown.clone() };
+    panel.marks.push(Mark::new(Tag::default(), "picture of the chart", image));
+    let points = Shape::Points { points: clicked, marker: Marker::Circle, radius: 5.0 };
+    panel.marks.push(Mark::new(Tag::default(), "corners", points).with_stroke(InkRole::Warning, 2.0));
+    let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
+    let plot = paint::plot(ui, Id::unique("picture of a chart"), &panel, &context.theme, place, options);
+    plot.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Picture of the chart"));
+    if plot.response.clicked()
+        && let Some(at) = plot.response.interact_pointer_pos()
+    {
+        let [x, y] = plot.view.value(at);
+        context.view.recorded.corners.push([x.clamp(0.0, width), y.clamp(0.0, height)]);
+    }
+}
+
+/// Residuals of one camera above, all cameras below.
+fn ranking_and_residuals(
+    ui: &mut Ui,
+    body: Rect,
+    file: &RecordedFile,
+    ranked: &[RankedCamera],
+    (name, fit): (&str, &RecordedFit),
+    context: &mut PaneContext<'_>,
+) {
+    let names: Vec<String> =
+        context.view.recorded.set.iter().flat_map(|set| set.iter()).map(|p| p.name.clone()).collect();
+    let top = words(ui, body, file, name, fit, &names, context);
+    let body = Rect::from_min_max(egui::pos2(body.left(), top), body.max);
+    let (plot, list) = body.split_top_bottom_at_fraction(0.55);
+    if context.view.saved.tables.contains(&PaneKind::RECORDED) {
+        if let Some(figure) = recorded::figure(&context.scene, context.view) {
+            widgets::table::show_numbers(ui, plot, PaneKind::RECORDED, &figure.table, context);
+        }
+    } else {
+        let size = [plot.width(), plot.height()].map(f64::from);
+        let panel = recorded::panel(fit, &names, size);
+        let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
+        let shown = paint::plot(ui, Id::unique("residuals"), &panel, &context.theme, plot, options);
+        shown
+            .response
+            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, format!("Residuals of {name}")));
+        let hit = shown.response.hover_pos().and_then(|at| paint::nearest(&panel, &shown.view, at, REACH));
+        if let Some(mark) = hit.and_then(|hit| panel.marks.iter().find(|mark| mark.tag == hit.tag && hit.tag.0 > 0)) {
+            widgets::read_at_pointer(&shown.response, std::slice::from_ref(&mark.name));
+        }
+    }
+    let list = Rect::from_min_max(list.min + Vec2::new(0.0, UNIT), list.max);
+    if let Some(camera) = ranking(ui, list, ranked, &names, context) {
+        context.view.recorded.camera = Some(camera);
+    }
+}
+
+/// Facts above the plot; returns where they end.
+fn words(
+    ui: &mut Ui,
+    body: Rect,
+    file: &RecordedFile,
+    name: &str,
+    fit: &RecordedFit,
+    names: &[String],
+    context: &PaneContext<'_>,
+) -> f32 {
+    let mut child = ui.new_child(UiBuilder::new().id_salt("recorded words").max_rect(body));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    child.spacing_mut().item_spacing.y = 0.0;
+    let percent = |log: f64| fixed(log * 100.0, 2);
+    let left = names.len() * 3 - fit.values;
+    let left = if left > 0 { format!(", {left} excluded") } else { String::new() };
+    let gains = fit.gains.map(|gain| gain.map_or_else(|| "–".to_owned(), number));
+    let line = format!(
+        "{}: {name}, RMS {} % ({} % by the degrees of freedom); {} values{left}; gains {}",
+        file.name,
+        percent(fit.rms()),
+        percent(fit.deviation()),
+        fit.values,
+        gains.join(", ")
+    );
+    child.add(Label::new(RichText::new(line).small().color(context.theme.weak)).wrap());
+    for link in fit.links.iter().filter(|link| link.share >= NOTABLE) {
+        let cause = cause_in_words(link.kind, link.amount, names);
+        let line = format!("{} % of the squares would be explained by: {cause}", fixed(link.share * 100.0, 0));
+        child.add(Label::new(RichText::new(line).small()).wrap());
+    }
+    child.horizontal_wrapped(|ui| {
+        for entry in recorded::legend() {
+            let (rect, _) = ui.allocate_exact_size(Vec2::new(16.0, 18.0), Sense::hover());
+            paint::key(ui.painter(), rect, &entry, &context.theme);
+            ui.add(Label::new(RichText::new(&entry.name).small()).extend());
+        }
+    });
+    (child.min_rect().bottom() + UNIT).min(body.bottom())
+}
+
+/// All cameras, best first. Returns the one clicked.
+fn ranking(
+    ui: &mut Ui,
+    rect: Rect,
+    ranked: &[RankedCamera],
+    names: &[String],
+    context: &mut PaneContext<'_>,
+) -> Option<String> {
+    let mut table = Table::new(["camera", "rank", "RMS (%)", "red (%)", "green (%)", "blue (%)", "worst patch"]);
+    for (index, camera) in ranked.iter().enumerate() {
+        let fit = camera.fit.as_ref().ok();
+        let percent = |log: Option<f64>| Cell::from(log.map(|log| 100.0 * log));
+        let worst = fit.and_then(|fit| names.get(fit.worst_patches().first()?.0)).map_or("", String::as_str);
+        let channels = fit.map_or([None; 3], RecordedFit::channel_rms).map(percent);
+        let first =
+            [Cell::from(camera.name.as_str()), Cell::from((index + 1) as f64), percent(fit.map(RecordedFit::rms))];
+        table.push(first.into_iter().chain(channels).chain([Cell::from(worst)]));
+    }
+    let columns = table.columns.iter().map(|head| {
+        let column = Column::from_head(head);
+        Column { decimals: (column.unit == "%").then_some(2), shaded: column.unit == "%", ..column }
+    });
+    let note = |row: usize, column: usize| CellNote {
+        hint: ranked[row].fit.as_ref().err().filter(|_| column > 0).map_or_else(String::new, ToString::to_string),
+        ..CellNote::default()
+    };
+    let item = |row: usize| Some(PlotItem::Sensor(SensorId { kind: SetKind::Camera, name: ranked[row].name.clone() }));
+    let shown = DataTable::new(PaneKind::RECORDED, "Recorded: cameras", &table).with_columns(columns.collect());
+    let output = shown.with_notes(&note).with_items(&item).show(ui, rect, context);
+    output.clicked.map(|row| ranked[row].name.clone())
+}

@@ -1,0 +1,76 @@
+//! One camera on one page, as it is exported.
+
+use egui::{Align2, ComboBox, FontId, Id, Rect, ScrollArea, Ui, UiBuilder, Vec2};
+
+use super::context::{Pane, PaneContext};
+use crate::document::SetKind;
+use crate::figures::report_card;
+use crate::paint::{self, PlotOptions};
+use crate::panes::widgets;
+use crate::plot_item::SensorId;
+use crate::theme::UNIT;
+use crate::workspaces::PaneKind;
+
+/// Narrowest page, in points; a narrower pane scrolls.
+const NARROWEST: f32 = 300.0;
+
+/// The pane.
+pub const PANE: Pane = Pane {
+    kind: PaneKind::REPORT_CARD,
+    title: "Report card",
+    show,
+    figure: Some(report_card::figure),
+    under_conditions: true,
+    table: true,
+};
+
+/// Shows the pane in its rectangle.
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::pane(ui, &PANE, rect, context, choose);
+    let body = Rect::from_min_max(body.min + Vec2::new(2.0 * UNIT, 0.0), body.max - Vec2::new(2.0 * UNIT, UNIT));
+    let width = f64::from(body.width().max(NARROWEST));
+    let Some(page) = report_card::page(&context.scene, context.view, width) else {
+        let font = FontId::proportional(crate::theme::TEXT);
+        let words = "Tick a camera in the Library.";
+        ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
+        return;
+    };
+    if context.view.saved.tables.contains(&PaneKind::REPORT_CARD) {
+        widgets::table::show_numbers(ui, body, PaneKind::REPORT_CARD, &page.table, context);
+        return;
+    }
+    let mut child = ui.new_child(UiBuilder::new().id_salt("report card").max_rect(body));
+    child.set_clip_rect(body.intersect(ui.clip_rect()));
+    ScrollArea::both().id_salt("report card").auto_shrink(false).show(&mut child, |ui| {
+        let size = Vec2::new(page.size[0] as f32, page.size[1] as f32);
+        let (area, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+        for panel in &page.panels {
+            let [min, max] = [panel.area.min, panel.area.max].map(|[x, y]| area.min + Vec2::new(x as f32, y as f32));
+            let options = PlotOptions { zoomable: false, ..PlotOptions::default() };
+            let id = Id::unique(("report card", &panel.name));
+            let shown = paint::plot(ui, id, panel, &context.theme, Rect::from_min_max(min, max), options);
+            let said = format!("{}: {}", page.title, panel.name);
+            shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, &said));
+        }
+    });
+}
+
+/// A list of cameras; the first entry follows the selection.
+fn choose(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let now = report_card::camera(&context.scene, context.view);
+    let words = now.as_ref().map_or("", |id| id.name.as_str());
+    let width = (ui.available_width() - UNIT).max(60.0);
+    let combo = ComboBox::from_id_salt("report card").width(width).truncate().selected_text(words);
+    let mut card = context.view.saved.metrics.card.clone();
+    let shown = combo.show_ui(ui, |ui| {
+        ui.selectable_value(&mut card, None, "The selected camera");
+        for entry in context.scene.entries(SetKind::Camera) {
+            let id = SensorId { kind: SetKind::Camera, name: entry.name };
+            let name = id.name.clone();
+            ui.selectable_value(&mut card, Some(id), name);
+        }
+    });
+    let said = format!("Camera of the card: {words}");
+    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &said));
+    context.view.saved.metrics.card = card;
+}

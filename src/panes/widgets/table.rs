@@ -1,0 +1,285 @@
+//! The table of every pane: aligned numbers with units in the head, sorted, filtered, linked with all panes.
+//!
+//! Rows and columns in sight are laid out by `egui_table`, which keeps the head and the first column in place.
+
+mod bar;
+mod body;
+mod columns;
+mod items;
+mod order;
+
+use chromascope_figure::{Cell, Table};
+use egui::{Event, Id, Key, Modifiers, Rect, Ui, UiBuilder, Vec2};
+
+use crate::panes::context::PaneContext;
+use crate::plot_item::PlotItem;
+use crate::scene::conditions::CONDITIONS;
+use crate::theme::{ROW, UNIT};
+use crate::view::table::{Sorting, TableLook};
+use crate::workspaces::PaneKind;
+use body::Body;
+use columns::Layout;
+
+pub use columns::Column;
+
+/// Height of a row.
+const LINE: f32 = 20.0;
+/// Height of a row between other lines of text.
+const COMPACT_LINE: f32 = 15.0;
+/// Height of a line of a head.
+const HEAD_LINE: f32 = 15.0;
+
+/// What is shown of a cell besides its value.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CellNote {
+    /// One standard deviation, in the value's unit.
+    pub uncertainty: Option<f64>,
+    /// Written in gray: a difference within the uncertainty.
+    pub is_gray: bool,
+    /// Decimals, where the cell has fewer than its column.
+    pub decimals: Option<usize>,
+    /// Words in place of the number, such as a range of ranks.
+    pub words: Option<String>,
+    /// Explanation under the pointer, such as why there is no number.
+    pub hint: String,
+}
+
+/// A table as it is shown.
+pub struct DataTable<'a> {
+    pane: PaneKind,
+    id: &'a str,
+    table: &'a Table,
+    columns: Vec<Column>,
+    note: Option<&'a dyn Fn(usize, usize) -> CellNote>,
+    item: Option<&'a dyn Fn(usize) -> Option<PlotItem>>,
+    first: Option<Sorting>,
+    compact: bool,
+}
+
+/// What was done with a table in a frame; rows are counted as given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TableOutput {
+    /// Row that was clicked.
+    pub clicked: Option<usize>,
+    /// Row that was clicked twice, or on which Enter was pressed.
+    pub activated: Option<usize>,
+}
+
+impl<'a> DataTable<'a> {
+    /// A table of a pane, with columns named by its heads. `id` names its order and columns in what is kept between runs.
+    pub fn new(pane: PaneKind, id: &'a str, table: &'a Table) -> Self {
+        let columns = table.columns.iter().map(|head| Column::from_head(head)).collect();
+        Self { pane, id, table, columns, note: None, item: None, first: None, compact: false }
+    }
+
+    /// Table with what is said of each column.
+    #[must_use]
+    pub fn with_columns(self, columns: Vec<Column>) -> Self {
+        Self { columns, ..self }
+    }
+
+    /// Table with uncertainties and reasons, by row and column.
+    #[must_use]
+    pub fn with_notes(self, note: &'a dyn Fn(usize, usize) -> CellNote) -> Self {
+        Self { note: Some(note), ..self }
+    }
+
+    /// Table with what its rows stand for.
+    #[must_use]
+    pub fn with_items(self, item: &'a dyn Fn(usize) -> Option<PlotItem>) -> Self {
+        Self { item: Some(item), ..self }
+    }
+
+    /// Table sorted by a column until the user sorts by another.
+    #[must_use]
+    pub fn sorted_by(self, sorting: Sorting) -> Self {
+        Self { first: Some(sorting), ..self }
+    }
+
+    /// Shows the table in a rectangle, below a bar with filter, columns and copying.
+    pub fn show(&self, ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) -> TableOutput {
+        let mut look = context.view.saved.looks.remove(self.id).unwrap_or_default();
+        look.sorting = look.sorting.or_else(|| self.first.clone());
+        let shown = order::columns(&self.columns, &look);
+        let mut order = order::rows(self.table, &self.columns, &look);
+        let bar = Rect::from_min_size(rect.min, Vec2::new(rect.width(), ROW));
+        let copy = self.bar(ui, bar, &mut look, order.len(), context);
+        if look.filter.is_empty() && order.len() < self.table.rows.len() {
+            order = order::rows(self.table, &self.columns, &look);
+        }
+        let below = Rect::from_min_max(egui::pos2(rect.left(), bar.bottom() + UNIT), rect.max);
+        let mut body = self.body(shown, order, &look, context);
+        let scroll = self.keys(ui, &mut look, &mut body, context);
+        if copy || self.copies(ui, context) {
+            let table = self.copied(&body.shown, &body.order, context);
+            context.view.say(format!("{} rows copied.", table.rows.len()));
+            ui.ctx().copy_text(table.to_tsv());
+        }
+        body.show(ui, below, scroll);
+        let output = self.take_in(&body, &mut look, context);
+        look.sorting.take_if(|sorting| self.first.as_ref() == Some(sorting));
+        if look != TableLook::default() {
+            context.view.saved.looks.insert(self.id.to_owned(), look);
+        }
+        output
+    }
+
+    /// Shows a few rows between other lines of text: without bar and scrolling, at their own height.
+    pub fn show_compact(self, ui: &mut Ui, context: &PaneContext<'_>) -> TableOutput {
+        let table = Self { compact: true, ..self };
+        let shown = (0..table.columns.len()).collect();
+        let order: Vec<usize> = (0..table.table.rows.len()).collect();
+        let mut body = table.body(shown, order, &TableLook::default(), context);
+        let height = body.head_height() + COMPACT_LINE * table.table.rows.len() as f32;
+        let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), height), egui::Sense::hover());
+        body.show(ui, rect, None);
+        body.output
+    }
+
+    fn body<'t>(
+        &'t self,
+        shown: Vec<usize>,
+        order: Vec<usize>,
+        look: &TableLook,
+        context: &PaneContext<'_>,
+    ) -> Body<'t> {
+        let layouts = self.columns.iter().enumerate().map(|(index, column)| {
+            let rows = 0..self.table.rows.len();
+            let uncertainties = self.note.map(|note| rows.filter_map(move |row| note(row, index).uncertainty));
+            let uncertainty = uncertainties.and_then(|all| all.reduce(f64::max));
+            Layout::of(column, self.table, index, uncertainty, self.compact)
+        });
+        Body::new(self, layouts.collect(), shown, order, look, context)
+    }
+
+    /// Moves along the rows with the keyboard, if the pane has it and no control does. Returns the row to scroll to.
+    fn keys(&self, ui: &Ui, look: &mut TableLook, body: &mut Body<'_>, context: &mut PaneContext<'_>) -> Option<usize> {
+        let followed = look.seen != context.view.selected;
+        if followed {
+            look.seen.clone_from(&context.view.selected);
+        }
+        let now = body.current(look);
+        let has_keys = context.view.focused == Some(self.pane)
+            && ui.memory(|memory| memory.focused().is_none())
+            && !egui::Popup::is_any_open(ui.ctx());
+        let last = body.order.len().checked_sub(1);
+        let (Some(last), true) = (last, has_keys) else { return now.filter(|_| followed) };
+        let page = body.page(ui);
+        let pressed = |key: Key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        let next = [
+            (Key::ArrowDown, now.map_or(0, |now| (now + 1).min(last))),
+            (Key::ArrowUp, now.map_or(0, |now| now.saturating_sub(1))),
+            (Key::PageDown, now.map_or(page, |now| now + page).min(last)),
+            (Key::PageUp, now.map_or(0, |now| now.saturating_sub(page))),
+            (Key::End, last),
+        ];
+        let next = next.into_iter().find_map(|(key, row)| pressed(key).then_some(row));
+        if let Some(next) = next {
+            let row = body.order[next];
+            look.cursor = Some(row);
+            if let Some(item) = self.item.and_then(|item| item(row)) {
+                context.view.selected = Some(item);
+                look.seen.clone_from(&context.view.selected);
+            }
+            body.follow(look, context);
+        }
+        if let Some(now) = now.filter(|_| pressed(Key::Enter)) {
+            body.output.activated = Some(body.order[now]);
+        }
+        next.or(now.filter(|_| followed))
+    }
+
+    /// True if the pane has the keyboard, and its table is to be copied. The table is then what Ctrl+C means.
+    fn copies(&self, ui: &Ui, context: &mut PaneContext<'_>) -> bool {
+        if context.view.focused != Some(self.pane) || ui.ctx().text_edit_focused() {
+            return false;
+        }
+        context.view.table_copies = true;
+        ui.input(|input| input.events.contains(&Event::Copy))
+    }
+
+    /// Rows and columns as shown, in full precision, uncertainties in columns of their own, with the conditions where numbers
+    /// depend on them.
+    fn copied(&self, shown: &[usize], order: &[usize], context: &PaneContext<'_>) -> Table {
+        let uncertain = |column: usize| {
+            self.note.is_some_and(|note| order.iter().any(|&row| note(row, column).uncertainty.is_some()))
+        };
+        let columns: Vec<(usize, bool)> = shown.iter().map(|&column| (column, uncertain(column))).collect();
+        let heads = columns.iter().flat_map(|&(column, uncertain)| {
+            let name = self.columns[column].full_name();
+            [Some(name.clone()), uncertain.then(|| format!("± {name}"))].into_iter().flatten()
+        });
+        let mut table = Table::new(heads.collect::<Vec<_>>());
+        for &row in order {
+            let cells = columns.iter().flat_map(|&(column, uncertain)| {
+                let value = self.table.rows[row].get(column).cloned().unwrap_or_default();
+                let behind = uncertain.then(|| Cell::from(self.note.and_then(|note| note(row, column).uncertainty)));
+                [Some(value), behind].into_iter().flatten()
+            });
+            table.push(cells.collect::<Vec<_>>());
+        }
+        if context.pane(self.pane).is_some_and(|pane| pane.under_conditions) {
+            let conditions: Vec<_> = CONDITIONS.into_iter().zip(context.scene.conditions()).collect();
+            return table.with_constants(&conditions);
+        }
+        table
+    }
+
+    /// What was clicked and pointed at goes to the view.
+    fn take_in(&self, body: &Body<'_>, look: &mut TableLook, context: &mut PaneContext<'_>) -> TableOutput {
+        if let Some(column) = body.clicked_head {
+            look.sort_by(&self.columns[column].name, self.columns[column].largest_first);
+        }
+        let item = |row: Option<usize>| self.item.and_then(|item| item(row?));
+        context.view.hover(item(body.hovered).as_ref());
+        if let Some(row) = body.output.clicked {
+            look.cursor = Some(row);
+            if let Some(item) = item(Some(row)) {
+                // A second click at once is a double click, not a change of mind.
+                if body.output.activated.is_some() {
+                    context.view.selected = Some(item);
+                } else {
+                    context.view.click(Some(&item));
+                }
+                look.seen.clone_from(&context.view.selected);
+            }
+        }
+        body.output
+    }
+}
+
+/// Shows the numbers of a figure, its rows linked by the columns of sensors, patches and temperatures.
+pub fn show_numbers(ui: &mut Ui, rect: Rect, pane: PaneKind, table: &Table, context: &mut PaneContext<'_>) {
+    let scene = context.scene;
+    let items = items::RowItems::of(&scene, table);
+    let item = |row: usize| items.of_row(&table.rows[row]);
+    let id = context.title(pane);
+    let shown = DataTable::new(pane, id, table);
+    if items.is_empty() {
+        shown.show(ui, rect, context)
+    } else {
+        shown.with_items(&item).show(ui, rect, context)
+    };
+}
+
+/// Shows names with what they are, a line each, between other lines of text.
+pub fn show_pairs<N: AsRef<str>>(
+    ui: &mut Ui,
+    pane: PaneKind,
+    id: &str,
+    pairs: &[(N, String)],
+    context: &PaneContext<'_>,
+) {
+    let mut table = Table::new(["", ""]);
+    for (name, value) in pairs {
+        table.push([name.as_ref(), value.as_str()].map(Cell::from));
+    }
+    DataTable::new(pane, id, &table).show_compact(ui, context);
+}
+
+/// A part of a pane's ui that is cut at its rectangle.
+fn cut(ui: &mut Ui, id: Id, rect: Rect) -> Ui {
+    let mut child = ui.new_child(UiBuilder::new().scope_id(id).max_rect(rect));
+    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    child
+}

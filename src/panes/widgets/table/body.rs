@@ -1,0 +1,372 @@
+//! Head and rows of a table; only those in sight are laid out.
+
+use chromascope_figure::Cell;
+use egui::{Id, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, UiBuilder, Vec2, WidgetInfo};
+use egui_table::{CellInfo, HeaderCellInfo, HeaderRow, PrefetchInfo, TableDelegate};
+
+use super::columns::{Form, Layout, air, uncertainty_words, words};
+use super::{COMPACT_LINE, CellNote, DataTable, HEAD_LINE, LINE, TableLook, TableOutput, cut};
+use crate::panes::context::PaneContext;
+use crate::panes::widgets::{focus_rim, lines};
+use crate::plot_item::{PlotItem, Relation};
+use crate::theme::{Theme, UNIT};
+use crate::view::table::Sorting;
+
+/// Largest share of a table that its first column takes where it stays in place.
+const WIDEST_FROZEN: f32 = 0.6;
+
+/// A table in the middle of a frame.
+pub(super) struct Body<'a> {
+    of: &'a DataTable<'a>,
+    layouts: Vec<Layout>,
+    /// Columns as shown, counted as given.
+    pub(super) shown: Vec<usize>,
+    /// Rows as shown, counted as given.
+    pub(super) order: Vec<usize>,
+    theme: Theme,
+    sorting: Option<Sorting>,
+    reference: String,
+    selected: Option<PlotItem>,
+    pointed: Option<PlotItem>,
+    cursor: Option<usize>,
+    id: Id,
+    /// The first column stays in place.
+    sticks: bool,
+    /// It is being drawn.
+    frozen: bool,
+    /// Row under the pointer.
+    pub(super) hovered: Option<usize>,
+    /// Column whose head was clicked.
+    pub(super) clicked_head: Option<usize>,
+    /// What was done with rows.
+    pub(super) output: TableOutput,
+}
+
+impl<'a> Body<'a> {
+    pub(super) fn new(
+        of: &'a DataTable<'a>,
+        layouts: Vec<Layout>,
+        shown: Vec<usize>,
+        order: Vec<usize>,
+        look: &TableLook,
+        context: &PaneContext<'_>,
+    ) -> Self {
+        Self {
+            of,
+            layouts,
+            shown,
+            order,
+            theme: context.theme,
+            sorting: look.sorting.clone(),
+            reference: context.scene.document.reference.clone(),
+            selected: context.view.selected.clone(),
+            pointed: context.view.hovered.clone(),
+            cursor: look.cursor,
+            id: Id::unique(("table", of.id)),
+            sticks: false,
+            frozen: false,
+            hovered: None,
+            clicked_head: None,
+            output: TableOutput::default(),
+        }
+    }
+
+    /// Takes in a selection that the keyboard made.
+    pub(super) fn follow(&mut self, look: &TableLook, context: &PaneContext<'_>) {
+        self.cursor = look.cursor;
+        self.selected.clone_from(&context.view.selected);
+    }
+
+    /// Place of the selected row, or of the one under the keyboard.
+    pub(super) fn current(&self, look: &TableLook) -> Option<usize> {
+        self.order.iter().position(|&row| self.is_selected(row)).or_else(|| {
+            let cursor = look.cursor.filter(|_| self.of.item.is_none())?;
+            self.order.iter().position(|&row| row == cursor)
+        })
+    }
+
+    fn is_selected(&self, row: usize) -> bool {
+        match (self.of.item, &self.selected) {
+            (Some(item), Some(selected)) => {
+                item(row).is_some_and(|item| selected.relation_to(&item, &self.reference) == Relation::Same)
+            }
+            (Some(_), None) => false,
+            (None, _) => self.cursor == Some(row) && !self.of.compact,
+        }
+    }
+
+    /// Height of the head: one line, or two where there are units.
+    pub(super) fn head_height(&self) -> f32 {
+        let has = |text: fn(&super::Column) -> &str| self.of.columns.iter().any(|column| !text(column).is_empty());
+        let lines = f32::from(u8::from(has(|column| &column.name))) + f32::from(u8::from(has(|column| &column.unit)));
+        let air = if self.of.compact || lines == 0.0 { 0.0 } else { 1.5 * UNIT };
+        lines * HEAD_LINE + air
+    }
+
+    /// Rows that fit on the screen.
+    pub(super) fn page(&self, ui: &Ui) -> usize {
+        ui.data(|data| data.get_temp::<usize>(self.id)).unwrap_or(1).max(1)
+    }
+
+    /// Draws the table.
+    pub(super) fn show(&mut self, ui: &mut Ui, rect: Rect, scroll_to: Option<usize>) {
+        let mut child = cut(ui, self.id.with("body"), rect);
+        let mut widths: Vec<f32> = self.shown.iter().map(|&column| self.layouts[column].width).collect();
+        if self.of.compact {
+            fit(&mut widths, rect.width());
+            return self.lay_out(&mut child, rect, &widths);
+        }
+        self.sticks = widths.len() > 1 && widths[0] < WIDEST_FROZEN * rect.width();
+        let page = ((rect.height() - self.head_height()) / self.default_row_height()).floor() as usize;
+        ui.data_mut(|data| data.insert_temp(self.id, page));
+        let columns = widths.into_iter().map(|width| egui_table::Column::new(width).resizable(false));
+        let mut table = egui_table::Table::new()
+            .id_salt(self.of.id)
+            .num_rows(self.order.len() as u64)
+            .columns(columns.collect::<Vec<_>>())
+            .num_sticky_cols(usize::from(self.sticks))
+            .headers([HeaderRow::new(self.head_height())]);
+        if let Some(row) = scroll_to {
+            table = table.scroll_to_row(row as u64, None);
+        }
+        table.show(&mut child, self);
+    }
+
+    /// Lays out all rows, in sight or not: a few between other lines of text.
+    fn lay_out(&mut self, ui: &mut Ui, rect: Rect, widths: &[f32]) {
+        let edges: Vec<f32> = std::iter::once(rect.left())
+            .chain(widths.iter().scan(rect.left(), |x, width| {
+                *x += width;
+                Some(*x)
+            }))
+            .collect();
+        let cell = |ui: &mut Ui, x: std::ops::Range<usize>, top: f32, height: f32| {
+            let place = Rect::from_x_y_ranges(edges[x.start]..=edges[x.end], top..=top + height);
+            ui.new_child(UiBuilder::new().max_rect(place))
+        };
+        let head = self.head_height();
+        if head > 0.0 {
+            for column in 0..widths.len() {
+                self.head(&cell(ui, column..column + 1, rect.top(), head), column);
+            }
+        }
+        for row in 0..self.order.len() {
+            let top = rect.top() + head + COMPACT_LINE * row as f32;
+            self.row(&cell(ui, 0..widths.len(), top, COMPACT_LINE), row);
+            for column in 0..widths.len() {
+                self.cell(&cell(ui, column..column + 1, top, COMPACT_LINE), row, column);
+            }
+        }
+    }
+
+    fn note(&self, row: usize, column: usize) -> CellNote {
+        self.of.note.map_or_else(CellNote::default, |note| note(row, column))
+    }
+
+    /// Place of a cell's content.
+    fn inner(&self, cell: Rect) -> Rect {
+        let [left, right] = air(self.of.compact);
+        Rect::from_min_max(cell.min + Vec2::new(left, 0.0), cell.max - Vec2::new(right, 0.0))
+    }
+
+    /// The arrow of the column that rows are sorted by.
+    fn arrow(&self, ui: &Ui, rect: Rect, descending: bool) {
+        let center = rect.center();
+        let tip = if descending { 3.0 } else { -3.0 };
+        let points = [(-4.0, -tip), (4.0, -tip), (0.0, tip)].map(|(x, y)| center + Vec2::new(x, y));
+        ui.painter().add(egui::Shape::convex_polygon(points.to_vec(), self.theme.text, Stroke::NONE));
+    }
+
+    /// A row's ground: shaded under the pointer, framed where it is selected.
+    fn ground(&self, ui: &Ui, rect: Rect, row: usize, response: &Response) {
+        let pointed = self.pointed.is_some() && self.pointed == self.of.item.and_then(|item| item(row));
+        if response.hovered() || pointed {
+            ui.painter().rect_filled(rect, 0.0, self.theme.control);
+        }
+        if self.is_selected(row) {
+            ui.painter().rect_stroke(rect, 2.0, Stroke::new(1.5, self.theme.text), StrokeKind::Inside);
+        }
+    }
+
+    /// A cell in words.
+    fn said(&self, row: usize, column: usize, note: &CellNote) -> String {
+        let form = self.layouts[column].form;
+        match self.of.table.rows[row].get(column).unwrap_or(&Cell::Empty) {
+            Cell::Empty => "–".to_owned(),
+            Cell::Text(text) => text.clone(),
+            Cell::Number(value) => {
+                let number =
+                    note.words.clone().unwrap_or_else(|| words(*value, form, note.decimals).trim_end().to_owned());
+                note.uncertainty.map_or(number.clone(), |by| format!("{number} {}", uncertainty_words(by, form)))
+            }
+        }
+    }
+
+    /// A row in words: its first cell, then each column with its cell.
+    fn spoken(&self, row: usize) -> String {
+        let said = |&column: &usize| self.said(row, column, &self.note(row, column));
+        let Some((first, others)) = self.shown.split_first() else { return String::new() };
+        let others = others.iter().map(|column| format!("{} {}", self.of.columns[*column].name, said(column)));
+        let others: Vec<String> = others.map(|words| words.trim_start().to_owned()).collect();
+        if others.is_empty() { said(first) } else { format!("{}: {}", said(first), others.join(", ")) }
+    }
+
+    /// Writes a number with its uncertainty.
+    fn number(&self, ui: &Ui, rect: Rect, value: f64, layout: Layout, note: &CellNote) {
+        let ink = if note.is_gray { self.theme.weak } else { self.theme.text };
+        if !note.is_gray
+            && let Some(share) = layout.shade(value)
+        {
+            let ground = rect.shrink2(Vec2::new(1.0, 2.0)).expand2(Vec2::new(2.0 * UNIT - 2.0, 0.0));
+            ui.painter().rect_filled(ground, 2.0, self.theme.shade(share));
+        }
+        let written = note.words.clone().unwrap_or_else(|| words(value, layout.form, note.decimals));
+        let mut place = rect;
+        place.max.x -= layout.uncertainty;
+        if layout.form == Form::Text {
+            lines::elided(ui, place, &written, TextStyle::Monospace, ink);
+        } else {
+            lines::right_aligned(ui, place, &written, TextStyle::Monospace, ink);
+        }
+        let Some(uncertainty) = note.uncertainty else { return };
+        let behind = uncertainty_words(uncertainty, layout.form);
+        lines::right_aligned(ui, rect, &behind, TextStyle::Small, self.theme.weak);
+    }
+}
+
+/// Spreads columns over a width, or narrows the first, which holds names.
+fn fit(widths: &mut [f32], width: f32) {
+    let all: f32 = widths.iter().sum();
+    if let Some(first) = widths.first_mut() {
+        *first = (*first + width - all).clamp(first.min(24.0), *first);
+    }
+}
+
+impl TableDelegate for Body<'_> {
+    fn prepare(&mut self, _: &PrefetchInfo) {
+        self.frozen = false;
+    }
+
+    fn default_row_height(&self) -> f32 {
+        if self.of.compact { COMPACT_LINE } else { LINE }
+    }
+
+    fn header_cell_ui(&mut self, ui: &mut Ui, cell: &HeaderCellInfo) {
+        // Heads come between the cells that scroll and those that stay.
+        self.frozen = true;
+        self.head(ui, cell.col_range.start);
+    }
+
+    fn row_ui(&mut self, ui: &mut Ui, row_nr: u64) {
+        self.row(ui, row_nr as usize);
+    }
+
+    fn cell_ui(&mut self, ui: &mut Ui, cell: &CellInfo) {
+        self.cell(ui, cell.row_nr as usize, cell.col_nr);
+    }
+}
+
+impl Body<'_> {
+    /// A column's head; a click sorts.
+    fn head(&mut self, ui: &Ui, place: usize) {
+        let index = self.shown[place];
+        let (column, layout) = (&self.of.columns[index], self.layouts[index]);
+        let rect = ui.max_rect();
+        let sense = if self.of.compact { Sense::hover() } else { Sense::click() };
+        let response = ui.interact(rect, self.id.with(("head", index)), sense);
+        response.widget_info(|| WidgetInfo::labeled(Role::ColumnHeader, true, column.full_name()));
+        if response.hovered() && !self.of.compact || response.has_focus() {
+            let rim = focus_rim(&response, &self.theme);
+            ui.painter().rect(rect.shrink(1.0), 3.0, self.theme.control, rim, StrokeKind::Inside);
+        }
+        let mut place = self.inner(rect);
+        if let Some(sorting) = self.sorting.as_ref().filter(|sorting| sorting.column == column.name) {
+            let arrow = Rect::from_min_size(place.min, Vec2::new(8.0, HEAD_LINE));
+            let arrow =
+                if layout.form == Form::Text { arrow.translate(Vec2::new(place.width() - 8.0, 0.0)) } else { arrow };
+            self.arrow(ui, arrow.translate(Vec2::new(0.0, 0.5 * UNIT)), sorting.descending);
+        }
+        if !self.of.compact {
+            place.min.y += 0.5 * UNIT;
+            ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, Stroke::new(1.0, self.theme.line));
+        }
+        for (line, text) in [&column.name, &column.unit].into_iter().enumerate() {
+            let at = egui::pos2(place.left(), place.top() + line as f32 * HEAD_LINE);
+            let row = Rect::from_min_size(at, Vec2::new(place.width(), HEAD_LINE));
+            let fits = lines::width(ui, text, TextStyle::Small) <= row.width();
+            if layout.form == Form::Text || !fits {
+                lines::elided(ui, row, text, TextStyle::Small, self.theme.weak);
+            } else {
+                lines::right_aligned(ui, row, text, TextStyle::Small, self.theme.weak);
+            }
+        }
+        if response.clicked() {
+            self.clicked_head = Some(index);
+        }
+        if !self.of.compact {
+            response.on_hover_ui(|ui| {
+                ui.strong(column.full_name());
+                if !column.hint.is_empty() {
+                    ui.label(&column.hint);
+                }
+                ui.small("Click to sort.");
+            });
+        }
+    }
+
+    /// A row behind its cells; a click selects.
+    fn row(&mut self, ui: &Ui, place: usize) {
+        let Some(&row) = self.order.get(place) else { return };
+        let rect = ui.max_rect();
+        let sense = if self.of.compact && self.of.item.is_none() { Sense::hover() } else { Sense::CLICK };
+        let response = ui.interact(rect, self.id.with(("row", row, self.frozen)), sense);
+        if self.frozen || !self.sticks {
+            response.widget_info(|| WidgetInfo::selected(Role::Row, true, self.is_selected(row), self.spoken(row)));
+        }
+        if sense == Sense::hover() {
+            return;
+        }
+        self.ground(ui, rect, row, &response);
+        if response.hovered() {
+            self.hovered = Some(row);
+        }
+        if response.clicked() {
+            self.output.clicked = Some(row);
+        }
+        if response.double_clicked() {
+            self.output.activated = Some(row);
+        }
+    }
+
+    fn cell(&self, ui: &Ui, row: usize, column: usize) {
+        let (Some(&row), Some(&column)) = (self.order.get(row), self.shown.get(column)) else { return };
+        let (layout, note) = (self.layouts[column], self.note(row, column));
+        let whole = ui.max_rect();
+        let rect = self.inner(whole);
+        let style = if self.of.compact { TextStyle::Small } else { TextStyle::Body };
+        let value = self.of.table.rows[row].get(column).unwrap_or(&Cell::Empty);
+        let ink = if note.is_gray { self.theme.weak } else { self.theme.text };
+        let said = self.said(row, column, &note);
+        let cut = match value {
+            Cell::Number(value) => {
+                self.number(ui, rect, *value, layout, &note);
+                false
+            }
+            Cell::Text(text) => lines::elided(ui, rect, text, style, ink),
+            Cell::Empty if layout.form == Form::Text => lines::elided(ui, rect, "–", style, self.theme.weak),
+            Cell::Empty => {
+                let mut place = rect;
+                place.max.x -= layout.uncertainty;
+                lines::right_aligned(ui, place, "–", TextStyle::Monospace, self.theme.weak);
+                false
+            }
+        };
+        let response = ui.interact(whole, self.id.with(("cell", row, column)), Sense::hover());
+        response.widget_info(|| WidgetInfo::labeled(Role::Cell, true, &said));
+        if !note.hint.is_empty() {
+            response.on_hover_text(note.hint);
+        } else if cut {
+            response.on_hover_text(said);
+        }
+    }
+}

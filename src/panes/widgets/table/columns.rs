@@ -1,0 +1,208 @@
+//! Columns of a table: head, unit, form of the numbers, width.
+
+use chromascope_figure::{Cell, Table, TextSize, text_width};
+
+use crate::format::{fixed, number};
+use crate::theme::UNIT;
+
+/// Widest column of text, in points; what is longer is cut and read under the pointer.
+const WIDEST_TEXT: f64 = 260.0;
+/// Widest head beside shorter cells.
+const WIDEST_HEAD: f64 = 150.0;
+/// Narrowest column.
+const NARROWEST: f64 = 40.0;
+/// Rows that the width of a column of text is taken from.
+const MEASURED_ROWS: usize = 2000;
+/// Significant digits of numbers without decimals of their own.
+const DIGITS: i32 = 6;
+/// Units that names of columns in files end in.
+const SUFFIXES: [(&str, &str); 4] = [("_nm", "nm"), ("_k", "K"), ("_ms", "ms"), ("_px", "px")];
+
+/// What a table says of one of its columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Column {
+    /// Name, without unit.
+    pub name: String,
+    /// Unit; empty for none.
+    pub unit: String,
+    /// Explanation under the pointer.
+    pub hint: String,
+    /// Heading over it in the menu of columns; empty for none.
+    pub group: String,
+    /// Decimals of its numbers; none for as many as the largest needs.
+    pub decimals: Option<usize>,
+    /// The largest number is the best: first where it is sorted by.
+    pub largest_first: bool,
+    /// Gray behind its numbers, darker for worse ones.
+    pub shaded: bool,
+    /// Not shown unless the user wants it.
+    pub starts_hidden: bool,
+}
+
+impl Column {
+    /// A column named as in a file: `wavelength (nm)`, `temperature_k`.
+    pub fn from_head(head: &str) -> Self {
+        let in_brackets = head.strip_suffix(')').and_then(|head| head.split_once(" ("));
+        let with_suffix =
+            SUFFIXES.iter().find_map(|(suffix, unit)| head.strip_suffix(suffix).map(|name| (name, *unit)));
+        let (name, unit) = in_brackets.or(with_suffix).unwrap_or((head, ""));
+        Self { name: name.to_owned(), unit: unit.to_owned(), ..Self::default() }
+    }
+
+    /// Name with unit, for screen readers and the pointer.
+    pub fn full_name(&self) -> String {
+        if self.unit.is_empty() { self.name.clone() } else { format!("{} ({})", self.name, self.unit) }
+    }
+}
+
+/// Form that a column's cells are written in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Form {
+    /// Text, flush left.
+    Text,
+    /// Numbers with this many decimals, flush right, so that decimal points stand below each other.
+    Fixed(usize),
+    /// Numbers over many powers of ten.
+    Scientific,
+}
+
+/// Air beside a cell's content, left and right, in points.
+pub(super) fn air(compact: bool) -> [f32; 2] {
+    if compact { [0.0, 3.0 * UNIT] } else { [2.0 * UNIT; 2] }
+}
+
+/// Form and range of a column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Layout {
+    /// Form.
+    pub(super) form: Form,
+    /// Width in points.
+    pub(super) width: f32,
+    /// Width of the uncertainties behind the numbers.
+    pub(super) uncertainty: f32,
+    /// Best number, and the one from which on the gray is darkest.
+    pub(super) shades: Option<[f64; 2]>,
+}
+
+impl Layout {
+    /// Layout of a column. `uncertainty` is the largest of its cells', if any has one.
+    pub(super) fn of(column: &Column, table: &Table, index: usize, uncertainty: Option<f64>, compact: bool) -> Self {
+        let size = if compact { TextSize::Small } else { TextSize::Body };
+        let cells = || table.rows.iter().filter_map(|row| row.get(index));
+        let numbers = || cells().filter_map(|cell| if let Cell::Number(value) = cell { Some(*value) } else { None });
+        let form = form(column, numbers(), cells().any(|cell| matches!(cell, Cell::Text(_))));
+        let texts = cells().take(MEASURED_ROWS).filter_map(|cell| match cell {
+            Cell::Text(text) => Some(text_width(text, size)),
+            _ => None,
+        });
+        let text = texts.fold(0.0, f64::max).min(WIDEST_TEXT);
+        let extremes = numbers().fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
+        let written = |value: f64| text_width(&words(value, form, None), TextSize::Mono);
+        let number = if form == Form::Text { numbers().map(written).fold(0.0, f64::max) } else { 0.0 };
+        let number = extremes.into_iter().map(written).fold(number, f64::max);
+        let number = if numbers().next().is_some() { number } else { 0.0 };
+        let behind = uncertainty
+            .map_or(0.0, |value| text_width(&uncertainty_words(value, form), TextSize::Small) + f64::from(UNIT));
+        let (arrow, least) = if compact { (0.0, 0.0) } else { (12.0, NARROWEST) };
+        let head = text_width(&column.name, TextSize::Small).max(text_width(&column.unit, TextSize::Small)) + arrow;
+        let content = text.max(number) + behind;
+        let width = content.max(head.min(WIDEST_HEAD)).max(least) + f64::from(air(compact).iter().sum::<f32>());
+        let shades = column.shaded.then(|| shades(numbers().collect(), column.largest_first)).flatten();
+        Self { form, width: width.ceil() as f32, uncertainty: behind.ceil() as f32, shades }
+    }
+
+    /// Share of the darkest gray behind a number.
+    pub(super) fn shade(&self, value: f64) -> Option<f32> {
+        let [best, worst] = self.shades?;
+        Some(((value - best) / (worst - best)).clamp(0.0, 1.0) as f32)
+    }
+}
+
+/// The best number, and the worst tenth's: one bad row does not make all others look alike. None where all are one number.
+fn shades(mut values: Vec<f64>, largest_first: bool) -> Option<[f64; 2]> {
+    values.sort_by(f64::total_cmp);
+    if largest_first {
+        values.reverse();
+    }
+    let best = *values.first()?;
+    let worst = values[(values.len() - 1) * 9 / 10];
+    (worst != best).then_some([best, worst])
+}
+
+/// Numbers of a column have one form, so that they can be read down the column.
+fn form(column: &Column, numbers: impl Iterator<Item = f64> + Clone, has_text: bool) -> Form {
+    let magnitudes = numbers.clone().map(f64::abs).filter(|value| *value > 0.0);
+    let (mut least, mut largest, mut whole) = (f64::INFINITY, 0.0_f64, true);
+    for value in magnitudes {
+        (least, largest) = (least.min(value), largest.max(value));
+        whole &= value.fract() == 0.0;
+    }
+    let none = numbers.into_iter().next().is_none();
+    match column.decimals {
+        _ if has_text || none => Form::Text,
+        Some(decimals) => Form::Fixed(decimals),
+        None if whole && largest < 1e9 => Form::Fixed(0),
+        None if !(1e-3..1e6).contains(&largest) || (least < 1e-5 && largest / least > 1e7) => Form::Scientific,
+        None => Form::Fixed((DIGITS - 1 - largest.log10().floor() as i32).clamp(0, DIGITS) as usize),
+    }
+}
+
+/// A number in its column's form, or with decimals of its own: then padded, so that points stay below each other.
+pub(super) fn words(value: f64, form: Form, decimals: Option<usize>) -> String {
+    match (form, decimals) {
+        (Form::Fixed(column), Some(own)) if own < column => {
+            let point = usize::from(own == 0);
+            format!("{}{}", fixed(value, own), " ".repeat(column - own + point))
+        }
+        (Form::Fixed(decimals), _) => fixed(value, decimals),
+        (Form::Scientific, _) if value == 0.0 => "0".to_owned(),
+        (Form::Scientific, _) => format!("{value:.3e}").replace('-', "−"),
+        (Form::Text, _) => number(value),
+    }
+}
+
+/// An uncertainty in its column's form.
+pub(super) fn uncertainty_words(value: f64, form: Form) -> String {
+    format!("± {}", words(value, form, None))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heads_are_split_into_name_and_unit() {
+        let head = |text: &str| {
+            let column = Column::from_head(text);
+            [column.name.clone(), column.unit.clone()]
+        };
+        assert_eq!(head("wavelength (nm)"), ["wavelength", "nm"]);
+        assert_eq!(head("temperature_k"), ["temperature", "K"]);
+        assert_eq!(head("u_prime"), ["u_prime", ""]);
+        assert_eq!(Column::from_head("time (µs)").full_name(), "time (µs)");
+    }
+
+    #[test]
+    fn numbers_of_a_column_align() {
+        let form_of = |values: &[f64]| form(&Column::default(), values.iter().copied(), false);
+        assert_eq!(form_of(&[0.1, 0.25]), Form::Fixed(6));
+        assert_eq!(form_of(&[1000.0, 20_000.0]), Form::Fixed(0));
+        assert_eq!(form_of(&[12.5, -310.0]), Form::Fixed(3));
+        assert_eq!(form_of(&[1e-12, 0.1]), Form::Scientific);
+        assert_eq!(form_of(&[]), Form::Text);
+        assert_eq!(words(-0.3, Form::Fixed(2), None), "−0.30");
+        assert_eq!(words(41.5, Form::Fixed(4), Some(2)), "41.50  ");
+        assert_eq!(words(41.5, Form::Fixed(4), Some(0)), "42     ");
+        assert_eq!(uncertainty_words(0.366, Form::Fixed(2)), "± 0.37");
+    }
+
+    #[test]
+    fn the_worst_tenth_is_darkest() {
+        let values: Vec<f64> = (0..=10).map(f64::from).collect();
+        assert_eq!(shades(values.clone(), false), Some([0.0, 9.0]));
+        assert_eq!(shades(values, true), Some([10.0, 1.0]));
+        assert_eq!(shades(vec![2.0, 2.0], false), None);
+        let layout = Layout { form: Form::Text, width: 0.0, uncertainty: 0.0, shades: Some([0.0, 9.0]) };
+        assert_eq!([layout.shade(0.0), layout.shade(10.0)], [Some(0.0), Some(1.0)]);
+    }
+}

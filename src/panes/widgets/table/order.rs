@@ -1,0 +1,95 @@
+//! Which rows and columns are shown, and in which order.
+
+use std::cmp::Ordering;
+
+use chromascope_figure::{Cell, Table};
+
+use super::columns::Column;
+use crate::view::table::{Sorting, TableLook};
+
+/// Columns that are shown, the first always.
+pub(super) fn columns(columns: &[Column], look: &TableLook) -> Vec<usize> {
+    let is_shown = |(index, column): &(usize, &Column)| {
+        *index == 0 || look.columns.get(&column.name).copied().unwrap_or(!column.starts_hidden)
+    };
+    columns.iter().enumerate().filter(is_shown).map(|(index, _)| index).collect()
+}
+
+/// Rows that contain the filter's words, sorted. Equal rows keep the order as given; empty cells come last.
+pub(super) fn rows(table: &Table, columns: &[Column], look: &TableLook) -> Vec<usize> {
+    let words: Vec<String> = look.filter.split_whitespace().map(str::to_lowercase).collect();
+    let mut order: Vec<usize> = (0..table.rows.len()).filter(|&row| contains(&table.rows[row], &words)).collect();
+    let by = |sorting: &Sorting| Some((columns.iter().position(|c| c.name == sorting.column)?, sorting.descending));
+    if let Some((column, descending)) = look.sorting.as_ref().and_then(by) {
+        let cell = |row: usize| table.rows[row].get(column).unwrap_or(&Cell::Empty);
+        order.sort_by(|&a, &b| compare(cell(a), cell(b), descending));
+    }
+    order
+}
+
+fn contains(row: &[Cell], words: &[String]) -> bool {
+    words.iter().all(|word| {
+        row.iter().any(|cell| matches!(cell, Cell::Text(text) if text.to_lowercase().contains(word.as_str())))
+    })
+}
+
+/// Numbers by value, before texts by letters, before nothing.
+fn compare(a: &Cell, b: &Cell, descending: bool) -> Ordering {
+    let turned = |order: Ordering| if descending { order.reverse() } else { order };
+    let rank = |cell: &Cell| match cell {
+        Cell::Number(value) if !value.is_nan() => 0,
+        Cell::Text(_) => 1,
+        _ => 2,
+    };
+    match (a, b) {
+        (Cell::Number(a), Cell::Number(b)) if !a.is_nan() && !b.is_nan() => turned(a.total_cmp(b)),
+        (Cell::Text(a), Cell::Text(b)) => turned(a.to_lowercase().cmp(&b.to_lowercase())),
+        _ => rank(a).cmp(&rank(b)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> (Table, Vec<Column>) {
+        let mut table = Table::new(["camera", "error"]);
+        for (name, value) in
+            [("Nikon D70", Some(0.4)), ("Canon 10D", Some(0.3)), ("Sony", None), ("Nikon D90", Some(0.4))]
+        {
+            table.push([Cell::from(name), Cell::from(value)]);
+        }
+        let columns = table.columns.iter().map(|head| Column::from_head(head)).collect();
+        (table, columns)
+    }
+
+    #[test]
+    fn sorting_is_stable_and_leaves_empty_cells_last() {
+        let (table, columns) = table();
+        let mut look = TableLook::default();
+        assert_eq!(rows(&table, &columns, &look), [0, 1, 2, 3]);
+        look.sort_by("error", false);
+        assert_eq!(rows(&table, &columns, &look), [1, 0, 3, 2]);
+        look.sort_by("error", false);
+        assert_eq!(rows(&table, &columns, &look), [0, 3, 1, 2]);
+        look.sort_by("error", false);
+        assert_eq!(look.sorting, None);
+    }
+
+    #[test]
+    fn every_word_of_the_filter_is_in_some_cell() {
+        let (table, columns) = table();
+        let look = TableLook { filter: " d90 NIKON".to_owned(), ..TableLook::default() };
+        assert_eq!(rows(&table, &columns, &look), [3]);
+    }
+
+    #[test]
+    fn the_first_column_stays() {
+        let (_, mut all) = table();
+        let hidden = [("camera".to_owned(), false), ("error".to_owned(), false)].into();
+        let look = TableLook { columns: hidden, ..TableLook::default() };
+        assert_eq!(columns(&all, &look), [0]);
+        all[1].starts_hidden = true;
+        assert_eq!(columns(&all, &TableLook::default()), [0]);
+    }
+}

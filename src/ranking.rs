@@ -1,0 +1,258 @@
+//! Figures of merit of many cameras, made beside the window a few at a time.
+//!
+//! The latest request wins; what nobody asks for in a frame is stopped. Until all cameras are done the last whole answer stays.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use chromascope_core::metamers::{Confusion, MetamerPair};
+use chromascope_core::query::{Ask, CameraMetrics, CameraMetricsQuery, Metamers, MetamersQuery, Query, Shared, WhyNot};
+
+use crate::catalog::Entry;
+use crate::document::{Document, SetKind};
+use crate::jobs::{Background, Executor};
+use crate::plot_item::SensorId;
+use crate::scene::Scene;
+use crate::view::metrics::RankedCameras;
+
+/// Cameras between two reports of progress.
+const STEP: usize = 4;
+
+/// A camera to be ranked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RankedCamera {
+    /// Its place in the catalog.
+    pub id: SensorId,
+    /// True if the user brought it.
+    pub is_own: bool,
+    /// The question for its figures of merit, or the reason that there is none.
+    pub query: Result<CameraMetricsQuery, String>,
+}
+
+/// Cameras with their figures of merit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ranked {
+    /// The cameras, as asked for.
+    pub cameras: Vec<RankedCamera>,
+    /// Their figures of merit: reason for none, or none while they are being made.
+    pub metrics: Vec<Option<Result<Arc<CameraMetrics>, String>>>,
+}
+
+/// The first so many of some questions.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct FirstQuery {
+    all: Shared<Vec<CameraMetricsQuery>>,
+    count: usize,
+}
+
+impl Query for FirstQuery {
+    type Answer = Vec<Arc<CameraMetrics>>;
+    const NAME: &'static str = "ranking";
+    const KEPT: usize = 2;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        self.all.iter().take(self.count).map(|query| ask.ask(query)).collect()
+    }
+}
+
+/// Two reflectances that are confused: set and name of each, and what each set is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MetamerRow {
+    /// The pair.
+    pub pair: MetamerPair,
+    /// Name of its set, and of each in it.
+    pub names: [[String; 2]; 2],
+    /// What each set is.
+    pub kinds: [SetKind; 2],
+}
+
+/// Metamers of a camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundMetamers {
+    /// What was found, or the reason that nothing could be.
+    pub metamers: Arc<Result<Metamers, WhyNot>>,
+    /// The pairs by name, worst first.
+    pub rows: Vec<MetamerRow>,
+}
+
+/// Where cameras are ranked, and the last ranking.
+pub struct Ranking {
+    worker: Background<FirstQuery>,
+    searcher: Background<MetamersQuery>,
+    is_searching: bool,
+    asked: Option<Arc<Vec<RankedCamera>>>,
+    /// Document and choice of cameras that they were asked for.
+    of: Option<(Document, RankedCameras)>,
+    is_asked: bool,
+    whole: Option<Arc<Ranked>>,
+    shown: Arc<Ranked>,
+    serial: Option<u64>,
+    done: usize,
+}
+
+impl Ranking {
+    /// Ranks on an executor; `wake` is called after each few cameras.
+    pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
+        Self {
+            searcher: Background::on(executor, "metamers", wake.clone()),
+            is_searching: false,
+            worker: Background::on(executor, "ranking", wake),
+            asked: None,
+            of: None,
+            is_asked: false,
+            whole: None,
+            shown: Arc::default(),
+            serial: None,
+            done: 0,
+        }
+    }
+
+    /// Asks for the cameras of a scene and takes in what was made of them since the last frame. The same request again changes
+    /// nothing.
+    pub fn ask(&mut self, scene: &Scene<'_>, which: RankedCameras) -> Arc<Ranked> {
+        self.is_asked = true;
+        if self.of.as_ref().is_none_or(|(document, cameras)| document != scene.document || *cameras != which) {
+            self.of = Some((scene.document.clone(), which));
+            self.ask_for(cameras(scene, which));
+        }
+        if let Some(made) = self.worker.shown().filter(|made| made.current && self.serial != Some(made.serial)) {
+            self.serial = Some(made.serial);
+            self.take_in(&made.answer);
+        }
+        Arc::clone(&self.shown)
+    }
+
+    /// Searches all reflectances for pairs that a camera or the reference confuses; none until they are found.
+    ///
+    /// # Errors
+    ///
+    /// A sentence that says why there is no such question.
+    pub fn metamers(
+        &mut self,
+        scene: &Scene<'_>,
+        camera: &SensorId,
+        confusion: Confusion,
+    ) -> Result<Option<FoundMetamers>, String> {
+        self.is_searching = true;
+        let (query, sets) =
+            scene.metamers_query(camera.kind, &camera.name, confusion).map_err(|error| error.to_string())?;
+        self.searcher.ask(vec![query.clone()]);
+        if let Some(why) = self.searcher.failure() {
+            return Err(why);
+        }
+        let Some(shown) = self.searcher.shown().filter(|shown| shown.current) else { return Ok(None) };
+        let row = |pair: &MetamerPair| {
+            let [a, b] = pair.places.map(|place| {
+                let [set, patch] = query.at(place)?;
+                let name = query.sets.get(set)?.patches().get(patch)?.name.clone();
+                let kind =
+                    if scene.entry(SetKind::Chart, &sets[set]).is_ok() { SetKind::Chart } else { SetKind::Material };
+                Some(([sets[set].clone(), name], kind))
+            });
+            let ((first, a), (second, b)) = a.zip(b)?;
+            Some(MetamerRow { pair: *pair, names: [first, second], kinds: [a, b] })
+        };
+        let rows = (*shown.answer).as_ref().map_or_else(|_| Vec::new(), |m| m.pairs.iter().filter_map(row).collect());
+        Ok(Some(FoundMetamers { metamers: shown.answer, rows }))
+    }
+
+    fn ask_for(&mut self, cameras: Vec<RankedCamera>) {
+        if self.asked.as_deref() == Some(&cameras) {
+            return;
+        }
+        let queries: Vec<_> = cameras.iter().filter_map(|camera| camera.query.clone().ok()).collect();
+        let last = queries.len();
+        let all = Shared::new(queries);
+        let counts = (1..=last.div_ceil(STEP)).map(|step| (step * STEP).min(last));
+        self.worker.ask(counts.map(|count| FirstQuery { all: all.clone(), count }).collect());
+        self.asked = Some(Arc::new(cameras));
+        (self.serial, self.done) = (None, 0);
+        if last == 0 {
+            self.take_in(&[]);
+        } else if self.whole.is_none() {
+            self.shown = self.with(&[]);
+        }
+    }
+
+    /// Shows what is done; over a whole answer only once all is.
+    fn take_in(&mut self, made: &[Arc<CameraMetrics>]) {
+        self.done = made.len();
+        let shown = self.with(made);
+        if self.progress().is_none() {
+            self.whole = Some(Arc::clone(&shown));
+            self.shown = shown;
+        } else if self.whole.is_none() {
+            self.shown = shown;
+        }
+    }
+
+    /// The cameras asked for, with the figures of merit of the first that have any.
+    fn with(&self, made: &[Arc<CameraMetrics>]) -> Arc<Ranked> {
+        let cameras = self.asked.as_deref().cloned().unwrap_or_default();
+        let mut made = made.iter();
+        let metrics = cameras.iter().map(|camera| match &camera.query {
+            Ok(_) => made.next().map(|metrics| Ok(Arc::clone(metrics))),
+            Err(why) => Some(Err(why.clone())),
+        });
+        let metrics = metrics.collect();
+        Arc::new(Ranked { cameras, metrics })
+    }
+
+    /// Number of cameras done and of all, while some are not.
+    pub fn progress(&self) -> Option<(usize, usize)> {
+        let all = self.asked.as_ref()?.iter().filter(|camera| camera.query.is_ok()).count();
+        (self.done < all).then_some((self.done, all))
+    }
+
+    /// For how long the latest request has been worked on, if it still is.
+    pub fn busy(&self) -> Option<Duration> {
+        self.worker.busy()
+    }
+
+    /// Reason that ranking failed, if it did.
+    pub fn failure(&self) -> Option<String> {
+        self.worker.failure()
+    }
+
+    /// Ends a frame: what was not asked for in it is stopped, and asked for again once somebody looks.
+    pub fn end_frame(&mut self) {
+        if !std::mem::take(&mut self.is_searching) {
+            self.searcher.rest();
+        }
+        if !std::mem::take(&mut self.is_asked) && self.progress().is_some() {
+            self.worker.rest();
+            (self.asked, self.of) = (None, None);
+        }
+    }
+
+    /// Waits until all is done. For tests.
+    pub fn wait(&self) {
+        self.worker.wait();
+        self.searcher.wait();
+    }
+}
+
+/// The cameras of a choice, each with its question.
+fn cameras(scene: &Scene<'_>, which: RankedCameras) -> Vec<RankedCamera> {
+    let is_chosen = |entry: &Entry| match which {
+        RankedCameras::Library => true,
+        RankedCameras::Compared => scene.document.compared(SetKind::Camera, &entry.name).is_some(),
+        RankedCameras::Yours => entry.is_own(),
+    };
+    let chosen = scene.entries(SetKind::Camera).filter(is_chosen);
+    chosen
+        .map(|entry| RankedCamera {
+            query: scene.camera_metrics_query(SetKind::Camera, &entry.name).map_err(|error| error.to_string()),
+            is_own: entry.is_own(),
+            id: SensorId { kind: SetKind::Camera, name: entry.name },
+        })
+        .collect()
+}
+
+/// Cameras of a choice with their figures of merit, at once: what the window has asked for is known, all else is computed.
+pub fn ranked(scene: &Scene<'_>, which: RankedCameras) -> Ranked {
+    let cameras = cameras(scene, which);
+    let metrics =
+        |camera: &RankedCamera| Some(camera.query.as_ref().map(|query| scene.results.ask(query)).map_err(Clone::clone));
+    Ranked { metrics: cameras.iter().map(metrics).collect(), cameras }
+}

@@ -1,0 +1,54 @@
+//! What is looked at in Metrics.
+
+use chromascope_core::metamers::Confusion;
+use serde::{Deserialize, Serialize};
+
+use crate::plot_item::SensorId;
+
+/// What is looked at in Metrics.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct MetricsLook {
+    /// Cameras that are ranked.
+    pub cameras: RankedCameras,
+    /// Metamers that are searched for.
+    pub confusion: Confuses,
+    /// The two that stand head to head; none for the selected one and the first compared one beside it.
+    #[serde(skip)]
+    pub pair: [Option<SensorId>; 2],
+    /// The camera of the report card; none for the selected one.
+    #[serde(skip)]
+    pub card: Option<SensorId>,
+}
+
+/// A choice of cameras.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum RankedCameras {
+    /// All of the library, the user's too.
+    #[default]
+    Library,
+    /// Those that are compared.
+    Compared,
+    /// The user's.
+    Yours,
+}
+
+/// The one that takes two reflectances for one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Confuses {
+    /// The camera.
+    #[default]
+    Camera,
+    /// The reference observer.
+    Reference,
+}
+
+impl Confuses {
+    /// The same as the search calls it.
+    pub const fn confusion(self) -> Confusion {
+        match self {
+            Self::Camera => Confusion::Camera,
+            Self::Reference => Confusion::Observer,
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! What is looked at in Recorded.
+
+use chromascope_core::camera::recorded::Freedom;
+use chromascope_core::query::RecordedSet;
+
+/// What is looked at in Recorded.
+#[derive(Clone, Debug, Default)]
+pub struct RecordedView {
+    /// True while a file that is asked for is one of recorded values.
+    pub opening: bool,
+    /// Parameters that are fitted.
+    pub freedom: Freedom,
+    /// Corners of the chart in the picture that were clicked, in its pixels.
+    pub corners: Vec<[f64; 2]>,
+    /// Raw value from which on a channel of a table is clipped; 0 for none.
+    pub clip: f64,
+    /// Camera whose residuals are shown; the best without one.
+    pub camera: Option<String>,
+    /// The patches on show.
+    pub set: Option<RecordedSet>,
+}

@@ -1,0 +1,48 @@
+//! How tables are looked at: order, columns, filter.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::plot_item::PlotItem;
+
+/// How one table is looked at.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct TableLook {
+    /// Column that rows are sorted by; none for the order as given.
+    pub sorting: Option<Sorting>,
+    /// Columns that the user shows or hides, by name; others stand as the table starts.
+    pub columns: BTreeMap<String, bool>,
+    /// Words that a row must contain. Not kept between runs.
+    #[serde(skip)]
+    pub filter: String,
+    /// Row under the keyboard where rows stand for nothing else, counted as given.
+    #[serde(skip)]
+    pub cursor: Option<usize>,
+    /// Selection that the table was scrolled to.
+    #[serde(skip)]
+    pub seen: Option<PlotItem>,
+}
+
+/// Order of a table's rows.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Sorting {
+    /// Name of the column.
+    pub column: String,
+    /// Largest first.
+    pub descending: bool,
+}
+
+impl TableLook {
+    /// Sorts by a column that was clicked: in its preferred direction, then in the other, then as given.
+    pub fn sort_by(&mut self, column: &str, largest_first: bool) {
+        self.sorting = match self.sorting.take() {
+            Some(now) if now.column == column && now.descending == largest_first => {
+                Some(Sorting { descending: !largest_first, ..now })
+            }
+            Some(now) if now.column == column => None,
+            _ => Some(Sorting { column: column.to_owned(), descending: largest_first }),
+        };
+    }
+}

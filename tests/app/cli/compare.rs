@@ -1,0 +1,162 @@
+//! Rankings of cameras, as a person asks for them.
+
+use chromascope::catalog::Catalog;
+use chromascope::document::{Document, SetKind, TRAINING};
+use chromascope::results::Results;
+use chromascope::scene::Scene;
+use chromascope_core::query::{Ask as _, CameraMetric};
+use serde_json::Value;
+
+use super::{column, file, number, refused, run, table};
+
+fn text(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn json(arguments: &[&str]) -> Value {
+    serde_json::from_str(&text(&[arguments, &["--format", "json"]].concat())).unwrap()
+}
+
+#[test]
+fn the_whole_library_is_ranked() {
+    let rows = table(&["compare", "--format", "csv", "--metrics", "metamerism-index,vora", "--sort", "vora"]);
+    let vora: Vec<f64> = column(&rows, "vora_value").into_iter().map(number).collect();
+    assert_eq!(vora.len(), 58);
+    assert!(vora.is_sorted_by(|a, b| a >= b));
+    let ranks = |head: &str| column(&rows, head).into_iter().map(number).collect::<Vec<_>>();
+    let (first, last, own) = (ranks("rank_first"), ranks("rank_last"), ranks("vora_value_uncertainty"));
+    assert!(first.is_sorted() && last.is_sorted() && first[0] == 1.0 && last[57] == 58.0);
+    assert!(own.iter().all(|u| *u > 0.0) && first.iter().zip(&last).any(|(a, b)| a < b));
+    // Kodak DCS200: published 0.8444 and 67.6.
+    let kodak = rows.iter().position(|row| row[0] == "Kodak DCS200").unwrap() - 1;
+    assert!((vora[kodak] - 0.8444).abs() < 5e-5);
+    assert!((number(column(&rows, "metamerism_index")[kodak]) - 67.6).abs() < 0.05);
+}
+
+#[test]
+fn one_number_in_three_forms() {
+    let named = ["compare", "--camera", "Kodak DCS200", "--metrics", "delta-e2000-mean,cct-error"];
+    let rows = table(&[&named[..], &["--format", "csv"]].concat());
+    let mean = number(column(&rows, "delta_e_2000_mean")[0]);
+    let object = json(&named);
+    assert_eq!((&object["format"], &object["version"]), (&"chromascope-comparison".into(), &1.into()));
+    let told = &object["cameras"][0]["values"]["delta-e2000-mean"];
+    assert!((told["value"].as_f64().unwrap() - mean).abs() < 1e-13);
+    assert!(told["uncertainty"].as_f64().unwrap() > 0.0);
+    assert_eq!(object["conditions"]["illuminant"], "D65");
+    let worst = object["cameras"][0]["worst_patches"].as_array().unwrap();
+    assert!(worst.len() == 5 && worst.iter().all(Value::is_string), "{worst:?}");
+    let aligned = text(&named);
+    assert!(aligned.contains(&format!("{mean:.2} ± ")) && aligned.contains("CCT error [K]"), "{aligned}");
+    // numpy and colour-science, tests/core/reference/camera_metrics.csv.
+    assert!((mean - 2.041_838_01).abs() < 1e-7);
+}
+
+#[test]
+fn aligned_columns_are_aligned() {
+    let aligned = text(&["compare", "--sort", "name"]);
+    let lines: Vec<Vec<char>> =
+        aligned.lines().take_while(|line| !line.is_empty()).map(|line| line.chars().collect()).collect();
+    assert_eq!(lines.len(), 59);
+    let places = |line: &[char]| -> Vec<usize> { (0..line.len()).filter(|&i| line[i] == '±').collect() };
+    // ± stands in one column where all values have one.
+    let first = places(&lines[1]);
+    assert!(first.len() > 5);
+    for line in &lines[1..] {
+        assert_eq!(places(line)[0], first[0]);
+    }
+}
+
+#[test]
+fn the_library_shares_what_does_not_depend_on_the_camera() {
+    let (document, catalog, results) = (Document::default(), Catalog::built_in(), Results::default());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    for entry in catalog.of_kind(SetKind::Camera) {
+        let query = scene.camera_metrics_query(SetKind::Camera, &entry.name).unwrap();
+        assert!(results.ask(&query).values[0].value.is_ok(), "{}", entry.name);
+    }
+    let counts = results.counts();
+    let expected = [
+        ("camera metrics", 58),
+        ("metrics of a table", 3),
+        ("fit targets", 1),
+        ("locus rules", 1),
+        ("reference locus", 1),
+        ("metamerism index samples", 1),
+        ("metamerism index", 58),
+        ("space quality", 58),
+        ("rendering", 59),
+        ("patch colors", 59),
+    ];
+    for (name, misses) in expected {
+        // Two tables of one measurement that differ in rounding are two questions.
+        assert_eq!(counts[name].misses, misses, "{name}");
+    }
+}
+
+#[test]
+fn corrections_are_those_named() {
+    let mean = |correction: &str| {
+        let arguments =
+            ["compare", "--camera", "Kodak DCS200", "--metrics", "delta-e2000-mean,xy-mean", "--chart", TRAINING];
+        let object = json(&[&arguments[..], &["--correction", correction]].concat());
+        let value = |id: &str| object["cameras"][0]["values"][id]["value"].as_f64();
+        (value("delta-e2000-mean"), value("xy-mean"), object["conditions"]["transform"].as_str().unwrap().to_owned())
+    };
+    let [none, matrix, least, roots] = ["none", "matrix", "min-delta-e", "root-polynomial"].map(mean);
+    assert!(least.0 < matrix.0 && matrix.0 < none.0, "{matrix:?} {least:?} {none:?}");
+    assert!(roots.0.is_some() && roots.0 != matrix.0, "{matrix:?} {roots:?}");
+    assert!([&none, &matrix, &least].iter().all(|other| other.2 != roots.2) && matrix.2.contains("CIE 1931 2°"));
+    let paper = json(&["compare", "--camera", "Kodak DCS200", "--transform", "paper", "--metrics", "delta-e2000-mean"]);
+    assert!(paper["cameras"][0]["values"]["delta-e2000-mean"]["reason"].as_str().is_some());
+}
+
+#[test]
+fn a_filter_changes_what_depends_on_the_light() {
+    let values = |more: &[&str]| {
+        let named = ["compare", "--camera", "Kodak DCS200", "--metrics", "delta-e2000-mean,vora,metamerism-index"];
+        let object = json(&[&named[..], more].concat());
+        ["delta-e2000-mean", "vora", "metamerism-index"].map(|id| object["cameras"][0]["values"][id]["value"].as_f64())
+    };
+    let filter = file("green.csv", "wavelength_nm,transmittance\n380,0.1\n480,0.2\n540,0.9\n600,0.3\n780,0.1\n");
+    let (plain, green) = (values(&[]), values(&["--filter", filter.to_str().unwrap()]));
+    assert!(plain[0] != green[0] && plain[1..] == green[1..], "{plain:?} {green:?}");
+}
+
+#[test]
+fn all_metrics_are_told_and_missing_ones_explained() {
+    let object = json(&["compare", "--camera", "ARRI D21", "--metrics", "all"]);
+    assert_eq!(object["metrics"].as_array().unwrap().len(), CameraMetric::ALL.len());
+    let values = &object["cameras"][0]["values"];
+    assert!(values["noise-red"]["reason"].as_str().unwrap().contains("same maximum"));
+    assert!(values["gray-snr"]["reason"].as_str().is_some());
+    let aligned = text(&["compare", "--camera", "Nikon D850", "--metrics", "gray-snr", "--full-well", "40000"]);
+    assert!(aligned.contains("SNR [dB]") && !aligned.contains("not given"), "{aligned}");
+    let help = text(&["compare", "--help"]);
+    assert!(CameraMetric::ALL[20..].iter().all(|metric| help.contains(metric.id)));
+}
+
+#[test]
+fn a_camera_of_the_user_s_is_ranked_with_the_others() {
+    let rows: String =
+        (0..36).map(|i| format!("{},{},{},{}\n", 380 + 10 * i, i % 7, (i + 2) % 5, (i * i) % 11)).collect();
+    let path = file("compared.csv", &format!("wavelength,red,green,blue\n{rows}"));
+    let path = path.to_str().unwrap();
+    let rows =
+        table(&["compare", "--camera", path, "--camera", "Nikon D850", "--metrics", "luther", "--format", "csv"]);
+    assert_eq!(rows.len(), 3);
+    assert_eq!(rows[1][0], "Nikon D850");
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused_with_a_remedy() {
+    refused(&["compare", "--metrics", "delta-e2000-men"], &["delta-e2000-mean"]);
+    refused(&["compare", "--sort", "beauty"], &["beauty"]);
+    refused(&["compare", "--temperature", "0"], &["--temperature", "kelvins"]);
+    refused(&["compare", "--full-well=-5"], &["--full-well"]);
+    refused(&["compare", "--full-well", "100", "--read-noise", "200"], &["read noise"]);
+    refused(&["compare", "--correction", "min-delta-e", "--transform", "paper"], &["--transform"]);
+    refused(&["compare", "--camera", "Polaroid"], &["Polaroid"]);
+}

@@ -1,0 +1,136 @@
+//! `identify`: synthetic recordings with known answers, from tables and from a picture.
+
+use std::fmt::Write as _;
+
+use chromascope_core::spectral::{Dataset, GridSpectrum, Quantity, Sensor};
+use serde_json::Value;
+
+use super::{column, file, number, refused, run, table};
+
+const CHART: [&str; 4] = ["--chart", "ColorChecker 24 (Ohta 1997)", "--illuminant", "D55"];
+
+/// Patch names with raw RGB of the chart under D55 through the measured D70, gains 2, 1, 1.5, brightest green at 40000.
+fn recording() -> Vec<(String, [f64; 3])> {
+    let asset = |path| Dataset::read(chromascope_data::text(path).unwrap()).unwrap();
+    let camera = Sensor::from_dataset(&asset("cameras/nikon_d70_a_m_p_a_s.csv")).unwrap();
+    let chart = chromascope_core::patch_set::PatchSet::from_dataset(&asset("charts/colorchecker_24_ohta_1997.csv"));
+    let d55 = GridSpectrum::resample(&asset("illuminants/d55.csv").curves[0], Quantity::Light);
+    let raw = |patch: &chromascope_core::patch_set::Patch| {
+        let radiance = GridSpectrum::from_fn(|nm| {
+            let index = (nm - 380.0).round() as usize;
+            patch.grid.values()[index] * d55.values()[index]
+        });
+        camera.integrate(radiance.values())
+    };
+    let all: Vec<(String, [f64; 3])> = chart.patches().iter().map(|patch| (patch.name.clone(), raw(patch))).collect();
+    let scale = 40_000.0 / all.iter().map(|(_, rgb)| rgb[1]).fold(0.0, f64::max);
+    all.into_iter().map(|(name, [r, g, b])| (name, [0.8 * r * scale, g * scale, 0.7 * b * scale])).collect()
+}
+
+fn csv(rows: &[(String, [f64; 3])]) -> String {
+    let rows = rows.iter().map(|(name, [r, g, b])| format!("{name},{r},{g},{b}\n"));
+    "patch,R,G,B\n".to_owned() + &rows.collect::<String>()
+}
+
+#[test]
+fn the_camera_is_found_from_a_table_in_any_order() {
+    let mut rows = recording();
+    rows.reverse();
+    rows[3].1[1] = 65_535.0;
+    rows[5].1[0] = 0.0;
+    let path = file("identify_raw.csv", &csv(&rows));
+    let residuals = path.with_file_name("identify_residuals.csv");
+    let written = residuals.to_str().unwrap();
+    let options = ["--clip", "65535", "--format", "csv", "--residuals", written, "--force"];
+    let found = table(&[&["identify", path.to_str().unwrap()], &CHART[..], &options].concat());
+    assert_eq!(found.len(), 1 + chromascope_data::files("cameras").count());
+    assert_eq!(column(&found, "camera")[0], "Nikon D70 (A.M.P.A.S.)");
+    assert!(number(column(&found, "rms_percent")[0]) < 1e-9);
+    assert!(number(column(&found, "rms_percent")[1]) > 0.5);
+    let [r, g] = ["gain_r", "gain_g"].map(|head| number(column(&found, head)[0]));
+    assert!((r / g - 0.8).abs() < 1e-9);
+    assert_eq!((column(&found, "values")[0], column(&found, "parameters")[0]), ("70", "26"));
+    let text = std::fs::read_to_string(residuals).unwrap();
+    let excluded: Vec<&str> =
+        text.lines().filter(|line| line.starts_with("Nikon D70 (A.M") && !line.ends_with(',')).collect();
+    let name = |index: usize| &rows[index].0;
+    assert_eq!(
+        excluded,
+        [
+            format!("Nikon D70 (A.M.P.A.S.),{},green,,clipped", name(3)),
+            format!("Nikon D70 (A.M.P.A.S.),{},red,,zero or negative", name(5)),
+        ]
+    );
+}
+
+#[test]
+fn spectra_beside_the_raw_values_and_radiances_give_the_same() {
+    let asset = Dataset::read(chromascope_data::text("charts/colorchecker_24_ohta_1997.csv").unwrap()).unwrap();
+    let nm = asset.curves[0].wavelengths_nm();
+    let mut text = format!("patch,R,G,B,{}\n", nm.iter().map(f64::to_string).collect::<Vec<_>>().join(","));
+    for ((name, [r, g, b]), curve) in recording().iter().zip(&asset.curves) {
+        let values = curve.values().iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+        writeln!(text, "{name},{r},{g},{b},{values}").unwrap();
+    }
+    let path = file("identify_both.csv", &text);
+    let arguments =
+        ["identify", path.to_str().unwrap(), "--illuminant", "D55", "--values", "plain", "--format", "json"];
+    let output = run(&[&arguments[..], &["--camera", "Nikon D70 (A.M.P.A.S.)", "--camera", "Canon EOS 5D"]].concat());
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{output:?}"));
+    assert_eq!(json["cameras"].as_array().unwrap().len(), 2);
+    assert_eq!(json["cameras"][0]["camera"], "Nikon D70 (A.M.P.A.S.)");
+    assert!(json["cameras"][0]["rms_percent"].as_f64().unwrap() < 1e-9);
+    assert_eq!(json["patches"][0]["name"], "dark skin");
+    // The same spectra as radiances are another light: the same camera no longer fits.
+    let radiance = [&arguments[..2], &["--radiance", "--format", "csv", "--camera", "Nikon D70 (A.M.P.A.S.)"]].concat();
+    let found = table(&radiance);
+    assert!(number(column(&found, "rms_percent")[0]) > 0.5, "{found:?}");
+}
+
+#[test]
+fn a_picture_gives_the_same_as_its_table() {
+    let rows = recording();
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("identify_chart.tif");
+    // Patches of 20 × 20 pixels from (30, 10) on, with a border of 4 pixels.
+    let pixel = |x: u32, y: u32| {
+        let (Some(x), Some(y)) = (x.checked_sub(30), y.checked_sub(10)) else { return image::Rgb([1000; 3]) };
+        let (column, row) = (x / 20, y / 20);
+        let border = [x % 20, y % 20].iter().any(|at| !(4..16).contains(at));
+        if column >= 6 || row >= 4 || border {
+            return image::Rgb([300; 3]);
+        }
+        image::Rgb(rows[(row * 6 + column) as usize].1.map(|value| value.round() as u16))
+    };
+    image::ImageBuffer::<image::Rgb<u16>, Vec<u16>>::from_fn(160, 100, pixel).save(&path).unwrap();
+    let image = path.to_str().unwrap();
+    let corners = ["--corners", "30,10", "150,10", "150,90", "30,90"];
+    let found = table(&[&["identify", "--image", image, "--format", "csv"], &corners[..], &CHART].concat());
+    assert_eq!(column(&found, "camera")[0], "Nikon D70 (A.M.P.A.S.)");
+    // Rounded to 16 bits.
+    assert!(number(column(&found, "rms_percent")[0]) < 0.05, "{found:?}");
+
+    let crossed = ["--corners", "30,10", "150,90", "150,10", "30,90"];
+    refused(&[&["identify", "--image", image], &crossed[..], &CHART].concat(), &["identify_chart.tif", "convex"]);
+    let beside = ["--corners", "30,10", "190,10", "150,90", "30,90"];
+    refused(&[&["identify", "--image", image], &beside[..], &CHART].concat(), &["corner 2", "160 x 100"]);
+    let eight = path.with_file_name("identify_8bit.png");
+    image::RgbImage::new(8, 8).save(&eight).unwrap();
+    let eight = eight.to_str().unwrap();
+    refused(&[&["identify", "--image", eight], &corners[..], &CHART].concat(), &["8-bit", "16-bit RGB"]);
+}
+
+#[test]
+fn what_is_missing_is_named_with_its_remedy() {
+    let good = file("identify_good.csv", &csv(&recording()));
+    let good = good.to_str().unwrap();
+    refused(&["identify", good, "--chart", "ColorChecker 24 (Ohta 1997)"], &["--illuminant"]);
+    refused(&["identify", good, "--illuminant", "D55"], &["identify_good.csv", "without spectra", "--chart"]);
+    let bad = file("identify_bad.csv", "patch,R,G,B\ndark skin,1,x,3\n");
+    refused(&[&["identify", bad.to_str().unwrap()], &CHART[..]].concat(), &["identify_bad.csv", "line 2, column 3"]);
+    let unknown = file("identify_unknown.csv", "patch,R,G,B\nno such,1,2,3\n");
+    refused(&[&["identify", unknown.to_str().unwrap()], &CHART[..]].concat(), &["line 2", "\"no such\"", "dark skin"]);
+    let few = file("identify_few.csv", "patch,R,G,B\nwhite,1,2,3\n");
+    refused(&[&["identify", few.to_str().unwrap()], &CHART[..]].concat(), &["3 usable values for 3 fitted"]);
+    refused(&[&["identify", good, "--clip", "0"], &CHART[..]].concat(), &["--clip"]);
+    refused(&[&["identify", good, "--raw", good], &CHART[..]].concat(), &["leave out"]);
+}

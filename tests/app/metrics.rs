@@ -1,0 +1,310 @@
+//! Workspace Metrics: ranking beside the window, links, head to head, report card, exports.
+
+use chromascope::action::{Action, CompareAction, SceneAction};
+use chromascope::app::ChromascopeApp;
+use chromascope::catalog::Catalog;
+use chromascope::command::Command;
+use chromascope::document::{Document, Light, SetKind};
+use chromascope::export;
+use chromascope::figures::FigureInput;
+use chromascope::jobs::Executor;
+use chromascope::panes;
+use chromascope::plot_item::{PlotItem, SensorId};
+use chromascope::results::Results;
+use chromascope::scene::Scene;
+use chromascope::theme::Theme;
+use chromascope::view::View;
+use chromascope::view::metrics::RankedCameras;
+use chromascope::workspaces::{Layout, PaneKind, Workspace};
+use chromascope_core::query::{Ask, CameraMetric};
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable};
+
+use crate::screenshots::driven_with;
+
+type Window = Harness<'static, ChromascopeApp>;
+
+/// The window with the workspace on show, nothing ranked yet.
+fn open() -> (Executor, Window) {
+    let (executor, mut window) = driven_with(Document::colorimetry(), [1600.0, 1400.0], egui::Theme::Dark);
+    window.state_mut().push(Command::Show(Workspace::Metrics));
+    window.run_steps(3);
+    (executor, window)
+}
+
+/// The same, all cameras ranked.
+fn ranked() -> (Executor, Window) {
+    let (executor, mut window) = open();
+    window.state().ranking().wait();
+    window.run_steps(3);
+    (executor, window)
+}
+
+/// Rows of the table of cameras in sight, from above, with their places.
+fn rows(window: &Window) -> Vec<(String, egui::Rect)> {
+    let rows = window.query_all_by_role(Role::Row);
+    let mut rows: Vec<_> = rows
+        .map(|row| (row.accesskit_node().label().unwrap_or_default(), row.rect()))
+        .filter(|(label, _)| label.contains(": rank "))
+        .collect();
+    rows.sort_by(|a, b| a.1.top().total_cmp(&b.1.top()));
+    rows
+}
+
+fn name(row: &str) -> &str {
+    row.split(": rank ").next().unwrap_or_default()
+}
+
+/// Number under a column's head in a row as it is spoken.
+fn number(row: &str, column: &str) -> Option<f64> {
+    let words = row.split(&format!("{column} ")).nth(1)?;
+    words.split([',', ' ']).next()?.replace('−', "-").parse().ok()
+}
+
+fn camera(name: &str) -> SensorId {
+    SensorId { kind: SetKind::Camera, name: name.to_owned() }
+}
+
+#[test]
+fn the_library_is_ranked_beside_the_window_with_progress() {
+    let (executor, mut window) = open();
+    let all = Catalog::built_in().of_kind(SetKind::Camera).count();
+    assert_eq!(window.state().ranking().progress(), Some((0, all)));
+    assert!(rows(&window).iter().all(|(row, _)| number(row, "ΔE*00 mean").is_none()), "{:?}", rows(&window));
+    assert!(executor.run_one("ranking"));
+    window.run_steps(2);
+    let (done, of) = window.state().ranking().progress().expect("not all");
+    assert!(0 < done && done < of && of == all, "{done} of {of}");
+    window.state().ranking().wait();
+    window.run_steps(3);
+    assert_eq!(window.state().ranking().progress(), None);
+    let values: Vec<f64> = rows(&window).iter().filter_map(|(row, _)| number(row, "ΔE*00 mean")).collect();
+    assert!(values.len() > 30 && values.is_sorted(), "sorted by the first metric: {values:?}");
+}
+
+#[test]
+fn values_are_those_that_the_scene_computes() {
+    let (_executor, window) = ranked();
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let document = window.state().history().document().clone();
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let metric = CameraMetric::by_id("delta-e2000-mean").unwrap();
+    for (row, _) in rows(&window).iter().take(3) {
+        let query = scene.camera_metrics_query(SetKind::Camera, name(row)).unwrap();
+        let value = results.ask(&query).of(metric).unwrap().value.unwrap();
+        assert_eq!(number(row, "ΔE*00 mean"), Some((value * 100.0).round() / 100.0), "{row}");
+    }
+}
+
+#[test]
+fn the_latest_conditions_win_and_the_last_answer_stays_meanwhile() {
+    let (executor, mut window) = ranked();
+    let before = rows(&window);
+    window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))));
+    window.run_steps(2);
+    assert!(executor.run_one("ranking"));
+    window.run_steps(2);
+    assert_eq!(rows(&window), before, "rows move only when all are done");
+    window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("FL2".to_owned()))));
+    window.run_steps(2);
+    window.state().ranking().wait();
+    window.run_steps(2);
+    let after = rows(&window);
+    assert_ne!(after, before);
+    let results = window.state().results();
+    let scene = Scene { document: window.state().history().document(), catalog: &Catalog::built_in(), results };
+    let query = scene.camera_metrics_query(SetKind::Camera, name(&after[0].0)).unwrap();
+    let value = results.ask(&query).of(CameraMetric::by_id("delta-e2000-mean").unwrap()).unwrap().value.unwrap();
+    assert!((number(&after[0].0, "ΔE*00 mean").unwrap() - value).abs() < 0.0051, "of the latest light");
+}
+
+#[test]
+fn nothing_is_ranked_while_hidden() {
+    let (executor, mut window) = driven_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
+    window.run_steps(3);
+    assert_eq!(window.state().ranking().progress(), None);
+    assert!(!executor.run_one("ranking"), "nobody looks");
+    window.state_mut().push(Command::Show(Workspace::Metrics));
+    window.run_steps(2);
+    assert!(window.state().ranking().progress().is_some());
+    window.state_mut().push(Command::Show(Workspace::Compare));
+    window.run_steps(3);
+    let computed =
+        |window: &Window| window.state().results().counts().get("camera metrics").map_or(0, |count| count.misses);
+    executor.run_all();
+    let at_first = computed(&window);
+    for light in ["A", "D65"] {
+        window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set(light.to_owned()))));
+        window.run_steps(2);
+        executor.run_all();
+    }
+    assert_eq!(computed(&window), at_first, "what is hidden computes nothing");
+}
+
+#[test]
+fn a_row_selects_in_all_panes_and_enter_compares() {
+    let (_executor, mut window) = ranked();
+    let (row, at) = rows(&window).into_iter().find(|(row, _)| !row.contains("compared ✓")).expect("not compared");
+    let id = camera(name(&row));
+    window.hover_at(at.left_center() + egui::vec2(6.0, 0.0));
+    window.run_steps(2);
+    assert_eq!(window.state().view().hovered, Some(PlotItem::Sensor(id.clone())));
+    window.query_all_by_role(Role::Row).find(|node| node.rect() == at).expect("row").click();
+    window.run_steps(3);
+    assert_eq!(window.state().view().selected, Some(PlotItem::Sensor(id.clone())));
+    window.state_mut().view_mut().focused = Some(PaneKind::METRICS);
+    window.run_steps(1);
+    window.key_press(egui::Key::Enter);
+    window.run_steps(3);
+    assert!(window.state().compares(SetKind::Camera, &id.name), "ticked");
+    window.get_by_role_and_label(Role::Button, "Remove").click();
+    window.run_steps(3);
+    assert!(!window.state().compares(SetKind::Camera, &id.name));
+}
+
+#[test]
+fn the_compared_and_the_users_cameras_are_a_switch() {
+    let (_executor, mut window) = ranked();
+    let compared: Vec<String> = window
+        .state()
+        .history()
+        .document()
+        .compared
+        .iter()
+        .filter(|c| c.kind == SetKind::Camera)
+        .map(|c| c.name.clone())
+        .collect();
+    window.state_mut().view_mut().saved.metrics.cameras = RankedCameras::Compared;
+    window.run_steps(2);
+    window.state().ranking().wait();
+    window.run_steps(2);
+    let mut shown: Vec<String> = rows(&window).iter().map(|(row, _)| name(row).to_owned()).collect();
+    shown.sort();
+    let mut expected = compared.clone();
+    expected.sort();
+    assert_eq!(shown, expected);
+    window.state_mut().push(Action::Compare(CompareAction::Remove(SetKind::Camera, compared[0].clone())));
+    window.run_steps(3);
+    window.state().ranking().wait();
+    window.run_steps(2);
+    assert_eq!(rows(&window).len(), compared.len() - 1);
+    window.state_mut().view_mut().saved.metrics.cameras = RankedCameras::Yours;
+    window.run_steps(3);
+    assert!(window.state().ranking().progress().is_none() && rows(&window).is_empty());
+}
+
+#[test]
+fn two_cameras_stand_head_to_head() {
+    let (_executor, mut window) = ranked();
+    let pair = ["Nikon D70 (2007 figure)", "Kodak DCS200"].map(camera);
+    window.state_mut().view_mut().saved.metrics.pair = pair.clone().map(Some);
+    window.run_steps(3);
+    assert!(window.query_by_role_and_label(Role::ComboBox, "Camera A: Nikon D70 (2007 figure)").is_some());
+    let said = window.query_all_by_role(Role::Row).filter_map(|row| row.accesskit_node().label());
+    let row = said.into_iter().find(|row| row.starts_with("ΔE*00 mean: ")).expect("a row for each metric");
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let document = window.state().history().document().clone();
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let metric = CameraMetric::by_id("delta-e2000-mean").unwrap();
+    let [a, b] = pair.map(|id| {
+        results.ask(&scene.camera_metrics_query(id.kind, &id.name).unwrap()).of(metric).unwrap().value.unwrap()
+    });
+    assert!(a < b, "{a} {b}");
+    assert!(row.contains(&format!("A {a:.2}")) && row.contains(&format!("B {b:.2}")), "{row}");
+    assert!(row.contains(&format!("A − B −{:.2}", b - a)) && row.ends_with("better A"), "{row}");
+}
+
+#[test]
+fn a_report_card_is_a_figure_like_others() {
+    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let mut view = View::default();
+    view.saved.metrics.card = Some(camera("Kodak DCS200"));
+    let figure = panes::figure(PaneKind::REPORT_CARD, &FigureInput::new(&scene, &view)).expect("a page");
+    assert_eq!(figure.title, "Report card: Kodak DCS200");
+    assert_eq!(figure.table.rows.len(), CameraMetric::ALL.len());
+    let svg = export::svg(&figure, &Theme::LIGHT, export::Paper::default());
+    let query = scene.camera_metrics_query(SetKind::Camera, "Kodak DCS200").unwrap();
+    let metrics = results.ask(&query);
+    let at = chromascope_core::colorimetry::Metric::ALL.iter().position(|m| *m == document.difference).unwrap();
+    let patches = scene.patches().unwrap();
+    for (rank, &worst) in metrics.worst[at].iter().enumerate() {
+        let words = format!("{}  {}", rank + 1, patches.patches()[worst].name);
+        assert!(svg.contains(&words), "{words}");
+    }
+    assert!(svg.contains("ΔE*00 mean") && export::png(&svg, 1.0).is_ok());
+    view.selected = Some(PlotItem::Sensor(camera("Canon EOS 5D")));
+    view.saved.metrics.card = None;
+    let figure = panes::figure(PaneKind::REPORT_CARD, &FigureInput::new(&scene, &view)).expect("a page");
+    assert_eq!(figure.title, "Report card: Canon EOS 5D", "follows the selection");
+}
+
+#[test]
+fn all_numbers_go_out_as_csv_and_json() {
+    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let figure = panes::figure(PaneKind::METRICS, &FigureInput::new(&scene, &View::default())).expect("a figure");
+    let cameras = catalog.of_kind(SetKind::Camera).count();
+    assert_eq!(figure.table.rows.len(), cameras);
+    assert_eq!(figure.table.columns.len(), 1 + 2 * CameraMetric::ALL.len());
+    let json: serde_json::Value = serde_json::from_str(&export::json(&figure.title, &figure.table)).unwrap();
+    assert_eq!((json["version"].as_u64(), json["rows"].as_array().map(Vec::len)), (Some(1), Some(cameras)));
+    let column = json["columns"].as_array().unwrap().iter().position(|c| c == "delta_e_2000_mean").unwrap();
+    assert!(json["rows"][0][column].as_f64().is_some_and(|value| value > 0.0), "{}", json["rows"][0]);
+    assert!(figure.table.to_csv().starts_with("camera,delta_e_2000_mean,delta_e_2000_mean_uncertainty,"));
+}
+
+#[test]
+fn layouts_from_before_the_workspace_open_with_it() {
+    let saved = "(compare: (Some(Chromaticity), None, None, Some(Spectra)), render: (Some(Render), None, None, None))";
+    let layout: Layout = ron::from_str(saved).unwrap();
+    assert_eq!(layout.metrics, Layout::default().metrics);
+    assert_eq!(layout.metrics[0], Some(PaneKind::METRICS));
+    assert_eq!(Workspace::ALL.iter().position(|workspace| *workspace == Workspace::Metrics), Some(3), "after Render");
+}
+
+#[test]
+fn metamers_are_found_marked_and_put_on_the_mesh() {
+    let (executor, mut window) = open();
+    assert!(!executor.run_one("metamers"), "nobody looks");
+    window.state_mut().view_mut().saved.metrics.card = Some(camera("Kodak DCS200"));
+    window.state_mut().push(Command::Maximize(PaneKind::new("Metamers")));
+    window.run_steps(3);
+    assert!(window.query_by_label("Searching…").is_some());
+    window.state().ranking().wait();
+    window.run_steps(3);
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let document = window.state().history().document().clone();
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let confusion = chromascope_core::metamers::Confusion::Camera;
+    let (query, sets) = scene.metamers_query(SetKind::Camera, "Kodak DCS200", confusion).unwrap();
+    let found = (*results.ask(&query)).clone().expect("searched");
+    let [set, patch] = query.at(found.pairs[0].places[0]).unwrap();
+    let first = query.sets[set].patches()[patch].name.clone();
+    let row = window.query_all_by_role(Role::Row).find(|row| row.rect().top() < 400.0).expect("the worst pair");
+    assert!(row.accesskit_node().label().unwrap_or_default().starts_with(&first), "{first}");
+    row.click();
+    window.run_steps(3);
+    let view = window.state().view();
+    assert_eq!((view.metamers, view.pinned.len()), (Some(0), 2), "both are marked");
+    assert_eq!(view.selected.as_ref().and_then(PlotItem::patch), Some(first.as_str()));
+    let is_material = |place: usize| {
+        let set = query.at(place).unwrap()[0];
+        scene.entry(SetKind::Chart, &sets[set]).is_err().then(|| sets[set].clone())
+    };
+    let names = found.pairs[0].places.map(is_material);
+    if let Some(name) = names.into_iter().flatten().next() {
+        window.get_by_role_and_label(Role::Button, &format!("{name} on the mesh")).click();
+        window.run_steps(2);
+        assert_eq!(window.state().history().document().render.material, name);
+    } else {
+        window
+            .query_all_by_role(Role::Button)
+            .find(|b| b.accesskit_node().label().unwrap_or_default().starts_with("Show "))
+            .expect("a chart")
+            .click();
+        window.run_steps(2);
+        assert!(sets.contains(&window.state().history().document().chart));
+    }
+}
