@@ -12,6 +12,7 @@ mod last;
 mod profile;
 mod prompt;
 mod save;
+mod shared_state;
 mod standing;
 mod store;
 mod watch;

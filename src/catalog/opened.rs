@@ -110,7 +110,7 @@ pub struct Opened {
     executor: Executor,
 }
 
-/// What lies between the window and the threads that read.
+/// State shared by the window and the reading threads.
 type Desk = jobs::Desk<State>;
 
 #[derive(Default)]

@@ -1,19 +1,15 @@
 //! Keeping the document between runs: each change is on disk within a second, whatever ends the program.
 
-mod shared_state;
-
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::SystemTime;
 
-pub(super) use shared_state::SharedState;
-
 use super::last;
 use super::profile::{self, Copy, OtherWindow, Profile};
+use super::shared_state::{SharedState, State};
 use super::store::{Store, Unread};
 use crate::document::Document;
 use crate::jobs::Executor;
-use shared_state::State;
 
 /// Writes the document to the program's folder.
 pub(super) struct Keeper {
@@ -236,8 +232,8 @@ impl Drop for Keeper {
 
 #[cfg(test)]
 mod tests {
-    use super::shared_state::{Breakdown, RETRY};
     use super::*;
+    use crate::files::shared_state::{Breakdown, RETRY};
 
     #[test]
     fn a_panic_while_writing_is_told_and_writing_goes_on() {

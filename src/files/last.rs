@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::keep::SharedState;
+use super::shared_state::SharedState;
 
 /// A program that ends waits so long for a disk.
 const WAIT: Duration = Duration::from_secs(3);

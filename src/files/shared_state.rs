@@ -4,9 +4,9 @@ use std::path::PathBuf;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
+use super::last::within_moments;
+use super::store::{Store, Written};
 use crate::document::Document;
-use crate::files::last::within_moments;
-use crate::files::store::{Store, Written};
 use crate::jobs::Clock;
 
 /// A change is written at once, those that follow no sooner than so long after it.
@@ -15,7 +15,7 @@ const PAUSE: Duration = Duration::from_millis(150);
 pub(super) const RETRY: Duration = Duration::from_secs(2);
 
 /// State shared by the window and the thread that writes.
-pub(in crate::files) struct SharedState {
+pub(super) struct SharedState {
     pub(super) state: Mutex<State>,
     /// Held while something is written.
     pub(super) store: Mutex<Store>,
@@ -146,7 +146,7 @@ impl SharedState {
 
     /// Writes what is newest as the program ends. Never waits for long: the thread that holds a lock may be the one that broke.
     /// Returns the file, if all is in it.
-    pub(in crate::files) fn save_last(&self) -> Option<PathBuf> {
+    pub(super) fn save_last(&self) -> Option<PathBuf> {
         if !self.keeps {
             return None;
         }
