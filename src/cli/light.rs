@@ -110,7 +110,7 @@ fn csv(answers: &[Answer]) -> String {
         let cells = numbers(answer).into_iter().map(|value| value.map_or_else(String::new, significant));
         let start = std::iter::once(field(&answer.name)).chain(cells).collect::<Vec<_>>().join(",");
         if answer.cameras.is_empty() {
-            let _ = write!(text, "{start},,,,,\n");
+            let _ = writeln!(text, "{start},,,,,");
         }
         for (camera, consistency) in &answer.cameras {
             let values = consistency.as_ref().map_or_else(
@@ -120,7 +120,7 @@ fn csv(answers: &[Answer]) -> String {
                     format!("{mean},{p95},{max},{}", field(&answer.patches[c.worst]))
                 },
             );
-            let _ = write!(text, "{start},{},{values}\n", field(camera));
+            let _ = writeln!(text, "{start},{},{values}", field(camera));
         }
     }
     text
@@ -162,7 +162,7 @@ fn table(answers: &[Answer]) -> String {
         }
         text.push('\n');
         for (camera, consistency) in &answer.cameras {
-            text += &match consistency {
+            let line = match consistency {
                 Ok(c) => {
                     let [mean, p95, max] = [c.mean, c.percentile_95, c.max].map(|value| fixed(value, 2));
                     let worst = &answer.patches[c.worst];
@@ -170,6 +170,7 @@ fn table(answers: &[Answer]) -> String {
                 }
                 Err(error) => format!("  {camera}: {error}\n"),
             };
+            text.push_str(&line);
         }
     }
     text

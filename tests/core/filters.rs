@@ -82,7 +82,7 @@ proptest! {
 }
 
 /// By numpy: Sprague and linear interpolation to 1 nm, the white-keeping matrix from its normal equations, colour-science's
-/// `delta_E_CIE2000`; ColorChecker (BabelColor average), mean, 95 %, maximum, worst patch.
+/// `delta_E_CIE2000`; `ColorChecker` (`BabelColor` average), mean, 95 %, maximum, worst patch.
 #[test]
 fn consistency_matches_another_program() {
     let d70 = "cameras/nikon_d70_a_m_p_a_s.csv";

@@ -1,6 +1,6 @@
 //! The readers of spectral images against files of independent programs, known contents and hostile input.
-#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "the tests read and write files")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should say so by failing")]
+#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "the tests read files")]
 
 mod hostile;
 mod memory;

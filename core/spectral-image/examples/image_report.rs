@@ -1,5 +1,4 @@
 //! Prints size, bands and mean spectrum of a spectral image: `image_report cube.hdr cube.img` or `image_report image.exr`.
-#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "an example reads its file")]
 #![allow(clippy::print_stdout, reason = "an example that prints")]
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "a program opens the files")]
 

@@ -83,7 +83,7 @@ impl<R: Read + Seek> ExrImage<R> {
         };
         let reader = exr::block::read(std::io::BufReader::new(&mut self.data), false)?;
         let mut blocks = reader.filter_chunks(false, within)?.sequential_decompressor(false);
-        let into = Rows { info: &self.info, channels: &self.channels, places: &self.places, wanted: &rows };
+        let into = Filled { info: &self.info, channels: &self.channels, places: &self.places, rows: &rows };
         while let Some(block) = blocks.decompress_next_block() {
             into.take(&block?, samples)?;
         }
@@ -96,7 +96,7 @@ struct Filled<'a> {
     info: &'a ImageInfo,
     channels: &'a ChannelList,
     places: &'a [Option<usize>],
-    wanted: &'a Range<usize>,
+    rows: &'a Range<usize>,
 }
 
 impl Filled<'_> {
@@ -110,10 +110,10 @@ impl Filled<'_> {
             let at = line.location;
             let Some(place) = self.places.get(at.channel).copied().flatten() else { continue };
             let row = at.position.y();
-            if !self.wanted.contains(&row) || at.position.x() + at.sample_count > self.info.width {
+            if !self.rows.contains(&row) || at.position.x() + at.sample_count > self.info.width {
                 continue;
             }
-            let first = ((row - self.wanted.start) * self.info.width + at.position.x()) * bands;
+            let first = ((row - self.rows.start) * self.info.width + at.position.x()) * bands;
             let pixels = samples[first..first + at.sample_count * bands].chunks_exact_mut(bands);
             let finite = |value: f32| if value.is_finite() { value } else { f32::NAN };
             match self.channels.list[at.channel].sample_type {

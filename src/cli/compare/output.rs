@@ -76,11 +76,11 @@ fn cell(metric: CameraMetric, value: MetricValue) -> String {
 fn notes(comparison: &Comparison) -> String {
     let mut text = "\n".to_owned();
     for (head, value) in &comparison.conditions {
-        let _ = write!(text, "{}: {value}\n", head.replace("_k", " in kelvins").replace('_', " "));
+        let _ = writeln!(text, "{}: {value}", head.replace("_k", " in kelvins").replace('_', " "));
     }
     if let Some(metric) = comparison.sorted_by {
         let _ =
-            write!(text, "Rank by {}; a range where values differ by less than their uncertainty.\n", metric.symbol);
+            writeln!(text, "Rank by {}; a range where values differ by less than their uncertainty.", metric.symbol);
     }
     text += "±: standard uncertainty from independent tables of the same model, or pooled from those models.\n";
     let mut reasons: Vec<(String, Vec<&str>)> = Vec::new();
@@ -96,7 +96,7 @@ fn notes(comparison: &Comparison) -> String {
     }
     for (reason, names) in reasons {
         let who = if names.len() == comparison.rows.len() { "all".to_owned() } else { names.join(", ") };
-        let _ = write!(text, "– {reason} ({who})\n");
+        let _ = writeln!(text, "– {reason} ({who})");
     }
     text
 }
