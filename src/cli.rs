@@ -9,6 +9,7 @@ mod bench;
 mod checks;
 mod compare;
 mod error;
+mod fit;
 mod identify;
 mod inspect;
 mod light;

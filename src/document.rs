@@ -17,6 +17,7 @@ pub mod uses;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
 use correction::CorrectionChoice;
+pub use correction::TRAINING;
 pub use kind::SetKind;
 use own::OwnSet;
 use render::RenderSettings;
@@ -250,8 +251,6 @@ pub const FIT_TARGET: &str = CIE_1931;
 pub const CIE_1931: &str = "CIE 1931 2°";
 /// The chart on show unless the user says otherwise.
 pub const CHART: &str = "ColorChecker 24 (Ohta 1997)";
-/// The reflectances that matrices are fitted over.
-pub const TRAINING: &str = "Training reflectances (190)";
 /// The light on the scene unless the user says otherwise.
 pub const LIGHT: &str = "E";
 /// The most sensors that are compared at once: each has a place of its own in the palette.

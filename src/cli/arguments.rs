@@ -10,7 +10,7 @@ use super::bench::BenchArguments;
 use super::compare::arguments::CompareArguments;
 use super::identify::arguments::IdentifyArguments;
 use super::inspect::arguments::InspectArguments;
-use super::matrix::MatrixArguments;
+use super::matrix::arguments::MatrixArguments;
 use super::render::arguments::RenderArguments;
 pub(super) use super::sources::{SourceArguments, Transform};
 use crate::document::SetKind;
@@ -89,7 +89,7 @@ pub(super) enum Subcommand {
     #[command(after_help = super::light::arguments::EXAMPLES)]
     Light(Box<super::light::arguments::LightArguments>),
     /// Color correction matrix of a camera, with its errors, as text, DNG values, DCP, ICC or CLF
-    #[command(after_help = super::matrix::EXAMPLES)]
+    #[command(after_help = super::matrix::arguments::EXAMPLES)]
     Matrix(Box<MatrixArguments>),
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]

@@ -14,7 +14,7 @@ use spectral_file::{Certainty, MAX_BYTES, Values};
 use super::arguments::{CommonArguments, SourceArguments, Transform};
 use super::checks;
 use super::error::CliError;
-use super::matrix::FitArguments;
+use super::fit::FitArguments;
 use super::outputs::is_descriptor;
 use super::per::Per;
 use crate::catalog::import::{Origin, imported};

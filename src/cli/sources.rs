@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use chromascope_core::correction::CorrectionMethod;
 use clap::{Args, ValueEnum};
 
-use super::matrix::FitArguments;
+use super::fit::FitArguments;
 use super::per::Per;
 use crate::document::start::Start;
 
@@ -35,7 +35,7 @@ pub(super) struct SourceArguments {
     #[arg(long, value_name = "OBSERVER")]
     pub(super) fit_to: Option<String>,
     /// The color correction of a fitted transform [default: matrix]
-    #[arg(long, value_name = "METHOD", value_parser = super::matrix::method())]
+    #[arg(long, value_name = "METHOD", value_parser = super::fit::method())]
     pub(super) correction: Option<CorrectionMethod>,
     #[command(flatten)]
     pub(super) fit: FitArguments,

@@ -5,7 +5,8 @@ use chromascope_core::correction::{Correction, CorrectionMethod};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
-use super::TRAINING;
+/// The reflectances that transforms are fitted over unless the user says otherwise.
+pub const TRAINING: &str = "Training reflectances (190)";
 
 /// Method and conditions of fitted color transforms.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -62,7 +63,7 @@ impl CorrectionChoice {
             method => format!("{} fitted to {target}", method.label()),
         };
         if !self.keeps_white {
-            words += "; white not kept";
+            words += "; white free";
         }
         if self.training != TRAINING {
             let _ = write!(words, "; training {}", self.training);

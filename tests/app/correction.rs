@@ -9,6 +9,7 @@ use chromascope_core::correction::CorrectionMethod;
 use egui_kittest::kittest::Queryable as _;
 
 use crate::screenshots::open_with;
+use crate::waiting::until;
 
 const PANE: PaneKind = PaneKind::new("Correction");
 
@@ -47,13 +48,11 @@ fn the_pane_shows_matrix_errors_and_checks() {
     document.correction.second_light = Some("A".to_owned());
     let mut harness = open_with(document, [900.0, 1600.0], egui::Theme::Dark);
     harness.state_mut().push(Command::Maximize(PANE));
-    for _ in 0..400 {
+    until("the correction", || {
         harness.step();
-        if harness.query_all_by_label_contains("leave-one-out").next().is_some() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
+        let shown = harness.query_all_by_label_contains("leave-one-out").next().is_some();
+        if shown { Ok(()) } else { Err("no errors are shown".to_owned()) }
+    });
     for words in ["leave-one-out", "ColorMatrix1", "ForwardMatrix2", "450 nm", "ACES IDT", "DCP…"] {
         assert!(harness.query_all_by_label_contains(words).next().is_some(), "{words}");
     }
