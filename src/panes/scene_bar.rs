@@ -27,7 +27,7 @@ pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     bar.spacing_mut().item_spacing.x = 3.0 * UNIT;
     let compact = if wide { 1.0 } else { 0.78 };
     field(&mut bar, "Reference", 200.0 * compact, context, reference);
-    let caption = light_caption(context, wide);
+    let caption = light_caption(context);
     captioned(&mut bar, ("Light", &caption), 148.0 * compact, context, light);
     field(&mut bar, temperature_caption(context, wide), slider + 74.0, context, |ui, context| {
         temperature(ui, slider, context);
@@ -95,12 +95,9 @@ fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 /// The light's temperature, and that there are filters in front of it.
-fn light_caption(context: &PaneContext<'_>, wide: bool) -> String {
+fn light_caption(context: &PaneContext<'_>) -> String {
     let filters = if context.scene.document.filters.is_empty() { "Light" } else { "Filtered" };
     match context.scene.light_temperature() {
-        Ok(Ok(cct)) if wide && context.scene.document.filters.is_empty() => {
-            format!("{filters} {:.0} K, Duv {}", cct.temperature.get(), signed(cct.duv))
-        }
         Ok(Ok(cct)) => format!("{filters} {:.0} K", cct.temperature.get()),
         _ => filters.to_owned(),
     }
@@ -120,6 +117,9 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
             .to_owned();
     for filter in filters {
         hint.extend(["\nFilter: ", filter]);
+    }
+    if let Ok(Ok(cct)) = context.scene.light_temperature() {
+        hint.extend(["\nDuv ", &signed(cct.duv)]);
     }
     let filtered = !filters.is_empty();
     choice(ui, "Light", &hint, &shown, |ui| {

@@ -42,7 +42,7 @@ fn files_switches_and_curves_are_reached_and_changed_by_keys_alone() {
     for (name, text) in [("a.csv", CAMERA), ("broken.csv", BROKEN), ("c.csv", TABS)] {
         drop_file(&mut window, name, text);
     }
-    window.key_press_modifiers(egui::Modifiers::COMMAND, Key::Num4);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, Key::Num5);
     settle(&mut window);
     assert_eq!(window.state().view().saved.workspace, Workspace::Import);
 

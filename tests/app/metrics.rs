@@ -73,7 +73,7 @@ fn the_library_is_ranked_beside_the_window_with_progress() {
     assert_eq!(window.state().ranking().progress(), Some((0, all)));
     assert!(rows(&window).iter().all(|(row, _)| number(row, "ΔE*00 mean").is_none()), "{:?}", rows(&window));
     assert!(executor.run_one("ranking"));
-    window.run_steps(2);
+    window.run_steps(3);
     let (done, of) = window.state().ranking().progress().expect("not all");
     assert!(0 < done && done < of && of == all, "{done} of {of}");
     window.state().ranking().wait();
@@ -102,14 +102,14 @@ fn the_latest_conditions_win_and_the_last_answer_stays_meanwhile() {
     let (executor, mut window) = ranked();
     let before = rows(&window);
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))));
-    window.run_steps(2);
+    window.run_steps(3);
     assert!(executor.run_one("ranking"));
-    window.run_steps(2);
+    window.run_steps(3);
     assert_eq!(rows(&window), before, "rows move only when all are done");
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("FL2".to_owned()))));
-    window.run_steps(2);
+    window.run_steps(3);
     window.state().ranking().wait();
-    window.run_steps(2);
+    window.run_steps(3);
     let after = rows(&window);
     assert_ne!(after, before);
     let results = window.state().results();
@@ -126,7 +126,7 @@ fn nothing_is_ranked_while_hidden() {
     assert_eq!(window.state().ranking().progress(), None);
     assert!(!executor.run_one("ranking"), "nobody looks");
     window.state_mut().push(Command::Show(Workspace::Metrics));
-    window.run_steps(2);
+    window.run_steps(3);
     assert!(window.state().ranking().progress().is_some());
     window.state_mut().push(Command::Show(Workspace::Compare));
     window.run_steps(3);
@@ -136,7 +136,7 @@ fn nothing_is_ranked_while_hidden() {
     let at_first = computed(&window);
     for light in ["A", "D65"] {
         window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set(light.to_owned()))));
-        window.run_steps(2);
+        window.run_steps(3);
         executor.run_all();
     }
     assert_eq!(computed(&window), at_first, "what is hidden computes nothing");
@@ -148,7 +148,7 @@ fn a_row_selects_in_all_panes_and_enter_compares() {
     let (row, at) = rows(&window).into_iter().find(|(row, _)| !row.contains("compared ✓")).expect("not compared");
     let id = camera(name(&row));
     window.hover_at(at.left_center() + egui::vec2(6.0, 0.0));
-    window.run_steps(2);
+    window.run_steps(8);
     assert_eq!(window.state().view().hovered, Some(PlotItem::Sensor(id.clone())));
     window.query_all_by_role(Role::Row).find(|node| node.rect() == at).expect("row").click();
     window.run_steps(3);
@@ -176,9 +176,9 @@ fn the_compared_and_the_users_cameras_are_a_switch() {
         .map(|c| c.name.clone())
         .collect();
     window.state_mut().view_mut().saved.metrics.cameras = RankedCameras::Compared;
-    window.run_steps(2);
+    window.run_steps(3);
     window.state().ranking().wait();
-    window.run_steps(2);
+    window.run_steps(3);
     let mut shown: Vec<String> = rows(&window).iter().map(|(row, _)| name(row).to_owned()).collect();
     shown.sort();
     let mut expected = compared.clone();
@@ -187,7 +187,7 @@ fn the_compared_and_the_users_cameras_are_a_switch() {
     window.state_mut().push(Action::Compare(CompareAction::Remove(SetKind::Camera, compared[0].clone())));
     window.run_steps(3);
     window.state().ranking().wait();
-    window.run_steps(2);
+    window.run_steps(3);
     assert_eq!(rows(&window).len(), compared.len() - 1);
     window.state_mut().view_mut().saved.metrics.cameras = RankedCameras::Yours;
     window.run_steps(3);
@@ -296,7 +296,7 @@ fn metamers_are_found_marked_and_put_on_the_mesh() {
     let names = found.pairs[0].places.map(is_material);
     if let Some(name) = names.into_iter().flatten().next() {
         window.get_by_role_and_label(Role::Button, &format!("{name} on the mesh")).click();
-        window.run_steps(2);
+        window.run_steps(3);
         assert_eq!(window.state().history().document().render.material, name);
     } else {
         window
@@ -304,7 +304,7 @@ fn metamers_are_found_marked_and_put_on_the_mesh() {
             .find(|b| b.accesskit_node().label().unwrap_or_default().starts_with("Show "))
             .expect("a chart")
             .click();
-        window.run_steps(2);
+        window.run_steps(3);
         assert!(sets.contains(&window.state().history().document().chart));
     }
 }

@@ -145,7 +145,7 @@ fn an_ending_that_cannot_be_written_is_refused_and_stays() {
         let path = folder.path().join(name);
         type_path(&mut window, path.to_str().unwrap());
         enter(&mut window);
-        assert!(says(&window, "this can be saved as .svg, .png or .csv"), "{name}");
+        assert!(says(&window, "this can be saved as .svg, .png, .csv or .json"), "{name}");
         assert_eq!(text(&window), path.to_str().unwrap(), "to be mended");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -170,7 +170,7 @@ fn the_systems_dialog_follows_the_ending_too() {
         assert_eq!(form_of(&path), form);
     }
     let Question::Save { endings, .. } = dialogs.asked.lock().unwrap()[0].clone() else { panic!("not to save") };
-    assert_eq!(endings, ["svg", "png", "csv"]);
+    assert_eq!(endings, ["svg", "png", "csv", "json"]);
     // The dialog has closed: the path goes on in the box, with the reason.
     export(&mut window, Format::Svg);
     answer.send(Answer::Chosen(vec![folder.path().join("d.pdf")])).unwrap();
