@@ -151,14 +151,14 @@ fn help_opens_searches_follows_links_and_closes_by_keyboard() {
     window.run();
     window.key_press(egui::Key::Enter);
     window.run();
-    assert_eq!(window.state_mut().view_mut().help.page, Some("glossary"));
+    assert_eq!(window.state_mut().view_mut().help.page, Some("metrics"));
     window.key_press(egui::Key::Escape);
     window.run();
     assert_eq!(window.state_mut().view_mut().help.query, "");
     window.get_by_label("← Back").click();
     window.run();
     assert_eq!(window.state_mut().view_mut().help.page, Some(FIRST));
-    window.get_by_role_and_label(Role::Link, "Glossary").click();
+    window.get_by_role_and_label(Role::Link, "Glossary").click_accesskit();
     window.run();
     assert_eq!(window.state_mut().view_mut().help.page, Some("glossary"));
     window.key_press(egui::Key::Escape);

@@ -148,9 +148,9 @@ fn a_row_selects_in_all_panes_and_enter_compares() {
     let (row, at) = rows(&window).into_iter().find(|(row, _)| !row.contains("compared ✓")).expect("not compared");
     let id = camera(name(&row));
     window.hover_at(at.left_center() + egui::vec2(6.0, 0.0));
-    window.run_steps(8);
+    window.run_steps(3);
     assert_eq!(window.state().view().hovered, Some(PlotItem::Sensor(id.clone())));
-    window.query_all_by_role(Role::Row).find(|node| node.rect() == at).expect("row").click();
+    window.query_all_by_role(Role::Row).find(|node| node.rect() == at).expect("row").click_accesskit();
     window.run_steps(3);
     assert_eq!(window.state().view().selected, Some(PlotItem::Sensor(id.clone())));
     window.state_mut().view_mut().focused = Some(PaneKind::METRICS);
