@@ -97,6 +97,15 @@ fn compare_small() {
 }
 
 #[test]
+fn metrics() {
+    let mut harness = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Light);
+    harness.state_mut().view_mut().saved.workspace = Workspace::Metrics;
+    harness.run_steps(3);
+    harness.state().ranking().wait();
+    check(harness, "metrics.png");
+}
+
+#[test]
 fn selected_patch() {
     let mut harness = open([1280.0, 800.0], egui::Theme::Light);
     select(&mut harness, "Kodak DCS200", "blue");
