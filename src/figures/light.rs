@@ -39,11 +39,18 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
         let (anchor, ink) = (Anchor(0.5, 1.0), InkRole::Text.into());
         let at = [middle, value.max(0.0)];
         let text = fixed(*value, 0);
+        // A number that is wider than its bar's place would run into the next; the bar itself still says it when pointed at.
+        if text.chars().count() as f64 * DIGIT_WIDTH > area.width() / values.len() as f64 {
+            continue;
+        }
         let shape = Shape::Text { at, text, anchor, offset: [0.0, -1.0], size: TextSize::Small, ink };
         panel.marks.push(Mark::new(Tag::default(), format!("{name} {value:.1}"), shape));
     }
     Some(panel)
 }
+
+/// Width of a digit of small text in points, with its share of the gap to the next number.
+const DIGIT_WIDTH: f64 = 7.0;
 
 /// The color vector graphic: hue bins of the reference on a circle, those of the light around it; none where it is undefined.
 pub fn vectors(rendition: &Rendition, area: Rect) -> Option<Panel> {
