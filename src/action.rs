@@ -89,7 +89,7 @@ pub enum SceneAction {
 pub enum RenderAction {
     /// Other settings.
     Set {
-        /// What was changed, as the menu calls it.
+        /// Name of the changed setting, as shown in the menu.
         what: &'static str,
         /// The settings as they are to be.
         to: Box<RenderSettings>,
@@ -128,7 +128,7 @@ pub enum OwnAction {
     },
     /// Puts other versions of some sets in their places, because of what the step is called.
     ReplaceAll {
-        /// What the step is called.
+        /// Name of the undo step.
         what: String,
         /// The names they had, and the sets as they are to be.
         with: Vec<(String, OwnSet)>,
@@ -140,7 +140,7 @@ pub enum OwnAction {
 }
 
 impl Action {
-    /// What the step is called in the menu.
+    /// Returns the name of the undo step, as shown in the menu.
     pub fn name(&self) -> String {
         match self {
             Self::Compare(action) => action.name(),
@@ -364,7 +364,7 @@ impl OwnAction {
     }
 }
 
-/// Opens a file again that a set was made of. The same contents leave the set as it is, with all that a person chose for it; other
+/// Opens a file again that a set was made of. The same contents leave the set as it is, with all that the user chose for it; other
 /// contents take their place under its name.
 fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool, built_in: &BuiltInNames) {
     let name = document.own[index].name.clone();

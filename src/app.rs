@@ -76,7 +76,7 @@ impl ChromascopeApp {
         Self::on(&Executor::default(), ctx, history, saved, files)
     }
 
-    /// Starts with a document, and has an executor do what is done beside the window.
+    /// Starts with a document, and has an executor do what is done in the background.
     pub fn on(
         executor: &Executor,
         ctx: &egui::Context,
@@ -171,7 +171,7 @@ impl ChromascopeApp {
         &self.opened
     }
 
-    /// True if a path is being asked for.
+    /// True if a path is being requested.
     pub fn is_asking(&self) -> bool {
         self.files.is_asking()
     }
@@ -186,12 +186,12 @@ impl ChromascopeApp {
         &self.laboratory
     }
 
-    /// Where cameras are ranked.
+    /// Camera ranking service.
     pub fn ranking(&self) -> &Ranking {
         &self.ranking
     }
 
-    /// The same, for tests to set up.
+    /// Mutable access to the profiler, for tests.
     pub fn laboratory_mut(&mut self) -> &mut Profiler {
         &mut self.laboratory
     }
@@ -239,7 +239,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// While a path is asked for, keys are meant for that: none is a shortcut, and until the box or dialog has the keyboard
+    /// While a path is requested, keys are meant for that: none is a shortcut, and until the box or dialog has the keyboard
     /// they go nowhere. Esc closes the box, and brings it where a dialog does not come.
     fn keep_keys_for_path(&mut self, ctx: &egui::Context) {
         self.view.blink = false;

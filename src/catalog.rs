@@ -1,6 +1,6 @@
 //! The data sets there are: built in, and the user's own.
 //!
-//! The index is made of headers alone; a set's figures are parsed when a question first asks for them
+//! The index is made of headers alone; a set's figures are parsed when a question first requests them
 //! ([`load`]), and cached with the other answers.
 
 pub mod chart_picture;

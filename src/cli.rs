@@ -1,8 +1,7 @@
-//! The same answers without a window: `locus`, `patches`, `compare`, `matrix`, `light`, `render`, `identify`, `inspect`, `bench`,
-//! `list`.
+//! Command-line interface: `locus`, `patches`, `compare`, `matrix`, `light`, `render`, `identify`, `inspect`, `bench`, `list`.
 //!
-//! Arguments become a [`Document`](crate::document::Document) and are answered through [`Scene`](crate::scene::Scene), as in the
-//! window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
+//! Arguments become a [`Document`](crate::document::Document), which is evaluated through [`Scene`](crate::scene::Scene), as in
+//! the window, so that the two cannot disagree. Nothing here needs a display or a graphics library.
 
 mod arguments;
 mod bench;
@@ -34,7 +33,7 @@ pub use self::tables::list;
 use crate::catalog::Catalog;
 pub use crate::terminal::say;
 
-/// What the command line asks for.
+/// Action requested by the command line.
 pub enum Outcome {
     /// A window with these files.
     Window(Vec<PathBuf>),

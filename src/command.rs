@@ -150,7 +150,7 @@ impl From<Action> for Command {
 pub struct KeyBinding {
     /// The key.
     pub shortcut: KeyboardShortcut,
-    /// What it does.
+    /// Command that the shortcut runs.
     pub command: Command,
     /// In words.
     pub words: &'static str,

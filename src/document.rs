@@ -27,11 +27,11 @@ use start::Start;
 /// The version of the saved form that this program writes.
 pub const VERSION: u32 = 4;
 
-/// What is compared, under which light, with what settings.
+/// Complete description of a comparison: sensors, light, chart and settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Document {
-    /// Which program wrote it: `chromascope`.
+    /// Name of the program that wrote the document: `chromascope`.
     pub format: String,
     /// The version of this form.
     pub version: u32,
@@ -50,13 +50,13 @@ pub struct Document {
     pub temperature_k: f64,
     /// The patches.
     pub chart: String,
-    /// How many of them.
+    /// Subset of the chart's patches.
     pub subset: Subset,
     /// The color a perfect white is to take.
     pub white: WhiteBalanceChoice,
     /// The way from signals to the diagram.
     pub transform: TransformChoice,
-    /// How fitted color transforms are fitted.
+    /// Method by which color transforms are fitted.
     #[serde(skip_serializing_if = "CorrectionChoice::is_default")]
     pub correction: CorrectionChoice,
     /// Metric of the differences from the reference.
@@ -64,14 +64,14 @@ pub struct Document {
     pub difference: Metric,
     /// The diagram's coordinates.
     pub diagram: Diagram,
-    /// What the diagram shows besides.
+    /// Optional overlays of the chromaticity diagram.
     pub overlays: Overlays,
-    /// What the Render pane looks at.
+    /// Mesh, material and view of the Render pane.
     pub render: RenderSettings,
     /// The user's own sets, by value.
     #[serde(with = "own::list")]
     pub own: Vec<Shared<OwnSet>>,
-    /// What a newer version wrote and this one does not know.
+    /// Fields written by a newer version and preserved unchanged.
     #[serde(flatten)]
     pub unknown: serde_json::Map<String, serde_json::Value>,
 }
@@ -88,7 +88,7 @@ pub struct Compared {
     /// True if its curves are drawn.
     #[serde(default = "yes")]
     pub visible: bool,
-    /// What the user calls it, if not its name.
+    /// Display label, if different from the name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
 }
@@ -202,7 +202,7 @@ pub enum Diagram {
     UvPrime,
 }
 
-/// What the diagram shows besides loci and patches.
+/// Overlays of the chromaticity diagram other than loci and patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent switches of one menu")]

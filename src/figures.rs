@@ -22,18 +22,18 @@ use crate::render_service::{RenderService, RenderedFrame};
 use crate::scene::Scene;
 use crate::view::View;
 
-/// What a saved figure is made of: the scene, how it is looked at, and what was last made of it beside the window.
+/// Input of an exported figure: the scene, the view and the latest background results.
 #[derive(Clone)]
 pub struct FigureInput<'a> {
     /// The scene.
     pub scene: &'a Scene<'a>,
-    /// How it is looked at.
+    /// View settings.
     pub view: &'a View,
     /// The pictures on show.
     pub pictures: Option<&'a RenderedFrame>,
-    /// What was measured.
+    /// Latest measurements.
     pub measured: &'a Measured,
-    /// What the file in Import was last understood as.
+    /// Latest preview of the file selected in Import.
     pub preview: Option<Arc<FilePreview>>,
 }
 
@@ -49,7 +49,7 @@ impl<'a> FigureInput<'a> {
         Self { scene, view, pictures, measured: &laboratory.measured, preview: opened.preview() }
     }
 
-    /// A scene of which nothing was made beside the window.
+    /// A scene of which nothing was made in the background.
     pub fn new(scene: &'a Scene<'a>, view: &'a View) -> Self {
         static NOTHING: Measured = Measured::NOTHING;
         Self { scene, view, pictures: None, measured: &NOTHING, preview: None }

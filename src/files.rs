@@ -1,4 +1,4 @@
-//! Files in and out: dialogs, reading, atomic writing, the document kept between runs.
+//! Files in and out: dialogs, reading, atomic writing, the document saved between runs.
 //!
 //! Dialogs, reads and writes run on threads of their own and come back through [`Files::poll`]; the window never waits.
 
@@ -40,7 +40,7 @@ pub struct Files {
     receiver: Receiver<Note>,
     keeper: keep::Keeper,
     prompt: Option<PathPrompt>,
-    /// The system's dialogs; none where paths are asked for in the window alone.
+    /// The system's dialogs; none where paths are requested in the window alone.
     dialogs: Option<Arc<dyn Dialogs>>,
     waiting: Option<asking::Waiting>,
     /// True while something to be saved is being computed.
@@ -134,7 +134,7 @@ impl Files {
                     self.making = false;
                     events.push(FileEvent::Failed(sentence));
                 }
-                // What was asked for meanwhile goes first.
+                // What was requested meanwhile goes first.
                 Note::NotSaved(prompt) => self.prompt = self.prompt.take().or(Some(prompt)),
                 Note::Completed(done) => self.completed(done),
             }

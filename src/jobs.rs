@@ -1,6 +1,6 @@
-//! Work beside the window: a named thread for each place on screen that waits for long answers.
+//! Background work: a named thread for each place on screen that waits for long answers.
 //!
-//! The latest request wins and stops the one before it; the last answer stays on show; a panic stays where it happened. A request
+//! The latest request wins and stops the one before it; the last answer stays visible; a panic stays where it happened. A request
 //! is one question in stages from coarse to fine, or a list of questions ([`Background::progress`] counts those answered, and
 //! [`Results::known`] has their answers as they come). The
 //! threads share the answers and, for their loops, the common rayon pool, of which none is a part: no thread of the pool ever
@@ -25,7 +25,7 @@ use chromascope_core::render::Stop;
 
 use crate::results::Results;
 
-/// Something to be done beside the window. Every [`Query`] is one; what is measured is another, as asking again measures again.
+/// Something to be done in the background. Every [`Query`] is one; what is measured is another, as asking again measures again.
 pub trait Job: Clone + PartialEq + Send + Sync + 'static {
     /// Its outcome.
     type Answer: Send + Sync + 'static;
@@ -67,13 +67,13 @@ struct State<J: Job> {
 
 /// An answer on show.
 pub struct Shown<J: Job> {
-    /// What it answers.
+    /// Job that produced the answer.
     pub job: J,
     /// The answer.
     pub answer: Arc<J::Answer>,
     /// True if it is of the latest request.
     pub current: bool,
-    /// How long it took, earlier stages not included.
+    /// Time taken by this stage alone.
     pub time: Duration,
     /// A number that no other answer has.
     pub serial: u64,
@@ -119,14 +119,14 @@ impl<J: Job> Background<J> {
         Self { desk, name: name.to_owned(), executor: executor.clone(), is_queued: Rc::default() }
     }
 
-    /// Asks for stages from coarse to fine. The same request again changes nothing; another stops the one before it.
+    /// Requests stages from coarse to fine. The same request again changes nothing; another stops the one before it.
     pub fn ask(&self, stages: Vec<J>) {
         if *self.desk.lock().stages != *stages {
             self.ask_anew(stages);
         }
     }
 
-    /// Asks for stages even if they are those of the latest request.
+    /// Requests stages even if they are those of the latest request.
     pub fn ask_anew(&self, stages: Vec<J>) {
         let mut state = self.desk.lock();
         state.stop.store(true, Ordering::Relaxed);
@@ -241,7 +241,7 @@ fn step<J: Job>(desk: &Desk<State<J>>, results: &Results) {
     desk.tell();
 }
 
-/// What a panic said.
+/// Message of a panic.
 fn said(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "an unknown failure".to_owned())

@@ -3,15 +3,15 @@
 //! ```text
 //! format  terminal  theme      text for people, standard error, colors and sizes
 //! document ─► action           what is compared under what; its changes, and undo
-//! results ─► jobs              answers, the only cache; computations beside the window
+//! results ─► jobs              answers, the only cache; computations in the background
 //! catalog ─► scene             data sets; names become data, choices become queries
 //! files  export                the document and the user's files; pictures and tables out
 //! plot_item  paint  workspaces what marks stand for; figures on screen; which panes stand where
 //! render_service  bench  profiler   pictures of meshes; run time against error
-//! view ─► command              what is looked at; what keys, menus and panes ask for
+//! view ─► command              what is looked at; what keys, menus and panes request
 //! ranking                      figures of merit of many cameras
 //! figures                      answers become figures
-//! panes  cli                   show them, and ask for changes
+//! panes  cli                   show them, and request changes
 //! app                          the window
 //! ```
 //!

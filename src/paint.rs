@@ -166,7 +166,7 @@ fn plot_rect(panel: &Panel, rect: Rect) -> Rect {
     Rect::from_min_max(rect.min + Vec2::new(left.max(1.0), 1.0), max.max(rect.min + Vec2::splat(2.0)))
 }
 
-/// The ranges that fill the plot, all the panel asks for within.
+/// The ranges that fill the plot, all the panel requests within.
 fn shown_ranges(panel: &Panel, inner: Rect) -> ([f64; 2], [f64; 2]) {
     if panel.equal_aspect {
         let size = [f64::from(inner.width()), f64::from(inner.height())];

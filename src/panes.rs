@@ -1,4 +1,4 @@
-//! The panes: each reads the document, asks for answers, and says what is to be done. None knows another.
+//! The panes: each reads the document, requests answers, and says what is to be done. None knows another.
 //!
 //! A new pane is one file and its line in [`ALL`] (with the `mod` line that Rust wants):
 //!

@@ -1,4 +1,4 @@
-//! What a person can point at: the same thing in every pane.
+//! Items that can be hovered, selected or pinned, shared by all panes.
 
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -39,7 +39,7 @@ pub enum PlotItem {
     Light,
 }
 
-/// How a drawn thing stands to the one that is pointed at or chosen.
+/// Relation of a drawn item to the hovered or selected one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
     /// It is that thing, or that thing's part or whole.
@@ -76,7 +76,7 @@ impl PlotItem {
         }
     }
 
-    /// How a drawn thing stands to this one.
+    /// Returns the relation of a drawn item to this one.
     pub fn relation_to(&self, drawn: &Self, reference: &str) -> Relation {
         let is_reference = |s: Option<&SensorId>| s.is_some_and(|s| s.kind == SetKind::Observer && s.name == reference);
         let same_source = |a: Option<&SensorId>, b: Option<&SensorId>| a.is_none() || b.is_none() || a == b;
@@ -125,7 +125,7 @@ impl PickIndex {
         Tag(u32::try_from(index + 1).unwrap_or(0))
     }
 
-    /// What a tag stands for.
+    /// Returns the item of a tag.
     pub fn get(&self, tag: Tag) -> Option<&PlotItem> {
         self.all.get((tag.0 as usize).checked_sub(1)?)
     }

@@ -1,6 +1,6 @@
-//! Figures of merit of many cameras, made beside the window a few at a time.
+//! Figures of merit of many cameras, made in the background a few at a time.
 //!
-//! The latest request wins; what nobody asks for in a frame is stopped. Until all cameras are done the last whole answer stays.
+//! The latest request wins; what nobody requests in a frame is stopped. Until all cameras are done the last whole answer stays.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -32,7 +32,7 @@ pub struct RankedCamera {
 /// Cameras with their figures of merit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ranked {
-    /// The cameras, as asked for.
+    /// The cameras, as requested.
     pub cameras: Vec<RankedCamera>,
     /// Their figures of merit: reason for none, or none while they are being made.
     pub metrics: Vec<Option<Result<Arc<CameraMetrics>, String>>>,
@@ -62,26 +62,26 @@ pub struct MetamerRow {
     pub pair: MetamerPair,
     /// Name of its set, and of each in it.
     pub names: [[String; 2]; 2],
-    /// What each set is.
+    /// Kind of each set.
     pub kinds: [SetKind; 2],
 }
 
 /// Metamers of a camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundMetamers {
-    /// What was found, or the reason that nothing could be.
+    /// Metamers found, or the reason that none could be searched for.
     pub metamers: Arc<Result<Metamers, WhyNot>>,
     /// The pairs by name, worst first.
     pub rows: Vec<MetamerRow>,
 }
 
-/// Where cameras are ranked, and the last ranking.
+/// Camera ranking in the background, and its latest result.
 pub struct Ranking {
     worker: Background<FirstQuery>,
     searcher: Background<MetamersQuery>,
     is_searching: bool,
     asked: Option<Arc<Vec<RankedCamera>>>,
-    /// Document and choice of cameras that they were asked for.
+    /// Document and choice of cameras that they were requested.
     of: Option<(Document, RankedCameras)>,
     is_asked: bool,
     whole: Option<Arc<Ranked>>,
@@ -186,7 +186,7 @@ impl Ranking {
         }
     }
 
-    /// The cameras asked for, with the figures of merit of the first that have any.
+    /// The cameras requested, with the figures of merit of the first that have any.
     fn with(&self, made: &[Arc<CameraMetrics>]) -> Arc<Ranked> {
         let cameras = self.asked.as_deref().cloned().unwrap_or_default();
         let mut made = made.iter();
@@ -214,7 +214,7 @@ impl Ranking {
         self.worker.failure()
     }
 
-    /// Ends a frame: what was not asked for in it is stopped, and asked for again once somebody looks.
+    /// Ends a frame: what was not requested in it is stopped, and requested again once somebody looks.
     pub fn end_frame(&mut self) {
         if !std::mem::take(&mut self.is_searching) {
             self.searcher.rest();
@@ -249,7 +249,7 @@ fn cameras(scene: &Scene<'_>, which: RankedCameras) -> Vec<RankedCamera> {
         .collect()
 }
 
-/// Cameras of a choice with their figures of merit, at once: what the window has asked for is known, all else is computed.
+/// Cameras of a choice with their figures of merit, at once: what the window has requested is known, all else is computed.
 pub fn ranked(scene: &Scene<'_>, which: RankedCameras) -> Ranked {
     let cameras = cameras(scene, which);
     let metrics =

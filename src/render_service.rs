@@ -1,4 +1,4 @@
-//! Where pictures are made: one worker, and what it last made.
+//! Background rendering: one worker and its latest pictures.
 
 pub mod pixel;
 
@@ -36,7 +36,7 @@ pub struct RenderedFrame {
     pub sources: Arc<[ComparedSensor]>,
     /// The answer.
     pub answer: Arc<<PicturesQuery as Query>::Answer>,
-    /// How long it took.
+    /// Time taken.
     pub time: Duration,
     /// True if nothing finer is to come.
     pub is_last: bool,
@@ -134,7 +134,7 @@ impl RenderService {
         self.frame.as_ref().is_some_and(|frame| frame.is_last && frame.query.shading == wanted.shading)
     }
 
-    /// Asks for stages from coarse to fine. While something moves, what is being made is waited for: a picture a little late is
+    /// Requests stages from coarse to fine. While something moves, what is being made is waited for: a picture a little late is
     /// better than none.
     pub fn ask(&mut self, stages: Vec<PicturesQuery>, sources: &[ComparedSensor], moving: bool) {
         self.asked = true;
@@ -156,7 +156,7 @@ impl RenderService {
         self.worker.ask(stages.into_iter().map(job).collect());
     }
 
-    /// Stops what is being made; what was made so far stays on show.
+    /// Stops what is being made; what was made so far stays visible.
     pub fn stay(&mut self) {
         self.asked = true;
         self.worker.rest();
@@ -180,7 +180,7 @@ impl RenderService {
         }
     }
 
-    /// Closes a frame: pictures that nobody asked for in it are not made.
+    /// Closes a frame: pictures that nobody requested in it are not made.
     pub fn end_frame(&mut self) {
         self.is_looked_at = std::mem::take(&mut self.asked);
         if !self.is_looked_at {
@@ -188,7 +188,7 @@ impl RenderService {
         }
     }
 
-    /// True if pictures were asked for in the last frame.
+    /// True if pictures were requested in the last frame.
     pub fn is_looked_at(&self) -> bool {
         self.is_looked_at
     }

@@ -1,8 +1,8 @@
-//! What has been computed: the only cache, shared by the window and all work beside it.
+//! Query cache, shared by the window and all background work.
 //!
-//! A question that equals one asked before is not computed again. No lock is held while an answer is computed. Who asks what
-//! another thread is computing waits for that answer; as no question depends on itself, two threads never wait for each other.
-//! Threads of the rayon pool never wait: one that did could be the one that the other thread's loop needs, so it computes itself.
+//! Each query is computed once. No lock is held during a computation. A thread that needs an answer which another thread is
+//! computing waits for it; as no query depends on itself, two threads never wait for each other. Threads of the rayon pool
+//! compute the answer themselves instead of waiting: a waiting one could be the one that the other thread's loop needs.
 
 mod answers;
 

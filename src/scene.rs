@@ -49,7 +49,7 @@ pub enum SceneError {
     /// A name that no set has, as in a session from elsewhere.
     #[error("no {kind} is named \"{name}\" here; open its file, or choose another", kind = kind.singular())]
     NoSet {
-        /// What was looked for.
+        /// Kind of the data set.
         kind: SetKind,
         /// Its name.
         name: String,
@@ -95,14 +95,14 @@ pub enum SceneError {
     Lighting(#[from] LightingError),
 }
 
-/// How a sensor is drawn and called, everywhere.
+/// Name and appearance of a compared sensor, the same in all panes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparedSensor {
     /// Camera or observer.
     pub kind: SetKind,
     /// Its name in the catalog.
     pub name: String,
-    /// What it is called on screen.
+    /// Label on screen.
     pub label: String,
     /// Its color's role.
     pub role: InkRole,
@@ -182,7 +182,7 @@ impl<'a> Scene<'a> {
         self.find(kind, name).map(Cow::into_owned)
     }
 
-    /// The same without a copy of a built-in set's header, which may name thousands of columns.
+    /// Finds a set without copying a built-in set's header, which may name thousands of columns.
     fn find(&self, kind: SetKind, name: &str) -> Result<Cow<'a, Entry>, SceneError> {
         let own = |is_it: &dyn Fn(&str) -> bool| {
             let mut sets = self.document.own.iter().filter(|set| SetKind::of_own(set) == kind);
@@ -448,7 +448,7 @@ impl<'a> Scene<'a> {
         sources
     }
 
-    /// How one sensor is drawn. Observers beside the reference are told apart by markers alone.
+    /// Appearance of one sensor. Observers other than the reference differ by marker only.
     fn source(&self, compared: &Compared, observers: &mut u8) -> ComparedSensor {
         let entry = self.find(compared.kind, &compared.name).ok();
         let short = entry.as_ref().map_or_else(|| compared.name.clone(), |entry| entry.short.clone());

@@ -1,4 +1,4 @@
-//! What is looked at and how: selection, panes, layout. Not part of the document, no steps of undo.
+//! View state: selection, panes and layout. Not part of the document, and not undoable.
 
 pub mod accuracy;
 pub mod correction;
@@ -29,17 +29,17 @@ use recorded::RecordedView;
 use render::{RenderLook, RenderView};
 use table::TableLook;
 
-/// What is looked at and how.
+/// View state of the window.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent one-frame requests and switches")]
 pub struct View {
-    /// What is kept between runs.
+    /// State saved between runs.
     pub saved: SavedView,
     /// Under the pointer now, in any pane.
     pub hovered: Option<PlotItem>,
     /// Under the pointer in the frame that is being made; becomes `hovered` at its end.
     pub next_hovered: Option<PlotItem>,
-    /// What the coordinates under the pointer are, where it is on no thing.
+    /// Text of the coordinates under the pointer, where it is over no item.
     pub point: Option<String>,
     /// Chosen by a click.
     pub selected: Option<PlotItem>,
@@ -49,23 +49,23 @@ pub struct View {
     pub metamers: Option<usize>,
     /// Kept beside each other, A, B, …
     pub pinned: Vec<PlotItem>,
-    /// What is typed into the library's search.
+    /// Search text of the library.
     pub search: String,
     /// The pane that fills the window.
     pub maximized: Option<PaneKind>,
     /// The pane that keys and exports mean.
     pub focused: Option<PaneKind>,
-    /// True if the column that a narrow window leaves out lies over the center.
+    /// True if the column that a narrow window omits lies over the center.
     pub inspector_over: bool,
-    /// What is looked at in Import.
+    /// State of the Import pane.
     pub import: ImportView,
-    /// What the Render pane shows now.
+    /// State of the Render pane.
     pub render: RenderView,
-    /// What is looked at in Correction.
+    /// State of the Correction pane.
     pub correction: CorrectionView,
-    /// What is looked at in Accuracy.
+    /// State of the Accuracy pane.
     pub accuracy: AccuracyView,
-    /// What is looked at in Recorded.
+    /// State of the Recorded pane.
     pub recorded: RecordedView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
@@ -91,7 +91,7 @@ pub struct View {
     pub status: Status,
 }
 
-/// The part of the view that is kept between runs.
+/// The part of the view that is saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SavedView {
@@ -103,7 +103,7 @@ pub struct SavedView {
     pub tables: BTreeSet<PaneKind>,
     /// Order and columns of tables, by table.
     pub looks: BTreeMap<String, TableLook>,
-    /// What is looked at in Metrics.
+    /// Settings of the Metrics pane.
     pub metrics: MetricsLook,
     /// The gray around swatches.
     pub surround: Surround,
@@ -111,7 +111,7 @@ pub struct SavedView {
     pub diagram_fit: DiagramFit,
     /// True if swatches stand in rows or as charts.
     pub swatch_layout: SwatchLayout,
-    /// How the reference stands within a swatch.
+    /// Arrangement of camera and reference within a swatch.
     pub swatch_style: SwatchStyle,
     /// True if curves lie over each other or each sensor has its own plot.
     pub spectra_layout: SpectraLayout,
@@ -122,9 +122,9 @@ pub struct SavedView {
     /// Files opened lately, the newest first.
     #[serde(with = "crate::document::paths::list")]
     pub recent: Vec<PathBuf>,
-    /// Where the rendered mesh is seen from, and how pictures stand.
+    /// Viewpoint and arrangement of rendered pictures.
     pub render: RenderLook,
-    /// How kinds of files were wished to be read.
+    /// Remembered import settings by kind of file.
     pub import: ImportMemory,
 }
 
@@ -150,17 +150,17 @@ impl Default for SavedView {
     }
 }
 
-/// What part of the diagram is shown.
+/// Extent of the diagram.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DiagramFit {
-    /// What holds the data.
+    /// The range of the data.
     #[default]
     Data,
     /// The whole spectral locus.
     Whole,
 }
 
-/// How swatches are arranged.
+/// Arrangement of swatches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SwatchLayout {
     /// Five patches in rows, more as charts.
@@ -172,7 +172,7 @@ pub enum SwatchLayout {
     Charts,
 }
 
-/// How the reference stands within a swatch.
+/// Arrangement of camera and reference within a swatch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SwatchStyle {
     /// Left half truth, right half sensor.
@@ -184,7 +184,7 @@ pub enum SwatchStyle {
     Whole,
 }
 
-/// How spectra are arranged.
+/// Arrangement of spectra.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SpectraLayout {
     /// All sensors in one plot.
@@ -197,15 +197,15 @@ pub enum SpectraLayout {
 /// A message at the foot of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
-    /// What it says; empty for the standing invitation.
+    /// Message text; empty for the default hint.
     pub text: String,
-    /// How grave it is.
+    /// Severity.
     pub weight: Weight,
-    /// What `[Change]` or `[Show line]` leads to in Import, and the line.
+    /// Import item and line that `[Change]` or `[Show line]` opens.
     pub change: Option<(ImportItem, Option<usize>)>,
 }
 
-/// How grave a message is.
+/// Severity of a message.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Weight {
     /// Something to know.
@@ -263,7 +263,7 @@ impl View {
         self.render.chosen.take_if(|id| gone(id));
     }
 
-    /// How a drawn thing stands out.
+    /// Returns the emphasis of a drawn item.
     pub fn emphasis(&self, drawn: &PlotItem, reference: &str) -> Emphasis {
         let standing = |of: &Option<PlotItem>| of.as_ref().map(|thing| thing.relation_to(drawn, reference));
         let pinned = self.pinned.iter().any(|thing| thing == drawn);
@@ -276,7 +276,7 @@ impl View {
         }
     }
 
-    /// How a figure's tagged mark stands out.
+    /// Returns the emphasis of a figure's tagged mark.
     pub fn emphasis_of(&self, things: &PickIndex, tag: Tag, reference: &str) -> Emphasis {
         things.get(tag).map_or(Emphasis::Normal, |thing| self.emphasis(thing, reference))
     }

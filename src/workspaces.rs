@@ -164,7 +164,7 @@ pub enum Splitter {
     RightRows,
 }
 
-/// Sizes and places, kept between runs.
+/// Sizes and places, saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Layout {
@@ -298,7 +298,7 @@ pub struct Arrangement {
     pub narrow: bool,
 }
 
-/// Below this width a column is left out: the right one, in Render and Import the library.
+/// Below this width a column is omitted: the right one, in Render and Import the library.
 const NARROW: f32 = 1100.0;
 /// Once left out, it returns only this much above.
 const HYSTERESIS: f32 = 40.0;
@@ -308,7 +308,7 @@ const LARGE: f32 = 1800.0;
 const GAP: f32 = 4.0;
 
 /// Arranges a workspace in an area. `was_narrow` keeps a window at the limit from flickering; `column_over` lays the column that
-/// a narrow window leaves out over the center.
+/// a narrow window omits over the center.
 pub fn arrange(
     workspace: Workspace,
     layout: &Layout,

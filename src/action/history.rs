@@ -12,7 +12,7 @@ const DEPTH: usize = 200;
 struct Step {
     name: String,
     document: Document,
-    /// What later changes of the same gesture must be to belong to this step; none for what is no gesture.
+    /// Action that later changes of the same gesture must extend to be merged into this step; `None` if not a gesture.
     action: Option<Action>,
 }
 

@@ -1,4 +1,4 @@
-//! Closing the window: not before all is saved, or a person says that it need not be.
+//! Closing the window: not before all is saved, or the user says that it need not be.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ pub(super) enum Closing {
     No,
     /// It is asked what becomes of changes that could not be saved.
     Asked,
-    /// A path is being asked for, for the document as it was then.
+    /// A path is being requested, for the document as it was then.
     Elsewhere(Arc<Document>),
     /// Nothing holds it up.
     Agreed,

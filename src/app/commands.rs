@@ -50,7 +50,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Does what keys, menus and panes asked for.
+    /// Does what keys, menus and panes requested.
     pub(super) fn carry_out(&mut self, ctx: &egui::Context) {
         for command in std::mem::take(&mut self.commands) {
             self.carry_out_one(ctx, command);
@@ -292,7 +292,7 @@ impl ChromascopeApp {
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 
-    /// What a pane's figure of a scene is made of.
+    /// Input for a pane's figure of a scene.
     pub fn figure_input<'a>(&'a self, scene: &'a Scene<'a>) -> FigureInput<'a> {
         FigureInput::of((scene, &self.view), &self.studio, &self.laboratory, &self.opened)
     }
@@ -309,7 +309,7 @@ impl ChromascopeApp {
         figure
     }
 
-    /// Asks where to save a pane's figure. The ending of the path decides in which form, the asked for one is offered.
+    /// Asks where to save a pane's figure. The ending of the path decides in which form, the requested one is offered.
     fn export(&mut self, pane: PaneKind, format: Format) {
         let Some(figure) = self.figure(pane) else { return };
         let figure = Arc::new(figure);

@@ -129,7 +129,7 @@ impl ChromascopeApp {
     fn put_in_place(&mut self, sets: Vec<(String, Result<Imported, String>)>, why: Why, ticket: u64) {
         let (mut with, mut failures, mut again) = (Vec::new(), Vec::new(), Vec::new());
         for (name, result) in sets {
-            // What was renamed or removed meanwhile, or was read anew since, is no longer what this is about.
+            // What was renamed or removed meanwhile, or was reloaded since, is no longer what this is about.
             let Some(set) = self.history.document().own.iter().find(|set| set.name == name).cloned() else { continue };
             if self.last_read.get(&name).is_some_and(|last| *last > ticket) {
                 continue;
@@ -277,7 +277,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Reads a set's file again, because a person asks.
+    /// Reads a set's file again, because the user asks.
     pub(super) fn read_again(&mut self, name: &str) {
         let Some(set) = self.history.document().own.iter().find(|set| set.name == name) else { return };
         match &set.path {

@@ -11,7 +11,7 @@ use crate::view::correction::CorrectionForm;
 use chromascope_core::correction::aces::IdtExposure;
 
 impl ChromascopeApp {
-    /// Writes a set beside the window and asks where to save it; what differs in the file is said once it is there.
+    /// Writes a set in the background and asks where to save it; what differs in the file is said once it is there.
     pub(super) fn save_set(&mut self, kind: SetKind, name: &str, form: Form) {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let entry = match scene.entry(kind, name) {

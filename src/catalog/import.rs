@@ -6,7 +6,7 @@ use spectral_file::{Certainty, Effect, ReadError, Role, SpectralFile, Values, Wa
 
 use crate::document::own::{Fingerprint, ImportOverrides, OwnCurve, OwnSet, ReadAs};
 
-/// Of a file with more curves, so many are taken until a person chooses others.
+/// Of a file with more curves, so many are taken until the user chooses others.
 pub const TAKEN_AT_FIRST: usize = 200;
 
 /// A set as it was read.
@@ -14,7 +14,7 @@ pub const TAKEN_AT_FIRST: usize = 200;
 pub struct Imported {
     /// The set.
     pub set: OwnSet,
-    /// Summary of the import in one sentence, with what a person should know first.
+    /// Summary of the import in one sentence, with what the user should know first.
     pub message: String,
     /// True if something that changes numbers was guessed.
     pub guessed: bool,
@@ -43,7 +43,7 @@ pub fn import(file: &str, bytes: &[u8], role: Option<Role>) -> Result<Imported, 
     import_as(&Origin::named(file, bytes), bytes, &ImportOverrides::for_role(role), Watch::none())
 }
 
-/// Reads bytes with a person's overrides; the watch may stop it.
+/// Reads bytes with the user's overrides; the watch may stop it.
 pub fn import_as(
     origin: &Origin,
     bytes: &[u8],
@@ -140,7 +140,7 @@ fn own_set(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides, take
     }
 }
 
-/// Name of the part of a file that a person chose of several.
+/// Name of the part of a file that the user chose of several.
 fn part_name(table: &SpectralFile, wishes: &ImportOverrides) -> Option<String> {
     let part = wishes.options.part.filter(|_| table.reading.parts.len() > 1)?;
     let known = table.reading.parts.get(part.checked_sub(1)?)?;

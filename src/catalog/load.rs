@@ -112,7 +112,7 @@ impl Query for SensorQuery {
     }
 }
 
-/// The tables of each of some camera models. All cameras of a ranking ask for the same ones.
+/// The tables of each of some camera models. All cameras of a ranking request the same ones.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ReplicatesQuery(pub Vec<Vec<Place>>);
 

@@ -1,7 +1,7 @@
-//! The user's mesh files: read beside the window, remembered by path, read anew when they changed.
+//! The user's mesh files: read in the background, remembered by path, reloaded when they changed.
 //!
 //! A document holds a mesh's path alone. [`MeshStore::get`] is what a picture asks: it begins to read at the first question and
-//! never waits. [`MeshStore::open`] is what a person asks: the file is read before anything is changed, and what came of it is
+//! never waits. [`MeshStore::open`] is what the user asks: the file is read before anything is changed, and what came of it is
 //! taken from [`MeshStore::poll`]; opening another file meanwhile stops the first.
 
 mod read;
@@ -45,7 +45,7 @@ pub struct Opened {
     pub result: Result<Arc<LoadedMesh>, String>,
 }
 
-/// The mesh files that were asked for.
+/// The mesh files that were requested.
 pub struct MeshStore {
     desk: Arc<Desk<State>>,
     executor: Executor,
@@ -116,7 +116,7 @@ impl MeshStore {
         }
     }
 
-    /// Opens a file for a person: [`MeshStore::poll`] tells what came of it. What was being opened before is given up.
+    /// Opens a file for the user: [`MeshStore::poll`] tells what came of it. What was being opened before is given up.
     pub fn open(&self, path: &Path) {
         let mut state = self.desk.lock();
         state.give_up_opening();
@@ -128,14 +128,14 @@ impl MeshStore {
         }
     }
 
-    /// Reads a file again, changed or not. Its mesh stays on show meanwhile, and afterwards if it can no longer be read.
+    /// Reads a file again, changed or not. Its mesh stays visible meanwhile, and afterwards if it can no longer be read.
     pub fn reload(&self, path: &Path) {
         let mut state = self.desk.lock();
         state.known_at(path).stop();
         self.begin(&mut state, path, None);
     }
 
-    /// What came of opening, once for each file that was not given up.
+    /// Takes the results of finished open requests, one for each file that was not canceled.
     pub fn poll(&self) -> Vec<Opened> {
         std::mem::take(&mut self.desk.lock().opened)
     }

@@ -1,4 +1,4 @@
-//! Finding a set by what a person types.
+//! Finding a set by what the user types.
 
 use super::Entry;
 
@@ -129,7 +129,7 @@ pub fn find<'a>(
         return Err(NameError::Unknown { kind, name: name.to_owned(), nearest: Vec::new() });
     }
     if let Some(entry) = exact(&entries, &folded(name), &wanted) {
-        // A short name is not listed, and may leave out what tells two sets apart.
+        // A short name is not listed, and may omit what tells two sets apart.
         let is_short = folded(&entry.name) != folded(name) && telling_words(&entry.name).concat() != wanted;
         return Ok(if is_short { Found::near(entry) } else { Found::exact(entry) });
     }

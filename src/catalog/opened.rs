@@ -1,7 +1,7 @@
-//! The spectral files that were opened in this run: read beside the window, kept as bytes so that they can be read otherwise.
+//! The spectral files that were opened in this run: read in the background, kept as bytes so that they can be read otherwise.
 //!
 //! Nothing here changes a document. What came of opening is taken from [`Opened::poll`]; a file stays known whether it could be
-//! read or not, so that a person can look at its text and at what was understood ([`Opened::look`]), flip a switch, and look
+//! read or not, so that the user can look at its text and at what was understood ([`Opened::look`]), flip a switch, and look
 //! again.
 
 mod file;
@@ -30,7 +30,7 @@ const REMEMBERED_BYTES: usize = 256_000_000;
 /// A file on disk that could not be read, as it is remembered between runs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failing {
-    /// Where it is.
+    /// Path of the file.
     #[serde(with = "crate::document::paths")]
     pub path: PathBuf,
     /// Fingerprint of the contents.
@@ -148,7 +148,7 @@ impl Opened {
         Self { desk: Arc::new(desk), look, executor: executor.clone() }
     }
 
-    /// Reads files, folders or bytes; `remembered` says what a person wished for files like one whose text is given.
+    /// Reads files, folders or bytes; `remembered` says what the user wished for files like one whose text is given.
     pub fn open(&self, requests: Vec<Request>, remembered: impl Fn(&[u8]) -> ImportOverrides + Send + 'static) {
         self.begin(move |desk, job| {
             let events = reading::open(requests, &remembered, desk, job);
@@ -261,7 +261,7 @@ impl Opened {
         self.preview().filter(|preview| preview.fingerprint == file.origin.fingerprint)
     }
 
-    /// What [`look`](Self::look) last found, whatever the file.
+    /// Latest preview that [`look`](Self::look) produced, of any file.
     pub fn preview(&self) -> Option<Arc<FilePreview>> {
         self.look.shown().map(|shown| shown.answer)
     }
@@ -276,7 +276,7 @@ impl Opened {
         self.look.rest();
     }
 
-    /// Waits until everything that was asked for is read. For tests.
+    /// Waits until everything that was requested is read. For tests.
     pub fn wait(&self) {
         self.desk.settle(&self.executor, |state| state.running.is_empty());
         self.look.wait();

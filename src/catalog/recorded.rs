@@ -32,7 +32,7 @@ pub struct RawRow {
 pub struct RawTable {
     /// The rows.
     pub rows: Vec<RawRow>,
-    /// The same table without R, G and B, line by line, if it has spectra.
+    /// The table's text without the columns R, G and B, if it contains spectra.
     pub spectra: Option<String>,
 }
 
@@ -252,7 +252,7 @@ fn row(
     Ok(RawRow { line, name, rgb })
 }
 
-/// Patches with spectrum and raw values: by name where every row has one, else in order. Spectra without a row are left out.
+/// Patches with spectrum and raw values: by name where every row has one, else in order. Spectra without a row are omitted.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! The file of recorded raw values that is on show: read beside the window.
+//! The file of recorded raw values that is on show: read in the background.
 
 use std::fs::File;
 use std::io::Read as _;

@@ -48,7 +48,7 @@ pub enum OpenImageError {
     },
 }
 
-/// A spectral image whose rows are read from disk when asked for.
+/// A spectral image whose rows are read from disk when requested.
 pub type ImageOnDisk = SpectralImage<File>;
 
 /// Opens an ENVI header (or its data) or an OpenEXR file. `wanted` chooses where an OpenEXR has both radiance and reflectance.

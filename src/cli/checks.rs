@@ -1,4 +1,4 @@
-//! True if a file holds what the option asks for that names it.
+//! True if a file holds what the option requests that names it.
 
 use spectral_file::{Certainty, ReadOptions, SpectralFile, Warning};
 

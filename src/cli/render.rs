@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(
     let files = Instant::now();
     made.write(arguments)?;
     let times = Times { all: start.elapsed(), reading: setup.reading, writing: files.elapsed() };
-    // Before anything is asked for the sake of measuring.
+    // Before anything is requested the sake of measuring.
     let counts = results.counts();
     let lines = made.lines(&counts, &times);
     let to_stdout = arguments.stats.as_deref().is_some_and(is_standard_output);
@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &RenderArguments, matches: &ArgMatches) -> Result<(
     }
 }
 
-/// Where time went that no question counts.
+/// Times that no query records.
 struct Times {
     all: Duration,
     reading: Duration,
@@ -183,7 +183,7 @@ impl<'a> Made<'a> {
         Some(planned.explanation.map_or_else(|| bounds.clone(), |explanation| format!("{explanation}; {bounds}")))
     }
 
-    /// How far a picture is from the reference, in words.
+    /// Difference of a picture from the reference, in words.
     fn difference(&self, index: usize) -> String {
         match (&self.pictures.differences[index], self.not_comparable[index]) {
             _ if self.sources[index].is_reference => "the reference".to_owned(),
@@ -195,7 +195,7 @@ impl<'a> Made<'a> {
     }
 }
 
-/// What goes into a file.
+/// Contents of an output file.
 enum Content<'a> {
     Png(&'a Picture),
     Exr { image: &'a CameraImage, rendering: Box<Rendering>, provenance: Box<Provenance<'a>> },

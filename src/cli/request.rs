@@ -33,7 +33,7 @@ pub(super) const FIVE: &str = "ColorChecker five";
 
 /// A document made of arguments, and the sensors in the order they were named.
 pub(super) struct Request {
-    /// What is compared, under what.
+    /// Document made from the arguments.
     pub(super) document: Document,
     /// The built-in sets.
     pub(super) catalog: Catalog,
@@ -41,7 +41,7 @@ pub(super) struct Request {
     pub(super) sources: Vec<(SetKind, String)>,
     /// The start that stands where nothing was named.
     pub(super) preset: Start,
-    /// What the values of files of reflectances stand for, if it was said.
+    /// Quantity of the values in reflectance files, if given.
     pub(super) values: Option<Values>,
     per: Option<Per>,
     read: Vec<PathBuf>,

@@ -1,4 +1,4 @@
-//! The document as it is kept between runs: small, for it is written with every change. The curves of imported sets stand in
+//! The document as it is saved between runs: small, for it is written with every change. The curves of imported sets stand in
 //! files of their own, each written once; the document names the file and the place in it.
 
 use serde::{Deserialize, Serialize};
@@ -43,7 +43,7 @@ pub fn to_json(document: &Document, places: &[(&OwnSet, &Place)]) -> Result<Stri
     Ok(serde_json::to_string_pretty(&value)? + "\n")
 }
 
-/// A document from JSON, with curves from their places: `curves` reads a file's list. A set that cannot be read is left out.
+/// A document from JSON, with curves from their places: `curves` reads a file's list. A set that cannot be read is omitted.
 pub fn from_json(
     json: &str,
     curves: &mut dyn FnMut(&Place) -> Result<Vec<OwnCurve>, String>,

@@ -30,7 +30,7 @@ fn numbers<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Err
     Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
 }
 
-/// A person's overrides for reading a file. What is open is decided by its content.
+/// The user's overrides for reading a file. What is open is decided by its content.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ImportOverrides {
@@ -73,7 +73,7 @@ pub struct OwnSet {
     /// Fingerprint of that file's contents.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fingerprint: Option<Fingerprint>,
-    /// A person's overrides for reading it.
+    /// The user's overrides for reading it.
     #[serde(default)]
     pub wishes: ImportOverrides,
     /// Role it is used in.

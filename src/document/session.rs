@@ -1,4 +1,4 @@
-//! The document as JSON: what is kept between runs, and what session files are.
+//! The document as JSON: what is saved between runs, and what session files are.
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Shared;
@@ -95,7 +95,7 @@ fn rename_fields(value: &mut serde_json::Value) {
 const RENAMED: [(&str, &str); 2] =
     [("Nikon D70", "Nikon D70 (2007 figure)"), ("Canon EOS 10D", "Canon EOS 10D (2007 figure)")];
 
-/// Brings a document of version 1 to the present form: cameras by their present names; what it leaves out is the paper's start,
+/// Brings a document of version 1 to the present form: cameras by their present names; what it omits is the paper's start,
 /// which was the only one.
 fn renew(value: &mut serde_json::Value, own: &[OwnSet]) -> Result<(), SessionError> {
     let Some(old) = value.as_object_mut() else { return Ok(()) };

@@ -270,7 +270,7 @@ pub fn aligned(matrix: DMat3) -> String {
     [row(0), row(1), row(2)].join("\n")
 }
 
-/// What a correction makes of a stimulus: its numbers, and what they mean.
+/// Lines of text on a corrected stimulus: the values and their interpretation.
 pub fn check_lines(check: &StimulusCheck, metric: &str) -> [String; 2] {
     let Xyz { x, y, z } = check.xyz;
     let what = check.peak_nm.map_or_else(|| "white".to_owned(), |nm| format!("{nm:.0} nm"));

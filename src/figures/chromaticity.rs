@@ -32,7 +32,7 @@ pub use points::{blackbody_distance, describe, distance_symbol, patch_xy};
 pub struct Built {
     /// The panel.
     pub panel: Panel,
-    /// What its marks stand for.
+    /// Items of the marks.
     pub things: PickIndex,
     /// Sensors that could not be drawn, with why.
     pub refused: Vec<String>,
@@ -89,7 +89,7 @@ pub fn build(scene: &Scene<'_>, view: &View, pictures: Option<&RenderedFrame>, s
     Built { panel, things: drawing.things, refused: drawing.refused, loci: drawing.loci }
 }
 
-/// What the diagram shows: the data, or all of the spectral locus.
+/// Axis ranges: those of the data or of the full spectral locus.
 fn ranges(drawing: &Drawing<'_>, fit: DiagramFit) -> [[f64; 2]; 2] {
     let whole = match drawing.diagram {
         Diagram::Xy => [[-0.03, 0.78], [-0.03, 0.87]],

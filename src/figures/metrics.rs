@@ -11,7 +11,7 @@ use crate::ranking::{Ranked, ranked};
 use crate::scene::Scene;
 use crate::view::table::Sorting;
 
-/// Id of the table of cameras in what is kept between runs.
+/// Id of the table of cameras in what is saved between runs.
 pub const TABLE: &str = "Metrics";
 /// Metric that cameras are sorted by at first.
 pub const FIRST: &str = "delta-e2000-mean";
@@ -77,7 +77,7 @@ pub fn numbers(ranked: &Ranked) -> Table {
     table
 }
 
-/// Two cameras head to head: each metric with both values, the difference, and which is better by more than the uncertainty.
+/// Two cameras side by side: each metric with both values, the difference, and which is better by more than the uncertainty.
 pub fn head_to_head(ranked: &Ranked, [a, b]: [usize; 2]) -> Table {
     let mut table = Table::new(["metric", "A", "B", "A − B", "better"]);
     for metric in CameraMetric::ALL {

@@ -28,7 +28,7 @@ pub struct Section {
     pub rows: Vec<SkippedWork>,
 }
 
-/// Sections: work skipped in the last run, and work saved by caching since the start. Sections without rows are left out.
+/// Sections: work skipped in the last run, and work saved by caching since the start. Sections without rows are omitted.
 pub fn sections(measured: &Measured) -> Vec<Section> {
     let at_the_run = if measured.is_current { "measured by Run" } else { "measured by Run for an earlier scene" };
     let run = measured.run.as_ref().map_or_else(Vec::new, |run| run.skipped_work.clone());

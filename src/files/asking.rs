@@ -10,7 +10,7 @@ use super::prompt::{self, PathPrompt};
 use super::save::{FileForm, SaveRequest};
 use crate::format::io_reason;
 
-/// A dialog that was asked for and has not answered.
+/// A dialog that was requested and has not answered.
 pub(super) struct Waiting {
     ticket: u64,
     request: Option<SaveRequest>,
@@ -27,7 +27,7 @@ impl Files {
         self.in_dialog(Question::Folder, None);
     }
 
-    /// Makes something to save beside the window, then asks where to; the error is a sentence.
+    /// Makes something to save in the background, then asks where to; the error is a sentence.
     pub fn make_to_save(&mut self, make: impl FnOnce() -> Result<SaveRequest, String> + Send + 'static) {
         self.making = true;
         self.in_background(move || [make().map_or_else(Note::NotMade, Note::ToSave)]);
@@ -105,7 +105,7 @@ impl Files {
         }
     }
 
-    /// True while a path is asked for, or will be at once: keys are meant for that.
+    /// True while a path is requested, or will be at once: keys are meant for that.
     pub fn is_asking(&self) -> bool {
         self.is_waiting() || self.prompt.is_some()
     }
@@ -115,7 +115,7 @@ impl Files {
         self.waiting.is_some() || self.making || self.prompt.as_ref().is_some_and(|prompt| prompt.focus)
     }
 
-    /// Stops waiting for a dialog: the path is asked for in the window. Returns whether one was waited for.
+    /// Stops waiting for a dialog: the path is requested in the window. Returns whether one was waited for.
     pub fn stop_waiting(&mut self) -> bool {
         let made = std::mem::take(&mut self.making);
         // What is being made cannot be stopped; it is dropped when it arrives.
@@ -125,7 +125,7 @@ impl Files {
         true
     }
 
-    /// The path that is being asked for in the window, where there is no dialog.
+    /// The path that is being requested in the window, where there is no dialog.
     pub fn prompt_mut(&mut self) -> &mut Option<PathPrompt> {
         &mut self.prompt
     }
@@ -148,7 +148,7 @@ impl Files {
         }
     }
 
-    /// Saves to a path, or asks for another one.
+    /// Saves to a path, or requests another one.
     fn save_to(&mut self, path: &Path, prompt: PathPrompt) {
         let Some(request) = prompt.save.clone() else { return };
         if path.is_dir() {
@@ -173,7 +173,7 @@ impl Files {
         });
     }
 
-    /// Asks for another path, unless something else is asked for meanwhile: that goes first.
+    /// Asks for another path, unless something else is requested meanwhile: that goes first.
     fn ask_again(&mut self, prompt: PathPrompt) {
         if self.prompt.is_none() {
             self.prompt = Some(prompt);

@@ -69,7 +69,7 @@ fn finish(file: &NamedTempFile, target: &Path) -> io::Result<()> {
     file.as_file().sync_all()
 }
 
-/// Writes a file once more whose name another program removed before it was in its place.
+/// Writes a file again whose name another program removed before it was in its place.
 fn again(error: tempfile::PersistError, folder: &Path, target: &Path) -> io::Result<()> {
     if error.error.kind() != io::ErrorKind::NotFound {
         return Err(error.error);

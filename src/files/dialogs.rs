@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use crate::catalog::meshes::ENDINGS as MESH_ENDINGS;
 use crate::catalog::recorded_store::PICTURES;
 
-/// A dialog that closes within this time without an answer was never seen by a person.
+/// A dialog that closes within this time without an answer was never seen by the user.
 const NO_DIALOG: Duration = Duration::from_millis(300);
 const ENDINGS: [&str; 30] = [
     "csv", "txt", "tsv", "dat", "asc", "prn", "trm", "ssm", "abs", "irr", "spectrum", "ttt", "trt", "tat", "jaz",

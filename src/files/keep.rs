@@ -133,7 +133,7 @@ impl Keeper {
         }
     }
 
-    /// Takes in the document as it is, and has it written beside the window.
+    /// Takes in the document as it is, and has it written in the background.
     pub(super) fn watch(&mut self, document: &Document, ctx: &egui::Context) {
         if !self.shared.keeps {
             return;

@@ -95,7 +95,7 @@ impl Files {
         self.note(Note::Event(event));
     }
 
-    /// Keeps a changed document, beside the window and at once.
+    /// Keeps a changed document, in the background and at once.
     pub fn autosave(&mut self, document: &Document, ctx: &egui::Context) {
         self.keeper.watch(document, ctx);
     }
@@ -117,7 +117,7 @@ impl Files {
             Ok(text) => text,
             Err(error) => return log::warn!("the layout could not be saved: {error}"),
         };
-        // What is being written beside the window may not be done before the program is.
+        // What is being written in the background may not be done before the program is.
         if self.layout.as_ref() == Some(&text) && !now {
             return;
         }

@@ -15,7 +15,7 @@ pub struct PathPrompt {
     pub text: String,
     /// The thing to be saved there; none for opening.
     pub save: Option<SaveRequest>,
-    /// A file that is there already, which a person was told of.
+    /// A file that is there already, which the user was told of.
     pub replaces: Option<PathBuf>,
     /// The reason why the path typed was not taken.
     pub failure: Option<String>,
@@ -78,7 +78,7 @@ pub(super) fn cannot_open(path: &Path) -> Option<String> {
 
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Completed {
-    /// The text it was asked for.
+    /// The text it was requested.
     pub(super) of: String,
     /// As far as all names agree.
     pub(super) text: String,

@@ -1,4 +1,4 @@
-//! Saving: the forms something can be written in, and which of them a path asks for by its ending.
+//! Saving: the forms something can be written in, and which of them a path requests by its ending.
 
 use std::ffi::OsStr;
 use std::fmt;
@@ -14,7 +14,7 @@ pub struct FileForm {
 }
 
 impl FileForm {
-    /// A form whose bytes are made on demand, beside the window; the error is a sentence.
+    /// A form whose bytes are made on demand, in the background; the error is a sentence.
     pub fn new(extension: &'static str, make: impl Fn() -> Result<Vec<u8>, String> + Send + Sync + 'static) -> Self {
         Self { extension, make: Arc::new(make) }
     }
@@ -45,7 +45,7 @@ pub struct SaveRequest {
 }
 
 impl SaveRequest {
-    /// The path to write to and the form that its ending asks for; without an ending, the offered form's is added. The error
+    /// The path to write to and the form that its ending requests; without an ending, the offered form's is added. The error
     /// is a sentence.
     pub(super) fn target(&self, path: &Path) -> Result<(PathBuf, FileForm), String> {
         let offered = self.forms.first().ok_or_else(|| "There is nothing to save.".to_owned())?;

@@ -1,4 +1,4 @@
-//! Sentences that stay below the conditions for as long as they are true, or until a person dismisses them.
+//! Sentences that stay below the conditions for as long as they are true, or until the user dismisses them.
 
 use std::collections::HashSet;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! The files of a kept document: a small one, written anew with every change, and the curves of imported sets beside it, each
+//! The files of a kept document: a small one, rewritten with every change, and the curves of imported sets beside it, each
 //! written once.
 //!
 //! So a change costs a few kilobytes, however large the sets are, and no more is needed for it to be safe than that one small
@@ -24,7 +24,7 @@ use crate::format::{io_failure, io_reason};
 /// Result of writing a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Written {
-    /// Sets that were left out, in one sentence; may be empty.
+    /// Sets that were omitted, in one sentence; may be empty.
     pub(super) skipped_work: String,
 }
 

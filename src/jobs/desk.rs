@@ -1,4 +1,4 @@
-//! What lies between the window and the threads beside it.
+//! State shared by the window and background threads.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 

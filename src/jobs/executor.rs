@@ -1,4 +1,4 @@
-//! Threads for work beside the window, the answers they share and the clock that times it; for tests, a queue and a clock that
+//! Threads for background work, the answers they share and the clock that times it; for tests, a queue and a clock that
 //! they drive.
 
 use std::cell::RefCell;
@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use crate::results::Results;
 
-/// Runs work beside the window: on a thread for each piece, or, where it is [driven](Self::driven), only when told to. Clones
+/// Runs background work: on a thread for each piece, or, where it is [driven](Self::driven), only when told to. Clones
 /// share their answers.
 #[derive(Clone, Default)]
 pub struct Executor {
@@ -27,7 +27,7 @@ struct Driven {
     clock: Arc<AtomicU64>,
 }
 
-/// A piece of work, which returns whether it is to be run once more.
+/// A piece of work, which returns whether it is to be run again.
 type Task = Box<dyn FnMut() -> bool>;
 
 impl Executor {

@@ -17,7 +17,7 @@ use crate::theme::UNIT;
 use crate::view::DiagramFit;
 use crate::workspaces::PaneKind;
 
-/// How near the pointer must be, in points.
+/// Pick radius, in points.
 const REACH: f32 = 10.0;
 /// The strip's height in points.
 const STRIP: f32 = 100.0;
@@ -118,7 +118,7 @@ fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     say_refusals(ui, shown.view.rect, &built, context);
 }
 
-/// What is under the pointer is read, and marked everywhere; a click keeps it.
+/// Hovers the item nearest to the pointer; a click selects it.
 fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<'_>) {
     let pointer = shown.response.hover_pos().filter(|at| shown.view.rect.contains(*at));
     let hit = pointer.and_then(|at| paint::nearest(&built.panel, &shown.view, at, REACH));

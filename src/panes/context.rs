@@ -86,7 +86,7 @@ impl PaneContext<'_> {
         self.pane(kind).map_or("", |pane| pane.title)
     }
 
-    /// What a figure is made of.
+    /// Input for a figure.
     pub fn figure_input(&self) -> FigureInput<'_> {
         FigureInput::of((&self.scene, self.view), self.studio, self.laboratory, self.opened)
     }

@@ -56,7 +56,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
 }
 
-/// The correction of a camera, asked for beside the window; the last one while it is made.
+/// The correction of a camera, requested in the background; the last one while it is made.
 fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<CorrectionFile>>, SceneError> {
     if context.scene.document.transform.is_eq_13() {
         context.view.correction.shown = None;

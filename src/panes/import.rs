@@ -63,7 +63,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Something is always on show: the first file, until a person chooses another.
+/// Something is always on show: the first file, until the user chooses another.
 fn keep_selected(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) {
     let selected = context.view.import.selected.as_ref();
     if selected.is_none_or(|item| !entries.iter().any(|entry| entry.item == *item))

@@ -121,7 +121,7 @@ fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, con
     }
 }
 
-/// What is done with the chosen pair.
+/// Buttons that act on the selected pair.
 fn buttons(ui: &mut Ui, row: &MetamerRow, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         for ([set, patch], kind) in row.names.iter().zip(row.kinds) {

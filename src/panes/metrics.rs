@@ -131,7 +131,7 @@ fn nothing(ui: &mut Ui, body: Rect, which: RankedCameras, context: &PaneContext<
     ui.painter().text(body.center(), Align2::CENTER_CENTER, words, font, context.theme.weak);
 }
 
-/// What the columns say.
+/// Columns of the table, with their descriptions.
 fn columns() -> Vec<Column> {
     let before = [
         ("camera", ""),

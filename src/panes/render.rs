@@ -69,7 +69,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// What stands in place of pictures.
+/// Draws a message in place of pictures.
 fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'_>) {
     let galley = painter.layout(
         words.to_owned(),

@@ -51,7 +51,7 @@ fn field(
     captioned(ui, (caption, caption), width, context, control);
 }
 
-/// The same with a caption that changes, under an id that does not.
+/// Adds a control whose caption varies, under a constant id.
 fn captioned(
     ui: &mut Ui,
     (id, caption): (&str, &str),
@@ -142,7 +142,7 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
 }
 
-/// What the temperature is of.
+/// Caption of the temperature.
 fn temperature_caption(context: &PaneContext<'_>, wide: bool) -> &'static str {
     match context.scene.document.light {
         Light::Set(_) if !wide => "Temperature",

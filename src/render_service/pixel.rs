@@ -14,14 +14,14 @@ use crate::results::Results;
 pub struct PixelReading {
     /// Right and down, in pixels.
     pub at: [usize; 2],
-    /// What it shows.
+    /// Contents of the pixel.
     pub shows: PixelShows,
 }
 
-/// What a pixel shows.
+/// Contents of a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PixelShows {
-    /// What is beside the mesh.
+    /// Background, outside the mesh.
     Nothing,
     /// The mesh where no light reaches it.
     Unlit,

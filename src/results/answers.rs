@@ -45,7 +45,7 @@ struct Made<A> {
     bytes: usize,
 }
 
-/// What came of asking.
+/// Result of a cache lookup.
 pub(super) enum Asked<'a, Q: Query> {
     /// The answer.
     Known(Arc<Q::Answer>),
@@ -117,7 +117,7 @@ impl<Q: Query> Table<Q> {
         Some(Arc::clone(&made.answer))
     }
 
-    /// Takes out what was asked for least recently, until no more is left than is worth keeping.
+    /// Takes out what was requested least recently, until no more is left than is worth keeping.
     fn excess(&mut self) -> Vec<Arc<Q::Answer>> {
         let made = |slot: &Slot<Q::Answer>| match slot {
             Slot::Made(made) => Some((made.asked, made.bytes)),

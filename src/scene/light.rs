@@ -54,7 +54,7 @@ impl Scene<'_> {
         Ok(NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper })
     }
 
-    /// Correlated color temperatures and Duv of many colors for the CIE 1931 observer. The locus is tabulated when first asked for.
+    /// Correlated color temperatures and Duv of many colors for the CIE 1931 observer. The locus is tabulated when first requested.
     pub fn temperatures_of(&self, colors: &[Option<Xyz>]) -> Result<Vec<Result<Cct, CctError>>, SceneError> {
         let locus = self.results.ask(&self.nearest_blackbody_query()?);
         let cct = |locus: &PlanckianLocus, color: &Option<Xyz>| {
@@ -78,8 +78,8 @@ impl Scene<'_> {
         self.temperature_of(Some(self.light_color()?))
     }
 
-    /// How far the patches through a camera are from those under the light's reference illuminant, the correction fitted under the
-    /// latter to the observer that the document fits to, or to CIE 1931.
+    /// Color consistency of a camera: differences of the patches from those under the light's reference illuminant. The correction
+    /// is fitted under the latter to the observer that the document fits to, or to CIE 1931.
     pub fn consistency(&self, camera: &str) -> Result<Consistency, NoConsistency> {
         let rendition = self.rendition()?;
         let (reference, _) = rendition.reference.as_ref().map_err(|&error| error)?;

@@ -23,7 +23,7 @@ impl Scene<'_> {
         self.camera_metrics_query_at(kind, name, self.document.temperature_k)
     }
 
-    /// The same question with the locus at a temperature in kelvins.
+    /// Query for all figures of merit of a sensor, with the locus at a temperature in kelvins.
     pub fn camera_metrics_query_at(
         &self,
         kind: SetKind,

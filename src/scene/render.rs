@@ -12,14 +12,14 @@ use super::{ComparedSensor, Scene, SceneError};
 use crate::document::SetKind;
 use crate::document::render::MeshChoice;
 
-/// How finely a picture is made.
+/// Quality settings of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Finish {
     /// Pixels and samples.
     pub size: RasterSize,
-    /// How exactly integrals are made.
+    /// Quality of the spectral integration.
     pub quality: Quality,
-    /// How finely shadows are traced, where there are any.
+    /// Sampling of shadows, where there are any.
     pub shadows: Shadows,
     /// About how many samples are compared with the reference.
     pub compared_samples: Option<usize>,

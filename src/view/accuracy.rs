@@ -1,10 +1,10 @@
-//! What is looked at in Accuracy.
+//! View state of the Accuracy pane.
 
 use chromascope_measure::Workload;
 
 use crate::profiler::Subject;
 
-/// What is looked at in Accuracy.
+/// View state of the Accuracy pane.
 #[derive(Clone, Debug, Default)]
 pub struct AccuracyView {
     /// Whose methods are on show.

@@ -1,4 +1,4 @@
-//! What is looked at in Correction.
+//! View state of the Correction pane.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What is looked at in Import.
+//! View state of the Import pane.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,24 +21,24 @@ pub enum ImportItem {
     File(Fingerprint),
 }
 
-/// What is looked at in Import.
+/// View state of the Import pane.
 #[derive(Debug, Default)]
 pub struct ImportView {
     /// The file on show.
     pub selected: Option<ImportItem>,
-    /// How files are to be read, while that is not yet so in the document: what was tried on each is kept.
+    /// Import settings tried for each item but not yet applied to the document.
     pub tried: BTreeMap<ImportItem, ImportOverrides>,
     /// Files with something guessed or broken that nobody has looked at.
     pub unseen: BTreeSet<ImportItem>,
     /// The parts of the file on show that are to be taken, each as a set of its own; from 1.
     pub parts: BTreeSet<usize>,
-    /// Where the keyboard stopped on its way from pane to pane.
+    /// Control at which the keyboard focus stopped between panes.
     pub stop: Option<Stop>,
-    /// What takes the keyboard in this frame.
+    /// Control that takes the keyboard focus in this frame.
     pub focus: Option<Stop>,
-    /// The line of the text to bring into sight in this frame.
+    /// The line of the text to bring into view in this frame.
     pub line: Option<usize>,
-    /// What is typed into the search of curves.
+    /// Search text of the curve list.
     pub search: String,
     /// Curves under the pointer, by place in the file.
     pub hovered_curve: Option<usize>,
@@ -75,7 +75,7 @@ impl ImportView {
         takes
     }
 
-    /// What is tried on an item.
+    /// Settings tried for an item.
     pub fn pending(&self, item: &ImportItem) -> Option<&ImportOverrides> {
         self.tried.get(item)
     }
@@ -111,7 +111,7 @@ impl ImportView {
     }
 }
 
-/// What a person wished for a kind of file.
+/// Import settings that the user chose for a kind of file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Remembered {
     /// The kind.
@@ -120,11 +120,11 @@ pub struct Remembered {
     pub wishes: ImportOverrides,
 }
 
-/// What is kept of Import between runs.
+/// Import settings saved between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ImportMemory {
-    /// What was wished for which kinds of files, the latest last.
+    /// Settings by kind of file, the latest last.
     pub remembered: Vec<Remembered>,
     /// True if files are read again when they change on disk.
     pub watch: bool,
@@ -160,7 +160,7 @@ impl ImportMemory {
         self.remembered.retain(|known| !known.likeness.is_like(likeness));
     }
 
-    /// What is wished for a file.
+    /// Returns the remembered settings for a file.
     pub fn wishes(&self, likeness: &Likeness) -> ImportOverrides {
         let known = self.remembered.iter().rev().find(|known| known.likeness.is_like(likeness));
         known.map(|known| known.wishes.clone()).unwrap_or_default()

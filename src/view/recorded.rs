@@ -1,12 +1,12 @@
-//! What is looked at in Recorded.
+//! View state of the Recorded pane.
 
 use chromascope_core::camera::recorded::Freedom;
 use chromascope_core::query::RecordedSet;
 
-/// What is looked at in Recorded.
+/// View state of the Recorded pane.
 #[derive(Clone, Debug, Default)]
 pub struct RecordedView {
-    /// True while a file that is asked for is one of recorded values.
+    /// True while a file that is requested is one of recorded values.
     pub opening: bool,
     /// Parameters that are fitted.
     pub freedom: Freedom,

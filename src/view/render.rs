@@ -1,4 +1,4 @@
-//! How the rendered mesh is looked at: the orbit, how pictures stand, the pixel that is read.
+//! View state of the Render pane: orbit, arrangement of pictures and pinned pixel.
 
 use std::time::Duration;
 
@@ -8,15 +8,15 @@ use crate::paint::PictureTextures;
 use crate::plot_item::SensorId;
 pub use crate::scene::orbit::Orbit;
 
-/// The part that is kept between runs.
+/// The part that is saved between runs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RenderLook {
-    /// How pictures stand.
+    /// Arrangement of pictures.
     pub mode: RenderMode,
-    /// Where the mesh is seen from; none for the mesh's own view.
+    /// Viewpoint; `None` for the mesh's own.
     pub orbit: Option<Orbit>,
-    /// Where the divider of the split picture stands, from 0 at the left to 1.
+    /// Position of the divider of the split picture, from 0 (left) to 1.
     pub split: f32,
 }
 
@@ -36,7 +36,7 @@ impl RenderLook {
     }
 }
 
-/// How pictures stand.
+/// Arrangement of pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum RenderMode {
     /// One for each sensor.
@@ -46,7 +46,7 @@ pub enum RenderMode {
     Split,
     /// One sensor, large.
     One,
-    /// How far each sensor is from the reference.
+    /// Difference of each sensor from the reference.
     Difference,
 }
 
@@ -59,7 +59,7 @@ pub struct PixelPlace {
     pub source: SensorId,
 }
 
-/// What the pane shows now.
+/// View state of the Render pane.
 #[derive(Debug, Default)]
 pub struct RenderView {
     /// The pixel that is kept.
@@ -70,13 +70,13 @@ pub struct RenderView {
     pub chosen: Option<SensorId>,
     /// For how long pictures have been in the making.
     pub busy: Option<Duration>,
-    /// What is being made, in a word.
+    /// Name of the computation in progress.
     pub making: &'static str,
     /// True if finer pictures than those on show are not wanted.
     pub cancelled: bool,
     /// The pictures as textures.
     pub textures: PictureTextures,
-    /// What is typed to find a material.
+    /// Search text of the material list.
     pub material_search: String,
 }
 

@@ -1,4 +1,4 @@
-//! How tables are looked at: order, columns, filter.
+//! View settings of tables: order, columns, filter.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::plot_item::PlotItem;
 
-/// How one table is looked at.
+/// View settings of one table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct TableLook {
@@ -14,7 +14,7 @@ pub struct TableLook {
     pub sorting: Option<Sorting>,
     /// Columns that the user shows or hides, by name; others stand as the table starts.
     pub columns: BTreeMap<String, bool>,
-    /// Words that a row must contain. Not kept between runs.
+    /// Words that a row must contain. Not saved between runs.
     #[serde(skip)]
     pub filter: String,
     /// Row under the keyboard where rows stand for nothing else, counted as given.

@@ -1,4 +1,4 @@
-//! One mesh file: from the disk to a mesh with what a person should know about it, or to a sentence.
+//! One mesh file: from the disk to a mesh with what the user should know about it, or to a sentence.
 
 use std::ffi::OsStr;
 use std::fs::File;
@@ -98,7 +98,7 @@ pub enum MeshFailure {
 }
 
 impl MeshFailure {
-    /// For a person who opened the file.
+    /// For the user who opened the file.
     pub fn on_opening(&self) -> String {
         format!("{}. Nothing was changed.", self.beginning())
     }

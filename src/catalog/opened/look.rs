@@ -1,4 +1,4 @@
-//! Curves and text of a file, with marks, for a person who looks at it.
+//! Curves and text of a file, with marks, for the user who looks at it.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Reading files from the disk, folders among them, each as a person wished for its kind.
+//! Reading files from the disk, folders among them, each as the user wished for its kind.
 
 use std::fs;
 use std::io::{self, Read as _};
@@ -32,7 +32,7 @@ pub enum Request {
         /// The bytes.
         bytes: Arc<[u8]>,
     },
-    /// A file whose contents are known, with what a person wishes.
+    /// A file whose contents are known, with what the user wishes.
     Known(Fingerprint, Box<ImportOverrides>),
 }
 
@@ -92,7 +92,7 @@ pub(super) fn open(
     if job.go_on(0.0) { harvest.into_events() } else { Vec::new() }
 }
 
-/// Folders become their files, in order of name; hidden ones and folders within are left out.
+/// Folders become their files, in order of name; hidden ones and folders within are omitted.
 fn expand(requests: Vec<Request>, harvest: &mut Harvest) -> Vec<Request> {
     let mut all = Vec::new();
     for request in requests {
@@ -272,7 +272,7 @@ impl Harvest {
     /// Number of files that could not be read, and the reason for the first.
     fn failure(&self) -> Option<String> {
         let first = self.failures.first()?;
-        // A folder without files is one of those asked for.
+        // A folder without files is one of those requested.
         let count = self.count.max(self.failures.len() + self.sets.len());
         if count == 1 {
             return Some(first.clone());
@@ -281,7 +281,7 @@ impl Harvest {
     }
 }
 
-/// Takes files in that could not be read in an earlier run. One that changed since is not used before a person says so.
+/// Takes files in that could not be read in an earlier run. One that changed since is not used before the user says so.
 pub(super) fn recall(failing: Vec<Failing>, desk: &Desk, job: &Job) {
     let count = failing.len();
     for (index, Failing { path, fingerprint, why }) in failing.into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What lies under the data: the area's colors, the spectral locus, gamuts, daylight.
+//! Background of the diagram: colored area, spectral locus, gamuts and daylight locus.
 
 use std::sync::{Arc, OnceLock};
 
@@ -138,7 +138,7 @@ fn paint(diagram: Diagram, faint: bool, outline: &[SpectralPoint]) -> Image {
     Image { width: PIXELS, height: PIXELS, rgba: Arc::from(rgba) }
 }
 
-/// How much of each pixel of a row lies within an outline, by four lines through the row.
+/// Share of each pixel of a row that lies within an outline, from four scan lines.
 fn coverage(corners: &[[f64; 2]], row: usize, height: f64, cell: f64) -> Vec<f32> {
     const LINES: usize = 4;
     let mut covered = vec![0.0_f32; PIXELS];

@@ -90,7 +90,7 @@ fn add_names(drawing: &mut Drawing<'_>, names: &[&str], reference: &[PatchColor]
     drawing.marks.extend(labels);
 }
 
-/// What the pointer reads on a thing: lines of text.
+/// Lines of text that describe an item under the pointer.
 pub fn describe(scene: &Scene<'_>, thing: &PlotItem) -> Vec<String> {
     match thing {
         PlotItem::Sensor(source) => describe_source(scene, source),
@@ -101,7 +101,7 @@ pub fn describe(scene: &Scene<'_>, thing: &PlotItem) -> Vec<String> {
     }
 }
 
-/// Where a sensor sees a patch.
+/// Chromaticity of a patch through a sensor.
 pub fn patch_xy(scene: &Scene<'_>, source: &SensorId, patch: &str) -> Option<Xy> {
     let index = scene.patches().ok()?.patches().iter().position(|p| p.name == patch)?;
     scene.patch_colors(source.kind, &source.name).ok()?.get(index)?.xy

@@ -253,7 +253,7 @@ fn even_step(wavelengths_nm: &[f64]) -> Option<f64> {
     (10 * even >= 8 * steps.len()).then_some(median)
 }
 
-/// No more points than asked for, with the least and the largest of each stretch among them, and the gaps.
+/// No more points than requested, with the least and the largest of each stretch among them, and the gaps.
 pub(super) fn thinned(points: &[[f64; 2]], most: usize) -> Vec<[f64; 2]> {
     if points.len() <= most {
         return points.to_vec();

@@ -30,7 +30,7 @@ pub struct ImportSelection {
 }
 
 impl ImportSelection {
-    /// The selected item; asks for what is not known yet.
+    /// The selected item; requests what is not known yet.
     pub fn refresh(scene: &Scene<'_>, view: &View, opened: &Opened) -> Option<Self> {
         let mut shown = Self::of(scene, view, opened.preview())?;
         let fingerprint = match &shown.item {

@@ -14,7 +14,7 @@ use crate::view::import::ImportItem;
 pub(super) enum State {
     /// Read without a doubt.
     Certain,
-    /// Read with a guess that a person has seen.
+    /// Read with a guess that the user has seen.
     Seen,
     /// Read with a guess that nobody has looked at.
     Unseen,

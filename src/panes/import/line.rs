@@ -129,7 +129,7 @@ fn form(what: Option<What>, pen: &Pen<'_>) -> TextFormat {
     let line = |color| Stroke::new(1.0, color);
     let weak = TextFormat { font_id: FontId::monospace(MONO), color: theme.weak, ..TextFormat::default() };
     let bright = TextFormat { color: theme.text, ..weak.clone() };
-    // Values and names of what is left out by hand are as pale as what is not used.
+    // Values and names of what is omitted by hand are as pale as what is not used.
     let out = |curve: usize| pen.taken.get(curve) == Some(&false);
     match what {
         None if pen.understood => weak,

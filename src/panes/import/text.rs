@@ -96,9 +96,9 @@ fn away(ui: &mut Ui, rect: Rect, set: &OwnSet, context: &mut PaneContext<'_>) {
 /// State of the text view between frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Kept {
-    /// The error that was brought into sight last, by its line.
+    /// The error that was brought into view last, by its line.
     error: Option<(Fingerprint, usize)>,
-    /// The line that was asked for last.
+    /// The line that was requested last.
     line: Option<(Fingerprint, usize)>,
 }
 
@@ -152,7 +152,7 @@ fn lines_of(
     });
 }
 
-/// The line, and the letter in it, to bring into sight in this frame.
+/// The line, and the letter in it, to bring into view in this frame.
 fn target(
     ui: &Ui,
     shown: &ImportSelection,

@@ -45,7 +45,7 @@ pub(super) fn within(ui: &Ui, entries: &[Response], on: usize) {
         ui.data_mut(|data| data.insert_temp(left, pass));
     }
     let Some(now) = entries.iter().position(Response::has_focus) else {
-        // A list in which something was chosen is drawn once more before it closes.
+        // A list in which something was chosen is drawn again before it closes.
         let closes = ui.data(|data| data.get_temp::<u64>(left)).is_some_and(|left| pass <= left + 2);
         if let Some(entry) = entries.get(on).filter(|_| !closes) {
             entry.request_focus();

@@ -10,7 +10,7 @@ use crate::document::own::ImportOverrides;
 use crate::figures::curves::ImportSelection;
 use crate::theme::{Theme, UNIT};
 
-/// The kinds, as a person calls them.
+/// The kinds, as the user calls them.
 pub(super) const ROLES: [(Role, &str); 5] = [
     (Role::Camera, "Camera sensitivities"),
     (Role::Reflectance, "Reflectance"),

@@ -52,7 +52,7 @@ fn compared(ui: &mut Ui, height: f32, context: &mut PaneContext<'_>) {
     let now: Vec<(SetKind, String)> = sources.iter().map(|source| (source.kind, source.name.clone())).collect();
     let before: Option<Vec<(SetKind, String)>> = ui.data(|data| data.get_temp(seen));
     let area = ScrollArea::vertical().id_salt("compared").max_height(rows * pitch).auto_shrink(false);
-    // One that was just added is brought into sight.
+    // One that was just added is brought into view.
     let added = before.as_ref().filter(|before| before.len() < now.len()).and_then(|before| {
         let before: HashSet<&(SetKind, String)> = before.iter().collect();
         now.iter().rposition(|key| !before.contains(key))

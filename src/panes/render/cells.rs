@@ -1,4 +1,4 @@
-//! Where pictures stand in the pane.
+//! Layout of pictures in the pane.
 
 use egui::{Pos2, Rect, Vec2};
 
@@ -17,7 +17,7 @@ const SCALE: f32 = 40.0;
 /// A picture's place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PictureSlot {
-    /// Its sensor's index among those asked for.
+    /// Its sensor's index among those requested.
     pub(super) source: usize,
     /// The line above it.
     pub(super) caption: Rect,
@@ -25,17 +25,17 @@ pub(super) struct PictureSlot {
     pub(super) picture: Rect,
 }
 
-/// What stands where.
+/// Layout of pictures, divider and color scale.
 pub(super) struct PictureLayout {
-    /// How pictures stand.
+    /// Arrangement of pictures.
     pub(super) mode: RenderMode,
-    /// The sensors that are asked for, the reference first.
+    /// The sensors that are requested, the reference first.
     pub(super) sources: Vec<ComparedSensor>,
     /// The pictures; the two halves of a split one share their place.
     pub(super) cells: Vec<PictureSlot>,
-    /// Where the divider of a split picture is.
+    /// Position of the divider of a split picture.
     pub(super) divider: Option<f32>,
-    /// Where the scale of differences is.
+    /// Rectangle of the color scale of differences.
     pub(super) scale: Option<Rect>,
     /// The size of each picture in pixels of the screen.
     pub(super) pixels: [u32; 2],
@@ -83,7 +83,7 @@ impl PictureLayout {
         Self { mode, sources, cells, divider, scale, pixels: pixels.map(|side| side as u32) }
     }
 
-    /// What part of a cell's picture is on show.
+    /// Visible part of a cell's picture.
     pub(super) fn visible(&self, cell: usize) -> Rect {
         let mut visible = self.cells[cell].picture;
         if let Some(x) = self.divider {

@@ -115,7 +115,7 @@ fn note(shot: &RenderedFrame, at: usize, width: f32) -> Option<Note> {
     Some(Note { short, full: words(Detail::Largest) })
 }
 
-/// What a sensor is called above its picture.
+/// Title above a sensor's picture.
 fn title(source: &ComparedSensor) -> String {
     if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() }
 }

@@ -1,4 +1,4 @@
-//! What the pane asks for: coarse pictures while something moves, then fine ones.
+//! Picture requests: coarse while something moves, then fine.
 
 use chromascope_core::colorimetry::rgb::srgb_inverse_transfer;
 use chromascope_core::query::Shared;

@@ -29,7 +29,7 @@ const COMPACT_LINE: f32 = 15.0;
 /// Height of a line of a head.
 const HEAD_LINE: f32 = 15.0;
 
-/// What is shown of a cell besides its value.
+/// Appearance and tooltip of a cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellNote {
     /// One standard deviation, in the value's unit.
@@ -56,7 +56,7 @@ pub struct DataTable<'a> {
     compact: bool,
 }
 
-/// What was done with a table in a frame; rows are counted as given.
+/// User actions on a table in a frame; rows are counted in the given order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TableOutput {
     /// Row that was clicked.
@@ -66,7 +66,7 @@ pub struct TableOutput {
 }
 
 impl<'a> DataTable<'a> {
-    /// A table of a pane, with columns named by its heads. `id` names its order and columns in what is kept between runs.
+    /// A table of a pane, with columns named by its heads. `id` names its order and columns in what is saved between runs.
     pub fn new(pane: PaneKind, id: &'a str, table: &'a Table) -> Self {
         let columns = table.columns.iter().map(|head| Column::from_head(head)).collect();
         Self { pane, id, table, columns, note: None, item: None, first: None, compact: false }
@@ -225,7 +225,7 @@ impl<'a> DataTable<'a> {
         table
     }
 
-    /// What was clicked and pointed at goes to the view.
+    /// Applies clicks and hovering to the view.
     fn take_in(&self, body: &Body<'_>, look: &mut TableLook, context: &mut PaneContext<'_>) -> TableOutput {
         if let Some(column) = body.clicked_head {
             look.sort_by(&self.columns[column].name, self.columns[column].largest_first);

@@ -5,12 +5,12 @@ use egui::{Id, Key, RichText, Role, Slider, TextEdit, Ui, WidgetInfo};
 use crate::document::render::{TOLERANCES, decade};
 use crate::panes::context::PaneContext;
 
-/// What can be typed.
+/// Description of valid input.
 const TAKES: &str = "From 1e−13 to 0.1, such as 5e-10; the slider moves in powers of ten";
 /// Width of the text.
 const TEXT: f32 = 72.0;
 
-/// What was typed and not taken: it stays in the field until the tolerance is another or other text is typed.
+/// Typed text that was rejected: it stays in the field until the tolerance changes or other text is typed.
 #[derive(Clone)]
 struct Typed {
     /// The tolerance that it did not replace.
@@ -71,7 +71,7 @@ fn shown(tolerance: f64) -> String {
     format!("{tolerance:e}").replace('-', "−")
 }
 
-/// The tolerance that a text asks for, or what is wrong with it.
+/// The tolerance that a text requests, or what is wrong with it.
 fn tolerance(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let (least, largest) = (shown(*TOLERANCES.start()), TOLERANCES.end());

@@ -1,4 +1,4 @@
-//! What the rows of scenes of several kinds count and say.
+//! Tests of the counts and texts of skipped work, for scenes of several kinds.
 
 use chromascope_core::query::render::MeshQuery;
 use chromascope_core::render::RasterSize;

@@ -38,7 +38,7 @@ pub(super) struct Body<'a> {
     pub(super) hovered: Option<usize>,
     /// Column whose head was clicked.
     pub(super) clicked_head: Option<usize>,
-    /// What was done with rows.
+    /// User actions on rows.
     pub(super) output: TableOutput,
 }
 

@@ -18,7 +18,7 @@ const DIGITS: i32 = 6;
 /// Units that names of columns in files end in.
 const SUFFIXES: [(&str, &str); 4] = [("_nm", "nm"), ("_k", "K"), ("_ms", "ms"), ("_px", "px")];
 
-/// What a table says of one of its columns.
+/// Description and format of a table column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Column {
     /// Name, without unit.

@@ -1,4 +1,4 @@
-//! What the rows of a figure's numbers stand for.
+//! Items of the rows of a figure's numbers.
 
 use std::collections::HashMap;
 
@@ -33,7 +33,7 @@ impl RowItems {
         self.sensor.is_none()
     }
 
-    /// What a row stands for.
+    /// Returns the item of a row.
     pub(super) fn of_row(&self, row: &[Cell]) -> Option<PlotItem> {
         let text = |column: Option<usize>| match row.get(column?) {
             Some(Cell::Text(text)) => Some(text.as_str()),
