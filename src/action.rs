@@ -36,7 +36,7 @@ pub enum Action {
 /// Changes to the list of compared sensors.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CompareAction {
-    /// Puts a sensor on show.
+    /// Adds a sensor to the comparison.
     Add(SetKind, String),
     /// Takes a sensor off; the reference stays.
     Remove(SetKind, String),
@@ -94,7 +94,7 @@ pub enum RenderAction {
         /// The settings as they are to be.
         to: Box<RenderSettings>,
     },
-    /// Looks at a mesh file of the user's, which was read.
+    /// Selects the user's mesh file, which was read.
     Open(PathBuf),
     /// The paper's Figure 8: the head under sunlight, balanced to D55.
     Figure8,
@@ -109,8 +109,8 @@ pub enum RenderAction {
 /// Changes to the user's own sets.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OwnAction {
-    /// Brings sets in. One alone is put to use; of several, cameras are put on show while there are places, and light and
-    /// chart stay. A name that is taken becomes one that is free.
+    /// Adds imported sets. A single set is put to use; of several, cameras are added to the comparison while the palette
+    /// has room, and light and chart stay. A name in use is replaced by a free one.
     Import {
         /// The sets.
         sets: Vec<OwnSet>,
@@ -364,8 +364,8 @@ impl OwnAction {
     }
 }
 
-/// Opens a file again that a set was made of. The same contents leave the set as it is, with all that the user chose for it; other
-/// contents take their place under its name.
+/// Reopens the file of a set. Unchanged contents leave the set and the user's settings as they are; changed contents replace the
+/// set's under its name.
 fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool, built_in: &BuiltInNames) {
     let name = document.own[index].name.clone();
     if set.fingerprint != document.own[index].fingerprint {

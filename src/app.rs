@@ -1,4 +1,4 @@
-//! The program in its window: takes in events, carries out commands, shows panes.
+//! The window: handles events, runs commands and shows panes.
 
 mod closing;
 mod commands;
@@ -118,7 +118,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Takes in where the window was in the last run.
+    /// Restores the window's position and size from the last run.
     pub fn restore_place(&mut self, storage: Option<&dyn eframe::Storage>) {
         self.place = layout::WindowPlace::restored(storage);
     }

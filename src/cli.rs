@@ -81,7 +81,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
     })
 }
 
-/// True if what stands for a file is a bare word that no file has: a command that was mistyped.
+/// True if an argument in the place of a file is a bare word and no such file exists: a mistyped command.
 fn is_mistyped_command(file: &Path) -> bool {
     file.components().count() == 1 && file.extension().is_none() && !file.exists()
 }
@@ -92,7 +92,7 @@ fn explain(error: &clap::Error) -> u8 {
     if error.use_stderr() {
         say(&text);
     } else {
-        // Nothing can be said when the terminal is gone.
+        // No message can be written once the terminal is closed.
         let _gone = show(&text);
     }
     u8::try_from(error.exit_code()).unwrap_or(2)

@@ -22,15 +22,15 @@ pub enum Command {
     Undo,
     /// Bring it again.
     Redo,
-    /// Ask for files to open.
+    /// Show the dialog for files to open.
     Open,
-    /// Ask for a file of recorded raw values.
+    /// Show the dialog for a file of recorded raw values.
     OpenRecorded,
-    /// Ask for a folder whose files are to be opened.
+    /// Show the dialog for a folder of files to open.
     OpenFolder,
-    /// Open a document in place of this one, which is kept.
+    /// Open a document in place of this one, which is saved first.
     OpenDocument(std::path::PathBuf),
-    /// Delete a document that another window kept.
+    /// Delete a document that another window saved.
     RemoveDocument(std::path::PathBuf),
     /// Open a file or folder of the given path.
     OpenPath(std::path::PathBuf),
@@ -38,7 +38,7 @@ pub enum Command {
     ShowImport(ImportItem, Option<usize>),
     /// Have a file read otherwise.
     Wish(ImportItem, Box<ImportOverrides>),
-    /// Give up what was tried on the file on show.
+    /// Discard the settings tried on the selected file.
     TakeWishBack,
     /// Leave all to the content again, for a file and those like it.
     ForgetChoices(ImportItem),
@@ -68,7 +68,7 @@ pub enum Command {
     ExportExr(SensorId),
     /// Save the curves of a set of the library.
     SaveSet(SetKind, String, Form),
-    /// Save the color correction on show.
+    /// Save the current color correction.
     SaveCorrection(CorrectionForm),
     /// Put a pane's picture on the clipboard.
     CopyPicture(PaneKind),
@@ -80,7 +80,7 @@ pub enum Command {
     Maximize(PaneKind),
     /// Show a pane, or hide it.
     TogglePane(PaneKind),
-    /// The inspector, beside or over the rest.
+    /// Show the inspector, in its column or over the center.
     ToggleInspector,
     /// Let plots show their own ranges.
     ResetView,
@@ -104,7 +104,7 @@ pub enum Command {
     Pin,
     /// Show or hide the bars of differences.
     ToggleDifference,
-    /// Let go, one thing at a time.
+    /// Clear the selection and similar states, one at a time.
     Escape,
     /// Go to the next pane.
     NextPane,

@@ -1,7 +1,7 @@
-//! Ground state: what is compared, under what. Saved; knows no window.
+//! Document: the compared sensors and their conditions. Saved; independent of the window.
 //!
-//! Everything that can be computed from it and the data sets is not in here. The JSON it is saved as is the session file:
-//! versioned, unknown fields kept, the user's own data by value.
+//! Contains nothing that can be computed from it and the data sets. The JSON it is saved as is the session file:
+//! versioned, unknown fields preserved, the user's own data by value.
 
 pub mod correction;
 pub mod kept;
@@ -35,9 +35,9 @@ pub struct Document {
     pub format: String,
     /// The version of this form.
     pub version: u32,
-    /// The start that it was made from, and that a reset goes back to.
+    /// The start configuration that it was made from, to which a reset returns.
     pub start: Start,
-    /// The cameras and observers on show, in the order of the list. The reference is among them.
+    /// The compared cameras and observers, in the order of the list. The reference is among them.
     pub compared: Vec<Compared>,
     /// The observer that the others are compared to.
     pub reference: String,
@@ -76,14 +76,14 @@ pub struct Document {
     pub unknown: serde_json::Map<String, serde_json::Value>,
 }
 
-/// A camera or observer on show.
+/// A compared camera or observer.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Compared {
     /// Its name in the catalog.
     pub name: String,
     /// Camera or observer.
     pub kind: SetKind,
-    /// Its place in the palette, kept while it is compared.
+    /// Its place in the palette, constant while it is compared.
     pub slot: u8,
     /// True if its curves are drawn.
     #[serde(default = "yes")]
@@ -249,11 +249,11 @@ pub const PAPER_REFERENCE: &str = "Stiles & Burch 1955 2°";
 pub const FIT_TARGET: &str = CIE_1931;
 /// The CIE 1931 2° standard observer.
 pub const CIE_1931: &str = "CIE 1931 2°";
-/// The chart on show unless the user says otherwise.
+/// Default chart.
 pub const CHART: &str = "ColorChecker 24 (Ohta 1997)";
 /// The light on the scene unless the user says otherwise.
 pub const LIGHT: &str = "E";
-/// The most sensors that are compared at once: each has a place of its own in the palette.
+/// Maximum number of compared sensors: each has a place of its own in the palette.
 pub const MOST_COMPARED: usize = 256;
 /// The temperatures of a locus unless the user says otherwise, in kelvins.
 pub const LOCUS_RANGE_K: [f64; 2] = [1000.0, 20_000.0];
@@ -300,7 +300,7 @@ impl Document {
         Start::Paper.document()
     }
 
-    /// Puts a sensor on show, in the first free place of the palette.
+    /// Adds a sensor to the comparison, in the first free place of the palette.
     pub fn compare(&mut self, name: &str, kind: SetKind) {
         if self.compared.len() >= MOST_COMPARED || self.compared.iter().any(|c| c.kind == kind && c.name == name) {
             return;
@@ -310,7 +310,7 @@ impl Document {
         self.compared.push(Compared { name: name.to_owned(), kind, slot, visible: true, label: None });
     }
 
-    /// The sensor of this name on show.
+    /// The compared sensor of this name.
     pub fn compared(&self, kind: SetKind, name: &str) -> Option<&Compared> {
         self.compared.iter().find(|c| c.kind == kind && c.name == name)
     }

@@ -29,7 +29,7 @@ pub struct FigureInput<'a> {
     pub scene: &'a Scene<'a>,
     /// View settings.
     pub view: &'a View,
-    /// The pictures on show.
+    /// The current pictures.
     pub pictures: Option<&'a RenderedFrame>,
     /// Latest measurements.
     pub measured: &'a Measured,
@@ -38,7 +38,7 @@ pub struct FigureInput<'a> {
 }
 
 impl<'a> FigureInput<'a> {
-    /// A scene with what was last made of it.
+    /// Input of a scene with its latest background results.
     pub fn of(
         (scene, view): (&'a Scene<'a>, &'a View),
         studio: &'a RenderService,

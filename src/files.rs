@@ -1,6 +1,6 @@
-//! Files in and out: dialogs, reading, atomic writing, the document saved between runs.
+//! File input and output: dialogs, reading, atomic writing, the document saved between runs.
 //!
-//! Dialogs, reads and writes run on threads of their own and come back through [`Files::poll`]; the window never waits.
+//! Dialogs, reads and writes run on their own threads and return through [`Files::poll`]; the window never waits.
 
 mod asking;
 mod atomic;
@@ -57,7 +57,8 @@ pub struct Files {
 }
 
 impl Files {
-    /// With the folder that the document is kept in between runs, if any. It is this window's until it closes.
+    /// Creates it with the folder in which the document is saved between runs, if any. The folder is locked by this
+    /// window until it closes.
     pub fn new(folder: Option<PathBuf>) -> Self {
         Self::on(&Executor::default(), folder)
     }
@@ -83,13 +84,13 @@ impl Files {
         }
     }
 
-    /// Asks for paths in the window alone, as where the system has no dialogs.
+    /// Uses path prompts in the window only, as where the system has no dialogs.
     #[must_use]
     pub fn without_dialogs(self) -> Self {
         Self { dialogs: None, ..self }
     }
 
-    /// Asks for paths with other dialogs than the system's.
+    /// Uses other dialogs than the system's.
     #[must_use]
     pub fn with_dialogs(self, dialogs: Arc<dyn Dialogs>) -> Self {
         Self { dialogs: Some(dialogs), ..self }
@@ -167,7 +168,7 @@ impl Files {
 
     fn note(&self, note: Note) {
         let _closed = self.sender.send(note);
-        // It is taken in with the next frame.
+        // It is processed in the next frame.
         if let Some(ctx) = &self.wake {
             ctx.request_repaint();
         }

@@ -58,8 +58,8 @@ pub(crate) fn io_reason(error: &std::io::Error) -> String {
     text[..end].to_lowercase()
 }
 
-/// Rows of a file that are in no curve: a sentence for those merged into others and one for those left out, each with the lines of
-/// at most `told` rows.
+/// Rows of a file that are in no curve: a sentence for the merged and one for the omitted ones, each with the line numbers of at
+/// most `told` rows.
 pub(crate) fn dropped_rows(rows: &[DroppedRow], told: usize) -> Vec<String> {
     let (merged, left): (Vec<&DroppedRow>, Vec<&DroppedRow>) =
         rows.iter().partition(|row| row.why == Dropped::Averaged);

@@ -116,7 +116,7 @@ pub fn plot(ui: &mut Ui, id: Id, panel: &Panel, theme: &Theme, rect: Rect, optio
         .allow_double_click_reset(options.zoomable)
         .default_x_bounds(x[0].min(x[1]), x[0].max(x[1]))
         .default_y_bounds(y[0].min(y[1]), y[0].max(y[1]))
-        // Until the user zooms, these bounds are taken anew in each frame: they follow panel and window.
+        // Until the user zooms, these bounds are updated in each frame: they follow panel and window.
         .auto_bounds(true)
         .set_margin_fraction(Vec2::ZERO)
         .invert_x(x[0] > x[1])
@@ -166,7 +166,7 @@ fn plot_rect(panel: &Panel, rect: Rect) -> Rect {
     Rect::from_min_max(rect.min + Vec2::new(left.max(1.0), 1.0), max.max(rect.min + Vec2::splat(2.0)))
 }
 
-/// The ranges that fill the plot, all the panel requests within.
+/// The axis ranges that fill the plot and contain the panel's ranges.
 fn shown_ranges(panel: &Panel, inner: Rect) -> ([f64; 2], [f64; 2]) {
     if panel.equal_aspect {
         let size = [f64::from(inner.width()), f64::from(inner.height())];

@@ -42,9 +42,9 @@ pub enum PlotItem {
 /// Relation of a drawn item to the hovered or selected one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
-    /// It is that thing, or that thing's part or whole.
+    /// The same item, or a part or the whole of it.
     Same,
-    /// It is what the thing is compared with: the reference's patch beside a camera's.
+    /// The item's reference: the reference's patch for a camera's.
     Reference,
     /// Neither.
     Other,
@@ -60,7 +60,7 @@ impl PlotItem {
         }
     }
 
-    /// A number that equal things share.
+    /// Hash of the item; equal items have equal hashes.
     fn hashed(&self) -> u64 {
         let kelvin = if let Self::Radiator { kelvin, .. } = self { (*kelvin + 0.0).to_bits() } else { 0 };
         let mut hasher = DefaultHasher::new();
@@ -101,19 +101,19 @@ impl PlotItem {
     }
 }
 
-/// The things that a figure's marks stand for.
+/// The items of a figure's marks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PickIndex {
     all: Vec<PlotItem>,
-    /// Indices of the things of each hash: a chart may have a hundred thousand patches.
+    /// Indices of the items of each hash: a chart may have a hundred thousand patches.
     places: HashMap<u64, Vec<usize>>,
 }
 
 impl PickIndex {
-    /// The tag for marks that stand for nothing.
+    /// The tag of marks without an item.
     pub const NONE: Tag = Tag(0);
 
-    /// A tag for a thing; equal things get the same.
+    /// Returns the tag of an item; equal items share a tag.
     pub fn tag(&mut self, thing: PlotItem) -> Tag {
         let places = self.places.entry(thing.hashed()).or_default();
         let known = places.iter().copied().find(|&index| self.all[index] == thing);

@@ -29,16 +29,16 @@ pub use conditions::Conditions;
 use plans::{PlanAnswer, PlansQuery};
 pub use skipped_work::{LOCI, PATCHES, SkippedWork};
 
-/// Measures what the scene costs by each method, and what was omitted.
+/// Measures the cost of each method for a scene, and the skipped work.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneRunJob {
     /// Description of the rendered scene.
     pub scene: String,
     /// The pictures; none where there is nothing to render.
     pub pictures: Option<PicturesQuery>,
-    /// The sources that are not visible.
+    /// The sensors that are not visible.
     pub hidden: Vec<SourceOf>,
-    /// The sensors on show.
+    /// The visible sensors.
     pub sensors: Vec<Shared<Sensor>>,
     /// The loci of the diagram.
     pub loci: Vec<LocusQuery>,
@@ -135,12 +135,12 @@ impl Job for SceneRunJob {
     }
 }
 
-/// Answers of their own: whoever asks remembers those of runs before, whose times would be those of looking them up.
+/// An empty cache: cached answers of earlier runs would be timed as lookups.
 fn fresh(ask: &impl Ask) -> Results {
     Results::default().until(ask.stop())
 }
 
-/// Measures what the program costs on a workload of its own, whatever the scene.
+/// Measures the program on a benchmark workload, independent of the scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct BenchJob(Workload);
 
@@ -210,7 +210,7 @@ impl Profiler {
         plans.job.plans_for(pictures, &plans.answer)
     }
 
-    /// Measures a scene, anew even if it is the same.
+    /// Measures a scene, again even if it is unchanged.
     pub fn run(&self, scene: SceneRunJob) {
         self.worker.ask_anew(vec![scene]);
     }
@@ -226,7 +226,8 @@ impl Profiler {
         self.bench.rest();
     }
 
-    /// Takes in what was measured; a run is current if it is of this scene. A report that was stopped is not kept.
+    /// Updates the latest measurements; a run is current if it is of this scene. A report that was stopped is
+    /// discarded.
     pub fn refresh(&mut self, scene: &SceneRunJob) {
         if let Some(shown) = self.worker.shown() {
             (self.measured.run, self.measured.is_current) = (Some(shown.answer), shown.job == *scene);

@@ -1,6 +1,7 @@
-//! Figures of merit of many cameras, made in the background a few at a time.
+//! Figures of merit of many cameras, computed in the background a few at a time.
 //!
-//! The latest request wins; what nobody requests in a frame is stopped. Until all cameras are done the last whole answer stays.
+//! The latest request stops the one before it, and one that no frame repeats is stopped. Until all cameras are done, the last
+//! complete ranking stays.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -32,13 +33,13 @@ pub struct RankedCamera {
 /// Cameras with their figures of merit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ranked {
-    /// The cameras, as requested.
+    /// The requested cameras.
     pub cameras: Vec<RankedCamera>,
     /// Their figures of merit: reason for none, or none while they are being made.
     pub metrics: Vec<Option<Result<Arc<CameraMetrics>, String>>>,
 }
 
-/// The first so many of some questions.
+/// The first `count` queries of a list.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct FirstQuery {
     all: Shared<Vec<CameraMetricsQuery>>,
@@ -81,7 +82,7 @@ pub struct Ranking {
     searcher: Background<MetamersQuery>,
     is_searching: bool,
     asked: Option<Arc<Vec<RankedCamera>>>,
-    /// Document and choice of cameras that they were requested.
+    /// Document and choice of cameras of the request.
     of: Option<(Document, RankedCameras)>,
     is_asked: bool,
     whole: Option<Arc<Ranked>>,
@@ -107,8 +108,7 @@ impl Ranking {
         }
     }
 
-    /// Asks for the cameras of a scene and takes in what was made of them since the last frame. The same request again changes
-    /// nothing.
+    /// Requests the cameras of a scene and applies the results since the last frame. Repeating the same request has no effect.
     pub fn ask(&mut self, scene: &Scene<'_>, which: RankedCameras) -> Arc<Ranked> {
         self.is_asked = true;
         if self.of.as_ref().is_none_or(|(document, cameras)| document != scene.document || *cameras != which) {
@@ -186,7 +186,7 @@ impl Ranking {
         }
     }
 
-    /// The cameras requested, with the figures of merit of the first that have any.
+    /// The requested cameras, with the figures of merit of the first that have any.
     fn with(&self, made: &[Arc<CameraMetrics>]) -> Arc<Ranked> {
         let cameras = self.asked.as_deref().cloned().unwrap_or_default();
         let mut made = made.iter();
@@ -214,7 +214,7 @@ impl Ranking {
         self.worker.failure()
     }
 
-    /// Ends a frame: what was not requested in it is stopped, and requested again once somebody looks.
+    /// Ends a frame: a request that it did not repeat is stopped, and resumes when repeated.
     pub fn end_frame(&mut self) {
         if !std::mem::take(&mut self.is_searching) {
             self.searcher.rest();
@@ -249,7 +249,7 @@ fn cameras(scene: &Scene<'_>, which: RankedCameras) -> Vec<RankedCamera> {
         .collect()
 }
 
-/// Cameras of a choice with their figures of merit, at once: what the window has requested is known, all else is computed.
+/// Figures of merit of a choice of cameras, without delay: cached answers are used, all others are computed.
 pub fn ranked(scene: &Scene<'_>, which: RankedCameras) -> Ranked {
     let cameras = cameras(scene, which);
     let metrics =

@@ -129,7 +129,7 @@ impl RenderService {
         (rest > 0.0).then_some(rest)
     }
 
-    /// True if the finest pictures of the same shaded mesh are on show, so that only their development can differ.
+    /// True if the finest pictures of the same shaded mesh are available, so that only their development can differ.
     pub fn only_develops(&self, wanted: &PicturesQuery) -> bool {
         self.frame.as_ref().is_some_and(|frame| frame.is_last && frame.query.shading == wanted.shading)
     }
@@ -167,7 +167,7 @@ impl RenderService {
         self.is_hidden = true;
     }
 
-    /// Takes in what was made.
+    /// Applies finished work.
     pub fn refresh(&mut self) {
         self.is_hidden = false;
         let Some(shown) = self.worker.shown() else { return };
@@ -180,7 +180,7 @@ impl RenderService {
         }
     }
 
-    /// Closes a frame: pictures that nobody requested in it are not made.
+    /// Ends a frame: pictures that it did not request are not computed.
     pub fn end_frame(&mut self) {
         self.is_looked_at = std::mem::take(&mut self.asked);
         if !self.is_looked_at {
@@ -193,17 +193,17 @@ impl RenderService {
         self.is_looked_at
     }
 
-    /// The pictures on show: the last that were made.
+    /// The latest pictures.
     pub fn frame(&self) -> Option<&Arc<RenderedFrame>> {
         self.frame.as_ref().filter(|_| !self.is_hidden)
     }
 
-    /// True if pictures were made before, on show or not.
+    /// True if pictures were made before, visible or not.
     pub fn has_made(&self) -> bool {
         self.frame.is_some()
     }
 
-    /// True if the pictures on show are those that are wanted in the end.
+    /// True if the latest pictures are the final ones of the request.
     pub fn is_settled(&self) -> bool {
         self.frame.as_ref().is_some_and(|frame| self.wanted.as_ref() == Some(&frame.query))
     }
@@ -218,7 +218,7 @@ impl RenderService {
         self.worker.failure()
     }
 
-    /// Waits until the latest request is answered. For tests.
+    /// Waits until the latest request has finished. For tests.
     pub fn wait(&self) {
         self.worker.wait();
     }

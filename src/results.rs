@@ -27,9 +27,9 @@ pub struct Count {
     pub misses: u64,
     /// Number of times that an answer was waited for while another thread computed it.
     pub waits: u64,
-    /// Time spent computing, questions asked on the way included.
+    /// Time spent computing, nested queries included.
     pub time: Duration,
-    /// Time spent computing, without questions asked on the way.
+    /// Time spent computing, without nested queries.
     pub own_time: Duration,
 }
 
@@ -48,7 +48,7 @@ pub struct Results {
 #[derive(Default)]
 struct Store {
     kinds: RwLock<HashMap<TypeId, Arc<dyn Kind>>>,
-    /// Number of questions asked.
+    /// Number of lookups.
     clock: AtomicU64,
 }
 
@@ -113,7 +113,7 @@ impl Ask for Results {
         let start = Instant::now();
         let before = self.asked_on_the_way.replace(Duration::ZERO);
         self.depth.set(self.depth.get() + 1);
-        // Nothing is locked here: the answer may ask further questions.
+        // No lock is held here: the computation may evaluate further queries.
         let (answer, claim) = match answers.claim(query, self.now(), &self.stop) {
             Asked::Known(answer) => (answer, None),
             Asked::Ours(claim) => (Arc::new(query.answer(self)), Some(claim)),
@@ -147,7 +147,7 @@ mod tests {
 
     use super::*;
 
-    /// A question whose answers come through a channel: a test says when it is answered, and by what; by nothing, it fails.
+    /// A query answered through a channel: the test decides when and with what; a closed channel makes it fail.
     #[derive(Clone)]
     struct Slow {
         begun: Sender<()>,

@@ -1,6 +1,6 @@
-//! The document as questions: names become data, choices become queries, failures become sentences.
+//! Document as queries: names become data, choices become queries, failures become messages.
 //!
-//! Panes, exports and the command line all ask through here, so that they cannot disagree.
+//! Used by panes, exports and the command line alike, so that they cannot disagree.
 
 pub mod conditions;
 pub mod correction;
@@ -272,7 +272,7 @@ impl<'a> Scene<'a> {
         self.document.filters.iter().fold(light, |name, filter| format!("{name} × {filter}"))
     }
 
-    /// The patches on show.
+    /// The current patches.
     pub fn patches(&self) -> Result<Shared<PatchSet>, SceneError> {
         let five = self.document.subset == Subset::Five && self.has_five();
         self.patch_set(&self.document.chart, five.then_some(PAPER_FIVE.as_slice()))
@@ -356,7 +356,7 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// The temperatures of the loci on show.
+    /// The temperatures of the visible loci.
     pub fn locus_temperatures() -> Result<Temperatures, SceneError> {
         let [from, to] = LOCUS_RANGE_K;
         Ok(Temperatures::Range { from: Kelvin::new(from)?, to: Kelvin::new(to)?, count: LOCUS_POINTS })
@@ -374,7 +374,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// A sensor's Planckian locus over the range on show.
+    /// A sensor's Planckian locus over the visible range.
     pub fn locus(&self, kind: SetKind, name: &str) -> Result<Arc<Locus>, SceneError> {
         self.locus_at(kind, name, Self::locus_temperatures()?)
     }
@@ -384,7 +384,7 @@ impl<'a> Scene<'a> {
         self.locus_at(kind, name, Temperatures::List(vec![self.temperature()?]))
     }
 
-    /// The patches on show through a sensor.
+    /// The current patches through a sensor.
     pub fn patch_colors(&self, kind: SetKind, name: &str) -> Result<Vec<PatchColor>, SceneError> {
         let query = PatchColorsQuery { rendering: self.rendering_of(kind, name)?, patches: self.patches()? };
         let answer = self.results.ask(&query);

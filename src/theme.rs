@@ -113,7 +113,7 @@ pub struct Theme {
     pub surround: Surround,
     /// The reference.
     pub reference: Color32,
-    /// Observers beside the reference.
+    /// Observers other than the reference.
     pub observer: Color32,
     /// Compared sources by slot.
     pub sources: [Color32; 8],
@@ -294,7 +294,8 @@ impl Palette for Theme {
     }
 }
 
-/// Steps of the ramp of differences: even in L*, from blue over gray to yellow, which all kinds of color vision tell apart.
+/// Steps of the color scale of differences: uniform in L*, from blue through gray to yellow, distinguishable in all kinds
+/// of color vision.
 const DIFFERENCE_RAMP: [[u8; 3]; 9] = [
     [0x00, 0x33, 0x78],
     [0x2E, 0x48, 0x80],

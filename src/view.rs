@@ -43,11 +43,11 @@ pub struct View {
     pub point: Option<String>,
     /// Chosen by a click.
     pub selected: Option<PlotItem>,
-    /// The selection belongs to a sensor that is not compared: nothing that is drawn fades beside it.
+    /// True if the selection belongs to a sensor that is not compared: nothing drawn is dimmed for it.
     pub selected_elsewhere: bool,
     /// Pair of metamers that was clicked, as a row.
     pub metamers: Option<usize>,
-    /// Kept beside each other, A, B, …
+    /// Pinned items, labeled A, B, …
     pub pinned: Vec<PlotItem>,
     /// Search text of the library.
     pub search: String,
@@ -69,13 +69,13 @@ pub struct View {
     pub recorded: RecordedView,
     /// Plots show their own ranges again in this frame.
     pub reset_plots: bool,
-    /// The reference stands in for every camera while B is held.
+    /// True while B is held: the reference replaces every camera.
     pub blink: bool,
     /// The search field takes the keyboard in this frame.
     pub focus_search: bool,
     /// A field in which Esc takes back what is typed has the keyboard.
     pub keeps_escape: bool,
-    /// A table is on show in the pane that keys mean: it copies its own rows.
+    /// True if the focused pane shows a table, which copies its own rows.
     pub table_copies: bool,
     /// The temperature field takes the keyboard in this frame.
     pub focus_temperature: bool,
@@ -85,7 +85,7 @@ pub struct View {
     pub palette: Option<String>,
     /// Times are neither shown nor renewed: for pictures that are compared.
     pub fixed_clock: bool,
-    /// Documents that other windows kept, and how long ago.
+    /// Documents that other windows saved, with their ages.
     pub kept: Vec<(PathBuf, String)>,
     /// The last message.
     pub status: Status,
@@ -109,11 +109,11 @@ pub struct SavedView {
     pub surround: Surround,
     /// True if the diagram fits the data or shows all.
     pub diagram_fit: DiagramFit,
-    /// True if swatches stand in rows or as charts.
+    /// Arrangement of swatches: rows or charts.
     pub swatch_layout: SwatchLayout,
     /// Arrangement of camera and reference within a swatch.
     pub swatch_style: SwatchStyle,
-    /// True if curves lie over each other or each sensor has its own plot.
+    /// Arrangement of curves: in one plot or one plot per sensor.
     pub spectra_layout: SpectraLayout,
     /// True if the bars of differences are shown.
     pub difference_bars: bool,
@@ -208,10 +208,10 @@ pub struct Status {
 /// Severity of a message.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Weight {
-    /// Something to know.
+    /// Information.
     #[default]
     Note,
-    /// Something to look at.
+    /// Warning that the user should check.
     Warning,
     /// Something failed; nothing was changed.
     Error,
@@ -236,14 +236,14 @@ impl View {
         recent.truncate(10);
     }
 
-    /// The pointer is on a thing.
+    /// Hovers an item.
     pub fn hover(&mut self, thing: Option<&PlotItem>) {
         if let Some(thing) = thing {
             self.next_hovered = Some(thing.clone());
         }
     }
 
-    /// A thing was clicked: it is chosen, or let go if it was.
+    /// Selects a clicked item, or clears the selection if it was selected.
     pub fn click(&mut self, thing: Option<&PlotItem>) {
         self.selected = if self.selected.as_ref() == thing { None } else { thing.cloned() };
     }

@@ -98,7 +98,7 @@ impl<'de> DeserializeSeed<'de> for AnyVariant {
     }
 }
 
-/// A pane by an id read from a file. Each id is kept once, however often layouts are read.
+/// Pane of an id read from a file. Each id is leaked only once, however often layouts are read.
 fn interned(id: String) -> PaneKind {
     static IDS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
     let mut ids = IDS.lock().unwrap_or_else(PoisonError::into_inner);
@@ -118,11 +118,11 @@ pub enum Workspace {
     Compare,
     /// Large spectra.
     Spectra,
-    /// A mesh through each camera, beside what it is made of.
+    /// Rendered mesh through each camera, beside its components.
     Render,
     /// Cameras by figures of merit.
     Metrics,
-    /// The user's files, and what was understood of them.
+    /// The user's files and their interpretation.
     Import,
     /// Run time and error of each method on the scene, and the skipped work.
     Accuracy,
@@ -145,7 +145,7 @@ impl Workspace {
         }
     }
 
-    /// True where a narrow window hides the library and keeps the right column.
+    /// True where a narrow window hides the library instead of the right column.
     pub const fn keeps_right_column(self) -> bool {
         matches!(self, Self::Render | Self::Metrics | Self::Import | Self::Accuracy)
     }
@@ -254,14 +254,14 @@ impl Layout {
         if pane == PaneKind::LIBRARY { self.library } else { self.places(workspace).contains(&Some(pane)) }
     }
 
-    /// Shows or hides a pane; shown, it takes its own place, else the first free one, else the last.
+    /// Shows or hides a pane. A pane is shown in its own place, else in the first free one, else in the last.
     pub fn toggle(&mut self, workspace: Workspace, pane: PaneKind) {
         if pane == PaneKind::LIBRARY {
             self.library = !self.library;
             return;
         }
         let home = Self::default().places(workspace).iter().position(|p| *p == Some(pane));
-        // Where a workspace has no place of its own for it, the inspector stands at the right like everywhere.
+        // In a workspace without a place for the inspector, it is on the right, as elsewhere.
         let home = home.or((pane == PaneKind::INSPECTOR).then_some(3));
         let places = self.places_mut(workspace);
         if let Some(shown) = places.iter_mut().find(|p| **p == Some(pane)) {
@@ -300,15 +300,15 @@ pub struct Arrangement {
 
 /// Below this width a column is omitted: the right one, in Render and Import the library.
 const NARROW: f32 = 1100.0;
-/// Once left out, it returns only this much above.
+/// Once omitted, it returns only this much above.
 const HYSTERESIS: f32 = 40.0;
 /// Above this width the columns grow.
 const LARGE: f32 = 1800.0;
 /// Width of a border.
 const GAP: f32 = 4.0;
 
-/// Arranges a workspace in an area. `was_narrow` keeps a window at the limit from flickering; `column_over` lays the column that
-/// a narrow window omits over the center.
+/// Arranges a workspace in an area. `was_narrow` prevents a window at the limit from flickering; `column_over` lays the omitted
+/// column of a narrow window over the center.
 pub fn arrange(
     workspace: Workspace,
     layout: &Layout,

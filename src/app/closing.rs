@@ -1,4 +1,4 @@
-//! Closing the window: not before all is saved, or the user says that it need not be.
+//! Closing of the window, once everything is saved or the user decides otherwise.
 
 use std::sync::Arc;
 
@@ -16,12 +16,12 @@ const WIDTH: f32 = 420.0;
 /// Progress of closing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum Closing {
-    /// Nobody wants to.
+    /// Not requested.
     #[default]
     No,
-    /// It is asked what becomes of changes that could not be saved.
+    /// The user is asked about changes that could not be saved.
     Asked,
-    /// A path is being requested, for the document as it was then.
+    /// A path prompt is open, for the document as it was then.
     Elsewhere(Arc<Document>),
     /// Nothing holds it up.
     Agreed,
@@ -42,7 +42,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Takes in that something was saved: the document elsewhere, after which nothing holds the window open.
+    /// Handles a completed save: the document saved elsewhere no longer holds the window open.
     pub(super) fn saved(&mut self, ctx: &Context, what: &str) {
         if let Closing::Elsewhere(document) = &self.closing
             && what == DOCUMENT

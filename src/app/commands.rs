@@ -50,7 +50,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Does what keys, menus and panes requested.
+    /// Runs the commands of keys, menus and panes.
     pub(super) fn carry_out(&mut self, ctx: &egui::Context) {
         for command in std::mem::take(&mut self.commands) {
             self.carry_out_one(ctx, command);
@@ -116,7 +116,7 @@ impl ChromascopeApp {
                 self.view.saved.workspace = workspace;
                 self.view.maximized = None;
                 self.view.inspector_over = false;
-                // A pane that is not in sight is not what keys and exports mean.
+                // Keys and exports never refer to a pane that is not visible.
                 let shown = self.view.focused.is_some_and(|pane| self.view.saved.layout.shows(workspace, pane));
                 if !shown {
                     self.view.focused = self.view.saved.layout.places(workspace)[0];
@@ -170,7 +170,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// True if a narrow window has no place for the library beside the rest.
+    /// True if a narrow window has no room for the library.
     fn library_left_out(&self) -> bool {
         self.arrangement.narrow && self.view.saved.workspace.keeps_right_column()
     }
@@ -309,7 +309,7 @@ impl ChromascopeApp {
         figure
     }
 
-    /// Asks where to save a pane's figure. The ending of the path decides in which form, the requested one is offered.
+    /// Asks where to save a pane's figure. The path's extension decides the format; the requested one is offered.
     fn export(&mut self, pane: PaneKind, format: Format) {
         let Some(figure) = self.figure(pane) else { return };
         let figure = Arc::new(figure);
@@ -366,7 +366,7 @@ impl ChromascopeApp {
     /// Puts a document that was read in the place of this one, as one step.
     fn take_document(&mut self, mut opened: crate::files::OpenedDocument) {
         if opened.before != *self.history.document() {
-            // It went on meanwhile: what it is now is kept.
+            // The document changed meanwhile: its current state is saved.
             return self.files.open_document(&opened.path, self.history.document().clone());
         }
         let name = crate::format::file_name(&opened.path);
@@ -381,7 +381,7 @@ impl ChromascopeApp {
         self.view.kept = self.files.kept_documents();
     }
 
-    /// Keeps the document on disk as soon as it changed, so that nothing is lost.
+    /// Saves the document as soon as it changes.
     pub(super) fn autosave(&mut self, ctx: &egui::Context) {
         self.files.autosave(self.history.document(), ctx);
     }

@@ -1,4 +1,4 @@
-//! The keyboard's place on screen: a ring around the control that has it, which is scrolled into view.
+//! Keyboard focus: a ring around the focused control, which is scrolled into view.
 
 use egui::accesskit::{Action, ActionRequest, TreeId};
 use egui::{Context, Event, Id, Stroke, StrokeKind};
@@ -19,8 +19,8 @@ pub(super) fn ring(ctx: &Context, theme: &Theme) {
     painter.rect_stroke(rect, 3.0, Stroke::new(FOCUS, theme.focus), StrokeKind::Inside);
 }
 
-/// Scrolls a control that has just got the keyboard into view. Only the control's own scroll areas know how: they are asked
-/// as a screen reader does.
+/// Scrolls a newly focused control into view. Only its own scroll areas can do so: they receive the request that a screen
+/// reader would send.
 pub(super) fn into_sight(ctx: &Context, before: &mut Option<Id>) {
     let focused = ctx.memory(egui::Memory::focused);
     if *before == focused {

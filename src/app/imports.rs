@@ -29,7 +29,7 @@ impl ChromascopeApp {
         });
     }
 
-    /// Files that were dropped on the window, all at once.
+    /// Files dropped on the window in one gesture.
     pub(super) fn take_dropped(&mut self, ctx: &egui::Context) {
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         if dropped.is_empty() {
@@ -102,7 +102,7 @@ impl ChromascopeApp {
             self.view.status.weight = Weight::Warning;
         }
         let items: Vec<ImportItem> = brought.iter().map(|set| ImportItem::Set(set.name.clone())).collect();
-        // What is being tried on another file goes on.
+        // Trials on other files continue.
         let trying = self.view.import.selected.as_ref().is_some_and(|item| self.view.import.pending(item).is_some());
         for (set, item) in brought.iter().zip(&items) {
             self.view.import.tried.remove(item);
@@ -176,8 +176,8 @@ impl ChromascopeApp {
         }
     }
 
-    /// Carries out what was wished for the set on show, as soon as its file could be read so and something is taken of it. Until
-    /// then the document stays as it was.
+    /// Applies the settings tried on the selected set once its file was read with them and yields a curve. Until then the
+    /// document is unchanged.
     fn settle_wishes(&mut self) {
         let Some(ImportItem::Set(name)) = self.view.import.selected.clone() else { return };
         let item = ImportItem::Set(name.clone());
@@ -200,13 +200,13 @@ impl ChromascopeApp {
         self.history.end_gesture();
     }
 
-    /// Changes the document; what is looked at in Import follows sets to their new names.
+    /// Changes the document; the selection in Import follows sets to their new names.
     pub(super) fn change(&mut self, action: &Action) {
         self.step(|history| history.apply(action));
     }
 
-    /// Goes to another state of the document; what is looked at in Import follows sets to their new names, and sensors that
-    /// are no longer compared are let go.
+    /// Goes to another state of the document; the selection in Import follows sets to their new names, and sensors that are
+    /// no longer compared are deselected.
     pub(super) fn step(&mut self, go: impl FnOnce(&mut History)) {
         let before = self.history.document();
         let (own, compared) = (before.own.clone(), before.compared.clone());
@@ -216,7 +216,7 @@ impl ChromascopeApp {
         self.follow_selection(&own);
     }
 
-    /// Keeps the same contents visible when a step turned the visible file into a set, or removed that set.
+    /// Keeps the same contents visible when a step turned the selected file into a set, or removed that set.
     fn follow_selection(&mut self, before: &[Shared<OwnSet>]) {
         let own = &self.history.document().own;
         let now = match &self.view.import.selected {
@@ -235,12 +235,12 @@ impl ChromascopeApp {
         }
     }
 
-    /// Goes one step back or forward. What was said of a step that is taken back is no longer so.
+    /// Undoes or redoes a step. Messages about a step that was undone are cleared.
     pub(super) fn travel(&mut self, go: impl FnOnce(&mut History), words: Option<String>) {
         let before = self.history.document().clone();
         self.step(go);
         if before != *self.history.document() {
-            // What was said before may be of what is no more.
+            // Earlier messages may refer to something that no longer exists.
             self.view.status = Status::default();
             self.view.say(words.unwrap_or_default());
         }
@@ -277,7 +277,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Reads a set's file again, because the user asks.
+    /// Reloads a set's file at the user's request.
     pub(super) fn read_again(&mut self, name: &str) {
         let Some(set) = self.history.document().own.iter().find(|set| set.name == name) else { return };
         match &set.path {
@@ -290,7 +290,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Opens Import with a file on show.
+    /// Opens Import with a file selected.
     pub(super) fn show_import(&mut self, item: ImportItem, line: Option<usize>) {
         self.view.import.select(item);
         self.view.import.line = line;
@@ -299,7 +299,7 @@ impl ChromascopeApp {
         self.view.inspector_over = false;
     }
 
-    /// Makes a set of each of these parts of a file; which curves are taken was said of another part.
+    /// Makes a set of each of these parts of a file; a choice of curves belongs to another part and is not applied.
     pub(super) fn use_parts(&mut self, file: Fingerprint, parts: &[usize], wishes: &ImportOverrides) {
         let wishes = |part: usize| {
             let mut wishes = ImportOverrides { taken: None, channels: None, ..wishes.clone() };
@@ -348,7 +348,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Has a file read as its content says, and forgets what was wished for its kind.
+    /// Reads a file by its contents alone, and forgets the settings remembered for its kind.
     pub(super) fn forget_choices(&mut self, item: &ImportItem) {
         if let Some((file, _)) = self.file_and_wishes(item) {
             self.view.saved.import.forget(&Likeness::of(&file.bytes));

@@ -74,7 +74,7 @@ impl WindowPlace {
 }
 
 impl ChromascopeApp {
-    /// Keeps the layout, in the background or, with `now`, before it goes on.
+    /// Saves the layout, in the background or, with `now`, before returning.
     pub(super) fn save_layout(&mut self, now: bool) {
         let mut values = Values::default();
         if let Some(settings) = &self.place.settings {

@@ -1,4 +1,4 @@
-//! Opening the user's meshes: read first, then looked at.
+//! Opening of the user's mesh files: read first, then shown.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ impl ChromascopeApp {
         self.view.say(format!("Reading {}… Esc stops.{}", file_name(path), given_up.unwrap_or_default()));
     }
 
-    /// Shows meshes that were read, and stops reading what nobody wants any more.
+    /// Shows meshes that were read, and stops reads that are no longer needed.
     pub(super) fn take_meshes(&mut self) {
         for opened in self.meshes.poll() {
             match opened.result {

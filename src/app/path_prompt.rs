@@ -6,7 +6,7 @@ use crate::files::{Files, PathPrompt};
 use crate::theme::{ROW, Theme};
 
 const WIDTH: f32 = 420.0;
-/// So many rows of completions are in sight.
+/// Number of visible rows of completions.
 const ROWS: f32 = 5.0;
 
 /// The way on that was chosen in the box.
@@ -113,7 +113,7 @@ fn candidates(ui: &mut Ui, prompt: &mut PathPrompt) {
     }
 }
 
-/// Puts the cursor behind the text, where typing goes on.
+/// Places the cursor at the end of the text.
 fn cursor_to_end(ui: &Ui, id: egui::Id, text: &str) {
     use egui::text::{CCursor, CCursorRange};
     let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();

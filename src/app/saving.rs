@@ -11,7 +11,8 @@ use crate::view::correction::CorrectionForm;
 use chromascope_core::correction::aces::IdtExposure;
 
 impl ChromascopeApp {
-    /// Writes a set in the background and asks where to save it; what differs in the file is said once it is there.
+    /// Writes a set in the background and asks where to save it; differences from the set are reported when it is
+    /// written.
     pub(super) fn save_set(&mut self, kind: SetKind, name: &str, form: Form) {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let entry = match scene.entry(kind, name) {
@@ -31,7 +32,7 @@ impl ChromascopeApp {
         });
     }
 
-    /// Asks where to save the color correction on show.
+    /// Asks where to save the current color correction.
     pub(super) fn save_correction(&mut self, form: CorrectionForm) {
         let Some(file) = self.view.correction.shown.clone() else { return };
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };

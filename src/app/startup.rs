@@ -47,7 +47,7 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         .with_min_inner_size([900.0, 600.0])
         .with_drag_and_drop(true)
         .with_icon(icon());
-    // The window's place is kept by the program itself, and read by eframe.
+    // The window's position is saved by the program itself and read by eframe.
     let mut options = NativeOptions { viewport, persist_window: false, ..NativeOptions::default() };
     prefer_x11(&mut options);
     let mut kept = Files::new(eframe::storage_dir(APP_ID));

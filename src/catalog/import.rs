@@ -1,4 +1,4 @@
-//! From the bytes of a user's file to a set of their own, with what was decided on the way.
+//! Import of a file's bytes as an own set, with the decisions made.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use spectral_file::{Certainty, Effect, ReadError, Role, SpectralFile, Values, Wa
 
 use crate::document::own::{Fingerprint, ImportOverrides, OwnCurve, OwnSet, ReadAs};
 
-/// Of a file with more curves, so many are taken until the user chooses others.
+/// Default maximum number of curves taken from a file.
 pub const TAKEN_AT_FIRST: usize = 200;
 
 /// A set as it was read.
@@ -86,7 +86,7 @@ pub fn taken(table: &SpectralFile, wishes: &ImportOverrides) -> Vec<usize> {
     let count = table.curves.len();
     if let Some(wished) = &wishes.taken {
         let taken: Vec<usize> = wished.iter().copied().filter(|index| *index < count).collect();
-        // Where the file lost all curves that were wished for, the wish means nothing any more.
+        // If none of the chosen curves exists any more, the choice is void.
         if !taken.is_empty() || wished.is_empty() {
             return taken;
         }

@@ -1,8 +1,8 @@
 //! The user's mesh files: read in the background, remembered by path, reloaded when they changed.
 //!
-//! A document holds a mesh's path alone. [`MeshStore::get`] is what a picture asks: it begins to read at the first question and
-//! never waits. [`MeshStore::open`] is what the user asks: the file is read before anything is changed, and what came of it is
-//! taken from [`MeshStore::poll`]; opening another file meanwhile stops the first.
+//! A document holds only the path of a mesh. [`MeshStore::get`] is called for pictures: it starts reading on the first call and
+//! never waits. [`MeshStore::open`] is called when the user opens a file: the file is read before anything changes, and the
+//! result is returned by [`MeshStore::poll`]; opening another file meanwhile cancels the first.
 
 mod read;
 
@@ -22,7 +22,7 @@ use crate::format::file_name;
 use crate::jobs::{Desk, Executor};
 use read::Stamp;
 
-/// Meshes that nobody looks at are remembered up to this many bytes, so that undo need not read them again.
+/// Maximum bytes of unused meshes that stay cached, so that undo need not read them again.
 const REMEMBERED_BYTES: usize = 256_000_000;
 
 /// State of a mesh file.
@@ -64,7 +64,7 @@ struct State {
 struct Known {
     mesh: Option<(Arc<LoadedMesh>, Stamp)>,
     failure: Option<String>,
-    /// Says to the thread that reads it that nobody wants it any more.
+    /// Tells the thread that reads it to stop.
     reading: Option<Arc<AtomicBool>>,
     asked: u64,
 }
@@ -116,7 +116,7 @@ impl MeshStore {
         }
     }
 
-    /// Opens a file for the user: [`MeshStore::poll`] tells what came of it. What was being opened before is given up.
+    /// Opens a file for the user; [`MeshStore::poll`] returns the result. Cancels an earlier open request.
     pub fn open(&self, path: &Path) {
         let mut state = self.desk.lock();
         state.give_up_opening();
@@ -173,7 +173,7 @@ impl MeshStore {
         }
     }
 
-    /// Reads on a thread of its own, so that a folder of a server that is gone holds up no other file.
+    /// Reads on a separate thread, so that an unreachable server blocks no other file.
     fn begin(&self, state: &mut State, path: &Path, unless: Option<Stamp>) {
         let stop: Arc<AtomicBool> = Arc::default();
         state.known_at(path).reading = Some(Arc::clone(&stop));

@@ -1,8 +1,8 @@
-//! The spectral files that were opened in this run: read in the background, kept as bytes so that they can be read otherwise.
+//! Spectral files opened in this run: read in the background, with their bytes cached so that the settings can be changed.
 //!
-//! Nothing here changes a document. What came of opening is taken from [`Opened::poll`]; a file stays known whether it could be
-//! read or not, so that the user can look at its text and at what was understood ([`Opened::look`]), flip a switch, and look
-//! again.
+//! Nothing here changes a document. The results of opening are returned by [`Opened::poll`]. A file stays listed whether it
+//! could be read or not, so that the user can see its text and its interpretation ([`Opened::look`]), change a setting, and see
+//! the effect.
 
 mod file;
 mod look;
@@ -24,7 +24,7 @@ use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::format::file_name;
 use crate::jobs::{self, Background, Executor};
 
-/// Files that no set is made of are forgotten, the oldest first, beyond so many bytes in all.
+/// Maximum total bytes of files without a set; beyond it the oldest are dropped.
 const REMEMBERED_BYTES: usize = 256_000_000;
 
 /// A file on disk that could not be read, as it is remembered between runs.
@@ -48,14 +48,14 @@ pub enum OpenedEvent {
         sets: Vec<Imported>,
         /// Summary of the contents and the decisions, in one sentence.
         message: String,
-        /// Number of files beside them could not be read, and why the first could not; may be empty.
+        /// Number of further files that could not be read, and the reason for the first; may be empty.
         failure: String,
         /// The files on disk that they came from.
         paths: Vec<PathBuf>,
-        /// Files beside them that could not be read, but whose text can be looked at.
+        /// Further files that could not be read, but whose text can be shown.
         failed: Vec<Fingerprint>,
     },
-    /// Sets were read again, for a reason that is told.
+    /// Sets were read again, for the given reason.
     Reread {
         /// The sets by the names they had: each as it is now, or why it stays as it was.
         sets: Vec<(String, Result<Imported, String>)>,
@@ -64,7 +64,7 @@ pub enum OpenedEvent {
         /// A later reading has a larger number.
         ticket: u64,
     },
-    /// A file that could not be read has other contents now, which stand in its place.
+    /// New contents of a file that could not be read before.
     Replaced {
         /// Fingerprint of the former contents.
         old: Fingerprint,
@@ -77,7 +77,7 @@ pub enum OpenedEvent {
     Mesh(PathBuf),
     /// A document of this program is to be opened, which is not read yet.
     Document(PathBuf),
-    /// Nothing could be read; nothing was changed. The files whose text can be looked at.
+    /// No file could be read, and nothing was changed. Contains the files whose text can be shown.
     Failed(String, Vec<Fingerprint>),
 }
 
@@ -148,7 +148,7 @@ impl Opened {
         Self { desk: Arc::new(desk), look, executor: executor.clone() }
     }
 
-    /// Reads files, folders or bytes; `remembered` says what the user wished for files like one whose text is given.
+    /// Reads files, folders or bytes; `remembered` returns the user's settings for files like one with the given text.
     pub fn open(&self, requests: Vec<Request>, remembered: impl Fn(&[u8]) -> ImportOverrides + Send + 'static) {
         self.begin(move |desk, job| {
             let events = reading::open(requests, &remembered, desk, job);
@@ -171,7 +171,7 @@ impl Opened {
         });
     }
 
-    /// Brings back the contents that a set was made of, if its file is still as it was. Asked for once.
+    /// Reloads the contents that a set was made of, if its file is unchanged. Requested once.
     pub fn fetch(&self, set: &OwnSet) {
         let (Some(path), Some(fingerprint)) = (set.path.clone(), set.fingerprint) else { return };
         let mut state = self.desk.lock();
@@ -184,8 +184,8 @@ impl Opened {
         self.begin(move |desk, job| reading::fetch(&path, fingerprint, desk, job));
     }
 
-    /// Reads files that could not be read in an earlier run, so that their text can be looked at again. Nothing comes of it but
-    /// that they are known; those that are no more are not.
+    /// Reads files that failed in an earlier run, so that their text can be shown again. They are only listed; missing files
+    /// are dropped.
     pub fn recall(&self, failing: Vec<Failing>) {
         if !failing.is_empty() {
             self.begin(move |desk, job| reading::recall(failing, desk, job));
@@ -271,7 +271,7 @@ impl Opened {
         self.look.busy()
     }
 
-    /// Nobody looks.
+    /// Stops the preview, which is not visible.
     pub fn rest(&self) {
         self.look.rest();
     }
@@ -344,7 +344,7 @@ impl Job {
         }
     }
 
-    /// Goes on to a file, one of so many.
+    /// Records the progress: file number `file` of `count`.
     fn at(&self, path: &Path, file: usize, count: usize) {
         *self.name.lock().unwrap_or_else(PoisonError::into_inner) = file_name(path);
         for (place, number) in self.place.iter().zip([file, count]) {
@@ -353,7 +353,7 @@ impl Job {
         self.share.store(0, Ordering::Relaxed);
     }
 
-    /// Takes in how far it is; says whether to go on.
+    /// Records the share of the file read; returns whether to continue.
     fn go_on(&self, share: f32) -> bool {
         self.share.store(share.to_bits(), Ordering::Relaxed);
         !self.stop.load(Ordering::Relaxed)

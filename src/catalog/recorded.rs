@@ -1,12 +1,12 @@
-//! Raw RGB that a real camera recorded, from tables, and its patches' spectra beside it.
+//! Raw RGB recorded by a real camera, read from tables, with the spectra of its patches.
 //!
 //! ```text
 //! patch,R,G,B                    patch,R,G,B,400,410,…
 //! dark skin,812,655,410          dark skin,812,655,410,0.055,0.058,…
 //! ```
-//! One row a patch. Columns R, G and B (or red, green and blue) hold linear raw values; commas, semicolons or tabs separate. An empty
-//! cell, `-` or NaN is a missing value. Lines that begin with `#` are comments. Without heads, three numbers a row are R, G and B. What
-//! stands beside them with wavelengths for heads is a spectral table, read as any other.
+//! One row per patch. Columns R, G and B (or red, green and blue) hold linear raw values, separated by commas, semicolons or tabs. An
+//! empty cell, `-` or NaN is a missing value. Lines that begin with `#` are comments. Without a header, three numbers per row are R, G
+//! and B. Further columns with wavelengths as headers form a spectral table, read as any other.
 
 use chromascope_core::camera::recorded::{RecordedPatch, Signal};
 use chromascope_core::spectral::GridSpectrum;
@@ -27,7 +27,7 @@ pub struct RawRow {
     pub rgb: [f64; 3],
 }
 
-/// Raw values, and the spectra beside them.
+/// Raw values with their spectra.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawTable {
     /// The rows.
@@ -101,7 +101,7 @@ pub enum JoinError {
         /// The first of the spectra's names.
         known: String,
     },
-    /// A name that stands twice.
+    /// A name that occurs twice.
     #[error("line {line}: \"{name}\" was named before; name each patch once")]
     Twice {
         /// The line, from 1.

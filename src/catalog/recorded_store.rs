@@ -1,4 +1,4 @@
-//! The file of recorded raw values that is on show: read in the background.
+//! Selected file of recorded raw values, read in the background.
 
 use std::fs::File;
 use std::io::Read as _;
@@ -23,7 +23,7 @@ const MAX_BYTES: u64 = 1 << 30;
 /// Longest side of a picture as it is shown.
 const SHOWN: usize = 1024;
 
-/// Spectra beside raw values.
+/// Spectra of the recorded patches.
 #[derive(Clone, Debug)]
 pub struct TableSpectra {
     /// By the names of their patches.
@@ -48,7 +48,7 @@ pub struct RecordedFile {
     pub content: RecordedContent,
 }
 
-/// State of the file on show.
+/// State of the selected file.
 #[derive(Clone, Default)]
 pub enum RecordedState {
     /// None was opened.
@@ -75,12 +75,12 @@ impl RecordedStore {
         Self { state: Arc::default(), executor: executor.clone(), wake: Arc::new(wake) }
     }
 
-    /// State of the file on show.
+    /// State of the selected file.
     pub fn state(&self) -> RecordedState {
         self.state.lock().unwrap_or_else(PoisonError::into_inner).1.clone()
     }
 
-    /// Begins to read a file in place of the one on show.
+    /// Starts reading a file in place of the selected one.
     pub fn open(&self, path: &Path) {
         let ticket = {
             let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
@@ -129,7 +129,7 @@ fn read(path: &PathBuf) -> Result<RecordedFile, String> {
     Ok(RecordedFile { name, content })
 }
 
-/// Spectra beside the raw values.
+/// Spectra in the file of the raw values.
 fn spectra(text: &str) -> Result<TableSpectra, String> {
     let table = spectral_file::read(text.as_bytes(), &ReadOptions::default()).map_err(|error| error.to_string())?;
     let are_radiances = table.role.value == Role::Illuminant;
@@ -146,12 +146,12 @@ impl RecordedFile {
         !matches!(&self.content, RecordedContent::Table(_, Some(_)))
     }
 
-    /// Patches with spectra and raw values. `chart` are the radiances of the chart on show, `light` is the light on show, `corners` those
-    /// of the chart in a picture.
+    /// Patches with spectra and raw values. `chart` is the current chart's radiances, `light` the current light, `corners` the chart's
+    /// corners in a picture.
     ///
     /// # Errors
     ///
-    /// A sentence where values and spectra do not belong together.
+    /// A message where values and spectra do not belong together.
     pub fn patches(
         &self,
         chart: &[(String, GridSpectrum)],

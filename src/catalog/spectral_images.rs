@@ -1,4 +1,4 @@
-//! Spectral images on disk: the header and the data beside it, or one OpenEXR file.
+//! Spectral images on disk: a header and its data file, or one OpenEXR file.
 
 use std::fs::{self, File};
 use std::io;
@@ -8,7 +8,7 @@ use spectral_image::{EnviHeader, EnviImage, ExrImage, ImageError, ImageQuantity,
 
 /// Largest header that is read.
 const MAX_HEADER: u64 = 16 << 20;
-/// Endings of the data beside a header.
+/// Extensions of a header's data file.
 const DATA: [&str; 9] = ["img", "dat", "raw", "bil", "bip", "bsq", "bin", "cube", "sli"];
 
 /// Reason that a spectral image cannot be opened, with its file.
@@ -22,7 +22,7 @@ pub enum OpenImageError {
         /// Reason.
         error: io::Error,
     },
-    /// A header without data beside it.
+    /// A header without its data file.
     #[error("{}: no data beside this header; expected {} or that name with .img, .dat, .bil, .bip or .bsq", header.display(), data.display())]
     NoData {
         /// The header.
@@ -30,7 +30,7 @@ pub enum OpenImageError {
         /// The data's name.
         data: PathBuf,
     },
-    /// Data without a header beside them.
+    /// Data without its header file.
     #[error("{}: no header beside these data; expected {}", data.display(), header.display())]
     NoHeader {
         /// The data.

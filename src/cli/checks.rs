@@ -6,7 +6,7 @@ use super::error::CliError;
 use crate::document::own::{OwnSet, Role};
 use crate::terminal::say;
 
-/// Refuses as reflectances what the file says is something else, and numbers whose scale nobody said.
+/// Rejects as reflectances data that the file declares as another quantity, and values of unknown scale.
 pub(super) fn reflectances(path: &str, role: Role, table: &SpectralFile) -> Result<(), CliError> {
     if !role.is_fraction() {
         return Ok(());

@@ -23,7 +23,7 @@ use crate::scene::Scene;
 /// Spectra by the names of their patches.
 type Spectra = Vec<(String, GridSpectrum)>;
 
-/// Ranks the cameras, and writes what came of it.
+/// Ranks the cameras and writes the result.
 pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     let (mut request, names) = Request::of_cameras(arguments.per, &arguments.camera)?;
     request.values = arguments.values;

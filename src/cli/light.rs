@@ -67,7 +67,7 @@ fn answer(scene: &Scene<'_>, cameras: &[String]) -> Result<Answer, CliError> {
     })
 }
 
-/// Reasons for the values that a light does not have, each told once.
+/// Reasons for missing values of a light, each listed once.
 fn reasons(answer: &Answer) -> Vec<String> {
     let Rendition { rendering, fidelity, similarity, .. } = &answer.rendition;
     let mut reasons: Vec<String> = [

@@ -28,18 +28,18 @@ use crate::document::{CHART, CIE_1931, Document, Light, SetKind, Subset, Transfo
 use crate::format::io_reason;
 use crate::terminal::say;
 
-/// The name of the paper's five patches as a chart of their own.
+/// Name of the paper's five patches as a chart.
 pub(super) const FIVE: &str = "ColorChecker five";
 
-/// A document made of arguments, and the sensors in the order they were named.
+/// Document made from arguments, and the sensors in the order they were named.
 pub(super) struct Request {
     /// Document made from the arguments.
     pub(super) document: Document,
     /// The built-in sets.
     pub(super) catalog: Catalog,
-    /// The sensors asked for.
+    /// The requested sensors.
     pub(super) sources: Vec<(SetKind, String)>,
-    /// The start that stands where nothing was named.
+    /// The start used where nothing was named.
     pub(super) preset: Start,
     /// Quantity of the values in reflectance files, if given.
     pub(super) values: Option<Values>,
@@ -225,7 +225,7 @@ impl Request {
         Ok(())
     }
 
-    /// True if an argument means a file. A built-in set's own name means that set, even beside a file that is called so.
+    /// True if an argument is a file path. A built-in set's name refers to that set even if a file of that name exists.
     fn means_file(&self, argument: &str, kinds: &[SetKind], given: &OsStr) -> bool {
         let typed = given.to_string_lossy();
         let built_in = kinds.iter().any(|kind| self.catalog.get(*kind, &typed).is_some());
@@ -358,7 +358,7 @@ impl Request {
         Err(CliError::Argument { argument, reason })
     }
 
-    /// The catalog's name for what was typed; another one than that is said.
+    /// The catalog's name for the typed one; a difference is reported.
     fn name(&self, argument: &str, kind: SetKind, typed: &str) -> Result<String, CliError> {
         let found = find(self.catalog.of_kind(kind), kind.singular(), typed)?;
         tell(argument, typed, &found);
@@ -436,8 +436,8 @@ fn tell(argument: &str, typed: &str, found: &Found<'_>) {
     }
 }
 
-/// A file's bytes, of one that is too large as many as show it. Pipes, sockets and devices are refused as in a folder: nothing may
-/// ever come of them, or no end. What a shell opened for the command (`<(...)`) is read.
+/// A file's bytes, truncated just beyond the limit if it is too large. Pipes, sockets and devices are rejected, as in a folder:
+/// they may never end. File descriptors opened by the shell (`<(...)`) are read.
 pub(super) fn read(path: &Path) -> io::Result<Vec<u8>> {
     let known = fs::metadata(path)?;
     if !(known.is_file() || known.is_dir() || is_shells(path, &known)) {

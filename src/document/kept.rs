@@ -1,5 +1,5 @@
-//! The document as it is saved between runs: small, for it is written with every change. The curves of imported sets stand in
-//! files of their own, each written once; the document names the file and the place in it.
+//! Document as saved between runs: small, as it is written with every change. The curves of imported sets are in files of
+//! their own, each written once; the document names the file and the place in it.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -8,7 +8,7 @@ use super::Document;
 use super::own::{OwnCurve, OwnSet};
 use super::session::{SessionError, from_value};
 
-/// Key of a set whose curves stand elsewhere.
+/// Key of a set whose curves are in another file.
 const CURVES_IN: &str = "curves_in";
 
 /// The file that holds a set's curves, by name, and their place in its list.

@@ -51,7 +51,7 @@ impl ImportOverrides {
     }
 }
 
-/// Units of the file as the reader understood them, before conversion.
+/// Units of the file as interpreted, before conversion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct ReadAs {
     /// The unit of the wavelengths.

@@ -151,7 +151,7 @@ impl RenderSettings {
 
     /// Exactness of the integrals once nothing moves.
     pub fn quality(&self) -> Quality {
-        // Outside the range only until the session was mended.
+        // Outside the range only until the session is validated.
         RelTolerance::new(self.tolerance).map_or(Quality::Reference, |tolerance| self.quality.quality(tolerance))
     }
 

@@ -44,7 +44,7 @@ pub fn is_session(beginning: &[u8]) -> bool {
     spaceless.starts_with("{\"format\":\"chromascope\"")
 }
 
-/// A document from JSON. Fields that are not known are kept; fields that are missing have their defaults.
+/// A document from JSON. Unknown fields are preserved; missing fields have their defaults.
 pub fn from_json(json: &str) -> Result<Document, SessionError> {
     let mut elsewhere = |_: &kept::Place| Err("its curves are in another file".to_owned());
     let read = kept::from_json(json, &mut elsewhere)?;

@@ -8,7 +8,7 @@ use super::{CHART, Document, LIGHT, Light, Subset, TRAINING, WhiteBalanceChoice}
 use chromascope_core::query::Shared;
 use std::collections::{HashMap, HashSet};
 
-/// So many cameras at once have a color and a marker of their own.
+/// Number of cameras with a color and a marker of their own.
 pub const PLACES: usize = 8;
 
 /// Holder of a name.
@@ -39,8 +39,8 @@ impl Document {
         }
     }
 
-    /// A name that no other set of the kind has and no other own set: `Nikon D70 (own)` beside a built-in one, else
-    /// `leaf (2)`.
+    /// A name that no other set of the kind and no other own set has: `Nikon D70 (own)` if a built-in one is named so,
+    /// else `leaf (2)`.
     pub fn free_name(&self, kind: SetKind, wanted: &str, except: Option<usize>, built_in: &BuiltInNames) -> String {
         let others = self.own.iter().enumerate().filter(|(index, _)| Some(*index) != except);
         let taken: HashSet<String> = others.map(|(_, set)| caseless(&set.name)).collect();
@@ -69,7 +69,7 @@ impl Document {
         }
     }
 
-    /// Keeps an own set that has another name now in the uses it had; it gets no others.
+    /// Updates the uses of an own set after it was renamed; adds none.
     pub fn follow_name(&mut self, kind: SetKind, old: &str, new: &str) {
         match kind {
             SetKind::Camera | SetKind::Observer => {
@@ -137,7 +137,7 @@ impl Document {
         }
     }
 
-    /// Renames imported sets of a session from elsewhere whose names another set has; what used them goes on doing so.
+    /// Renames imported sets of a session from elsewhere whose names are in use; their uses follow.
     pub fn part_names(&mut self, built_in: &BuiltInNames) {
         let mut taken: HashSet<String> = self.own.iter().map(|set| caseless(&set.name)).collect();
         let (mut seen, mut numbers) = (HashSet::new(), HashMap::new());

@@ -210,7 +210,7 @@ impl CorrectionFile {
         }
     }
 
-    /// Errors before and after, of training and left out, as aligned lines.
+    /// Training and leave-one-out errors before and after, as aligned lines.
     pub fn errors_text(&self, under: &CorrectionUnder) -> String {
         let report = &under.report;
         let mut lines =

@@ -27,7 +27,7 @@ pub(crate) use drawing::id;
 
 pub use points::{blackbody_distance, describe, distance_symbol, patch_xy};
 
-/// The diagram with what its marks stand for.
+/// The diagram with the items of its marks.
 #[derive(Clone, Debug)]
 pub struct Built {
     /// The panel.
@@ -40,7 +40,7 @@ pub struct Built {
     pub loci: BTreeSet<usize>,
 }
 
-/// Coordinates that the data's fit takes in; real colors lie between 0 and 0.85.
+/// Coordinates that the data's range includes; real colors lie between 0 and 0.85.
 const NEAR: std::ops::RangeInclusive<f64> = -0.25..=1.1;
 
 /// The names of the coordinates.
@@ -109,7 +109,7 @@ fn ranges(drawing: &Drawing<'_>, fit: DiagramFit) -> [[f64; 2]; 2] {
     })
 }
 
-/// The whole diagram in small, with what is shown of it: `[x, y]` ranges.
+/// Overview of the whole diagram with the visible range: `[x, y]` ranges.
 pub fn overview(scene: &Scene<'_>, shown: [[f64; 2]; 2], size: [f64; 2]) -> Panel {
     let diagram = scene.document.diagram;
     let view = View::default();

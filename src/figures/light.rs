@@ -95,7 +95,8 @@ fn ends(fidelity: &ColorFidelity) -> Vec<[[f64; 2]; 2]> {
     fidelity.bins.iter().enumerate().map(end).collect()
 }
 
-/// Color that stands for a hue bin: L* 60, C*ab 45 under D65. For orientation only: hues of CAM02-UCS differ a little.
+/// Representative color of a hue bin: L* 60, C*ab 45 under D65. For orientation only: hues of CAM02-UCS differ a
+/// little.
 fn hue(bin: usize) -> [u8; 3] {
     let (sin, cos) = (TAU * (bin as f64 + 0.5) / 16.0).sin_cos();
     let middle = 76.0 / 116.0;

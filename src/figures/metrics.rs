@@ -120,7 +120,7 @@ const NAMES: f64 = 220.0;
 /// Height of a row.
 const ROW: f64 = 16.0;
 
-/// Cameras in order of the metric that the table is sorted by, with uncertainties; all numbers beside it.
+/// Cameras in order of the metric by which the table is sorted, with uncertainties, and the table of all numbers.
 pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let (scene, view) = (input.scene, input.view);
     let ranked = ranked(scene, view.saved.metrics.cameras);

@@ -17,7 +17,7 @@ const MARKS: [(Marker, [u8; 3]); 3] =
 /// Size of a saved figure in points.
 const SIZE: [f64; 2] = [720.0, 320.0];
 
-/// The cameras ranked by the patches on show; none before there are any.
+/// The cameras ranked by the current patches; `None` before there are any.
 pub fn ranked(scene: &Scene<'_>, view: &View) -> Option<Vec<RankedCamera>> {
     scene.ranked_cameras(view.recorded.set.as_ref()?, view.recorded.freedom, &[]).ok()
 }
@@ -29,7 +29,7 @@ pub fn chosen<'a>(ranked: &'a [RankedCamera], view: &View) -> Option<(&'a str, &
     Some((&camera.name, camera.fit.as_ref().ok()?))
 }
 
-/// Residual per patch and channel of the camera on show, with the numbers.
+/// Residual per patch and channel of the selected camera, with the numbers.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Option<Figure> {
     let ranked = ranked(scene, view)?;
     let (name, fit) = chosen(&ranked, view)?;

@@ -28,7 +28,7 @@ pub fn index_of(shot: &RenderedFrame, id: &SensorId) -> Option<usize> {
     shot.sources.iter().position(|source| source.kind == id.kind && source.name == id.name)
 }
 
-/// The pictures on show, with captions and numbers; none before there are any.
+/// The current pictures, with captions and numbers; `None` before there are any.
 pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
     let (scene, view, shot) = (input.scene, input.view, input.pictures?);
     let made = shot.made()?;

@@ -21,7 +21,7 @@ use crate::view::View;
 
 /// Width of the saved page in points.
 const WIDTH: f64 = 560.0;
-/// Below this width all stands in one column.
+/// Below this width, all is in one column.
 const TWO_COLUMNS: f64 = 480.0;
 /// Heights of title, plots and bars.
 const TITLE: f64 = 44.0;
@@ -162,7 +162,7 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
     for (rank, &patch) in worst.iter().enumerate() {
         let Some(value) = values.get(patch).copied().flatten() else { continue };
         let words = format!("{}  {}", rank + 1, name(patch));
-        // Names stand at the left of bars in the right half, so that none is cut.
+        // Names are to the left of bars in the right half, so that none is cut.
         let (anchor, shift) =
             if patch as f64 > count / 2.0 { (Anchor::RIGHT_BOTTOM, 4.0) } else { (Anchor::LEFT_BOTTOM, -4.0) };
         let shape = Shape::Text {

@@ -16,7 +16,7 @@ use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{ComparedSensor, Scene};
 use crate::view::{SpectraLayout, View};
 
-/// The panels with what their curves stand for.
+/// The panels with the items of their curves.
 #[derive(Clone, Debug)]
 pub struct Built {
     /// The panels, from the light down, the wavelengths written under the last.
@@ -155,7 +155,7 @@ fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<(String, Vec<Mark>, f
         let tag = built.things.tag(PlotItem::Patch { source: None, patch: patch.name.clone() });
         let ink = colors.get(index).map_or(Ink::new(InkRole::Text), |color| Ink::rgb(color.srgb.bytes));
         top = patch.grid.values().iter().copied().fold(top, f64::max);
-        // A casing keeps a black patch apart from a black ground, and a white one from a white one.
+        // A casing separates a black patch from a black background, and a white one from a white one.
         let cased = curve(tag, &patch.name, &patch.measured, 1.0, ink, 1.5, true);
         let casing = |mark: Mark| match mark.stroke {
             Some(stroke) if stroke.dash == Dash::Solid => mark.with_halo(Ink::new(InkRole::Weak).faded(0.35)),
@@ -168,7 +168,7 @@ fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<(String, Vec<Mark>, f
     Some((note, marks, top * 1.08))
 }
 
-/// Sensitivities of sensors, each curve to its own peak; and how far below zero they go.
+/// Sensitivities of sensors, each curve scaled to peak 1, and the minimum where negative.
 fn sensitivities(scene: &Scene<'_>, sources: &[ComparedSensor], built: &mut Built) -> (Vec<Mark>, f64) {
     let mut marks = Vec::new();
     let mut low = -0.04_f64;

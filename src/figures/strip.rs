@@ -10,7 +10,7 @@ use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::locus::{distance, split};
 use crate::scene::{ComparedSensor, Scene};
 
-/// The strip with what its lines stand for.
+/// The strip with the items of its lines.
 #[derive(Clone, Debug)]
 pub struct Strip {
     /// The panel; its horizontal axis is in mired.

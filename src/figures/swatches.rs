@@ -9,7 +9,7 @@ use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{ComparedSensor, Scene};
 use crate::view::{SwatchLayout, SwatchStyle, View};
 
-/// The board with what its marks stand for.
+/// The swatches with the items of their marks.
 #[derive(Clone, Debug)]
 pub struct Built {
     /// The panel, in points.
@@ -46,7 +46,7 @@ const BAR: f64 = 3.0;
 /// The least height of a row.
 const LEAST_ROW: f64 = 22.0;
 
-/// True if patches stand in rows.
+/// True if patches are arranged in rows.
 pub fn in_rows(layout: SwatchLayout, count: usize) -> bool {
     match layout {
         SwatchLayout::Auto => count <= 8,
@@ -74,7 +74,7 @@ pub fn build(scene: &Scene<'_>, view: &View, size: [f64; 2]) -> Built {
     Built { panel, things: board.things, height, worst }
 }
 
-/// The visible sensors that can stand beside the reference.
+/// The visible sensors that can be shown with the reference.
 fn rows(scene: &Scene<'_>) -> Vec<Row> {
     let compares = |source: &ComparedSensor| {
         source.is_reference || scene.document.transform != TransformChoice::Paper || {

@@ -10,18 +10,18 @@ use tempfile::NamedTempFile;
 
 /// The beginning of names of files that are being written.
 pub(super) const TEMPORARY: &str = ".chromascope-";
-/// So many letters and digits follow it.
+/// Number of random letters and digits that follow it.
 const RANDOM: usize = 6;
 
-/// Writes a file whole or not at all: beside it first, then moved into its place. It is flushed to the disk before it takes its
-/// name, and its folder after it.
+/// Writes a file atomically: to a temporary file in the same folder, which is then renamed. The file is flushed to disk before
+/// the renaming, and its folder after it.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_atomically_with(path, |file| file.write_all(bytes))
 }
 
 /// Writes a file whole or not at all, as its contents are made.
 pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>) -> io::Result<()> {
-    // What a link leads to is written, and the link stays.
+    // The target of a link is written, and the link stays.
     let target = match fs::canonicalize(path) {
         Ok(target) => target,
         Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),

@@ -14,7 +14,7 @@ const ENDINGS: [&str; 30] = [
     "dta", "dpt", "sp", "cmf", "ccss", "ti3", "cgats", "jdx", "dx", "jcm", "spdx", "cxf", "xml", "json", "xls",
 ];
 
-/// A question to the user, answered with paths.
+/// A request for paths.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Question {
     /// Files to open.
@@ -43,9 +43,9 @@ pub enum Answer {
     Missing,
 }
 
-/// File dialogs. They are asked on a thread of their own and may take as long as they like.
+/// File dialogs. They run on their own thread and may take any time.
 pub trait Dialogs: Send + Sync {
-    /// Asks and waits for the answer.
+    /// Shows the dialog and waits for the answer.
     fn ask(&self, question: &Question) -> Answer;
 }
 

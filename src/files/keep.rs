@@ -52,7 +52,7 @@ impl Keeper {
         self.moved().as_deref() == Some(path) || self.profile.is_in_use(path)
     }
 
-    /// Documents that other windows kept and have no more.
+    /// Documents saved by other windows that are closed.
     pub(super) fn copies(&self) -> Vec<Copy> {
         self.profile.copies(self.moved().as_deref())
     }
@@ -62,7 +62,7 @@ impl Keeper {
         self.profile.first.as_ref().is_some_and(|file| std::fs::symlink_metadata(file).is_err())
     }
 
-    /// The document kept, or the first screen.
+    /// The saved document, or the default one.
     pub(super) fn load(&mut self) -> Loaded {
         let Some(first) = self.profile.first.clone() else {
             return Loaded { document: Document::default(), complaint: None };
@@ -107,8 +107,8 @@ impl Keeper {
         loaded
     }
 
-    /// A kept document that cannot be read as it is is not overwritten: it is moved or copied aside, and if neither can be, this
-    /// window keeps its document in another file.
+    /// Handles a saved document that cannot be read: it is not overwritten, but moved or copied aside; if that fails, this
+    /// window saves its document in another file.
     fn set_aside(&mut self, file: &Path, what: &str, why: &str, copy: bool) -> (String, PathBuf) {
         let aside = profile::free_aside(file.parent().unwrap_or(Path::new(".")));
         let result = if copy {
@@ -133,7 +133,7 @@ impl Keeper {
         }
     }
 
-    /// Takes in the document as it is, and has it written in the background.
+    /// Records the current document and has it written in the background.
     pub(super) fn watch(&mut self, document: &Document, ctx: &egui::Context) {
         if !self.shared.keeps {
             return;
@@ -192,7 +192,7 @@ impl Keeper {
         self.shared.lock().is_clean()
     }
 
-    /// The file that the document is kept in because another program wrote to the one before.
+    /// The file in which the document is saved because another program wrote to the one before.
     pub(super) fn moved(&self) -> Option<PathBuf> {
         self.shared.lock().moved.clone()
     }
@@ -201,17 +201,17 @@ impl Keeper {
         self.profile.first.as_ref()?.parent()
     }
 
-    /// Keeps documents that others take the place of, from any thread.
+    /// Saves replaced documents, from any thread.
     pub(super) fn aside(&self) -> Aside {
         Aside(self.folder().map(Path::to_owned))
     }
 }
 
-/// Keeps documents that others take the place of.
+/// Saves replaced documents.
 pub(super) struct Aside(Option<PathBuf>);
 
 impl Aside {
-    /// Writes a document to a file of its own.
+    /// Writes a document to a new file.
     pub(super) fn put_aside(&self, document: &Document) -> Result<(), String> {
         let Some(folder) = &self.0 else { return Ok(()) };
         Store::new(profile::free_copy(folder)).write(document).and_then(|written| match written.skipped_work {

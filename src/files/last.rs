@@ -57,7 +57,7 @@ pub fn save_on_exit() {
     struct Last;
     impl Drop for Last {
         fn drop(&mut self) {
-            // On a thread of its own: those values of this one that are gone cannot be used any more.
+            // On a separate thread: its thread-local values may already be destroyed on this one.
             let saving = thread::Builder::new().name("last".to_owned()).spawn(save_last);
             let _ended = saving.map(thread::JoinHandle::join);
         }

@@ -9,7 +9,7 @@ use super::store::{Store, Written};
 use crate::document::Document;
 use crate::jobs::Clock;
 
-/// A change is written at once, those that follow no sooner than so long after it.
+/// Minimum interval between writes; the first change is written immediately.
 const PAUSE: Duration = Duration::from_millis(150);
 /// A document that could not be written is tried again after so long.
 pub(super) const RETRY: Duration = Duration::from_secs(2);
@@ -19,7 +19,7 @@ pub(super) struct SharedState {
     pub(super) state: Mutex<State>,
     /// Held while something is written.
     pub(super) store: Mutex<Store>,
-    /// Told when there is nothing to wait for any more.
+    /// Notified when nothing is pending any more.
     pub(super) closing: Condvar,
     pub(super) clock: Clock,
     pub(super) is_driven: bool,
@@ -70,7 +70,7 @@ impl State {
         if self.failure.is_some() { RETRY } else { PAUSE }
     }
 
-    /// Takes in what came of writing a document.
+    /// Handles the result of writing a document.
     fn written(&mut self, document: Arc<Document>, result: Result<Written, String>, store: &Store, now: Duration) {
         self.ended = Some(now);
         let before = self.failure.take();
@@ -165,7 +165,7 @@ impl SharedState {
     }
 }
 
-/// Tells that the thread that writes broke off, where it did, so that another one is started.
+/// Reports a writer thread that ended by a panic, so that another one is started.
 pub(super) struct Breakdown<'a>(pub(super) &'a SharedState);
 
 impl Drop for Breakdown<'_> {

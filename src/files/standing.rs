@@ -1,4 +1,4 @@
-//! Sentences that stay below the conditions for as long as they are true, or until the user dismisses them.
+//! Persistent messages, shown below the conditions while they hold or until the user dismisses them.
 
 use std::collections::HashSet;
 use std::path::PathBuf;
@@ -27,7 +27,7 @@ pub enum StandingKind {
     SetAside,
     /// Another program wrote to the document's file.
     Moved,
-    /// Other windows kept documents.
+    /// Other windows saved documents.
     Copies,
 }
 
@@ -38,7 +38,7 @@ impl StandingKind {
     }
 }
 
-/// Facts that the sentences are made of.
+/// Facts that the messages are made from.
 #[derive(Debug, Default)]
 pub(super) struct Notices {
     /// A document that could not be read: a sentence, and its file.
@@ -49,7 +49,7 @@ pub(super) struct Notices {
 }
 
 impl Files {
-    /// The sentences that stay, the gravest first.
+    /// The persistent messages, the most severe first.
     pub fn standing(&self) -> Vec<Standing> {
         let Notices { complaint, copies, dismissed } = &self.standing;
         let failure = self.keeper.failure().map(|why| {

@@ -4,7 +4,8 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 use super::{Clock, Executor};
 
-/// State that the window and threads beside it change in turn, with news for those who wait and a wake for the window.
+/// State shared by the window and background threads, with a condition variable for waiting threads and a wake callback
+/// for the window.
 pub struct Desk<S> {
     state: Mutex<S>,
     news: Condvar,
@@ -13,7 +14,7 @@ pub struct Desk<S> {
 }
 
 impl<S> Desk<S> {
-    /// State as it is at first, by an executor's clock. `wake` is called from the thread that has something to tell.
+    /// Creates the initial state with an executor's clock. `wake` is called from the thread that changed the state.
     pub fn new(executor: &Executor, state: S, wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self { state: Mutex::new(state), news: Condvar::new(), wake: Box::new(wake), clock: executor.clock() }
     }
@@ -28,12 +29,12 @@ impl<S> Desk<S> {
         &self.clock
     }
 
-    /// Tells threads that wait that the state has changed.
+    /// Notifies waiting threads of a change.
     pub fn notify(&self) {
         self.news.notify_all();
     }
 
-    /// Tells them and the window.
+    /// Notifies waiting threads and the window.
     pub fn tell(&self) {
         self.notify();
         (self.wake)();

@@ -12,8 +12,8 @@ use std::time::{Duration, Instant};
 
 use crate::results::Results;
 
-/// Runs background work: on a thread for each piece, or, where it is [driven](Self::driven), only when told to. Clones
-/// share their answers.
+/// Runs background work: on a thread for each piece or, if [driven](Self::driven), only on request. Clones share their
+/// answers.
 #[derive(Clone, Default)]
 pub struct Executor {
     driven: Option<Rc<Driven>>,
@@ -31,13 +31,13 @@ struct Driven {
 type Task = Box<dyn FnMut() -> bool>;
 
 impl Executor {
-    /// An executor that runs queued work only when told to, on the caller's thread, and whose clock stands still between calls
-    /// of [`advance`](Self::advance). Its clones share queue and clock.
+    /// An executor that runs queued work only on request, on the caller's thread, and whose clock advances only by
+    /// [`advance`](Self::advance). Its clones share queue and clock.
     pub fn driven() -> Self {
         Self { driven: Some(Rc::default()), results: Results::default() }
     }
 
-    /// True if work waits until it is told to run.
+    /// True if queued work runs only on request.
     pub fn is_driven(&self) -> bool {
         self.driven.is_some()
     }

@@ -165,7 +165,7 @@ fn nearest_black_body(color: UvPrime, context: &PaneContext<'_>) -> Option<Strin
     })
 }
 
-/// A line's thing becomes the black body nearest to the pointer.
+/// Replaces a locus line's item with the black body nearest to the pointer.
 fn thing_at(context: &PaneContext<'_>, built: &Built, hit: &paint::Hit) -> Option<PlotItem> {
     let thing = built.things.get(hit.tag)?.clone();
     let PlotItem::Sensor(source) = &thing else { return Some(thing) };

@@ -59,7 +59,7 @@ pub struct PaneContext<'a> {
     pub opened: &'a Opened,
     /// The file of recorded raw values.
     pub recorded: &'a RecordedStore,
-    /// Tells the nearest black body of a color, once it is asked.
+    /// Finds the nearest black body of a color, on demand.
     pub radiators: &'a Background<NearestBlackBodyQuery>,
     /// Color corrections with their errors, once they are made.
     pub corrections: &'a Background<CorrectionSheetQuery>,
@@ -96,7 +96,7 @@ impl PaneContext<'_> {
         self.commands.push(command.into());
     }
 
-    /// Takes in what was measured since the last frame.
+    /// Applies the measurements finished since the last frame.
     pub fn refresh_run(&mut self) {
         let own = self.meshes.chosen(&self.scene.document.render.mesh);
         let scene = SceneRunJob::of(&self.scene, own.as_ref(), self.view.saved.render.orbit);
@@ -117,7 +117,7 @@ impl PaneContext<'_> {
                 && on_show.lighting == geometry.lighting
                 && (on_show.shadows == Shadows::Off) == (geometry.shadows == Shadows::Off)
         });
-        // Of the pictures on show all angles are known; of those to come they soon will be.
+        // All angles of the current pictures are cached; those of the next pictures soon will be.
         let soon = self.studio.is_looked_at() && self.studio.failure().is_none() && !self.view.render.cancelled;
         if let Some(on_show) = on_show {
             geometry.clone_from(on_show);

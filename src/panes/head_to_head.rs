@@ -73,7 +73,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 const BETTER_HINT: &str =
     "The better camera where the difference exceeds its standard uncertainty; neither where it does not.";
 
-/// The two cameras: chosen, else the selected one beside the first compared one, as places in the ranking.
+/// The two cameras, as indices in the ranking: chosen, else the selected one and the first compared one.
 fn pair(ranked: &Ranked, context: &PaneContext<'_>) -> [Option<usize>; 2] {
     let place = |id: &SensorId| ranked.cameras.iter().position(|camera| camera.id == *id);
     let [a, b] = context.view.saved.metrics.pair.each_ref().map(|id| id.as_ref().and_then(place));

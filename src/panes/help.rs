@@ -131,7 +131,7 @@ fn results(ui: &mut Ui, hits: &[Hit], help: &mut HelpView) {
     }
 }
 
-/// The page with its own buttons.
+/// The page with its buttons.
 fn content(ui: &mut Ui, page: &'static Page, context: &mut PaneContext<'_>) {
     ui.horizontal(|ui| {
         let before = context.view.help.visited.last().and_then(|name| find(name));

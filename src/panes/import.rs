@@ -1,4 +1,4 @@
-//! The user's files, and the text of one with what was understood of it.
+//! The user's files, and the text of one with its interpretation.
 
 mod entries;
 mod files;
@@ -63,7 +63,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Something is always on show: the first file, until the user chooses another.
+/// Some file is always selected: the first until the user chooses another.
 fn keep_selected(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) {
     let selected = context.view.import.selected.as_ref();
     if selected.is_none_or(|item| !entries.iter().any(|entry| entry.item == *item))

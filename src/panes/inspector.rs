@@ -1,4 +1,4 @@
-//! The key for newcomers, or the thing that is selected or under the pointer.
+//! Introduction for newcomers, or the selected or hovered item.
 
 mod numbers;
 mod patch;
@@ -103,7 +103,7 @@ fn no_difference(reason: DifferenceError) -> String {
     format!("No difference: {reason}.")
 }
 
-/// The buttons under a selected thing. Returns whether its numbers are to be copied.
+/// Buttons of a selected item. Returns whether its numbers are to be copied.
 fn buttons(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
     let Some(selected) = context.view.selected.clone() else { return false };
     let mut copy = false;

@@ -96,7 +96,7 @@ fn wish(shown: &ImportSelection, wishes: ImportOverrides, context: &mut PaneCont
     context.push(Command::Wish(shown.item.clone(), Box::new(wishes)));
 }
 
-/// Reason that the file cannot be read as wished, with a way back.
+/// Reason that the file cannot be read with the settings, with a way to reset them.
 fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let color = context.theme.error;
     ui.horizontal_wrapped(|ui| {

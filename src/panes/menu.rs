@@ -53,7 +53,7 @@ fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// A dot on the tab while files wait to be looked at.
+/// A dot on the tab while files wait for review.
 fn unseen_dot(ui: &Ui, tab: &egui::Response, context: &PaneContext<'_>) {
     let count = context.view.import.unseen.len();
     if count == 0 {
@@ -98,7 +98,7 @@ fn focused(context: &PaneContext<'_>) -> PaneKind {
     context.view.focused.unwrap_or(PaneKind::CHROMATICITY)
 }
 
-/// Pane whose figure is meant: the focused one if it has figures, else the first in sight that has.
+/// The pane whose figure is meant: the focused one if it has figures, else the first visible one that has.
 fn pictured(context: &PaneContext<'_>) -> PaneKind {
     let saved = &context.view.saved;
     let places = saved.layout.places(saved.workspace).iter().flatten().copied();

@@ -1,4 +1,4 @@
-//! Run time against error: of the scene on show, or of the program on workloads of its own.
+//! Run time against error: of the visible scene, or of the program on benchmark workloads.
 
 use std::time::Duration;
 
@@ -53,7 +53,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The methods of the scene on show.
+/// The methods of the visible scene.
 fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_>) {
     let Some(run) = context.laboratory.measured.run.clone() else {
         nothing(ui, body, "Nothing measured yet.", context);
@@ -203,7 +203,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// A way to measure what is on show, or to stop that.
+/// A button that measures the visible scene, or stops the measurement.
 fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
     if let Some(busy) = context.laboratory.busy() {
         if ui.button("Stop").on_hover_text("Stop measuring (Esc). Earlier results are unchanged.").clicked() {

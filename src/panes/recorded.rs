@@ -69,7 +69,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     sentence(ui, body, &format!("{}: {why}.", file.name), true, context);
 }
 
-/// Brings the patches on show up to date with the file, chart and light.
+/// Updates the current patches after changes of file, chart and light.
 fn refresh(file: &RecordedFile, context: &mut PaneContext<'_>) -> Result<(), String> {
     let light = context.scene.light().map_err(|error| error.to_string())?;
     let chart = if file.needs_chart() {
@@ -82,7 +82,7 @@ fn refresh(file: &RecordedFile, context: &mut PaneContext<'_>) -> Result<(), Str
     let clip = if view.clip > 0.0 { view.clip } else { f64::INFINITY };
     let patches = file.patches(&chart, &light.grid, corners, Levels { black: 0.0, clip })?;
     let patches = Shared::new(patches);
-    // The old value keeps comparisons of questions to one pointer.
+    // An equal value is not replaced, so that queries compare by pointer.
     if view.set.as_ref() != Some(&patches) {
         view.set = Some(patches);
     }

@@ -81,7 +81,7 @@ fn say(painter: &egui::Painter, body: Rect, words: &str, context: &PaneContext<'
     painter.galley(at, galley, context.theme.surround.label());
 }
 
-/// The pixel under the pointer is read; a click keeps it, a double click shows its source alone or all again.
+/// Shows values of the pixel under the pointer; a click pins it, a double click shows its sensor alone or all again.
 fn point_at(ui: &Ui, response: &egui::Response, stand: &PictureLayout, context: &mut PaneContext<'_>) {
     let Some(pointer) = response.hover_pos() else { return };
     let Some((cell, at)) = stand.place_at(pointer) else { return };

@@ -16,7 +16,7 @@ use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// Height of the numbers of a pixel, at the foot of the pane, beside a line for each of some sensors.
+/// Height of the pixel's numbers at the foot of the pane, in addition to a line for each of some sensors.
 const PIXEL: f32 = 128.0;
 const PIXEL_LINE: f32 = 17.0;
 const PIXEL_LINES: usize = 6;

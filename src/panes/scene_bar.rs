@@ -70,7 +70,7 @@ fn captioned(
     control(&mut body, context);
 }
 
-/// A list to choose from, as wide as its field, with a name for those who cannot see the caption.
+/// A drop-down list as wide as its field, with an accessible name.
 fn choice(ui: &mut Ui, name: &str, hint: &str, shown: &str, list: impl FnOnce(&mut Ui)) {
     let width = ui.available_width();
     let combo = ComboBox::from_id_salt(name).width(width).truncate().selected_text(shown);
@@ -81,7 +81,7 @@ fn choice(ui: &mut Ui, name: &str, hint: &str, shown: &str, list: impl FnOnce(&m
 
 fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.reference.clone();
-    // A name that is cut tells two observers apart less well than a short one.
+    // A truncated name distinguishes two observers less well than a short one.
     let entry = context.scene.entry(SetKind::Observer, &now).ok().filter(|_| ui.available_width() < 180.0);
     let shown = entry.map_or_else(|| now.clone(), |entry| entry.short);
     choice(ui, "Reference", "The observer that cameras are compared with.", &shown, |ui| {

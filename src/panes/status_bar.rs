@@ -18,9 +18,9 @@ use crate::workspaces::{Arrangement, PaneKind};
 
 /// Text of the bar when there is nothing else.
 const READY: &str = "Ready. Drop a spectrum or camera file anywhere.";
-/// Pictures that take longer are told of.
+/// Rendering time above which progress is shown.
 const LONG: Duration = Duration::from_millis(500);
-/// Files that take longer are told of.
+/// Reading time above which progress is shown.
 const PATIENCE: Duration = Duration::from_millis(100);
 /// The width of the button after a message.
 const CHANGE: f32 = 76.0;
@@ -51,7 +51,7 @@ pub fn show(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &mut Pa
     message(ui, left, context);
 }
 
-/// The left side: the message, else the thing under the pointer, else an invitation.
+/// The left side: the message, else the hovered item, else a hint.
 fn message(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     let status = context.view.status.clone();
@@ -140,7 +140,7 @@ fn reading_words(progress: &Progress) -> String {
     format!("Reading {name}{of}, {:.0} %", 100.0 * progress.share.clamp(0.0, 1.0))
 }
 
-/// A thing in one line.
+/// An item in one line.
 fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
     let scene = &context.scene;
     let label = |id: &SensorId| {

@@ -59,7 +59,7 @@ pub fn pane(
     Rect::from_min_max(egui::pos2(rect.left(), rect.top() + HEADER), rect.max)
 }
 
-/// The title, which opens a menu of what may stand here instead.
+/// The title, which opens a menu of panes for this place.
 fn title_menu(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
     let workspace = context.view.saved.workspace;
     ui.menu_button(pane.title, |ui| {
@@ -128,7 +128,7 @@ fn export_menu(ui: &mut Ui, &Pane { kind, title, .. }: &Pane, context: &mut Pane
     });
 }
 
-/// A thin line along the top while something has been in the making for long enough to be told of; words stand in the status bar.
+/// A thin progress line along the top while a computation lasts long; its description is in the status bar.
 pub fn busy_line(ui: &Ui, body: Rect, busy: Option<Duration>, color: egui::Color32) {
     let Some(busy) = busy else { return };
     if let Some(wait) = RenderView::PATIENCE.checked_sub(busy) {
@@ -157,7 +157,7 @@ pub enum Icon {
     Close,
 }
 
-/// A button with a small picture and a name for those who cannot see it.
+/// An icon button with an accessible name.
 pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));

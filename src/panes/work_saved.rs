@@ -52,7 +52,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
 }
 
-/// From this width on, how a row was measured stands beside it; in a narrower pane below it.
+/// Minimum width for the method of measurement beside a row; in a narrower pane it is below.
 const WIDE: f32 = 900.0;
 /// Widths of the columns of times and counts.
 const TIME: f32 = 72.0;

@@ -12,7 +12,7 @@ use chromascope_measure::method::{Family, Method, Point, compare, largest, toget
 
 use super::{SceneRunJob, Subject, Trial};
 
-/// At most so many samples are measured on.
+/// Maximum number of samples measured.
 const SAMPLES: usize = 300;
 /// The tolerances that are tried, as powers of ten.
 const TOLERANCES: [i32; 6] = [-3, -5, -7, -9, -11, -13];

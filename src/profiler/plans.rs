@@ -63,7 +63,7 @@ impl ErrorBounds {
     /// Largest error beside which that of single precision is worth mentioning.
     const WORTH_SAYING: f64 = 1e-7;
 
-    /// Bounds with this plan, so many specular lobes, and this tolerance.
+    /// Bounds with this plan, this number of specular lobes, and this tolerance.
     pub fn of(explanation: Option<&Explanation>, mirrors: u64, tolerance: RelTolerance) -> Self {
         let mirror = (mirrors > 0).then_some(tolerance.max_relative_error());
         Self { diffuse: explanation.map(Explanation::error_bound), mirror }

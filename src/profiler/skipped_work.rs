@@ -21,7 +21,7 @@ use super::SceneRunJob;
 pub use panes::{LOCI, PATCHES};
 use ways::Ways;
 
-/// At most so many samples are computed to say what all would have cost.
+/// Maximum number of samples computed to extrapolate the cost of all.
 const SAMPLES: usize = 1000;
 /// Maximum number of samples summed over all wavelengths.
 const SUMS: usize = 200;
@@ -84,7 +84,7 @@ impl Sources<'_> {
     }
 }
 
-/// At most so many of a list, evenly spread.
+/// At most `most` elements of a list, evenly spread.
 fn some_of<T: Clone>(all: &[T], most: usize) -> Vec<T> {
     all.iter().step_by(all.len().div_ceil(most).max(1)).cloned().collect()
 }

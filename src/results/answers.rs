@@ -12,7 +12,7 @@ use super::Count;
 
 /// The most memory that the answers of one kind take; the last one stays, however large.
 const BYTES: usize = 256 << 20;
-/// Who waits for an answer looks this often at whether it is still wanted.
+/// Interval at which a waiting thread checks whether its answer is still needed.
 const GLANCE: Duration = Duration::from_millis(5);
 
 /// Answers, whatever their type.
@@ -24,7 +24,7 @@ pub(super) trait Kind: Any + Send + Sync {
 /// Answers of one kind.
 pub(super) struct Answers<Q: Query> {
     table: Mutex<Table<Q>>,
-    /// Told when a computation has ended.
+    /// Notified when a computation has ended.
     ended: Condvar,
 }
 

@@ -1,4 +1,4 @@
-//! The light on its own: its temperature, its rendition indices, and cameras under it and under its reference.
+//! Analysis of the light: temperature, rendition indices, and cameras under it and under its reference illuminant.
 
 use std::sync::Arc;
 

@@ -14,7 +14,7 @@ use crate::document::{CHART, CIE_1931, SetKind};
 
 /// The light of the sensitivity metamerism index (ISO 17321-1).
 const INDEX_LIGHT: &str = "D55";
-/// The most pairs of metamers that are told.
+/// Maximum number of metameric pairs listed.
 const MOST_METAMERS: usize = 100;
 
 impl Scene<'_> {
@@ -88,7 +88,7 @@ impl Scene<'_> {
     }
 }
 
-/// Name of a camera's model: its set's name without the parenthesis that tells tables of one model apart.
+/// Camera model of a set: its name without the parenthesis that distinguishes tables of one model.
 pub fn model_of(name: &str) -> &str {
     name.split_once(" (").map_or(name, |(model, _)| model)
 }

@@ -35,7 +35,7 @@ impl Scene<'_> {
         Ok(Shared::new(patch.grid.clone()))
     }
 
-    /// The sensors that are rendered: those on show, the reference first, without those that Eq 13 says nothing about beside it.
+    /// The rendered sensors: those compared, the reference first, without those for which Eq 13 is undefined.
     pub fn rendered_sources(&self) -> Vec<ComparedSensor> {
         let mut sources = self.sources();
         sources.retain(|source| {
@@ -56,7 +56,8 @@ impl Scene<'_> {
         }
     }
 
-    /// The pictures of these sensors. `background` is in linear sRGB; without one, what is beside the mesh is transparent.
+    /// The pictures of these sensors. `background` is in linear sRGB; without one, pixels outside the mesh are
+    /// transparent.
     pub fn pictures_of(
         &self,
         sources: &[ComparedSensor],

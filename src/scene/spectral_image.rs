@@ -15,7 +15,7 @@ use super::{ComparedSensor, Scene, SceneError};
 use crate::catalog::spectral_images::ImageOnDisk;
 use crate::document::SetKind;
 
-/// Bytes of samples that are held at once.
+/// Maximum bytes of samples in memory.
 const TILE_BYTES: usize = 16 << 20;
 /// Most pixels of an image: the signals of each sensor take 12 bytes a pixel.
 const MOST_PIXELS: usize = 40_000_000;
@@ -53,7 +53,7 @@ pub enum ImagePicturesError {
 pub struct ImageUse {
     /// Quantity of the samples, overriding the file's.
     pub quantity: Option<ImageQuantity>,
-    /// Value that stands for 1.
+    /// Value that represents 1.
     pub scale: f64,
     /// Exposure in EV.
     pub exposure_ev: f64,
@@ -89,7 +89,7 @@ pub struct ImagePictures {
     pub placed: Arc<LitSamples>,
     /// Y of the white: 1 for reflectances, the 99.5 % quantile of the reference's Y for radiances.
     pub white: f64,
-    /// Bytes of samples held at once.
+    /// Maximum bytes of samples in memory.
     pub tile_bytes: usize,
 }
 

@@ -7,11 +7,11 @@ use crate::profiler::Subject;
 /// View state of the Accuracy pane.
 #[derive(Clone, Debug, Default)]
 pub struct AccuracyView {
-    /// Whose methods are on show.
+    /// Selected measurement.
     pub shows: Shows,
 }
 
-/// Whose methods are on show.
+/// Measurement whose methods are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shows {
     /// Those of the scene.

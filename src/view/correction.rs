@@ -9,7 +9,7 @@ use crate::export::profile::CorrectionFile;
 pub struct CorrectionView {
     /// The camera chosen there; the first that is compared otherwise.
     pub camera: Option<String>,
-    /// The correction on show.
+    /// The current correction.
     pub shown: Option<Arc<CorrectionFile>>,
 }
 

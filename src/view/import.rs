@@ -9,7 +9,7 @@ use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::Failing;
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 
-/// So many kinds of files are remembered.
+/// Maximum number of remembered kinds of files.
 const REMEMBERED: usize = 100;
 
 /// Something in the list of files.
@@ -24,13 +24,13 @@ pub enum ImportItem {
 /// View state of the Import pane.
 #[derive(Debug, Default)]
 pub struct ImportView {
-    /// The file on show.
+    /// The selected item.
     pub selected: Option<ImportItem>,
     /// Import settings tried for each item but not yet applied to the document.
     pub tried: BTreeMap<ImportItem, ImportOverrides>,
-    /// Files with something guessed or broken that nobody has looked at.
+    /// Files with a guess or an error that the user has not reviewed.
     pub unseen: BTreeSet<ImportItem>,
-    /// The parts of the file on show that are to be taken, each as a set of its own; from 1.
+    /// The parts of the selected file to import, each as a set of its own; from 1.
     pub parts: BTreeSet<usize>,
     /// Control at which the keyboard focus stopped between panes.
     pub stop: Option<Stop>,
@@ -66,7 +66,7 @@ impl ImportView {
         }
     }
 
-    /// True if the keyboard goes to a place in this frame; asked by that place, once.
+    /// True if the keyboard focus goes to a place in this frame; called by that place, once.
     pub fn takes_keyboard(&mut self, stop: Stop) -> bool {
         let takes = self.focus == Some(stop);
         if takes {
@@ -103,7 +103,7 @@ impl ImportView {
         }
         let known = |sets: &[Shared<OwnSet>], name: &str| sets.iter().any(|set| set.name == name);
         for (old, new) in before.iter().zip(after) {
-            // A set that changes keeps its place; where both names go on there is nothing to follow.
+            // A set that changes keeps its index; where both names persist, there is nothing to follow.
             if old.name != new.name && !known(after, &old.name) && !known(before, &new.name) {
                 self.follow(&ImportItem::Set(old.name.clone()), &ImportItem::Set(new.name.clone()));
             }
@@ -116,7 +116,7 @@ impl ImportView {
 pub struct Remembered {
     /// The kind.
     pub likeness: Likeness,
-    /// The wishes.
+    /// The settings.
     pub wishes: ImportOverrides,
 }
 
@@ -130,7 +130,7 @@ pub struct ImportMemory {
     pub watch: bool,
     /// Files on disk that could not be read.
     pub failing: Vec<Failing>,
-    /// Files with something guessed or broken that nobody has looked at.
+    /// Files with a guess or an error that the user has not reviewed.
     pub unseen: BTreeSet<ImportItem>,
 }
 
@@ -141,7 +141,7 @@ impl Default for ImportMemory {
 }
 
 impl ImportMemory {
-    /// Remembers what was wished for a file, for others like it; no wishes forget.
+    /// Remembers the settings for a file, to be applied to others like it; default settings remove the entry.
     pub fn remember(&mut self, likeness: Likeness, wishes: &ImportOverrides) {
         if !likeness.is_telling() {
             return;
@@ -155,7 +155,7 @@ impl ImportMemory {
         self.remembered.drain(..spare);
     }
 
-    /// Forgets what was wished for files like one.
+    /// Forgets the settings for files like one.
     pub fn forget(&mut self, likeness: &Likeness) {
         self.remembered.retain(|known| !known.likeness.is_like(likeness));
     }
@@ -167,7 +167,7 @@ impl ImportMemory {
     }
 }
 
-/// The wishes that hold for other files of a kind too: which curves are taken, and which part and column, do not.
+/// The settings that apply to other files of a kind, too: not the choice of curves, part and column.
 pub fn of_a_kind(wishes: &ImportOverrides) -> ImportOverrides {
     let mut kind = ImportOverrides { taken: None, ..wishes.clone() };
     (kind.options.part, kind.options.wavelength_column) = (None, None);

@@ -13,7 +13,7 @@ pub struct MetricsLook {
     pub cameras: RankedCameras,
     /// Metamers that are searched for.
     pub confusion: Confuses,
-    /// The two that stand side by side; none for the selected one and the first compared one beside it.
+    /// The two cameras of Head to head; `None` for the selected one and the first compared one.
     #[serde(skip)]
     pub pair: [Option<SensorId>; 2],
     /// The camera of the report card; none for the selected one.

@@ -6,7 +6,7 @@ use chromascope_core::query::RecordedSet;
 /// View state of the Recorded pane.
 #[derive(Clone, Debug, Default)]
 pub struct RecordedView {
-    /// True while a file that is requested is one of recorded values.
+    /// True while the open file dialog is for recorded values.
     pub opening: bool,
     /// Parameters that are fitted.
     pub freedom: Freedom,
@@ -16,6 +16,6 @@ pub struct RecordedView {
     pub clip: f64,
     /// Camera whose residuals are shown; the best without one.
     pub camera: Option<String>,
-    /// The patches on show.
+    /// The current patches.
     pub set: Option<RecordedSet>,
 }

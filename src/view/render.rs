@@ -62,17 +62,17 @@ pub struct PixelPlace {
 /// View state of the Render pane.
 #[derive(Debug, Default)]
 pub struct RenderView {
-    /// The pixel that is kept.
+    /// The pinned pixel.
     pub pinned: Option<PixelPlace>,
     /// The pixel under the pointer.
     pub hovered: Option<PixelPlace>,
-    /// The sensor that stands alone or beside the reference; none for the first camera.
+    /// The sensor shown alone or with the reference; `None` for the first camera.
     pub chosen: Option<SensorId>,
     /// For how long pictures have been in the making.
     pub busy: Option<Duration>,
     /// Name of the computation in progress.
     pub making: &'static str,
-    /// True if finer pictures than those on show are not wanted.
+    /// True if finer pictures than the current ones are not wanted.
     pub cancelled: bool,
     /// The pictures as textures.
     pub textures: PictureTextures,
@@ -84,7 +84,7 @@ impl RenderView {
     /// After this long a computation is shown to be going on, and Esc ends it.
     pub const PATIENCE: Duration = Duration::from_millis(100);
 
-    /// True if a computation has been going on for long enough to be told of.
+    /// True if a computation has lasted long enough for progress to be shown.
     pub fn is_waiting(&self) -> bool {
         self.busy.is_some_and(|busy| busy >= Self::PATIENCE)
     }

@@ -12,12 +12,12 @@ use crate::plot_item::PlotItem;
 pub struct TableLook {
     /// Column that rows are sorted by; none for the order as given.
     pub sorting: Option<Sorting>,
-    /// Columns that the user shows or hides, by name; others stand as the table starts.
+    /// Columns that the user shows or hides, by name; others keep the table's default.
     pub columns: BTreeMap<String, bool>,
     /// Words that a row must contain. Not saved between runs.
     #[serde(skip)]
     pub filter: String,
-    /// Row under the keyboard where rows stand for nothing else, counted as given.
+    /// Row with the keyboard cursor where rows have no items, in the given order.
     #[serde(skip)]
     pub cursor: Option<usize>,
     /// Selection that the table was scrolled to.

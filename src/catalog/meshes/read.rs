@@ -1,4 +1,4 @@
-//! One mesh file: from the disk to a mesh with what the user should know about it, or to a sentence.
+//! Reading of a mesh file: returns the mesh with notes for the user, or an error message.
 
 use std::ffi::OsStr;
 use std::fs::File;
@@ -28,7 +28,7 @@ pub struct LoadedMesh {
     pub notes: Vec<String>,
     /// The file's name and its counts: `head.obj: 4429 vertices, 8812 triangles, open edges 36`.
     pub summary: String,
-    /// The summary with the gravest of the notes that the counts do not already tell, in full sentences.
+    /// The summary with the most severe note that the counts do not already imply, in full sentences.
     pub message: String,
 }
 
@@ -92,13 +92,13 @@ pub enum MeshFailure {
     /// The program broke on it.
     #[error("{0} could not be read because of an error in this program; please report it with the file")]
     Broken(String),
-    /// Nobody wanted it any more.
+    /// The read was canceled.
     #[error("reading {0} stopped")]
     Stopped(String),
 }
 
 impl MeshFailure {
-    /// For the user who opened the file.
+    /// Message for the user who opened the file.
     pub fn on_opening(&self) -> String {
         format!("{}. Nothing was changed.", self.beginning())
     }
@@ -154,7 +154,7 @@ pub(super) struct Stamp {
     bytes: u64,
 }
 
-/// Reads a mesh file. `stop` is asked now and then, and ends the reading with [`MeshFailure::Stopped`].
+/// Reads a mesh file. `stop` is polled, and ends the reading with [`MeshFailure::Stopped`].
 pub fn read(path: &Path, stop: &dyn Fn() -> bool) -> Result<LoadedMesh, MeshFailure> {
     // Nothing to compare with, so there is always something.
     read_unless(path, None, stop)?.map(|(mesh, _)| mesh).ok_or_else(|| MeshFailure::Stopped(file_name(path)))

@@ -1,4 +1,4 @@
-//! Curves and text of a file, with marks, for the user who looks at it.
+//! Preview of a file: curves and annotated text.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Reading files from the disk, folders among them, each as the user wished for its kind.
+//! Reading of files and folders from disk, each with the user's settings for its kind.
 
 use std::fs;
 use std::io::{self, Read as _};
@@ -32,7 +32,7 @@ pub enum Request {
         /// The bytes.
         bytes: Arc<[u8]>,
     },
-    /// A file whose contents are known, with what the user wishes.
+    /// A file whose contents are known, with the user's settings.
     Known(Fingerprint, Box<ImportOverrides>),
 }
 
@@ -88,7 +88,7 @@ pub(super) fn open(
         let wishes = wishes.unwrap_or_else(|| remembered(&bytes));
         take(origin, bytes, (&wishes, from_memory), desk, job, &mut harvest);
     }
-    // Who stopped it wants none of it.
+    // The canceled request needs no result.
     if job.go_on(0.0) { harvest.into_events() } else { Vec::new() }
 }
 
@@ -183,7 +183,7 @@ fn contents(
     }
 }
 
-/// The path that a file is known by already, where this one leads to it by links or detours.
+/// The path under which a file is already known, if this one leads to it through links.
 fn known_path(path: PathBuf, desk: &Desk) -> PathBuf {
     let Ok(whole) = fs::canonicalize(&path) else { return path };
     let state = desk.lock();
@@ -281,7 +281,7 @@ impl Harvest {
     }
 }
 
-/// Takes files in that could not be read in an earlier run. One that changed since is not used before the user says so.
+/// Adds files that could not be read in an earlier run. One that has changed is not used until the user confirms it.
 pub(super) fn recall(failing: Vec<Failing>, desk: &Desk, job: &Job) {
     let count = failing.len();
     for (index, Failing { path, fingerprint, why }) in failing.into_iter().enumerate() {
@@ -356,7 +356,7 @@ fn read_bytes(path: &Path) -> Result<Arc<[u8]>, String> {
     Ok(fs::read(path).map_err(failed)?.into())
 }
 
-/// The first bytes of a file; none where it cannot be read, which reading it will tell.
+/// The first bytes of a file; `None` if it cannot be read, which the reader reports.
 fn beginning(path: &Path) -> Vec<u8> {
     let mut bytes = Vec::new();
     // Opening a pipe would wait for somebody to write into it.

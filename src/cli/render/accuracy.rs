@@ -20,9 +20,9 @@ const BUDGET: Budget = Budget { rounds: [0, 0], seconds: [0.02, 0.02] };
 
 /// Measured cost and error of each method.
 pub(super) struct Measured {
-    /// Each how many of the lit samples were taken.
+    /// Every `stride`th lit sample was measured.
     pub(super) stride: usize,
-    /// Number.
+    /// Number of samples measured.
     pub(super) samples: usize,
     /// The chosen quality.
     pub(super) chosen: Cost,

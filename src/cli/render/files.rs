@@ -13,7 +13,7 @@ use crate::files::fitting;
 use crate::scene::ComparedSensor;
 use crate::terminal::say;
 
-/// Works, and says now and then to a person who waits that it still does.
+/// Runs work, with a message on a terminal every 3 s that it still runs.
 pub(super) fn patiently<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
     const EVERY: Duration = Duration::from_secs(3);
     let (done, end) = channel::<()>();
@@ -24,7 +24,7 @@ pub(super) fn patiently<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
                 say(&format!("chromascope: still {what} after {} s\n", start.elapsed().as_secs()));
             }
         };
-        // Without a thread it is silent, no more.
+        // Without a thread there are no messages.
         let _silent = thread::Builder::new().name("patience".to_owned()).spawn(wait);
     }
     let result = work();

@@ -25,7 +25,7 @@ use crate::scene::spectral_image::{ImageDifference, ImagePictures, ImagePictures
 use crate::scene::{ComparedSensor, Scene, SceneError};
 use crate::terminal::say;
 
-/// Makes the pictures of an image, writes them, and says what came of it.
+/// Computes the pictures of an image, writes them and reports the result.
 pub(super) fn run(arguments: &RenderArguments, path: &Path, matches: &ArgMatches) -> Result<(), CliError> {
     let start = Instant::now();
     let wanted = arguments.image_quantity.map(ImageQuantityName::quantity);

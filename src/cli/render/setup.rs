@@ -25,7 +25,7 @@ use crate::scene::render::Finish;
 use crate::terminal::say;
 use chromascope_core::render::QualityLevel;
 
-/// All that pictures are made of.
+/// Inputs of the pictures.
 pub(super) struct Setup {
     pub(super) request: Request,
     pub(super) viewpoint: Viewpoint,

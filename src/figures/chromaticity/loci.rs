@@ -19,7 +19,7 @@ const FAR: f64 = 3.0;
 /// Adds the loci of all sensors, the reference's on top.
 pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
     for source in sources.iter().rev() {
-        // While B is held the reference stands in for every camera.
+        // While B is held, the reference replaces every camera.
         if drawing.view.blink && !source.is_reference {
             continue;
         }
@@ -32,7 +32,8 @@ pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
 
 fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoint]) {
     const GAP: [f64; 2] = [f64::NAN; 2];
-    // Signals that pass through a sum of zero send the locus to infinity and back from the other side: no line leads there.
+    // Where the sum of signals passes through zero, the locus goes to infinity and returns from the other side: no line
+    // connects them.
     let shown = |at: &[f64; 2]| at.iter().all(|v| v.abs() < FAR);
     let points: Vec<[f64; 2]> =
         locus.iter().map(|p| drawing.place_of(p.xy, p.uv).filter(shown).unwrap_or(GAP)).collect();

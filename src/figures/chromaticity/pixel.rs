@@ -1,4 +1,4 @@
-//! The pixel that is kept of the rendered pictures, through each sensor.
+//! Pinned pixel of the rendered pictures, through each sensor.
 
 use chromascope_figure::{InkRole, Mark, Marker, Shape};
 

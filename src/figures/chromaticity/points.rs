@@ -66,7 +66,7 @@ fn add_points(drawing: &mut Drawing<'_>, source: &ComparedSensor, names: &[&str]
     }
 }
 
-/// Names beside the reference's points: all if there are few, else those pointed at or chosen.
+/// Names of the reference's points: all if there are few, else the hovered or selected ones.
 fn add_names(drawing: &mut Drawing<'_>, names: &[&str], reference: &[PatchColor], few: bool) {
     let places: Vec<Option<[f64; 2]>> = reference.iter().map(|color| drawing.place_of(color.xy, color.uv)).collect();
     let known: Vec<[f64; 2]> = places.iter().flatten().copied().collect();

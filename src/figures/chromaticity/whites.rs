@@ -13,7 +13,7 @@ use crate::document::{FIT_TARGET, Light, SetKind};
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::Scene;
 
-/// The whites, each with the side that its name stands on: they lie close together.
+/// White points with the side of their labels: they lie close together.
 const WHITES: [(&str, Anchor, [f64; 2]); 5] = [
     ("A", Anchor::LEFT, [7.0, 0.0]),
     ("D50", Anchor::LEFT, [7.0, -3.0]),

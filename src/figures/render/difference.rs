@@ -69,7 +69,8 @@ pub(super) fn scale(scale: Scale, name: &str, [x, y]: [f64; 2], width: f64, ink:
     marks
 }
 
-/// A map as width, height and RGBA: the ramp where light falls, black where none does, nothing beside the mesh.
+/// A map as width, height and RGBA: the color scale where light falls, black where none does, transparent outside the
+/// mesh.
 pub fn map(shot: &RenderedFrame, at: usize, end: f32) -> ([usize; 2], Vec<u8>) {
     let nothing = ([0, 0], Vec::new());
     let Some(made) = shot.made() else { return nothing };

@@ -17,7 +17,7 @@ pub struct Words {
     pub is_warning: bool,
 }
 
-/// The share for the surface that is chosen; none where each vertex has a roughness of its own, and where there is no model.
+/// The share for the selected surface; `None` where each vertex has a roughness of its own, or without a model.
 pub fn of(scene: &Scene<'_>) -> Option<ReturnedLight> {
     let settings = &scene.document.render;
     if settings.roughness == RoughnessChoice::Mesh || settings.reading == ReadingChoice::Lambertian {

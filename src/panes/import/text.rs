@@ -1,4 +1,4 @@
-//! The text of a file, of which only the lines in sight are laid out.
+//! Text of a file, of which only the visible lines are laid out.
 
 use std::ops::Range;
 
@@ -21,10 +21,10 @@ const LEGEND: f32 = 20.0;
 /// So far a long line can be scrolled: what is beyond has to be skipped letter by letter.
 const WIDEST: usize = 50_000;
 const _: () = assert!(WIDEST < LONGEST_LINE, "a line is counted so far");
-/// So many letters of a line are read out.
+/// Number of letters of a line exposed to screen readers.
 const SAID: usize = 200;
 
-/// Shows what is known of the file on show.
+/// Shows the text and interpretation of the selected file.
 pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let Some(file) = &shown.file else {
         if let Some(set) = &shown.set {
@@ -119,7 +119,7 @@ fn lines_of(
     preview: &Preview,
     context: &mut PaneContext<'_>,
 ) {
-    // All letters of the font have one width; many together tell it more exactly.
+    // All letters of the font have one width, measured more exactly on many together.
     const SAMPLE: &str = "0000000000000000";
     let sample = ui.painter().layout_no_wrap(SAMPLE.to_owned(), FontId::monospace(MONO), context.theme.text);
     let letter = sample.size().x / SAMPLE.len() as f32;
@@ -192,12 +192,12 @@ struct View<'a> {
     /// Flags for the imported curves, by index in the file.
     taken: Vec<bool>,
     error: Option<&'a (usize, Range<usize>)>,
-    /// The part in sight.
+    /// The visible part.
     viewport: Rect,
 }
 
 impl View<'_> {
-    /// Draws the lines in sight.
+    /// Draws the visible lines.
     fn lines(&self, ui: &mut Ui, place: &Place, context: &mut PaneContext<'_>) {
         let theme = context.theme;
         let first = (self.viewport.top() / LINE).floor().max(0.0) as usize;
@@ -255,7 +255,7 @@ impl View<'_> {
             _ => Vec::new(),
         };
         let understood = self.look.marker.is_some();
-        // Where all values are of one curve, none stands out.
+        // If all values belong to one curve, none is highlighted.
         let several = table.is_some_and(|table| table.curves.len() > 1);
         let hovered = context.view.import.hovered_curve.filter(|_| several);
         let pen = Pen { theme: &context.theme, understood, hovered, taken: &self.taken };

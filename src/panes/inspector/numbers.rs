@@ -55,7 +55,7 @@ pub(super) fn temperatures(scene: &Scene<'_>, colors: impl Iterator<Item = Optio
     [row("CCT", 0, |cct| cct.temperature.get()), row("Duv", 4, |cct| cct.duv)]
 }
 
-/// Writes rows below the columns' heads; `id` tells tables of one pane apart.
+/// Writes rows below the columns' headers; `id` distinguishes tables of one pane.
 pub(super) fn show(ui: &mut Ui, id: &str, heads: &[String], rows: &[Row], context: &PaneContext<'_>) {
     let table = table(heads, rows);
     let names = std::iter::once(Column::default());

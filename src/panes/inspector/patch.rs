@@ -1,4 +1,4 @@
-//! A patch through one sensor beside the reference, or through all.
+//! Patch through one sensor compared with the reference, or through all.
 
 use chromascope_core::query::{DifferenceError, PatchColor};
 use chromascope_figure::InkRole;
@@ -42,13 +42,13 @@ fn title(scene: &Scene<'_>, patch: &str) -> String {
     let number = header.and_then(|header| header.columns.iter().position(|column| column == patch));
     let number = number.or_else(|| index_of(scene, patch));
     match number {
-        // Charts without names of their own are numbered already.
+        // Charts without patch names are numbered already.
         Some(index) if patch.parse::<u32>().is_err() => format!("Patch {} {patch}", index + 1),
         _ => format!("Patch {patch}"),
     }
 }
 
-/// Swatches on the surround: left the reference, right the sensor; one if there is no reference beside it.
+/// Swatches on the surround: left the reference, right the sensor; only one without a reference.
 fn pair(ui: &mut Ui, theme: &Theme, left: &PatchColor, right: Option<&PatchColor>, height: f32, width: f32) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(width, height), Sense::hover());
     response.widget_info(|| {

@@ -10,7 +10,7 @@ use crate::panes::widgets::{Icon, icon_button};
 use crate::plot_item::PlotItem;
 use crate::scene::Scene;
 
-/// The letter of a pinned thing.
+/// The letter of a pinned item.
 fn letter(index: usize) -> String {
     let letters = 'A'..='Z';
     letters.clone().nth(index).map_or_else(|| (index + 1).to_string(), String::from)
@@ -61,7 +61,7 @@ fn name(scene: &Scene<'_>, thing: &PlotItem) -> String {
     }
 }
 
-/// Pinned patches; the reference stands first where all are the same patch.
+/// Pinned patches; the reference is first where all are the same patch.
 fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneContext<'_>) {
     let mut heads: Vec<String> = Vec::new();
     let mut colors: Vec<Option<PatchColor>> = Vec::new();
@@ -94,7 +94,7 @@ fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneCo
     numbers::show(ui, "pinned patches", &heads, &numbers::of_patches(scene, &colors), context);
 }
 
-/// Pinned black bodies; the reference stands first where all have the same temperature.
+/// Pinned black bodies; the reference is first where all have the same temperature.
 fn radiators(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneContext<'_>) {
     let mut heads = Vec::new();
     let mut points = Vec::new();

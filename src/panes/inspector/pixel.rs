@@ -14,13 +14,13 @@ use crate::theme::UNIT;
 use crate::view::render::PixelPlace;
 use crate::workspaces::PaneKind;
 
-/// Pinned pixel, if pictures are on show.
+/// Pinned pixel, if pictures are visible.
 pub(super) fn kept<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
     let (saved, render) = (&context.view.saved, &context.view.render);
     render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::RENDER))
 }
 
-/// Shows it, if pictures are on show.
+/// Shows the pinned pixel, if pictures are visible.
 pub(super) fn show(ui: &mut Ui, context: &PaneContext<'_>) {
     let Some((pinned, shot)) = kept(context).zip(context.studio.frame()) else { return };
     ui.add_space(UNIT);

@@ -67,7 +67,7 @@ fn starts(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.separator();
 }
 
-/// A drawn key and what it stands for; the words wrap beside it.
+/// A drawn key and its action; the words wrap beside it.
 fn entry(ui: &mut Ui, words: &str, draw: impl FnOnce(&Ui, Rect)) {
     ui.horizontal_top(|ui| {
         let (rect, _) = ui.allocate_exact_size(Vec2::new(KEY, 17.0), egui::Sense::hover());

@@ -9,7 +9,7 @@ use crate::figures::curves::ImportSelection;
 use crate::panes::widgets::segmented;
 use crate::theme::{Theme, UNIT};
 
-/// So many curves can be chosen from.
+/// Maximum number of curves to choose from.
 const LISTED: usize = 500;
 
 /// Responses per energy and per photon.

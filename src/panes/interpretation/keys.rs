@@ -31,7 +31,7 @@ pub(super) fn step(ui: &Ui) -> isize {
     ui.input(|input| isize::from(input.key_pressed(Key::ArrowDown)) - isize::from(input.key_pressed(Key::ArrowUp)))
 }
 
-/// Keeps arrows from leaving an entry for whatever lies that way.
+/// Prevents arrow keys from moving the focus to a neighboring control.
 pub(super) fn hold(ui: &Ui, entry: &Response) {
     let filter = EventFilter { vertical_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(entry.id, filter));

@@ -11,7 +11,7 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::facts::range_words;
 use crate::theme::UNIT;
 
-/// So many dropped rows are told one by one.
+/// Maximum number of dropped rows listed individually.
 const TOLD: usize = 5;
 
 fn led_to() -> Id {

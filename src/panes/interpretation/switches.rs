@@ -62,12 +62,12 @@ const READERS: [(Reader, &str); 11] = [
     (Reader::Camspec, "Camera database"),
 ];
 
-/// So many columns can be chosen from.
+/// Maximum number of columns to choose from.
 const COLUMNS: usize = 60;
-/// So many parts can be chosen from.
+/// Maximum number of parts to choose from.
 const PARTS: usize = 1000;
 
-/// A switch: what is wished, what was decided, what there is to choose from.
+/// A setting: the user's choice, the automatic decision, and the options.
 struct Switch<'a, T> {
     words: &'a str,
     wish: &'a mut Option<T>,
@@ -81,7 +81,7 @@ impl<T: Copy + PartialEq> Switch<'_, T> {
             let known = self.choices.iter().find(|(choice, _)| *choice == value);
             known.map_or_else(|| "Other".to_owned(), |(_, words)| (*words).to_owned())
         };
-        // Where there is little room, the first word or two tell the choices apart.
+        // In a narrow pane, the first word or two distinguish the choices.
         let name = |value: T| if wordy { name(value) } else { short(&name(value)).to_owned() };
         let closed = closed(self.wish.map(name), self.decided, name, wordy);
         let mut entries = vec![(CONTENT.to_owned(), self.wish.is_none())];
@@ -129,7 +129,7 @@ fn lower(words: &str) -> String {
 
 /// The switches that matter for the file.
 pub(super) fn show(ui: &mut Ui, shown: &ImportSelection, wishes: &mut ImportOverrides, theme: &Theme) {
-    // What the last look says is told as long as nothing newer is known.
+    // The result of the last preview is shown as long as no newer one is available.
     let table = shown.table();
     let reading = table.map(|table| &table.reading);
     let options = &mut wishes.options;

@@ -133,7 +133,7 @@ fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &ComparedSensor, contex
     hint(response, source, context);
 }
 
-/// The whole name; all else stands in the inspector after a click, where it covers nothing.
+/// The whole name; everything else is in the inspector after a click, where it covers nothing.
 fn hint(response: Response, source: &ComparedSensor, context: &PaneContext<'_>) {
     let also = context.scene.entry(source.kind, &source.name).ok().and_then(|entry| entry.also);
     response.on_hover_ui(|ui| {
@@ -188,7 +188,7 @@ pub(super) fn show_inspector(context: &mut PaneContext<'_>) {
     if !saved.layout.shows(saved.workspace, PaneKind::INSPECTOR) {
         context.view.saved.layout.toggle(context.view.saved.workspace, PaneKind::INSPECTOR);
     }
-    // Only a narrow window looks at this.
+    // Has an effect in a narrow window only.
     context.view.inspector_over = true;
 }
 

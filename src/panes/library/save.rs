@@ -12,8 +12,8 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::lines;
 use crate::view::import::ImportItem;
 
-/// The dots at the end of a row and what they open; so do a right click on the row and the menu key. A row of the program's
-/// shows its dots while it is pointed at or has the focus. Returns whether they are on show.
+/// The dots at the end of a row and their menu, which a right click on the row and the menu key open, too. The row of a
+/// built-in set shows its dots while it is hovered or focused. Returns whether they are visible.
 pub(super) fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, context: &mut PaneContext<'_>) -> bool {
     let id = row.id.with("dots");
     let whose = if entry.is_own() { "Menu of your" } else { "Menu in the library of" };
@@ -28,7 +28,7 @@ pub(super) fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, contex
     let button = if shown {
         lines::dots(ui, rect, id, &name)
     } else {
-        // Not seen, but there for those who do not point.
+        // Invisible, but accessible to keyboards and screen readers.
         let button = ui.interact(rect, id, Sense::click());
         button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
         button

@@ -40,7 +40,7 @@ pub(super) enum Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    /// The entry of a set, made for rows in sight only.
+    /// The entry of a set, made for visible rows only.
     fn entry(&self) -> Option<Cow<'a, Entry>> {
         match self {
             Self::Group { .. } => None,
@@ -79,7 +79,7 @@ pub(super) fn first_match<'a>(rows: &[Row<'a>]) -> Option<Cow<'a, Entry>> {
     rows.iter().find_map(Row::entry)
 }
 
-/// The list; only rows in sight are laid out.
+/// The list; only visible rows are laid out.
 pub(super) fn list(ui: &mut Ui, rows: &[Row<'_>], context: &mut PaneContext<'_>) {
     if rows.is_empty() {
         ui.horizontal(|ui| {
@@ -143,7 +143,7 @@ fn rim(ui: &Ui, rect: Rect, response: &Response, context: &PaneContext<'_>) {
     }
 }
 
-/// True if a set is on show, and whether that can be changed here.
+/// True if a set is in use, and whether that can be changed here.
 fn state(entry: &Entry, context: &PaneContext<'_>) -> (bool, bool) {
     let document = context.scene.document;
     match entry.kind {
@@ -158,11 +158,11 @@ fn state(entry: &Entry, context: &PaneContext<'_>) -> (bool, bool) {
     }
 }
 
-/// Puts a set to use, or a compared one off.
+/// Puts a set to use, or removes it from the comparison.
 pub(super) fn choose(entry: &Entry, on: bool, context: &mut PaneContext<'_>) {
     let name = entry.name.clone();
     if entry.kind == SetKind::Unsorted {
-        // What it is has to be said first.
+        // Its kind must be chosen first, in Import.
         context.push(Command::ShowImport(ImportItem::Set(name), None));
         return;
     }

@@ -42,7 +42,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     sets::list(&mut column, &rows, context);
 }
 
-/// The compared sensors. Their list is as high whatever their number is: the library below stands still while sensors are ticked.
+/// The compared sensors. The height of their list is constant, so that the library below does not move while sensors are ticked.
 fn compared(ui: &mut Ui, height: f32, context: &mut PaneContext<'_>) {
     let sources = context.scene.sources();
     let pitch = ROW + UNIT;

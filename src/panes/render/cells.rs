@@ -105,7 +105,7 @@ impl PictureLayout {
     }
 }
 
-/// The sensor that stands alone or beside the reference: the chosen one, else the first camera, else the reference.
+/// The sensor shown alone or with the reference: the chosen one, else the first camera, else the reference.
 pub(super) fn chosen<'a>(all: &'a [ComparedSensor], chosen: Option<&SensorId>) -> Option<&'a ComparedSensor> {
     let is_chosen =
         |source: &&ComparedSensor| chosen.is_some_and(|id| source.kind == id.kind && source.name == id.name);

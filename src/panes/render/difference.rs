@@ -6,7 +6,7 @@ use crate::figures::render::difference::Scale;
 use crate::panes::context::PaneContext;
 use crate::theme::{SMALL, difference_ramp};
 
-/// The scale: what the ramp's colors stand for.
+/// The color scale of differences.
 pub(super) fn scale(ui: &mut Ui, painter: &Painter, rect: Rect, scale: Scale, name: &str, context: &PaneContext<'_>) {
     let color = context.theme.surround.label();
     let font = FontId::proportional(SMALL);

@@ -1,4 +1,4 @@
-//! Pictures with their captions, the pixel that is kept, the divider.
+//! Drawing of pictures with captions, pinned pixel and divider.
 
 use chromascope_figure::{Ink, InkRole, Mark, Panel, Rect as Area, Shape};
 use egui::{
@@ -24,10 +24,10 @@ const WITH_NOTE: f32 = 150.0;
 const WITH_MEASURE: f32 = 270.0;
 const WITH_QUANTILES: f32 = 470.0;
 const WITH_LARGEST: f32 = 540.0;
-/// The radius of the ring around the pixel that is kept.
+/// The radius of the ring around the pinned pixel.
 const RING: f32 = 7.0;
 
-/// Draws what stands in the pane, as far as it was made.
+/// Draws the pictures of the pane, as far as they are available.
 pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, context: &mut PaneContext<'_>) {
     let shot = context.studio.frame().cloned();
     let scale = shot.as_deref().filter(|_| stand.scale.is_some()).map(maps::Scale::of);
@@ -36,7 +36,7 @@ pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, co
         let index_in =
             |source: &ComparedSensor| shot.as_deref().and_then(|shot| Some((shot, index_of(shot, &id(source))?)));
         let found = index_in(source);
-        // While B is held the reference stands in for every camera; a map of differences has none.
+        // While B is held, the reference replaces every camera; a map of differences has none.
         let blinking = context.view.blink && scale.is_none();
         let drawn = if blinking { stand.sources.first().and_then(index_in) } else { found };
         if let Some((shot, at)) = drawn {
@@ -158,7 +158,7 @@ fn marker(painter: &Painter, rect: Rect, source: &ComparedSensor, context: &Pane
     paint::still(painter, &panel, &context.theme, rect);
 }
 
-/// The ring around the pixel that is kept, in every picture.
+/// The ring around the pinned pixel, in every picture.
 fn ring(painter: &Painter, stand: &PictureLayout, cell: usize, context: &PaneContext<'_>) {
     let Some(pinned) = &context.view.render.pinned else { return };
     let picture = stand.cells[cell].picture;

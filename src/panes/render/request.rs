@@ -17,9 +17,9 @@ use crate::scene::render::Finish;
 use crate::view::render::RenderMode;
 use chromascope_core::render::QualityLevel;
 
-/// Above so many pixels in all, pictures of something that moves have half the resolution.
+/// Total number of pixels above which pictures of a moving scene have half the resolution.
 const MANY_PIXELS: u64 = 1_500_000;
-/// So many samples are compared with the reference while something moves, and at rest.
+/// Maximum number of samples compared with the reference, while something moves and at rest.
 const COMPARED: [usize; 2] = [2048, 16384];
 /// Samples along the side of a pixel in the finest pictures, and the most in all: beyond, there are fewer to a pixel.
 const SAMPLES: u32 = 3;
@@ -27,7 +27,7 @@ const MOST_SAMPLES: u64 = 6_000_000;
 /// Below this tolerance a sample takes sums over wavelengths.
 const TABLES_REACH: f64 = 1e-9;
 
-/// Asks for the pictures that stand here. Says why there are none.
+/// Requests the visible pictures. Returns the reason if there are none.
 pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>) -> Result<(), String> {
     let mesh = mesh(context)?;
     if stand.cells.is_empty() {
@@ -65,7 +65,7 @@ pub(super) fn ask(ui: &Ui, stand: &PictureLayout, context: &mut PaneContext<'_>)
     studio.failure().map_or(Ok(()), |why| Err(format!("No picture: {why}.")))
 }
 
-/// The mesh, or what is to be said while there is none.
+/// The mesh, or the message shown while there is none.
 fn mesh(context: &PaneContext<'_>) -> Result<MeshQuery, String> {
     let own: Option<Shared<Mesh>> = match &context.scene.document.render.mesh {
         MeshChoice::File(path) => match context.meshes.get(path) {

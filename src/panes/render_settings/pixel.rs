@@ -1,4 +1,4 @@
-//! The pixel that is kept, in numbers.
+//! Values of the pinned pixel.
 
 use chromascope_figure::{Cell, Table};
 use egui::{RichText, Ui};
@@ -61,7 +61,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The place in the picture it was kept in or, where that sensor has none now, in the last one that has.
+/// The location in the picture it was pinned in or, if that sensor has none now, in the last one that has.
 fn shown(place: PixelPlace, shot: &RenderedFrame) -> PixelPlace {
     match shot.sources.last() {
         Some(last) if index_of(shot, &place.source).is_none() => {

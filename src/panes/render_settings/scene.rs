@@ -22,7 +22,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
     summary(ui, &settings, context);
     if matches!(settings.mesh, MeshChoice::Head | MeshChoice::Fern | MeshChoice::Sphere) {
-        // The head's cage has so many that a smaller number would change nothing.
+        // The head's mesh has a minimum number of triangles.
         let least = if settings.mesh == MeshChoice::Head { FEWEST as f64 } else { *TRIANGLES.start() };
         let dial = Dial {
             name: "Triangles",

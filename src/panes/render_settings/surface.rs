@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     cautions(ui, &settings, context);
 }
 
-/// The area A that the half-widths stand for.
+/// The area A given by the half-widths.
 fn area(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     ui.horizontal(|ui| {
         for choice in AreaChoice::ALL {

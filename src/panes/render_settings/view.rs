@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     without_picture(ui, context);
 }
 
-/// Names the sensors that are on show elsewhere but have no picture.
+/// Lists the compared sensors that have no picture.
 fn without_picture(ui: &mut Ui, context: &PaneContext<'_>) {
     let rendered = context.scene.rendered_sources();
     let skipped_work = context.scene.sources().into_iter().filter(|source| source.visible);

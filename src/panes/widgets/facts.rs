@@ -113,7 +113,7 @@ pub fn of(scene: &Scene<'_>, entry: &Entry, with_range: bool) -> Vec<Fact> {
         }
         facts.push(("Source", header.source.clone()));
         facts.push(("Terms", header.license.clone()));
-        // The grounds of the response stand beside it.
+        // The grounds of the response are listed with it.
         let told = header.response_note().filter(|_| is_sensor);
         let notes = header.notes.iter().filter(|note| Some(note.as_str()) != told);
         facts.extend(notes.map(|note| ("Note", note.clone())));
@@ -134,7 +134,7 @@ pub fn show(ui: &mut Ui, theme: &Theme, facts: &[Fact]) {
     for (caption, words) in facts {
         let mut job = LayoutJob::default();
         let format = |color| TextFormat { font_id: egui::FontId::proportional(SMALL), color, ..TextFormat::default() };
-        // A caption is said once for several notes.
+        // Several notes share one caption.
         if *caption == last {
             job.append("· ", 0.0, format(theme.weak));
         } else {

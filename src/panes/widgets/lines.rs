@@ -75,7 +75,7 @@ pub fn dots(ui: &Ui, rect: Rect, id: egui::Id, name: &str) -> Response {
     response.on_hover_text(name)
 }
 
-/// A triangle with an exclamation mark: a form beside the color.
+/// A triangle with an exclamation mark: a shape in addition to the color.
 pub fn warning_mark(painter: &Painter, center: Pos2, color: Color32) {
     let at = |x: f32, y: f32| center + Vec2::new(x, y);
     let stroke = egui::Stroke::new(1.3, color);

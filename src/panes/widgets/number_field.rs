@@ -18,13 +18,13 @@ pub struct NumberField<'a> {
     pub speed: f64,
     /// The unit behind the number.
     pub unit: &'a str,
-    /// The name for those who cannot see the caption.
+    /// The accessible name.
     pub name: &'a str,
     /// Explanation under the pointer.
     pub hint: &'a str,
 }
 
-/// The text being typed. One that was refused stays until it is mended, given up, or the number is another.
+/// The text being typed. Rejected text stays until it is corrected or discarded, or the number changes.
 #[derive(Clone)]
 struct Typed {
     /// The number that it is to replace.
@@ -108,7 +108,7 @@ impl NumberField<'_> {
                 chosen.filter(|chosen| *chosen != self.now)
             }
             Err(wrong) => {
-                // Who pressed Enter is still at it.
+                // Enter keeps the focus on a field whose text was rejected.
                 if ui.input(|input| input.key_pressed(Key::Enter)) {
                     response.request_focus();
                 }

@@ -1,6 +1,6 @@
-//! The table of every pane: aligned numbers with units in the head, sorted, filtered, linked with all panes.
+//! Table of every pane: aligned numbers with units in the header, sorted, filtered, linked with all panes.
 //!
-//! Rows and columns in sight are laid out by `egui_table`, which keeps the head and the first column in place.
+//! Visible rows and columns are laid out by `egui_table`, which keeps the header and the first column in place.
 
 mod bar;
 mod body;
@@ -72,7 +72,7 @@ impl<'a> DataTable<'a> {
         Self { pane, id, table, columns, note: None, item: None, first: None, compact: false }
     }
 
-    /// Table with what is said of each column.
+    /// Table with descriptions of its columns.
     #[must_use]
     pub fn with_columns(self, columns: Vec<Column>) -> Self {
         Self { columns, ..self }
@@ -84,7 +84,7 @@ impl<'a> DataTable<'a> {
         Self { note: Some(note), ..self }
     }
 
-    /// Table with what its rows stand for.
+    /// Table with the items of its rows.
     #[must_use]
     pub fn with_items(self, item: &'a dyn Fn(usize) -> Option<PlotItem>) -> Self {
         Self { item: Some(item), ..self }
@@ -198,7 +198,7 @@ impl<'a> DataTable<'a> {
         ui.input(|input| input.events.contains(&Event::Copy))
     }
 
-    /// Rows and columns as shown, in full precision, uncertainties in columns of their own, with the conditions where numbers
+    /// Rows and columns as shown, in full precision, uncertainties in separate columns, with the conditions where numbers
     /// depend on them.
     fn copied(&self, shown: &[usize], order: &[usize], context: &PaneContext<'_>) -> Table {
         let uncertain = |column: usize| {
@@ -235,7 +235,7 @@ impl<'a> DataTable<'a> {
         if let Some(row) = body.output.clicked {
             look.cursor = Some(row);
             if let Some(item) = item(Some(row)) {
-                // A second click at once is a double click, not a change of mind.
+                // A second click shortly after is a double click, not a change of mind.
                 if body.output.activated.is_some() {
                     context.view.selected = Some(item);
                 } else {

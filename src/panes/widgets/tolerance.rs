@@ -19,7 +19,7 @@ struct Typed {
     wrong: Option<String>,
 }
 
-/// Shows slider, text and `words` beside them, and what is wrong below. Returns the tolerance that was chosen.
+/// Shows the slider, the text field with `words`, and an error below. Returns the chosen tolerance.
 pub fn field(ui: &mut Ui, id: Id, now: f64, words: &str, hint: &str, context: &mut PaneContext<'_>) -> Option<f64> {
     let theme = context.theme;
     let kept = ui.data(|data| data.get_temp::<Typed>(id)).filter(|typed| typed.of == now);
@@ -71,7 +71,7 @@ fn shown(tolerance: f64) -> String {
     format!("{tolerance:e}").replace('-', "−")
 }
 
-/// The tolerance that a text requests, or what is wrong with it.
+/// The tolerance of a text, or the error in it.
 fn tolerance(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let (least, largest) = (shown(*TOLERANCES.start()), TOLERANCES.end());

@@ -12,7 +12,7 @@ pub const LOCI: &str = "loci, while Chromaticity is not visible";
 /// The row of the patches.
 pub const PATCHES: &str = "patches of a sensor, while nothing shows them";
 
-/// On how many threads questions are answered here.
+/// Number of threads that evaluate queries here, in words.
 fn threads() -> String {
     match rayon::current_num_threads() {
         1 => "one thread".to_owned(),
@@ -20,7 +20,7 @@ fn threads() -> String {
     }
 }
 
-/// Cameras that are not visible: their signals are made here.
+/// Work skipped for cameras that are not visible: their signals are computed here.
 pub(super) fn cameras(run: &SceneRunJob, pictures: &PicturesQuery, ask: &impl Ask) -> Option<SkippedWork> {
     let ((), seconds) =
         timed(|| run.hidden.iter().for_each(|hidden| drop(ask.ask(&pictures.image(&hidden.rendering)))));

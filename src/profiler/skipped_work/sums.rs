@@ -39,7 +39,7 @@ pub(super) fn dark(sources: &Sources<'_>) -> Option<SkippedWork> {
     })
 }
 
-/// Wavelengths of the grid that were not looked at: the sums over all are made here.
+/// Skipped wavelengths of the grid: the sums over all are computed here.
 pub(super) fn wavelengths(sources: &Sources<'_>) -> Option<SkippedWork> {
     let lit = sources.lit();
     let (mut looked_at, mut all) = (0, 0);

@@ -36,7 +36,7 @@ fn pictures_that_are_not_on_show_are_made_from_nothing() {
     let mut pictures = SceneRunJob::of(&scene, None, None).pictures.expect("there is a mesh");
     pictures.shading.geometry.visibility.mesh = MeshQuery::Sphere(2000);
     pictures.shading.geometry.visibility.size = RasterSize { width: 16, height: 12, samples: 1 };
-    // Whoever asks has all of it at hand.
+    // The rows are computed from cached inputs.
     let asking = Results::default();
     asking.ask(&pictures);
     let asked =

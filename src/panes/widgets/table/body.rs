@@ -1,4 +1,4 @@
-//! Head and rows of a table; only those in sight are laid out.
+//! Header and rows of a table; only visible ones are laid out.
 
 use chromascope_figure::Cell;
 use egui::{Id, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, UiBuilder, Vec2, WidgetInfo};
@@ -71,7 +71,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Takes in a selection that the keyboard made.
+    /// Applies a selection made by keyboard.
     pub(super) fn follow(&mut self, look: &TableLook, context: &PaneContext<'_>) {
         self.cursor = look.cursor;
         self.selected.clone_from(&context.view.selected);
@@ -132,7 +132,7 @@ impl<'a> Body<'a> {
         table.show(&mut child, self);
     }
 
-    /// Lays out all rows, in sight or not: a few between other lines of text.
+    /// Lays out all rows, visible or not: a few within other text.
     fn lay_out(&mut self, ui: &mut Ui, rect: Rect, widths: &[f32]) {
         let edges: Vec<f32> = std::iter::once(rect.left())
             .chain(widths.iter().scan(rect.left(), |x, width| {

@@ -7,13 +7,13 @@ use crate::theme::UNIT;
 
 /// Widest column of text, in points; what is longer is cut and read under the pointer.
 const WIDEST_TEXT: f64 = 260.0;
-/// Widest head beside shorter cells.
+/// Maximum width of a header above shorter cells.
 const WIDEST_HEAD: f64 = 150.0;
 /// Narrowest column.
 const NARROWEST: f64 = 40.0;
 /// Rows that the width of a column of text is taken from.
 const MEASURED_ROWS: usize = 2000;
-/// Significant digits of numbers without decimals of their own.
+/// Significant digits of numbers without a fixed number of decimals.
 const DIGITS: i32 = 6;
 /// Units that names of columns in files end in.
 const SUFFIXES: [(&str, &str); 4] = [("_nm", "nm"), ("_k", "K"), ("_ms", "ms"), ("_px", "px")];
@@ -60,13 +60,13 @@ impl Column {
 pub(super) enum Form {
     /// Text, flush left.
     Text,
-    /// Numbers with this many decimals, flush right, so that decimal points stand below each other.
+    /// Numbers with this many decimals, right-aligned, so that decimal points line up.
     Fixed(usize),
     /// Numbers over many powers of ten.
     Scientific,
 }
 
-/// Air beside a cell's content, left and right, in points.
+/// Padding left and right of a cell's content, in points.
 pub(super) fn air(compact: bool) -> [f32; 2] {
     if compact { [0.0, 3.0 * UNIT] } else { [2.0 * UNIT; 2] }
 }
@@ -147,7 +147,7 @@ fn form(column: &Column, numbers: impl Iterator<Item = f64> + Clone, has_text: b
     }
 }
 
-/// A number in its column's form, or with decimals of its own: then padded, so that points stay below each other.
+/// A number in its column's format, or with its own decimals: then padded, so that decimal points line up.
 pub(super) fn words(value: f64, form: Form, decimals: Option<usize>) -> String {
     match (form, decimals) {
         (Form::Fixed(column), Some(own)) if own < column => {
