@@ -190,7 +190,7 @@ impl Action {
     }
 }
 
-/// Begins again from a named start, with the imported sets at hand.
+/// Begins again from a named start, with the imported sets available.
 fn begin(document: &mut Document, start: Start) {
     let own = std::mem::take(&mut document.own);
     let unknown = std::mem::take(&mut document.unknown);

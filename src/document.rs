@@ -103,7 +103,7 @@ fn yes() -> bool {
 pub enum Light {
     /// A data set.
     Set(String),
-    /// A black body of the document's temperature.
+    /// A blackbody of the document's temperature.
     BlackBody,
     /// CIE daylight of the document's temperature.
     Daylight,
@@ -131,7 +131,7 @@ pub enum WhiteBalanceChoice {
     Light(String),
     /// CIE daylight of a temperature in kelvins.
     Daylight(f64),
-    /// A black body of a temperature in kelvins.
+    /// A blackbody of a temperature in kelvins.
     BlackBody(f64),
 }
 

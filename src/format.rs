@@ -1,4 +1,4 @@
-//! Numbers, times and messages of libraries as text for people.
+//! Numbers, times and messages of libraries as text for display.
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Chromascope's window and command line, as a library for its tests.
 //!
 //! ```text
-//! format  terminal  theme      text for people, standard error, colors and sizes
+//! format  terminal  theme      text for display, standard error, colors and sizes
 //! document ─► action           what is compared under what; its changes, and undo
 //! results ─► jobs              answers, the only cache; computations in the background
 //! catalog ─► scene             data sets; names become data, choices become queries

@@ -28,7 +28,7 @@ pub enum PlotItem {
         /// The patch's name.
         patch: String,
     },
-    /// A black body through a sensor.
+    /// A blackbody through a sensor.
     Radiator {
         /// The sensor.
         source: SensorId,

@@ -81,7 +81,7 @@ pub enum Subject {
     /// The spectral integral of the rendered samples.
     #[default]
     Integral,
-    /// Black bodies through a sensor.
+    /// Blackbodies through a sensor.
     Loci,
 }
 

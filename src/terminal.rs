@@ -1,4 +1,4 @@
-//! Text for people on a terminal: nothing in it is an order to the terminal.
+//! Text for display on a terminal: without control sequences.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;

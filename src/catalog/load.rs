@@ -148,7 +148,7 @@ impl LoadedLight {
 pub enum LightQuery {
     /// A data set.
     Set(Place),
-    /// A black body.
+    /// A blackbody.
     BlackBody(Kelvin),
     /// CIE daylight.
     Daylight(Kelvin),

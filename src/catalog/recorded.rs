@@ -73,7 +73,7 @@ pub enum RawTableError {
         /// Number of heads.
         expected: usize,
     },
-    /// A cell that is no number.
+    /// A cell that is not a number.
     #[error("line {line}, column {column}: \"{text}\" is not a number; leave a missing value empty")]
     Number {
         /// The line, from 1.

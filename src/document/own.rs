@@ -92,7 +92,7 @@ pub struct OwnSet {
     pub channels: [usize; 3],
     /// The curves, as read.
     pub curves: Vec<OwnCurve>,
-    /// Decisions made on reading, one line each, for people.
+    /// Decisions made on reading, one line each, for display.
     #[serde(default)]
     pub decisions: Vec<String>,
 }

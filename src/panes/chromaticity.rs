@@ -147,8 +147,8 @@ fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<
     }
 }
 
-/// The correlated color temperature of a color and how far it is from that black body, for the observer of the diagram; none while
-/// that is being found out, and for colors that are like no black body.
+/// The correlated color temperature of a color and how far it is from that blackbody, for the observer of the diagram; none while
+/// that is being found out, and for colors that are like no blackbody.
 fn nearest_black_body(color: UvPrime, context: &PaneContext<'_>) -> Option<String> {
     let observer = context.scene.sensor(SetKind::Observer, FIT_TARGET).ok()?;
     context.radiators.ask(vec![NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper }]);
@@ -165,7 +165,7 @@ fn nearest_black_body(color: UvPrime, context: &PaneContext<'_>) -> Option<Strin
     })
 }
 
-/// Replaces a locus line's item with the black body nearest to the pointer.
+/// Replaces a locus line's item with the blackbody nearest to the pointer.
 fn thing_at(context: &PaneContext<'_>, built: &Built, hit: &paint::Hit) -> Option<PlotItem> {
     let thing = built.things.get(hit.tag)?.clone();
     let PlotItem::Sensor(source) = &thing else { return Some(thing) };

@@ -59,7 +59,7 @@ pub struct PaneContext<'a> {
     pub opened: &'a Opened,
     /// The file of recorded raw values.
     pub recorded: &'a RecordedStore,
-    /// Finds the nearest black body of a color, on demand.
+    /// Finds the nearest blackbody of a color, on demand.
     pub radiators: &'a Background<NearestBlackBodyQuery>,
     /// Color corrections with their errors, once they are made.
     pub corrections: &'a Background<CorrectionSheetQuery>,

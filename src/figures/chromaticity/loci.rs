@@ -82,7 +82,7 @@ fn at_temperature(drawing: &Drawing<'_>, source: &ComparedSensor, kelvin: f64) -
     drawing.place_of(point.xy, point.uv)
 }
 
-/// A black body of one temperature through a sensor.
+/// A blackbody of one temperature through a sensor.
 fn radiator(scene: &Scene<'_>, source: &ComparedSensor, kelvin: f64) -> Option<LocusPoint> {
     if kelvin == scene.document.temperature_k {
         return scene.locus_mark(source.kind, &source.name).ok()?.points.first().copied();

@@ -23,7 +23,7 @@ pub struct ImportSelection {
     pub wishes: ImportOverrides,
     /// True if the document does not contain this yet.
     pub pending: bool,
-    /// The file's contents, if they are at hand.
+    /// The file's contents, if they are available.
     pub file: Option<OpenFile>,
     /// Preview of the contents, present or last.
     pub look: Option<Arc<FilePreview>>,

@@ -52,7 +52,7 @@ pub(super) struct Entry {
     pub(super) note: String,
     /// Path on disk, if there is one.
     pub(super) path: Option<PathBuf>,
-    /// True if its contents are at hand.
+    /// True if its contents are available.
     pub(super) at_hand: bool,
 }
 

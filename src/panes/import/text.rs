@@ -63,7 +63,7 @@ fn forms(ui: &Ui, rect: Rect, context: &PaneContext<'_>) {
     painter.galley(at, std::sync::Arc::clone(galley), context.theme.text);
 }
 
-/// A number of bytes for people.
+/// A number of bytes for display.
 fn size(bytes: usize) -> String {
     match bytes {
         0..1000 => format!("{bytes} bytes"),

@@ -94,7 +94,7 @@ fn patches(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneCo
     numbers::show(ui, "pinned patches", &heads, &numbers::of_patches(scene, &colors), context);
 }
 
-/// Pinned black bodies; the reference is first where all have the same temperature.
+/// Pinned blackbodies; the reference is first where all have the same temperature.
 fn radiators(ui: &mut Ui, scene: &Scene<'_>, things: &[PlotItem], context: &PaneContext<'_>) {
     let mut heads = Vec::new();
     let mut points = Vec::new();

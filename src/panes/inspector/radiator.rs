@@ -1,4 +1,4 @@
-//! A black body through a sensor.
+//! A blackbody through a sensor.
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::{LocusPoint, Temperatures, compare};

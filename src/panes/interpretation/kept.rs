@@ -1,4 +1,4 @@
-//! A set whose file is not at hand: what can be changed by its values alone.
+//! A set whose file is not available: what can be changed by its values alone.
 
 use egui::{RichText, Ui};
 use spectral_file::Values;
