@@ -27,7 +27,7 @@ pub enum Ticks {
     /// Round numbers, as many as there is room for.
     #[default]
     Auto,
-    /// At the given values with the given labels. Labels too close to others are left out, their grid lines stay.
+    /// At the given values with the given labels. Labels too close to others are omitted, their grid lines stay.
     At(Vec<(f64, String)>),
 }
 
@@ -46,7 +46,7 @@ impl Axis {
         Self { label: label.into(), range, ticks: Ticks::Auto, grid: true }
     }
 
-    /// An axis nobody sees.
+    /// An invisible axis.
     pub fn hidden(range: [f64; 2]) -> Self {
         Self { label: String::new(), range, ticks: Ticks::None, grid: false }
     }

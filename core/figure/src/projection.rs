@@ -50,7 +50,7 @@ impl Projection {
         let (mut x, mut y) = (panel.x.proper_range(), panel.y.proper_range());
         let mut left = Self::left(panel, y, height, text_scale);
         if panel.equal_aspect {
-            // The ticks' room depends on the range, which depends on the room: once more is enough for a label's width.
+            // The ticks' room depends on the range, which depends on the room: one repetition is enough for a label's width.
             for _ in 0..2 {
                 let size = [(area.width() - left).max(1.0), height];
                 (x, y) = fit_equal(panel.x.range, panel.y.range, size);

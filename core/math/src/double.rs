@@ -162,7 +162,8 @@ impl Double {
         sum
     }
 
-    /// The natural logarithm of a positive number, also near 1: one step of Newton's from the double's. Of others no number.
+    /// The natural logarithm of a positive number, also near 1: one step of Newton's method from the double's. NaN for
+    /// others.
     ///
     /// ```text
     /// x = 2^k m,  √½ ≤ m ≤ √2;   y₀ ≈ ln m;   ln x = k ln 2 + y₀ + (m e^-y₀ - 1)

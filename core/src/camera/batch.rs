@@ -8,11 +8,11 @@ pub use kernel::Sample;
 
 /// Pieces of work, if there are spectra enough: more than threads, so that none waits long for the last.
 const PIECES: usize = 32;
-/// The most samples of a piece: the first spectra of each, which nothing could ask for ahead, are below a hundredth of it.
+/// The most samples of a piece: the first spectra of each, which nothing could request ahead, are below a hundredth of it.
 const LONGEST: usize = 1 << 18;
-/// Bytes that a cache may still hold when they are asked for again.
+/// Bytes that a cache may still hold when they are requested again.
 const NEAR: usize = 1 << 20;
-/// Below this many products the work is done where it is asked for: waking other threads takes longer.
+/// Below this many products the work is done where it is requested: waking other threads takes longer.
 const ALONE: usize = 1 << 20;
 
 /// Reason that numbers make no batch.

@@ -11,7 +11,7 @@ use std::ops::Deref;
 const RANGE_MIRED: [f64; 2] = [10.0, 2000.0];
 /// Points that are looked at first, evenly in reciprocal temperature.
 const POINTS: usize = 400;
-/// Farther from the locus, in the CIE 1960 diagram, a correlated color temperature says nothing (CIE 15).
+/// Distance from the locus in the CIE 1960 diagram beyond which a correlated color temperature is meaningless (CIE 15).
 const FARTHEST_UV: f64 = 0.05;
 /// Share of a reciprocal temperature over which the locus's direction is taken.
 const STEP: f64 = 1e-4;

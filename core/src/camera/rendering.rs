@@ -47,7 +47,7 @@ pub enum RenderingError {
         /// The channel, 0 to 2.
         channel: usize,
     },
-    /// Cone fundamentals are no RGB, so Eq 13 says nothing about them.
+    /// Cone fundamentals are not RGB, so that Eq 13 is undefined for them.
     #[error("Eq 13 takes RGB, not cone signals; choose a fitted color transform")]
     ConesNeedObserver,
     /// The reference of a fit must count in XYZ.
@@ -74,7 +74,7 @@ pub enum RenderingError {
     /// The fit to the reference observer has no answer.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// The integrals cannot be made as exactly as was asked for.
+    /// The integrals cannot be computed within the requested tolerance.
     #[error(transparent)]
     Accuracy(#[from] Unmet),
 }

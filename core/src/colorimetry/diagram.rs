@@ -14,7 +14,7 @@ pub struct SpectralPoint {
     pub xy: Xy,
 }
 
-/// The chromaticities of monochromatic light for an observer that counts in XYZ; wavelengths without response are left out.
+/// The chromaticities of monochromatic light for an observer that counts in XYZ; wavelengths without response are omitted.
 pub fn spectral_locus(observer: &Sensor) -> Vec<SpectralPoint> {
     (0..COUNT)
         .filter_map(|index| {

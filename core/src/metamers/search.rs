@@ -89,7 +89,7 @@ const LARGEST_S_L: f64 = 1.75;
 /// ```
 /// `L*(I)` is the CIE lightness of a balanced channel. The list is sorted by one coordinate in which confused colors are near (green, or
 /// L* by `|ΔL*| ≤ 1.75 ΔE*00`), so that only neighbors are compared: about `n² w` pairs for windows of a share w of the range, and ΔE*00 of
-/// those alone whose channels decide nothing. Every pair within the limits is found. Colors that are not finite are left out.
+/// those alone whose channels decide nothing. Every pair within the limits is found. Colors that are not finite are omitted.
 pub fn search(colors: &[Seen], confusion: Confusion, limits: MetamerLimits, most: usize) -> Vec<MetamerPair> {
     let levels: Vec<[f64; 3]> = colors.iter().map(Seen::levels).collect();
     let (key, window): (Vec<f64>, f64) = match confusion {

@@ -20,7 +20,7 @@ use crate::spectral::{GridSpectrum, Sensor, SpectralDistribution};
 pub struct RenditionQuery {
     /// The light as measured.
     pub light: Shared<SpectralDistribution>,
-    /// What the indices are defined with.
+    /// Standard data from which the indices are computed.
     pub standards: Shared<Standards>,
 }
 
@@ -55,7 +55,8 @@ impl Query for RenditionQuery {
     }
 }
 
-/// How far the colors of a camera under a light are from its colors under the reference illuminant: the idea of EBU's television
+/// Color consistency of a camera: differences of its colors under a light from those under the reference illuminant. The idea of
+/// EBU's television lighting consistency index, for any camera.
 /// lighting consistency index, for any camera.
 ///
 /// ```text

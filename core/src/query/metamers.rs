@@ -23,7 +23,7 @@ pub struct MetamersQuery {
     pub confusion: Confusion,
     /// Differences that count.
     pub limits: MetamerLimits,
-    /// The most pairs that are told.
+    /// Maximum number of pairs in the result.
     pub most: usize,
 }
 

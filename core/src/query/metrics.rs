@@ -1,4 +1,4 @@
-//! Figures of merit of a camera under conditions: the table of metrics, and the question for all of them at once.
+//! Figures of merit of a camera under conditions: the table of metrics, and the query for all of them together.
 //!
 //! A metric is one entry of [`CameraMetric::ALL`]. Documents, the command line, tables and the window list whatever stands there.
 
@@ -39,7 +39,7 @@ pub enum WhyNot {
     /// A color or a locus that is not on the diagram.
     #[error("the blackbody has no chromaticity on one of the loci; choose another temperature")]
     NoLocus,
-    /// A color temperature that says nothing.
+    /// A meaningless color temperature.
     #[error(
         "the color is farther than 0.05 in CIE 1960 u, v from the reference's locus, or beyond 500 K to 100 000 K there, \
          so it has no correlated color temperature"

@@ -12,7 +12,7 @@ use super::power::{LAMBDA_0_NM, beta, coherent_prefactor, diffuse_prefactor, kap
 use super::surface::Surface;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// sin x / x, 1 at 0. An infinite x gives 0, and so does what is no number.
+/// sin x / x, 1 at 0. Infinite x and NaN give 0.
 pub fn sinc(x: f64) -> f64 {
     if x == 0.0 {
         1.0

@@ -7,7 +7,7 @@ use glam::DVec3;
 /// ```text
 /// v_x/k = sin θi − sin θs cos φs      along the plane of incidence
 /// v_y/k = −sin θs sin φs              across it
-/// v_z/k = −(cos θi + cos θs)          the sign is left out here
+/// v_z/k = −(cos θi + cos θs)          the sign is omitted here
 /// ```
 /// In vectors, with l to the light, v to the viewer, n the normal and h = l + v: `|v_xy|/k = |h × n|`, `|v_z|/k = h·n`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -191,7 +191,7 @@ pub fn beta(surface: &Surface, geometry: &Geometry) -> f64 {
     bounded(ratio * ratio * geometry.vxy2_by_k2)
 }
 
-/// The value, cut at [`LARGEST`]; 0 for what is no number.
+/// The value, cut at [`LARGEST`]; 0 for NaN.
 #[inline]
 fn bounded(value: f64) -> f64 {
     // `min` would take the bound in place of NaN.

@@ -81,7 +81,7 @@ pub struct ShadingCounts {
     pub spectral: u64,
     /// Samples with a mirror term.
     pub mirrors: u64,
-    /// Samples whose mirror term was left out.
+    /// Samples whose specular component was omitted.
     pub mirrors_skipped: u64,
 }
 
@@ -289,7 +289,7 @@ impl Material {
         let shade = |index| if stop.is_set() { Shade::DARK } else { self.shade(&place(index)) };
         let shades: Vec<Shade> = (0..count).into_par_iter().with_min_len(chunk).map(shade).collect();
         let (diffuse, share) = (Brightness::of(&shades), self.quality.mirror_share());
-        // What the lobes add to the picture's brightness leaves out more, never less.
+        // The lobes' own contribution to the brightness would raise this limit, never lower it.
         let least = share * diffuse.brightest * self.darkest;
         let lobes = |run: usize| {
             let all = (run * chunk..count.min((run + 1) * chunk)).take_while(|_| !stop.is_set());

@@ -42,7 +42,7 @@ const ROUGHNESSES: [(&str, f64); 4] = [
     ("full, \u{3c3} 0.05 µm", 0.05e-6),
 ];
 
-/// Parts that no frame makes anew.
+/// Parts that are not recomputed per frame.
 #[derive(Clone)]
 struct RenderService {
     mesh: Arc<Mesh>,
@@ -88,7 +88,7 @@ impl RenderService {
         images.map(|(measure, plan)| CameraImage::new(&shading, measure, plan.clone(), stop)).collect()
     }
 
-    /// The plans of a frame of this size, one for each source; none where the tolerance cannot be kept, or if stopped.
+    /// The plans of a frame of this size, one for each sensor; `None` if the tolerance cannot be met, or if stopped.
     fn plans(&self, side: u32, quality: Quality, stop: &Stop) -> Option<Vec<Arc<Plan>>> {
         let shading = self.shading(side, quality, stop)?;
         let plans = self.sources.iter().map(|measure| Plan::for_picture(&shading, measure).ok().map(Arc::new));

@@ -153,7 +153,7 @@ fn plans<'a>(
     bench.pools.counts().into_iter().filter_map(on).collect()
 }
 
-/// All pixels as a plan says, in pieces that several threads can share.
+/// Evaluates all pixels by a plan, in pieces for several threads.
 fn planned<'a>(plan: Plan, points: &'a [[f64; 2]], room: &'a Room<Signals>, error: ErrorOf) -> Candidate<'a> {
     let explanation = plan.explanation();
     let name = format!("plan for {}: {}", explanation.asked, explanation.chosen.method.name());

@@ -10,7 +10,7 @@ use super::lines::{Cursor, Word};
 use super::report::Skipped;
 use super::soup::{Corner, NONE, Names, Smoothing, Soup};
 
-/// The most changes of name that are kept.
+/// Maximum number of name changes that are stored.
 const MAX_GROUPS: usize = 65_536;
 
 /// The present object, group and material.

@@ -3,7 +3,7 @@
 use crate::camera::rendering::Rendering;
 use glam::{DMat3, DVec3};
 
-/// Reflectance of the gray whose noise is told.
+/// Reflectance of the gray whose noise is reported.
 const GRAY: f64 = 0.18;
 
 /// Noise gains from raw RGB to linear sRGB.
@@ -16,7 +16,7 @@ pub struct NoiseAmplification {
     /// Noise of linear red, green and blue for unit independent noise of the raw channels: the lengths of the rows of N.
     pub rows: [f64; 3],
     /// Noise-gain factor Ψ of US patent 5609978 (1997): sum of the lengths of the rows of M, the matrix from balanced exposures to those
-    /// of the primaries of BT.709. 3 for a camera that needs no matrix; the patent asks for 6.5 at most.
+    /// of the primaries of BT.709. 3 for a camera that needs no matrix; the patent requires at most 6.5.
     pub psi: f64,
     /// Condition number of N: ratio of its largest to its smallest singular value.
     pub condition: f64,

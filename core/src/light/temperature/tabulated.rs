@@ -141,7 +141,7 @@ fn whole_table(observer: &Sensor, mired: f64) -> Option<Uv60> {
     Some(Xyz { x, y, z }.uv_prime()?.uv60())
 }
 
-/// Ohno 2013: the nearest of 305 black bodies, a hundredth apart, and its two neighbors; from 1000 to 20 000 K.
+/// Ohno 2013: the nearest of 305 blackbodies, a hundredth apart, and its two neighbors; from 1000 to 20 000 K.
 ///
 /// Close to the locus (|Duv| < 0.002) the foot of a triangle over the two neighbors, further off the lowest point of a parabola
 /// through the three distances; both times his factor for a table in steps of 1 %. Measured within 4e-4 of the temperature, worst

@@ -1,4 +1,4 @@
-//! All that metrics are computed from: questions of their own, so that each is answered once whatever else changes.
+//! Inputs of the metrics, as separate queries, so that each is computed once whatever else changes.
 
 use super::differences::{PatchDifferences, Way};
 use super::{CameraMetricsQuery, WhyNot};
@@ -25,7 +25,7 @@ pub struct IndexConditions {
     pub patches: Shared<PatchSet>,
 }
 
-/// What the index's observer sees of its patches.
+/// Colors of the patches for the observer of the index.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct IndexSamplesQuery(IndexConditions);
 

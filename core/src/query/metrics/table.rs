@@ -273,7 +273,7 @@ const SNR: CameraMetric = CameraMetric {
     ..NOISE
 };
 
-/// What metrics of a group have in common.
+/// Common values of the metrics of a group.
 const DIFFERENCE: CameraMetric = CameraMetric {
     id: "",
     column: "",

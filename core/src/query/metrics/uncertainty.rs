@@ -22,7 +22,7 @@ impl Replicates {
     /// Takes the tables of each model; one that equals another of the same model within a factor for each channel and 1e-5 of its RMS is
     /// the same measurement and counts once.
     ///
-    /// Models keep their places, also those with fewer than two independent tables, which tell nothing.
+    /// Models keep their indices, also those with fewer than two independent tables, which contribute nothing.
     pub fn new(models: impl IntoIterator<Item = Vec<Shared<Sensor>>>) -> Self {
         let independent = |tables: Vec<Shared<Sensor>>| {
             let mut kept: Vec<Shared<Sensor>> = Vec::new();
@@ -54,7 +54,7 @@ fn same_measurement(a: &Sensor, b: &Sensor) -> bool {
     })
 }
 
-/// Values of all metrics of one table, without uncertainties: asked for by every camera that takes its uncertainty from it.
+/// Values of all metrics of one table, without uncertainties: shared by all cameras whose uncertainty depends on it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct TableMetricsQuery(CameraMetricsQuery);
 
@@ -91,7 +91,7 @@ pub(super) fn standard_uncertainties(of: &CameraMetricsQuery, ask: &impl Ask) ->
     (0..CameraMetric::ALL.len()).map(|metric| pooled(&models, metric)).collect()
 }
 
-/// The same question of another table; what does not matter to it is left out, so that equal questions are equal.
+/// Query for another table of the model; irrelevant fields are reset, so that equal queries compare equal.
 fn table_query(of: &CameraMetricsQuery, sensor: &Shared<Sensor>) -> TableMetricsQuery {
     let rendering = RenderingQuery { sensor: sensor.clone(), ..of.rendering.clone() };
     let replicates = Shared::new(Replicates::default());

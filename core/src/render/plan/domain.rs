@@ -21,7 +21,7 @@ const SPAN: i16 = 40;
 const ROUGH_POWER: i16 = 7;
 const TABLE_POWERS: (i16, i16) = (-12, 12);
 const FAR_POWERS: (i16, i16) = (-28, 28);
-/// Numbers of samples of pictures are rounded up to a multiple of so many powers of two.
+/// Numbers of samples are rounded up to powers of two whose exponent is a multiple of this.
 const SAMPLE_POWERS: u16 = 6;
 
 impl Demand {

@@ -1,4 +1,5 @@
-//! Many samples at once: what takes no sum over wavelengths is done together, so that it vectorizes.
+//! Batch evaluation of samples: those without a sum over wavelengths are evaluated together, so that the loop
+//! vectorizes.
 
 use super::Plan;
 use super::table::{Around, Table};
