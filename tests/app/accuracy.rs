@@ -1,4 +1,4 @@
-//! The Accuracy workspace: measured on the scene on show, by a person's wish alone.
+//! Tests of the Accuracy workspace: the visible scene is measured, and only on request.
 
 use std::sync::Arc;
 

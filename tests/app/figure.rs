@@ -386,7 +386,7 @@ fn the_pointer_reads_the_nearest_black_body() {
         if read.contains("Duv +0.00") || read.contains("Duv −0.00") {
             break read;
         }
-        // Not every place is near a black body, and some are on a thing.
+        // Not every place is near a blackbody, and some are on a thing.
         at.x += 5.0;
         if at.x > 640.0 {
             at = egui::pos2(400.0, at.y - 9.0);

@@ -1,4 +1,4 @@
-//! What Import and the plots beside it look like: nothing is written over curves or over other words.
+//! Appearance of Import and its plots: no text overlaps curves or other text.
 
 use chromascope::catalog::import::import;
 use chromascope::document::{Document, SetKind};

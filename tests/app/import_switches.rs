@@ -71,13 +71,13 @@ fn numbers(window: &Window) -> Vec<(Vec<f64>, Vec<f64>)> {
     curves.into_iter().map(|(_, curve)| (curve.wavelengths_nm().to_vec(), curve.values().to_vec())).collect()
 }
 
-/// Whether something on screen says this.
+/// True if a control on screen contains these words.
 pub(crate) fn says(window: &Window, words: &str) -> bool {
     let said = |text: Option<String>| text.is_some_and(|text| text.contains(words));
     window.query_all_by(|node| said(node.label()) || said(node.value())).next().is_some()
 }
 
-/// What a closed list says after its caption.
+/// Text of a closed drop-down list after its caption.
 pub(crate) fn closed(window: &Window, caption: &str) -> String {
     let head = format!("{caption}: ");
     let node =

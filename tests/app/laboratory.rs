@@ -1,4 +1,4 @@
-//! What runs measure, of which scene, and what is said of that.
+//! Tests of measurements: their scene, their results and their descriptions.
 
 use chromascope::action::{Action, RenderAction, SceneAction};
 use chromascope::catalog::Catalog;
@@ -20,7 +20,7 @@ use crate::screenshots::{accuracy, driven, open};
 
 const KEPT: &str = "Measured results are lost when the program ends; export them to save them.";
 
-/// What the default cameras cost on a small picture of a sphere.
+/// Measurement job of the default cameras on a small picture of a sphere.
 fn small(change: impl FnOnce(&mut Document)) -> SceneRunJob {
     let mut document = Document::paper();
     (document.render.mesh, document.render.triangles) = (MeshChoice::Sphere, 2000);

@@ -1,4 +1,4 @@
-//! Workspace Metrics: ranking beside the window, links, head to head, report card, exports.
+//! Workspace Metrics: ranking in the background, links, side by side, report card, exports.
 
 use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::app::ChromascopeApp;
@@ -25,7 +25,7 @@ use crate::screenshots::driven_with;
 
 type Window = Harness<'static, ChromascopeApp>;
 
-/// The window with the workspace on show, nothing ranked yet.
+/// The window with the Metrics workspace, nothing ranked yet.
 fn open() -> (Executor, Window) {
     let (executor, mut window) = driven_with(Document::colorimetry(), [1600.0, 1400.0], egui::Theme::Dark);
     window.state_mut().push(Command::Show(Workspace::Metrics));
@@ -33,7 +33,7 @@ fn open() -> (Executor, Window) {
     (executor, window)
 }
 
-/// The same, all cameras ranked.
+/// The window with the Metrics workspace, all cameras ranked.
 fn ranked() -> (Executor, Window) {
     let (executor, mut window) = open();
     window.state().ranking().wait();

@@ -1,4 +1,4 @@
-//! The Render workspace: what it shows, what it asks for, and what it does not.
+//! The Render workspace: what it shows, what it requests, and what it does not.
 
 use std::path::Path;
 use std::time::Duration;
@@ -41,7 +41,7 @@ fn render(window: &mut Window, change: impl FnOnce(&mut RenderSettings)) {
     window.run_steps(1);
 }
 
-/// The workspace with a coarse head, so that nobody waits.
+/// The workspace with a coarse head, for speed.
 fn window(size: [f32; 2], theme: egui::Theme) -> Window {
     in_render(open(size, theme))
 }
@@ -57,17 +57,17 @@ fn small() -> Window {
     window([900.0, 600.0], egui::Theme::Dark)
 }
 
-/// How often a kind of question was computed.
+/// Number of computations of a kind of query.
 fn made(window: &Window, name: &str) -> u64 {
     window.state().results().counts().get(name).map_or(0, |count| count.misses)
 }
 
-/// How often each kind of question was computed.
+/// Number of computations of each kind of query.
 fn computed(window: &Window) -> Vec<(&'static str, u64)> {
     window.state().results().counts().into_iter().map(|(name, count)| (name, count.misses)).collect()
 }
 
-/// The captions of the pictures on show.
+/// The captions of the visible pictures.
 fn captions(window: &Window) -> Vec<String> {
     let labels = window.query_all_by(|node| node.value().is_some_and(|label| label.starts_with("Picture: ")));
     labels.filter_map(|node| node.accesskit_node().value()).collect()
@@ -238,7 +238,7 @@ fn a_hidden_camera_is_not_computed() {
     window.state_mut().push(Action::Compare(hide));
     settle(&mut window);
     assert_eq!(captions(&window).len(), 3);
-    // A change that asks for the finest pictures alone, so that none is begun and given up on the way.
+    // A change that requests the finest pictures alone, so that none is begun and given up on the way.
     let pictures = made(&window, "picture");
     render(&mut window, |settings| settings.exposure_ev = 0.5);
     settle(&mut window);
@@ -445,7 +445,7 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
     assert_eq!(window.state().history().undo_name(), Some("Test"), "the choice stays");
 }
 
-/// How often the stages of a mesh were computed when the mesh has changed, with a pane beside the pictures.
+/// Number of computations of the stages of a mesh after a change of the mesh, with another pane next to the pictures.
 fn made_for_a_mesh(beside: PaneKind) -> [u64; 4] {
     const STAGES: [&str; 4] = ["mesh", "shadow tree", "visibility", "geometry"];
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);

@@ -1,4 +1,5 @@
-//! The path that is typed where the system has no file dialog: Enter saves, what exists is asked about, nothing typed is lost.
+//! Tests of the path prompt where the system has no file dialog: Enter saves, existing files must be confirmed, typed text is
+//! never lost.
 
 use std::fs;
 

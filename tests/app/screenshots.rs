@@ -226,7 +226,7 @@ fn import() {
     check(harness, "import.png");
 }
 
-/// What was measured on the first screen's scene, once: times are never the same twice.
+/// Recorded measurements of the first screen's scene, as times are never repeatable.
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Measured {
     pub(crate) run: SceneRun,
@@ -234,7 +234,7 @@ pub(crate) struct Measured {
 }
 
 impl Measured {
-    /// As kept in a file; with `RECORD_MEASUREMENTS=1` measured anew (meant for an optimized build) and kept.
+    /// As saved in a file; with `RECORD_MEASUREMENTS=1` measured again (meant for an optimized build) and saved.
     pub(crate) fn kept() -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/app/measured.json");
         if std::env::var_os("RECORD_MEASUREMENTS").is_some() {

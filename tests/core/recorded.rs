@@ -59,7 +59,7 @@ fn the_camera_that_recorded_comes_first_without_residual() {
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
     assert_eq!(ranked[0].1, NIKON_D70);
     assert!(ranked[0].0 < 1e-13, "{}", ranked[0].0);
-    // The next camera is told apart by far more than rounding.
+    // The next camera differs by far more than rounding.
     assert!(ranked[1].0 > 1e-3, "{ranked:?}");
 }
 

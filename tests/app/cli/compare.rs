@@ -1,4 +1,4 @@
-//! Rankings of cameras, as a person asks for them.
+//! Rankings of cameras, as the user requests them.
 
 use chromascope::catalog::Catalog;
 use chromascope::document::{Document, SetKind, TRAINING};

@@ -37,7 +37,7 @@ pub(super) fn apart(a: &Pictures, b: &Pictures) -> f64 {
     worst
 }
 
-/// Whether `CHROMASCOPE_THOROUGH` asks for more cases than a usual run takes.
+/// True if `CHROMASCOPE_THOROUGH` requests more cases than in a usual run.
 fn thorough() -> bool {
     std::env::var_os("CHROMASCOPE_THOROUGH").is_some()
 }
