@@ -71,7 +71,7 @@ pub enum SceneAction {
     SetSubset(Subset),
     /// Another white.
     SetWhite(WhiteBalanceChoice),
-    /// Another way to the diagram.
+    /// Another color transform.
     SetWay(TransformChoice),
     /// Another color correction; where Eq 13 was chosen, a transform is fitted to the default observer.
     SetCorrection(CorrectionChoice),

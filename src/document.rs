@@ -54,7 +54,7 @@ pub struct Document {
     pub subset: Subset,
     /// The color a perfect white is to take.
     pub white: WhiteBalanceChoice,
-    /// The way from signals to the diagram.
+    /// Color transform from sensor signals to XYZ.
     pub transform: TransformChoice,
     /// Method by which color transforms are fitted.
     #[serde(skip_serializing_if = "CorrectionChoice::is_default")]
@@ -135,7 +135,7 @@ pub enum WhiteBalanceChoice {
     BlackBody(f64),
 }
 
-/// The way from signals to the diagram.
+/// Color transform from sensor signals to XYZ.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TransformChoice {

@@ -42,7 +42,7 @@ pub enum PlotItem {
 /// Relation of a drawn item to the hovered or selected one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
-    /// The same item, or a part or the whole of it.
+    /// Identical item, or a part or the whole of it.
     Same,
     /// The item's reference: the reference's patch for a camera's.
     Reference,

@@ -333,7 +333,7 @@ impl<'a> Scene<'a> {
             .ok_or_else(|| SceneError::WhiteBalanceTarget(name.to_owned()))
     }
 
-    /// The way to the diagram with what it needs.
+    /// The color transform with its data.
     pub fn transform(&self) -> Result<ColorTransformSpec, SceneError> {
         match &self.document.transform {
             TransformChoice::Paper => Ok(ColorTransformSpec::Paper),
@@ -402,7 +402,7 @@ impl<'a> Scene<'a> {
         Ok(self.results.ask(&SpectralLocusQuery { observer: self.sensor(SetKind::Observer, FIT_TARGET)? }))
     }
 
-    /// True if a sensor may be compared with the reference on this way to the diagram.
+    /// True if a sensor may be compared with the reference under this color transform.
     pub fn comparable(&self, kind: SetKind, name: &str) -> Result<Result<(), DifferenceError>, SceneError> {
         if self.document.transform != TransformChoice::Paper {
             return Ok(Ok(()));

@@ -175,7 +175,7 @@ pub enum SwatchLayout {
 /// Arrangement of camera and reference within a swatch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SwatchStyle {
-    /// Left half truth, right half sensor.
+    /// Left half reference, right half sensor.
     #[default]
     Split,
     /// The reference inside the sensor's swatch.

@@ -9,7 +9,7 @@ const WIDTH: f32 = 420.0;
 /// Number of visible rows of completions.
 const ROWS: f32 = 5.0;
 
-/// The way on that was chosen in the box.
+/// The action chosen in the prompt.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Step {
     /// The path is taken.

@@ -94,7 +94,7 @@ pub(super) enum Subcommand {
     /// Pictures of a mesh under a light, through cameras and observers, as PNG or OpenEXR
     #[command(after_help = super::render::arguments::EXAMPLES)]
     Render(Box<RenderArguments>),
-    /// Which table of sensitivities is a camera's: raw RGB of known patches against all cameras, ranked by log error
+    /// Cameras ranked by how well their sensitivities explain the raw RGB of known patches, by log error
     #[command(after_help = super::identify::arguments::EXAMPLES)]
     Identify(Box<IdentifyArguments>),
     /// Contents of files of spectra and the decisions made when reading them; curves as CSV or JSON

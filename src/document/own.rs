@@ -156,7 +156,7 @@ impl OwnSet {
             for nm in &mut wavelengths {
                 *nm = self.unit.nanometers(self.read_as.unit.from_nanometers(*nm));
             }
-            // Wave numbers and frequencies run the other way.
+            // Wave numbers and frequencies are in the opposite order.
             if wavelengths.first() > wavelengths.last() {
                 wavelengths.reverse();
                 values.reverse();

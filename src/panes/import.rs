@@ -74,7 +74,7 @@ fn keep_selected(ui: &Ui, entries: &[Entry], context: &mut PaneContext<'_>) {
     }
 }
 
-/// While something is read: what, how far, and a way to stop it.
+/// Progress of the current reading, with a button to stop it.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(progress) = context.opened.progress() else { return };
     // A worker says only when it is done.

@@ -1,4 +1,4 @@
-//! Menus, tabs of the workspaces, undo and redo, the way to find anything.
+//! Menus, tabs of the workspaces, undo and redo, the command palette.
 
 use egui::{Align, Button, Layout, Rect, Ui, UiBuilder, Vec2};
 

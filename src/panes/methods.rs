@@ -235,7 +235,7 @@ fn measure(shows: Shows) -> Command {
     }
 }
 
-/// A sentence, and the way to have something in its place.
+/// A message with a button to start the measurement.
 fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &mut PaneContext<'_>) {
     let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 96.0)).intersect(body);
     let layout = egui::Layout::top_down(egui::Align::Center);
@@ -250,7 +250,7 @@ fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &mut PaneContext<'_>) 
     }
 }
 
-/// The way to a build that has the benchmark.
+/// Instructions for a build that includes the benchmark.
 fn without_bench(ui: &mut Ui, body: Rect) {
     let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(420.0), 96.0)).intersect(body);
     let layout = egui::Layout::top_down(egui::Align::Center);

@@ -110,7 +110,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.add(clip).on_hover_text("Raw value from which on a channel is clipped and excluded; 0 for none");
 }
 
-/// Words in the pane's middle, and the way to a file.
+/// A message in the pane's center, with a button to open a file.
 fn sentence(ui: &mut Ui, body: Rect, words: &str, open: bool, context: &mut PaneContext<'_>) {
     let place = Rect::from_center_size(body.center(), Vec2::new(body.width().min(460.0), 140.0)).intersect(body);
     let layout = egui::Layout::top_down(egui::Align::Center);

@@ -52,7 +52,7 @@ pub struct Planned {
 pub struct ErrorBounds {
     /// Of the diffuse integral, relative to its peak J(κ, 0) at the sample's κ: the largest seen in the check, times a margin.
     pub diffuse: Option<f64>,
-    /// Of the mirror lobes, relative to the brightest sample of the picture.
+    /// Bound of the specular lobes, relative to the brightest sample of the picture.
     pub mirror: Option<f64>,
 }
 

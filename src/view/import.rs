@@ -44,7 +44,7 @@ pub struct ImportView {
     pub hovered_curve: Option<usize>,
 }
 
-/// A place in Import where the keyboard stops on its way from pane to pane.
+/// Control of Import that takes the keyboard focus between panes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// The list of files.

@@ -92,7 +92,7 @@ pub struct ReadMesh {
 ///
 /// The format is recognized by the content; the file name's extension (without the dot, in any case) decides only if the
 /// content is ambiguous. `stop` is polled every few thousand lines, and ends the reading with [`MeshReadError::Stopped`].
-/// The same bytes always give the same mesh.
+/// Deterministic: equal bytes give equal meshes.
 ///
 /// # Errors
 /// [`MeshReadError`] names the line or byte that cannot be read, or reports that `stop` ended the reading.

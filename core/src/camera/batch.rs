@@ -44,8 +44,8 @@ pub enum BatchError {
 /// ```text
 /// I_nc = Σ_i S_ni C_ci,   n = spectra, c = channels, i = samples
 /// ```
-/// What stands in the curves is up to the caller: for `∫ C S L dλ` the products of [`under_light`], which have the weights of
-/// the quadrature in them. Numbers are `f64` or `f32`; products are summed in the same type.
+/// The caller defines the curves: for `∫ C S L dλ` the products of [`under_light`], which include the quadrature weights.
+/// Numbers are `f64` or `f32`; products are summed in the same type.
 ///
 /// Each response is the sum of 4 partial sums (8 in `f32`), each of at most ⌈L/4⌉ (⌈L/8⌉) products of the L samples; its
 /// error is within [`Self::max_error`]. Products and sums are rounded once together, by the processor or, where it cannot

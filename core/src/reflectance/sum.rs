@@ -7,9 +7,9 @@
 //! ```text
 //! m = g e^δ,  δ e^(2δ) = b/g²
 //! ```
-//! Where m is large, the sum is an expansion about that maximum in powers of 1/m, uniformly in b (`saddle`); where it is
-//! small, the terms that weigh are added (`direct`). What decides is m, not g: with b ≫ g² a sum of many terms belongs to a
-//! small g. With b ≫ g² the terms can also fall off within one step of n, at any m (`narrow`).
+//! For large m the sum is an expansion about that maximum in powers of 1/m, uniformly in b (`saddle`); for small m the
+//! significant terms are added (`direct`). The criterion is m, not g: with b ≫ g² a sum of many terms belongs to a small g.
+//! With b ≫ g² the terms can also fall off within one step of n, at any m (`narrow`).
 //!
 //! For nearly all arguments that occur, ln S is read from polynomials fitted to the same sums at first use (`pieces`).
 

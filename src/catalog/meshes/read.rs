@@ -174,7 +174,7 @@ pub(super) fn read_unless(
         }
         _ => MeshFailure::Io { file: file.clone(), error },
     };
-    // Opening a pipe would wait for somebody to write into it.
+    // Opening a pipe would block until another process writes into it.
     if !std::fs::metadata(path).map_err(failed)?.is_file() {
         return Err(MeshFailure::NoFile(file));
     }

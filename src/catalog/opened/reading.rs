@@ -359,7 +359,7 @@ fn read_bytes(path: &Path) -> Result<Arc<[u8]>, String> {
 /// The first bytes of a file; `None` if it cannot be read, which the reader reports.
 fn beginning(path: &Path) -> Vec<u8> {
     let mut bytes = Vec::new();
-    // Opening a pipe would wait for somebody to write into it.
+    // Opening a pipe would block until another process writes into it.
     if path.is_file()
         && let Ok(file) = fs::File::open(path)
         && file.take(LOOK as u64).read_to_end(&mut bytes).is_err()

@@ -50,7 +50,7 @@ pub(in crate::cli) struct MatrixArguments {
     /// For clf: fit with white at 1 where rawtoaces' scaling puts it elsewhere
     #[arg(long)]
     pub(super) white_at_one: bool,
-    /// What is written
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(super) format: Format,
     /// Output file [default: standard output, also `-`]

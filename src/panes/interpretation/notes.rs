@@ -18,7 +18,7 @@ fn led_to() -> Id {
     Id::unique("notes are led to")
 }
 
-/// In the head of the pane, where nothing has to be scrolled: how many notes there are, and the way to them.
+/// Number of notes with a link to them, in the pane's header, which does not scroll.
 pub(super) fn button(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(shown) = ImportSelection::of(&context.scene, context.view, context.opened.preview()) else { return };
     let Some(count) = shown.table().map(|table| table.warnings.len()).filter(|count| *count > 0) else { return };

@@ -40,7 +40,7 @@ pub struct CellNote {
     pub decimals: Option<usize>,
     /// Words in place of the number, such as a range of ranks.
     pub words: Option<String>,
-    /// Explanation under the pointer, such as why there is no number.
+    /// Tooltip, such as the reason for a missing value.
     pub hint: String,
 }
 
