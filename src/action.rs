@@ -79,12 +79,12 @@ pub enum SceneAction {
     SetDifference(Metric),
     /// Other coordinates.
     SetDiagram(Diagram),
-    /// Other things on the diagram.
+    /// Other marks on the diagram.
     SetOverlays(Overlays),
 }
 
-/// Changes to the rendered scene. The settings are a record of independent numbers, so a change is the record as it is to be,
-/// with the name of what was moved.
+/// Changes to the rendered scene. The settings are independent numbers, so that a change consists of the new settings and the
+/// name of the changed one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RenderAction {
     /// Other settings.
@@ -126,7 +126,7 @@ pub enum OwnAction {
         /// Names that it may not have.
         built_in: BuiltInNames,
     },
-    /// Puts other versions of some sets in their places, because of what the step is called.
+    /// Replaces some sets by other versions, as a step of the given name.
     ReplaceAll {
         /// Name of the undo step.
         what: String,
@@ -379,7 +379,7 @@ fn bring_again(document: &mut Document, index: usize, set: &OwnSet, alone: bool,
     }
 }
 
-/// Puts another version of a set in its place. What it is used as stays, unless that has become something else.
+/// Replaces a set by another version. Its uses stay, unless its kind has changed.
 fn replace(document: &mut Document, name: &str, with: &OwnSet, built_in: &BuiltInNames) {
     let Some(index) = document.own.iter().position(|set| set.name == name) else { return };
     let before = SetKind::of_own(&document.own[index]);

@@ -76,7 +76,7 @@ impl ChromascopeApp {
         Self::on(&Executor::default(), ctx, history, saved, files)
     }
 
-    /// Starts with a document, and has an executor do what is done in the background.
+    /// Creates the app with a document and an executor for background work.
     pub fn on(
         executor: &Executor,
         ctx: &egui::Context,
@@ -239,8 +239,8 @@ impl ChromascopeApp {
         }
     }
 
-    /// While a path is requested, keys are meant for that: none is a shortcut, and until the box or dialog has the keyboard
-    /// they go nowhere. Esc closes the box, and brings it where a dialog does not come.
+    /// While a path is requested, no key is a shortcut, and until the prompt or dialog has the keyboard focus all keys are
+    /// discarded. Esc closes the prompt, and opens it where a dialog fails to appear.
     fn keep_keys_for_path(&mut self, ctx: &egui::Context) {
         self.view.blink = false;
         let escape = ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape));
@@ -294,7 +294,7 @@ impl eframe::App for ChromascopeApp {
         let hovered = self.view.next_hovered.take();
         if hovered != self.view.hovered {
             self.view.hovered = hovered;
-            // What is under the pointer is marked in panes that were already drawn.
+            // Another frame marks the hovered item in panes that were already drawn.
             ui.ctx().request_repaint();
         }
         let focus_moved = ui.memory(egui::Memory::focused) != self.focus;

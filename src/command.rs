@@ -54,7 +54,7 @@ pub enum Command {
     ReadAgain(String),
     /// Stop reading files.
     StopReading,
-    /// Measure what the scene costs.
+    /// Measure the cost of the scene.
     SpectralWeights,
     /// Measure a workload of the bench.
     MeasureWorkload(Workload),
@@ -146,7 +146,7 @@ impl From<Action> for Command {
     }
 }
 
-/// A key and what it does. One table makes the keys, the menus' hints and the page of help.
+/// A key and its command. One table serves the keys, the menus' hints and the help page.
 pub struct KeyBinding {
     /// The key.
     pub shortcut: KeyboardShortcut,

@@ -45,7 +45,7 @@ pub struct Files {
     waiting: Option<asking::Waiting>,
     /// True while something to be saved is being computed.
     making: bool,
-    /// Number of files being computed that are no longer wanted.
+    /// Number of canceled computations of files that are still running.
     unwanted: usize,
     ticket: u64,
     home: Option<PathBuf>,

@@ -36,7 +36,7 @@ pub(crate) fn capitalized(words: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// A message of a library as a sentence: with a capital at its start and a full stop.
+/// A library's message as a sentence: with a capital at its start and a full stop.
 pub(crate) fn sentence(words: &str) -> String {
     format!("{}.", capitalized(words))
 }

@@ -52,7 +52,7 @@ pub struct Background<J: Job> {
 }
 
 struct State<J: Job> {
-    /// The stages of the latest request, from coarse to fine; what is to be made next.
+    /// The stages of the latest request, from coarse to fine, and the next one.
     stages: Arc<[J]>,
     next: usize,
     stop: Arc<AtomicBool>,
@@ -166,12 +166,12 @@ impl<J: Job> Background<J> {
         self.desk.lock().shown.clone()
     }
 
-    /// For how long the latest request has been worked on, if it still is.
+    /// Running time of the latest request, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.desk.lock().begun.map(|begun| self.desk.clock().since(begun))
     }
 
-    /// The stages of the latest request, and how many of them are made.
+    /// The stages of the latest request, and the number of finished ones.
     pub fn progress(&self) -> (Arc<[J]>, usize) {
         let state = self.desk.lock();
         (Arc::clone(&state.stages), state.next)

@@ -1,6 +1,6 @@
-//! The panes: each reads the document, requests answers, and says what is to be done. None knows another.
+//! Panes: each reads the document, requests answers and issues commands. None depends on another.
 //!
-//! A new pane is one file and its line in [`ALL`] (with the `mod` line that Rust wants):
+//! A new pane is one file and its line in [`ALL`] (with its `mod` line):
 //!
 //! ```diff
 //! --- /dev/null

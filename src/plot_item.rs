@@ -23,7 +23,7 @@ pub enum PlotItem {
     Sensor(SensorId),
     /// A patch, through one sensor or (a column head, a reflectance curve) through none.
     Patch {
-        /// The sensor, if one is meant.
+        /// The sensor, if any.
         source: Option<SensorId>,
         /// The patch's name.
         patch: String,

@@ -220,7 +220,7 @@ impl Profiler {
         self.bench.ask_anew(vec![BenchJob(workload)]);
     }
 
-    /// Gives up what is being measured.
+    /// Stops the measurement.
     pub fn stop(&self) {
         self.worker.rest();
         self.bench.rest();
@@ -237,7 +237,7 @@ impl Profiler {
         }
     }
 
-    /// For how long it has been measured, if it still is.
+    /// Running time of the measurement, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.worker.busy().or_else(|| self.bench.busy())
     }

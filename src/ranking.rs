@@ -26,7 +26,7 @@ pub struct RankedCamera {
     pub id: SensorId,
     /// True if the user brought it.
     pub is_own: bool,
-    /// The question for its figures of merit, or the reason that there is none.
+    /// Query for its figures of merit, or the reason that there is none.
     pub query: Result<CameraMetricsQuery, String>,
 }
 
@@ -126,7 +126,7 @@ impl Ranking {
     ///
     /// # Errors
     ///
-    /// A sentence that says why there is no such question.
+    /// The reason that there is no query.
     pub fn metamers(
         &mut self,
         scene: &Scene<'_>,
@@ -174,7 +174,7 @@ impl Ranking {
         }
     }
 
-    /// Shows what is done; over a whole answer only once all is.
+    /// Shows the results; after a complete ranking only when all are available.
     fn take_in(&mut self, made: &[Arc<CameraMetrics>]) {
         self.done = made.len();
         let shown = self.with(made);
@@ -204,7 +204,7 @@ impl Ranking {
         (self.done < all).then_some((self.done, all))
     }
 
-    /// For how long the latest request has been worked on, if it still is.
+    /// Running time of the latest request, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.worker.busy()
     }
@@ -232,7 +232,7 @@ impl Ranking {
     }
 }
 
-/// The cameras of a choice, each with its question.
+/// The cameras of a choice, each with its query.
 fn cameras(scene: &Scene<'_>, which: RankedCameras) -> Vec<RankedCamera> {
     let is_chosen = |entry: &Entry| match which {
         RankedCameras::Library => true,

@@ -27,12 +27,12 @@ pub enum NoPictures {
     Rendering(#[from] RenderingError),
 }
 
-/// Pictures with the question that they answer.
+/// Pictures with the query that they answer.
 #[derive(Clone, Debug)]
 pub struct RenderedFrame {
-    /// The question.
+    /// The query.
     pub query: PicturesQuery,
-    /// The sensors, in the question's order.
+    /// The sensors, in the query's order.
     pub sources: Arc<[ComparedSensor]>,
     /// The answer.
     pub answer: Arc<<PicturesQuery as Query>::Answer>,
@@ -116,10 +116,10 @@ impl RenderService {
         }
     }
 
-    /// Says what is to be shown in the end, at a time in seconds. Returns for how long it is still taken to be moving.
+    /// Sets the final request, at a time in seconds. Returns the remaining time for which it counts as moving.
     pub fn want(&mut self, wanted: &PicturesQuery, now: f64) -> Option<f64> {
         if self.wanted.as_ref() != Some(wanted) {
-            // What is shown for the first time did not move.
+            // A first request is not a movement.
             if self.wanted.is_some() {
                 self.changed_at = now;
             }
@@ -134,16 +134,16 @@ impl RenderService {
         self.frame.as_ref().is_some_and(|frame| frame.is_last && frame.query.shading == wanted.shading)
     }
 
-    /// Requests stages from coarse to fine. While something moves, what is being made is waited for: a picture a little late is
-    /// better than none.
+    /// Requests stages from coarse to fine. While something moves, the running stage is not interrupted: a slightly late
+    /// picture is better than none.
     pub fn ask(&mut self, stages: Vec<PicturesQuery>, sources: &[ComparedSensor], moving: bool) {
         self.asked = true;
         let (latest, _) = self.worker.progress();
         let was_moving = latest.first().is_some_and(|job| job.moving);
         // What ends in the same pictures is on its way already, or there.
         let same_end = !moving && !was_moving && latest.last().map(|job| &job.query) == stages.last();
-        // At rest, the coarse pictures that are on their way are the first of those wanted: stopping them would waste a mesh or a
-        // tree that is being built.
+        // At rest, a running coarse stage is the first of the requested ones: stopping it would waste a mesh or a tree under
+        // construction.
         let begun = moving || latest.first().map(|job| &job.query) == stages.first();
         if same_end || (begun && was_moving && self.worker.busy().is_some()) {
             return;
@@ -156,13 +156,13 @@ impl RenderService {
         self.worker.ask(stages.into_iter().map(job).collect());
     }
 
-    /// Stops what is being made; what was made so far stays visible.
+    /// Stops rendering; finished pictures stay visible.
     pub fn stay(&mut self) {
         self.asked = true;
         self.worker.rest();
     }
 
-    /// Takes pictures off show: those that are wanted now cannot be made.
+    /// Discards the pictures, as the requested ones cannot be made.
     pub fn hide(&mut self) {
         self.is_hidden = true;
     }
@@ -173,7 +173,7 @@ impl RenderService {
         let Some(shown) = self.worker.shown() else { return };
         if self.frame.as_ref().is_none_or(|frame| frame.serial != shown.serial) {
             let PicturesJob { query, sources, is_last, .. } = shown.job;
-            // What was only remembered took no time worth telling.
+            // Cached pictures have no render time worth showing.
             let remembered = self.frame.as_ref().filter(|frame| frame.query == query).map(|frame| frame.time);
             let (time, serial) = (remembered.unwrap_or(shown.time), shown.serial);
             self.frame = Some(Arc::new(RenderedFrame { query, sources, answer: shown.answer, time, is_last, serial }));
@@ -208,7 +208,7 @@ impl RenderService {
         self.frame.as_ref().is_some_and(|frame| self.wanted.as_ref() == Some(&frame.query))
     }
 
-    /// For how long the latest request has been worked on, if it still is.
+    /// Running time of the latest request, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.worker.busy()
     }

@@ -18,7 +18,7 @@ use chromascope_core::render::Stop;
 
 use answers::{Answers, Asked, Kind};
 
-/// Counters of one kind of question.
+/// Counters of one kind of query.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
     /// Answers that were remembered.
@@ -44,7 +44,7 @@ pub struct Results {
     depth: Cell<u32>,
 }
 
-/// The answers of each kind of question.
+/// The answers of each kind of query.
 #[derive(Default)]
 struct Store {
     kinds: RwLock<HashMap<TypeId, Arc<dyn Kind>>>,
@@ -59,7 +59,7 @@ impl Clone for Results {
 }
 
 impl Results {
-    /// Access to the same answers until they are no longer wanted. Those that are being made then are not remembered.
+    /// Access to the same cache until stopped. Answers that are being computed then are not cached.
     #[must_use]
     pub fn until(&self, stop: Stop) -> Self {
         Self { store: Arc::clone(&self.store), stop, ..Self::default() }
@@ -77,13 +77,13 @@ impl Results {
         self.last_work.get()
     }
 
-    /// Hits, misses and time of each kind of question since the start, on all threads.
+    /// Hits, misses and time of each kind of query since the start, on all threads.
     pub fn counts(&self) -> BTreeMap<&'static str, Count> {
         let kinds = self.store.kinds.read().unwrap_or_else(PoisonError::into_inner);
         kinds.values().map(|kind| kind.count()).filter(|(_, count)| *count != Count::default()).collect()
     }
 
-    /// The answer to a question, if it is remembered.
+    /// The cached answer to a query, if any.
     pub fn known<Q: Query>(&self, query: &Q) -> Option<Arc<Q::Answer>> {
         self.answers::<Q>().known(query, self.now())
     }

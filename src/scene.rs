@@ -118,7 +118,7 @@ pub struct ComparedSensor {
     pub visible: bool,
 }
 
-/// A condition under which the numbers do not mean what a reader expects.
+/// A condition under which the values have an unusual meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Caution {
     /// The reference is an XYZ observer while Eq 13 takes RGB: no camera can be compared with it.
@@ -238,7 +238,7 @@ impl<'a> Scene<'a> {
         if self.document.filters.is_empty() {
             return self.loaded(&light, name);
         }
-        // Sorted, so that the order of the filters makes no other question.
+        // Sorted, so that the order of the filters does not change the query.
         let mut names = self.document.filters.clone();
         names.sort();
         let filters = names.iter().map(|name| self.filter(name)).collect::<Result<_, _>>()?;
@@ -346,7 +346,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The question of how a sensor's signals come to the diagram.
+    /// Query for the conversion of a sensor's signals to chromaticities.
     pub fn rendering_of(&self, kind: SetKind, name: &str) -> Result<RenderingQuery, SceneError> {
         Ok(RenderingQuery {
             sensor: self.sensor(kind, name)?,

@@ -31,7 +31,7 @@ pub const MARKER: f64 = 6.0;
 pub const MARKER_SMALL: f64 = 4.5;
 /// Opacity of the colors in a chromaticity diagram.
 pub const DIAGRAM_FILL: f32 = 0.16;
-/// Opacity of what is not selected while something is.
+/// Opacity of unselected items while something is selected.
 pub const FADED: f32 = 0.35;
 
 /// Width of the ring around the control that has the keyboard.

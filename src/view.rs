@@ -73,7 +73,7 @@ pub struct View {
     pub blink: bool,
     /// The search field takes the keyboard in this frame.
     pub focus_search: bool,
-    /// A field in which Esc takes back what is typed has the keyboard.
+    /// True if a field has the keyboard in which Esc discards the typed text.
     pub keeps_escape: bool,
     /// True if the focused pane shows a table, which copies its own rows.
     pub table_copies: bool,
@@ -81,7 +81,7 @@ pub struct View {
     pub focus_temperature: bool,
     /// The help window.
     pub help: HelpView,
-    /// The palette of commands, with what is typed into it, while open.
+    /// The command palette with its typed text, while open.
     pub palette: Option<String>,
     /// Times are neither shown nor renewed: for pictures that are compared.
     pub fixed_clock: bool,
@@ -248,7 +248,8 @@ impl View {
         self.selected = if self.selected.as_ref() == thing { None } else { thing.cloned() };
     }
 
-    /// Lets go of sensors that a step removed from the comparison: they are no longer selected, pinned or under the pointer.
+    /// Removes references to sensors that a step removed from the comparison: they are no longer selected, pinned or
+    /// hovered.
     pub fn let_go_of_removed(&mut self, before: &[Compared], after: &[Compared]) {
         let has = |list: &[Compared], id: &SensorId| list.iter().any(|c| c.kind == id.kind && c.name == id.name);
         let gone = |id: &SensorId| has(before, id) && !has(after, id);

@@ -27,7 +27,7 @@ impl PaneKind {
     pub const INSPECTOR: Self = Self::new("Inspector");
     /// A mesh through each sensor.
     pub const RENDER: Self = Self::new("Render");
-    /// Mesh, surface, light and view of what is rendered.
+    /// Mesh, surface, light and view of the render.
     pub const RENDER_SETTINGS: Self = Self::new("RenderSetup");
     /// The user's files, and the text of one with the marks of how it was read.
     pub const IMPORT: Self = Self::new("Import");
@@ -292,7 +292,7 @@ pub struct Arrangement {
     pub panes: Vec<(PaneKind, Rect)>,
     /// Borders with theirs.
     pub splitters: Vec<(Splitter, Rect)>,
-    /// A pane that lies over the others.
+    /// A pane that overlaps the others.
     pub over: Option<(PaneKind, Rect)>,
     /// The window is too narrow for one of the columns.
     pub narrow: bool,

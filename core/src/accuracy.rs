@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
-/// The largest relative error that is allowed: above 0, below 1. Equal and hashed by its bits, so that questions can hold it.
+/// The largest relative error that is allowed: above 0, below 1. Equal and hashed by its bits, so that queries can hold it.
 #[derive(Clone, Copy, Debug)]
 pub struct RelTolerance {
     max_relative_error: f64,

@@ -7,7 +7,7 @@ use crate::document::names::BuiltInNames;
 /// Largest number of steps.
 const DEPTH: usize = 200;
 
-/// One step: what was done, and the document before (undo) or after it (redo).
+/// One step: its name, and the document before (undo) or after it (redo).
 #[derive(Clone, Debug)]
 struct Step {
     name: String,

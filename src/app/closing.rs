@@ -47,7 +47,7 @@ impl ChromascopeApp {
         if let Closing::Elsewhere(document) = &self.closing
             && what == DOCUMENT
         {
-            // What was changed since is not in that file.
+            // Later changes are not in that file.
             if **document == *self.history.document() {
                 self.close(ctx);
             } else {
@@ -61,7 +61,7 @@ impl ChromascopeApp {
         ctx.send_viewport_cmd(ViewportCommand::Close);
     }
 
-    /// Shows the question, if it is open.
+    /// Shows the prompt, if it is open.
     pub(super) fn ask_about_closing(&mut self, ui: &Ui, theme: &Theme) {
         if self.closing != Closing::Asked {
             return;

@@ -161,7 +161,7 @@ impl ChromascopeApp {
         self.view.maximized = None;
     }
 
-    /// In a narrow window the inspector lies over the rest; else it has its place.
+    /// In a narrow window the inspector overlaps the rest; else it has its own place.
     fn toggle_inspector(&mut self) {
         if self.arrangement.narrow && !self.view.saved.workspace.keeps_right_column() {
             self.view.inspector_over ^= true;
@@ -183,7 +183,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// The bars under swatches; where pictures are meant, their maps.
+    /// Toggles the bars under swatches or, for pictures, the difference maps.
     fn toggle_difference(&mut self) {
         let mode = &mut self.view.saved.render.mode;
         match (self.view.focused, *mode) {
@@ -254,7 +254,7 @@ impl ChromascopeApp {
         view.status = crate::view::Status::default();
     }
 
-    /// Measures what the scene costs.
+    /// Measures the cost of the scene.
     fn measure(&mut self) {
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
@@ -288,7 +288,7 @@ impl ChromascopeApp {
         if let Some(pane) = self.view.focused {
             self.view.say(format!("{} (F fills the window, Ctrl+E exports)", panes::title(pane)));
         }
-        // Keys that are meant for the next pane must not move what the last one had.
+        // Keys for the next pane must not act on the previously focused one.
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
     }
 
@@ -392,7 +392,7 @@ impl ChromascopeApp {
     }
 }
 
-/// A figure's file in a form; the error is a sentence.
+/// A figure's file in a format; the error is a message.
 fn file_of(figure: &Figure, numbers: &Table, format: Format) -> Result<Vec<u8>, String> {
     let svg = || export::svg(figure, &Theme::LIGHT, export::Paper::default());
     match format {

@@ -1,4 +1,4 @@
-//! One frame: bars, panes, the borders between them, and what lies over them.
+//! One frame: bars, panes, the borders between them, and overlays.
 
 use egui::{Align2, CentralPanel, CursorIcon, Frame, Panel, Rect, Sense, Ui};
 

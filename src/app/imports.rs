@@ -129,7 +129,7 @@ impl ChromascopeApp {
     fn put_in_place(&mut self, sets: Vec<(String, Result<Imported, String>)>, why: Why, ticket: u64) {
         let (mut with, mut failures, mut again) = (Vec::new(), Vec::new(), Vec::new());
         for (name, result) in sets {
-            // What was renamed or removed meanwhile, or was reloaded since, is no longer what this is about.
+            // Items that were renamed, removed or reloaded meanwhile are no longer concerned.
             let Some(set) = self.history.document().own.iter().find(|set| set.name == name).cloned() else { continue };
             if self.last_read.get(&name).is_some_and(|last| *last > ticket) {
                 continue;
@@ -246,7 +246,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Watches the files of the sets there are and those that could not be read, and forgets what is beyond memory.
+    /// Watches the files of the sets and those that could not be read, and drops the oldest beyond the memory limit.
     fn follow_files(&mut self) {
         let document = self.history.document();
         let paths: BTreeSet<PathBuf> = if self.view.saved.import.watch {

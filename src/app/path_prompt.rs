@@ -18,7 +18,7 @@ enum Step {
     Complete,
 }
 
-/// Shows the question, if one is open.
+/// Shows the prompt, if it is open.
 pub(super) fn show(ui: &Ui, theme: &Theme, files: &mut Files) {
     let Some(prompt) = files.prompt_mut() else { return };
     let title = prompt.save.as_ref().map_or_else(|| "Open".to_owned(), |request| format!("Save {}", request.what));
@@ -30,7 +30,7 @@ pub(super) fn show(ui: &Ui, theme: &Theme, files: &mut Files) {
         .resizable(false)
         .anchor(Align2::CENTER_TOP, Vec2::new(0.0, 96.0))
         .show(ui.ctx(), |ui| step = content(ui, theme, prompt));
-    // Esc is the program's: it closes what is in front.
+    // Esc is handled by the program: it closes the front overlay.
     match step {
         _ if !open => *files.prompt_mut() = None,
         Some(Step::Take) => files.take_prompt(),

@@ -75,7 +75,7 @@ pub fn imported(origin: &Origin, table: &SpectralFile, wishes: &ImportOverrides)
     Imported { message, guessed: !guesses.is_empty(), set: own_set(origin, table, wishes, &taken) }
 }
 
-/// The guesses, and what is not decided, that change numbers or what a set is used as.
+/// Guesses and open decisions that change values or the use of a set.
 pub fn weighty_guesses(table: &SpectralFile) -> Vec<spectral_file::Decision> {
     let decisions = table.decisions().into_iter();
     decisions.filter(|decision| decision.certainty.is_doubtful() && decision.effect != Effect::Report).collect()

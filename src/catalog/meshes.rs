@@ -41,7 +41,7 @@ pub enum MeshState {
 pub struct Opened {
     /// The file.
     pub path: PathBuf,
-    /// The mesh, or a sentence that says why there is none.
+    /// The mesh, or the reason that there is none.
     pub result: Result<Arc<LoadedMesh>, String>,
 }
 
@@ -150,7 +150,7 @@ impl MeshStore {
         self.desk.lock().give_up_opening()
     }
 
-    /// Stops reading what is neither wanted nor being opened, and lets go of meshes beyond what is worth remembering.
+    /// Stops reads that are no longer needed, and drops unused meshes beyond the memory limit.
     pub fn keep(&self, wanted: Option<&Path>) {
         let mut state = self.desk.lock();
         let opening = state.opening.clone();
@@ -202,7 +202,7 @@ impl State {
         self.known.entry(path.to_owned()).or_default()
     }
 
-    /// Takes what a thread read; none for a file that is as it was.
+    /// Handles the result of a thread; `None` for an unchanged file.
     fn take(&mut self, path: &Path, stop: &Arc<AtomicBool>, result: Result<Option<(LoadedMesh, Stamp)>, MeshFailure>) {
         let Some(known) = self.known.get_mut(path) else { return };
         if known.reading.as_ref().is_none_or(|reading| !Arc::ptr_eq(reading, stop)) {

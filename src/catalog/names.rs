@@ -78,7 +78,7 @@ impl<'a> Found<'a> {
         Self { entry, exact: false, others: Vec::new() }
     }
 
-    /// The choice in words, where another name than the entry's was typed.
+    /// The choice in words, if another name than the entry's was typed.
     pub fn note(&self) -> Option<String> {
         let others = match self.others.as_slice() {
             [] => String::new(),
@@ -163,7 +163,7 @@ pub fn find<'a>(
     Err(NameError::Unknown { kind, name: name.to_owned(), nearest: nearest(&entries, &wanted) })
 }
 
-/// The entry of exactly this name or short name, else the only one whose telling words are the wanted ones.
+/// The entry of exactly this name or short name, else the only one whose distinguishing words equal the typed ones.
 fn exact<'a>(entries: &[&'a Entry], typed: &str, wanted: &str) -> Option<&'a Entry> {
     let by = |text: fn(&Entry) -> &str| entries.iter().copied().find(|e| folded(text(e)) == typed);
     by(|e| &e.name).or_else(|| by(|e| &e.short)).or_else(|| {
@@ -209,7 +209,7 @@ fn ambiguous(name: &str, candidates: &[&Entry]) -> NameError {
     NameError::Ambiguous { name: name.to_owned(), candidates: named }
 }
 
-/// Up to three names that are like the wanted one.
+/// Up to three names similar to the typed one.
 fn nearest(entries: &[&Entry], wanted: &str) -> Vec<String> {
     let alike = |name: &str| strsim::jaro_winkler(&folded(name), wanted);
     let score = |name: &str| alike(name).max(alike(&without_remarks(name)));

@@ -35,7 +35,7 @@ pub struct Failing {
     pub path: PathBuf,
     /// Fingerprint of the contents.
     pub fingerprint: Fingerprint,
-    /// Reason, as a sentence that names the file.
+    /// Reason, as a message that names the file.
     pub why: String,
 }
 
@@ -44,7 +44,7 @@ pub struct Failing {
 pub enum OpenedEvent {
     /// Sets were read.
     Read {
-        /// The sets, each with what was guessed on reading.
+        /// The sets, each with its guesses.
         sets: Vec<Imported>,
         /// Summary of the contents and the decisions, in one sentence.
         message: String,
@@ -99,7 +99,7 @@ pub struct Progress {
     pub share: f32,
     /// Number of the file, from 1, and the count of files.
     pub file: [usize; 2],
-    /// For how long.
+    /// Running time.
     pub time: Duration,
 }
 
@@ -178,7 +178,7 @@ impl Opened {
         if state.lost.contains(&fingerprint) || state.file(fingerprint).is_some() {
             return;
         }
-        // What is being looked for counts as lost until it is found, so that it is looked for once.
+        // The search counts as failed until the file is found, so that it is done once.
         state.lost.push(fingerprint);
         drop(state);
         self.begin(move |desk, job| reading::fetch(&path, fingerprint, desk, job));
@@ -244,7 +244,7 @@ impl Opened {
         self.desk.lock().files.retain(|file| file.origin.fingerprint != fingerprint);
     }
 
-    /// Forgets the oldest files of which no set is made, beyond what is worth remembering.
+    /// Drops the oldest files without a set, beyond the memory limit.
     pub fn keep(&self, wanted: &[Fingerprint]) {
         let mut state = self.desk.lock();
         let size = |state: &State| state.files.iter().map(|file| file.bytes.len()).sum::<usize>();
@@ -266,7 +266,7 @@ impl Opened {
         self.look.shown().map(|shown| shown.answer)
     }
 
-    /// For how long [`look`](Self::look) has been at it.
+    /// Running time of [`look`](Self::look).
     pub fn looking(&self) -> Option<Duration> {
         self.look.busy()
     }

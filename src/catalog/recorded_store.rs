@@ -58,7 +58,7 @@ pub enum RecordedState {
     Loading(String),
     /// It was read.
     Ready(Arc<RecordedFile>),
-    /// It gives no values: a sentence.
+    /// It contains no values: the reason.
     Failed(String),
 }
 
@@ -109,7 +109,7 @@ fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// Reads a table or a picture; the error is a sentence with the file's name.
+/// Reads a table or a picture; the error is a message with the file's name.
 fn read(path: &PathBuf) -> Result<RecordedFile, String> {
     let name = file_name(path);
     let failed = |why: String| format!("{name}: {why}");

@@ -1,4 +1,4 @@
-//! True if a file holds what the option requests that names it.
+//! Checks that a file contains the quantity that its option requires.
 
 use spectral_file::{Certainty, ReadOptions, SpectralFile, Warning};
 
@@ -36,7 +36,7 @@ pub(super) fn reflectances(path: &str, role: Role, table: &SpectralFile) -> Resu
     Ok(())
 }
 
-/// Says what a file is taken as that does not say what it holds.
+/// Reports the assumed quantity of a file that does not state it.
 pub(super) fn say_role(path: &str, role: Role, table: &SpectralFile, bytes: &[u8]) {
     // Only a file that names no quantity can be open.
     let unnamed = table.reading.quantity.certainty == Certainty::Chosen;

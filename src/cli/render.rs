@@ -65,7 +65,7 @@ struct Times {
     writing: Duration,
 }
 
-/// Pictures with what they are of.
+/// Rendered pictures with their setup.
 struct Made<'a> {
     setup: &'a Setup,
     scene: Scene<'a>,

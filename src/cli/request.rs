@@ -1,4 +1,4 @@
-//! From arguments to a document: names and files become what is compared, under what.
+//! Conversion of arguments to a document: names and files become sensors and conditions.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -493,6 +493,6 @@ fn is_file(argument: &OsStr) -> bool {
     let ends_as_file = path
         .extension()
         .is_some_and(|ending| ["csv", "txt", "tsv", "dat"].iter().any(|known| ending.eq_ignore_ascii_case(known)));
-    // A name is text, so what is none is a file's.
+    // A name is text, so that other arguments are file paths.
     path.is_file() || ends_as_file || argument.to_str().is_none_or(|typed| typed.contains(['/', '\\']))
 }

@@ -88,7 +88,7 @@ fn locus_rows(
             let row = [places, rest].concat();
             out.write_all(row_of(&[&field(name), &point.temperature.get().to_string()], &row, &conditions).as_bytes())?;
         }
-        // Answers that were written long ago are let go.
+        // Answers that were already written are dropped.
         scene.results.end_frame();
     }
     Ok(())

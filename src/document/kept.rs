@@ -15,7 +15,7 @@ const CURVES_IN: &str = "curves_in";
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Place(pub String, pub usize);
 
-/// A document that was read, with what it lacks.
+/// A document that was read, with its missing parts.
 #[derive(Debug)]
 pub struct Kept {
     /// The document.

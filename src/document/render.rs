@@ -46,7 +46,7 @@ pub fn decade(tolerance: f64) -> f64 {
 pub struct RenderSettings {
     /// Mesh to render.
     pub mesh: MeshChoice,
-    /// About how many triangles the program's own meshes have.
+    /// Approximate number of triangles of the program's own meshes.
     pub triangles: usize,
     /// The name of a reflectance.
     pub material: String,

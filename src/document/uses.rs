@@ -21,7 +21,7 @@ pub enum Holder {
 }
 
 impl Document {
-    /// Holder of the name wanted for an own set of a kind; `None` if it is free. `except` is the index of the set itself.
+    /// Present holder of a name for an own set of a kind; `None` if it is free. `except` is the index of the set itself.
     pub fn holder_of(
         &self,
         kind: SetKind,
@@ -47,7 +47,7 @@ impl Document {
         free_name(kind, wanted, &taken, built_in, &mut HashMap::new())
     }
 
-    /// Shows what was just opened: a camera in the list, a chart as the patches, a light as the light.
+    /// Uses a newly opened set: a camera in the comparison, a chart as the patches, a light as the light.
     pub fn put_to_use(&mut self, set: &Shared<OwnSet>) {
         match SetKind::of_own(set) {
             SetKind::Camera | SetKind::Observer => self.compare(&set.name, SetKind::Camera),
@@ -61,7 +61,7 @@ impl Document {
         }
     }
 
-    /// Shows what was opened among others: a camera, while there are places for more.
+    /// Uses one of several opened sets: a camera, while the palette has room.
     pub fn put_beside(&mut self, set: &Shared<OwnSet>) {
         let shown = self.compared.iter().filter(|compared| compared.kind == SetKind::Camera).count();
         if SetKind::of_own(set) == SetKind::Camera && shown < PLACES {

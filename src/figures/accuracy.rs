@@ -50,7 +50,7 @@ fn marker(family: Family) -> Marker {
     }
 }
 
-/// Not the cameras' inks: what is gray here is no camera.
+/// Not the cameras' inks: gray marks here are not cameras.
 fn role(family: Family) -> InkRole {
     match family {
         Family::Sum => InkRole::Weak,

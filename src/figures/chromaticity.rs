@@ -140,7 +140,7 @@ const STRIP: f64 = 120.0;
 
 /// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
 pub fn figure(scene: &Scene<'_>, view: &View) -> Figure {
-    // What the pointer is on has no place on paper.
+    // Hovering is not shown on paper.
     let paper = View { saved: view.saved.clone(), ..View::default() };
     let built = build(scene, &paper, None, SIZE);
     let mut figure = Figure::new("Chromaticity", SIZE);

@@ -21,7 +21,7 @@ const CURVES: [Curve; 4] = [
     ("mixed as DNG readers do", |point| point.mixed, InkRole::Text, Dash::Solid),
 ];
 
-/// The figure of what the Correction pane shows; none without two lights.
+/// The figure of the Correction pane; `None` without two lights.
 pub fn figure(view: &View) -> Option<Figure> {
     let file = view.correction.shown.as_ref()?;
     let mut figure = Figure::new(title(file), SIZE);

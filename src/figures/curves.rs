@@ -32,7 +32,7 @@ pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
     let [low, high] = curves.span();
     let low = low.min(0.0);
     let clipped = curves.beyond().is_some();
-    // Above the curves there is room for what is written there, below none: near zero there are curves everywhere.
+    // Margin above the curves for labels, none below: near zero there are curves everywhere.
     let lines = if clipped { 2.0 } else { 1.0 };
     let share = (lines * TEXT / (size[1] - TICKS).max(1.0)).clamp(0.05, 0.4);
     let room = ((high - low) * share / (1.0 - share)).max(1e-12);

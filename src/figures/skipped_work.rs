@@ -7,7 +7,7 @@ use crate::format::capitalized;
 use crate::profiler::{LOCI, Measured, PATCHES, SkippedWork};
 use crate::results::Count;
 
-/// The width of a saved figure, and the height of a row and of what is around them, in points.
+/// The width of a saved figure, and the heights of a row and of the margins, in points.
 const WIDTH: f64 = 640.0;
 const ROW: f64 = 24.0;
 const AROUND: f64 = 60.0;
@@ -103,7 +103,7 @@ pub fn table(sections: &[Section]) -> Table {
     table
 }
 
-/// Work saved by caching since the start, by kind of question. Times are those that `run` measured without a cache.
+/// Work saved by caching since the start, by kind of query. Times are those that `run` measured without a cache.
 pub fn remembered(counts: &[(&'static str, Count)], run: &[SkippedWork]) -> Vec<SkippedWork> {
     let reused = |&(name, count): &(&'static str, Count)| {
         let what = STAGES.iter().find(|(stage, _)| *stage == name)?.1;

@@ -18,7 +18,7 @@ pub struct Built {
     pub things: PickIndex,
     /// Natural height.
     pub height: f64,
-    /// The largest difference: sensor label and patch, with what it is.
+    /// The largest difference with its sensor label and patch.
     pub worst: Option<(String, PlotItem)>,
 }
 
@@ -234,7 +234,7 @@ impl Board<'_> {
     }
 }
 
-/// A label no wider than there is room; what was cut is read under the pointer.
+/// A label cut to the available width; the pointer shows it in full.
 fn elided(label: &str, width: f64) -> String {
     if text_width(label, TextSize::Body) <= width {
         return label.to_owned();

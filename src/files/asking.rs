@@ -118,7 +118,7 @@ impl Files {
     /// Stops waiting for a dialog: the path is requested in the window. Returns whether one was waited for.
     pub fn stop_waiting(&mut self) -> bool {
         let made = std::mem::take(&mut self.making);
-        // What is being made cannot be stopped; it is dropped when it arrives.
+        // Running preparations cannot be stopped; their result is dropped.
         self.unwanted += usize::from(made);
         let Some(Waiting { ticket, request }) = self.waiting.take() else { return made };
         self.ask_for_path(request, ticket);
@@ -190,7 +190,7 @@ impl Files {
     }
 
     pub(super) fn completed(&mut self, done: prompt::Completed) {
-        // What was typed meanwhile is not about this.
+        // The completion applies only if the text is unchanged.
         if let Some(prompt) = self.prompt.as_mut().filter(|prompt| prompt.text == done.of) {
             prompt.typed();
             (prompt.text, prompt.candidates, prompt.to_end) = (done.text, done.candidates, true);

@@ -16,7 +16,7 @@ pub enum FileEvent {
     Changed(Vec<PathBuf>),
     /// Something to know.
     Said(String),
-    /// A file was written: a sentence, and the description of what is in it.
+    /// A file was written: a message, and the description of its contents.
     Saved(String, String),
     /// A document was read, and the one before it saved.
     Document(Box<OpenedDocument>),

@@ -22,7 +22,7 @@ pub(super) struct Keeper {
 pub(super) struct Loaded {
     /// The document, or the first screen.
     pub(super) document: Document,
-    /// A sentence where there was one that could not be read as it is, and the file that holds it now.
+    /// A message if the document could not be read, and the file that now holds it.
     pub(super) complaint: Option<(String, PathBuf)>,
 }
 
@@ -85,7 +85,7 @@ impl Keeper {
                 Loaded { document: kept.document, complaint }
             }
             Err(Unread::Missing) => Loaded { document: Document::default(), complaint: None },
-            // What is another window's is left to it.
+            // Files of other windows are left to them.
             Err(Unread::Because(why)) if is_others => {
                 let words =
                     format!("The other window's document could not be read ({why}); starting with a new document.");
@@ -96,9 +96,9 @@ impl Keeper {
                 Loaded { document: Document::default(), complaint: Some(complaint) }
             }
         };
-        // Before there is anything to write that may name what is removed.
+        // Before anything is written that may refer to the removed files.
         self.profile.tidy(SystemTime::now());
-        // What is opened before the first frame is a change already.
+        // The document opened before the first frame counts as a change.
         let document = Arc::new(loaded.document.clone());
         let mut state = self.shared.lock();
         state.newest = Some(Arc::clone(&document));

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::shared_state::SharedState;
 
-/// A program that ends waits so long for a disk.
+/// Maximum time to wait for a disk at exit.
 const WAIT: Duration = Duration::from_secs(3);
 
 /// The window's document.

@@ -141,7 +141,7 @@ impl Profile {
         for path in entries(folder).filter(|path| path.extension().is_some_and(|ending| ending == "json")) {
             match fs::read(&path) {
                 Ok(bytes) => texts.push(String::from_utf8_lossy(&bytes).into_owned()),
-                // What it names is not known.
+                // Its references are unknown.
                 Err(_) => return,
             }
         }
@@ -211,7 +211,7 @@ fn lock(path: &Path) -> Result<File, TryLockError> {
 
 /// True if a window holds the lock of a copy.
 fn is_held(copy: &Path) -> bool {
-    // Network folders lock only what is open for writing.
+    // Network folders lock only files opened for writing.
     match OpenOptions::new().read(true).write(true).open(copy.with_extension("lock")) {
         Ok(file) => file.try_lock().is_err(),
         Err(error) => error.kind() != io::ErrorKind::NotFound,
@@ -239,7 +239,7 @@ mod tests {
     fn the_lock_of_a_window_that_ended_is_taken_over() {
         let folder = tempfile::tempdir().expect("a folder");
         let claim = || Profile::claim(Some(folder.path().to_owned()));
-        // What a process left that was killed: a file, but no lock.
+        // Remains of a killed process: a file without a lock.
         fs::write(folder.path().join(LOCK), "4711").expect("written");
         let first = claim();
         assert_eq!(first.other, None);

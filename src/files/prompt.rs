@@ -8,7 +8,7 @@ use crate::format::io_failure;
 
 const MOST: usize = 200;
 
-/// A path to be typed, where there is no dialog or what was chosen there cannot be.
+/// A path prompt, used where there is no dialog or its result failed.
 #[derive(Clone, Debug, Default)]
 pub struct PathPrompt {
     /// The text typed.
@@ -108,7 +108,7 @@ pub(super) fn complete(typed: &str, home: Option<&Path>) -> Completed {
         [] => as_it_is(Vec::new()),
         [one] => Completed { text: format!("{folder}{one}"), ..as_it_is(Vec::new()) },
         [first, .., last] => {
-            // In order, what the first and the last share all share.
+            // In sorted order, a prefix common to the first and the last is common to all.
             let shared: String = first.chars().zip(last.chars()).take_while(|(a, b)| a == b).map(|(a, _)| a).collect();
             let text = format!("{folder}{shared}");
             names.truncate(MOST);

@@ -5,18 +5,18 @@ use std::path::PathBuf;
 
 use super::Files;
 
-/// A sentence that stays.
+/// A persistent message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Standing {
     /// Its subject.
     pub kind: StandingKind,
-    /// The sentence.
+    /// The message.
     pub words: String,
     /// The file it is about.
     pub file: Option<PathBuf>,
 }
 
-/// The subject of a sentence that stays.
+/// The subject of a persistent message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StandingKind {
     /// Another window has the profile.
@@ -41,7 +41,7 @@ impl StandingKind {
 /// Facts that the messages are made from.
 #[derive(Debug, Default)]
 pub(super) struct Notices {
-    /// A document that could not be read: a sentence, and its file.
+    /// A document that could not be read: a message, and its file.
     pub(super) complaint: Option<(String, PathBuf)>,
     /// Number of documents that other windows had saved at the start.
     pub(super) copies: usize,
@@ -79,7 +79,7 @@ impl Files {
         all.filter(|standing| !dismissed.contains(&standing.kind)).collect()
     }
 
-    /// Takes a sentence away.
+    /// Removes a message.
     pub fn dismiss(&mut self, kind: StandingKind) {
         self.standing.dismissed.insert(kind);
     }

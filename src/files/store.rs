@@ -22,7 +22,7 @@ use crate::format::{io_failure, io_reason};
 /// Result of writing a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Written {
-    /// Sets that were omitted, in one sentence; may be empty.
+    /// Omitted sets, in one sentence; may be empty.
     pub(super) skipped_work: String,
 }
 
@@ -112,7 +112,7 @@ impl Store {
         if let Some(why) = unwritten.as_ref().filter(|_| self.by_value) {
             return Err(why.clone());
         }
-        // In place of a set that cannot be written, what was written of it before.
+        // A set that cannot be written is replaced by its earlier version on disk.
         let place = |set: &Shared<OwnSet>| {
             let before = || self.known.values().find(|(before, _)| before.name == set.name && before.role == set.role);
             self.known.get(&address(set)).or_else(before)

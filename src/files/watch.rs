@@ -10,9 +10,9 @@ use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher as _};
 
 use crate::jobs::Clock;
 
-/// A file has come to rest when nothing was written for so long.
+/// Time without writes after which a file is stable.
 const REST: Duration = Duration::from_millis(300);
-/// A file that never rests is read all the same, after so long.
+/// Time after which a file is read even if it is still being written.
 const RESTLESS: Duration = Duration::from_secs(1);
 /// Time between two readings of a file.
 const APART: Duration = Duration::from_millis(500);
@@ -169,7 +169,7 @@ impl Watch {
         let Some(watcher) = &mut self.watcher else { return };
         let found = self.lost.iter().filter(|folder| watcher.watch(folder, RecursiveMode::NonRecursive).is_ok());
         for folder in found.cloned().collect::<Vec<_>>() {
-            // What was put there before it was watched counts as written just now.
+            // Files that existed before the watch began count as just written.
             let mut heard = lock(&self.heard);
             for file in self.files.iter().filter(|file| file.parent() == Some(&folder) && file.is_file()) {
                 heard.written(file.clone(), now);
@@ -180,7 +180,7 @@ impl Watch {
     }
 }
 
-/// A panic elsewhere leaves nothing half done here: what is locked is only looked up and put in place.
+/// A panic elsewhere leaves no partial state: it is only read and replaced under the lock.
 fn lock(heard: &Mutex<Heard>) -> MutexGuard<'_, Heard> {
     heard.lock().unwrap_or_else(PoisonError::into_inner)
 }

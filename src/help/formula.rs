@@ -91,7 +91,7 @@ impl Formula {
     /// Parses TeX. `display` selects display style.
     ///
     /// # Errors
-    /// [`FormulaError`] for what is outside the subset.
+    /// [`FormulaError`] for TeX outside the subset.
     pub fn parse(tex: &str, display: bool) -> Result<Self, FormulaError> {
         let mut parser = Reader { tokens: tokens(tex).into_iter().peekable() };
         let root = parser.row(&[])?;

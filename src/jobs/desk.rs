@@ -19,7 +19,7 @@ impl<S> Desk<S> {
         Self { state: Mutex::new(state), news: Condvar::new(), wake: Box::new(wake), clock: executor.clock() }
     }
 
-    /// The state. A panic elsewhere leaves nothing half done in it: what is locked is only looked up and put in place.
+    /// The state. A panic elsewhere leaves no partial state: it is only read and replaced under the lock.
     pub fn lock(&self) -> MutexGuard<'_, S> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -40,13 +40,13 @@ impl<S> Desk<S> {
         (self.wake)();
     }
 
-    /// Waits until the state is as wanted, and then reads it.
+    /// Waits until the state satisfies a condition, and then reads it.
     pub fn wait_for<R>(&self, is_wanted: impl Fn(&S) -> bool, read: impl FnOnce(&S) -> R) -> R {
         let state = self.news.wait_while(self.lock(), |state| !is_wanted(state));
         read(&state.unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Waits until the state is as wanted: where an executor is driven, by running what it has queued. For tests.
+    /// Waits until the state satisfies a condition: on a driven executor, by running its queued work. For tests.
     pub fn settle(&self, executor: &Executor, is_wanted: impl Fn(&S) -> bool) {
         if executor.is_driven() {
             while !is_wanted(&self.lock()) && executor.run_next() {}

@@ -65,7 +65,7 @@ impl Executor {
         Ok(())
     }
 
-    /// Queues work that is run again, behind what was queued meanwhile, for as long as it returns true. Threads run no such work.
+    /// Queues work that is repeated, behind the work queued meanwhile, for as long as it returns true. Threads run no such work.
     pub(super) fn queue(&self, name: &str, work: impl FnMut() -> bool + 'static) {
         if let Some(driven) = &self.driven {
             driven.queue.borrow_mut().push_back((name.to_owned(), Box::new(work)));

@@ -108,7 +108,7 @@ impl Brush<'_> {
         }
     }
 
-    /// Only what is near the plot is dashed: a line zoomed into may be miles long.
+    /// Only the part near the plot is dashed: a magnified line may be very long.
     fn dashes(&self, path: &[Pos2], stroke: Stroke, [dash, gap]: [f32; 2]) {
         let near = self.view.rect.expand(20.0);
         for run in

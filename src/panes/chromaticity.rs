@@ -147,8 +147,8 @@ fn point_at(built: &Built, shown: &paint::PlotOutput, context: &mut PaneContext<
     }
 }
 
-/// The correlated color temperature of a color and how far it is from that blackbody, for the observer of the diagram; none while
-/// that is being found out, and for colors that are like no blackbody.
+/// The correlated color temperature of a color and its distance from that blackbody, for the observer of the diagram; `None`
+/// while it is being computed, and for colors without one.
 fn nearest_black_body(color: UvPrime, context: &PaneContext<'_>) -> Option<String> {
     let observer = context.scene.sensor(SetKind::Observer, FIT_TARGET).ok()?;
     context.radiators.ask(vec![NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper }]);

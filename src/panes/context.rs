@@ -128,7 +128,7 @@ impl PaneContext<'_> {
         Ok(self.laboratory.plans(&pictures))
     }
 
-    /// Hits, misses and times of each kind of question, the window's and the pictures'.
+    /// Hits, misses and times of each kind of query, the window's and the pictures'.
     pub fn counts(&self) -> Vec<(&'static str, Count)> {
         self.scene.results.counts().into_iter().collect()
     }

@@ -1,4 +1,4 @@
-//! Color correction: how it is fitted, what it is, what it does, and the files that take it along.
+//! Color correction: method, matrix, errors, and export.
 
 mod controls;
 

@@ -78,7 +78,7 @@ fn hover(ui: &Ui, inside: bool, place: Option<usize>, context: &mut PaneContext<
     }
 }
 
-/// A sentence in the middle, wrapped.
+/// A wrapped message in the center.
 fn sentence(ui: &Ui, body: Rect, words: &str, color: egui::Color32) {
     let font = egui::FontId::proportional(crate::theme::TEXT);
     let width = (body.width() - 8.0 * UNIT).max(40.0);

@@ -58,7 +58,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             let text = question::show(ui, text, &shown, context);
             text::show(ui, text, &shown, context);
         }
-        // What was selected is gone since the list was made; the next frame shows another.
+        // The selected item is gone since the list was made; the next frame shows another.
         None => ui.ctx().request_repaint(),
     }
 }

@@ -98,7 +98,7 @@ fn difference_words(metric: Metric, value: f64) -> String {
     fixed(value, metric.decimals)
 }
 
-/// Reason that there is no difference, as a sentence.
+/// Reason that there is no difference, as a message.
 fn no_difference(reason: DifferenceError) -> String {
     format!("No difference: {reason}.")
 }
@@ -180,7 +180,7 @@ fn assumptions(scene: &Scene<'_>, id: &SensorId, label: &str) -> Vec<String> {
     words
 }
 
-/// Writes down what was assumed.
+/// Lists the assumptions.
 fn show_assumptions(ui: &mut Ui, theme: &Theme, words: Vec<String>) {
     if words.is_empty() {
         return;

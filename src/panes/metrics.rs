@@ -74,7 +74,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// Cameras of the table, progress, and what is done with the selected one.
+/// Cameras of the table, progress, and actions on the selected one.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let choices = [
         (RankedCameras::Library, "Library", "All cameras of the library and yours"),

@@ -89,7 +89,7 @@ fn refresh(file: &RecordedFile, context: &mut PaneContext<'_>) -> Result<(), Str
     Ok(())
 }
 
-/// Opening a file, and what is fitted.
+/// Buttons to open a file, and the fit's settings.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if ui.button("Open…").on_hover_text("Open raw values: a table, or a linear 16-bit picture of a chart").clicked() {
         context.push(Command::OpenRecorded);

@@ -92,7 +92,7 @@ fn caption(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
     ui.label(egui::RichText::new(words).small().color(context.theme.weak));
 }
 
-/// A slider of the settings: a value with its name. Says what it was moved to.
+/// A slider of the settings: a value with its name. Returns the new value.
 struct Dial<'a> {
     name: &'static str,
     range: std::ops::RangeInclusive<f64>,
@@ -130,7 +130,7 @@ fn short(value: f64) -> String {
     crate::format::number(short_value(value))
 }
 
-/// Three digits: what a drag can mean, and what can be read.
+/// Three digits: the precision of a drag and of reading.
 fn short_value(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return 0.0;

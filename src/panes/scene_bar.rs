@@ -163,7 +163,7 @@ fn temperature(ui: &mut Ui, slider_width: f32, context: &mut PaneContext<'_>) {
     slider.widget_info(|| egui::WidgetInfo::slider(true, now, "Temperature, evenly in mired"));
     if slider.changed() {
         let kelvin = 1e6 / mired;
-        // To ten kelvins: what a drag can mean, and what can be read.
+        // To ten kelvins: the precision of a drag and of reading.
         set = Some((kelvin / 10.0).round() * 10.0);
     }
     slider.on_hover_text("Drag: evenly in mired (10⁶/T), as in the strip below the diagram");

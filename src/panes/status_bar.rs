@@ -1,4 +1,4 @@
-//! The foot of the window: the last message or what the pointer is on; at the right, how the numbers came about.
+//! Status bar: the last message or the hovered item; at the right, the provenance of the numbers.
 
 use std::time::Duration;
 

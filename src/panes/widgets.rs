@@ -21,7 +21,7 @@ use crate::theme::{ROW, Theme, UNIT};
 use crate::view::render::RenderView;
 use crate::workspaces::PaneKind;
 
-/// The sentence that says what the window is about.
+/// The sentence that summarizes the window's contents.
 pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, so it records other colors \
                                 than a person sees. Chromascope shows how far off each camera is.";
 
@@ -204,7 +204,7 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
     response.on_hover_text(name)
 }
 
-/// The rim of what the keyboard is on.
+/// The outline of the focused control.
 pub fn focus_rim(response: &Response, theme: &Theme) -> egui::Stroke {
     if response.has_focus() { egui::Stroke::new(1.5, theme.text) } else { egui::Stroke::NONE }
 }

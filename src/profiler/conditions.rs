@@ -13,7 +13,7 @@ use crate::scene::Scene;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Conditions {
-    /// Mesh, material, surface and light in words, and through how many sources; empty where nothing was rendered.
+    /// Mesh, material, surface, light and number of sensors, in words; empty where nothing was rendered.
     pub scene: String,
     /// Number of visible sensors.
     pub sensors: usize,
@@ -48,7 +48,7 @@ impl Conditions {
         }
     }
 
-    /// On what and when it was measured, a sentence.
+    /// Machine and time of the measurement, a sentence.
     pub fn on(&self) -> String {
         let known = [&self.machine, &self.program, &self.began].into_iter().filter(|words| !words.is_empty());
         let known = known.map(String::as_str).collect::<Vec<_>>().join(", ");
@@ -70,7 +70,7 @@ impl Trial {
         format!("{} {what}", self.inputs)
     }
 
-    /// A method's name with what it is: the reference, or what is set.
+    /// A method's name, marked as the reference or the selected one.
     pub fn name(&self, index: usize) -> String {
         let name = self.points.get(index).map_or("", |point| &point.name);
         match (index == 0, self.set == Some(index)) {

@@ -75,7 +75,7 @@ impl ErrorBounds {
             && self.mirror.is_none_or(|error| error < Self::WORTH_SAYING)
     }
 
-    /// In words, without a capital or a full stop: each error with what it is relative to.
+    /// Description without a capital or a full stop: each error with its scale.
     pub fn words(self) -> String {
         let diffuse = self.diffuse.map_or_else(
             || "no sample takes a spectral integral".to_owned(),

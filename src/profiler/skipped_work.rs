@@ -33,7 +33,7 @@ pub struct SkippedWork {
     pub what: Cow<'static, str>,
     /// Number of units that were skipped.
     pub count: u64,
-    /// Of how many; none where that says nothing.
+    /// Total number of units; `None` where it is meaningless.
     pub of: Option<u64>,
     /// The seconds saved; 0 where that was not measured.
     pub saved: f64,
@@ -41,7 +41,7 @@ pub struct SkippedWork {
     pub how: String,
 }
 
-/// All rows. What is stopped on the way is omitted.
+/// All rows. Rows interrupted by a stop are omitted.
 pub(super) fn rows(run: &SceneRunJob, ask: &impl Ask) -> Vec<SkippedWork> {
     let mut rows = Vec::new();
     if let Some(pictures) = &run.pictures {
@@ -89,7 +89,7 @@ fn some_of<T: Clone>(all: &[T], most: usize) -> Vec<T> {
     all.iter().step_by(all.len().div_ceil(most).max(1)).cloned().collect()
 }
 
-/// On how many it was measured.
+/// Number of samples measured, in words.
 fn measured_on(taken: usize, all: usize, places: &str) -> String {
     if taken < all { format!("extrapolated from {taken} {places}") } else { format!("all {taken} {places}") }
 }
@@ -136,7 +136,7 @@ fn unlit(sources: &Sources<'_>) -> Vec<SkippedWork> {
 /// Cost of a lit sample.
 struct SampleCost {
     seconds: f64,
-    /// On how many it was measured.
+    /// Number of samples measured.
     samples: usize,
 }
 

@@ -44,7 +44,7 @@ pub struct LitPixel {
     pub roughness: Option<(f64, String)>,
 }
 
-/// The lit signals of a pixel, and how many of its samples see the mesh.
+/// The lit signals of a pixel, and the number of its samples on the mesh.
 struct Samples {
     signal: [f32; 3],
     seen: usize,

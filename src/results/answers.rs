@@ -1,4 +1,4 @@
-//! The answers of one kind of question, bounded in number and memory.
+//! The answers of one kind of query, bounded in number and memory.
 
 use std::any::Any;
 use std::collections::HashMap;
@@ -117,7 +117,7 @@ impl<Q: Query> Table<Q> {
         Some(Arc::clone(&made.answer))
     }
 
-    /// Takes out what was requested least recently, until no more is left than is worth keeping.
+    /// Evicts the least recently requested answers, until the rest is within the limits.
     fn excess(&mut self) -> Vec<Arc<Q::Answer>> {
         let made = |slot: &Slot<Q::Answer>| match slot {
             Slot::Made(made) => Some((made.asked, made.bytes)),
@@ -151,7 +151,7 @@ impl<Q: Query> Claim<'_, Q> {
         let before = kept.and_then(|kept| table.slots.insert(self.query.clone(), kept));
         let excess = table.excess();
         drop(table);
-        // Large answers are let go of while nothing is locked.
+        // Large answers are dropped while no lock is held.
         drop((before, excess));
     }
 }

@@ -1,4 +1,4 @@
-//! Color corrections as questions: of which sensor, under which one or two lights.
+//! Color corrections as queries: of which sensor, under which one or two lights.
 
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ pub fn exif_light(name: &str) -> Option<u16> {
 }
 
 impl Scene<'_> {
-    /// The question for a sensor's color correction with all errors, under the light on the scene and the second of the document.
+    /// Query for a sensor's color correction with all errors, under the light on the scene and the second of the document.
     pub fn correction_sheet(&self, kind: SetKind, name: &str) -> Result<CorrectionSheetQuery, SceneError> {
         let first = self.rendering_of(kind, name)?;
         let metric = self.correction_metric();

@@ -48,7 +48,7 @@ impl Scene<'_> {
         Ok(Xyz { x, y, z })
     }
 
-    /// The question of the nearest blackbody for the CIE 1931 observer.
+    /// Query of the nearest blackbody for the CIE 1931 observer.
     pub fn nearest_blackbody_query(&self) -> Result<NearestBlackBodyQuery, SceneError> {
         let observer = self.sensor(SetKind::Observer, FIT_TARGET)?;
         Ok(NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper })

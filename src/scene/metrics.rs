@@ -18,7 +18,7 @@ const INDEX_LIGHT: &str = "D55";
 const MOST_METAMERS: usize = 100;
 
 impl Scene<'_> {
-    /// The question for all figures of merit of a sensor under the document's conditions, the locus at the marked temperature.
+    /// Query for all figures of merit of a sensor under the document's conditions, the locus at the marked temperature.
     pub fn camera_metrics_query(&self, kind: SetKind, name: &str) -> Result<CameraMetricsQuery, SceneError> {
         self.camera_metrics_query_at(kind, name, self.document.temperature_k)
     }
@@ -43,7 +43,7 @@ impl Scene<'_> {
         })
     }
 
-    /// The question for metamers of a camera and the reference among all sets of reflectances, with the names of the sets.
+    /// Query for metamers of a camera and the reference among all sets of reflectances, with the names of the sets.
     pub fn metamers_query(
         &self,
         kind: SetKind,

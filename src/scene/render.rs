@@ -1,4 +1,4 @@
-//! The rendered scene as a question.
+//! The rendered scene as a query.
 
 use chromascope_core::query::render::picture::{PicturesQuery, SourceOf};
 use chromascope_core::query::render::{GeometryQuery, MeshQuery, ShadingQuery, VisibilityQuery};
@@ -21,7 +21,7 @@ pub struct Finish {
     pub quality: Quality,
     /// Sampling of shadows, where there are any.
     pub shadows: Shadows,
-    /// About how many samples are compared with the reference.
+    /// Approximate number of samples compared with the reference.
     pub compared_samples: Option<usize>,
 }
 
@@ -44,7 +44,7 @@ impl Scene<'_> {
         sources
     }
 
-    /// The mesh in question; a file's mesh is `own`, once it was read.
+    /// The selected mesh; a file's mesh is `own`, once it was read.
     pub fn mesh_of(&self, own: Option<&Shared<Mesh>>) -> Option<MeshQuery> {
         let settings = &self.document.render;
         match &settings.mesh {

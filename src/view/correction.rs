@@ -40,7 +40,7 @@ impl CorrectionForm {
         }
     }
 
-    /// Label of the button, and what it saves.
+    /// Label of the button, and the object it saves.
     pub const fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Dcp => ("DCP…", "Save a DNG camera profile for raw developers: matrices of one light or two"),

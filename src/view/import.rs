@@ -56,7 +56,7 @@ pub enum Stop {
 }
 
 impl ImportView {
-    /// Shows an item. What was tried on another stays with that.
+    /// Shows an item. Settings tried on another stay with that.
     pub fn select(&mut self, item: ImportItem) {
         if self.selected.as_ref() != Some(&item) {
             self.line = None;

@@ -27,7 +27,7 @@ impl Default for RenderLook {
 }
 
 impl RenderLook {
-    /// Brings what a spoiled file says within its range.
+    /// Corrects values of a damaged file that are out of range.
     pub fn mend(&mut self) {
         if !(0.0..=1.0).contains(&self.split) {
             self.split = Self::default().split;
@@ -68,7 +68,7 @@ pub struct RenderView {
     pub hovered: Option<PixelPlace>,
     /// The sensor shown alone or with the reference; `None` for the first camera.
     pub chosen: Option<SensorId>,
-    /// For how long pictures have been in the making.
+    /// Running time of the rendering.
     pub busy: Option<Duration>,
     /// Name of the computation in progress.
     pub making: &'static str,

@@ -1,4 +1,4 @@
-//! Only what changed is computed: runs counted per question, for what a user does.
+//! Only what changed is computed: runs counted per query, for what a user does.
 
 use std::collections::BTreeMap;
 
@@ -184,7 +184,7 @@ fn a_picture_computes_only_what_an_action_changes() {
         (
             "a name",
             compare(CompareAction::Rename(SetKind::Camera, "Nikon D70 (2007 figure)".to_owned(), "mine".to_owned())),
-            // Nothing: the question is the same.
+            // Nothing: the query is the same.
             &[],
         ),
         ("a measure of difference", Action::Scene(SceneAction::SetDifference(Metric::XY)), &[]),

@@ -41,7 +41,7 @@ fn save_as(window: &mut Window, name: &str, form: Form) {
     until_asked(window, &format!("Save {name} as {}", form.name()));
 }
 
-/// Draws frames until the question says what is saved.
+/// Draws frames until the prompt says what is saved.
 fn until_asked(window: &mut Window, question: &str) {
     waiting::until(question, || {
         window.run_steps(1);

@@ -1,4 +1,4 @@
-//! Questions: what makes them equal, and that their answers are the compositions they say they are.
+//! Tests of queries: their equality, and that their answers equal the direct computations.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 

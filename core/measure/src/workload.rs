@@ -28,7 +28,7 @@ pub enum Workload {
 }
 
 impl Workload {
-    /// All, in the order of the pipeline's questions.
+    /// All, in the order of the pipeline's queries.
     pub const ALL: [Self; 8] = [
         Self::Locus,
         Self::Responses,

@@ -1,4 +1,4 @@
-//! Questions about color corrections: their errors, what they do to white and to narrow blue lights, and their DNG matrices.
+//! Queries about color corrections: their errors, what they do to white and to narrow blue lights, and their DNG matrices.
 
 use super::ask::{Ask, Query};
 use super::loci::NearestBlackBodyQuery;

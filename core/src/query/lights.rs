@@ -1,4 +1,4 @@
-//! Questions about a light alone, and about cameras under it and under its reference illuminant.
+//! Queries about a light alone, and about cameras under it and under its reference illuminant.
 
 use super::ask::{Ask, Query};
 use super::patches::{ColorTransformSpec, RenderingQuery};
@@ -69,7 +69,7 @@ impl Query for RenditionQuery {
 pub struct ConsistencyQuery {
     /// The camera.
     pub sensor: Shared<Sensor>,
-    /// The light in question.
+    /// The test light.
     pub light: Shared<GridSpectrum>,
     /// Its reference illuminant.
     pub reference: Shared<GridSpectrum>,

@@ -235,7 +235,7 @@ pub struct CctQuery {
 }
 
 impl CctQuery {
-    /// The question for a color.
+    /// Query for a color.
     pub fn new(observer: Shared<Sensor>, color: Uv60) -> Self {
         Self { observer, color: [color.u, color.v].map(f64::to_bits) }
     }

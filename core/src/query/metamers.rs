@@ -1,4 +1,4 @@
-//! Question for metamers among sets of reflectances.
+//! Query for metamers among sets of reflectances.
 
 use super::ask::{Ask, Query};
 use super::compare::DifferenceError;

@@ -1,4 +1,4 @@
-//! Questions about reflectances under a light, through a sensor.
+//! Queries about reflectances under a light, through a sensor.
 
 use super::ask::{Ask, Query};
 use super::shared::Shared;
@@ -35,7 +35,7 @@ pub enum ColorTransformSpec {
 }
 
 impl ColorTransformSpec {
-    /// A correction fitted to an observer; the default one is [`Self::Observer`], so that equal questions are equal.
+    /// A correction fitted to an observer; the default one is [`Self::Observer`], so that equal queries are equal.
     pub fn corrected(reference: Shared<Sensor>, training: Shared<PatchSet>, correction: Correction) -> Self {
         if correction == Correction::default() {
             Self::Observer { reference, training }

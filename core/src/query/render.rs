@@ -1,4 +1,4 @@
-//! Questions about pictures of meshes, split where the inputs split.
+//! Queries about pictures of meshes, split where the inputs split.
 //!
 //! A viewpoint depends on no light, a light's position on no spectrum, a surface on no camera, a camera's signals on no white
 //! balance: moving a slider recomputes only what depends on it.

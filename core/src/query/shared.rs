@@ -1,4 +1,4 @@
-//! Immutable values shared between questions.
+//! Immutable values shared between queries.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Deref;

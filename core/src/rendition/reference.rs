@@ -1,4 +1,4 @@
-//! Reference illuminants: blackbodies and daylight at the temperature of the light in question.
+//! Reference illuminants: blackbodies and daylight at the temperature of the test light.
 
 use super::standards::{RenditionError, Standards};
 use super::sums;

@@ -33,7 +33,7 @@ pub struct LoadedMesh {
 }
 
 impl LoadedMesh {
-    /// About how much memory it takes.
+    /// Approximate size in memory.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.mesh.positions()) + size_of_val(self.mesh.normals()) + size_of_val(self.mesh.triangles())
     }
@@ -61,7 +61,7 @@ pub enum MeshFailure {
     /// A folder or a device.
     #[error("{0} is not a file")]
     NoFile(String),
-    /// It is larger than what is read.
+    /// It exceeds the size limit.
     #[error(
         "{file}: {} MB, but the limit is {} MB; simplify the mesh or export a part of it",
         .bytes / 1_000_000,

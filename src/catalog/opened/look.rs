@@ -10,7 +10,7 @@ use super::file::OpenFile;
 use crate::catalog::import::Origin;
 use crate::document::own::Fingerprint;
 
-/// A file's contents as part of a question.
+/// A file's contents as part of a query.
 #[derive(Clone, Debug)]
 struct Contents {
     origin: Origin,

@@ -329,7 +329,7 @@ pub(super) fn reread(set: &OwnSet, why: Why, desk: &Desk, job: &Job) -> Option<(
     Some((name, result))
 }
 
-/// Takes a file in again, if its contents are what they were.
+/// Reloads a file, if its contents are unchanged.
 pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Job) {
     job.at(path, 1, 1);
     if let Ok(bytes) = read_bytes(path)
@@ -340,7 +340,7 @@ pub(super) fn fetch(path: &Path, fingerprint: Fingerprint, desk: &Desk, job: &Jo
     }
 }
 
-/// A file's bytes; the error is a sentence with its name.
+/// A file's bytes; the error is a message with its name.
 fn read_bytes(path: &Path) -> Result<Arc<[u8]>, String> {
     let name = file_name(path);
     let failed = |error: io::Error| format!("{name}: {}", io_reason(&error));

@@ -18,7 +18,7 @@ const PIXELS: usize = 192;
 /// The corner of the picture opposite to the origin, in both diagrams.
 const EXTENT: [[f64; 2]; 2] = [[0.75, 0.85], [0.65, 0.60]];
 
-/// Adds all of it, as the document wants it.
+/// Adds the background by the document's settings.
 pub(super) fn add(drawing: &mut Drawing<'_>) {
     add_area(drawing, f64::from(crate::theme::DIAGRAM_FILL));
     add_labels(drawing);

@@ -87,7 +87,7 @@ fn radiator(scene: &Scene<'_>, source: &ComparedSensor, kelvin: f64) -> Option<L
     if kelvin == scene.document.temperature_k {
         return scene.locus_mark(source.kind, &source.name).ok()?.points.first().copied();
     }
-    // All ticks in one question.
+    // All ticks in one query.
     let list = TICKS.iter().filter_map(|&kelvin| Kelvin::new(kelvin).ok()).collect();
     let locus = scene.locus_at(source.kind, &source.name, Temperatures::List(list)).ok()?;
     locus.points.iter().find(|point| point.temperature.get() == kelvin).copied()

@@ -1,4 +1,4 @@
-//! Patches as points, with tails from each camera's to the reference's; and what the pointer reads.
+//! Patches as points, with tails from each camera's to the reference's, and the text under the pointer.
 
 use chromascope_core::colorimetry::{Metric, UvPrime, Xy};
 use chromascope_core::query::{LocusPoint, PatchColor, Temperatures, compare};
@@ -197,7 +197,7 @@ fn coordinates(xy: Option<Xy>, uv: Option<UvPrime>) -> Vec<String> {
     vec![format!("x {:.4}  y {:.4}   u′ {:.4}  v′ {:.4}", xy.x, xy.y, uv.u, uv.v).replace('-', "−")]
 }
 
-/// Four decimals: what a reader can use.
+/// Four decimals: the useful precision.
 fn round4(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }

@@ -26,7 +26,7 @@ const ISOTHERMS: [f64; 10] = [1500.0, 2000.0, 2500.0, 3000.0, 4000.0, 5000.0, 65
 /// Length of an isotherm to each side in the CIE 1960 diagram.
 const REACH: f64 = 0.03;
 
-/// Adds both, as the document wants it.
+/// Adds both, by the document's settings.
 pub(super) fn add(drawing: &mut Drawing<'_>) {
     let overlays = drawing.scene.document.overlays;
     if overlays.isotherms {

@@ -1,4 +1,4 @@
-//! From what was read to the lines that are drawn.
+//! Conversion of read curves to drawn lines.
 
 use spectral_file::{Quantity, Role, SpectralFile};
 
@@ -50,7 +50,7 @@ impl Curves {
         if let Some(error) = shown.error().filter(|_| shown.pending || shown.set.is_none()) {
             return Err(sentence(&error.to_string()));
         }
-        // What the file says of the set as it is now.
+        // Quantity of the set as the file is interpreted now.
         let known =
             shown.table().filter(|_| !shown.pending && shown.is_fresh()).map(|table| table.reading.quantity.value);
         match (&shown.set, shown.table()) {

@@ -19,7 +19,7 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// Ends a scale may have for a metric of two decimals, and into how many even steps each is divided.
+    /// Possible upper limits of the scale for a metric of two decimals, with the number of equal steps.
     const ENDS: [(f32, u8); 10] =
         [(0.5, 5), (1.0, 4), (2.0, 4), (5.0, 5), (10.0, 5), (15.0, 3), (20.0, 4), (30.0, 3), (50.0, 5), (100.0, 4)];
 

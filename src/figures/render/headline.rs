@@ -51,13 +51,12 @@ impl Measure {
         self.metric.short_name(self.by_eq_13)
     }
 
-    /// A difference in words: pictures' single differences deserve a decimal less than patches'.
+    /// A difference in words: single differences of pictures have a decimal less than those of patches.
     pub fn number(self, difference: f64) -> String {
         fixed(difference, self.metric.decimals.saturating_sub(1))
     }
 
-    /// Difference of a picture in words: "no light" where nothing is lit; the quantiles are of samples that are bright enough to
-    /// judge.
+    /// Difference of a picture in words: "no light" if nothing is lit; the quantiles are of samples that are bright enough.
     pub fn words(self, difference: &Difference, detail: Detail) -> String {
         if difference.map.is_empty() {
             return "no light".to_owned();

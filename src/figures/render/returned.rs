@@ -1,4 +1,4 @@
-//! The share of light that the chosen surface returns, in words: where the reflectance model says its limits.
+//! Share of light that the chosen surface returns, in words: an indication of the reflectance model's limits.
 
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::returned::{ReturnedLight, ReturnedLightQuery};

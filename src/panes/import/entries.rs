@@ -18,7 +18,7 @@ pub(super) enum State {
     Seen,
     /// Read with a guess that the user has not reviewed.
     Unseen,
-    /// Read as written: what it is has to be chosen.
+    /// Read as written: the role has to be chosen.
     Open,
     /// Not used, though it could be read.
     Unused,
@@ -30,7 +30,7 @@ impl State {
     /// All of them, in the order of a legend.
     pub(super) const ALL: [Self; 6] = [Self::Certain, Self::Seen, Self::Unseen, Self::Open, Self::Unused, Self::Failed];
 
-    /// In words, for the pointer and for screen readers.
+    /// Description for tooltips and screen readers.
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Certain => "read",

@@ -17,7 +17,7 @@ use crate::workspaces::PaneKind;
 const HEIGHT: f32 = 38.0;
 /// Width of the mark before a name.
 const MARK: f32 = 16.0;
-/// Width that a scroll bar lies over.
+/// Width that a scroll bar overlaps.
 const SCROLL_BAR: f32 = 8.0;
 
 /// Shows the files one below the other.
@@ -196,7 +196,7 @@ fn row(ui: &mut Ui, index: usize, entries: &[Entry], context: &mut PaneContext<'
     let lower = Rect::from_min_max(egui::pos2(left, middle), egui::pos2(rect.right() - UNIT, rect.bottom() - 2.0));
     lines::elided(ui, upper, &entry.name, TextStyle::Body, theme.text);
     let color = match (on, entry.state) {
-        // Neither gray nor red could be read on the ground of what is chosen.
+        // Neither gray nor red would be readable on the selection background.
         (true, _) => theme.text,
         (false, State::Failed) => theme.error,
         (false, _) => theme.weak,

@@ -18,7 +18,7 @@ use crate::theme::{MONO, ROW, UNIT};
 const LINE: f32 = 18.0;
 /// Height of the legend.
 const LEGEND: f32 = 20.0;
-/// So far a long line can be scrolled: what is beyond has to be skipped letter by letter.
+/// Length up to which a long line can be scrolled: later parts have to be skipped letter by letter.
 const WIDEST: usize = 50_000;
 const _: () = assert!(WIDEST < LONGEST_LINE, "a line is counted so far");
 /// Number of letters of a line exposed to screen readers.

@@ -11,7 +11,7 @@ use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::scene::Scene;
 use crate::workspaces::PaneKind;
 
-/// A row: its name, how many decimals, and a number for each column.
+/// A row: its name, its decimals, and a number for each column.
 pub(super) struct Row {
     /// Name of the quantity.
     pub(super) name: &'static str,

@@ -53,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.label(RichText::new("Hover to read, click to select, Esc to deselect.").color(theme.weak));
 }
 
-/// The two starts, one click apart, with what the chosen one sets up.
+/// The two starts, one click apart, with a summary of the chosen one.
 fn starts(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.start;
     ui.label(RichText::new("Start").small().color(context.theme.weak));

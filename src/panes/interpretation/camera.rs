@@ -1,4 +1,4 @@
-//! For a camera: which curves are red, green and blue, and what they count.
+//! Camera settings: the red, green and blue curves, and their response basis.
 
 use egui::Ui;
 use spectral_file::{Certainty, Role};

@@ -16,7 +16,7 @@ pub(super) fn first(ui: &Ui) -> bool {
     ui.data_mut(|data| data.remove_temp::<bool>(first_switch())).unwrap_or(false)
 }
 
-/// True if a list closed since the last frame without a click, which would have been meant for what was clicked.
+/// True if a list closed since the last frame by a click on another control.
 pub(super) fn closed(ui: &Ui, list: Id, open: bool) -> bool {
     let key = list.with("was open");
     let was: bool = ui.data(|data| data.get_temp(key)).unwrap_or(false);

@@ -1,4 +1,4 @@
-//! The switches of the reader: each says what was decided and how sure that is, and takes another choice.
+//! Settings of the reader: each shows the decision with its confidence, and accepts another choice.
 
 use egui::Ui;
 use spectral_file::{
@@ -92,7 +92,7 @@ impl<T: Copy + PartialEq> Switch<'_, T> {
     }
 }
 
-/// The closed list: what was chosen, else what the content says, if that is known.
+/// The closed list: the choice, else the automatic decision, if known.
 fn closed<T: Copy>(
     wish: Option<String>,
     decided: Option<&Decided<T>>,
@@ -121,7 +121,7 @@ fn short(words: &str) -> &str {
     ["Down", "Across", "Table"].into_iter().find(|short| words.starts_with(short)).unwrap_or(words)
 }
 
-/// Words as they read within a sentence.
+/// Text in the form for the middle of a sentence.
 fn lower(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())

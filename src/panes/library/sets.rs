@@ -16,7 +16,7 @@ use crate::panes::widgets::{facts, focus_rim, lines};
 use crate::theme::{ROW, UNIT};
 use crate::view::import::ImportItem;
 
-/// Width that a scroll bar lies over.
+/// Width that a scroll bar overlaps.
 pub(super) const SCROLL_BAR: f32 = 10.0;
 
 /// Width that the tag of a digitized table takes.

@@ -217,7 +217,7 @@ fn is_nearly_a_mirror(settings: &RenderSettings) -> bool {
     settings.roughness == RoughnessChoice::Surface && (-phase * phase).exp() > 0.01
 }
 
-/// A sentence to go on with.
+/// The text with its first letter in lower case.
 fn lowered(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())

@@ -83,7 +83,7 @@ impl NumberField<'_> {
         if response.changed() {
             typed.wrong = None;
         }
-        // Escape gives up what is typed, and nothing else.
+        // Escape discards the typed text, and nothing else.
         context.view.keeps_escape |= response.has_focus();
         let arrows =
             ui.input(|input| input.num_presses(Key::ArrowUp) as f64 - input.num_presses(Key::ArrowDown) as f64);
@@ -120,7 +120,7 @@ impl NumberField<'_> {
         }
     }
 
-    /// The reason below the field why what is typed was not taken.
+    /// The reason below the field for rejecting the typed text.
     fn explain(&self, ui: &Ui, response: &Response, typed: &Typed, context: &PaneContext<'_>) {
         let Some(wrong) = &typed.wrong else { return };
         let at = response.rect.left_bottom() + egui::vec2(0.0, UNIT);

@@ -262,7 +262,7 @@ pub fn show_numbers(ui: &mut Ui, rect: Rect, pane: PaneKind, table: &Table, cont
     };
 }
 
-/// Shows names with what they are, a line each, between other lines of text.
+/// Shows names with their descriptions, a line each, within other text.
 pub fn show_pairs<N: AsRef<str>>(
     ui: &mut Ui,
     pane: PaneKind,

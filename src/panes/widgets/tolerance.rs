@@ -1,4 +1,4 @@
-//! The field of a tolerance: a slider over powers of ten, and a text that says what is wrong with it.
+//! Tolerance field: a slider over powers of ten, and a text field that explains errors.
 
 use egui::{Id, Key, RichText, Role, Slider, TextEdit, Ui, WidgetInfo};
 
@@ -42,7 +42,7 @@ pub fn field(ui: &mut Ui, id: Id, now: f64, words: &str, hint: &str, context: &m
         if text.changed() {
             typed.wrong = None;
         }
-        // Escape gives up what is typed, and nothing else.
+        // Escape discards the typed text, and nothing else.
         context.view.keeps_escape = text.has_focus() || context.view.keeps_escape && !text.lost_focus();
         if text.lost_focus() && ui.input(|input| input.key_down(Key::Escape)) {
             typed = Typed { of: now, text: shown(now), wrong: None };
@@ -59,7 +59,7 @@ pub fn field(ui: &mut Ui, id: Id, now: f64, words: &str, hint: &str, context: &m
     if let Some(wrong) = &typed.wrong {
         ui.label(RichText::new(wrong).small().color(theme.error));
     }
-    // What was chosen shows as it is written here, also where it is what it was.
+    // A chosen value is shown in canonical form, even if it is unchanged.
     if chosen.is_some() {
         typed = Typed { of: now, text: shown(now), wrong: None };
     }

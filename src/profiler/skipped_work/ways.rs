@@ -54,7 +54,7 @@ impl Ways {
         self.looked_at(shade) > 0
     }
 
-    /// The wavelengths that integrals rest on, in the sample or in what was made beforehand.
+    /// The wavelengths used by integrals, in the sample or in its precomputed tables.
     pub(super) fn nodes(&self) -> Vec<Node> {
         self.plan.nodes(self.measure())
     }

@@ -91,7 +91,7 @@ fn the_library_shares_what_does_not_depend_on_the_camera() {
         ("patch colors", 59),
     ];
     for (name, misses) in expected {
-        // Two tables of one measurement that differ in rounding are two questions.
+        // Two tables of one measurement that differ in rounding are two queries.
         assert_eq!(counts[name].misses, misses, "{name}");
     }
 }

@@ -74,7 +74,7 @@ impl Query for TableMetricsQuery {
 /// u² = Σ_k (m_k − m̄)² / (n − 1)                    for a model with n ≥ 2 independent tables
 /// u² = Σ_j Σ_k (m_jk − m̄_j)² / Σ_j (n_j − 1)       for all others: pooled over those models, a prior
 /// ```
-/// m are the metric's values of the tables under the conditions of the question.
+/// m are the metric's values of the tables under the conditions of the query.
 pub(super) fn standard_uncertainties(of: &CameraMetricsQuery, ask: &impl Ask) -> Vec<Option<f64>> {
     let nothing = || vec![None; CameraMetric::ALL.len()];
     if of.rendering.sensor.primaries() != Primaries::Camera {

@@ -5,7 +5,7 @@ use chromascope_figure::{Cell, Table, TextSize, text_width};
 use crate::format::{fixed, number};
 use crate::theme::UNIT;
 
-/// Widest column of text, in points; what is longer is cut and read under the pointer.
+/// Maximum width of a text column, in points; longer text is cut and shown under the pointer.
 const WIDEST_TEXT: f64 = 260.0;
 /// Maximum width of a header above shorter cells.
 const WIDEST_HEAD: f64 = 150.0;
@@ -35,7 +35,7 @@ pub struct Column {
     pub largest_first: bool,
     /// Gray behind its numbers, darker for worse ones.
     pub shaded: bool,
-    /// Not shown unless the user wants it.
+    /// Hidden by default.
     pub starts_hidden: bool,
 }
 
