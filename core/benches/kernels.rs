@@ -2,8 +2,8 @@
 //! repeatable where times are not.
 //!
 //! ```text
-//! kernels                      the names, each with how often to run it
-//! kernels NAME COUNT           runs one so many times and says nothing
+//! kernels                      the names, each with its number of runs
+//! kernels NAME COUNT           runs one COUNT times without output
 //! kernels --quick              time of each as a ratio to a plain product of 401 samples in the same run
 //! ```
 //! `.ci/instructions` counts under callgrind: the difference of two counts of runs, over their difference, is free of what

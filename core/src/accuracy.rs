@@ -108,7 +108,7 @@ pub struct NotATolerance {
     pub value: f64,
 }
 
-/// A request that no way meets.
+/// A tolerance that no method meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 #[error("an error of {asked:.1} cannot be promised; the best that can be is {best:.1}")]
 pub struct Unmet {

@@ -39,7 +39,7 @@ fn locus(sensor: Sensor, temperatures: &[f64]) -> Vec<Xy> {
     locus_at(sensor, Temperatures::List(temperatures.iter().map(|&t| kelvin(t)).collect()))
 }
 
-/// A camera's distance to the truth over temperature.
+/// A camera's distance to the reference over temperature.
 struct Distances {
     t: Vec<f64>,
     d: Vec<f64>,

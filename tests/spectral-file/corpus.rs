@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 use spectral_file::{Certainty, Dropped, Preview, ReadOptions, SpectralFile, Watch, What, read, read_marked};
 
-/// Relative distance between a value and its truth: the truth is written in decimals.
+/// Relative distance between a value and its truth, which is written in decimals.
 const CLOSE: f64 = 1e-12;
 
 fn folder() -> PathBuf {

@@ -3,10 +3,10 @@
 //! [`read_mesh`] takes the bytes of a Wavefront OBJ, Stanford PLY or STL file, the latter two as text or binary.
 //! Coordinates are not converted: neither the unit nor the up axis is guessed.
 //!
-//! The way of a file: `sniff` (which format), `obj`, `ply` or `stl` (to vertices, normals and polygons, the shared `soup`;
-//! STL's corners are welded where they are equal), `triangulate` (polygons of any shape to triangles), `edges` (what is
-//! open, doubled or flipped, and which corners share a normal), `build` (vertices split where normals differ, missing
-//! normals computed).
+//! Pipeline of a file: `sniff` (detects the format), `obj`, `ply` or `stl` (to vertices, normals and polygons, the shared
+//! `soup`; STL's corners are welded where they are equal), `triangulate` (polygons of any shape to triangles), `edges`
+//! (open, doubled or flipped edges, and corners that share a normal), `build` (vertices split where normals differ,
+//! missing normals computed).
 //!
 //! Normals: those of the file where it has them. Missing ones are the mean of the faces around a vertex, by angle, going
 //! over an edge only where both faces are of one smoothing group (`s 1`), or where the file names no smoothing at

@@ -37,7 +37,7 @@ impl ShadowTree {
         let triangles =
             mesh.triangles().iter().map(|&[a, b, c]| Triangle { v0: corner(a), v1: corner(b), v2: corner(c) });
         let triangles = distinct(triangles.collect());
-        // Children in any order: whatever is in the way first ends a ray.
+        // Children in any order: the first occluder ends a ray.
         let tree = bvh2_to_cwbvh(&split::tree(&triangles), LEAF, false, false);
         // In the tree's order a leaf's triangles lie side by side.
         let triangles = tree.primitive_indices.iter().map(|&id| triangles[id as usize]).collect();

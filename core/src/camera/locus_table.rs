@@ -1,7 +1,7 @@
 //! The chromaticities of blackbodies at very many temperatures: polynomials in the reciprocal temperature.
 //!
-//! A table costs some thousand sums over the spectrum and then replaces each further one by sixteen coefficients. It is made
-//! for a sensor with its way to the diagram, so that a camera costs no more than an observer.
+//! A table costs about a thousand sums over the spectrum and then replaces each further one by sixteen coefficients. It is
+//! made for a sensor with its color transform, so that a camera costs no more than an observer.
 
 mod pieces;
 
@@ -61,7 +61,7 @@ impl LocusTable {
     /// The error beyond which a piece is omitted.
     pub const LIMIT: f64 = 1e-12;
 
-    /// Tabulates the locus of a sensor and its way to the diagram (Eq 15). Some thousand sums, on all cores.
+    /// Tabulates the locus of a sensor with its color transform (Eq 15). About a thousand sums, on all cores.
     pub fn new(sensor: &Sensor, rendering: &Rendering, constants: RadiationConstants) -> Self {
         Self::summed(sensor, rendering, constants, Self::TARGET)
     }

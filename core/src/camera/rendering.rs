@@ -15,7 +15,7 @@ use crate::spectral::{GridSpectrum, Primaries, Sensor};
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
 
-/// The way from signals to the diagram.
+/// Color transform from sensor signals to XYZ.
 #[derive(Clone, Copy, Debug)]
 pub enum ColorTransform<'a> {
     /// Eq 13 for cameras and RGB observers alike; CIE observers directly.
@@ -82,7 +82,7 @@ pub enum RenderingError {
 /// Below this share of the unsigned integral a balance is refused: it would be made of cancellation.
 const BLIND: f64 = 1e-6;
 
-/// Everything between a sensor's raw integrals and its places on the diagram, fixed for one light, white and way.
+/// Conversion from a sensor's raw integrals to chromaticities, for a fixed light, white balance and color transform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rendering {
     /// Signals of a perfect diffuser: Eq 11's s.
@@ -107,7 +107,7 @@ pub struct Rendering {
 }
 
 impl Rendering {
-    /// Prepares a sensor for a light, a white and a way to the diagram.
+    /// Prepares a sensor for a light, a white balance and a color transform.
     ///
     /// # Errors
     ///

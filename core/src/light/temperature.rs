@@ -36,7 +36,7 @@ const CHUNK: usize = 4096;
 
 /// The Planckian locus of an observer, prepared to find the nearest blackbody of any color.
 ///
-/// The nearest point is where the tangent is square to the way to the color:
+/// The nearest point is where the tangent is perpendicular to the line to the color:
 ///
 /// ```text
 /// (u(m) − u) u′(m) + (v(m) − v) v′(m) = 0,   m = 10⁶/T
@@ -131,7 +131,8 @@ impl PlanckianLocus {
             for (answers, colors) in answers.chunks_mut(LANES).zip(colors.chunks(LANES)) {
                 lanes.solve(&self.start, &self.pieces, colors);
                 for (lane, (answer, &color)) in answers.iter_mut().zip(colors).enumerate() {
-                    // Stored on each way of its own: gathered first, an answer would pass through memory, misaligned.
+                    // Stored separately in each branch: gathered first, an answer would pass through memory,
+                    // misaligned.
                     match lanes.found(lane).and_then(|found| found.cct()) {
                         Some(cct) => *answer = Ok(cct),
                         None => *answer = self.careful(color),

@@ -145,7 +145,7 @@ impl Locus {
 /// Planckian locus through a sensor (Eq 15).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct LocusQuery {
-    /// The sensor and its way to the diagram.
+    /// The sensor and its color transform.
     pub rendering: RenderingQuery,
     /// The temperatures.
     pub temperatures: Temperatures,
@@ -176,7 +176,7 @@ impl Query for LocusQuery {
 /// Spectral locus through a sensor: shows errors that no 3×3 matrix can correct.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MonochromaticQuery {
-    /// The sensor and its way to the diagram.
+    /// The sensor and its color transform.
     pub rendering: RenderingQuery,
 }
 

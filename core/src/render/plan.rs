@@ -162,8 +162,8 @@ impl Plan {
         }
     }
 
-    /// True if a search pays for a picture of a quality with so many samples below [`NEARLY_ROUGH`] and [`ROUGH`], if the diffuse
-    /// component has to keep this tolerance. A tolerance in numbers is always searched for: its error is checked.
+    /// True if a search pays for a picture of a quality with these numbers of samples below [`NEARLY_ROUGH`] and [`ROUGH`], if
+    /// the diffuse component has to meet this tolerance. A numeric tolerance always requires a search: its error is checked.
     pub(in crate::render) fn is_searched(quality: Quality, tolerance: RelTolerance, below: [u64; 2]) -> bool {
         let (nodes, precision, samples) = match quality {
             Quality::Within(_) => return true,

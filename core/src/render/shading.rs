@@ -26,7 +26,7 @@ use lobes::{Lobe, Lobes};
 /// Reflectance of the darkest material that untinted lobes are weighed against: which one it is a surface does not know.
 const DARKEST: f64 = 1.0 / 64.0;
 
-/// κ beyond which there is no mirror term, as for most surfaces: at the reddest light e^-100 of it is left.
+/// κ beyond which there is no coherent component, as for most surfaces: at the reddest light e^-100 of it is left.
 const LAST_KAPPA: f64 = 100.0 * (LAST_NM / LAMBDA_0_NM) * (LAST_NM / LAMBDA_0_NM);
 
 /// Spectral dependence of a sample's diffuse component.
@@ -57,7 +57,7 @@ impl Shade {
     const DARK: Self = Self { front: 0.0, kappa: 0.0, beta: 0.0, kind: DiffuseKind::Dark };
 }
 
-/// A sample with a mirror term worth having.
+/// A sample with a coherent component worth having.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mirror {
     /// The sample's place among the lit ones.
@@ -79,7 +79,7 @@ pub struct ShadingCounts {
     pub flat: u64,
     /// Samples with a spectral integral.
     pub spectral: u64,
-    /// Samples with a mirror term.
+    /// Samples with a coherent component.
     pub mirrors: u64,
     /// Samples whose specular component was omitted.
     pub mirrors_skipped: u64,
@@ -194,7 +194,7 @@ impl ShadingImage {
         &self.shades
     }
 
-    /// The samples or vertices with a mirror term, ascending.
+    /// The samples or vertices with a coherent component, ascending.
     pub fn mirrors(&self) -> &[Mirror] {
         &self.mirrors
     }
@@ -205,7 +205,7 @@ impl ShadingImage {
     }
 
     /// Tolerance of the diffuse component's integral, relative to its peak, that keeps the picture's: smaller where no sample is
-    /// seen from near the mirror's direction, by a power of 16, but not below the error of S.
+    /// seen from near the specular direction, by a power of 16, but not below the error of S.
     pub fn plan_tolerance(&self) -> Option<RelTolerance> {
         let tolerance = self.quality.tolerance()?;
         let best = Precision::Full.max_relative_error();
@@ -283,7 +283,7 @@ struct Material {
 }
 
 impl Material {
-    /// The shades of a list of places, and their mirror terms; none if stopped.
+    /// The shades of a list of places, and their coherent components; none if stopped.
     fn shaded(&self, count: usize, place: impl Fn(usize) -> Place + Sync, stop: &Stop) -> Option<(Vec<Shade>, Lobes)> {
         let chunk = GeometryImage::chunk();
         let shade = |index| if stop.is_set() { Shade::DARK } else { self.shade(&place(index)) };
@@ -320,7 +320,7 @@ impl Material {
         Shade { front, kappa, beta, kind: if is_dark { DiffuseKind::Dark } else { DiffuseKind::Spectral } }
     }
 
-    /// The mirror term of a sample, if it may be above the least that counts.
+    /// The coherent component of a sample, if it may be above the least that counts.
     fn lobe(&self, place: &Place, index: usize, least: f64) -> Option<Lobe> {
         let Place { geometry, light, surface } = place;
         if self.reading == Normalization::Lambertian {

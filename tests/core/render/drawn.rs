@@ -24,7 +24,7 @@ const BLACK: f64 = 1e-12;
 struct Drawn {
     camera: usize,
     reading: usize,
-    /// Powers of ten: σ, τ and the patch's half side in meters, the tolerance.
+    /// Powers of ten: σ, τ and the patch's half-width in meters, the tolerance.
     powers: [f64; 4],
     index: f64,
     is_plane: bool,

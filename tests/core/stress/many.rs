@@ -177,7 +177,7 @@ fn pairs(&[key, first, second, room, offset, ..]: &Case, v: &mut Verdict) {
     }
 }
 
-/// A sensor with its way to the diagram, its table and its sum.
+/// A sensor with its color transform, its table and its sum.
 struct Seen {
     rendering: Rendering,
     table: LocusTable,

@@ -387,7 +387,7 @@ fn picture(&[which, sigma, tau, half, index, key, reading, ..]: &Case, v: &mut V
     }
 }
 
-/// The mirror terms of a whole picture, relative to its brightest sample, beside those that leave nothing out.
+/// The coherent components of a whole picture, relative to its brightest sample, compared with those without omissions.
 fn against_all(shading: &ShadingImage, reading: Normalization, measure: &SpectralWeights, v: &mut Verdict) {
     let asked = shading.quality().given_tolerance().expect("an accuracy is asked for");
     v.holds("no brightness", shading.brightness() >= 0.0 && shading.brightness().is_finite());

@@ -74,8 +74,8 @@ pub fn off_locus(observer: &Sensor, constants: RadiationConstants, kelvins: f64,
     [(u - duv * dv / length).value(), (v + duv * du / length).value()]
 }
 
-/// Temperature in kelvins and Duv of a color near which they are known to lie: secants on the condition that the way to the
-/// nearest point is square to the locus.
+/// Temperature in kelvins and Duv of a color from a nearby start: secants on the condition that the line to the nearest
+/// point is perpendicular to the locus.
 pub fn cct(observer: &Sensor, constants: RadiationConstants, color: [f64; 2], near_kelvins: f64) -> [Double; 2] {
     let [pu, pv] = color.map(Double::new);
     let condition = |m: Double| {

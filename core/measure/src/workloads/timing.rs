@@ -50,7 +50,7 @@ pub(super) struct Cost {
     pub(super) flops: f64,
 }
 
-/// One way of doing a case's work.
+/// One method of a case.
 pub(super) struct Candidate<'a> {
     method: String,
     threads: usize,

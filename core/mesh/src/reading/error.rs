@@ -1,6 +1,6 @@
 //! Reason that a file gives no mesh: where, and what to do about it.
 
-/// A kind of file that holds something else, or a mesh in a way that is not read.
+/// Unsupported contents of a file: another kind of file, or an unsupported kind of mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Alien {
     /// glTF, as text or binary.

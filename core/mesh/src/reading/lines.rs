@@ -162,8 +162,8 @@ pub(super) fn parse_number(word: &Word<'_>) -> Result<f64, MeshReadError> {
 
 /// A number of at most 18 digits with a small exponent, to the nearest double; none for all else.
 ///
-/// A whole number below 2^53 and a power of ten up to 22 are exact doubles, so one division or multiplication rounds once
-/// (Clinger 1990). Nearly all coordinates are of this kind, at a fifth of the time of the general way.
+/// A whole number below 2^53 and a power of ten up to 22 are exact doubles, so that one division or multiplication rounds
+/// once (Clinger 1990). Nearly all coordinates are of this kind, at a fifth of the time of the general method.
 #[inline]
 fn short_number(text: &[u8]) -> Option<f64> {
     const TENS: [f64; 23] = [

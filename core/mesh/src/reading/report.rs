@@ -108,7 +108,7 @@ pub struct Report {
     pub normals: Normals,
     /// Triangles omitted because they have no area within single precision's resolution of their coordinates.
     pub degenerate: Tally,
-    /// Polygons that cross themselves, so that no way of cutting them is right; they were cut somehow.
+    /// Self-intersecting polygons, which have no valid triangulation; they were triangulated arbitrarily.
     pub crossing: Tally,
     /// Edges where more than two triangles meet; not changed. `first` is the first face at such an edge.
     pub non_manifold_edges: Tally,

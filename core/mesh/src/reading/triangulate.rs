@@ -199,7 +199,7 @@ impl Polygon {
         let first = inside([0, 1, 2], [0, 2, 3]);
         let second = inside([1, 2, 3], [1, 3, 0]);
         let [p, q] = [[0, 2], [1, 3]].map(|[a, b]: [usize; 2]| self.space[a].distance_squared(self.space[b]));
-        // Where both are as good, all quads of a grid are cut the same way.
+        // If both diagonals are equally good, all quads of a grid are cut alike.
         match (first, second) {
             (false, false) => return false,
             (true, false) => self.triangles.extend([[0, 1, 2], [0, 2, 3]]),

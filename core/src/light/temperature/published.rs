@@ -44,8 +44,8 @@ pub fn hernandez_andres_1999(color: Xy) -> Result<Kelvin, CctError> {
 
 /// Kang, Moon, Hong, Lee, Cho and Kim 2002: the chromaticity of a blackbody, for 1667–25 000 K; none outside.
 ///
-/// Cubics in 1/T for x, two of them, and in x for y, three. Only in this direction: the way back was not published as a
-/// formula, and as a search for the nearest point it would be as much work as the real locus. Measured: within 6e-4 in xy.
+/// Cubics in 1/T for x, two of them, and in x for y, three. Only in this direction: the inverse was not published as a
+/// formula, and as a search for the nearest point it would cost as much as the exact locus. Measured: within 6e-4 in xy.
 pub fn kang_2002(temperature: Kelvin) -> Option<Xy> {
     let kelvins = temperature.get();
     if !(1667.0..=25_000.0).contains(&kelvins) {

@@ -11,7 +11,7 @@ pub const MAX_DUV: f64 = 0.05;
 
 pub(super) const HOTTEST_MIRED: f64 = 1e6 / HOTTEST_K;
 pub(super) const COLDEST_MIRED: f64 = 1e6 / COLDEST_K;
-/// Rounding must not refuse what was made from a limit itself: so much beyond, relative to it, is let through, unclamped.
+/// Relative tolerance of the limits, so that rounding does not reject a value made from a limit itself; not clamped.
 pub(super) const SLACK: f64 = 1e-11;
 
 /// A color as the nearest blackbody and the distance from it.

@@ -96,7 +96,7 @@ struct Place {
     y: f64,
 }
 
-/// The piece of a place where there is none: little or no g, no b, or so large a b that other ways are as good.
+/// The piece of an argument outside the pieces: little or no g, no b, or so large a b that other methods are as good.
 const NOWHERE: usize = ROWS * COLUMNS;
 
 impl Place {

@@ -90,7 +90,7 @@ fn by_bell(m: f64, delta: f64) -> SeriesTerms {
         }
         inner
     };
-    // Four times the half width that a bell of this variance has: beyond its own skewness, from m = 64 on.
+    // Four times the half-width that a bell of this variance has: beyond its own skewness, from m = 64 on.
     let beyond = 4.0 * (2.0 * depth / m / (1.0 + 2.0 * delta)).sqrt();
     let (above, below) = (edge(beyond), edge(-beyond.min(1.0 - 1.0 / m)));
     SeriesTerms { last: (m * (1.0 + above)).floor(), weighing: (m * (above - below)).ceil().max(1.0) }

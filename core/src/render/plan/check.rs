@@ -1,4 +1,4 @@
-//! A fixed set of (κ, β) with the integral there: what every way is compared with.
+//! Fixed set of (κ, β) with reference values of the integral, against which every method is checked.
 
 use super::domain::{Demand, beta_at};
 use super::nodes::many_by_nodes;

@@ -316,7 +316,7 @@ impl Search<'_> {
         }
     }
 
-    /// A plan of one way alone.
+    /// A plan with a single method.
     fn with(&self, below: Below) -> Plan {
         let chosen = Candidate::unseen(IntegrationMethod::Nothing);
         let (asked, demand) = (self.tolerance, self.demand);
