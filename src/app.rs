@@ -201,7 +201,7 @@ impl ChromascopeApp {
         self.commands.push(command.into());
     }
 
-    /// Says when the first frame was complete, counted from `start`.
+    /// Reports when the first frame was complete, counted from `start`.
     pub fn report_first_frame(&mut self, start: std::time::Instant) {
         self.first_frame = Some(start);
     }

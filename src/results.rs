@@ -21,9 +21,9 @@ use answers::{Answers, Asked, Kind};
 /// Counters of one kind of query.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
-    /// Answers that were remembered.
+    /// Cache hits.
     pub hits: u64,
-    /// Answers that were computed.
+    /// Cache misses: answers that were computed.
     pub misses: u64,
     /// Number of times that an answer was waited for while another thread computed it.
     pub waits: u64,

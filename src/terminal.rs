@@ -25,7 +25,7 @@ pub fn shown(text: &str) -> Cow<'_, str> {
     Cow::Owned(plain)
 }
 
-/// Says something on standard error.
+/// Writes a message to standard error.
 pub fn say(text: &str) {
     // No message can be written once the terminal is closed.
     let _gone = io::stderr().lock().write_all(shown(text).as_bytes());

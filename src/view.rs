@@ -218,12 +218,12 @@ pub enum Weight {
 }
 
 impl View {
-    /// Says something at the foot of the window.
+    /// Shows a message in the status bar.
     pub fn say(&mut self, text: impl Into<String>) {
         self.status = Status { text: text.into(), weight: Weight::Note, change: None };
     }
 
-    /// Says that something failed.
+    /// Shows an error in the status bar.
     pub fn fail(&mut self, text: impl Into<String>) {
         self.status = Status { text: text.into(), weight: Weight::Error, change: None };
     }

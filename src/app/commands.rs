@@ -266,7 +266,7 @@ impl ChromascopeApp {
         }
     }
 
-    /// Goes to the next pane, or to the next part of one that has several; the keyboard goes there too.
+    /// Moves to the next pane, or to the next part of one that has several, with the keyboard focus.
     fn next_pane(&mut self, ctx: &egui::Context) {
         let shown: Vec<PaneKind> = self.arrangement.panes.iter().map(|(pane, _)| *pane).collect();
         let import = &mut self.view.import;

@@ -56,7 +56,7 @@ impl WindowPlace {
         Self { settings, normal, seen: Seen::default() }
     }
 
-    /// Looks where the window is, if it changed.
+    /// Records the window's position, if it changed.
     pub(super) fn follow(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
         let now = ctx.input(|input| {
             let viewport = input.viewport();

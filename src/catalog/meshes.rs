@@ -78,7 +78,7 @@ impl Known {
 }
 
 impl MeshStore {
-    /// Knows no file yet. `wake` is called when a file was read, from the thread that read it.
+    /// Creates an empty store. `wake` is called when a file was read, from the thread that read it.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self::on(&Executor::default(), wake)
     }
@@ -145,7 +145,7 @@ impl MeshStore {
         self.desk.lock().opening.clone()
     }
 
-    /// Gives up opening. Returns the file that was being opened.
+    /// Cancels opening. Returns the file that was being opened.
     pub fn cancel(&self) -> Option<PathBuf> {
         self.desk.lock().give_up_opening()
     }

@@ -134,7 +134,7 @@ struct Job {
 }
 
 impl Opened {
-    /// Knows no file yet. `wake` is called when something was read, from the thread that read it.
+    /// Creates an empty store. `wake` is called when something was read, from the thread that read it.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self::on(&Executor::default(), wake)
     }

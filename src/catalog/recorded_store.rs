@@ -70,7 +70,7 @@ pub struct RecordedStore {
 }
 
 impl RecordedStore {
-    /// Knows no file yet. `wake` is called when one was read, from the thread that read it.
+    /// Creates an empty store. `wake` is called when a file was read, from the thread that read it.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self { state: Arc::default(), executor: executor.clone(), wake: Arc::new(wake) }
     }

@@ -30,7 +30,7 @@ struct Answer {
     patches: Vec<String>,
 }
 
-/// Answers for each light in the order given.
+/// Results for each light in the given order.
 pub(super) fn run(arguments: &LightArguments, matches: &ArgMatches) -> Result<(), CliError> {
     let mut request = Request::of_sources(&arguments.sources, matches)?;
     request.set_chart(arguments.chart.as_deref())?;

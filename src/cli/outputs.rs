@@ -92,7 +92,7 @@ fn is_stream(path: &Path) -> bool {
     is_standard_output(path) || is_descriptor(path) || no_file()
 }
 
-/// Says something to people on standard output.
+/// Writes a message to standard output.
 pub(super) fn show(text: &str) -> Result<(), CliError> {
     put(&terminal::shown(text), None)
 }

@@ -429,7 +429,7 @@ pub(super) fn told(path: &Path) -> String {
     spectral_file::on_one_line(&path.to_string_lossy()).into_owned()
 }
 
-/// Says what was taken for a name that is not exact.
+/// Reports the match of an inexact name.
 fn tell(argument: &str, typed: &str, found: &Found<'_>) {
     if let Some(note) = found.note() {
         say(&format!("chromascope: {argument} \"{typed}\": {note}\n"));

@@ -168,7 +168,7 @@ impl Node {
     }
 }
 
-/// Says a part in parentheses unless it is one symbol.
+/// Text of a part, in parentheses unless it is one symbol.
 fn say_grouped(node: &Node, out: &mut String) {
     let mut words = String::new();
     node.say(&mut words);

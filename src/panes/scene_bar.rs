@@ -142,7 +142,6 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
 }
 
-/// Caption of the temperature.
 fn temperature_caption(context: &PaneContext<'_>, wide: bool) -> &'static str {
     match context.scene.document.light {
         Light::Set(_) if !wide => "Temperature",

@@ -15,13 +15,13 @@ const BYTES: usize = 256 << 20;
 /// Interval at which a waiting thread checks whether its answer is still needed.
 const GLANCE: Duration = Duration::from_millis(5);
 
-/// Answers, whatever their type.
+/// Type-erased answers of one kind of query.
 pub(super) trait Kind: Any + Send + Sync {
     /// The kind's name and counters.
     fn count(&self) -> (&'static str, Count);
 }
 
-/// Answers of one kind.
+/// Cached answers of one kind of query.
 pub(super) struct Answers<Q: Query> {
     table: Mutex<Table<Q>>,
     /// Notified when a computation has ended.
@@ -80,7 +80,6 @@ impl<Q: Query> Answers<Q> {
         self.table.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The answer, if it is known.
     pub(super) fn known(&self, query: &Q, now: u64) -> Option<Arc<Q::Answer>> {
         self.lock().known(query, now)
     }

@@ -55,7 +55,6 @@ fn built_in_names() -> chromascope::document::names::BuiltInNames {
     chromascope::catalog::Catalog::built_in().names().clone()
 }
 
-/// The action that imports sets.
 fn import_sets(sets: Vec<chromascope::document::own::OwnSet>) -> chromascope::action::Action {
     chromascope::action::Action::Own(chromascope::action::OwnAction::Import { sets, built_in: built_in_names() })
 }

@@ -82,7 +82,7 @@ impl Header {
         cell.or_else(|| self.name(column).and_then(unit_text::unit)).or_else(|| self.unit.clone())
     }
 
-    /// Keeps a comment; line 0 stands for none.
+    /// Stores a comment; line 0 means none.
     pub(super) fn note(&mut self, line: usize, key: &str, value: &str) {
         if self.comments.len() < MAX_COMMENTS && !value.is_empty() {
             self.comments.push((key.to_owned(), value.to_owned()));

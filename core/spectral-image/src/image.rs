@@ -87,7 +87,6 @@ impl ImageInfo {
         Ok(())
     }
 
-    /// Checks a range of rows.
     pub(crate) fn check_rows(&self, rows: &Range<usize>) -> Result<(), ImageError> {
         if rows.start <= rows.end && rows.end <= self.height {
             Ok(())

@@ -57,7 +57,6 @@ impl Line {
         painter.galley(at, Arc::clone(&self.galley), theme.text);
     }
 
-    /// Its height.
     pub(super) fn height(&self) -> f32 {
         self.galley.size().y
     }

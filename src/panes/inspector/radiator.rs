@@ -39,7 +39,6 @@ pub(super) fn rows_of(scene: &Scene<'_>, points: &[Option<LocusPoint>]) -> Vec<R
     rows
 }
 
-/// Shows it.
 pub(super) fn show(ui: &mut Ui, id: &SensorId, kelvin: f64, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     head(ui, id, context);

@@ -15,7 +15,6 @@ use crate::theme::{Theme, UNIT};
 /// Width of the drawn keys.
 const KEY: f32 = 26.0;
 
-/// Shows it.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     starts(ui, context);

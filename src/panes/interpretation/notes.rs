@@ -103,7 +103,6 @@ fn facts(shown: &ImportSelection, table: &SpectralFile) -> Vec<String> {
     facts
 }
 
-/// All of it as text.
 fn text(shown: &ImportSelection, table: &SpectralFile) -> String {
     let mut lines: Vec<String> = table.warnings.iter().map(ToString::to_string).collect();
     let decisions = table.decisions();

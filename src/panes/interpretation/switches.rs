@@ -19,7 +19,6 @@ pub(super) const ROLES: [(Role, &str); 5] = [
     (Role::Unknown, "Unknown"),
 ];
 
-/// The units of wavelengths.
 pub(super) const UNITS: [(WavelengthUnit, &str); 5] = [
     (WavelengthUnit::Nanometer, "nm"),
     (WavelengthUnit::Micrometer, "µm"),

@@ -145,7 +145,6 @@ fn hint(response: Response, source: &ComparedSensor, context: &PaneContext<'_>) 
     });
 }
 
-/// Context menu of a sensor.
 fn menu(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     ui.set_min_width(150.0);
     let name = source.name.clone();

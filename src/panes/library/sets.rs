@@ -175,7 +175,6 @@ pub(super) fn choose(entry: &Entry, on: bool, context: &mut PaneContext<'_>) {
     });
 }
 
-/// One set.
 fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     let (on, enabled) = state(entry, context);
     let ticks = matches!(entry.kind, SetKind::Camera | SetKind::Observer | SetKind::Filter);

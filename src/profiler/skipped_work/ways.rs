@@ -32,12 +32,10 @@ impl Ways {
         Some(Self { measure, plan })
     }
 
-    /// Its weights.
     pub(super) fn measure(&self) -> &SpectralWeights {
         (*self.measure).as_ref().expect("made of nothing else")
     }
 
-    /// Its plan.
     pub(super) fn plan(&self) -> &Arc<Plan> {
         &self.plan
     }

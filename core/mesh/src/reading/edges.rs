@@ -76,7 +76,7 @@ pub(super) fn survey(soup: &Soup, cut: &Cut, stop: &dyn Fn() -> bool) -> Result<
 }
 
 impl Edges {
-    /// Looks at the sides of one edge.
+    /// Examines the sides of one edge.
     fn look(&mut self, soup: &Soup, cut: &Cut, normals: &[Vec3], edge: &[Side], suspects: &mut Vec<u32>) {
         let place = |side: &Side| soup.place(cut.faces[side.1 as usize / 3] as usize);
         let agree = |a: &Side, b: &Side| position(soup, cut, a.1) != position(soup, cut, b.1);

@@ -71,7 +71,7 @@ impl<'a> Cursor<'a> {
         rest[..length].trim_ascii()
     }
 
-    /// Goes to the beginning of the next statement.
+    /// Advances to the beginning of the next statement.
     #[inline]
     pub(super) fn next_line(&mut self) {
         self.skip_blanks();
@@ -111,7 +111,7 @@ impl<'a> Cursor<'a> {
         &self.bytes[self.at..]
     }
 
-    /// Goes to the first statement of what follows that is not empty.
+    /// Advances to the next statement that is not empty.
     pub(super) fn skip_empty_lines(&mut self) {
         self.skip_blanks();
         while matches!(self.bytes.get(self.at), Some(b'\n' | b'\r' | b'#')) {
@@ -120,7 +120,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Goes over blanks and continued lines.
+    /// Skips blanks and line continuations.
     #[inline]
     fn skip_blanks(&mut self) {
         while let Some(&byte) = self.bytes.get(self.at) {
@@ -135,7 +135,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Goes over a line's end.
+    /// Skips a line's end.
     fn end_line(&mut self) {
         self.at += line_end(&self.bytes[self.at..]);
         self.line += 1;

@@ -180,7 +180,7 @@ impl<'a> Walk<'a> {
         self.open.last()
     }
 
-    /// Goes on to the next beginning or end of an element; `None` at the end of a sound text.
+    /// Advances to the next beginning or end of an element; `None` at the end of a valid text.
     pub(super) fn next(&mut self, log: &mut Log<'_>) -> Result<Option<Step<'a>>, ReadError> {
         loop {
             let from = self.parser.buffer_position() as usize;

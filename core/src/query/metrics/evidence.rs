@@ -130,13 +130,11 @@ fn locus_signals(sensor: &Sensor, temperature: Kelvin) -> [f64; 3] {
 
 /// All that metrics of one sensor are computed from.
 pub(super) struct Evidence {
-    /// Differences of each patch.
     pub(super) patches: Result<Vec<PatchDifferences>, WhyNot>,
     /// Error of the locus.
     pub(super) locus: Result<LocusDeviation, WhyNot>,
     /// Agreement with the reference's space.
     pub(super) space: Result<SpaceQuality, WhyNot>,
-    /// Metamerism index.
     pub(super) index: Result<MetamerismIndex, WhyNot>,
     /// Noise gains.
     pub(super) noise: Result<NoiseAmplification, WhyNot>,

@@ -53,7 +53,6 @@ impl<'a> Makings<'a> {
         (from..=LAST_STEP).map(size).take_while(|size| size.count() <= MOST_CELLS)
     }
 
-    /// A table.
     pub(super) fn table(&mut self, size: &Size) -> Table {
         let (level, source) = (level(size), self.source(size));
         let found = self.made.iter().position(|made| (made.level, made.step) == (level, source.step));

@@ -74,7 +74,6 @@ pub(super) fn air(compact: bool) -> [f32; 2] {
 /// Form and range of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Layout {
-    /// Form.
     pub(super) form: Form,
     /// Width in points.
     pub(super) width: f32,

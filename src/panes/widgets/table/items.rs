@@ -33,7 +33,6 @@ impl RowItems {
         self.sensor.is_none()
     }
 
-    /// Returns the item of a row.
     pub(super) fn of_row(&self, row: &[Cell]) -> Option<PlotItem> {
         let text = |column: Option<usize>| match row.get(column?) {
             Some(Cell::Text(text)) => Some(text.as_str()),
