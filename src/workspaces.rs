@@ -47,6 +47,8 @@ impl PaneKind {
     pub const REPORT_CARD: Self = Self::new("ReportCard");
     /// The light judged.
     pub const LIGHT: Self = Self::new("Light");
+    /// The color correction of a camera.
+    pub const CORRECTION: Self = Self::new("Correction");
     /// Raw values of a real camera against the library.
     pub const RECORDED: Self = Self::new("Recorded");
     /// Allowed error.
@@ -208,7 +210,12 @@ impl Default for Layout {
             ],
             spectra: [Some(PaneKind::SPECTRA), None, Some(PaneKind::INSPECTOR), None],
             render: [Some(PaneKind::RENDER), None, Some(PaneKind::RENDER_SETTINGS), None],
-            metrics: [Some(PaneKind::METRICS), None, Some(PaneKind::HEAD_TO_HEAD), Some(PaneKind::LIGHT)],
+            metrics: [
+                Some(PaneKind::METRICS),
+                Some(PaneKind::CORRECTION),
+                Some(PaneKind::HEAD_TO_HEAD),
+                Some(PaneKind::LIGHT),
+            ],
             import: [Some(PaneKind::IMPORT), Some(PaneKind::CURVES), Some(PaneKind::INTERPRETATION), None],
             accuracy: [Some(PaneKind::METHODS), Some(PaneKind::WORK_SAVED), Some(PaneKind::TOLERANCE), None],
         }

@@ -77,9 +77,9 @@ pub fn numbers(ranked: &Ranked) -> Table {
     table
 }
 
-/// Two cameras side by side: each metric with both values, the difference, and which is better by more than the uncertainty.
+/// Two cameras head to head: each metric with the difference, the camera better by more than the uncertainty, and both values.
 pub fn head_to_head(ranked: &Ranked, [a, b]: [usize; 2]) -> Table {
-    let mut table = Table::new(["metric", "A", "B", "A − B", "better"]);
+    let mut table = Table::new(["metric", "A − B", "better", "A", "B"]);
     for metric in CameraMetric::ALL {
         let values = [a, b].map(|camera| value(ranked, camera, *metric));
         let [x, y] = values.map(|value| value.and_then(|value| value.value.ok()));
@@ -96,10 +96,10 @@ pub fn head_to_head(ranked: &Ranked, [a, b]: [usize; 2]) -> Table {
         let difference = x.zip(y).map(|(x, y)| x - y);
         table.push([
             Cell::from(format!("{} {}", metric.symbol, unit(metric)).trim_end()),
-            Cell::from(x),
-            Cell::from(y),
             Cell::from(difference),
             Cell::from(words),
+            Cell::from(x),
+            Cell::from(y),
         ]);
     }
     table

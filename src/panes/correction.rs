@@ -22,7 +22,7 @@ use crate::workspaces::PaneKind;
 
 /// The pane.
 pub const PANE: Pane = Pane {
-    kind: PaneKind::new("Correction"),
+    kind: PaneKind::CORRECTION,
     title: "Correction",
     show,
     figure: Some(|input| figure::figure(input.view)),

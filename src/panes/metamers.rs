@@ -81,25 +81,18 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 /// The table of pairs; a click marks both of a pair in all panes.
 fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, context: &mut PaneContext<'_>) {
-    let mut table = Table::new(["reflectance", "and", "ΔE*00", "camera", "set", "set of the other"]);
+    let mut table = Table::new(["reflectance", "its metamer", "ΔE*00 reference", "ΔL* camera"]);
     for row in &found.rows {
-        let [a, b] = &row.names;
-        table.push([
-            Cell::from(a[1].as_str()),
-            Cell::from(b[1].as_str()),
-            Cell::from(row.pair.observer_difference),
-            Cell::from(row.pair.camera_difference),
-            Cell::from(a[0].as_str()),
-            Cell::from(b[0].as_str()),
-        ]);
+        let [a, b] =
+            row.names.each_ref().map(|[set, name]| if set == name { name.clone() } else { format!("{name} ({set})") });
+        let [reference, camera] = [row.pair.observer_difference, row.pair.camera_difference];
+        table.push([Cell::from(a), Cell::from(b), Cell::from(reference), Cell::from(camera)]);
     }
     let hints = [
         "",
         "",
         "Difference to the reference observer.",
-        "Largest difference of a balanced channel, each through the CIE lightness function (0 to 100).",
-        "",
-        "",
+        "Largest difference of a balanced camera channel, each through the CIE lightness function (0 to 100).",
     ];
     let columns = table.columns.iter().zip(hints).map(|(name, hint)| Column {
         name: name.clone(),

@@ -6,7 +6,7 @@ use chromascope::catalog::Catalog;
 use chromascope::command::Command;
 use chromascope::document::{Document, Light, SetKind};
 use chromascope::export;
-use chromascope::figures::FigureInput;
+use chromascope::figures::{FigureInput, report_card};
 use chromascope::jobs::Executor;
 use chromascope::panes;
 use chromascope::plot_item::{PlotItem, SensorId};
@@ -17,6 +17,7 @@ use chromascope::view::View;
 use chromascope::view::metrics::RankedCameras;
 use chromascope::workspaces::{Layout, PaneKind, Workspace};
 use chromascope_core::query::{Ask, CameraMetric};
+use chromascope_figure::{Figure, Projection, Rect, Shape, text_width};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable};
@@ -212,7 +213,9 @@ fn two_cameras_stand_head_to_head() {
     });
     assert!(a < b, "{a} {b}");
     assert!(row.contains(&format!("A {a:.2}")) && row.contains(&format!("B {b:.2}")), "{row}");
-    assert!(row.contains(&format!("A − B −{:.2}", b - a)) && row.ends_with("better A"), "{row}");
+    assert!(row.contains(&format!("A − B −{:.2} ± 0.", b - a)) && row.contains("better A,"), "{row}");
+    let uncertainty = row.split("± ").nth(1).and_then(|rest| rest.split(',').next()).expect("an uncertainty");
+    assert_eq!(uncertainty.len(), "0.12".len(), "as many decimals as the metric: {row}");
 }
 
 #[test]
@@ -233,11 +236,52 @@ fn a_report_card_is_a_figure_like_others() {
         let words = format!("{}  {}", rank + 1, patches.patches()[worst].name);
         assert!(svg.contains(&words), "{words}");
     }
+    assert!(svg.contains("wavelength (nm)"), "the axis is named");
     assert!(svg.contains("ΔE*00 mean") && export::png(&svg, 1.0).is_ok());
     view.selected = Some(PlotItem::Sensor(camera("Canon EOS 5D")));
     view.saved.metrics.card = None;
     let figure = panes::figure(PaneKind::REPORT_CARD, &FigureInput::new(&scene, &view)).expect("a page");
     assert_eq!(figure.title, "Report card: Canon EOS 5D", "follows the selection");
+}
+
+/// Rectangles of the names over the bars in points, as they are drawn.
+fn bar_names(page: &Figure) -> Vec<Rect> {
+    let panel = page.panels.iter().find(|panel| panel.name == "patches").expect("bars");
+    let scale = [0, 1].map(|axis| {
+        let range = [panel.x.range, panel.y.range][axis];
+        let room = if axis == 0 { panel.area.width() - Projection::LEFT } else { panel.area.height() };
+        room / (range[1] - range[0])
+    });
+    let names = panel.marks.iter().filter_map(|mark| {
+        let Shape::Text { at, text, anchor, offset, size, .. } = &mark.shape else { return None };
+        let [width, height] = [text_width(text, *size), f64::from(size.points())];
+        let x = at[0] * scale[0] + offset[0] - anchor.0 * width;
+        let y = -at[1] * scale[1] + offset[1] - anchor.1 * height;
+        Some(Rect::from_min_size([x, y], [width, height]))
+    });
+    names.collect()
+}
+
+#[test]
+fn names_of_the_worst_patches_stand_apart_at_any_width() {
+    let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let mut view = View::default();
+    for name in ["Canon EOS 5D Mark II", "Nikon D70 (A.M.P.A.S.)", "Kodak DCS200"] {
+        view.saved.metrics.card = Some(camera(name));
+        for width in [300.0, 560.0, 884.0, 1264.0] {
+            let page = report_card::page(&scene, &view, width).expect("a page");
+            let names = bar_names(&page);
+            assert_eq!(names.len(), 5);
+            for (index, a) in names.iter().enumerate() {
+                for b in &names[..index] {
+                    let apart = (0..2).any(|axis| a.max[axis] <= b.min[axis] || b.max[axis] <= a.min[axis]);
+                    assert!(apart, "{name}, {width}: {a:?} {b:?}");
+                }
+            }
+            assert!(width < 884.0 || page.size[1] < 460.0, "a maximized card fits a window of 600 points");
+        }
+    }
 }
 
 #[test]

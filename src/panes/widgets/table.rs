@@ -145,9 +145,13 @@ impl<'a> DataTable<'a> {
     ) -> Body<'t> {
         let layouts = self.columns.iter().enumerate().map(|(index, column)| {
             let rows = 0..self.table.rows.len();
-            let uncertainties = self.note.map(|note| rows.filter_map(move |row| note(row, index).uncertainty));
-            let uncertainty = uncertainties.and_then(|all| all.reduce(f64::max));
-            Layout::of(column, self.table, index, uncertainty, self.compact)
+            let uncertainties = self.note.into_iter().flat_map(|note| {
+                rows.clone().filter_map(move |row| {
+                    let note = note(row, index);
+                    note.uncertainty.map(|by| (by, note.decimals))
+                })
+            });
+            Layout::of(column, self.table, index, uncertainties, self.compact)
         });
         Body::new(self, layouts.collect(), shown, order, look, context)
     }

@@ -197,7 +197,8 @@ impl<'a> Body<'a> {
             Cell::Number(value) => {
                 let number =
                     note.words.clone().unwrap_or_else(|| words(*value, form, note.decimals).trim_end().to_owned());
-                note.uncertainty.map_or(number.clone(), |by| format!("{number} {}", uncertainty_words(by, form)))
+                note.uncertainty
+                    .map_or(number.clone(), |by| format!("{number} {}", uncertainty_words(by, form, note.decimals)))
             }
         }
     }
@@ -229,8 +230,9 @@ impl<'a> Body<'a> {
             lines::right_aligned(ui, place, &written, TextStyle::Monospace, ink);
         }
         let Some(uncertainty) = note.uncertainty else { return };
-        let behind = uncertainty_words(uncertainty, layout.form);
-        lines::right_aligned(ui, rect, &behind, TextStyle::Small, self.theme.weak);
+        let behind = uncertainty_words(uncertainty, layout.form, note.decimals);
+        place = Rect::from_min_max(egui::pos2(place.max.x + UNIT, rect.top()), rect.max);
+        lines::elided(ui, place, &behind, TextStyle::Small, self.theme.weak);
     }
 }
 

@@ -84,8 +84,14 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Layout of a column. `uncertainty` is the largest of its cells', if any has one.
-    pub(super) fn of(column: &Column, table: &Table, index: usize, uncertainty: Option<f64>, compact: bool) -> Self {
+    /// Layout of a column. `uncertainties` are its cells', with decimals of their own.
+    pub(super) fn of(
+        column: &Column,
+        table: &Table,
+        index: usize,
+        uncertainties: impl Iterator<Item = (f64, Option<usize>)>,
+        compact: bool,
+    ) -> Self {
         let size = if compact { TextSize::Small } else { TextSize::Body };
         let cells = || table.rows.iter().filter_map(|row| row.get(index));
         let numbers = || cells().filter_map(|cell| if let Cell::Number(value) = cell { Some(*value) } else { None });
@@ -100,8 +106,9 @@ impl Layout {
         let number = if form == Form::Text { numbers().map(written).fold(0.0, f64::max) } else { 0.0 };
         let number = extremes.into_iter().map(written).fold(number, f64::max);
         let number = if numbers().next().is_some() { number } else { 0.0 };
-        let behind = uncertainty
-            .map_or(0.0, |value| text_width(&uncertainty_words(value, form), TextSize::Small) + f64::from(UNIT));
+        let behind = uncertainties
+            .map(|(by, own)| text_width(&uncertainty_words(by, form, own), TextSize::Small) + f64::from(UNIT))
+            .fold(0.0, f64::max);
         let (arrow, least) = if compact { (0.0, 0.0) } else { (12.0, NARROWEST) };
         let head = text_width(&column.name, TextSize::Small).max(text_width(&column.unit, TextSize::Small)) + arrow;
         let content = text.max(number) + behind;
@@ -160,9 +167,9 @@ pub(super) fn words(value: f64, form: Form, decimals: Option<usize>) -> String {
     }
 }
 
-/// An uncertainty in its column's form.
-pub(super) fn uncertainty_words(value: f64, form: Form) -> String {
-    format!("± {}", words(value, form, None))
+/// An uncertainty in its column's form, or with decimals of its own.
+pub(super) fn uncertainty_words(value: f64, form: Form, decimals: Option<usize>) -> String {
+    format!("± {}", words(value, form, decimals).trim_end())
 }
 
 #[cfg(test)]
@@ -192,7 +199,9 @@ mod tests {
         assert_eq!(words(-0.3, Form::Fixed(2), None), "−0.30");
         assert_eq!(words(41.5, Form::Fixed(4), Some(2)), "41.50  ");
         assert_eq!(words(41.5, Form::Fixed(4), Some(0)), "42     ");
-        assert_eq!(uncertainty_words(0.366, Form::Fixed(2)), "± 0.37");
+        assert_eq!(uncertainty_words(0.366, Form::Fixed(2), None), "± 0.37");
+        assert_eq!(uncertainty_words(0.1222, Form::Fixed(4), Some(2)), "± 0.12");
+        assert_eq!(uncertainty_words(5.4952, Form::Fixed(4), Some(0)), "± 5");
     }
 
     #[test]
