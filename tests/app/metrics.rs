@@ -84,6 +84,29 @@ fn the_library_is_ranked_beside_the_window_with_progress() {
     assert!(values.len() > 30 && values.is_sorted(), "sorted by the first metric: {values:?}");
 }
 
+/// Data files that were parsed so far.
+fn parsed(executor: &Executor) -> u64 {
+    executor.results().counts().get("data file").map_or(0, |count| count.misses)
+}
+
+#[test]
+fn the_library_is_parsed_beside_the_window() {
+    let (executor, mut window) = driven_with(Document::colorimetry(), [1600.0, 1400.0], egui::Theme::Dark);
+    let before = parsed(&executor);
+    window.state_mut().push(Command::Show(Workspace::Metrics));
+    window.run_steps(3);
+    let (shown, all) = (parsed(&executor), Catalog::built_in().of_kind(SetKind::Camera).count() as u64);
+    assert!(shown - before < 8, "the window parsed {} files before it drew", shown - before);
+    window.state().ranking().wait();
+    let ranked = parsed(&executor);
+    assert!(ranked - shown >= all - 8, "the worker parsed {} of {all} cameras", ranked - shown);
+    window.state_mut().push(Command::Maximize(PaneKind::new("Metamers")));
+    window.run_steps(3);
+    assert_eq!(parsed(&executor), ranked, "no reflectances yet");
+    window.state().ranking().wait();
+    assert!(parsed(&executor) > ranked);
+}
+
 #[test]
 fn values_are_those_that_the_scene_computes() {
     let (_executor, window) = ranked();
@@ -285,6 +308,23 @@ fn names_of_the_worst_patches_stand_apart_at_any_width() {
 }
 
 #[test]
+fn a_report_card_is_made_beside_the_window() {
+    let (executor, mut window) = driven_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
+    let made = || executor.results().counts().get("camera metrics").map_or(0, |count| count.misses);
+    window.state_mut().view_mut().saved.metrics.card = Some(camera("Kodak DCS200"));
+    window.state_mut().push(Command::Maximize(PaneKind::REPORT_CARD));
+    window.run_steps(3);
+    let page = "Report card: Kodak DCS200: patches";
+    assert_eq!((made(), window.query_by_label(page).is_some()), (0, false));
+    assert!(executor.run_one("report card"));
+    window.run_steps(3);
+    assert_eq!((made(), window.query_by_label(page).is_some()), (1, true));
+    window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))));
+    window.run_steps(3);
+    assert_eq!((made(), window.query_by_label(page).is_some()), (1, true), "the last page stays meanwhile");
+}
+
+#[test]
 fn all_numbers_go_out_as_csv_and_json() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
@@ -322,7 +362,9 @@ fn metamers_are_found_marked_and_put_on_the_mesh() {
     let document = window.state().history().document().clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let confusion = chromascope_core::metamers::Confusion::Camera;
-    let (query, sets) = scene.metamers_query(SetKind::Camera, "Kodak DCS200", confusion).unwrap();
+    let query = scene.metamers_query(SetKind::Camera, "Kodak DCS200", confusion).unwrap();
+    let sets: Vec<String> = query.sets.iter().map(|set| set.name.clone()).collect();
+    let query = query.loaded(&results).unwrap();
     let found = (*results.ask(&query)).clone().expect("searched");
     let [set, patch] = query.at(found.pairs[0].places[0]).unwrap();
     let first = query.sets[set].patches()[patch].name.clone();
