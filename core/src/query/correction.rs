@@ -119,14 +119,14 @@ impl Query for CorrectionReportQuery {
         check_lobes(&self.rendering.sensor, correction.method)?;
         let weights = correction.weights.for_targets(&set.targets, set.white);
         let training = Training { samples: &set.samples, targets: &set.targets, weights: &weights };
-        let transform = training.fit(&correction, set.white)?;
+        let (transform, stop) = (training.fit(&correction, set.white)?, ask.stop());
         let uncorrected = Correction { method: CorrectionMethod::None, ..correction };
         let before = training.fit(&uncorrected, set.white).ok();
         let through = |transform: &RgbTransform| -> Vec<Option<DVec3>> {
             set.samples.iter().map(|rgb| Some(transform.xyz(*rgb))).collect()
         };
         let summary = |colors: &[Option<DVec3>]| ErrorSummary::new(&differences(&set, colors, self.metric));
-        let left_out = training.leave_one_out(&correction, set.white, &transform)?;
+        let left_out = training.leave_one_out(&correction, set.white, &transform, || stop.is_set())?;
         let classes = ColorClass::of_targets(&set.targets, set.white);
         let count = |class: ColorClass| classes.iter().filter(|found| **found == Some(class)).count();
         let dng = match &transform {
@@ -244,7 +244,7 @@ impl Query for TwoLightQuery {
         let (first, second) = (forward(&self.first)?, forward(&self.second)?);
         let [from, to] = self.temperatures.map(Kelvin::mired);
         let steps = (0..self.count).map(|i| from + (to - from) * i as f64 / (self.count.max(2) - 1) as f64);
-        let temperatures = steps.filter_map(|mired| Kelvin::from_mired(mired).ok());
+        let temperatures = steps.map_while(|mired| Kelvin::from_mired(mired).ok().filter(|_| !ask.stop().is_set()));
         let point = |temperature: Kelvin| {
             let light = Shared::new(black_body(temperature, RadiationConstants::Si2019));
             let rendering = RenderingQuery { light, ..self.first.clone() };
