@@ -41,7 +41,7 @@ impl Signal {
     pub fn new(value: f64, clip: f64) -> Self {
         Self(match value {
             v if v.is_nan() => Err(Exclusion::Missing),
-            v if v >= clip || v.is_infinite() => Err(Exclusion::Clipped),
+            v if v >= clip => Err(Exclusion::Clipped),
             v if v < f64::MIN_POSITIVE => Err(Exclusion::NotPositive),
             v => Ok(v.to_bits()),
         })

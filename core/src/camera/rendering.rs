@@ -123,9 +123,8 @@ impl Rendering {
             (ColorTransform::Paper, Primaries::Cones) => Err(RenderingError::ConesNeedObserver),
             (ColorTransform::Paper, Primaries::Camera | Primaries::Rgb) => paper(sensor, light, white),
             (ColorTransform::Observer { reference, training }, _) => {
-                let targets = FitTargets::new(reference, light, training);
-                let targets = targets.as_ref().map_err(|&e| e);
-                fitted(sensor, light, white, training, targets, &Correction::default())
+                let correction = Correction::default();
+                Self::new(sensor, light, white, ColorTransform::Corrected { reference, training, correction })
             }
             (ColorTransform::Corrected { reference, training, correction }, _) => {
                 let targets = FitTargets::new(reference, light, training);

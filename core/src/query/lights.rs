@@ -1,6 +1,7 @@
 //! Queries about a light alone, and about cameras under it and under its reference illuminant.
 
 use super::ask::{Ask, Query};
+use super::correction::ErrorSummary;
 use super::patches::{ColorTransformSpec, RenderingQuery};
 use super::shared::Shared;
 use crate::camera::rendering::{raw, under_light, white_divisors};
@@ -129,18 +130,11 @@ impl Query for ConsistencyQuery {
             Ok(self.patches.patches().iter().map(|patch| lab(patch.grid.values())).collect())
         };
         let (tests, references) = (labs(&self.light)?, labs(&self.reference)?);
-        let pairs = tests.into_iter().zip(references).enumerate();
-        let differences: Vec<(usize, f64)> =
-            pairs.filter_map(|(index, (a, b))| Some((index, delta_e_2000(b?, a?)))).collect();
-        statistics(differences).ok_or(ConsistencyError::NoPatch)
+        let pairs = tests.into_iter().zip(references);
+        let all: Vec<Option<f64>> = pairs.map(|(a, b)| Some(delta_e_2000(b?, a?))).collect();
+        let ErrorSummary { mean, p95, max, worst } = ErrorSummary::new(&all).ok_or(ConsistencyError::NoPatch)?;
+        let known = all.iter().enumerate();
+        let differences = known.filter_map(|(index, difference)| Some((index, (*difference)?))).collect();
+        Ok(Consistency { differences, mean, percentile_95: p95, max, worst })
     }
-}
-
-fn statistics(differences: Vec<(usize, f64)>) -> Option<Consistency> {
-    let mut sorted: Vec<f64> = differences.iter().map(|&(_, difference)| difference).collect();
-    sorted.sort_by(f64::total_cmp);
-    let (worst, max) = *differences.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let rank = (0.95 * sorted.len() as f64).ceil() as usize;
-    let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
-    Some(Consistency { mean, percentile_95: sorted[rank.saturating_sub(1)], max, worst, differences })
 }
