@@ -289,11 +289,12 @@ fn bar_names(page: &Figure) -> Vec<Rect> {
 fn names_of_the_worst_patches_stand_apart_at_any_width() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let mut view = View::default();
     for name in ["Canon EOS 5D Mark II", "Nikon D70 (A.M.P.A.S.)", "Kodak DCS200"] {
-        view.saved.metrics.card = Some(camera(name));
+        let id = camera(name);
+        let query = scene.camera_metrics_query(id.kind, &id.name).expect("a query");
+        let metrics = results.ask(&query);
         for width in [300.0, 560.0, 884.0, 1264.0] {
-            let page = report_card::page(&scene, &view, width).expect("a page");
+            let page = report_card::page(&scene, &id, &metrics, width);
             let names = bar_names(&page);
             assert_eq!(names.len(), 5);
             for (index, a) in names.iter().enumerate() {
