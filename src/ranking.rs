@@ -6,14 +6,16 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use chromascope_core::metamers::{Confusion, MetamerPair};
-use chromascope_core::query::{Ask, CameraMetrics, CameraMetricsQuery, Metamers, MetamersQuery, Query, Shared, WhyNot};
+use chromascope_core::metamers::Confusion;
+use chromascope_core::query::{Ask, CameraMetrics, Query, Shared};
 
 use crate::catalog::Entry;
+use crate::catalog::load::LoadError;
 use crate::document::{Document, SetKind};
 use crate::jobs::{Background, Executor};
 use crate::plot_item::SensorId;
-use crate::scene::Scene;
+use crate::scene::metrics::{CatalogMetamersQuery, CatalogMetricsQuery, FoundMetamers};
+use crate::scene::{Scene, SceneError};
 use crate::view::metrics::RankedCameras;
 
 /// Cameras between two reports of progress.
@@ -27,7 +29,7 @@ pub struct RankedCamera {
     /// True if the user brought it.
     pub is_own: bool,
     /// Query for its figures of merit, or the reason that there is none.
-    pub query: Result<CameraMetricsQuery, String>,
+    pub query: Result<CatalogMetricsQuery, String>,
 }
 
 /// Cameras with their figures of merit.
@@ -42,44 +44,24 @@ pub struct Ranked {
 /// The first `count` queries of a list.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct FirstQuery {
-    all: Shared<Vec<CameraMetricsQuery>>,
+    all: Shared<Vec<CatalogMetricsQuery>>,
     count: usize,
 }
 
 impl Query for FirstQuery {
-    type Answer = Vec<Arc<CameraMetrics>>;
+    type Answer = Vec<Result<Arc<CameraMetrics>, LoadError>>;
     const NAME: &'static str = "ranking";
     const KEPT: usize = 2;
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        self.all.iter().take(self.count).map(|query| ask.ask(query)).collect()
+        self.all.iter().take(self.count).map(|query| (*ask.ask(query)).clone()).collect()
     }
-}
-
-/// Two reflectances that are confused: set and name of each, and what each set is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MetamerRow {
-    /// The pair.
-    pub pair: MetamerPair,
-    /// Name of its set, and of each in it.
-    pub names: [[String; 2]; 2],
-    /// Kind of each set.
-    pub kinds: [SetKind; 2],
-}
-
-/// Metamers of a camera.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FoundMetamers {
-    /// Metamers found, or the reason that none could be searched for.
-    pub metamers: Arc<Result<Metamers, WhyNot>>,
-    /// The pairs by name, worst first.
-    pub rows: Vec<MetamerRow>,
 }
 
 /// Camera ranking in the background, and its latest result.
 pub struct Ranking {
     worker: Background<FirstQuery>,
-    searcher: Background<MetamersQuery>,
+    searcher: Background<CatalogMetamersQuery>,
     is_searching: bool,
     asked: Option<Arc<Vec<RankedCamera>>>,
     /// Document and choice of cameras of the request.
@@ -132,28 +114,14 @@ impl Ranking {
         scene: &Scene<'_>,
         camera: &SensorId,
         confusion: Confusion,
-    ) -> Result<Option<FoundMetamers>, String> {
+    ) -> Result<Option<Arc<Result<FoundMetamers, String>>>, String> {
         self.is_searching = true;
-        let (query, sets) =
-            scene.metamers_query(camera.kind, &camera.name, confusion).map_err(|error| error.to_string())?;
-        self.searcher.ask(vec![query.clone()]);
+        let query = scene.metamers_query(camera.kind, &camera.name, confusion).map_err(|error| error.to_string())?;
+        self.searcher.ask(vec![query]);
         if let Some(why) = self.searcher.failure() {
             return Err(why);
         }
-        let Some(shown) = self.searcher.shown().filter(|shown| shown.current) else { return Ok(None) };
-        let row = |pair: &MetamerPair| {
-            let [a, b] = pair.places.map(|place| {
-                let [set, patch] = query.at(place)?;
-                let name = query.sets.get(set)?.patches().get(patch)?.name.clone();
-                let kind =
-                    if scene.entry(SetKind::Chart, &sets[set]).is_ok() { SetKind::Chart } else { SetKind::Material };
-                Some(([sets[set].clone(), name], kind))
-            });
-            let ((first, a), (second, b)) = a.zip(b)?;
-            Some(MetamerRow { pair: *pair, names: [first, second], kinds: [a, b] })
-        };
-        let rows = (*shown.answer).as_ref().map_or_else(|_| Vec::new(), |m| m.pairs.iter().filter_map(row).collect());
-        Ok(Some(FoundMetamers { metamers: shown.answer, rows }))
+        Ok(self.searcher.shown().filter(|shown| shown.current).map(|shown| shown.answer))
     }
 
     fn ask_for(&mut self, cameras: Vec<RankedCamera>) {
@@ -175,7 +143,7 @@ impl Ranking {
     }
 
     /// Shows the results; after a complete ranking only when all are available.
-    fn take_in(&mut self, made: &[Arc<CameraMetrics>]) {
+    fn take_in(&mut self, made: &[Result<Arc<CameraMetrics>, LoadError>]) {
         self.done = made.len();
         let shown = self.with(made);
         if self.progress().is_none() {
@@ -187,11 +155,11 @@ impl Ranking {
     }
 
     /// The requested cameras, with the figures of merit of the first that have any.
-    fn with(&self, made: &[Arc<CameraMetrics>]) -> Arc<Ranked> {
+    fn with(&self, made: &[Result<Arc<CameraMetrics>, LoadError>]) -> Arc<Ranked> {
         let cameras = self.asked.as_deref().cloned().unwrap_or_default();
         let mut made = made.iter();
         let metrics = cameras.iter().map(|camera| match &camera.query {
-            Ok(_) => made.next().map(|metrics| Ok(Arc::clone(metrics))),
+            Ok(_) => made.next().map(|metrics| metrics.clone().map_err(|error| unloaded(camera, error))),
             Err(why) => Some(Err(why.clone())),
         });
         let metrics = metrics.collect();
@@ -232,27 +200,34 @@ impl Ranking {
     }
 }
 
-/// The cameras of a choice, each with its query.
+/// The cameras of a choice, each with its query. Loads none of them.
 fn cameras(scene: &Scene<'_>, which: RankedCameras) -> Vec<RankedCamera> {
     let is_chosen = |entry: &Entry| match which {
         RankedCameras::Library => true,
         RankedCameras::Compared => scene.document.compared(SetKind::Camera, &entry.name).is_some(),
         RankedCameras::Yours => entry.is_own(),
     };
-    let chosen = scene.entries(SetKind::Camera).filter(is_chosen);
-    chosen
-        .map(|entry| RankedCamera {
-            query: scene.camera_metrics_query(SetKind::Camera, &entry.name).map_err(|error| error.to_string()),
-            is_own: entry.is_own(),
-            id: SensorId { kind: SetKind::Camera, name: entry.name },
-        })
-        .collect()
+    let conditions = scene.metrics_conditions(scene.document.temperature_k);
+    let conditions = conditions.map(Shared::new).map_err(|error| error.to_string());
+    let camera = |entry: Entry| RankedCamera {
+        query: conditions.clone().map(|conditions| CatalogMetricsQuery::new(&entry, conditions)),
+        is_own: entry.is_own(),
+        id: SensorId { kind: SetKind::Camera, name: entry.name },
+    };
+    scene.entries(SetKind::Camera).filter(is_chosen).map(camera).collect()
+}
+
+/// Sentence for a camera whose table is damaged.
+fn unloaded(camera: &RankedCamera, error: LoadError) -> String {
+    SceneError::Load { name: camera.id.name.clone(), error }.to_string()
 }
 
 /// Figures of merit of a choice of cameras, without delay: cached answers are used, all others are computed.
 pub fn ranked(scene: &Scene<'_>, which: RankedCameras) -> Ranked {
     let cameras = cameras(scene, which);
-    let metrics =
-        |camera: &RankedCamera| Some(camera.query.as_ref().map(|query| scene.results.ask(query)).map_err(Clone::clone));
+    let metrics = |camera: &RankedCamera| {
+        let query = camera.query.as_ref().map_err(Clone::clone);
+        Some(query.and_then(|query| (*scene.results.ask(query)).clone().map_err(|error| unloaded(camera, error))))
+    };
     Ranked { metrics: cameras.iter().map(metrics).collect(), cameras }
 }

@@ -11,7 +11,7 @@ use crate::figures::report_card;
 use crate::panes::widgets;
 use crate::panes::widgets::table::{CellNote, Column, DataTable};
 use crate::plot_item::{PlotItem, SensorId};
-use crate::ranking::{FoundMetamers, MetamerRow};
+use crate::scene::metrics::{FoundMetamers, MetamerRow};
 use crate::theme::UNIT;
 use crate::view::metrics::Confuses;
 use crate::workspaces::PaneKind;
@@ -48,10 +48,14 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         child.label(RichText::new("Searching…").color(context.theme.weak));
         return;
     };
-    let words = match found.metamers.as_ref() {
-        Ok(metamers) => format!("{}: {} of {} reflectances", camera.name, count(found.rows.len()), metamers.searched),
-        Err(why) => format!("{}: {why}.", camera.name),
+    let found = match found.as_ref() {
+        Ok(found) => found,
+        Err(why) => {
+            child.label(RichText::new(format!("{}: {why}.", camera.name)).color(context.theme.weak));
+            return;
+        }
     };
+    let words = format!("{}: {} of {} reflectances", camera.name, count(found.rows.len()), found.searched);
     child.label(RichText::new(words).small().color(context.theme.weak));
     let chosen = context.view.metamers.filter(|row| *row < found.rows.len());
     if let Some(row) = chosen {
@@ -59,7 +63,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
     let top = child.min_rect().bottom() + UNIT;
     let place = Rect::from_min_max(egui::pos2(body.left(), top.min(body.bottom())), body.max);
-    pairs(ui, place, &camera, &found, context);
+    pairs(ui, place, &camera, found, context);
 }
 
 fn count(pairs: usize) -> String {

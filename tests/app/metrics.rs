@@ -84,6 +84,29 @@ fn the_library_is_ranked_beside_the_window_with_progress() {
     assert!(values.len() > 30 && values.is_sorted(), "sorted by the first metric: {values:?}");
 }
 
+/// Data files that were parsed so far.
+fn parsed(executor: &Executor) -> u64 {
+    executor.results().counts().get("data file").map_or(0, |count| count.misses)
+}
+
+#[test]
+fn the_library_is_parsed_beside_the_window() {
+    let (executor, mut window) = driven_with(Document::colorimetry(), [1600.0, 1400.0], egui::Theme::Dark);
+    let before = parsed(&executor);
+    window.state_mut().push(Command::Show(Workspace::Metrics));
+    window.run_steps(3);
+    let (shown, all) = (parsed(&executor), Catalog::built_in().of_kind(SetKind::Camera).count() as u64);
+    assert!(shown - before < 8, "the window parsed {} files before it drew", shown - before);
+    window.state().ranking().wait();
+    let ranked = parsed(&executor);
+    assert!(ranked - shown >= all - 8, "the worker parsed {} of {all} cameras", ranked - shown);
+    window.state_mut().push(Command::Maximize(PaneKind::new("Metamers")));
+    window.run_steps(3);
+    assert_eq!(parsed(&executor), ranked, "no reflectances yet");
+    window.state().ranking().wait();
+    assert!(parsed(&executor) > ranked);
+}
+
 #[test]
 fn values_are_those_that_the_scene_computes() {
     let (_executor, window) = ranked();
@@ -322,7 +345,9 @@ fn metamers_are_found_marked_and_put_on_the_mesh() {
     let document = window.state().history().document().clone();
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let confusion = chromascope_core::metamers::Confusion::Camera;
-    let (query, sets) = scene.metamers_query(SetKind::Camera, "Kodak DCS200", confusion).unwrap();
+    let query = scene.metamers_query(SetKind::Camera, "Kodak DCS200", confusion).unwrap();
+    let sets: Vec<String> = query.sets.iter().map(|set| set.name.clone()).collect();
+    let query = query.loaded(&results).unwrap();
     let found = (*results.ask(&query)).clone().expect("searched");
     let [set, patch] = query.at(found.pairs[0].places[0]).unwrap();
     let first = query.sets[set].patches()[patch].name.clone();
