@@ -12,9 +12,10 @@ use chromascope_core::query::{Ask, CameraMetrics, Query, Shared};
 use crate::catalog::Entry;
 use crate::catalog::load::LoadError;
 use crate::document::{Document, SetKind};
-use crate::jobs::{Background, Executor};
+use crate::jobs::{Background, Executor, Shown};
 use crate::plot_item::SensorId;
 use crate::scene::metrics::{CatalogMetamersQuery, CatalogMetricsQuery, FoundMetamers};
+use crate::scene::recorded::RecordedRankingQuery;
 use crate::scene::{Scene, SceneError};
 use crate::view::metrics::RankedCameras;
 
@@ -58,11 +59,37 @@ impl Query for FirstQuery {
     }
 }
 
+/// A thread for one query at a time, which rests in frames that do not ask.
+struct Worker<Q: Query> {
+    thread: Background<Q>,
+    is_asked: bool,
+}
+
+impl<Q: Query> Worker<Q> {
+    fn on(executor: &Executor, name: &str, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self { thread: Background::on(executor, name, wake), is_asked: false }
+    }
+
+    /// The last answer, which may be of an earlier question; an error if this question has none.
+    fn ask(&mut self, query: Q) -> Result<Option<Shown<Q>>, String> {
+        self.is_asked = true;
+        self.thread.ask(vec![query]);
+        self.thread.failure().map_or_else(|| Ok(self.thread.shown()), Err)
+    }
+
+    fn end_frame(&mut self) {
+        if !std::mem::take(&mut self.is_asked) {
+            self.thread.rest();
+        }
+    }
+}
+
 /// Camera ranking in the background, and its latest result.
 pub struct Ranking {
     worker: Background<FirstQuery>,
-    searcher: Background<CatalogMetamersQuery>,
-    is_searching: bool,
+    searcher: Worker<CatalogMetamersQuery>,
+    card: Worker<CatalogMetricsQuery>,
+    recorded: Worker<RecordedRankingQuery>,
     asked: Option<Arc<Vec<RankedCamera>>>,
     /// Document and choice of cameras of the request.
     of: Option<(Document, RankedCameras)>,
@@ -77,8 +104,9 @@ impl Ranking {
     /// Ranks on an executor; `wake` is called after each few cameras.
     pub fn on(executor: &Executor, wake: impl Fn() + Send + Sync + Clone + 'static) -> Self {
         Self {
-            searcher: Background::on(executor, "metamers", wake.clone()),
-            is_searching: false,
+            searcher: Worker::on(executor, "metamers", wake.clone()),
+            card: Worker::on(executor, "report card", wake.clone()),
+            recorded: Worker::on(executor, "recorded ranking", wake.clone()),
             worker: Background::on(executor, "ranking", wake),
             asked: None,
             of: None,
@@ -115,13 +143,34 @@ impl Ranking {
         camera: &SensorId,
         confusion: Confusion,
     ) -> Result<Option<Arc<Result<FoundMetamers, String>>>, String> {
-        self.is_searching = true;
         let query = scene.metamers_query(camera.kind, &camera.name, confusion).map_err(|error| error.to_string())?;
-        self.searcher.ask(vec![query]);
-        if let Some(why) = self.searcher.failure() {
-            return Err(why);
-        }
-        Ok(self.searcher.shown().filter(|shown| shown.current).map(|shown| shown.answer))
+        Ok(self.searcher.ask(query)?.filter(|shown| shown.current).map(|shown| shown.answer))
+    }
+
+    /// Figures of merit of one camera; the last ones while those of other conditions are made.
+    ///
+    /// # Errors
+    ///
+    /// A sentence that says why there are none.
+    pub fn card(&mut self, scene: &Scene<'_>, camera: &SensorId) -> Result<Option<Arc<CameraMetrics>>, String> {
+        let conditions = scene.metrics_conditions(scene.document.temperature_k);
+        let entry = scene.entry(camera.kind, &camera.name);
+        let (conditions, entry) =
+            conditions.and_then(|conditions| Ok((conditions, entry?))).map_err(|error| error.to_string())?;
+        let query = CatalogMetricsQuery::new(&entry, Shared::new(conditions));
+        let Some(shown) = self.card.ask(query.clone())?.filter(|shown| shown.job.is_of_same_camera(&query)) else {
+            return Ok(None);
+        };
+        (*shown.answer).clone().map(Some).map_err(|error| unloaded(camera, error))
+    }
+
+    /// Cameras by their fit to recorded values; those of an earlier question while they are fitted.
+    ///
+    /// # Errors
+    ///
+    /// A sentence that says why there are none.
+    pub fn recorded(&mut self, query: RecordedRankingQuery) -> Result<Option<Shown<RecordedRankingQuery>>, String> {
+        self.recorded.ask(query)
     }
 
     fn ask_for(&mut self, cameras: Vec<RankedCamera>) {
@@ -159,7 +208,7 @@ impl Ranking {
         let cameras = self.asked.as_deref().cloned().unwrap_or_default();
         let mut made = made.iter();
         let metrics = cameras.iter().map(|camera| match &camera.query {
-            Ok(_) => made.next().map(|metrics| metrics.clone().map_err(|error| unloaded(camera, error))),
+            Ok(_) => made.next().map(|metrics| metrics.clone().map_err(|error| unloaded(&camera.id, error))),
             Err(why) => Some(Err(why.clone())),
         });
         let metrics = metrics.collect();
@@ -184,9 +233,9 @@ impl Ranking {
 
     /// Ends a frame: a request that it did not repeat is stopped, and resumes when repeated.
     pub fn end_frame(&mut self) {
-        if !std::mem::take(&mut self.is_searching) {
-            self.searcher.rest();
-        }
+        self.searcher.end_frame();
+        self.card.end_frame();
+        self.recorded.end_frame();
         if !std::mem::take(&mut self.is_asked) && self.progress().is_some() {
             self.worker.rest();
             (self.asked, self.of) = (None, None);
@@ -196,7 +245,9 @@ impl Ranking {
     /// Waits until all is done. For tests.
     pub fn wait(&self) {
         self.worker.wait();
-        self.searcher.wait();
+        self.searcher.thread.wait();
+        self.card.thread.wait();
+        self.recorded.thread.wait();
     }
 }
 
@@ -218,8 +269,8 @@ fn cameras(scene: &Scene<'_>, which: RankedCameras) -> Vec<RankedCamera> {
 }
 
 /// Sentence for a camera whose table is damaged.
-fn unloaded(camera: &RankedCamera, error: LoadError) -> String {
-    SceneError::Load { name: camera.id.name.clone(), error }.to_string()
+fn unloaded(camera: &SensorId, error: LoadError) -> String {
+    SceneError::Load { name: camera.name.clone(), error }.to_string()
 }
 
 /// Figures of merit of a choice of cameras, without delay: cached answers are used, all others are computed.
@@ -227,7 +278,7 @@ pub fn ranked(scene: &Scene<'_>, which: RankedCameras) -> Ranked {
     let cameras = cameras(scene, which);
     let metrics = |camera: &RankedCamera| {
         let query = camera.query.as_ref().map_err(Clone::clone);
-        Some(query.and_then(|query| (*scene.results.ask(query)).clone().map_err(|error| unloaded(camera, error))))
+        Some(query.and_then(|query| (*scene.results.ask(query)).clone().map_err(|error| unloaded(&camera.id, error))))
     };
     Ranked { metrics: cameras.iter().map(metrics).collect(), cameras }
 }

@@ -1,5 +1,6 @@
 //! Selected file of recorded raw values, read in the background.
 
+use std::fmt;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -13,7 +14,7 @@ use spectral_file::{ReadOptions, Role};
 
 use super::chart_picture::ChartPicture;
 use super::recorded::{self, Levels, RawRow};
-use crate::format::io_reason;
+use crate::format::{file_name, io_reason};
 use crate::jobs::Executor;
 
 /// Endings of pictures of charts.
@@ -46,6 +47,12 @@ pub struct RecordedFile {
     pub name: String,
     /// Contents.
     pub content: RecordedContent,
+}
+
+impl fmt::Debug for RecordedFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("RecordedFile").field(&self.name).finish()
+    }
 }
 
 /// State of the selected file.
@@ -105,17 +112,16 @@ impl RecordedStore {
     }
 }
 
-fn file_name(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
 /// Reads a table or a picture; the error is a message with the file's name.
 fn read(path: &PathBuf) -> Result<RecordedFile, String> {
     let name = file_name(path);
     let failed = |why: String| format!("{name}: {why}");
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(|error| failed(io_reason(&error)))?;
-    file.take(MAX_BYTES).read_to_end(&mut bytes).map_err(|error| failed(io_reason(&error)))?;
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|error| failed(io_reason(&error)))?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(failed(format!("larger than {} MB; cut or bin the picture", MAX_BYTES >> 20)));
+    }
     let is_picture = path.extension().is_some_and(|own| PICTURES.iter().any(|ending| own.eq_ignore_ascii_case(ending)));
     let content = if is_picture {
         let picture = ChartPicture::decode(&bytes).map_err(|error| failed(error.to_string()))?;

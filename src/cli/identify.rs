@@ -7,7 +7,7 @@ use std::path::Path;
 
 use chromascope_core::camera::chart_grid::ChartGrid;
 use chromascope_core::camera::recorded::Freedom;
-use chromascope_core::query::{RecordedSet, Shared};
+use chromascope_core::query::{Ask as _, RecordedSet, Shared};
 use chromascope_core::spectral::{GridSpectrum, Quantity};
 
 use self::arguments::{Format, Held, IdentifyArguments};
@@ -37,7 +37,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     outputs::check(files, &request.inputs(), arguments.force)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-    let ranked = scene.ranked_cameras(&recorded, freedom, &names)?;
+    let ranked = (*results.ask(&scene.recorded_ranking(&recorded, freedom, &names)?)).clone()?;
     if let Some(Err(why)) = ranked.first().map(|camera| &camera.fit) {
         return Err(CliError::File(format!("{}: {why}", file_of(arguments))));
     }

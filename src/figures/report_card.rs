@@ -51,20 +51,19 @@ pub fn camera(scene: &Scene<'_>, view: &View) -> Option<SensorId> {
 
 /// The page of the camera of the card as it is saved; none without a camera that can be shown.
 pub fn figure(input: &FigureInput<'_>) -> Option<Figure> {
-    page(input.scene, input.view, WIDTH)
+    let id = camera(input.scene, input.view)?;
+    let query = input.scene.camera_metrics_query(id.kind, &id.name).ok()?;
+    Some(page(input.scene, &id, &input.scene.results.ask(&query), WIDTH))
 }
 
-/// The page in a width; a narrow one has one column.
-pub fn page(scene: &Scene<'_>, view: &View, width: f64) -> Option<Figure> {
-    let id = camera(scene, view)?;
-    let query = scene.camera_metrics_query(id.kind, &id.name).ok()?;
-    let metrics = scene.results.ask(&query);
+/// The page of a camera with its figures of merit in a width; a narrow one has one column.
+pub fn page(scene: &Scene<'_>, id: &SensorId, metrics: &CameraMetrics, width: f64) -> Figure {
     let mut top = 0.0;
     let mut place = |height: f64| {
         top += height;
         Rect::from_min_size([0.0, top - height], [width, height])
     };
-    let mut panels = vec![title(scene, &id, place(TITLE))];
+    let mut panels = vec![title(scene, id, place(TITLE))];
     let beside = |row: Rect, [from, to]: [f64; 2]| {
         Rect::from_min_size([from * width, row.min[1]], [(to - from) * width, row.height()])
     };
@@ -77,17 +76,17 @@ pub fn page(scene: &Scene<'_>, view: &View, width: f64) -> Option<Figure> {
         let row = place(BARS);
         [[0.0, 0.28], [0.28, 0.5], [0.5, 1.0]].map(|part| beside(row, part))
     };
-    panels.push(sensitivities(scene, &id, areas[0]));
-    panels.push(locus(scene, &id, areas[1]));
-    panels.push(patches(scene, &metrics, areas[2]));
+    panels.push(sensitivities(scene, id, areas[0]));
+    panels.push(locus(scene, id, areas[1]));
+    panels.push(patches(scene, metrics, areas[2]));
     let columns = list(if width < TWO_COLUMNS { 1 } else { ((width / LIST_COLUMN) as usize).max(2) });
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
-    panels.push(values(&metrics, place(LINE * (rows as f64 + 1.0)), &columns));
+    panels.push(values(metrics, place(LINE * (rows as f64 + 1.0)), &columns));
     let mut figure = Figure::new(format!("Report card: {}", id.name), [width, top]);
     figure.panels = panels;
     figure.caption = format!("± one standard uncertainty of the sensitivities. {}", conditions(scene));
-    figure.table = numbers(&id, &metrics);
-    Some(figure)
+    figure.table = numbers(id, metrics);
+    figure
 }
 
 fn text(words: &str, at: [f64; 2], anchor: Anchor, size: TextSize, role: InkRole) -> Mark {

@@ -78,6 +78,11 @@ impl CatalogMetricsQuery {
     pub fn new(camera: &Entry, conditions: Shared<MetricsConditions>) -> Self {
         Self { place: camera.place.clone(), model: conditions.model(&camera.name), conditions }
     }
+
+    /// True if both are of the same camera, whatever the conditions.
+    pub fn is_of_same_camera(&self, other: &Self) -> bool {
+        self.place == other.place
+    }
 }
 
 impl Query for CatalogMetricsQuery {
@@ -90,9 +95,9 @@ impl Query for CatalogMetricsQuery {
     }
 }
 
-/// A set of reflectances of the catalog.
+/// A set of the catalog or the user's, without its header.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct ReflectanceSet {
+pub struct SetPlace {
     /// Kind.
     pub kind: SetKind,
     /// Name.
@@ -109,7 +114,7 @@ pub struct CatalogMetamersQuery {
     /// The reference observer.
     pub reference: RenderingQuery,
     /// The sets that are searched.
-    pub sets: Vec<ReflectanceSet>,
+    pub sets: Vec<SetPlace>,
     /// The one that confuses.
     pub confusion: Confusion,
 }
@@ -141,7 +146,7 @@ impl CatalogMetamersQuery {
     ///
     /// [`SceneError::Load`] for a damaged set.
     pub fn loaded(&self, ask: &impl Ask) -> Result<MetamersQuery, SceneError> {
-        let load = |set: &ReflectanceSet| {
+        let load = |set: &SetPlace| {
             let patches = ask.ask(&PatchesQuery { place: set.place.clone(), names: None });
             (*patches).clone().map_err(|error| SceneError::Load { name: set.name.clone(), error })
         };
@@ -232,12 +237,12 @@ impl Scene<'_> {
         })
     }
 
-    /// The sets of reflectances of a kind, the user's own first, without copies of their headers.
-    fn places(&self, kind: SetKind) -> impl Iterator<Item = ReflectanceSet> {
+    /// The sets of a kind, the user's own first.
+    pub(super) fn places(&self, kind: SetKind) -> impl Iterator<Item = SetPlace> {
         let own = self.document.own.iter().filter(move |set| SetKind::of_own(set) == kind);
         let own = own.map(|set| (set.name.clone(), Place::Own(set.clone())));
         let built_in = self.catalog.of_kind(kind).map(|entry| (entry.name.clone(), entry.place.clone()));
-        own.chain(built_in).map(move |(name, place)| ReflectanceSet { kind, name, place })
+        own.chain(built_in).map(move |(name, place)| SetPlace { kind, name, place })
     }
 
     /// Observer, light and patches of the sensitivity metamerism index.

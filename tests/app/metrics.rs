@@ -308,6 +308,23 @@ fn names_of_the_worst_patches_stand_apart_at_any_width() {
 }
 
 #[test]
+fn a_report_card_is_made_beside_the_window() {
+    let (executor, mut window) = driven_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
+    let made = || executor.results().counts().get("camera metrics").map_or(0, |count| count.misses);
+    window.state_mut().view_mut().saved.metrics.card = Some(camera("Kodak DCS200"));
+    window.state_mut().push(Command::Maximize(PaneKind::REPORT_CARD));
+    window.run_steps(3);
+    let page = "Report card: Kodak DCS200: patches";
+    assert_eq!((made(), window.query_by_label(page).is_some()), (0, false));
+    assert!(executor.run_one("report card"));
+    window.run_steps(3);
+    assert_eq!((made(), window.query_by_label(page).is_some()), (1, true));
+    window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))));
+    window.run_steps(3);
+    assert_eq!((made(), window.query_by_label(page).is_some()), (1, true), "the last page stays meanwhile");
+}
+
+#[test]
 fn all_numbers_go_out_as_csv_and_json() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
