@@ -85,7 +85,8 @@ fn refresh(file: &Arc<RecordedFile>, context: &mut PaneContext<'_>) -> Result<()
         chart,
         light: scene.light().map_err(|error| error.to_string())?.grid,
         corners: view.corners.clone(),
-        clip: view.clip,
+        // The level is that of a table's numbers; a picture's pixels are clipped at full scale.
+        clip: if matches!(file.content, RecordedContent::Picture(..)) { 0.0 } else { view.clip },
     };
     let now = view.set.as_ref().filter(|(of, _)| *of == inputs);
     let set = match now {
