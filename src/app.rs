@@ -87,8 +87,11 @@ impl ChromascopeApp {
         saved.layout.retain(|pane| panes::by_kind(pane).is_some());
         theme::apply(ctx);
         files.wake(ctx);
-        let [window, also, third, fourth, fifth, sixth, seventh] = [(); 7].map(|()| ctx.clone());
-        let opened = Opened::on(executor, move || also.request_repaint());
+        let repaint = || {
+            let ctx = ctx.clone();
+            move || ctx.request_repaint()
+        };
+        let opened = Opened::on(executor, repaint());
         opened.recall(saved.import.failing.clone());
         let import = ImportView { unseen: saved.import.unseen.clone(), ..ImportView::default() };
         let catalog = Catalog::built_in();
@@ -98,14 +101,14 @@ impl ChromascopeApp {
             results: executor.results(),
             view: View { saved, import, kept: files.kept_documents(), ..View::default() },
             files,
-            meshes: MeshStore::on(executor, move || window.request_repaint()),
+            meshes: MeshStore::on(executor, repaint()),
             opened,
-            recorded: RecordedStore::on(executor, move || fifth.request_repaint()),
-            radiators: Background::on(executor, "blackbodies", move || third.request_repaint()),
-            corrections: Background::on(executor, "color corrections", move || sixth.request_repaint()),
+            recorded: RecordedStore::on(executor, repaint()),
+            radiators: Background::on(executor, "blackbodies", repaint()),
+            corrections: Background::on(executor, "color corrections", repaint()),
             studio: RenderService::on(executor, ctx),
-            laboratory: Profiler::on(executor, move || fourth.request_repaint()),
-            ranking: Ranking::on(executor, move || seventh.request_repaint()),
+            laboratory: Profiler::on(executor, repaint()),
+            ranking: Ranking::on(executor, repaint()),
             curves: None,
             commands: Vec::new(),
             last_read: std::collections::HashMap::new(),

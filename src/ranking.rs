@@ -29,7 +29,7 @@ pub struct RankedCamera {
     pub id: SensorId,
     /// True if the user brought it.
     pub is_own: bool,
-    /// The question for its figures of merit, or the reason that there is none.
+    /// Query for its figures of merit, or the reason that there is none.
     pub query: Result<CatalogMetricsQuery, String>,
 }
 
@@ -59,7 +59,7 @@ impl Query for FirstQuery {
     }
 }
 
-/// A thread for one question at a time, which rests in frames that do not ask.
+/// A thread for one query at a time, which rests in frames that do not ask.
 struct Worker<Q: Query> {
     thread: Background<Q>,
     is_asked: bool,
@@ -191,7 +191,7 @@ impl Ranking {
         }
     }
 
-    /// Shows what is done; over a whole answer only once all is.
+    /// Shows the results; after a complete ranking only when all are available.
     fn take_in(&mut self, made: &[Result<Arc<CameraMetrics>, LoadError>]) {
         self.done = made.len();
         let shown = self.with(made);
@@ -203,7 +203,7 @@ impl Ranking {
         }
     }
 
-    /// The cameras asked for, with the figures of merit of the first that have any.
+    /// The requested cameras, with the figures of merit of the first that have any.
     fn with(&self, made: &[Result<Arc<CameraMetrics>, LoadError>]) -> Arc<Ranked> {
         let cameras = self.asked.as_deref().cloned().unwrap_or_default();
         let mut made = made.iter();
@@ -251,7 +251,7 @@ impl Ranking {
     }
 }
 
-/// The cameras of a choice, each with its question. Loads none of them.
+/// The cameras of a choice, each with its query. Loads none of them.
 fn cameras(scene: &Scene<'_>, which: RankedCameras) -> Vec<RankedCamera> {
     let is_chosen = |entry: &Entry| match which {
         RankedCameras::Library => true,

@@ -55,7 +55,7 @@ impl fmt::Debug for RecordedFile {
     }
 }
 
-/// State of the file on show.
+/// State of the selected file.
 #[derive(Clone, Default)]
 pub enum RecordedState {
     /// None was opened.
@@ -112,7 +112,7 @@ impl RecordedStore {
     }
 }
 
-/// Reads a table or a picture; the error is a sentence with the file's name.
+/// Reads a table or a picture; the error is a message with the file's name.
 fn read(path: &PathBuf) -> Result<RecordedFile, String> {
     let name = file_name(path);
     let failed = |why: String| format!("{name}: {why}");

@@ -25,7 +25,7 @@ type Spectra = Vec<(String, GridSpectrum)>;
 
 /// Ranks the cameras and writes the result.
 pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
-    let (mut request, names) = Request::of_cameras(arguments.per, &arguments.camera)?;
+    let mut request = Request::of_cameras("--camera", &arguments.camera, arguments.per)?;
     request.values = arguments.values;
     let levels = levels(arguments)?;
     let recorded = recorded_set(&mut request, arguments, levels)?;
@@ -37,6 +37,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     outputs::check(files, &request.inputs(), arguments.force)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
+    let names: Vec<String> = request.sources.iter().map(|(_, name)| name.clone()).collect();
     let ranked = (*results.ask(&scene.recorded_ranking(&recorded, freedom, &names)?)).clone()?;
     if let Some(Err(why)) = ranked.first().map(|camera| &camera.fit) {
         return Err(CliError::File(format!("{}: {why}", file_of(arguments))));

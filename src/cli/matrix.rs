@@ -18,7 +18,7 @@ use crate::terminal::say;
 
 /// Writes the color correction of a camera.
 pub(super) fn run(arguments: &MatrixArguments) -> Result<(), CliError> {
-    let mut request = Request::of_camera(&arguments.camera, arguments.per)?;
+    let mut request = Request::of_cameras("CAMERA", std::slice::from_ref(&arguments.camera), arguments.per)?;
     request.set_light(&arguments.illuminant)?;
     request.set_fit_target(&arguments.fit_to)?;
     request.set_correction(arguments.fit, &arguments.training)?;

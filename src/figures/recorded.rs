@@ -23,7 +23,7 @@ pub fn chosen<'a>(ranked: &'a [RankedCamera], view: &View) -> Option<(&'a str, &
     Some((&camera.name, camera.fit.as_ref().ok()?))
 }
 
-/// Residual per patch and channel of the camera on show, with the numbers.
+/// Residual per patch and channel of the selected camera, with the numbers.
 pub fn figure(view: &View) -> Option<Figure> {
     let (set, ranked) = view.recorded.ranked.as_ref()?;
     let (name, fit) = chosen(ranked, view)?;

@@ -75,7 +75,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     sentence(ui, body, &format!("{}: {why}.", file.name), true, context);
 }
 
-/// Brings the patches on show up to date with the file, chart and light, and takes in their ranking.
+/// Updates the current patches after changes of file, chart and light, and takes in their ranking.
 fn refresh(file: &Arc<RecordedFile>, context: &mut PaneContext<'_>) -> Result<(), String> {
     let scene = context.scene;
     let view = &mut context.view.recorded;
@@ -85,7 +85,8 @@ fn refresh(file: &Arc<RecordedFile>, context: &mut PaneContext<'_>) -> Result<()
         chart,
         light: scene.light().map_err(|error| error.to_string())?.grid,
         corners: view.corners.clone(),
-        clip: view.clip,
+        // The level is that of a table's numbers; a picture's pixels are clipped at full scale.
+        clip: if matches!(file.content, RecordedContent::Picture(..)) { 0.0 } else { view.clip },
     };
     let now = view.set.as_ref().filter(|(of, _)| *of == inputs);
     let set = match now {
@@ -113,7 +114,7 @@ fn patches(scene: &Scene<'_>, inputs: &RecordedInputs) -> Result<Vec<RecordedPat
     inputs.file.patches(&chart, &inputs.light, corners, Levels { black: 0.0, clip })
 }
 
-/// Opening a file, and what is fitted.
+/// Buttons to open a file, and the fit's settings.
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if ui.button("Open…").on_hover_text("Open raw values: a table, or a linear 16-bit picture of a chart").clicked() {
         context.push(Command::OpenRecorded);

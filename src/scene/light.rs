@@ -12,7 +12,7 @@ use chromascope_core::rendition::{RenditionError, Standards};
 
 use super::{Scene, SceneError};
 use crate::catalog::load::StandardsQuery;
-use crate::document::{FIT_TARGET, SetKind, TRAINING, TransformChoice};
+use crate::document::{FIT_TARGET, SetKind, TRAINING};
 
 /// Reason that a camera has no consistency under the light.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -83,15 +83,11 @@ impl Scene<'_> {
     pub fn consistency(&self, camera: &str) -> Result<Consistency, NoConsistency> {
         let rendition = self.rendition()?;
         let (reference, _) = rendition.reference.as_ref().map_err(|&error| error)?;
-        let target = match &self.document.transform {
-            TransformChoice::Observer(name) => name.as_str(),
-            TransformChoice::Paper => FIT_TARGET,
-        };
         let query = ConsistencyQuery {
             sensor: self.sensor(SetKind::Camera, camera)?,
             light: self.light()?.grid,
             reference: reference.clone(),
-            observer: self.sensor(SetKind::Observer, target)?,
+            observer: self.sensor(SetKind::Observer, self.fit_target())?,
             training: self.patch_set(TRAINING, None)?,
             patches: self.patches()?,
         };

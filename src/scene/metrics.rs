@@ -221,7 +221,7 @@ impl Scene<'_> {
         })
     }
 
-    /// The question for metamers of a camera and the reference among all sets of reflectances. Loads none of them.
+    /// Query for metamers of a camera and the reference among all sets of reflectances. Loads none of them.
     pub fn metamers_query(
         &self,
         kind: SetKind,

@@ -23,7 +23,7 @@ pub struct RecordedView {
     pub clip: f64,
     /// Camera whose residuals are shown; the best without one.
     pub camera: Option<String>,
-    /// The patches on show, and what they were made of.
+    /// The current patches, and what they were made of.
     pub set: Option<(RecordedInputs, RecordedSet)>,
     /// The last ranking by values of the same file, and those values.
     pub ranked: Option<(RecordedSet, Arc<Vec<RankedCamera>>)>,

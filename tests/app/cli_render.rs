@@ -22,7 +22,7 @@ const SMALL: [&str; 8] = ["--preset", "paper", "--mesh", "sphere", "--triangles"
 const D70: [&str; 2] = ["--camera", "Nikon D70 (2007 figure)"];
 
 /// A folder of one test's own, empty.
-fn folder(name: &str) -> PathBuf {
+pub(crate) fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli_render").join(name);
     if path.exists() {
         std::fs::remove_dir_all(&path).unwrap();

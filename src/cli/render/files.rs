@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use super::arguments::RenderArguments;
 use crate::cli::error::CliError;
 use crate::files::fitting;
+use crate::format::slug;
 use crate::scene::ComparedSensor;
 use crate::terminal::say;
 
@@ -55,11 +56,4 @@ pub(super) fn file_names(arguments: &RenderArguments, mesh: &str, sources: &[Com
         taken.extend(numbers.map(|number| numbered(&number)).find(|name| !taken.contains(name)));
     }
     taken.into_iter().map(|name| if here { PathBuf::from(name) } else { arguments.out.join(name) }).collect()
-}
-
-/// A name that any file system takes: letters and digits, small, other signs as single hyphens.
-fn slug(name: &str) -> String {
-    let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let slug = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
-    if slug.is_empty() { "unnamed".to_owned() } else { slug }
 }
