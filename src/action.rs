@@ -96,6 +96,8 @@ pub enum RenderAction {
     },
     /// Selects the user's mesh file, which was read.
     Open(PathBuf),
+    /// Shows a spectral image.
+    OpenImage(PathBuf),
     /// The paper's Figure 8: the head under sunlight, balanced to D55.
     Figure8,
     /// The paper's Figure 9: the fern under sunlight, balanced to D55.
@@ -145,7 +147,7 @@ impl Action {
         match self {
             Self::Compare(action) => action.name(),
             Self::Scene(action) => action.name().to_owned(),
-            Self::Render(RenderAction::Open(path)) => {
+            Self::Render(RenderAction::Open(path) | RenderAction::OpenImage(path)) => {
                 let name = path.file_name().unwrap_or(path.as_os_str());
                 format!("Open {}", name.to_string_lossy())
             }
@@ -299,6 +301,7 @@ impl RenderAction {
         match self {
             Self::Set { what, .. } => what,
             Self::Open(_) => "Open a mesh",
+            Self::OpenImage(_) => "Open a spectral image",
             Self::Figure8 => "Figure 8",
             Self::Figure9 => "Figure 9",
             Self::PaperFigure8 => "Figure 8, as in the paper",
@@ -314,6 +317,10 @@ impl RenderAction {
             }
             Self::Open(path) => {
                 document.render.mesh = MeshChoice::File(path.clone());
+                return;
+            }
+            Self::OpenImage(path) => {
+                document.render.mesh = MeshChoice::Image(path.clone());
                 return;
             }
             Self::Figure8 => RenderSettings { specular: document.start.specular(), ..RenderSettings::default() },

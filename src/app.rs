@@ -22,6 +22,7 @@ use crate::catalog::Catalog;
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
 use crate::catalog::recorded_store::RecordedStore;
+use crate::catalog::spectral_images::ImageStore;
 use crate::command::{Command, key_bindings};
 use crate::figures::curves::CurveCache;
 use crate::files::Files;
@@ -50,6 +51,7 @@ pub struct ChromascopeApp {
     view: View,
     files: Files,
     meshes: MeshStore,
+    images: ImageStore,
     opened: Opened,
     recorded: RecordedStore,
     radiators: Background<NearestBlackBodyQuery>,
@@ -102,6 +104,7 @@ impl ChromascopeApp {
             view: View { saved, import, kept: files.kept_documents(), ..View::default() },
             files,
             meshes: MeshStore::on(executor, repaint()),
+            images: ImageStore::on(executor, repaint()),
             opened,
             recorded: RecordedStore::on(executor, repaint()),
             radiators: Background::on(executor, "blackbodies", repaint()),
@@ -167,6 +170,11 @@ impl ChromascopeApp {
     /// The user's mesh files.
     pub fn meshes(&self) -> &MeshStore {
         &self.meshes
+    }
+
+    /// The user's spectral images.
+    pub fn images(&self) -> &ImageStore {
+        &self.images
     }
 
     /// The spectral files that were opened.
@@ -276,6 +284,7 @@ impl eframe::App for ChromascopeApp {
         self.take_dropped(ctx);
         self.take_opened();
         self.take_meshes();
+        self.take_images();
         self.take_input(ctx);
         focus::into_sight(ctx, &mut self.focus);
         self.carry_out(ctx);

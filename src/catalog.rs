@@ -4,6 +4,7 @@
 //! cached with the other answers.
 
 pub mod chart_picture;
+pub mod file_store;
 pub mod import;
 pub mod likeness;
 pub mod load;

@@ -1,41 +1,31 @@
 //! Background rendering: one worker and its latest pictures.
 
+pub mod made;
 pub mod pixel;
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use chromascope_core::camera::RenderingError;
-use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
-use chromascope_core::query::{Ask as _, Query};
+use chromascope_core::query::Ask as _;
 
 use crate::jobs::{Background, Executor, Job};
 use crate::results::Results;
 use crate::scene::ComparedSensor;
+use crate::scene::spectral_image::PixelSpectrumQuery;
+use made::{MadePictures, NoPictures, PicturesAnswer, PicturesOf};
 
 /// For this many seconds after the last change something is taken to be moving.
 pub const REST_AFTER: f64 = 0.15;
-
-/// Reason that there are no pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoPictures {
-    /// Making them was stopped.
-    #[error("rendering was stopped")]
-    Stopped,
-    /// A color cannot be computed.
-    #[error(transparent)]
-    Rendering(#[from] RenderingError),
-}
 
 /// Pictures with the query that they answer.
 #[derive(Clone, Debug)]
 pub struct RenderedFrame {
     /// The query.
-    pub query: PicturesQuery,
+    pub query: PicturesOf,
     /// The sensors, in the query's order.
     pub sources: Arc<[ComparedSensor]>,
     /// The answer.
-    pub answer: Arc<<PicturesQuery as Query>::Answer>,
+    pub answer: Arc<PicturesAnswer>,
     /// Time taken.
     pub time: Duration,
     /// True if nothing finer is to come.
@@ -46,16 +36,12 @@ pub struct RenderedFrame {
 
 impl RenderedFrame {
     /// The pictures, or why there are none.
-    pub fn pictures(&self) -> Result<&Pictures, NoPictures> {
-        match &*self.answer {
-            Ok(Some(pictures)) => Ok(pictures),
-            Ok(None) => Err(NoPictures::Stopped),
-            Err(error) => Err(NoPictures::Rendering(*error)),
-        }
+    pub fn pictures(&self) -> Result<MadePictures<'_>, NoPictures> {
+        self.answer.pictures()
     }
 
     /// The pictures, if there are any.
-    pub fn made(&self) -> Option<&Pictures> {
+    pub fn made(&self) -> Option<MadePictures<'_>> {
         self.pictures().ok()
     }
 }
@@ -63,7 +49,7 @@ impl RenderedFrame {
 /// Pictures to be made. Names and marks of the sensors change nothing in them.
 #[derive(Clone)]
 struct PicturesJob {
-    query: PicturesQuery,
+    query: PicturesOf,
     sources: Arc<[ComparedSensor]>,
     /// True if nothing finer is to come.
     is_last: bool,
@@ -78,19 +64,23 @@ impl PartialEq for PicturesJob {
 }
 
 impl Job for PicturesJob {
-    type Answer = <PicturesQuery as Query>::Answer;
+    type Answer = PicturesAnswer;
 
     fn run(&self, results: &Results) -> Arc<Self::Answer> {
-        results.ask(&self.query)
+        Arc::new(match &self.query {
+            PicturesOf::Mesh(query) => PicturesAnswer::Mesh(results.ask(query)),
+            PicturesOf::Image(query) => PicturesAnswer::Image(results.ask(query)),
+        })
     }
 }
 
 /// The worker and its last answer.
 pub struct RenderService {
     worker: Background<PicturesJob>,
+    spectrum: Background<PixelSpectrumQuery>,
     frame: Option<Arc<RenderedFrame>>,
     is_hidden: bool,
-    wanted: Option<PicturesQuery>,
+    wanted: Option<PicturesOf>,
     changed_at: f64,
     asked: bool,
     is_looked_at: bool,
@@ -104,8 +94,9 @@ impl RenderService {
 
     /// Makes pictures on an executor.
     pub fn on(executor: &Executor, ctx: &egui::Context) -> Self {
-        let window = ctx.clone();
+        let [window, also] = [(); 2].map(|()| ctx.clone());
         Self {
+            spectrum: Background::on(executor, "spectrum of a pixel", move || also.request_repaint()),
             worker: Background::on(executor, "pictures", move || window.request_repaint()),
             frame: None,
             is_hidden: false,
@@ -117,7 +108,7 @@ impl RenderService {
     }
 
     /// Sets the final request, at a time in seconds. Returns the remaining time for which it counts as moving.
-    pub fn want(&mut self, wanted: &PicturesQuery, now: f64) -> Option<f64> {
+    pub fn want(&mut self, wanted: &PicturesOf, now: f64) -> Option<f64> {
         if self.wanted.as_ref() != Some(wanted) {
             // A first request is not a movement.
             if self.wanted.is_some() {
@@ -129,14 +120,14 @@ impl RenderService {
         (rest > 0.0).then_some(rest)
     }
 
-    /// True if the finest pictures of the same shaded mesh are available, so that only their development can differ.
-    pub fn only_develops(&self, wanted: &PicturesQuery) -> bool {
-        self.frame.as_ref().is_some_and(|frame| frame.is_last && frame.query.shading == wanted.shading)
+    /// True if the finest pictures of the same signals are available, so that only their development can differ.
+    pub fn only_develops(&self, wanted: &PicturesOf) -> bool {
+        self.frame.as_ref().is_some_and(|frame| frame.is_last && frame.query.has_signals_of(wanted))
     }
 
     /// Requests stages from coarse to fine. While something moves, the running stage is not interrupted: a slightly late
     /// picture is better than none.
-    pub fn ask(&mut self, stages: Vec<PicturesQuery>, sources: &[ComparedSensor], moving: bool) {
+    pub fn ask(&mut self, stages: Vec<PicturesOf>, sources: &[ComparedSensor], moving: bool) {
         self.asked = true;
         let (latest, _) = self.worker.progress();
         let was_moving = latest.first().is_some_and(|job| job.moving);
@@ -149,7 +140,7 @@ impl RenderService {
             return;
         }
         let sources: Arc<[ComparedSensor]> = sources.into();
-        let job = |query: PicturesQuery| {
+        let job = |query: PicturesOf| {
             let is_last = self.wanted.as_ref() == Some(&query);
             PicturesJob { query, sources: Arc::clone(&sources), is_last, moving }
         };
@@ -208,6 +199,13 @@ impl RenderService {
         self.frame.as_ref().is_some_and(|frame| self.wanted.as_ref() == Some(&frame.query))
     }
 
+    /// Wavelengths in nanometers and samples of a pixel of an image, or why there are none; none until they are read.
+    pub fn spectrum(&self, query: PixelSpectrumQuery) -> Option<Result<Vec<[f64; 2]>, String>> {
+        self.spectrum.ask(vec![query]);
+        let shown = self.spectrum.shown().filter(|shown| shown.current)?;
+        Some((*shown.answer).as_ref().map(Vec::clone).map_err(ToString::to_string))
+    }
+
     /// Running time of the latest request, if it is still running.
     pub fn busy(&self) -> Option<Duration> {
         self.worker.busy()
@@ -221,5 +219,6 @@ impl RenderService {
     /// Waits until the latest request has finished. For tests.
     pub fn wait(&self) {
         self.worker.wait();
+        self.spectrum.wait();
     }
 }

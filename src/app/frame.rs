@@ -20,6 +20,7 @@ impl ChromascopeApp {
             theme,
             view: &mut self.view,
             meshes: &self.meshes,
+            images: &self.images,
             opened: &self.opened,
             recorded: &self.recorded,
             radiators: &self.radiators,

@@ -66,6 +66,7 @@ impl ChromascopeApp {
                     self.view.import.follow(&ImportItem::File(old), &now);
                 }
                 OpenedEvent::Mesh(path) => self.open_mesh(&path),
+                OpenedEvent::Image(path) => self.open_image(&path),
                 OpenedEvent::Document(path) => self.push(Command::OpenDocument(path)),
                 OpenedEvent::Failed(message, files) => {
                     self.view.fail(message);

@@ -3,7 +3,7 @@
 use chromascope_core::query::Ask as _;
 
 use super::ChromascopeApp;
-use crate::export::render::{Provenance, exr_bytes};
+use crate::export::render::{ImageProvenance, Provenance, exr_bytes, image_exr_bytes};
 use crate::figures::render::index_of;
 use crate::files::{FileForm, SaveRequest};
 use crate::plot_item::SensorId;
@@ -31,16 +31,23 @@ impl ChromascopeApp {
             return Some(Err("The pictures are not finished yet; save again when rendering is complete.".to_owned()));
         }
         let index = index_of(shot, source)?;
-        let image = shot.made()?.images.get(index)?.as_ref()?;
-        let rendering = self.results.ask(&shot.query.sources.get(index)?.rendering);
+        let rendering = self.results.ask(shot.query.rendering(index)?);
         let rendering = (*rendering).as_ref().ok()?;
         let document = self.history.document();
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let white = document.white.name();
-        let shading = &shot.query.shading;
+        let balance = if rendering.is_rgb { &white } else { "none" };
+        if let Some(made) = shot.made()?.image() {
+            let (image, illuminant) = (document.render.mesh.name(), scene.light_name());
+            let provenance = ImageProvenance { source: &source.name, balance, illuminant: &illuminant, image: &image };
+            let bytes = image_exr_bytes(made.placed(), made.signals(index)?, rendering, &provenance);
+            return Some(bytes.map_err(|error| error.to_string()));
+        }
+        let image = shot.made()?.mesh()?.images.get(index)?.as_ref()?;
+        let shading = &shot.query.mesh()?.shading;
         let provenance = Provenance {
             source: &source.name,
-            balance: if rendering.is_rgb { &white } else { "none" },
+            balance,
             illuminant: &scene.light_name(),
             material: &document.render.material,
             mesh: &document.render.mesh.name(),

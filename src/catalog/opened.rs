@@ -75,6 +75,8 @@ pub enum OpenedEvent {
     },
     /// A mesh is to be opened, which is not read yet.
     Mesh(PathBuf),
+    /// A spectral image is to be opened, which is not read yet.
+    Image(PathBuf),
     /// A document of this program is to be opened, which is not read yet.
     Document(PathBuf),
     /// No file could be read, and nothing was changed. Contains the files whose text can be shown.

@@ -83,6 +83,10 @@ pub struct RenderSettings {
     pub shadows: bool,
     /// Exposure in EV, the same for all cameras.
     pub exposure_ev: f64,
+    /// Quantity of a spectral image's samples.
+    pub image_quantity: QuantityChoice,
+    /// Sample of a spectral image that stands for 1, beyond the file's own scale.
+    pub image_scale: f64,
 }
 
 impl Default for RenderSettings {
@@ -108,6 +112,8 @@ impl Default for RenderSettings {
             light_radius: SUN_RADIUS,
             shadows: true,
             exposure_ev: 0.0,
+            image_quantity: QuantityChoice::File,
+            image_scale: 1.0,
         }
     }
 }
@@ -118,6 +124,9 @@ impl RenderSettings {
         let usual = Self::default();
         self.triangles = self.triangles.clamp(*TRIANGLES.start(), *TRIANGLES.end());
         self.exposure_ev = if self.exposure_ev.is_finite() { self.exposure_ev.clamp(-20.0, 20.0) } else { 0.0 };
+        if !(self.image_scale > 0.0 && self.image_scale.is_finite()) {
+            self.image_scale = usual.image_scale;
+        }
         if !TOLERANCES.contains(&self.tolerance) {
             self.tolerance = usual.tolerance;
         }
@@ -188,6 +197,8 @@ pub enum MeshChoice {
     Plane,
     /// A file of the user's.
     File(#[serde(with = "super::paths")] PathBuf),
+    /// A spectral image in place of a mesh.
+    Image(#[serde(with = "super::paths")] PathBuf),
 }
 
 impl MeshChoice {
@@ -198,9 +209,27 @@ impl MeshChoice {
             Self::Fern => "fern".to_owned(),
             Self::Sphere => "sphere".to_owned(),
             Self::Plane => "plane".to_owned(),
-            Self::File(path) => crate::format::file_name(path),
+            Self::File(path) | Self::Image(path) => crate::format::file_name(path),
         }
     }
+
+    /// True for a spectral image: no surface, light direction or viewpoint matters to it.
+    pub const fn is_image(&self) -> bool {
+        matches!(self, Self::Image(_))
+    }
+}
+
+/// Quantity of a spectral image's samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum QuantityChoice {
+    /// The file's statement.
+    #[default]
+    File,
+    /// Reflectance, lit by the scene's light.
+    Reflectance,
+    /// Radiance, taken as it is.
+    Radiance,
 }
 
 /// Origin of σ and τ.

@@ -62,7 +62,7 @@ pub fn panel(fit: &RecordedFit, names: &[String], size: [f64; 2]) -> Panel {
     let ticks = (0..names.len()).map(|i| (i as f64, (i + 1).to_string())).collect();
     let x = Axis::new("patch", [-0.6, count - 0.4]).with_ticks(Ticks::At(ticks));
     // Room above for the names of the worst patches.
-    let y = Axis::new("recorded / modeled (%)", [-reach, 1.35 * reach]);
+    let y = Axis::new("ln(recorded / modeled) (%)", [-reach, 1.35 * reach]);
     let mut panel = Panel::new("residuals", Rect::from_min_size([0.0, 0.0], size), x, y);
     let zero = Shape::Segments { segments: vec![[[-0.6, 0.0], [count - 0.4, 0.0]]] };
     panel.marks.push(Mark::new(Tag::default(), "no residual", zero).with_stroke(InkRole::Line, 1.0));

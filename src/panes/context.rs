@@ -10,6 +10,7 @@ use egui::{Rect, Ui};
 use crate::catalog::meshes::MeshStore;
 use crate::catalog::opened::Opened;
 use crate::catalog::recorded_store::RecordedStore;
+use crate::catalog::spectral_images::ImageStore;
 use crate::command::Command;
 use crate::figures::FigureInput;
 use crate::figures::curves::CurveCache;
@@ -55,6 +56,8 @@ pub struct PaneContext<'a> {
     pub view: &'a mut View,
     /// The user's mesh files.
     pub meshes: &'a MeshStore,
+    /// The user's spectral images.
+    pub images: &'a ImageStore,
     /// The spectral files that were opened.
     pub opened: &'a Opened,
     /// The file of recorded raw values.
@@ -112,7 +115,8 @@ impl PaneContext<'_> {
         let pictures = quality.and_then(|quality| SceneRunJob::pictures_of(&self.scene, own.as_ref(), orbit, quality));
         let mut pictures = pictures.ok_or(NothingRendered)?;
         let geometry = &mut pictures.shading.geometry;
-        let on_show = self.studio.frame().map(|frame| &frame.query.shading.geometry).filter(|on_show| {
+        let frame = self.studio.frame();
+        let on_show = frame.and_then(|frame| Some(&frame.query.mesh()?.shading.geometry)).filter(|on_show| {
             on_show.visibility.mesh == geometry.visibility.mesh
                 && on_show.lighting == geometry.lighting
                 && (on_show.shadows == Shadows::Off) == (geometry.shadows == Shadows::Off)

@@ -51,8 +51,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let id = ui.scope_id().with("render orbit");
     let response = ui.interact(body, id, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Rendered pictures"));
-    orbit::by_pointer(ui, &response, context);
-    orbit::by_keys(ui, &response, context);
+    if !context.scene.document.render.mesh.is_image() {
+        orbit::by_pointer(ui, &response, context);
+        orbit::by_keys(ui, &response, context);
+    }
     if let Err(words) = asked {
         context.studio.hide();
         say(&painter, body, &words, context);

@@ -1,5 +1,6 @@
 //! Settings of the render: mesh, material, surface, light, view; and the pixel that is read.
 
+mod image;
 mod material;
 mod pixel;
 mod scene;
@@ -40,7 +41,9 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
     let sources = context.studio.frame().map_or(0, |shot| shot.sources.len());
     let kept = context.view.render.pinned.is_some();
-    let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 } else { NO_PIXEL };
+    let spectrum =
+        if context.scene.document.render.mesh.is_image() { widgets::pixel_spectrum::HEIGHT + UNIT } else { 0.0 };
+    let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 + spectrum } else { NO_PIXEL };
     let below = if body.height() > WITH_PIXEL { foot } else { 0.0 };
     let groups = Rect::from_min_max(body.min, egui::pos2(body.right(), body.bottom() - below));
     let inner = groups.shrink2(Vec2::new(2.0 * UNIT, 0.0));
@@ -51,7 +54,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         ui.spacing_mut().slider_width = 88.0;
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         group(ui, "Mesh and light", true, context, scene::show);
-        group(ui, "Surface", true, context, surface::show);
+        let no_surface = "A spectral image has no surface.";
+        group(ui, "Surface", true, context, |ui, context| unless_image(ui, no_surface, context, surface::show));
         group(ui, "View", true, context, view::show);
         if below == 0.0 {
             group(ui, "Pixel", true, context, pixel::show);
@@ -78,6 +82,20 @@ fn group(
     content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
 ) {
     CollapsingHeader::new(words).id_salt(words).default_open(open).show(ui, |ui| content(ui, context));
+}
+
+/// Controls that do nothing for a spectral image: dim then, below the reason.
+fn unless_image(
+    ui: &mut Ui,
+    reason: &str,
+    context: &mut PaneContext<'_>,
+    content: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
+) {
+    let is_image = context.scene.document.render.mesh.is_image();
+    if is_image {
+        caption(ui, reason, context);
+    }
+    ui.add_enabled_ui(!is_image, |ui| content(ui, context));
 }
 
 /// Changes the settings; changes of the same name during one drag are one step.

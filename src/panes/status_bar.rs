@@ -9,9 +9,11 @@ use super::context::PaneContext;
 use crate::catalog::opened::Progress;
 use crate::command::Command;
 use crate::document::SetKind;
+use crate::figures::render::image_words;
 use crate::format::fixed;
 use crate::panes::widgets::lines;
 use crate::plot_item::{PlotItem, SensorId};
+use crate::render_service::made::MadePictures;
 use crate::theme::UNIT;
 use crate::view::Weight;
 use crate::workspaces::{Arrangement, PaneKind};
@@ -218,13 +220,17 @@ fn render_facts(context: &PaneContext<'_>) -> Vec<String> {
     let mut facts = Vec::new();
     let long = context.view.render.busy.filter(|busy| *busy >= LONG);
     if let Some(busy) = long {
-        facts.push(format!("{}: {:.0} s, Esc stops", context.view.render.making, busy.as_secs_f64()));
+        let rows = context.view.render.rows_read.map_or_else(String::new, |share| format!(" {:.0} %", 100.0 * share));
+        facts.push(format!("{}{rows}: {:.0} s, Esc stops", context.view.render.making, busy.as_secs_f64()));
     } else if !context.view.fixed_clock {
         let milliseconds = shot.time.as_secs_f64() * 1e3;
         facts.push(format!("updated in {} ms", fixed(milliseconds, usize::from(milliseconds < 100.0))));
     }
-    let error = shot.query.shading.quality.summary().replace('-', "−");
-    facts.push(error);
+    if let Some(image) = shot.made().and_then(MadePictures::image) {
+        facts.push(image_words(shot, image));
+    } else if let Some(query) = shot.query.mesh() {
+        facts.push(query.shading.quality.summary().replace('-', "−"));
+    }
     let cameras = shot.sources.iter().filter(|source| source.kind == SetKind::Camera).count();
     facts.push(format!("{cameras} {}", if cameras == 1 { "camera" } else { "cameras" }));
     facts

@@ -4,6 +4,7 @@ pub mod caution;
 pub mod facts;
 pub mod lines;
 pub mod number_field;
+pub mod pixel_spectrum;
 pub mod table;
 pub mod tolerance;
 

@@ -53,6 +53,7 @@ impl Scene<'_> {
             MeshChoice::Sphere => Some(MeshQuery::Sphere(settings.triangles)),
             MeshChoice::Plane => Some(MeshQuery::Plane),
             MeshChoice::File(_) => own.cloned().map(MeshQuery::Own),
+            MeshChoice::Image(_) => None,
         }
     }
 

@@ -72,6 +72,8 @@ pub struct RenderView {
     pub busy: Option<Duration>,
     /// Name of the computation in progress.
     pub making: &'static str,
+    /// Share of the rows of a spectral image that were read; none for a mesh.
+    pub rows_read: Option<f32>,
     /// True if finer pictures than the current ones are not wanted.
     pub cancelled: bool,
     /// The pictures as textures.

@@ -187,8 +187,11 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     window.state().studio().wait();
     window.run_steps(3);
     let shot = window.state().studio().frame().cloned().expect("pictures");
-    assert_eq!(shot.query.shading.quality.given_tolerance().map(RelTolerance::max_relative_error), Some(1e-6));
-    assert!(shot.made().is_some_and(|made| made.shading.spectral > 1000));
+    assert_eq!(
+        shot.query.mesh().unwrap().shading.quality.given_tolerance().map(RelTolerance::max_relative_error),
+        Some(1e-6)
+    );
+    assert!(shot.made().is_some_and(|made| made.mesh().unwrap().shading.spectral > 1000));
     window.state_mut().push(Command::Undo);
     window.run_steps(2);
     assert_eq!(render(&window).quality, QualityLevel::Full);

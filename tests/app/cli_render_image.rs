@@ -29,7 +29,7 @@ fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
 }
 
 /// An ENVI image of 24 × 2 pixels: the chart's patches side by side.
-fn chart_image(folder: &Path, interleave: &str, fields: &str) {
+pub(crate) fn chart_image(folder: &Path, interleave: &str, fields: &str) {
     let chart = Dataset::read(chromascope_data::text("charts/colorchecker_24_ohta_1997.csv").unwrap()).unwrap();
     let nm = chart.curves[0].wavelengths_nm();
     let (width, height, bands) = (chart.curves.len(), 2, nm.len());

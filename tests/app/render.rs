@@ -88,7 +88,7 @@ fn the_truth_and_three_cameras_stand_side_by_side() {
         "{captions:?}"
     );
     let shot = window.state().studio().frame().cloned().unwrap();
-    assert!(shot.is_last && shot.query.shading.geometry.visibility.size.samples == 3);
+    assert!(shot.is_last && shot.query.mesh().unwrap().shading.geometry.visibility.size.samples == 3);
     let pixels = &shot.made().unwrap().pictures[0].as_ref().unwrap().rgba;
     assert!(pixels.chunks_exact(4).any(|pixel| pixel[0] > 200), "it is lit");
 }
@@ -245,7 +245,7 @@ fn a_hidden_camera_is_not_computed() {
     assert_eq!(made(&window, "picture"), pictures + 3);
     let shot = window.state().studio().frame().cloned().unwrap();
     assert!(shot.sources.iter().all(|source| source.name != "Nikon D70 (2007 figure)"));
-    assert_eq!(shot.query.sources.len(), 3);
+    assert_eq!(shot.sources.len(), 3);
 }
 
 #[test]

@@ -11,6 +11,7 @@ use spectral_file::{MAX_BYTES, ReadError, Watch};
 use super::{Desk, Failing, Job, OpenFile, OpenedEvent, Why};
 use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
+use crate::catalog::spectral_images::{is_same_image, is_spectral_image};
 use crate::document::own::{Fingerprint, ImportOverrides, OwnSet};
 use crate::document::session::is_session;
 use crate::format::{file_name, io_failure, io_reason};
@@ -44,6 +45,7 @@ struct Harvest {
     failed: Vec<Fingerprint>,
     paths: Vec<PathBuf>,
     meshes: Vec<PathBuf>,
+    images: Vec<PathBuf>,
     documents: Vec<PathBuf>,
     notes: Vec<String>,
     /// Number of files to be read.
@@ -72,6 +74,13 @@ pub(super) fn open(
             Ok(None) => continue,
             Err(Unread::Mesh(path)) => {
                 harvest.meshes.push(path);
+                continue;
+            }
+            Err(Unread::Image(path)) => {
+                // Header and data are one image.
+                if !harvest.images.iter().any(|known| is_same_image(known, &path)) {
+                    harvest.images.push(path);
+                }
                 continue;
             }
             Err(Unread::Document(path)) => {
@@ -138,6 +147,8 @@ pub fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
 enum Unread {
     /// It is a mesh.
     Mesh(PathBuf),
+    /// It is a spectral image.
+    Image(PathBuf),
     /// It is a document of this program.
     Document(PathBuf),
     /// A sentence.
@@ -176,6 +187,9 @@ fn contents(
             }
             if is_mesh(&path, &beginning) {
                 return Err(Unread::Mesh(path));
+            }
+            if is_spectral_image(&path) {
+                return Err(Unread::Image(path));
             }
             let bytes = read_bytes(&path).map_err(Unread::Because)?;
             Ok(Some((origin(&path, &bytes), bytes, None)))
@@ -249,8 +263,9 @@ impl Harvest {
     fn into_events(self) -> Vec<OpenedEvent> {
         let failure = self.failure();
         let meshes = self.meshes.into_iter().map(OpenedEvent::Mesh);
+        let images = self.images.into_iter().map(OpenedEvent::Image);
         let mut events: Vec<OpenedEvent> =
-            meshes.chain(self.documents.into_iter().map(OpenedEvent::Document)).collect();
+            meshes.chain(images).chain(self.documents.into_iter().map(OpenedEvent::Document)).collect();
         if self.sets.is_empty() {
             let failed = failure.map(|told| OpenedEvent::Failed(format!("{told}. Nothing was changed."), self.failed));
             events.extend(failed);

@@ -25,9 +25,9 @@ impl Scale {
 
     /// Least scale that holds all maps.
     pub fn of(shot: &RenderedFrame) -> Self {
-        let differences = shot.made().map(|made| made.differences.as_slice()).unwrap_or_default();
+        let differences = shot.made().map(|made| made.differences).unwrap_or_default();
         let largest = differences.iter().flatten().map(|difference| difference.max as f32).fold(0.0, f32::max);
-        Self::holding(largest, shot.query.metric)
+        Self::holding(largest, shot.query.metric())
     }
 
     fn holding(largest: f32, metric: Metric) -> Self {
@@ -74,10 +74,9 @@ pub(super) fn scale(scale: Scale, name: &str, [x, y]: [f64; 2], width: f64, ink:
 pub fn map(shot: &RenderedFrame, at: usize, end: f32) -> ([usize; 2], Vec<u8>) {
     let nothing = ([0, 0], Vec::new());
     let Some(made) = shot.made() else { return nothing };
-    let (Some(Some(difference)), Some(Some(image))) = (made.differences.get(at), made.images.get(at)) else {
+    let (Some(Some(difference)), Some((geometry, _))) = (made.differences.get(at), made.signals(at)) else {
         return nothing;
     };
-    let geometry = image.placed();
     let size = geometry.size();
     let (width, height, each) = (size.width as usize, size.height as usize, size.samples as usize);
     let pixel = |sample: u32| {

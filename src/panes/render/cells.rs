@@ -61,6 +61,8 @@ impl PictureLayout {
             .then(|| Rect::from_min_max(Pos2::new(body.left(), body.bottom() - SCALE), body.max));
         let area = Rect::from_min_max(body.min, body.max - Vec2::new(0.0, scale.map_or(0.0, |s| s.height())));
         let overlaid = mode == RenderMode::Split;
+        let image = context.images.chosen(&context.scene.document.render.mesh);
+        let aspect = image.map(|image| image.info.width as f32 / image.info.height as f32);
         let (columns, size) = grid(area.size(), if overlaid { 1 } else { shown.len() });
         let pixels = [size.x, size.y].map(|side| (side * pixels_per_point).floor().max(1.0));
         let whole = Vec2::new(pixels[0], pixels[1]) / pixels_per_point;
@@ -72,7 +74,8 @@ impl PictureLayout {
             let step = Vec2::new(size.x + GAP, size.y + CAPTION);
             let offset = Vec2::new((index % columns) as f32 * step.x, (index / columns) as f32 * step.y);
             let caption = Rect::from_min_size(area.min + offset, Vec2::new(size.x, CAPTION));
-            PictureSlot { source, caption, picture: Rect::from_min_size(snapped(caption.left_bottom()), whole) }
+            let picture = Rect::from_min_size(snapped(caption.left_bottom()), whole);
+            PictureSlot { source, caption, picture: fitted(picture, aspect) }
         };
         let cells: Vec<PictureSlot> = shown.iter().enumerate().map(cell).collect();
         let share = context.view.saved.render.split.clamp(0.0, 1.0);
@@ -110,6 +113,14 @@ pub(super) fn chosen<'a>(all: &'a [ComparedSensor], chosen: Option<&SensorId>) -
     let is_chosen =
         |source: &&ComparedSensor| chosen.is_some_and(|id| source.kind == id.kind && source.name == id.name);
     all.iter().find(is_chosen).or_else(|| all.iter().find(|source| !source.is_reference)).or_else(|| all.first())
+}
+
+/// The largest rectangle of an aspect at the top of another; the other without an aspect.
+fn fitted(place: Rect, aspect: Option<f32>) -> Rect {
+    let Some(aspect) = aspect else { return place };
+    let width = place.width().min(place.height() * aspect);
+    let left = place.center().x - 0.5 * width;
+    Rect::from_min_size(Pos2::new(left.round(), place.top()), Vec2::new(width, width / aspect))
 }
 
 /// Number of pictures side by side, and their size: such that the smaller side is as large as it can be.

@@ -8,7 +8,7 @@ use egui::{
 use super::cells::{CAPTION, PictureLayout, PictureSlot, chosen};
 use super::difference;
 use crate::figures::chromaticity::id;
-use crate::figures::render::headline::{self, Detail, Measure};
+use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::{difference as maps, index_of};
 use crate::paint::{self, PictureQuery};
 use crate::panes::context::PaneContext;
@@ -49,7 +49,7 @@ pub(super) fn pictures(ui: &mut Ui, painter: &Painter, stand: &PictureLayout, co
         ring(painter, stand, index, context);
     }
     if let (Some(rect), Some(scale), Some(shot)) = (stand.scale, scale, shot.as_deref()) {
-        difference::scale(ui, painter, rect, scale, Measure::of(&shot.query).name(), context);
+        difference::scale(ui, painter, rect, scale, Measure::of_frame(shot).name(), context);
     }
 }
 
@@ -71,7 +71,9 @@ fn picture(
         Ok(None) => return,
         Ok(Some(Ok(made))) => {
             let source = &shot.sources[at];
-            let sharp = [made.width, made.height] == stand.pixels.map(|side| side as usize);
+            // Pixels of a small image stay squares.
+            let sharp = [made.width, made.height] == stand.pixels.map(|side| side as usize)
+                || (shot.query.image().is_some() && made.width < stand.pixels[0] as usize / 2);
             let name = format!("{} {}", source.kind.singular(), source.name);
             let textures = &mut context.view.render.textures;
             match scale {
@@ -99,12 +101,14 @@ fn picture(
 struct Note {
     short: Option<String>,
     full: String,
+    meaning: &'static str,
 }
 
 /// The note of a picture's caption.
 fn note(shot: &RenderedFrame, at: usize, width: f32) -> Option<Note> {
     let difference = shot.made()?.differences.get(at)?.as_ref()?;
-    let words = |detail| Measure::of(&shot.query).words(difference, detail);
+    let measure = Measure::of_frame(shot);
+    let words = |detail| measure.words(difference, detail);
     let steps = [
         (WITH_LARGEST, Detail::Largest),
         (WITH_QUANTILES, Detail::Quantiles),
@@ -112,7 +116,7 @@ fn note(shot: &RenderedFrame, at: usize, width: f32) -> Option<Note> {
         (WITH_NOTE, Detail::Number),
     ];
     let short = steps.into_iter().find(|(least, _)| width >= *least).map(|(_, detail)| words(detail));
-    Some(Note { short, full: words(Detail::Largest) })
+    Some(Note { short, full: words(Detail::Largest), meaning: measure.meaning() })
 }
 
 /// Title above a sensor's picture.
@@ -141,8 +145,8 @@ fn caption(
     let said = note.map_or_else(|| words.clone(), |note| format!("{words}, {}", note.full));
     let response = ui.interact(cell.caption, ui.scope_id().with(("caption", &words)), Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("Picture: {said}")));
-    if note.is_some() {
-        response.on_hover_text(format!("{said}. {}", headline::MEANING));
+    if let Some(note) = note {
+        response.on_hover_text(format!("{said}. {}", note.meaning));
     } else if cut {
         response.on_hover_text(said);
     }

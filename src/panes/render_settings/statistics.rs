@@ -5,6 +5,7 @@ use egui::{RichText, Ui};
 use crate::format::fixed;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::table::show_pairs;
+use crate::render_service::made::MadePictures;
 use crate::workspaces::PaneKind;
 
 /// Stages in the order they follow each other, as counted and as shown.
@@ -23,7 +24,12 @@ const STAGES: [(&str, &str); 8] = [
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.spacing_mut().interact_size.y = 14.0;
     let Some(shot) = context.studio.frame().cloned() else { return };
-    let Some(made) = shot.made() else { return };
+    if let Some(image) = shot.made().and_then(MadePictures::image) {
+        let words = crate::figures::render::image_words(&shot, image);
+        ui.label(RichText::new(words).small());
+        return;
+    }
+    let Some(made) = shot.made().and_then(MadePictures::mesh) else { return };
     let (geometry, shading) = (made.geometry, made.shading);
     show_pairs(
         ui,

@@ -2,8 +2,9 @@
 
 use egui::{ComboBox, RichText, Ui};
 
-use super::{Dial, set};
+use super::{Dial, set, unless_image};
 
+use crate::document::render::RenderSettings;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::scene::orbit::Orbit;
@@ -12,11 +13,23 @@ use chromascope_core::render::QualityLevel;
 /// Shows the group.
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let settings = context.scene.document.render.clone();
-    let hint = "The same for all cameras. At 0 EV the material facing the light has 40 % of the screen's white.";
+    let hint = if settings.mesh.is_image() {
+        "The same for all cameras. At 0 EV a reflectance of 1 is the screen's white; of radiances, the luminance that \
+         99.5 % of the pixels stay below."
+    } else {
+        "The same for all cameras. At 0 EV the material facing the light has 40 % of the screen's white."
+    };
     let dial = Dial { name: "Exposure", range: -6.0..=6.0, logarithmic: None, unit: " EV", hint, beyond: false };
     if let Some(to) = dial.show(ui, settings.exposure_ev) {
         set(context, "Exposure", |settings| settings.exposure_ev = (to * 10.0).round() / 10.0);
     }
+    let reason = "Field of view and quality do nothing to a spectral image.";
+    unless_image(ui, reason, context, |ui, context| lens_and_quality(ui, &settings, context));
+    without_picture(ui, context);
+}
+
+/// Lens, accuracy of the integrals, and the initial view.
+fn lens_and_quality(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
     let orbit = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
     let hint = "Of the lens; the viewpoint moves so that the mesh keeps its size. Wide lenses fall off with cos⁴ (Eq \
                 12).";
@@ -52,7 +65,6 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             set(context, "Tolerance", |settings| settings.tolerance = to);
         }
     }
-    without_picture(ui, context);
 }
 
 /// Lists the compared sensors that have no picture.
