@@ -14,7 +14,6 @@ mod saving;
 mod startup;
 
 use chromascope_core::query::NearestBlackBodyQuery;
-use chromascope_core::query::correction::CorrectionSheetQuery;
 use egui::{Event, Ui};
 
 use crate::action::history::History;
@@ -55,7 +54,6 @@ pub struct ChromascopeApp {
     opened: Opened,
     recorded: RecordedStore,
     radiators: Background<NearestBlackBodyQuery>,
-    corrections: Background<CorrectionSheetQuery>,
     studio: RenderService,
     laboratory: Profiler,
     ranking: Ranking,
@@ -108,7 +106,6 @@ impl ChromascopeApp {
             opened,
             recorded: RecordedStore::on(executor, repaint()),
             radiators: Background::on(executor, "blackbodies", repaint()),
-            corrections: Background::on(executor, "color corrections", repaint()),
             studio: RenderService::on(executor, ctx),
             laboratory: Profiler::on(executor, repaint()),
             ranking: Ranking::on(executor, repaint()),

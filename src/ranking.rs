@@ -6,12 +6,15 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use chromascope_core::camera::RenderingError;
+use chromascope_core::correction::aces::IdtExposure;
 use chromascope_core::metamers::Confusion;
 use chromascope_core::query::{Ask, CameraMetrics, Query, Shared};
 
 use crate::catalog::Entry;
 use crate::catalog::load::LoadError;
 use crate::document::{Document, SetKind};
+use crate::export::profile::{CorrectionFile, CorrectionFileQuery};
 use crate::jobs::{Background, Executor, Shown};
 use crate::plot_item::SensorId;
 use crate::scene::metrics::{CatalogMetamersQuery, CatalogMetricsQuery, FoundMetamers};
@@ -90,6 +93,7 @@ pub struct Ranking {
     searcher: Worker<CatalogMetamersQuery>,
     card: Worker<CatalogMetricsQuery>,
     recorded: Worker<RecordedRankingQuery>,
+    corrections: Worker<CorrectionFileQuery>,
     asked: Option<Arc<Vec<RankedCamera>>>,
     /// Document and choice of cameras of the request.
     of: Option<(Document, RankedCameras)>,
@@ -107,6 +111,7 @@ impl Ranking {
             searcher: Worker::on(executor, "metamers", wake.clone()),
             card: Worker::on(executor, "report card", wake.clone()),
             recorded: Worker::on(executor, "recorded ranking", wake.clone()),
+            corrections: Worker::on(executor, "color corrections", wake.clone()),
             worker: Background::on(executor, "ranking", wake),
             asked: None,
             of: None,
@@ -173,6 +178,21 @@ impl Ranking {
         self.recorded.ask(query)
     }
 
+    /// The color correction of a camera; none while it is made.
+    ///
+    /// # Errors
+    ///
+    /// A sentence that says why there is none.
+    pub fn correction(&mut self, scene: &Scene<'_>, camera: &str) -> Result<Option<Arc<CorrectionFile>>, String> {
+        if scene.document.transform.is_eq_13() {
+            let error = SceneError::Rendering { name: camera.to_owned(), error: RenderingError::NotFitted };
+            return Err(error.to_string());
+        }
+        let query = CorrectionFileQuery::new(scene, (SetKind::Camera, camera), None, IdtExposure::Rawtoaces);
+        let shown = self.corrections.ask(query.map_err(|error| error.to_string())?)?.filter(|shown| shown.current);
+        shown.map(|shown| (*shown.answer).clone()).transpose().map_err(|error| error.to_string())
+    }
+
     fn ask_for(&mut self, cameras: Vec<RankedCamera>) {
         if self.asked.as_deref() == Some(&cameras) {
             return;
@@ -236,6 +256,7 @@ impl Ranking {
         self.searcher.end_frame();
         self.card.end_frame();
         self.recorded.end_frame();
+        self.corrections.end_frame();
         if !std::mem::take(&mut self.is_asked) && self.progress().is_some() {
             self.worker.rest();
             (self.asked, self.of) = (None, None);

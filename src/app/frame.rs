@@ -24,7 +24,6 @@ impl ChromascopeApp {
             opened: &self.opened,
             recorded: &self.recorded,
             radiators: &self.radiators,
-            corrections: &self.corrections,
             studio: &mut self.studio,
             laboratory: &mut self.laboratory,
             ranking: &mut self.ranking,

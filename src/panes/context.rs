@@ -2,7 +2,6 @@
 
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::NearestBlackBodyQuery;
-use chromascope_core::query::correction::CorrectionSheetQuery;
 use chromascope_core::render::{Quality, Shadows};
 use chromascope_figure::Figure;
 use egui::{Rect, Ui};
@@ -64,8 +63,6 @@ pub struct PaneContext<'a> {
     pub recorded: &'a RecordedStore,
     /// Finds the nearest blackbody of a color, on demand.
     pub radiators: &'a Background<NearestBlackBodyQuery>,
-    /// Color corrections with their errors, once they are made.
-    pub corrections: &'a Background<CorrectionSheetQuery>,
     /// Renderer of the pictures.
     pub studio: &'a mut RenderService,
     /// Profiler of the scene.
