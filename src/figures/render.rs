@@ -150,8 +150,13 @@ pub fn image_words(shot: &RenderedFrame, image: &ImagePictures) -> String {
 }
 
 fn table(shot: &RenderedFrame, measure: &str) -> Table {
-    let columns = "sensor mean_of_lit max_of_lit clipped_samples pixels_across pixels_down time_ms measure facing_light \
-                   median_above_l20 p95_above_l20 samples_above_l20";
+    let columns = if shot.query.image().is_some() {
+        "sensor mean max clipped_pixels pixels_across pixels_down time_ms measure facing_light median p95 \
+         pixels_with_value"
+    } else {
+        "sensor mean_of_lit max_of_lit clipped_samples pixels_across pixels_down time_ms measure facing_light \
+         median_above_l20 p95_above_l20 samples_above_l20"
+    };
     let mut table = Table::new(columns.split(' '));
     let Some(made) = shot.made() else { return table };
     for (at, source) in shot.sources.iter().enumerate() {

@@ -88,6 +88,7 @@ fn lit(
     let factor = pictures.factor(shot.query.ev());
     let development = Development::new(rendering, factor, None);
     let signal = glam::DVec3::from(samples.signal.map(f64::from));
+    let signal = development.root_polynomial.as_ref().map_or(signal, |polynomial| polynomial.xyz(signal));
     let color = measurement.color(samples.signal);
     let reference = (of != shot.query.reference()).then(|| reference_color(shot, results, at)).flatten();
     Some(LitPixel {

@@ -19,6 +19,7 @@ use chromascope::view::render::{PixelPlace, RenderMode};
 use chromascope::workspaces::{PaneKind, Workspace};
 use chromascope_core::render::{BandWeights, ImageSensor, SampleQuantity, Stop};
 use chromascope_core::spectral::{Dataset, GridSpectrum, Sensor};
+use chromascope_figure::Cell;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -123,7 +124,7 @@ fn an_image_is_undone_kept_in_a_session_and_missed() {
     chart_image(&folder, "bsq", "reflectance scale factor = 1\n");
     let path = folder.join("chart.hdr");
     let mut window = opened(Document::colorimetry(), &path, [1280.0, 800.0]);
-    assert_eq!(window.state().history().undo_name().as_deref(), Some("Open chart.hdr"));
+    assert_eq!(window.state().history().undo_name(), Some("Open chart.hdr"));
     let document = window.state().history().document().clone();
     window.state_mut().push(Command::Undo);
     window.run_steps(3);
@@ -157,7 +158,7 @@ fn header_and_data_dropped_together_are_one_image() {
     chart_image(&folder, "bip", "reflectance scale factor = 1\n");
     let window = opened(Document::colorimetry(), &folder, [900.0, 600.0]);
     assert!(mesh(&window).is_image());
-    assert_eq!(window.state().history().undo_name().as_deref(), Some("Open chart.hdr"));
+    assert_eq!(window.state().history().undo_name(), Some("Open chart.hdr"));
     assert!(window.state().history().document().own.is_empty());
 }
 
@@ -293,6 +294,9 @@ fn pictures_maps_and_spectra_of_an_image_look_right() {
         "{}",
         figure.caption
     );
+    let column = |name: &str| figure.table.columns.iter().position(|column| column == name).expect("a column");
+    assert!(figure.table.rows.iter().all(|row| row[column("facing_light")] == Cell::Empty));
+    assert_eq!(figure.table.rows[1][column("pixels_with_value")], Cell::Number(48.0));
     assert!(window.query_by_role_and_label(Role::Canvas, "spectrum of the pixel").is_some());
     assert!(captions(&window).iter().all(|caption| !caption.contains("facing light")), "{:?}", captions(&window));
 }

@@ -7,6 +7,7 @@ use crate::paint::{self, PlotOptions};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::render_service::RenderedFrame;
+use crate::render_service::made::MadePictures;
 use crate::scene::spectral_image::PixelSpectrumQuery;
 
 /// Height of the plot.
@@ -14,7 +15,7 @@ pub const HEIGHT: f32 = 110.0;
 
 /// Shows the samples of a pixel, right and down in the file, if an image is on show.
 pub fn show(ui: &mut Ui, id: &str, shot: &RenderedFrame, at: [usize; 2], context: &PaneContext<'_>) {
-    let Some((query, image)) = shot.query.image().zip(shot.made().and_then(|made| made.image())) else { return };
+    let Some((query, image)) = shot.query.image().zip(shot.made().and_then(MadePictures::image)) else { return };
     let signals = &query.signals;
     let of = PixelSpectrumQuery { source: signals.source.clone(), wanted: signals.wanted, scale: signals.scale, at };
     let points = match context.studio.spectrum(of) {
