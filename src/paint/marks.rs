@@ -33,7 +33,8 @@ pub(super) fn mark(painter: &Painter, mark: &Mark, view: &View, theme: &Theme, e
         Form::Text { at, text: words, anchor, offset, size, ink } => {
             if at.iter().all(|v| v.is_finite()) {
                 let at = view.at(*at) + Vec2::new(offset[0] as f32, offset[1] as f32);
-                let style = TextStyle { anchor: *anchor, size: *size, ink: *ink, halo: mark.halo };
+                let (ink, halo) = (brush.faded(*ink), mark.halo.filter(|_| emphasis != Emphasis::Faded));
+                let style = TextStyle { anchor: *anchor, size: *size, ink, halo };
                 text(painter, at, words, style, theme);
             }
         }
@@ -55,9 +56,12 @@ pub(super) fn mark(painter: &Painter, mark: &Mark, view: &View, theme: &Theme, e
 }
 
 impl Brush<'_> {
+    fn faded(&self, ink: Ink) -> Ink {
+        if self.emphasis == Emphasis::Faded { ink.faded(theme::FADED) } else { ink }
+    }
+
     fn color(&self, ink: Ink) -> Color32 {
-        let fade = if self.emphasis == Emphasis::Faded { theme::FADED } else { 1.0 };
-        self.theme.ink(ink.faded(fade))
+        self.theme.ink(self.faded(ink))
     }
 
     fn box_of(&self, a: [f64; 2], b: [f64; 2]) -> Rect {

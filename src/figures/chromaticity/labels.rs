@@ -1,6 +1,6 @@
 //! Texts of the diagram: each where there is room, none over another.
 
-use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, TextSize, text_width};
+use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, Tag, TextSize, text_width};
 
 use super::frame::Frame;
 use crate::plot_item::PickIndex;
@@ -27,6 +27,8 @@ pub(super) enum Rank {
 
 /// A text with the positions it may take, the best one first.
 pub(super) struct Label {
+    /// Its sensor, with which it fades.
+    pub(super) tag: Tag,
     pub(super) text: String,
     pub(super) rank: Rank,
     pub(super) ink: InkRole,
@@ -36,7 +38,11 @@ pub(super) struct Label {
 impl Label {
     /// Small text of the diagram's ground.
     pub(super) fn ground(text: &str, places: Vec<Place>) -> Self {
-        Self { text: text.to_owned(), rank: Rank::Ground, ink: InkRole::Weak, places }
+        Self::new(text, Rank::Ground, InkRole::Weak, places)
+    }
+
+    pub(super) fn new(text: impl Into<String>, rank: Rank, ink: InkRole, places: Vec<Place>) -> Self {
+        Self { tag: PickIndex::NONE, text: text.into(), rank, ink, places }
     }
 }
 
@@ -173,7 +179,7 @@ pub(super) fn placed(mut labels: Vec<Label>, marks: &[&[Mark]], frame: &Frame) -
         taken.push(bounds);
         let ink = Ink::new(label.ink);
         let shape = Shape::Text { at, text: label.text.clone(), anchor, offset, size, ink };
-        texts.push(Mark::new(PickIndex::NONE, label.text, shape).with_halo(InkRole::Plot));
+        texts.push(Mark::new(label.tag, label.text, shape).with_halo(InkRole::Plot));
     }
     texts
 }

@@ -110,7 +110,7 @@ fn add_ticks(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64;
         let beside = |distance| Place::beside(at, [normal[0], -normal[1]], distance);
         let places = [0.0, 6.0, 12.0].map(|more| beside(TICK + 4.0 + more)).to_vec();
         let text = format!("{kelvin:.0} K");
-        drawing.labels.push(Label { text, rank: Rank::Temperature, ink: InkRole::Weak, places });
+        drawing.labels.push(Label::new(text, Rank::Temperature, InkRole::Weak, places));
     }
 }
 
@@ -168,7 +168,8 @@ fn add_end(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64; 2
             places.extend(distances.iter().flat_map(|distance| Place::around(*at, away, *distance)));
         }
     }
-    drawing.labels.push(Label { text: source.label.clone(), rank: Rank::Sensor, ink: source.role, places });
+    let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
+    drawing.labels.push(Label { tag, ..Label::new(&source.label, Rank::Sensor, source.role, places) });
 }
 
 /// The ring at the document's temperature.

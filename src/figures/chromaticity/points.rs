@@ -120,7 +120,7 @@ fn add_names(drawing: &mut Drawing<'_>, names: &[&str], reference: &[PatchColor]
         let up = if at[1] >= center[1] { -1.0 } else { 1.0 };
         let right = if at[0] >= center[0] - 0.02 { 1.0 } else { -1.0 };
         let places = Place::around(at, [right, up], radius + 3.0);
-        labels.push(Label { text: (*name).to_owned(), rank, ink: InkRole::Text, places });
+        labels.push(Label::new(*name, rank, InkRole::Text, places));
     }
     drawing.labels.extend(labels);
 }

@@ -52,7 +52,7 @@ fn add_whites(drawing: &mut Drawing<'_>) {
         let mark = Mark::new(PickIndex::NONE, format!("white {name}"), shape).with_stroke(InkRole::Text, 1.2);
         drawing.small.push(mark.with_fill(InkRole::Plot).with_halo(InkRole::Plot));
         let places = Place::around(at, side, 7.0);
-        drawing.labels.push(Label { text: name.to_owned(), rank: Rank::White, ink: InkRole::Text, places });
+        drawing.labels.push(Label::new(name, Rank::White, InkRole::Text, places));
     }
     let light = scene.light_color().ok().and_then(Xyz::chromaticity);
     let Some(at) = light.and_then(|xy| drawing.place(xy)) else { return };
@@ -62,7 +62,7 @@ fn add_whites(drawing: &mut Drawing<'_>) {
     let mark = Mark::new(tag, &name, shape).with_stroke(InkRole::Text, 1.5).with_fill(InkRole::Text);
     drawing.small.push(mark.with_halo(InkRole::Plot));
     let places = Place::around(at, [0.2, 1.0], 9.0);
-    drawing.labels.push(Label { text: name, rank: Rank::Light, ink: InkRole::Text, places });
+    drawing.labels.push(Label::new(name, Rank::Light, InkRole::Text, places));
 }
 
 fn add_isotherms(drawing: &mut Drawing<'_>) {
