@@ -26,6 +26,7 @@ use crate::document::{Diagram, TransformChoice};
 use crate::plot_item::PickIndex;
 use crate::render_service::RenderedFrame;
 use crate::scene::{ComparedSensor, Scene};
+use crate::view::diagram::Ranges;
 use crate::view::{DiagramFit, View};
 use drawing::Drawing;
 pub(crate) use drawing::id;
@@ -63,21 +64,23 @@ pub fn build(scene: &Scene<'_>, view: &View, pictures: Option<&RenderedFrame>, s
     let held = view.diagram.fit().unwrap_or_else(|| fit::fitted(scene, &fit::fit_key(scene, fit)));
     let area = Rect::from_min_size([0.0, 0.0], size);
     let frame = Frame::around(held.shown, size);
-    let place =
-        lens_area(scene.document.diagram, &frame).filter(|_| fit == DiagramFit::Whole && view.diagram.zoomed.is_none());
-    let sketch = place.is_some();
-    let drawn = view.diagram.zoomed.map_or(frame, |ranges| Frame::around(ranges, size));
-    let mut drawing = draw(scene, view, pictures, drawn, sketch);
+    let has_lens = fit == DiagramFit::Whole && view.diagram.zoomed.is_none();
+    let place = lens_area(scene.document.diagram, &frame, held.data).filter(|_| has_lens);
+    let drawn = view.diagram.zoomed.map_or(frame, |ranges| Frame { ranges, ..frame });
+    let mut drawing = draw(scene, view, pictures, drawn, place.is_some());
     if view.diagram.zoomed.is_none() {
         edges::add(&mut drawing);
     }
     let lens = place.map(|area| {
         let frame = Frame::around(held.data, [area.width(), area.height()]);
+        let [x, y] = frame.ranges;
+        let part = Shape::Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
+        drawing.marks.push(Mark::new(PickIndex::NONE, "part in the lens", part).with_stroke(InkRole::Weak, 1.0));
         Box::new(finish(draw(scene, view, pictures, frame, false), "Data, enlarged", area, frame))
     });
     let mut built = Built { lens, ..finish(drawing, "Chromaticity", area, frame) };
     if let Some(lens) = &built.lens {
-        mark_lens(&mut built.panel, &lens.panel, &frame);
+        clear_for_lens(&mut built.panel, lens.panel.area, &frame);
     }
     built
 }
@@ -122,29 +125,27 @@ fn finish(drawing: Drawing<'_>, name: &str, area: Rect, frame: Frame) -> Built {
     Built { panel, things, refused, loci, lens: None }
 }
 
-/// Area of the lens in the panel: what is free right of the whole diagram, if it is large enough.
-fn lens_area(diagram: Diagram, frame: &Frame) -> Option<Rect> {
+/// Area of the lens in the panel: free space right of the whole diagram, as high as the data need, if it is large enough.
+fn lens_area(diagram: Diagram, frame: &Frame, [x, y]: Ranges) -> Option<Rect> {
     const LEAST: [f64; 2] = [200.0, 170.0];
     const GAP: f64 = 8.0;
     // Room for a wavelength.
     const BESIDE: f64 = 32.0;
+    // Room for the label of the axis.
+    const BELOW: f64 = 22.0;
     let [end, _] = frame.at(fit::whole(diagram));
     let min = [Projection::LEFT + end + BESIDE, GAP];
-    // Below it stands the label of the axis.
-    let max = [Projection::LEFT + frame.size[0] - GAP, frame.size[1] - GAP - 14.0];
-    let area = Rect { min, max };
-    (area.width() >= LEAST[0] && area.height() >= LEAST[1]).then_some(area)
+    let width = Projection::LEFT + frame.size[0] - GAP - min[0];
+    let needed = (width - Projection::LEFT) * (y[1] - y[0]) / (x[1] - x[0]) + Projection::BOTTOM;
+    let height = needed.max(LEAST[1]).min(frame.size[1] - GAP - BELOW);
+    (width >= LEAST[0] && height >= LEAST[1]).then(|| Rect::from_min_size(min, [width, height]))
 }
 
-/// Clears the ground of the lens, frames what it shows, and ends the axes with the diagram.
-fn mark_lens(panel: &mut Panel, lens: &Panel, frame: &Frame) {
+/// Clears the ground of the lens and ends the horizontal axis with the diagram.
+fn clear_for_lens(panel: &mut Panel, area: Rect, frame: &Frame) {
     let corner = |at: [f64; 2]| frame.value([at[0] - Projection::LEFT, at[1]]);
-    let area = lens.area;
     let ground = Shape::Rect { min: corner([area.min[0], area.max[1]]), max: corner([area.max[0], area.min[1]]) };
     panel.marks.push(Mark::new(PickIndex::NONE, "ground of the lens", ground).with_fill(InkRole::Plot));
-    let [x, y] = [lens.x.range, lens.y.range];
-    let shown = Shape::Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
-    panel.marks.push(Mark::new(PickIndex::NONE, "part in the lens", shown).with_stroke(InkRole::Weak, 1.0));
     let ticks = auto_ticks(panel.x.range, frame.size[0]).into_iter();
     let ticks = ticks.filter(|tick| tick.value < corner(area.min)[0]).map(|tick| (tick.value, tick.label));
     panel.x.ticks = Ticks::At(ticks.collect());

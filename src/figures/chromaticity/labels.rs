@@ -198,7 +198,7 @@ fn extent(label: &Label, place: &Place, frame: &Frame) -> Bounds {
     Bounds { min: [left - ROOM, top - ROOM + 1.0], max: [left + width + ROOM, top + height + ROOM - 1.0] }
 }
 
-/// Disks along what a mark draws of the data; what stands for nothing is ground.
+/// Disks along what a mark draws of the data; lines that stand for nothing are ground.
 fn disks_of(mark: &Mark, frame: &Frame) -> Vec<Disk> {
     if mark.tag == PickIndex::NONE && !matches!(mark.shape, Shape::Points { .. }) {
         return Vec::new();

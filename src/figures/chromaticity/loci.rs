@@ -93,7 +93,7 @@ fn add_ticks(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64;
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = along[0].hypot(along[1]);
         // Not so where the locus is broken.
-        if !(length > 0.0) {
+        if length.is_nan() || length <= 0.0 {
             continue;
         }
         let normal = [-outer * along[1] / length, outer * along[0] / length];

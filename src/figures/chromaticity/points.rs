@@ -91,7 +91,8 @@ fn add_points(
         let shape = Shape::Points { points: vec![at], marker: source.marker, radius: 0.5 * (diameter - rim) };
         let mark = Mark::new(tag, format!("{} {name}", source.label), shape);
         drawing.points.push(match (source.marker.has_inside(), filled) {
-            (false, _) => mark.with_stroke(source.role, rim).with_halo(InkRole::Plot),
+            (false, true) => mark.with_stroke(source.role, rim).with_halo(InkRole::Plot),
+            (false, false) => mark.with_stroke(source.role, rim),
             (true, true) => {
                 let mark = mark.with_stroke(source.role, rim).with_fill(Ink::rgb(color.srgb.bytes));
                 mark.with_halo(InkRole::Plot)
