@@ -27,8 +27,10 @@ pub enum Emphasis {
     Normal,
     /// Under the pointer, in this pane or another: thicker rim, thin ring.
     Hovered,
-    /// Chosen: ring around points, casing around lines.
+    /// Chosen: wider line, ring around points.
     Selected,
+    /// Part or whole of what is chosen: wider line.
+    Related,
     /// Something else is chosen.
     Faded,
 }

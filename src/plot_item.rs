@@ -76,6 +76,11 @@ impl PlotItem {
         }
     }
 
+    /// True if both are patches, or equal: neither is part of the other.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        self == other || matches!((self, other), (Self::Patch { .. }, Self::Patch { .. }))
+    }
+
     /// Returns the relation of a drawn item to this one.
     pub fn relation_to(&self, drawn: &Self, reference: &str) -> Relation {
         let is_reference = |s: Option<&SensorId>| s.is_some_and(|s| s.kind == SetKind::Observer && s.name == reference);

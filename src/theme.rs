@@ -25,12 +25,8 @@ pub const MONO: f32 = TextSize::Mono.points();
 pub const LINE_TAIL: f64 = 1.2;
 /// Width of grid lines.
 pub const LINE_GRID: f64 = 1.0;
-/// Radius of a marker.
-pub const MARKER: f64 = 6.0;
-/// Radius of a marker where there are many.
-pub const MARKER_SMALL: f64 = 4.5;
 /// Opacity of the colors in a chromaticity diagram.
-pub const DIAGRAM_FILL: f32 = 0.16;
+pub const DIAGRAM_FILL: f32 = 0.1;
 /// Opacity of unselected items while something is selected.
 pub const FADED: f32 = 0.35;
 

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod correction;
+pub mod diagram;
 pub mod help;
 pub mod import;
 pub mod metrics;
@@ -22,6 +23,8 @@ use crate::workspaces::{Layout, PaneKind, Workspace};
 use accuracy::AccuracyView;
 use chromascope_figure::Tag;
 use correction::CorrectionView;
+pub use diagram::DiagramFit;
+use diagram::DiagramView;
 use help::HelpView;
 use import::{ImportItem, ImportMemory, ImportView};
 use metrics::MetricsLook;
@@ -57,6 +60,8 @@ pub struct View {
     pub focused: Option<PaneKind>,
     /// True if the column that a narrow window omits lies over the center.
     pub inspector_over: bool,
+    /// Shown part of the diagram.
+    pub diagram: DiagramView,
     /// State of the Import pane.
     pub import: ImportView,
     /// State of the Render pane.
@@ -148,16 +153,6 @@ impl Default for SavedView {
             import: ImportMemory::default(),
         }
     }
-}
-
-/// Extent of the diagram.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum DiagramFit {
-    /// The range of the data.
-    #[default]
-    Data,
-    /// The whole spectral locus.
-    Whole,
 }
 
 /// Arrangement of swatches.
@@ -269,7 +264,10 @@ impl View {
         let standing = |of: &Option<PlotItem>| of.as_ref().map(|thing| thing.relation_to(drawn, reference));
         let pinned = self.pinned.iter().any(|thing| thing == drawn);
         match (standing(&self.hovered), standing(&self.selected)) {
-            (_, Some(Relation::Same)) => Emphasis::Selected,
+            (_, Some(Relation::Same)) if self.selected.as_ref().is_some_and(|thing| thing.is_alike(drawn)) => {
+                Emphasis::Selected
+            }
+            (_, Some(Relation::Same)) => Emphasis::Related,
             (Some(Relation::Same), _) => Emphasis::Hovered,
             _ if pinned => Emphasis::Selected,
             (_, Some(Relation::Other)) if !self.selected_elsewhere => Emphasis::Faded,

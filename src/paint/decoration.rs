@@ -54,7 +54,7 @@ pub(super) fn panel(
 
 fn tick_labels(painter: &Painter, view: &View, rect: Rect, theme: &Theme, x_ticks: &[Tick], y_ticks: &[Tick]) {
     let style =
-        |anchor: Anchor| marks::TextStyle { anchor, size: TextSize::Body, ink: Ink::new(InkRole::Text), halo: None };
+        |anchor: Anchor| marks::TextStyle { anchor, size: TextSize::Body, ink: Ink::new(InkRole::Weak), halo: None };
     for tick in x_ticks.iter().filter(|tick| !tick.label.is_empty()) {
         let at = Pos2::new(view.at([tick.value, view.y[0]]).x, view.rect.bottom() + 4.0);
         marks::text_inside(painter, at, &tick.label, style(Anchor::TOP), theme, rect);

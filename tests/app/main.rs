@@ -12,6 +12,7 @@ mod cli_render;
 mod cli_render_image;
 mod correction;
 mod cpu_renderer;
+mod diagram;
 mod doubt;
 mod exports;
 mod figure;

@@ -126,7 +126,7 @@ fn write_grid(canvas: &mut Canvas<'_>, panel: &Panel, projection: &Projection) {
 
 fn write_tick_labels(canvas: &mut Canvas<'_>, panel: &Panel, projection: &Projection) {
     let (plot, scale) = (projection.plot, canvas.style.text_scale);
-    let ink = Ink::new(InkRole::Text);
+    let ink = Ink::new(InkRole::Weak);
     for tick in &projection.x_ticks {
         let half = 0.5 * scale * text_width(&tick.label, TextSize::Body);
         let x = projection.at([tick.value, projection.y[0]])[0];
