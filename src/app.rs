@@ -300,7 +300,8 @@ impl eframe::App for ChromascopeApp {
         self.view.table_copies = false;
         let document = self.history.document();
         let source = self.view.selected.as_ref().and_then(PlotItem::source);
-        self.view.selected_elsewhere = source.is_some_and(|id| document.compared(id.kind, &id.name).is_none());
+        self.view.selected_elsewhere = source.is_some_and(|id| document.compared(id.kind, &id.name).is_none())
+            || matches!(self.view.selected, Some(PlotItem::DataSet { .. }));
         self.show(ui);
         self.view.reset_plots = false;
         let hovered = self.view.next_hovered.take();

@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod chromaticity;
 pub mod correction;
 pub mod curves;
+pub mod data_set;
 pub mod light;
 pub mod metrics;
 pub mod recorded;

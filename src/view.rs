@@ -203,6 +203,8 @@ pub struct Status {
     pub weight: Weight,
     /// Import item and line that `[Change]` or `[Show line]` opens.
     pub change: Option<(ImportItem, Option<usize>)>,
+    /// Time of egui in seconds when it was first shown.
+    pub since: Option<f64>,
 }
 
 /// Severity of a message.
@@ -220,12 +222,12 @@ pub enum Weight {
 impl View {
     /// Shows a message in the status bar.
     pub fn say(&mut self, text: impl Into<String>) {
-        self.status = Status { text: text.into(), weight: Weight::Note, change: None };
+        self.status = Status { text: text.into(), ..Status::default() };
     }
 
     /// Shows an error in the status bar.
     pub fn fail(&mut self, text: impl Into<String>) {
-        self.status = Status { text: text.into(), weight: Weight::Error, change: None };
+        self.status = Status { text: text.into(), weight: Weight::Error, ..Status::default() };
     }
 
     /// Puts a file at the head of those opened lately.

@@ -1,6 +1,7 @@
 //! The diagram: loci with temperature ticks, patches with tails to the reference's points, and what surrounds them.
 
 mod drawing;
+mod ghost;
 mod ground;
 mod loci;
 mod pixel;
@@ -72,6 +73,7 @@ pub fn build(scene: &Scene<'_>, view: &View, pictures: Option<&RenderedFrame>, s
     }
     if scene.document.overlays.loci {
         loci::add(&mut drawing, &sources);
+        ghost::add(&mut drawing);
     }
     if scene.document.overlays.patches {
         points::add(&mut drawing, &sources);

@@ -4,7 +4,9 @@ mod numbers;
 mod patch;
 mod pinned;
 mod pixel;
+mod points;
 mod radiator;
+mod set;
 mod source;
 mod welcome;
 
@@ -51,6 +53,7 @@ fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
         Some(PlotItem::Radiator { source, kelvin }) => radiator::show(ui, &source, kelvin, context),
         Some(PlotItem::Sensor(id)) => source::show(ui, &id, context),
         Some(PlotItem::Light) => source::light(ui, context),
+        Some(PlotItem::DataSet { kind, name }) => set::show(ui, kind, &name, context),
     }
     pixel::show(ui, context);
     pinned::show(ui, context);
