@@ -7,6 +7,7 @@ pub mod curves;
 pub mod data_set;
 pub mod light;
 pub mod metrics;
+pub mod portrait;
 pub mod recorded;
 pub mod render;
 pub mod report_card;
@@ -14,6 +15,7 @@ pub mod skipped_work;
 pub mod spectra;
 pub mod strip;
 pub mod swatches;
+pub mod thumbnail;
 
 use std::sync::Arc;
 

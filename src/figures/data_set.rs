@@ -25,7 +25,8 @@ pub fn panel(ask: &impl Ask, entry: &Entry, role: InkRole, size: [f64; 2]) -> Re
     let (low, high) = (values().fold(0.0, f64::min), values().fold(f64::MIN_POSITIVE, f64::max));
     let few = drawn.len() <= 4;
     let x = Axis::new("wavelength (nm)", [FIRST_NM, LAST_NM]).with_ticks(Ticks::Auto).with_grid(true);
-    let y = Axis::hidden([low, high * if few && drawn.len() > 1 { 1.3 } else { 1.12 }]);
+    // Room for the axis title below the curves.
+    let y = Axis::hidden([low - 0.2 * high, high * if few && drawn.len() > 1 { 1.3 } else { 1.12 }]);
     let mut panel = Panel::new(format!("Curves of {}", entry.name), Rect::from_min_size([0.0, 0.0], size), x, y);
     for (name, points) in &drawn {
         let line = Shape::Line { points: points.clone(), closed: false };

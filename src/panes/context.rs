@@ -3,6 +3,7 @@
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::query::NearestBlackBodyQuery;
 use chromascope_core::query::correction::CorrectionSheetQuery;
+use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::render::{Quality, Shadows};
 use chromascope_figure::Figure;
 use egui::{Rect, Ui};
@@ -66,6 +67,8 @@ pub struct PaneContext<'a> {
     pub radiators: &'a Background<NearestBlackBodyQuery>,
     /// Color corrections with their errors, once they are made.
     pub corrections: &'a Background<CorrectionSheetQuery>,
+    /// Picture of the window about the program.
+    pub portrait: &'a Background<PicturesQuery>,
     /// Renderer of the pictures.
     pub studio: &'a mut RenderService,
     /// Profiler of the scene.

@@ -36,8 +36,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let mut child = ui.new_child(UiBuilder::new().id_salt("inspector").max_rect(inner));
     child.set_clip_rect(body.intersect(ui.clip_rect()));
+    // The handle is seen at rest too, so that a page that goes on below says so.
+    child.spacing_mut().scroll.dormant_handle_opacity = 0.5;
     ScrollArea::vertical().id_salt("inspector").auto_shrink(false).show(&mut child, |ui| {
-        ui.set_max_width(inner.width());
+        ui.set_max_width(inner.width() - UNIT);
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         content(ui, context);
         ui.add_space(2.0 * UNIT);
@@ -46,7 +48,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 
 fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
     match context.view.selected.clone().or_else(|| context.view.hovered.clone()) {
-        None if pixel::kept(context).is_some() => {}
+        None if pixel::kept(context).is_some() || !context.view.pinned.is_empty() => {}
         None => welcome::show(ui, context),
         Some(PlotItem::Patch { source: Some(id), patch }) => patch::one(ui, &id, &patch, context),
         Some(PlotItem::Patch { source: None, patch }) => patch::across(ui, &patch, context),

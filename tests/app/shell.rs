@@ -1,8 +1,17 @@
-//! The frame around the panes: the two places at the foot, previews of the library's sets, pinned items as columns.
+//! The frame around the panes: the two places at the foot, previews of the library's sets, pinned items as columns, the tour,
+//! cards, the first start.
 
+use chromascope::action::history::History;
+use chromascope::action::{Action, SceneAction};
 use chromascope::app::ChromascopeApp;
+use chromascope::command::{Command, TourMove};
+use chromascope::document::start::Start;
 use chromascope::document::{Document, SetKind};
+use chromascope::files::Files;
 use chromascope::plot_item::{PlotItem, SensorId};
+use chromascope::view::SavedView;
+use chromascope::workspaces::{PaneKind, Workspace};
+use eframe::App as _;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -130,4 +139,173 @@ fn pinned_items_are_columns_of_the_selected_items_table() {
         assert!(row.contains(head), "{row}");
     }
     assert_eq!(said.iter().filter(|words| words.starts_with("x: ")).count(), 1, "one table");
+}
+
+fn press(window: &mut Window, label: &str) {
+    window.get_by_role_and_label(Role::Button, label).click();
+    window.run_steps(3);
+}
+
+#[test]
+fn the_tour_plays_five_scenes_on_live_data_and_leaves_the_document_as_it_was() {
+    let mut window = open_with(Document::colorimetry(), SIZE, egui::Theme::Dark);
+    window.state_mut().push(Action::Scene(SceneAction::SetTemperature(3210.0)));
+    window.run();
+    let selected = Some(patch("Kodak DCS200", "red"));
+    let view = window.state_mut().view_mut();
+    view.selected.clone_from(&selected);
+    view.saved.workspace = Workspace::Metrics;
+    window.run_steps(2);
+    let before = window.state().history().document().clone();
+    let saved = window.state().saved_view();
+    window.state_mut().push(Command::Tour(TourMove::Begin));
+    window.run_steps(3);
+    // The numbers of the paper's help page, computed here anew.
+    for (title, numbers) in [
+        ("1 of 5", "Kodak DCS200 0.124"),
+        ("2 of 5", "Nikon D70 (2007) 5948 K"),
+        ("3 of 5", "Δxy:"),
+        ("4 of 5", "Kodak DCS200: "),
+        ("5 of 5", "The pictures are being rendered."),
+    ] {
+        assert!(says(&window, title) && says(&window, numbers), "{title}: {numbers}");
+        assert_ne!(*window.state().history().document(), before);
+        assert_eq!(window.state().saved_view(), saved, "what is kept is the user's");
+        if title == "4 of 5" {
+            assert!(says(&window, "red 3.04, green 1.11, blue 0.92, orange yellow 0.90"));
+        }
+        if title != "5 of 5" {
+            press(&mut window, "Next");
+        }
+    }
+    window.state().studio().wait();
+    window.run_steps(2);
+    assert!(says(&window, "Facing the light:"));
+    press(&mut window, "Back");
+    assert!(says(&window, "4 of 5"));
+    press(&mut window, "End");
+    assert_eq!(*window.state().history().document(), before);
+    assert_eq!((&window.state().view().selected, window.state().saved_view()), (&selected, saved));
+    assert!(!says(&window, "of 5  "));
+    window.state_mut().push(Command::Undo);
+    window.run_steps(2);
+    assert_eq!(*window.state().history().document(), Document::colorimetry(), "its steps are there too");
+}
+
+#[test]
+fn during_the_tour_the_users_document_is_the_one_that_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = Document { temperature_k: 3210.0, ..Document::colorimetry() };
+    let open = |document| {
+        let mut files = Files::new(Some(folder.path().to_owned()));
+        let kept = files.kept_document();
+        let window = Harness::builder()
+            .with_size(SIZE)
+            .build_eframe(|cc| ChromascopeApp::new(&cc.egui_ctx, History::new(document), SavedView::default(), files));
+        (window, kept)
+    };
+    let (mut window, _) = open(document.clone());
+    window.run();
+    window.state_mut().push(Command::Tour(TourMove::Begin));
+    window.run_steps(3);
+    window.state_mut().push(Action::Scene(SceneAction::SetTemperature(9000.0)));
+    window.run_steps(3);
+    window.state_mut().on_exit(None);
+    drop(window);
+    let (_, kept) = open(Document::paper());
+    assert_eq!(kept, document);
+}
+
+#[test]
+fn work_on_the_users_document_ends_the_tour() {
+    let mut window = open(SIZE, egui::Theme::Light);
+    window.state_mut().push(Command::Tour(TourMove::Begin));
+    window.run_steps(2);
+    window.state_mut().push(Action::Start(Start::Colorimetry));
+    window.run_steps(2);
+    assert_eq!(window.state().view().tour, None);
+    assert_eq!(window.state().history().document().start, Start::Colorimetry);
+    window.state_mut().push(Command::Tour(TourMove::Begin));
+    window.run_steps(2);
+    for _ in 0..3 {
+        window.state_mut().push(Command::Escape);
+        window.run_steps(2);
+    }
+    assert_eq!(window.state().view().tour, None);
+    assert_eq!(window.state().history().document().start, Start::Colorimetry);
+}
+
+#[test]
+fn loci_draw_in_once_on_the_first_start_and_never_with_reduced_motion() {
+    let start = |saved: SavedView| {
+        let mut window = Harness::builder().with_size(SIZE).with_step_dt(0.1).build_eframe(|cc| {
+            let history = History::new(Document::paper());
+            ChromascopeApp::new(&cc.egui_ctx, history, saved, Files::new(None))
+        });
+        let mut shares = Vec::new();
+        for _ in 0..20 {
+            shares.push(window.state().view().locus_share);
+            window.step();
+        }
+        (shares, window)
+    };
+    let (shares, window) = start(SavedView::first(false));
+    let drawn: Vec<f64> = shares.iter().flatten().copied().collect();
+    assert!(drawn.len() > 5 && drawn.is_sorted() && shares.last() == Some(&None), "{shares:?}");
+    let (again, _) = start(window.state().saved_view());
+    assert!(again.iter().all(Option::is_none), "only once");
+    for saved in
+        [SavedView::first(true), SavedView { reduced_motion: true, ..SavedView::first(false) }, SavedView::default()]
+    {
+        assert!(start(saved).0.iter().all(Option::is_none));
+    }
+}
+
+/// The last picture that was put on the clipboard.
+fn copied(window: &Window) -> Option<egui::ColorImage> {
+    window.output().platform_output.commands.iter().find_map(|command| match command {
+        egui::OutputCommand::CopyImage(image) => Some(image.clone()),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_card_has_figure_swatches_and_caption_in_1600_by_900_pixels() {
+    let mut window = open_with(Document::colorimetry(), SIZE, egui::Theme::Dark);
+    for pane in [PaneKind::CHROMATICITY, PaneKind::SWATCHES, PaneKind::SPECTRA] {
+        window.state_mut().push(Command::CopyCard(pane));
+        window.step();
+        let image = copied(&window).expect("a picture was copied");
+        assert_eq!(image.size, [1600, 900]);
+        let ink = |x: std::ops::Range<usize>, y: std::ops::Range<usize>| {
+            let dark = |x: usize, y: usize| u32::from(image.pixels[y * 1600 + x].r() < 128);
+            y.map(|y| x.clone().map(|x| dark(x, y)).sum::<u32>()).sum::<u32>()
+        };
+        assert!(ink(32..500, 20..80) > 100, "{pane:?}: title");
+        assert!(ink(32..800, 100..700) > 1000, "{pane:?}: figure");
+        assert!(ink(32..1500, 780..890) > 1000, "{pane:?}: caption");
+        if pane != PaneKind::SWATCHES {
+            assert!(ink(1000..1560, 100..500) > 1000, "{pane:?}: swatches");
+        }
+        assert_eq!(ink(0..20, 0..900) + ink(1580..1600, 0..900), 0, "{pane:?}: nothing is cut at the sides");
+    }
+    window.state_mut().push(Command::CopyCard(PaneKind::LIBRARY));
+    window.run_steps(2);
+    assert!(says(&window, "nothing to export"));
+}
+
+#[test]
+fn about_shows_a_head_and_leads_on() {
+    let mut window = open_with(Document::colorimetry(), SIZE, egui::Theme::Dark);
+    window.state_mut().push(Command::ToggleAbout);
+    window.run_steps(3);
+    assert!(says(&window, "A head: left through the reference") && says(&window, "MIT OR Apache-2.0"));
+    press(&mut window, "Data and sources");
+    assert!(!window.state().view().about && window.state().view().help.page == Some("data"));
+    window.state_mut().push(Command::Escape);
+    window.state_mut().push(Command::ToggleAbout);
+    window.run_steps(3);
+    window.state_mut().push(Command::Escape);
+    window.run_steps(2);
+    assert!(!window.state().view().about);
 }

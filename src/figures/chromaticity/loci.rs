@@ -43,6 +43,9 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
         drawing.refused.push(format!("{}: chromaticity undefined (X + Y + Z = 0)", source.label));
     }
     let below = drawing.scene.extrapolated_below(source.kind, &source.name).map(|(below, _)| below);
+    let drawn = drawing.view.locus_share.map_or(points.len(), |share| (share * points.len() as f64) as usize);
+    let points: Vec<[f64; 2]> =
+        points.into_iter().enumerate().map(|(index, point)| if index < drawn { point } else { GAP }).collect();
     let [measured, beyond] = split(&points, |index| locus[index].temperature.get(), below);
     let line = |points| {
         let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });
@@ -53,6 +56,9 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
     if !beyond.is_empty() {
         drawing.loci.insert(drawing.marks.len());
         drawing.marks.push(line(beyond).with_dash(Dash::Dotted));
+    }
+    if drawing.view.locus_share.is_some() {
+        return;
     }
     for kelvin in TICKS {
         let Some(at) = at_temperature(drawing, source, kelvin) else { continue };
